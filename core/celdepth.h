@@ -1,0 +1,350 @@
+/* celdepth - depth for hand-drawn cartoons from scribbles and arrows.
+ *
+ * The method is D. Sykora et al., "Adding Depth to Cartoons Using Sparse Depth (In)equalities",
+ * Eurographics 2010 ("the paper").  C11 and libm, no global state, no printing, no threads of its own.
+ *
+ * What to read first: CeldSession (the whole route, kept between edits), then the steps in the order of the route,
+ * then the records that travel between them.
+ *
+ * Values that every function keeps:
+ *   pixels    x to the right, y down; pixel (x,y) covers [x,x+1) x [y,y+1); sizes 1 .. CELD_MAX_SIDE
+ *   luma      Y' of sRGB in [0,1]: encoded values, not linear light
+ *   ink       line art after contrast normalisation: 0 = ink, 1 = paper, antialiased between
+ *   labels    1 .. n, index + 1 into a CeldPalette; 0 = none
+ *   levels    0 = farthest, larger = nearer
+ *   depth     in the unit of the levels that it was made from, larger = nearer
+ *   normals   x right, y UP, z to the viewer, unit length
+ *
+ * Ownership: views are borrowed, never kept beyond the call; records (palette, relations, ...) own their items, start
+ * as all zero and end with their _clear function, which accepts a zeroed record.  A function that does not return
+ * CELD_OK leaves its results as they were, unless it says otherwise.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELDEPTH_H
+#define CELDEPTH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined __GNUC__
+#define CELD_API __attribute__ ((visibility ("default")))
+#else
+#define CELD_API
+#endif
+
+#define CELD_MAX_SIDE 20000 /* squared distances stay exact in int32_t up to here */
+
+/* ------------------------------------------------------------------ answers, progress, threads */
+
+typedef enum
+{
+  CELD_OK = 0,
+  CELD_CANCELLED,         /* CeldRun.progress returned false */
+  CELD_NO_MEMORY,         /* an allocation failed, or a size would overflow */
+  CELD_BAD_SIZE,          /* a picture is empty, too large, or sizes differ */
+  CELD_BAD_VALUE,         /* a setting is outside its range */
+  CELD_BAD_RELATION,      /* relations text cannot be read: see CeldTextError */
+  CELD_NOTHING_TO_GO_BY   /* neither a scribble nor an arrow */
+} CeldStatus;
+
+/* One plain English sentence for a status; static storage. */
+CELD_API const char *celd_status_text (CeldStatus status);
+
+/* What the host lends to a long call.  NULL instead of a CeldRun, or NULL members: quiet, serial, not to be cancelled.
+ * Results do not depend on `each`. */
+typedef struct
+{
+  bool (*progress) (void *host, double done);      /* done in [0,1], never falling; false cancels */
+  void (*each) (void *host, int n, void (*body) (void *data, int i), void *data); /* body for 0..n-1, any order, returns when all are done */
+  void *host;
+} CeldRun;
+
+/* ------------------------------------------------------------------ borrowed pictures */
+
+typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* one float a pixel; stride in elements */
+typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* one label or rank a pixel */
+typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* one byte a pixel, 0 = no */
+typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A, straight alpha; stride in pixels */
+typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x,y,z a pixel; stride in pixels */
+
+typedef struct { int x, y, width, height; } CeldRect;
+
+/* A drawing: luma, and alpha where it has one (data NULL = opaque).  NaN reads as paper. */
+typedef struct { CeldPlane luma, alpha; } CeldDrawing;
+
+/* ------------------------------------------------------------------ settings; celd_settings () gives the defaults */
+
+typedef enum { CELD_INK_AUTO, CELD_INK_DARK, CELD_INK_LIGHT, CELD_INK_ALPHA } CeldInkMode;
+typedef enum { CELD_METHOD_EXACT } CeldMethod;
+typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
+typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
+typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
+typedef enum { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER } CeldArrowStyle;
+typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, CELD_ANCHORS_CORE } CeldAnchors;
+typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
+typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
+
+typedef struct
+{
+  /* drawing */
+  CeldInkMode ink;              /* what is ink */
+  float       ink_threshold;    /* ink at or below this counts as fully inked, [0,1); 0.25 */
+
+  /* scribbles and segmentation */
+  CeldMethod     method;
+  float          hardness;      /* 0.05 soft (a majority of paint wins) .. 1 hard (every stroke is obeyed) */
+  bool           flats;         /* the scribbles are a flat colouring: every colour of it is a region */
+  CeldBackground background;
+  uint8_t        background_colour[3]; /* for CELD_BACKGROUND_COLOUR: the scribble colour that is background */
+  CeldSeeds      seeds;         /* may an arrow make a region of its own? */
+  CeldSameColour same_colour;   /* is a colour one node, or is each of its connected regions? */
+
+  /* order */
+  CeldArrowStyle arrow_style;
+  CeldEncoding   encoding;      /* how levels leave */
+  float          near_level, far_level; /* for CELD_ENCODING_FIXED: these levels become 1 and 0 */
+
+  /* smooth depth */
+  CeldAnchors anchors;          /* which pixels keep their level (the paper's U_o) */
+  float       tolerance;        /* largest error of smooth depth, as a share of its range, (0,0.1]; 1e-4 */
+
+  /* normals and shading */
+  float bulge;                  /* 0 flat .. 1 hemisphere .. 4 */
+  float light_azimuth;          /* degrees, 0 = from the right, 90 = from above */
+  float light_elevation;        /* degrees above the picture, 90 = from the viewer */
+  float ambient;                /* share of light that reaches every pixel, [0,1] */
+} CeldSettings;
+
+CELD_API CeldSettings celd_settings (void);
+/* CELD_BAD_VALUE if a member is outside its range (NaN included). */
+CELD_API CeldStatus celd_settings_check (const CeldSettings *settings);
+
+/* ------------------------------------------------------------------ records between the steps */
+
+typedef enum { CELD_FROM_SCRIBBLE, CELD_FROM_ARROW, CELD_FROM_BACKGROUND } CeldOrigin;
+
+/* One label and what is known of it. */
+typedef struct
+{
+  uint8_t    colour[4];         /* R'G'B'A of its scribbles; alpha 0 only for the transparent background that celdepth added */
+  CeldOrigin origin;
+  bool       background;        /* weakly behind every other label */
+  bool       hard;              /* its seeds are obeyed whatever the hardness (seeds of arrows) */
+  int        x, y;              /* a pixel of it, well inside */
+  size_t     seeds;             /* painted pixels */
+  size_t     area;              /* pixels after segmentation */
+} CeldRegion;
+
+typedef struct { CeldRegion *item; size_t n; } CeldPalette;
+
+CELD_API void celd_palette_clear (CeldPalette *palette);
+
+/* One end of a relation: a point of the drawing, or every region of a colour. */
+typedef struct { bool by_colour; uint8_t colour[3]; double x, y; } CeldTerm;
+
+typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW } CeldSource;
+
+/* `nearer` is in front of `farther`; or both have the same depth. */
+typedef struct
+{
+  CeldTerm   nearer, farther;
+  bool       equal;
+  bool       crack;             /* registration may tear here (the paper's blue arrows) */
+  bool       anchor;            /* both ends keep their level in smooth depth */
+  double     weight;            /* > 0; in a contradiction the lighter relation gives way; 1 */
+  double     gap;               /* least gap in levels, > 0; 1 */
+  CeldSource source;
+  int        line, column;      /* where it stands in the text, from 1; 0 for painted arrows */
+  uint32_t   id;                /* the host's name for it; 0 unless set through a session */
+} CeldRelation;
+
+typedef struct { CeldRelation *item; size_t n; } CeldRelations;
+
+CELD_API void celd_relations_clear (CeldRelations *relations);
+
+/* Where relations text could not be read. */
+typedef struct { int line, column; char expected[48]; char found[24]; } CeldTextError;
+
+/* Something the artist should know; none of these stops the work. */
+typedef enum
+{
+  CELD_PROBLEM_STROKE_OVERRULED,   /* most of a colour's stroke at (x,y) went to region `other` */
+  CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the closed region round (x,y) */
+  CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
+  CELD_PROBLEM_ARROW_UNCLEAR,      /* the arrow at (x,y) does not say which end is nearer; left out */
+  CELD_PROBLEM_OUTSIDE,            /* relation `relation` names a point outside the drawing; left out */
+  CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
+  CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
+  CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
+  CELD_PROBLEM_NOT_CONVERGED       /* smooth depth was delivered with a larger error than asked for */
+} CeldProblemKind;
+
+#define CELD_NO_INDEX SIZE_MAX
+
+typedef struct
+{
+  CeldProblemKind kind;
+  int             x, y;            /* where to look; -1 if nowhere */
+  uint32_t        label, other;    /* labels concerned; 0 if none */
+  size_t          relation;        /* index into the relations; CELD_NO_INDEX if none */
+} CeldProblem;
+
+typedef struct { CeldProblem *item; size_t n; } CeldProblems;
+
+CELD_API void celd_problems_clear (CeldProblems *problems);
+
+/* One English sentence, cut to `size` bytes with its final 0, saying what, where and what to do.
+ * palette and relations may be NULL: then without colours and line numbers. */
+CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
+                                 char *text, size_t size);
+
+/* Relations that cannot hold together: item[0..n-1] are indices into the relations, in the order of the cycle
+ * (each one's farther region is the next one's nearer region, the last leads back to the first). */
+typedef struct { size_t *item; size_t n; } CeldCycle;
+
+typedef struct
+{
+  uint32_t  *level;             /* of label k: level[k-1]; 0 = farthest */
+  size_t     n;                 /* labels */
+  uint32_t   levels;            /* one more than the largest level */
+  CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
+  size_t     n_cycles;
+} CeldOrder;
+
+CELD_API void celd_order_clear (CeldOrder *order);
+
+/* How well an iterative solve went. */
+typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: estimate, as a share of the range */
+
+/* ------------------------------------------------------------------ the steps, in the order of the route */
+
+/* Line art of a drawing: composited on paper, polarity resolved, contrast normalised against the paper around
+ * (uneven paper and grey pencil become ink 0 and paper 1).  `ink` may not alias the drawing. */
+CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink);
+
+/* Virtual contours (section 4): red strokes become ink, blue strokes ink for segmentation only, green strokes paper;
+ * for `purpose`.  Works on the drawing before celd_ink, keeps its polarity and alpha; `out` may alias the drawing.
+ * Where the drawing has no alpha, out->alpha is not touched. */
+CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
+                                        CeldInkMode mode, const CeldRun *run, CeldDrawing *out);
+
+/* Scribbles as an artist paints them -> seed labels (0 where nothing is painted) and the palette of their colours,
+ * origin CELD_FROM_SCRIBBLE, by falling painted area.  Alpha below one half is none; in a picture without alpha the
+ * commonest colour is none (not with settings->flats); mixed colours of fringes are no label.
+ * No paint at all is CELD_OK with an empty palette. */
+CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
+                                         CeldLabels *seeds, CeldPalette *palette);
+
+/* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is appended and
+ * *error (may be NULL) says where.  Locale-independent. */
+CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
+
+/* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
+CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *run,
+                                      CeldRelations *relations, CeldProblems *problems);
+
+/* LazyBrush [SDC09b] (section 3.2): every pixel gets a label.  In: seed labels and their palette (both may be empty if
+ * arrows make regions).  Out: labels; `palette` is replaced by one that has the regions that arrows made and the
+ * background behind those given, with area, x, y filled in; `problems` are appended.  `labels` may alias `seeds`.
+ * CELD_NOTHING_TO_GO_BY if there is neither a seed nor a relation to seed from. */
+CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
+                                  const CeldSettings *settings, const CeldRun *run,
+                                  CeldLabels *labels, CeldPalette *palette, CeldProblems *problems);
+
+/* Makes each connected region of a label a label of its own, in place (same_colour = separate).  Specks smaller than
+ * 16 pixels stay with the largest region of their colour. */
+CELD_API CeldStatus celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette);
+
+/* Labels as colours, and back.  Reading: every distinct opaque colour is a label, in the order of falling area;
+ * transparent pixels are the background that celdepth added. */
+CELD_API CeldStatus celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPaint *paint);
+CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels, CeldPalette *palette);
+
+/* The scribble, if any, whose label owns most paper along the frame is the background (settings->background), marked in the palette.
+ * For label pictures read back by celd_labels_read; ink may be NULL. */
+CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
+                                          CeldPalette *palette);
+
+/* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
+ * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
+ * contradict are reported as cycles, the lightest and then the latest of each is left out, the rest is ordered. */
+CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+                                const CeldPlane *ink, const CeldRun *run, CeldOrder *order, CeldProblems *problems);
+
+/* Levels as they leave: celd_order's ranks as settings->encoding says. */
+CELD_API float celd_encode_level (uint32_t level, uint32_t levels, const CeldSettings *settings);
+
+/* Depth expansion (section 3.3): ink goes to the region that drew it.  `ranks` may have any values, larger = nearer;
+ * `expanded` holds the same values and may alias `ranks`. */
+CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldSettings *settings,
+                                 const CeldRun *run, CeldLabels *expanded);
+
+/* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` (NULL: the inner core of each region) keep their level;
+ * an edge is cut where levels differ and the least ink of the 3x3 neighbourhoods of its two pixels is at or below
+ * ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.  A result that misses
+ * the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
+CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
+                                 const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
+
+/* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends.
+ * `levels` are expanded. */
+CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
+                                  const CeldRun *run, CeldVectors *normals);
+
+/* Lambert shading of normals by the light of the settings, in [0,1], linear light. */
+CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
+
+/* ------------------------------------------------------------------ the session: the whole route, kept between edits */
+
+/* Holds a drawing, its strokes and relations, and every result made so far.  Set or change anything in any order, then
+ * ask: what an edit did not touch is not made again.  One thread at a time.  Pictures given are copied; pictures
+ * returned are views that stay valid until the next call that sets something. */
+typedef struct CeldSession CeldSession;
+
+CELD_API CeldSession *celd_session_new (void);                    /* NULL: no memory */
+CELD_API void         celd_session_free (CeldSession *session);   /* accepts NULL */
+
+CELD_API CeldStatus celd_session_set_settings  (CeldSession *session, const CeldSettings *settings);
+CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const CeldDrawing *drawing);
+/* Layers; NULL removes one.  CELD_BAD_SIZE if the size is not the drawing's. */
+CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
+CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
+CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);
+CELD_API CeldStatus celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error);
+
+/* Single strokes over the scribble layer, by the host's id (not 0): the mask's pixels from (x,y) on take the colour.
+ * The same id again replaces the stroke; strokes painted later lie above earlier ones. */
+CELD_API CeldStatus celd_session_put_stroke    (CeldSession *session, uint32_t id, int x, int y, const CeldMask *mask,
+                                                const uint8_t colour[3]);
+CELD_API CeldStatus celd_session_remove_stroke (CeldSession *session, uint32_t id);
+/* Single relations beside the text, by the host's id (not 0): one relation in the grammar of the text. */
+CELD_API CeldStatus celd_session_put_relation    (CeldSession *session, uint32_t id, const char *text, CeldTextError *error);
+CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t id);
+
+/* Results; each makes what is missing first.  *changed (may be NULL) is the rectangle that differs from the last time
+ * this result was asked for: everything the first time, width 0 when nothing does. */
+CELD_API CeldStatus celd_session_ink     (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
+CELD_API CeldStatus celd_session_labels  (CeldSession *session, const CeldRun *run, CeldLabels *labels, CeldRect *changed);
+CELD_API CeldStatus celd_session_order   (CeldSession *session, const CeldRun *run, const CeldOrder **order);
+CELD_API CeldStatus celd_session_flat    (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed); /* before expansion */
+CELD_API CeldStatus celd_session_levels  (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed); /* expanded */
+CELD_API CeldStatus celd_session_depth   (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals, CeldRect *changed);
+CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading, CeldRect *changed);
+
+/* What is known so far; borrowed, valid until the next call on the session. */
+CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);
+CELD_API const CeldRelations *celd_session_relations (const CeldSession *session);
+CELD_API const CeldProblems  *celd_session_problems  (CeldSession *session);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

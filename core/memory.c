@@ -1,0 +1,113 @@
+/* Allocation with overflow checks, and the ends of the records of celdepth.h.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "private.h"
+
+#include <stdlib.h>
+
+void *
+celd_alloc (size_t count, size_t size)
+{
+  if (size && count > SIZE_MAX / size)
+    return NULL;
+  return malloc (count && size ? count * size : 1);
+}
+
+void *
+celd_alloc0 (size_t count, size_t size)
+{
+  return calloc (count ? count : 1, size ? size : 1);
+}
+
+/* The capacity is not stored: it is the next power of two, so that growing one by one stays linear. */
+void *
+celd_grow (void *items, size_t count, size_t size)
+{
+  size_t room = 8;
+
+  if (items && (count <= 8 || ((count - 1) & (count - 2))))
+    return items; /* still fits the power of two of the item before */
+  while (room < count)
+    {
+      if (room > SIZE_MAX / 2)
+        return NULL;
+      room *= 2;
+    }
+  if (size && room > SIZE_MAX / size)
+    return NULL;
+  return realloc (items, room * size);
+}
+
+void
+celd_free (void *memory)
+{
+  free (memory);
+}
+
+CeldStatus
+celd_plane_new (int width, int height, CeldPlane *plane)
+{
+  *plane = (CeldPlane) { width, height, (size_t) width, celd_alloc ((size_t) width * (size_t) height, sizeof (float)) };
+  return plane->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_labels_new (int width, int height, CeldLabels *labels)
+{
+  *labels = (CeldLabels) { width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, sizeof (uint32_t)) };
+  return labels->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_mask_new (int width, int height, CeldMask *mask)
+{
+  *mask = (CeldMask) { width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, 1) };
+  return mask->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_problem_add (CeldProblems *problems, CeldProblem problem)
+{
+  CeldProblem *item;
+
+  if (!problems)
+    return CELD_OK;
+  item = celd_grow (problems->item, problems->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  problems->item = item;
+  item[problems->n++] = problem;
+  return CELD_OK;
+}
+
+void
+celd_palette_clear (CeldPalette *palette)
+{
+  celd_free (palette->item);
+  *palette = (CeldPalette) { 0 };
+}
+
+void
+celd_relations_clear (CeldRelations *relations)
+{
+  celd_free (relations->item);
+  *relations = (CeldRelations) { 0 };
+}
+
+void
+celd_problems_clear (CeldProblems *problems)
+{
+  celd_free (problems->item);
+  *problems = (CeldProblems) { 0 };
+}
+
+void
+celd_order_clear (CeldOrder *order)
+{
+  for (size_t i = 0; i < order->n_cycles; i++)
+    celd_free (order->cycle[i].item);
+  celd_free (order->cycle);
+  celd_free (order->level);
+  *order = (CeldOrder) { 0 };
+}

@@ -1,0 +1,101 @@
+/* What the files of core share among themselves.  Nothing here is exported.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PRIVATE_H
+#define CELD_PRIVATE_H
+
+#include "celdepth.h"
+
+/* ------------------------------------------------------------------ memory.c */
+
+/* All allocation in core goes through these two; NULL when count x size overflows or is refused. */
+void *celd_alloc (size_t count, size_t size);                 /* not cleared */
+void *celd_alloc0 (size_t count, size_t size);                /* cleared */
+void *celd_grow (void *items, size_t count, size_t size);     /* like realloc, to `count` items, one more than before; doubles */
+void  celd_free (void *memory);                               /* accepts NULL */
+
+CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* tight stride, not cleared; end with celd_free (data) */
+CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* cleared */
+CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
+
+CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem); /* problems NULL: nothing to do */
+
+/* ------------------------------------------------------------------ views */
+
+/* The pixel (x,y) of any view that has one element a pixel. */
+#define CELD_AT(view, x, y) ((view)->data[(size_t) (y) * (view)->stride + (size_t) (x)])
+
+/* First byte of the pixel (x,y) of a CeldPaint. */
+#define CELD_RGBA(view, x, y) ((view)->data + 4 * ((size_t) (y) * (view)->stride + (size_t) (x)))
+
+/* First float of the pixel (x,y) of a CeldVectors. */
+#define CELD_XYZ(view, x, y) ((view)->data + 3 * ((size_t) (y) * (view)->stride + (size_t) (x)))
+
+/* Are both views present, of a legal size, and equally large? */
+#define CELD_SAME_SIZE(a, b) \
+  ((a)->data && (b)->data && (a)->width == (b)->width && (a)->height == (b)->height && \
+   (a)->width > 0 && (a)->height > 0 && (a)->width <= CELD_MAX_SIDE && (a)->height <= CELD_MAX_SIDE)
+
+/* ------------------------------------------------------------------ progress and threads (run.c) */
+
+/* The part [from,to] of a longer run, as a run of its own: `part` must outlive it. */
+typedef struct { const CeldRun *whole; double from, to; } CeldPart;
+CeldRun celd_run_part (CeldPart *part, const CeldRun *whole, double from, double to);
+
+/* Reports progress; CELD_CANCELLED when the host wants to stop. */
+CeldStatus celd_step (const CeldRun *run, double done);
+
+/* body (data, 0 .. n-1), on the host's threads if it lends any. */
+void celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *data);
+
+/* ------------------------------------------------------------------ maxflow.c: grid max-flow */
+
+/* Minimum cut of a 4-connected grid, exact.  Knows nothing of pictures: nodes are pixels of the grid, capacities
+ * symmetric.  east[i]: between node i and its right neighbour (last column ignored); south[i]: below (last row ignored).
+ * terminal[i] > 0: capacity from the source; < 0: capacity to the sink.  side[i] becomes 1 where the node is reachable
+ * from the source in the residual graph, 0 elsewhere.  *flow (may be NULL) is the cut's value. */
+CeldStatus celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
+                         const CeldRun *run, uint8_t *side, int64_t *flow);
+
+/* ------------------------------------------------------------------ laplace.c: the one Laplacian solver */
+
+/* The system  A x = b  on the 4-grid, with  (A x)_p = diagonal_p x_p + sum over neighbours q of w_pq (x_p - x_q).
+ * east, south: edge weights >= 0 (last column / last row ignored); diagonal >= 0.  Zero weights make walls and masks.
+ * Components without any diagonal are floating: they keep the mean of their start.
+ * A prescribed value (Dirichlet) is folded in with celd_lap_pin before the set-up. */
+typedef struct CeldLaplace CeldLaplace;
+
+/* Prescribes x_p = value_p where fixed_p: folds their couplings into diagonal and b and cuts the edges.
+ * b and value hold nrhs planes one behind the other. */
+void celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float *value,
+                   float *east, float *south, float *diagonal, float *b);
+
+/* Set-up once per weights; borrows east, south and diagonal until celd_lap_free. */
+CeldStatus celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
+                           const CeldRun *run, CeldLaplace **laplace);
+/* Solves for nrhs right-hand sides, planes one behind the other.  x: start in, result out (also when cancelled).
+ * tolerance: largest error |x - x*| as a share of the range of x, estimated from the preconditioned residual. */
+CeldStatus celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
+                           const CeldRun *run, CeldSolve *solve);
+void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
+
+/* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
+
+/* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;
+ * INT32_MAX if there is none.  Tight planes of width x height. */
+CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared);
+/* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
+CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest);
+
+/* ------------------------------------------------------------------ components.c: connected components */
+
+typedef struct { uint32_t label; int x, y, left, top, right, bottom; size_t area; } CeldComponent; /* label: of its pixels in the input; right, bottom inclusive; (x,y): its first pixel in reading order */
+
+/* 4- or 8-connected components of equal labels.  Pixels of label `none` (pass UINT32_MAX for no such label) get
+ * component 0; others 1 .. n in reading order of their first pixel.  *list has n items, item k-1 is component k;
+ * end it with celd_free. */
+CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
+                            CeldLabels *components, CeldComponent **list, size_t *n);
+
+#endif

@@ -1,0 +1,136 @@
+/* Default settings and their ranges, and the texts for artists.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "private.h"
+
+#include <stdio.h>
+
+CeldSettings
+celd_settings (void)
+{
+  return (CeldSettings) {
+    .ink_threshold   = 0.25f,
+    .hardness        = 0.05f,
+    .near_level      = 1,
+    .tolerance       = 1e-4f,
+    .bulge           = 1,
+    .light_azimuth   = 135,
+    .light_elevation = 45,
+    .ambient         = 0.25f,
+  };
+}
+
+/* False for NaN too. */
+static bool
+within (float value, float least, float most)
+{
+  return value >= least && value <= most;
+}
+
+CeldStatus
+celd_settings_check (const CeldSettings *s)
+{
+  bool good = (unsigned) s->ink <= CELD_INK_ALPHA && (unsigned) s->method <= CELD_METHOD_EXACT &&
+              (unsigned) s->background <= CELD_BACKGROUND_COLOUR && (unsigned) s->seeds <= CELD_SEEDS_SCRIBBLES &&
+              (unsigned) s->same_colour <= CELD_SAME_COLOUR_SEPARATE &&
+              (unsigned) s->arrow_style <= CELD_ARROW_TAPER && (unsigned) s->encoding <= CELD_ENCODING_FIXED &&
+              (unsigned) s->anchors <= CELD_ANCHORS_CORE && within (s->ink_threshold, 0, 0.99f) &&
+              within (s->hardness, 0.01f, 1) && within (s->near_level, -1e6f, 1e6f) &&
+              within (s->far_level, -1e6f, 1e6f) &&
+              (s->encoding != CELD_ENCODING_FIXED || s->near_level > s->far_level) &&
+              s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->bulge, 0, 4) &&
+              within (s->light_azimuth, -360, 360) && within (s->light_elevation, -90, 90) &&
+              within (s->ambient, 0, 1);
+
+  return good ? CELD_OK : CELD_BAD_VALUE;
+}
+
+const char *
+celd_status_text (CeldStatus status)
+{
+  switch (status)
+    {
+    case CELD_OK:               return "Done.";
+    case CELD_CANCELLED:        return "Cancelled.";
+    case CELD_NO_MEMORY:        return "Not enough memory for a picture of this size.";
+    case CELD_BAD_SIZE:         return "The layers must have the size of the drawing, between 1 and 20000 pixels a side.";
+    case CELD_BAD_VALUE:        return "A setting is outside its range.";
+    case CELD_BAD_RELATION:     return "The relations cannot be read.";
+    case CELD_NOTHING_TO_GO_BY: return "There is nothing to go by: scribble over the parts of the drawing, or draw an arrow from a nearer to a farther part.";
+    }
+  return "Unknown status.";
+}
+
+/* " #rrggbb" of a label, " the background", or nothing if it is not known. */
+static const char *
+label_name (const CeldPalette *palette, uint32_t label, char name[24])
+{
+  name[0] = 0;
+  if (palette && label >= 1 && label <= palette->n)
+    {
+      const uint8_t *c = palette->item[label - 1].colour;
+
+      if (c[3])
+        snprintf (name, 24, " #%02x%02x%02x", c[0], c[1], c[2]);
+      else
+        snprintf (name, 24, " the background");
+    }
+  return name;
+}
+
+/* "The relation in line 3, column 7" or "The arrow at (x, y)". */
+static void
+relation_name (const CeldProblem *problem, const CeldRelations *relations, char *name, size_t size)
+{
+  const CeldRelation *r = relations && problem->relation < relations->n ? &relations->item[problem->relation] : NULL;
+
+  if (r && r->source == CELD_SOURCE_TEXT && r->id)
+    snprintf (name, size, "Relation %u", (unsigned) r->id);
+  else if (r && r->source == CELD_SOURCE_TEXT)
+    snprintf (name, size, "The relation in line %d, column %d", r->line, r->column);
+  else if (r)
+    snprintf (name, size, "The arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x, r->farther.y);
+  else
+    snprintf (name, size, "A relation");
+}
+
+void
+celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations, char *text, size_t size)
+{
+  char label[24], other[24], relation[96];
+
+  label_name (palette, p->label, label);
+  label_name (palette, p->other, other);
+  relation_name (p, relations, relation, sizeof relation);
+  switch (p->kind)
+    {
+    case CELD_PROBLEM_STROKE_OVERRULED:
+      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: its pixels went to%s. Paint more of it, close the contour there, or use hard strokes.", label, p->x, p->y, other[0] ? other : " another colour");
+      break;
+    case CELD_PROBLEM_REGION_UNREACHED:
+      snprintf (text, size, "No stroke reaches the closed region at (%d, %d); it was given to%s. Put a stroke into it if that is wrong.", p->x, p->y, label[0] ? label : " a neighbour");
+      break;
+    case CELD_PROBLEM_COLOUR_LOST:
+      snprintf (text, size, "The colour%s, painted at (%d, %d), has no region left. Paint more of it, or use hard strokes.", label, p->x, p->y);
+      break;
+    case CELD_PROBLEM_ARROW_UNCLEAR:
+      snprintf (text, size, "The arrow at (%d, %d) does not say which end is nearer, so it was left out. Draw it again with a clearer head, or check the arrow style.", p->x, p->y);
+      break;
+    case CELD_PROBLEM_OUTSIDE:
+      snprintf (text, size, "%s names a point outside the drawing, so it was left out.", relation);
+      break;
+    case CELD_PROBLEM_UNKNOWN_COLOUR:
+      snprintf (text, size, "%s names a colour that no region has, so it was left out. Use the colour of a scribble.", relation);
+      break;
+    case CELD_PROBLEM_SAME_REGION:
+      snprintf (text, size, "%s has both ends in the region%s, so it was left out. Scribble another colour at one of its ends.", relation, label);
+      break;
+    case CELD_PROBLEM_CONTRADICTION:
+      snprintf (text, size, "%s contradicts the others, so it was left out. Turn it round, or delete another one of the circle.", relation);
+      break;
+    case CELD_PROBLEM_NOT_CONVERGED:
+      snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does not matter.");
+      break;
+    }
+}
