@@ -81,6 +81,18 @@ celd_problem_add (CeldProblems *problems, CeldProblem problem)
   return CELD_OK;
 }
 
+CeldStatus
+celd_relation_add (CeldRelations *relations, CeldRelation relation)
+{
+  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  relations->item = item;
+  item[relations->n++] = relation;
+  return CELD_OK;
+}
+
 void
 celd_palette_clear (CeldPalette *palette)
 {

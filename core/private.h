@@ -20,6 +20,7 @@ CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* clea
 CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
 
 CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem); /* problems NULL: nothing to do */
+CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 
 /* ------------------------------------------------------------------ views */
 
@@ -79,6 +80,11 @@ CeldStatus celd_lap_setup (int width, int height, const float *east, const float
 CeldStatus celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
                            const CeldRun *run, CeldSolve *solve);
 void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
+
+/* ------------------------------------------------------------------ smooth.c */
+
+/* Adds the inner core of each region of `levels` to `anchors`: what celd_smooth takes when it is given none. */
+CeldStatus celd_anchor_core (const CeldPlane *levels, CeldMask *anchors);
 
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
