@@ -89,7 +89,7 @@ CeldStatus celd_anchor_core (const CeldPlane *levels, CeldMask *anchors);
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
 /* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;
- * INT32_MAX if there is none.  Tight planes of width x height. */
+ * INT32_MAX if there is none.  Tight planes of width x height; their content is undefined after a cancel. */
 CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared);
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
 CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest);
@@ -100,7 +100,7 @@ typedef struct { uint32_t label; int x, y, left, top, right, bottom; size_t area
 
 /* 4- or 8-connected components of equal labels.  Pixels of label `none` (pass UINT32_MAX for no such label) get
  * component 0; others 1 .. n in reading order of their first pixel.  *list has n items, item k-1 is component k;
- * end it with celd_free. */
+ * end it with celd_free.  `components` may alias `labels`. */
 CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
                             CeldLabels *components, CeldComponent **list, size_t *n);
 

@@ -1,0 +1,153 @@
+/* Distances against brute force over all pairs of pixels.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "private.h"
+
+static int32_t
+square_between (int width, int p, int q)
+{
+  int dx = p % width - q % width, dy = p / width - q / width;
+
+  return dx * dx + dy * dy;
+}
+
+/* Least squared distance of p to an inside pixel, by trying them all. */
+static int32_t
+try_all (int width, int height, const uint8_t *inside, int p)
+{
+  int32_t least = INT32_MAX;
+
+  for (int q = 0; q < width * height; q++)
+    if (inside[q] && square_between (width, p, q) < least)
+      least = square_between (width, p, q);
+  return least;
+}
+
+static void
+compare (int width, int height, const uint8_t *inside)
+{
+  size_t   n = (size_t) width * (size_t) height;
+  int32_t *plain = malloc (n * sizeof *plain);
+  int32_t *squared = malloc (n * sizeof *squared);
+  int32_t *nearest = malloc (n * sizeof *nearest);
+  int      wrong = 0, not_nearest = 0;
+
+  CHECK (celd_distance (width, height, inside, NULL, plain) == CELD_OK);
+  CHECK (celd_nearest (width, height, inside, NULL, squared, nearest) == CELD_OK);
+  CHECK (memcmp (plain, squared, n * sizeof *plain) == 0);
+  for (int p = 0; p < width * height; p++)
+    {
+      int32_t wanted = try_all (width, height, inside, p);
+
+      wrong += squared[p] != wanted;
+      if (wanted == INT32_MAX)
+        not_nearest += nearest[p] != -1;
+      else
+        not_nearest += nearest[p] < 0 || !inside[nearest[p]] || square_between (width, p, nearest[p]) != wanted;
+    }
+  CHECK (wrong == 0);
+  CHECK (not_nearest == 0);
+  free (plain);
+  free (squared);
+  free (nearest);
+}
+
+static void
+random_masks (void)
+{
+  static const int size[][2] = { { 1, 1 }, { 2, 1 }, { 1, 2 }, { 1, 40 }, { 40, 1 }, { 17, 23 }, { 300, 3 }, { 3, 300 },
+                                 { 64, 40 } };
+  static uint8_t   inside[64 * 64];
+  uint32_t         state = 1;
+
+  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+    for (uint32_t rarity = 1; rarity <= 1000; rarity *= 3) /* from all inside to nearly empty */
+      {
+        for (int p = 0; p < size[k][0] * size[k][1]; p++)
+          inside[p] = check_random (&state, rarity) == 0;
+        compare (size[k][0], size[k][1], inside);
+      }
+}
+
+static void
+empty_and_full (void)
+{
+  uint8_t inside[7 * 5] = { 0 };
+
+  compare (7, 5, inside);
+  memset (inside, 255, sizeof inside);
+  compare (7, 5, inside);
+}
+
+/* The longest distances that there are must not overflow: a strip of the largest size, seen from its end. */
+static void
+longest_side (void)
+{
+  uint8_t *inside = calloc (CELD_MAX_SIDE, 2);
+  int32_t *squared = malloc (2 * CELD_MAX_SIDE * sizeof *squared);
+
+  inside[0] = 1;
+  CHECK (celd_distance (CELD_MAX_SIDE, 2, inside, NULL, squared) == CELD_OK);
+  CHECK (squared[CELD_MAX_SIDE - 1] == (CELD_MAX_SIDE - 1) * (CELD_MAX_SIDE - 1));
+  CHECK (squared[2 * CELD_MAX_SIDE - 1] == (CELD_MAX_SIDE - 1) * (CELD_MAX_SIDE - 1) + 1);
+  CHECK (celd_distance (2, CELD_MAX_SIDE, inside, NULL, squared) == CELD_OK);
+  CHECK (squared[2 * CELD_MAX_SIDE - 1] == (CELD_MAX_SIDE - 1) * (CELD_MAX_SIDE - 1) + 1);
+  free (inside);
+  free (squared);
+}
+
+static void
+bad_sizes (void)
+{
+  uint8_t inside[1] = { 1 };
+  int32_t squared[1] = { 7 };
+
+  CHECK (celd_distance (0, 1, inside, NULL, squared) == CELD_BAD_SIZE);
+  CHECK (celd_distance (1, CELD_MAX_SIDE + 1, inside, NULL, squared) == CELD_BAD_SIZE);
+  CHECK (squared[0] == 7);
+}
+
+static void
+run_backwards (void *host, int n, void (*body) (void *data, int i), void *data)
+{
+  (void) host;
+  while (n--)
+    body (data, n);
+}
+
+static bool
+stop_at_once (void *host, double done)
+{
+  (void) host;
+  (void) done;
+  return false;
+}
+
+static void
+jobs_in_any_order_and_cancel (void)
+{
+  static uint8_t inside[600 * 70];
+  static int32_t squared[600 * 70], other[600 * 70];
+  CeldRun        backwards = { NULL, run_backwards, NULL }, stop = { stop_at_once, NULL, NULL };
+  uint32_t       state = 5;
+
+  for (int p = 0; p < 600 * 70; p++)
+    inside[p] = check_random (&state, 50) == 0;
+  CHECK (celd_distance (600, 70, inside, NULL, squared) == CELD_OK);
+  CHECK (celd_distance (600, 70, inside, &backwards, other) == CELD_OK);
+  CHECK (memcmp (squared, other, sizeof squared) == 0);
+  CHECK (celd_distance (600, 70, inside, &stop, other) == CELD_CANCELLED);
+}
+
+int
+main (void)
+{
+  RUN (random_masks);
+  RUN (empty_and_full);
+  RUN (longest_side);
+  RUN (bad_sizes);
+  RUN (jobs_in_any_order_and_cancel);
+  return DONE;
+}
