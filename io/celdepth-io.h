@@ -1,0 +1,115 @@
+/* Pictures in and out of files, for the command line and the GEGL operations; a C face for OpenImageIO, which is C++.
+ *
+ * Reading: open a file, look at its parts (the layers of a PSD, the parts of an EXR, the pages of a TIFF; one part in
+ * an ordinary picture), read the parts that are wanted.  Every part comes as large as the canvas, at its place on it,
+ * transparent around.  Alpha is straight, whatever the file does.
+ * Writing: a picture appears complete or not at all: it is written beside its name and then moved there.
+ *
+ * Colour stays as it is in the file: encoded by the embedded profile (sRGB if there is none), or linear light; the
+ * caller converts.  No function of this file throws, prints or keeps global state.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELDEPTH_IO_H
+#define CELDEPTH_IO_H
+
+#include "celdepth.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One English sentence that names the file and says what is wrong with it; set whenever a function fails. */
+typedef struct { char text[1024]; } CeldIoError;
+
+/* ------------------------------------------------------------------ reading */
+
+typedef struct CeldIoFile CeldIoFile;
+
+typedef struct
+{
+  const char *name;      /* of the layer or part; "" if it has none (the merged picture of a PSD is part 0, without a name) */
+  bool        alpha;     /* has alpha, or does not cover the canvas */
+  bool        grey;      /* red, green and blue are the same */
+  bool        linear;    /* linear light (EXR, HDR); else encoded */
+  int         bits;      /* of a channel: 8, 16, 32 */
+} CeldIoPart;
+
+CeldIoFile *celd_io_open  (const char *path, CeldIoError *error);        /* NULL: see error */
+void        celd_io_close (CeldIoFile *file);                            /* accepts NULL */
+
+/* The canvas, the same for all parts: 1 .. CELD_MAX_SIDE. */
+int celd_io_width  (const CeldIoFile *file);
+int celd_io_height (const CeldIoFile *file);
+
+size_t            celd_io_parts (const CeldIoFile *file);                /* at least one */
+const CeldIoPart *celd_io_part  (const CeldIoFile *file, size_t part);   /* lives as long as the file */
+
+/* The first part of that name, upper or lower case; CELD_NO_INDEX if there is none. */
+size_t celd_io_find (const CeldIoFile *file, const char *name);
+
+/* The embedded ICC profile; NULL if there is none.  Lives as long as the file. */
+const char *celd_io_profile (const CeldIoFile *file, size_t part, size_t *size);
+
+/* Colours: width x height x R,G,B,A, straight alpha, opaque where the file has no alpha. */
+bool celd_io_read_colours (CeldIoFile *file, size_t part, float *rgba, CeldIoError *error);
+
+/* Values (levels, depth): width x height numbers as they were given to celd_io_write_depth; of other pictures the first
+ * channel as it is stored (integers as [0,1]).  0 outside the part. */
+bool celd_io_read_values (CeldIoFile *file, size_t part, float *values, CeldIoError *error);
+
+/* ------------------------------------------------------------------ writing */
+
+typedef enum { CELD_IO_8_BIT, CELD_IO_16_BIT, CELD_IO_FLOAT } CeldIoSample;
+
+/* One channel; integers are written from [0,1]. */
+typedef struct
+{
+  const char  *name;     /* "R", "A", "Z", "N.X", ...; kept by EXR, elsewhere the order counts */
+  const float *data;
+  size_t       column, row; /* floats from a pixel to the next, from a row to the next */
+} CeldIoChannel;
+
+/* One part of a file. */
+typedef struct
+{
+  const char          *name;     /* NULL: none; a file of several parts must name all */
+  int                  width, height;
+  CeldIoSample         sample;
+  bool                 srgb;     /* colours that are tagged sRGB; else numbers without a tag */
+  const CeldIoChannel *channel;
+  int                  channels; /* alpha is named "A" and comes straight */
+} CeldIoPicture;
+
+/* A remark in the header: a text, or where text is NULL a number. */
+typedef struct { const char *name; const char *text; float number; } CeldIoNote;
+
+/* Can this file name be written?  By its ending: .exr .png .tif .tiff (upper or lower case). */
+bool celd_io_can_write (const char *path);
+
+/* Any picture.  Only EXR and TIFF hold several parts. */
+bool celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,
+                    CeldIoError *error);
+
+/* Depth or levels, larger = nearer.  `farthest` and `nearest` (0 and 1; 0 and levels - 1 for ranks) are the values that
+ * the format shows as its far and near end:
+ *   .exr   Z = distance: far - d (far - near), with near = 1 and far = 2, and depth.V = d in [0,1]; floats
+ *   .png   d in 16 bits, near = white, no colour tag
+ *   .tif   the values as they are, floats
+ * with d = (value - farthest) / (nearest - farthest).  Header notes let celd_io_read_values give the values back. */
+bool celd_io_write_depth (const char *path, const CeldPlane *depth, float farthest, float nearest, CeldIoError *error);
+
+/* Normals: .exr N.X N.Y N.Z signed floats; .png and .tif 0.5 + 0.5 n in 16 bits, green up (OpenGL). */
+bool celd_io_write_normals (const char *path, const CeldVectors *normals, CeldIoError *error);
+
+/* Colours of 8 bits with straight alpha, sRGB; in .exr linear light. */
+bool celd_io_write_paint (const char *path, const CeldPaint *paint, CeldIoError *error);
+
+/* Linear light in [0,1]: .exr and .tif floats; .png 16 bits, encoded and tagged as sRGB. */
+bool celd_io_write_light (const char *path, const CeldPlane *light, CeldIoError *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
