@@ -1,0 +1,65 @@
+# Debian systems in a folder, for tests on a machine that is not the developer's own.  Sourced, not run; needs root.
+#
+#   chroot_make SUITE NAME PACKAGE...  a system of its own under $chroot_home/NAME; one that is there is used again
+#   chroot_copy NAME COPY              a second one, to be spoilt
+#   chroot_tree NAME                   the working tree into its /celdepth, without what git ignores
+#   chroot_run NAME COMMAND...         runs a command in it
+#
+# Every command gets a mount and process space of its own: nothing stays mounted or running, however it ends.  The mirror
+# and the proxy are those of this machine's own apt.  $CELDEPTH_CHROOT says where the systems are kept.
+#
+# SPDX-License-Identifier: LGPL-3.0-or-later
+
+chroot_home=${CELDEPTH_CHROOT:-/var/tmp/celdepth-chroot}
+
+chroot_mirror ()
+{
+  codename=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
+    sed -n "s/^$codename main //p" | head -n 1
+}
+
+chroot_make ()
+{
+  suite=$1 name=$2
+  shift 2
+  root=$chroot_home/$name
+  if [ ! -e "$root/.base" ]; then
+    rm -rf "$root"
+    mkdir -p "$chroot_home"
+    debootstrap --variant=minbase "$suite" "$root" "$(chroot_mirror)" >"$chroot_home/$name.log" 2>&1 ||
+      { tail "$chroot_home/$name.log"; rm -rf "$root"; return 1; }
+    apt-config dump Acquire::http::Proxy Acquire::https::Proxy Acquire::Check-Valid-Until Acquire::Check-Date \
+      >"$root/etc/apt/apt.conf.d/90celdepth"
+    touch "$root/.base"
+  fi
+  [ $# -eq 0 ] || [ "$(cat "$root/.packages" 2>/dev/null)" = "$*" ] && return 0
+  chroot_run "$name" sh -c 'apt-get -q update && DEBIAN_FRONTEND=noninteractive apt-get -qy install --no-install-recommends "$@"' \
+    sh "$@" >>"$chroot_home/$name.log" 2>&1 || { tail "$chroot_home/$name.log"; return 1; }
+  echo "$*" >"$root/.packages"
+}
+
+chroot_copy ()
+{
+  rm -rf "${chroot_home:?}/$2"
+  cp -a "$chroot_home/$1" "$chroot_home/$2"
+}
+
+chroot_tree ()
+{
+  root=$chroot_home/$1
+  rm -rf "$root/celdepth"
+  mkdir "$root/celdepth"
+  git ls-files -z --cached --others --exclude-standard | xargs -0 -r ls -d 2>/dev/null | tar -cf - -T - | tar -xf - -C "$root/celdepth"
+}
+
+chroot_run ()
+{
+  root=$chroot_home/$1
+  shift
+  unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" sh -c '
+    root=$1
+    shift
+    mount --rbind /dev "$root/dev" && mount -t tmpfs -o mode=1777 tmpfs "$root/tmp" && exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 CI="${CI-}" "$@"
+  ' sh "$root" "$@"
+}
