@@ -1,0 +1,326 @@
+// Writing of pictures: beside the name first, then moved there, so that nothing half-written is left behind.
+//
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "celdepth-io.hpp"
+
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <unistd.h>
+
+using OIIO::ImageSpec;
+
+// Distances in EXR, as compositors expect them: of the nearest and of the farthest point.
+constexpr float near_distance = 1, far_distance = 2;
+
+constexpr const char *convention = "Z = far - d (far - near) is the distance to the viewer; depth.V = d is 1 at near, 0 at far";
+
+// ------------------------------------------------------------------ names
+
+enum class Format { none, exr, png, tiff };
+
+static Format
+format_of (const std::string &path)
+{
+  std::string ending = std::filesystem::path (path).extension ().string ();
+
+  if (OIIO::Strutil::iequals (ending, ".exr"))
+    return Format::exr;
+  if (OIIO::Strutil::iequals (ending, ".png"))
+    return Format::png;
+  if (OIIO::Strutil::iequals (ending, ".tif") || OIIO::Strutil::iequals (ending, ".tiff"))
+    return Format::tiff;
+  return Format::none;
+}
+
+static const char *
+format_name (Format format)
+{
+  return format == Format::exr ? "openexr" : format == Format::png ? "png" : "tiff";
+}
+
+// A file that is being written: under another name until commit (), gone if that is never called.
+class NewFile
+{
+public:
+  explicit NewFile (const std::string &path)
+    : final (std::filesystem::weakly_canonical (path)), temporary (final)
+  {
+    if (std::filesystem::exists (final) && !std::filesystem::is_regular_file (final))
+      throw IoFailure ("it is not an ordinary file.");
+    temporary += ".new-" + std::to_string (getpid ());
+  }
+
+  ~NewFile ()
+  {
+    std::error_code ignored;
+
+    std::filesystem::remove (temporary, ignored);
+  }
+
+  NewFile (const NewFile &) = delete;
+  NewFile &operator= (const NewFile &) = delete;
+
+  std::string name () const { return temporary.string (); }
+  void        commit () { std::filesystem::rename (temporary, final); }
+
+private:
+  std::filesystem::path final, temporary;
+};
+
+// ------------------------------------------------------------------ one part
+
+static ImageSpec
+make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes, size_t n_notes)
+{
+  OIIO::TypeDesc sample = picture.sample == CELD_IO_8_BIT ? OIIO::TypeUInt8 :
+                          picture.sample == CELD_IO_16_BIT ? OIIO::TypeUInt16 : OIIO::TypeFloat;
+  ImageSpec      spec (picture.width, picture.height, picture.channels, format == Format::exr ? OIIO::TypeFloat : sample);
+
+  spec.channelnames.clear ();
+  for (int i = 0; i < picture.channels; i++)
+    spec.channelnames.push_back (picture.channel[i].name);
+  spec.alpha_channel = -1;
+  for (int i = 0; i < picture.channels; i++)
+    if (spec.channelnames[size_t (i)] == "A")
+      spec.alpha_channel = i;
+  if (format != Format::exr)
+    spec.attribute ("oiio:UnassociatedAlpha", 1);
+  if (picture.srgb && format != Format::exr)
+    spec.attribute ("oiio:ColorSpace", "sRGB");
+  if (picture.name)
+    spec.attribute (format == Format::tiff ? "tiff:PageName" : "oiio:subimagename", picture.name);
+  // PNG keeps texts only.
+  for (size_t i = 0; i < n_notes; i++)
+    if (notes[i].text)
+      spec.attribute (notes[i].name, notes[i].text);
+    else if (format == Format::exr)
+      spec.attribute (notes[i].name, notes[i].number);
+    else
+      spec.attribute (notes[i].name, OIIO::Strutil::fmt::format ("{}", notes[i].number));
+  return spec;
+}
+
+// A row of all channels, interleaved; the colours multiplied by channel `alpha` unless that is -1.
+static void
+gather_row (const CeldIoPicture &picture, int y, int alpha, float *row)
+{
+  for (int i = 0; i < picture.channels; i++)
+    {
+      const CeldIoChannel &channel = picture.channel[i];
+
+      for (int x = 0; x < picture.width; x++)
+        row[x * picture.channels + i] = channel.data[size_t (y) * channel.row + size_t (x) * channel.column];
+    }
+  for (int i = 0; alpha >= 0 && i < picture.channels; i++)
+    if (std::strchr ("RGBY", picture.channel[i].name[0]) && !picture.channel[i].name[1])
+      for (int x = 0; x < picture.width; x++)
+        row[x * picture.channels + i] *= row[x * picture.channels + alpha];
+}
+
+static void
+write_pixels (OIIO::ImageOutput &output, const CeldIoPicture &picture, int premultiply)
+{
+  constexpr int      strip = 64;
+  const size_t       row = size_t (picture.width) * size_t (picture.channels);
+  std::vector<float> rows (row * size_t (std::min (strip, picture.height)));
+
+  for (int y = 0; y < picture.height; y += strip)
+    {
+      int end = std::min (y + strip, picture.height);
+
+      for (int j = y; j < end; j++)
+        gather_row (picture, j, premultiply, rows.data () + size_t (j - y) * row);
+      if (!output.write_scanlines (y, end, 0, OIIO::TypeFloat, rows.data ()))
+        throw IoFailure (output.geterror ());
+    }
+}
+
+// ------------------------------------------------------------------ all parts
+
+static void
+write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const CeldIoNote *notes, size_t n_notes)
+{
+  const Format           format = format_of (path);
+  std::vector<ImageSpec> specs;
+
+  if (format == Format::none)
+    throw IoFailure ("its ending is none of .exr .png .tif.");
+  if (n < 1 || (n > 1 && format == Format::png))
+    throw IoFailure ("it cannot hold so many parts.");
+  for (size_t i = 0; i < n; i++)
+    specs.push_back (make_spec (parts[i], format, notes, n_notes));
+
+  NewFile file (path);
+  auto    output = OIIO::ImageOutput::create (format_name (format));
+
+  if (!output)
+    throw IoFailure (OIIO::geterror ());
+  for (size_t i = 0; i < n; i++)
+    {
+      bool good = i ? output->open (file.name (), specs[i], OIIO::ImageOutput::AppendSubimage) :
+                  n > 1 && format == Format::exr ? output->open (file.name (), int (n), specs.data ()) :
+                  output->open (file.name (), specs[0]);
+
+      if (!good)
+        throw IoFailure (output->geterror ());
+      write_pixels (*output, parts[i], format == Format::exr ? specs[i].alpha_channel : -1);
+    }
+  if (!output->close ())
+    throw IoFailure (output->geterror ());
+  output.reset ();
+  file.commit ();
+}
+
+// ------------------------------------------------------------------ depth, normals, colours, light
+
+static void
+write_depth (const std::string &path, const CeldPlane &depth, float farthest, float nearest)
+{
+  const Format       format = format_of (path);
+  const size_t       width = size_t (depth.width), n = width * size_t (depth.height);
+  std::vector<float> shown (format == Format::tiff ? 0 : n), distance (format == Format::exr ? n : 0);
+
+  for (size_t i = 0; i < shown.size (); i++)
+    {
+      float value = depth.data[i / width * depth.stride + i % width];
+
+      shown[i] = (value - farthest) / (nearest > farthest ? nearest - farthest : 1);
+      if (format == Format::exr)
+        distance[i] = far_distance - shown[i] * (far_distance - near_distance);
+    }
+
+  const CeldIoChannel exr[] = { { "Z", distance.data (), 1, width }, { "depth.V", shown.data (), 1, width } };
+  const CeldIoChannel grey = { "Y", format == Format::tiff ? depth.data : shown.data (), 1,
+                               format == Format::tiff ? depth.stride : width };
+  const CeldIoNote    notes[] = { { note_farthest, nullptr, farthest }, { note_nearest, nullptr, nearest },
+                                  { "near", nullptr, near_distance }, { "far", nullptr, far_distance },
+                                  { "celdepth:convention", convention, 0 } };
+  CeldIoPicture       picture = { nullptr, depth.width, depth.height, CELD_IO_FLOAT, false, &grey, 1 };
+
+  if (format == Format::exr)
+    picture.channel = exr, picture.channels = 2;
+  else if (format == Format::png)
+    picture.sample = CELD_IO_16_BIT;
+  write_file (path, &picture, 1, notes, format == Format::exr ? 5 : format == Format::png ? 2 : 0);
+}
+
+static void
+write_normals (const std::string &path, const CeldVectors &normals)
+{
+  const bool         exr = format_of (path) == Format::exr;
+  const size_t       row = 3 * size_t (normals.width);
+  std::vector<float> packed (exr ? 0 : row * size_t (normals.height));
+  const float       *data = exr ? normals.data : packed.data ();
+  const size_t       stride = exr ? 3 * normals.stride : row;
+
+  for (size_t i = 0; i < packed.size (); i++)
+    packed[i] = 0.5f + 0.5f * normals.data[i / row * 3 * normals.stride + i % row];
+
+  const CeldIoChannel channels[] = { { exr ? "N.X" : "R", data, 3, stride }, { exr ? "N.Y" : "G", data + 1, 3, stride },
+                                     { exr ? "N.Z" : "B", data + 2, 3, stride } };
+  const CeldIoPicture picture = { nullptr, normals.width, normals.height, CELD_IO_16_BIT, false, channels, 3 };
+
+  write_file (path, &picture, 1, nullptr, 0);
+}
+
+// IEC 61966-2-1.
+static float
+decode_srgb (float v)
+{
+  return v <= 0.04045f ? v / 12.92f : std::pow ((v + 0.055f) / 1.055f, 2.4f);
+}
+
+static float
+encode_srgb (float v)
+{
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow (v, 1 / 2.4f) - 0.055f;
+}
+
+static void
+write_paint (const std::string &path, const CeldPaint &paint)
+{
+  const bool         exr = format_of (path) == Format::exr;
+  const size_t       row = 4 * size_t (paint.width);
+  std::vector<float> colours (row * size_t (paint.height));
+  float              table[2][256];
+
+  for (int i = 0; i < 256; i++)
+    {
+      table[1][i] = float (i) / 255;
+      table[0][i] = exr ? decode_srgb (table[1][i]) : table[1][i];
+    }
+  for (size_t i = 0; i < colours.size (); i++)
+    colours[i] = table[i % 4 == 3][paint.data[i / row * 4 * paint.stride + i % row]];
+
+  const CeldIoChannel channels[] = { { "R", colours.data (), 4, row }, { "G", colours.data () + 1, 4, row },
+                                     { "B", colours.data () + 2, 4, row }, { "A", colours.data () + 3, 4, row } };
+  const CeldIoPicture picture = { nullptr, paint.width, paint.height, CELD_IO_8_BIT, true, channels, 4 };
+
+  write_file (path, &picture, 1, nullptr, 0);
+}
+
+static void
+write_light (const std::string &path, const CeldPlane &light)
+{
+  const bool         png = format_of (path) == Format::png;
+  const size_t       width = size_t (light.width);
+  std::vector<float> encoded (png ? width * size_t (light.height) : 0);
+
+  for (size_t i = 0; i < encoded.size (); i++)
+    encoded[i] = encode_srgb (light.data[i / width * light.stride + i % width]);
+
+  const CeldIoChannel grey = { "Y", png ? encoded.data () : light.data, 1, png ? width : light.stride };
+  const CeldIoPicture picture = { nullptr, light.width, light.height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, png, &grey, 1 };
+
+  write_file (path, &picture, 1, nullptr, 0);
+}
+
+// ------------------------------------------------------------------ the C face
+
+bool
+celd_io_can_write (const char *path)
+{
+  CeldIoError ignored;
+  bool        can = false;
+
+  return guarded ("write", path, &ignored, [&] { can = format_of (path) != Format::none; }) && can;
+}
+
+bool
+celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,
+               CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_file (path, parts, n_parts, notes, n_notes); });
+}
+
+bool
+celd_io_write_depth (const char *path, const CeldPlane *depth, float farthest, float nearest, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_depth (path, *depth, farthest, nearest); });
+}
+
+bool
+celd_io_write_normals (const char *path, const CeldVectors *normals, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_normals (path, *normals); });
+}
+
+bool
+celd_io_write_paint (const char *path, const CeldPaint *paint, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_paint (path, *paint); });
+}
+
+bool
+celd_io_write_light (const char *path, const CeldPlane *light, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_light (path, *light); });
+}
