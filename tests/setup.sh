@@ -1,0 +1,133 @@
+# What examples/demo and the test scripts share: packages, builds, counts.  Sourced from the top of the tree, not run.
+#
+# SPDX-License-Identifier: LGPL-3.0-or-later
+
+build=${BUILD:-build}
+yes=
+
+# The head comment of a script, as its help.
+usage ()
+{
+  sed -n '2,/^# SPDX/s/^# \{0,1\}//p' "$0" | sed '$d'
+  exit 2
+}
+
+# logs_open: makes the build folder, where the output of every step is kept
+logs_open ()
+{
+  mkdir -p "$build/logs" && logs=$(cd "$build/logs" && pwd)
+}
+
+as_root ()
+{
+  if [ "$(id -u)" = 0 ]; then
+    "$@"
+  else
+    sudo "$@"
+  fi
+}
+
+# packages_missing GROUP...: names from tests/packages that are not installed
+packages_missing ()
+{
+  for group; do
+    sed -n "s/^$group //p" tests/packages
+  done | while read -r package; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || echo "$package"
+  done
+}
+
+# packages_install GROUP...: asks first when a person is at the terminal, unless -y was given
+packages_install ()
+{
+  missing=$(packages_missing "$@" | tr '\n' ' ')
+  [ -n "$missing" ] || return 0
+  echo "Debian packages needed: $missing"
+  if [ -z "$yes" ] && [ -t 0 ]; then
+    printf 'Install them now? [Y/n] '
+    read -r answer
+    case $answer in [Nn]*) return 1 ;; esac
+  fi
+  export DEBIAN_FRONTEND=noninteractive
+  # A list of packages that is missing or out of date makes the first try fail.
+  # shellcheck disable=SC2086
+  as_root apt-get -qy install --no-install-recommends $missing >"$logs/packages.log" 2>&1 ||
+    { as_root apt-get -q update && as_root apt-get -qy install --no-install-recommends $missing; } >"$logs/packages.log" 2>&1 ||
+    { tail "$logs/packages.log"; return 1; }
+}
+
+# build_tree FOLDER MESON-OPTION...: configures once, then builds
+build_tree ()
+{
+  folder=$1
+  shift
+  [ -e "$folder/build.ninja" ] || meson setup "$folder" "$@" || return 1
+  ninja -C "$folder"
+}
+
+build_with_clang ()
+(
+  CC=clang CXX=clang++
+  export CC CXX
+  build_tree "$@"
+)
+
+# use_build FOLDER: `gegl` and `celdepth` of this build come first
+use_build ()
+{
+  built=$(cd "$1" && pwd)
+  PATH=$built/plugin/cli:$PATH
+  GEGL_PATH=$(pkg-config --variable=pluginsdir gegl-0.4):$built/gegl-ops
+  export PATH GEGL_PATH
+}
+
+# ------------------------------------------------------------------ steps of a test run
+
+passed=0 failed=0 skipped=0
+
+# step NAME COMMAND...: adds up the counts of the command's last line `N passed, N failed[, N skipped]`; without such a
+# line the command itself is one test.  Its output is shown if it fails, and kept in $logs.
+step ()
+{
+  name=$1
+  shift
+  log=$logs/$(echo "$name" | tr -c 'a-zA-Z0-9\n' -).log
+  begin=$(date +%s)
+  "$@" >"$log" 2>&1 </dev/null
+  status=$?
+  counts=$(sed -nE 's/^([a-z]+: )?([0-9]+) passed, ([0-9]+) failed(, ([0-9]+) skipped)?$/\2 \3 \5/p' "$log" | tail -n 1)
+  [ -n "$counts" ] || counts=$([ $status = 0 ] && echo 1 0 || echo 0 1)
+  # shellcheck disable=SC2086
+  set -- $counts
+  step_failed=$2
+  [ $status = 0 ] || [ "$step_failed" -gt 0 ] || step_failed=1
+  passed=$((passed + $1)) failed=$((failed + step_failed)) skipped=$((skipped + ${3:-0}))
+  printf '%-44s %4d s   %s passed, %s failed, %s skipped.\n' "$name" $(($(date +%s) - begin)) "$1" "$step_failed" "${3:-0}"
+  [ "$step_failed" = 0 ] || { sed 's/^/    /' "$log" | tail -n 60; echo "    (all of it: $log)"; }
+  [ "${3:-0}" = 0 ] || grep -i skip "$log" | sed 's/^/    /' | head
+  [ "$step_failed" = 0 ]
+}
+
+# step_end: the closing line, and its exit status; in CI a skipped test is a failed one
+step_end ()
+{
+  if [ "${CI-}" = true ]; then
+    failed=$((failed + skipped))
+    skipped=0
+  fi
+  echo "$passed passed, $failed failed, $skipped skipped"
+  [ "$failed" = 0 ] && [ "$passed" -gt 0 ]
+}
+
+# meson_test FOLDER OPTION...: the test programs of a build, with a closing line of the usual form
+meson_test ()
+{
+  folder=$1
+  shift
+  meson test -C "$folder" --no-rebuild --print-errorlogs "$@" >"$folder/meson-test.out"
+  status=$?
+  cat "$folder/meson-test.out"
+  awk '/^Ok:/ || /^Expected Fail:/ { passed += $NF } /^Fail:/ || /^Unexpected Pass:/ || /^Timeout:/ { failed += $NF } /^Skipped:/ { skipped += $NF }
+       END { printf "%d passed, %d failed, %d skipped\n", passed, failed, skipped }' "$folder/meson-test.out"
+  return $status
+}
