@@ -1,0 +1,351 @@
+/* Order: hand-made situations with known levels, terms that name regions, contradictions named relation by relation.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+
+static const char *const PARTS[] = { /* six regions, the last one is the background where a test says so */
+  "AABBCCDDEEFF",
+  "AABBCCDDEEFF",
+  NULL
+};
+
+/* A palette of n labels of the colours #010101 .. , the last one background if `background`. */
+static CeldPalette
+palette_of (size_t n, bool background)
+{
+  CeldPalette palette = { calloc (n, sizeof (CeldRegion)), n };
+
+  for (size_t k = 0; k < n; k++)
+    palette.item[k] = (CeldRegion) { .colour = { (uint8_t) (10 * k + 10), 0, 0, 255 }, .x = (int) (2 * k), .y = 1 };
+  palette.item[n - 1].background = background;
+  return palette;
+}
+
+typedef struct { CeldOrder order; CeldProblems problems; CeldRelations relations; CeldStatus status; } Answer;
+
+/* Orders `rows` by relations in short: capital letters stand for points in the regions of PARTS. */
+static Answer
+ask (const char *const *rows, const CeldPalette *palette, const char *relations, const CeldPlane *ink)
+{
+  CeldLabels labels = art_labels (rows);
+  Answer     a      = { .status = CELD_OK };
+  char       text[2000], *end = text;
+
+  for (const char *c = relations; *c; c++)
+    if (*c >= 'A' && *c <= 'Z')
+      end += sprintf (end, "%d.5,0.5", 2 * (*c - 'A'));
+    else
+      *end++ = *c;
+  *end = 0;
+  CHECK (celd_relations_parse (text, &a.relations, NULL) == CELD_OK);
+  a.status = celd_order (&labels, palette, &a.relations, ink, NULL, &a.order, &a.problems);
+  CHECK (a.status == CELD_OK && a.order.n == palette->n);
+  free (labels.data);
+  return a;
+}
+
+static void
+forget (Answer *a)
+{
+  celd_order_clear (&a->order);
+  celd_problems_clear (&a->problems);
+  celd_relations_clear (&a->relations);
+}
+
+/* The levels of all labels as digits. */
+static bool
+levels_are (const Answer *a, const char *wanted)
+{
+  char     got[64] = "";
+  uint32_t most    = 0;
+
+  for (size_t k = 0; k < a->order.n; k++)
+    {
+      got[k] = (char) ('0' + a->order.level[k]);
+      if (a->order.level[k] > most)
+        most = a->order.level[k];
+    }
+  if (strcmp (got, wanted) != 0 || a->order.levels != most + 1)
+    fprintf (stderr, "levels %s (%u), wanted %s\n", got, a->order.levels, wanted);
+  return strcmp (got, wanted) == 0 && a->order.levels == most + 1;
+}
+
+static bool
+cycle_is (const Answer *a, size_t i, size_t n, const size_t *wanted)
+{
+  return i < a->order.n_cycles && a->order.cycle[i].n == n &&
+         memcmp (a->order.cycle[i].item, wanted, n * sizeof *wanted) == 0;
+}
+
+/* One situation: relations in, levels out, so many contradictions. */
+static void
+situation (const char *relations, bool background, const char *levels, size_t contradictions)
+{
+  CeldPalette palette = palette_of (6, background);
+  Answer      a       = ask (PARTS, &palette, relations, NULL);
+
+  CHECK (levels_are (&a, levels));
+  CHECK (a.order.n_cycles == contradictions && a.problems.n == contradictions);
+  for (size_t i = 0; i < a.problems.n && i < a.order.n_cycles; i++)
+    CHECK (a.problems.item[i].kind == CELD_PROBLEM_CONTRADICTION && a.problems.item[i].other == i &&
+           a.problems.item[i].relation == a.order.cycle[i].item[0] && a.problems.item[i].x >= 0);
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+known_levels (void)
+{
+  situation ("", false, "000000", 0);
+  situation ("", true, "111110", 0);
+  situation ("A>B>C>D>E>F", true, "543210", 0);
+  situation ("F>E>D>C>B>A", false, "012345", 0);
+  situation ("A>B>D;A>C>D", false, "211000", 0);         /* diamond */
+  situation ("A>B>C>D;A>D", false, "321000", 0);         /* the longest path counts */
+  situation ("A>B;A>B;A>B", false, "100000", 0);
+  situation ("A>B+2", true, "311110", 0);
+  situation ("A>B+1.5;B>C", false, "310000", 0);         /* gaps are whole levels */
+  situation ("A=B;B=C;C>D;E=D;F>A", false, "111002", 0); /* classes of equal depth */
+  situation ("A=A;B=C;C=B;A>B", false, "100000", 0);
+}
+
+static void
+background_gives_way (void)
+{
+  situation ("F>A", true, "022221", 0); /* the others are still in front of it */
+  situation ("F>A>B", true, "103332", 0);
+  situation ("F=A>B", true, "102221", 0);
+  situation ("F=A", true, "011110", 0);
+  situation ("A>F;B=F;C>B", true, "101110", 0);
+}
+
+static void
+contradictions_leave_the_best_order (void)
+{
+  situation ("A>B;B>C;C>A", false, "210000", 1);
+  situation ("A>B@2;B>C;C>A@3", false, "102000", 1);
+  situation ("A=B;A>B", false, "000000", 1);
+  situation ("A>B;A=B", false, "100000", 1);
+  situation ("A>B;B>C;C=A;D>E;E>D", false, "210100", 2);
+}
+
+static void
+cycles_are_named_in_order (void)
+{
+  CeldPalette palette = palette_of (6, false);
+  Answer      a       = ask (PARTS, &palette, "A>B;D>E;B>C;C>A", NULL);
+
+  CHECK (cycle_is (&a, 0, 3, (size_t[]) { 3, 0, 2 }));
+  forget (&a);
+  a = ask (PARTS, &palette, "B>C;A=B;C=D;E>F;D>A", NULL); /* D > A = B > C = D: the equalities belong to it */
+  CHECK (cycle_is (&a, 0, 4, (size_t[]) { 4, 1, 0, 2 }));
+  forget (&a);
+  a = ask (PARTS, &palette, "A>B;B=C;D=C;D=A", NULL);     /* an equality across an inequality */
+  CHECK (a.order.n_cycles == 1 && a.order.cycle[0].n == 4 && a.order.cycle[0].item[0] == 3);
+  forget (&a);
+  a = ask (PARTS, &palette, "A>B>C>D>E>F;A>D;F>A", NULL); /* the shortest one: F > A > D > E > F */
+  CHECK (cycle_is (&a, 0, 4, (size_t[]) { 6, 5, 3, 4 }));
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+lighter_relations_give_way (void)
+{
+  CeldPalette palette = palette_of (6, false);
+  Answer      a       = ask (PARTS, &palette, "A>B@.5;B>C;C>A", NULL);
+
+  CHECK (cycle_is (&a, 0, 3, (size_t[]) { 0, 1, 2 }));
+  CHECK (levels_are (&a, "021000"));
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static bool
+only_problem (const Answer *a, CeldProblemKind kind, size_t relation)
+{
+  return a->problems.n == 1 && a->problems.item[0].kind == kind && a->problems.item[0].relation == relation &&
+         a->order.n_cycles == 0;
+}
+
+static void
+terms_that_join_nothing (void)
+{
+  CeldPalette palette = palette_of (6, false);
+  Answer      a       = ask (PARTS, &palette, "B>A; -1,0 > A", NULL);
+
+  CHECK (only_problem (&a, CELD_PROBLEM_OUTSIDE, 1) && levels_are (&a, "010000"));
+  CHECK (a.problems.item[0].x == 0 && a.problems.item[0].y == 0);
+  forget (&a);
+  a = ask (PARTS, &palette, "12,0 > 0,2", NULL);
+  CHECK (only_problem (&a, CELD_PROBLEM_OUTSIDE, 0) && a.problems.item[0].x == -1);
+  forget (&a);
+  a = ask (PARTS, &palette, "A > #123456", NULL);
+  CHECK (only_problem (&a, CELD_PROBLEM_UNKNOWN_COLOUR, 0) && levels_are (&a, "000000"));
+  forget (&a);
+  a = ask (PARTS, &palette, "B>A; #140000 > 3,1", NULL);
+  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 1) && a.problems.item[0].label == 2);
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+colours_within_two (void)
+{
+  CeldPalette palette = palette_of (6, false);
+  Answer      a       = ask (PARTS, &palette, "#0a0000 > #160200", NULL); /* #160200 is #140000, 2 off */
+
+  CHECK (a.problems.n == 0 && levels_are (&a, "100000"));
+  forget (&a);
+  palette.item[2].colour[0] = 11; /* #0b0000 beside #0a0000: the nearest one counts */
+  a = ask (PARTS, &palette, "#0b0000 > #0a0000", NULL);
+  CHECK (a.problems.n == 0 && levels_are (&a, "001000"));
+  forget (&a);
+  palette.item[0].colour[3] = 0;
+  a = ask (PARTS, &palette, "#0a0000 > #0b0000", NULL); /* a transparent label has no colour */
+  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+/* Three regions of one colour, told apart by same-colour=separate: a colour names all of them. */
+static void
+separate_regions_of_a_colour (void)
+{
+  CeldPalette palette = palette_of (6, false);
+  Answer      a;
+
+  memcpy (palette.item[2].colour, palette.item[0].colour, 4);
+  memcpy (palette.item[4].colour, palette.item[0].colour, 4);
+  a = ask (PARTS, &palette, "#0a0000 > B; C > A; D > E", NULL);
+  CHECK (a.problems.n == 0 && levels_are (&a, "102210"));
+  forget (&a);
+  a = ask (PARTS, &palette, "B = #0a0000; C > A; F > D", NULL); /* equal to one another too */
+  CHECK (a.order.n_cycles == 1 && levels_are (&a, "000001"));
+  CHECK (cycle_is (&a, 0, 2, (size_t[]) { 1, 0 }));
+  forget (&a);
+  a = ask (PARTS, &palette, "A > #0a0000", NULL);
+  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+lost_labels_leave_no_hole (void)
+{
+  static const char *const rows[] = { "AA  CC  EEFF", "AA  CC  EEFF", NULL }; /* B and D have no pixel */
+  CeldPalette              palette = palette_of (6, false);
+  Answer                   a       = ask (rows, &palette, "A > #140000 > C > #280000 > E", NULL);
+
+  CHECK (a.problems.n == 0 && levels_are (&a, "211000"));
+  forget (&a);
+  a = ask (rows, &palette, "A > #140000 > #280000; #280000 > C+3", NULL);
+  CHECK (a.order.level[0] > a.order.level[2] && a.order.levels == a.order.level[0] + 1);
+  forget (&a);
+  a = ask (rows, &palette, "A > #140000", NULL);
+  CHECK (levels_are (&a, "000000"));
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+points_on_ink (void)
+{
+  static const char *const rows[]  = { "AAAAAAAABBBB", "AAAAAAAABBBB", "AAAAAAAABBBB", "CCCCCCCCCCCC", NULL };
+  static const char *const lines[] = { "......##9...", "......##9...", "......##9...", "............", NULL };
+  CeldPlane                ink     = art_plane (lines);
+  CeldPalette              palette = palette_of (3, false);
+  Answer                   a       = ask (rows, &palette, "7.5,0.5 > 0,0", &ink); /* A's own ink, B's paper beside it */
+
+  CHECK (a.problems.n == 0 && levels_are (&a, "010"));
+  forget (&a);
+  a = ask (rows, &palette, "7.5,0.5 > 0,0", NULL);
+  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
+  forget (&a);
+  a = ask (rows, &palette, "6.5,1 > 11,0", &ink);
+  CHECK (a.problems.n == 0 && levels_are (&a, "100"));
+  forget (&a);
+  celd_palette_clear (&palette);
+  free (ink.data);
+}
+
+/* Deep inside a black area the pixel's own label counts: it is no stroke. */
+static void
+points_in_black_areas (void)
+{
+  static const char *const rows[]  = { "AAAAAAAAAAAAA", "BBBBBBBBBBBBB", "BBBBBBBBBBBBB", "BBBBBBBBBBBBB",
+                                       "BBBBBBBBBBBBB", "AAAAAAAAAAAAA", "AAAAAAAAAAAAA", NULL };
+  static const char *const lines[] = { ".#.#.#.#.#.#.", "#############", "#############", "#############",
+                                       "#############", ".............", ".#.#.#.#.#.#.", NULL };
+  CeldPlane                ink     = art_plane (lines);
+  CeldPalette              palette = palette_of (2, false);
+  Answer                   a       = ask (rows, &palette, "6,3 > 6,5", &ink);
+
+  CHECK (a.problems.n == 0 && levels_are (&a, "01"));
+  forget (&a);
+  celd_palette_clear (&palette);
+  free (ink.data);
+}
+
+static void
+bad_input (void)
+{
+  uint32_t      one[4]   = { 1, 1, 1, 1 };
+  CeldLabels    labels   = { 1, 1, 4, one }, none = { 0, 0, 0, one };
+  float         paper[2] = { NAN, 1 };
+  CeldPlane     ink      = { 2, 1, 2, paper }, nan_ink = { 1, 1, 1, paper };
+  CeldRelation  item     = { .nearer = { .x = NAN }, .farther = { .by_colour = true }, .weight = NAN, .gap = NAN };
+  CeldRelations r        = { &item, 1 };
+  CeldPalette   palette  = palette_of (1, false), empty = { 0 };
+  CeldOrder     order    = { 0 };
+  CeldProblems  problems = { 0 };
+
+  CHECK (celd_order (&none, &palette, &r, NULL, NULL, &order, NULL) == CELD_BAD_SIZE);
+  CHECK (celd_order (&labels, &palette, &r, &ink, NULL, &order, NULL) == CELD_BAD_SIZE);
+  CHECK (celd_order (&labels, &palette, &r, &nan_ink, NULL, &order, &problems) == CELD_OK);
+  CHECK (order.n == 1 && order.levels == 1 && order.level[0] == 0 && problems.n == 1);
+  item.nearer.x = 0;
+  item.farther  = (CeldTerm) { .x = 0.5 };
+  CHECK (celd_order (&labels, &empty, &r, NULL, NULL, &order, &problems) == CELD_OK); /* labels beyond the palette */
+  CHECK (order.n == 0 && order.levels == 1 && problems.n == 2 && problems.item[1].kind == CELD_PROBLEM_OUTSIDE);
+  celd_order_clear (&order);
+  celd_problems_clear (&problems);
+  celd_palette_clear (&palette);
+}
+
+static void
+encodings (void)
+{
+  CeldSettings s = celd_settings ();
+
+  NEAR (celd_encode_level (0, 1, &s), 0, 0);
+  NEAR (celd_encode_level (1, 5, &s), 0.25, 0);
+  NEAR (celd_encode_level (4, 5, &s), 1, 0);
+  s.encoding = CELD_ENCODING_RANK;
+  NEAR (celd_encode_level (3, 5, &s), 3, 0);
+  s.encoding   = CELD_ENCODING_FIXED;
+  s.far_level  = -2;
+  s.near_level = 8;
+  NEAR (celd_encode_level (3, 5, &s), 0.5, 1e-6);
+  NEAR (celd_encode_level (3, 50, &s), 0.5, 1e-6); /* a new arrow does not rescale */
+}
+
+int
+main (void)
+{
+  RUN (known_levels);
+  RUN (background_gives_way);
+  RUN (contradictions_leave_the_best_order);
+  RUN (cycles_are_named_in_order);
+  RUN (lighter_relations_give_way);
+  RUN (terms_that_join_nothing);
+  RUN (colours_within_two);
+  RUN (separate_regions_of_a_colour);
+  RUN (lost_labels_leave_no_hole);
+  RUN (points_on_ink);
+  RUN (points_in_black_areas);
+  RUN (bad_input);
+  RUN (encodings);
+  return DONE;
+}
