@@ -1,0 +1,117 @@
+/* celdepth:depth-order: which region is in front of which (the paper's appendix: topological sorting).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "properties.h"
+
+#ifdef GEGL_PROPERTIES
+
+CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_STYLE
+CELD_PROPERTY_SAME_COLOUR
+CELD_PROPERTY_BACKGROUND
+CELD_PROPERTY_ENCODING
+CELD_PROPERTY_INK
+
+#else
+
+#define GEGL_OP_NAME     celdepth_depth_order
+#define GEGL_OP_C_SOURCE celdepth-depth-order.c
+#define GEGL_OP_BUNDLE
+
+#include <gegl-op.h>
+
+static const CeldPad pads[] = {
+  { "input", "Labels", "The regions as flat colours, made by Lazybrush Segment or painted", TRUE },
+  { "aux", "Arrows", "Arrows from nearer to farther parts", FALSE },
+  { "aux2", "Drawing", "The line drawing: points on its ink mean the region beside it", FALSE },
+  { NULL, NULL, NULL, FALSE }
+};
+
+static void
+prepare (GeglOperation *operation)
+{
+  gegl_operation_set_format (operation, "output", babl_format ("Y float"));
+}
+
+static CeldSettings
+settings (GeglProperties *o)
+{
+  CeldSettings s = celd_settings ();
+
+  s.ink         = o->ink;
+  s.arrow_style = o->arrow_style;
+  s.same_colour = o->same_colour;
+  s.background  = o->background;
+  s.encoding    = o->encoding;
+  s.near_level  = (float) o->near_level;
+  s.far_level   = (float) o->far_level;
+  celd_op_get_colour (o->background_colour, s.background_colour);
+  return s;
+}
+
+/* The colours of the input as labels of op->palette. */
+static gboolean
+read_labels (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, CeldLabels *labels)
+{
+  CeldPaint colours;
+
+  return celd_op_read_paint (op, "input", &colours) &&
+         celd_op_new_labels (op, labels) &&
+         celd_op_try (op, celd_labels_read (&colours, labels, &op->palette)) &&
+         celd_op_try (op, celd_background_mark (labels, ink, s, &op->palette)) &&
+         (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
+}
+
+static gboolean
+write_levels (CeldOp *op, const CeldSettings *s, const CeldLabels *labels)
+{
+  CeldPlane levels;
+
+  if (!celd_op_new_plane (op, &levels))
+    return FALSE;
+  for (size_t i = 0; i < (size_t) labels->width * (size_t) labels->height; i++)
+    levels.data[i] = celd_encode_level (op->order.level[labels->data[i] - 1], op->order.levels, s);
+  return celd_op_write (op, levels.data);
+}
+
+static gboolean
+render (CeldOp *op)
+{
+  GeglProperties *o = GEGL_PROPERTIES (op->operation);
+  CeldSettings    s = settings (o);
+  gboolean        drawn = celd_op_has (op, "aux2");
+  CeldPlane       ink;
+  CeldLabels      labels;
+
+  return celd_op_try (op, celd_settings_check (&s)) &&
+         (!drawn || celd_op_read_ink (op, "aux2", o->ink, &ink)) &&
+         read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
+         celd_op_read_relations (op, o->relations, "aux", o->arrow_style) &&
+         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &op->run,
+                                      &op->order, &op->problems)) &&
+         celd_op_tell (op, &op->problems, &op->palette, &op->relations) &&
+         write_levels (op, &s, &labels);
+}
+
+static void
+gegl_op_class_init (GeglOpClass *klass)
+{
+  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
+
+  klass->parent_class.pads   = pads;
+  klass->parent_class.render = render;
+  operation_class->prepare   = prepare;
+
+  gegl_operation_class_set_keys (operation_class,
+    "name",            "celdepth:depth-order",
+    "title",           "Depth Order",
+    "categories",      "artistic",
+    "description",     "Gives each region a depth level, from arrows and relations that say which is in front of which",
+    "reference",       CELD_REFERENCE,
+    "gimp:menu-path",  CELD_MENU,
+    "gimp:menu-label", "Depth Order...",
+    NULL);
+}
+
+#endif

@@ -1,0 +1,194 @@
+/* celdepth:popup: the whole route of the paper as one operation, through a session.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "properties.h"
+
+#ifdef GEGL_PROPERTIES
+
+property_enum (result, "Result", CeldPopupResult, celd_popup_result, CELD_POPUP_DEPTH)
+    description ("How far to go; nearer is lighter in order, levels and depth, which are linear")
+
+CELD_PROPERTY_INK
+CELD_PROPERTY_INK_THRESHOLD
+CELD_PROPERTY_METHOD
+CELD_PROPERTY_HARDNESS
+CELD_PROPERTY_FLATS
+CELD_PROPERTY_BACKGROUND
+CELD_PROPERTY_SEEDS
+CELD_PROPERTY_SAME_COLOUR
+CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_STYLE
+CELD_PROPERTY_ENCODING
+
+property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIBBLES)
+    description ("Which pixels keep their level in smooth depth")
+    ui_meta ("visible", "result {depth}")
+
+CELD_PROPERTY_TOLERANCE
+CELD_PROPERTY_BULGE
+CELD_PROPERTY_LIGHT
+CELD_PROPERTY_DIRECTX
+
+#else
+
+#define GEGL_OP_NAME     celdepth_popup
+#define GEGL_OP_C_SOURCE celdepth-popup.c
+#define GEGL_OP_BUNDLE
+
+#include <gegl-op.h>
+
+static const CeldPad pads[] = {
+  { "input", "Drawing", "The line drawing", TRUE },
+  { "aux", "Scribbles", "A stroke of another colour over each part", FALSE },
+  { "aux2", "Arrows", "Arrows from nearer to farther parts", FALSE },
+  { "aux3", "Virtual contours", "Red: a border for regions and depth; blue: a border for regions, across which depth stays "
+                                "smooth; green: ink that is no border", FALSE },
+  { NULL, NULL, NULL, FALSE }
+};
+
+static void
+prepare (GeglOperation *operation)
+{
+  static const char *const formats[] = {
+    [CELD_POPUP_LABELS] = "R'G'B'A u8", [CELD_POPUP_ORDER]   = "Y float",   [CELD_POPUP_LEVELS]  = "Y float",
+    [CELD_POPUP_DEPTH]  = "Y float",    [CELD_POPUP_NORMALS] = "RGB float", [CELD_POPUP_SHADING] = "Y float",
+  };
+
+  gegl_operation_set_format (operation, "output", babl_format (formats[GEGL_PROPERTIES (operation)->result]));
+}
+
+static CeldSettings
+settings (GeglProperties *o)
+{
+  CeldSettings s = {
+    .ink             = o->ink,
+    .ink_threshold   = (float) o->ink_threshold,
+    .method          = o->method,
+    .hardness        = (float) o->hardness,
+    .flats           = o->flats,
+    .background      = o->background,
+    .seeds           = o->seeds,
+    .same_colour     = o->same_colour,
+    .arrow_style     = o->arrow_style,
+    .encoding        = o->encoding,
+    .near_level      = (float) o->near_level,
+    .far_level       = (float) o->far_level,
+    .anchors         = o->anchors,
+    .tolerance       = (float) o->tolerance,
+    .bulge           = (float) o->bulge,
+    .light_azimuth   = (float) o->light_azimuth,
+    .light_elevation = (float) o->light_elevation,
+    .ambient         = (float) o->ambient,
+  };
+
+  celd_op_get_colour (o->background_colour, s.background_colour);
+  return s;
+}
+
+static gboolean
+set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session, const CeldPaint *layer))
+{
+  CeldPaint paint;
+
+  if (!celd_op_has (op, pad))
+    return celd_op_try (op, set (op->operation->session, NULL));
+  return celd_op_read_paint (op, pad, &paint) &&
+         celd_op_try (op, set (op->operation->session, &paint));
+}
+
+/* Everything that the host gives, to the session, which finds out what that changes. */
+static gboolean
+set_session (CeldOp *op)
+{
+  GeglProperties *o = GEGL_PROPERTIES (op->operation);
+  CeldSettings    s = settings (o);
+  CeldSession    *session = celd_op_session (op);
+  CeldTextError   error = { 0 };
+  CeldDrawing     drawing;
+
+  return session &&
+         celd_op_try (op, celd_session_set_settings (session, &s)) &&
+         celd_op_read_drawing (op, "input", &drawing) &&
+         celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
+         set_layer (op, "aux", celd_session_set_scribbles) &&
+         set_layer (op, "aux2", celd_session_set_arrows) &&
+         set_layer (op, "aux3", celd_session_set_contours) &&
+         celd_op_try_text (op, celd_session_set_relations (session, o->relations, &error), &error);
+}
+
+static gboolean
+write_plane (CeldOp *op, CeldStatus (*ask) (CeldSession *, const CeldRun *, CeldPlane *, CeldRect *))
+{
+  CeldPlane plane;
+
+  return celd_op_try (op, ask (op->operation->session, &op->run, &plane, NULL)) &&
+         celd_op_write (op, plane.data);
+}
+
+static gboolean
+write_labels (CeldOp *op)
+{
+  CeldSession *session = op->operation->session;
+  CeldLabels   labels;
+
+  return celd_op_try (op, celd_session_labels (session, &op->run, &labels, NULL)) &&
+         celd_op_write_paint (op, &labels, celd_session_palette (session));
+}
+
+static gboolean
+write_normals (CeldOp *op)
+{
+  CeldVectors normals;
+
+  return celd_op_try (op, celd_session_normals (op->operation->session, &op->run, &normals, NULL)) &&
+         celd_op_write_normals (op, &normals, GEGL_PROPERTIES (op->operation)->directx);
+}
+
+static gboolean
+write_result (CeldOp *op)
+{
+  switch (GEGL_PROPERTIES (op->operation)->result)
+    {
+    case CELD_POPUP_LABELS:  return write_labels (op);
+    case CELD_POPUP_ORDER:   return write_plane (op, celd_session_flat);
+    case CELD_POPUP_LEVELS:  return write_plane (op, celd_session_levels);
+    case CELD_POPUP_DEPTH:   return write_plane (op, celd_session_depth);
+    case CELD_POPUP_NORMALS: return write_normals (op);
+    case CELD_POPUP_SHADING: return write_plane (op, celd_session_shading);
+    }
+  return FALSE;
+}
+
+static gboolean
+render (CeldOp *op)
+{
+  CeldSession *session;
+
+  if (!set_session (op) || !write_result (op))
+    return FALSE;
+  session = op->operation->session;
+  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session), celd_session_relations (session));
+}
+
+static void
+gegl_op_class_init (GeglOpClass *klass)
+{
+  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
+
+  klass->parent_class.pads   = pads;
+  klass->parent_class.render = render;
+  operation_class->prepare   = prepare;
+
+  gegl_operation_class_set_keys (operation_class,
+    "name",            "celdepth:popup",
+    "title",           "Pop-up",
+    "categories",      "artistic",
+    "description",     "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther ones, in one step",
+    "reference",       CELD_REFERENCE,
+    "gimp:menu-path",  CELD_MENU,
+    "gimp:menu-label", "Pop-up...",
+    NULL);
+}
+
+#endif

@@ -1,0 +1,324 @@
+/* The base class of every operation: pads, regions, the frame round render, and what the artist is told.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op.h"
+
+#define MOST_PROBLEMS 8 /* in one message */
+
+G_DEFINE_DYNAMIC_TYPE_EXTENDED (CeldOperation, celd_operation, GEGL_TYPE_OPERATION, G_TYPE_FLAG_ABSTRACT, {})
+
+#define GET_CLASS(operation) G_TYPE_INSTANCE_GET_CLASS (operation, CELD_TYPE_OPERATION, CeldOperationClass)
+
+/* ------------------------------------------------------------------ pads and regions */
+
+static void
+attach (GeglOperation *operation)
+{
+  GParamSpec *pad = g_param_spec_object ("output", "Output", "The result", GEGL_TYPE_BUFFER,
+                                         G_PARAM_READABLE | GEGL_PARAM_PAD_OUTPUT);
+
+  gegl_operation_create_pad (operation, pad);
+  g_param_spec_sink (pad);
+  for (const CeldPad *p = GET_CLASS (operation)->pads; p->name; p++)
+    {
+      pad = g_param_spec_object (p->name, p->label, p->description, GEGL_TYPE_BUFFER,
+                                 G_PARAM_READWRITE | GEGL_PARAM_PAD_INPUT);
+      gegl_operation_create_pad (operation, pad);
+      g_param_spec_sink (pad);
+    }
+}
+
+/* The whole input, whatever the host asks for: every result depends on every pixel. */
+static GeglRectangle
+whole_picture (GeglOperation *operation)
+{
+  const GeglRectangle *input = gegl_operation_source_get_bounding_box (operation, "input");
+
+  return input ? *input : (GeglRectangle) { 0, 0, 0, 0 };
+}
+
+/* The whole input, or of an endless one no more than is asked for: render refuses it. */
+static GeglRectangle
+finite_picture (GeglOperation *operation, const GeglRectangle *asked)
+{
+  GeglRectangle whole = whole_picture (operation);
+
+  return gegl_rectangle_is_infinite_plane (&whole) ? *asked : whole;
+}
+
+static GeglRectangle
+get_cached_region (GeglOperation *operation, const GeglRectangle *roi)
+{
+  return finite_picture (operation, roi);
+}
+
+static GeglRectangle
+get_required_for_output (GeglOperation *operation, const gchar *pad, const GeglRectangle *roi)
+{
+  return finite_picture (operation, roi);
+}
+
+static GeglRectangle
+get_invalidated_by_change (GeglOperation *operation, const gchar *pad, const GeglRectangle *changed)
+{
+  return finite_picture (operation, changed);
+}
+
+/* ------------------------------------------------------------------ what the artist is told */
+
+static void
+add_to_message (CeldOp *op, const char *text)
+{
+  if (op->message->len)
+    g_string_append_c (op->message, '\n');
+  g_string_append (op->message, text);
+}
+
+gboolean
+celd_op_fail (CeldOp *op, const char *format, ...)
+{
+  va_list arguments;
+  char   *text;
+
+  va_start (arguments, format);
+  text = g_strdup_vprintf (format, arguments);
+  va_end (arguments);
+  add_to_message (op, text);
+  g_free (text);
+  return FALSE;
+}
+
+gboolean
+celd_op_try (CeldOp *op, CeldStatus status)
+{
+  return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
+}
+
+gboolean
+celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  if (status != CELD_BAD_RELATION)
+    return celd_op_try (op, status);
+  return celd_op_fail (op, "The relations cannot be read: line %d, column %d has %s, where %s was expected. "
+                       "An example of a relation is: 120,80 > 300,95", error->line, error->column,
+                       error->found, error->expected);
+}
+
+gboolean
+celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations)
+{
+  for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
+    {
+      char text[320];
+
+      celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
+      add_to_message (op, text);
+    }
+  if (problems && problems->n > MOST_PROBLEMS)
+    g_string_append_printf (op->message, "\nThere are %zu more problems of this kind.", problems->n - MOST_PROBLEMS);
+  return TRUE;
+}
+
+gboolean
+celd_op_tell_solve (CeldOp *op, const CeldSolve *solve)
+{
+  CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };
+  CeldProblems problems = { &problem, 1 };
+
+  return solve->converged || celd_op_tell (op, &problems, NULL, NULL);
+}
+
+/* Says the message of this call, unless the last call said the same. */
+static void
+speak (CeldOp *op)
+{
+  CeldOperation *self = op->operation;
+  const char    *text = op->message->len ? op->message->str : NULL;
+
+  if (text && g_strcmp0 (text, self->said))
+    g_message ("%s: %s", gegl_operation_class_get_key (GEGL_OPERATION_GET_CLASS (self), "title"), text);
+  g_free (self->said);
+  self->said = g_strdup (text);
+}
+
+/* ------------------------------------------------------------------ what the host lends */
+
+static bool
+report_progress (void *host, double done)
+{
+  CeldOp *op = host;
+
+  if (done >= op->progress + 0.01)
+    {
+      op->progress = done;
+      gegl_operation_progress (GEGL_OPERATION (op->operation), done, (gchar *) "");
+    }
+  return true; /* GEGL knows no cancel */
+}
+
+typedef struct { void (*body) (void *data, int i); void *data; } Work;
+
+static void
+work_range (gsize first, gsize n, gpointer user_data)
+{
+  const Work *work = user_data;
+
+  for (gsize i = first; i < first + n; i++)
+    work->body (work->data, (int) i);
+}
+
+static void
+distribute (void *host, int n, void (*body) (void *data, int i), void *data)
+{
+  Work work = { body, data };
+
+  gegl_parallel_distribute_range ((gsize) n, 1.0, work_range, &work);
+}
+
+gpointer
+celd_op_alloc (CeldOp *op, gsize size)
+{
+  gpointer memory = g_try_malloc (size);
+
+  if (memory)
+    g_ptr_array_add (op->scratch, memory);
+  else
+    celd_op_try (op, CELD_NO_MEMORY);
+  return memory;
+}
+
+CeldSession *
+celd_op_session (CeldOp *op)
+{
+  if (!op->operation->session)
+    op->operation->session = celd_session_new ();
+  if (!op->operation->session)
+    celd_op_try (op, CELD_NO_MEMORY);
+  return op->operation->session;
+}
+
+/* ------------------------------------------------------------------ the frame round render */
+
+gboolean
+celd_op_has (CeldOp *op, const char *pad)
+{
+  return gegl_operation_context_get_object (op->context, pad) != NULL;
+}
+
+/* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
+static gboolean
+check_pad (CeldOp *op, const CeldPad *pad)
+{
+  const GeglRectangle *p = &op->picture;
+  const GeglRectangle *r = gegl_operation_source_get_bounding_box (GEGL_OPERATION (op->operation), pad->name);
+
+  if (!r)
+    return !pad->required ||
+           celd_op_fail (op, "There is no %s. Choose a layer for the input “%s” (pad %s).", pad->label, pad->label, pad->name);
+  if (!gegl_rectangle_intersect (NULL, r, p))
+    return celd_op_fail (op, "%s (%d × %d at %d, %d) lies outside the picture (%d × %d at %d, %d). "
+                         "Move it over the picture, or give it the picture's size.",
+                         pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+  return TRUE;
+}
+
+static gboolean
+check_pads (CeldOp *op)
+{
+  const GeglRectangle *p = &op->picture;
+
+  if (gegl_rectangle_is_infinite_plane (p))
+    return celd_op_fail (op, "The input has no size. Crop it first.");
+  if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
+    return celd_op_fail (op, "The picture is %d × %d pixels large; at most %d a side can be worked on. Scale it down first.",
+                         p->width, p->height, CELD_MAX_SIDE);
+  for (const CeldPad *pad = GET_CLASS (op->operation)->pads; pad->name; pad++)
+    if (!check_pad (op, pad))
+      return FALSE;
+  return TRUE;
+}
+
+static void
+pass_through (GeglOperationContext *context)
+{
+  GObject *input = gegl_operation_context_dup_object (context, "input");
+
+  if (input)
+    gegl_operation_context_take_object (context, "output", input);
+  else
+    gegl_operation_context_get_target (context, "output");
+}
+
+static gboolean
+process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad, const GeglRectangle *roi, gint level)
+{
+  CeldOperation *self = (CeldOperation *) operation;
+  CeldOp         op = {
+    .operation = self,
+    .context   = context,
+    .picture   = whole_picture (operation),
+    .scratch   = g_ptr_array_new_with_free_func (g_free),
+    .message   = g_string_new (NULL),
+  };
+
+  op.run   = (CeldRun) { report_progress, distribute, &op };
+  op.quiet = (CeldRun) { NULL, distribute, &op };
+  g_mutex_lock (&self->busy);
+  if (!check_pads (&op) || !GET_CLASS (self)->render (&op))
+    pass_through (context);
+  speak (&op);
+  g_mutex_unlock (&self->busy);
+  celd_palette_clear (&op.palette);
+  celd_relations_clear (&op.relations);
+  celd_problems_clear (&op.problems);
+  celd_order_clear (&op.order);
+  g_ptr_array_unref (op.scratch);
+  g_string_free (op.message, TRUE);
+  return TRUE;
+}
+
+/* ------------------------------------------------------------------ the class */
+
+static void
+finalize (GObject *object)
+{
+  CeldOperation *self = (CeldOperation *) object;
+
+  celd_session_free (self->session);
+  g_free (self->said);
+  g_mutex_clear (&self->busy);
+  G_OBJECT_CLASS (celd_operation_parent_class)->finalize (object);
+}
+
+static void
+celd_operation_init (CeldOperation *self)
+{
+  g_mutex_init (&self->busy);
+}
+
+static void
+celd_operation_class_init (CeldOperationClass *klass)
+{
+  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
+
+  G_OBJECT_CLASS (klass)->finalize           = finalize;
+  operation_class->attach                    = attach;
+  operation_class->get_bounding_box          = whole_picture;
+  operation_class->get_cached_region         = get_cached_region;
+  operation_class->get_required_for_output   = get_required_for_output;
+  operation_class->get_invalidated_by_change = get_invalidated_by_change;
+  operation_class->process                   = process;
+  operation_class->threaded                  = FALSE;
+}
+
+static void
+celd_operation_class_finalize (CeldOperationClass *klass)
+{
+}
+
+void
+celd_operation_register (GTypeModule *module)
+{
+  celd_operation_register_type (module);
+}

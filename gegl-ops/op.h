@@ -1,0 +1,136 @@
+/* What every operation of the suite is made of: a base class, and the steps that read pads and write the output.
+ *
+ * CeldOperation is a GeglOperation over the whole picture.  An operation of the suite derives from it (gegl-op.h takes
+ * the two macros below), lists its pads, and gives `render`, which reads as a chain of steps that each say TRUE or FALSE:
+ *
+ *     return celd_op_read_plane (op, "input", &levels) &&
+ *            celd_op_read_ink (op, "aux", o->ink, &ink) &&
+ *            celd_op_try (op, celd_expand (...)) &&
+ *            celd_op_write (op, levels.data);
+ *
+ * On FALSE the input passes through unchanged, and the artist is told why: one g_message, not said again while it stays
+ * the same (hosts render again and again).  Everything that hangs on a CeldOp is freed when render is done.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_OP_H
+#define CELD_OP_H
+
+#include <gegl-plugin.h>
+
+#include "celdepth.h"
+
+#define CELD_TYPE_OPERATION (celd_operation_get_type ())
+
+/* What gegl-op.h derives an operation from. */
+#define GEGL_OP_Parent CeldOperation
+#define GEGL_OP_PARENT CELD_TYPE_OPERATION
+
+#define CELD_MENU "<Image>/Filters/Cartoon Depth"
+#define CELD_REFERENCE \
+  "D. Sýkora, D. Sedlacek, S. Jinchao, J. Dingliana, S. Collins: Adding Depth to Cartoons Using Sparse Depth " \
+  "(In)equalities. Computer Graphics Forum 29(2), Eurographics 2010."
+
+typedef struct _CeldOp CeldOp;
+
+/* An input pad as the host shows it. */
+typedef struct
+{
+  const char *name;                /* "input", "aux", "aux2", "aux3" */
+  const char *label, *description;
+  gboolean    required;
+} CeldPad;
+
+typedef struct
+{
+  GeglOperation parent_instance;
+  GMutex        busy;              /* over the members below, and over render */
+  char         *said;              /* the last message; NULL if all was well */
+  CeldSession  *session;           /* of operations that keep the route between calls; made by celd_op_session */
+} CeldOperation;
+
+typedef struct
+{
+  GeglOperationClass parent_class;
+  const CeldPad     *pads;         /* "input" first, ended by a NULL name */
+  gboolean         (*render) (CeldOp *op);
+} CeldOperationClass;
+
+GType celd_operation_get_type (void);
+void  celd_operation_register (GTypeModule *module);
+
+/* One call of render. */
+struct _CeldOp
+{
+  CeldOperation        *operation;
+  GeglOperationContext *context;
+  GeglRectangle         picture;   /* what is read from every pad, and written */
+  CeldRun               run;       /* the host's progress and threads: for the longest step */
+  CeldRun               quiet;     /* threads only: for the others */
+
+  CeldPalette           palette;
+  CeldRelations         relations;
+  CeldProblems          problems;
+  CeldOrder             order;
+
+  /* for op.c and pixels.c alone */
+  GPtrArray            *scratch;
+  GString              *message;
+  double                progress;
+};
+
+/* ------------------------------------------------------------------ op.c */
+
+/* Adds to the message of this call; always FALSE. */
+gboolean celd_op_fail (CeldOp *op, const char *format, ...) G_GNUC_PRINTF (2, 3);
+/* TRUE if a step of core went well; else its reason becomes the message. */
+gboolean celd_op_try (CeldOp *op, CeldStatus status);
+/* As celd_op_try, for steps that read the relations text. */
+gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
+/* Tells the artist; the result is delivered all the same, so always TRUE. */
+gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
+
+/* The same for a solve that was less exact than asked for. */
+gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);
+
+/* Does something come in on this pad? */
+gboolean celd_op_has (CeldOp *op, const char *pad);
+
+/* The session of this operation, from now on its own; NULL: no memory (and said so). */
+CeldSession *celd_op_session (CeldOp *op);
+
+/* Memory that lasts as long as the call; NULL: no memory (and said so). */
+gpointer celd_op_alloc (CeldOp *op, gsize size);
+
+/* ------------------------------------------------------------------ pixels.c */
+
+gboolean celd_op_read_plane   (CeldOp *op, const char *pad, CeldPlane *plane);      /* linear values */
+gboolean celd_op_read_paint   (CeldOp *op, const char *pad, CeldPaint *paint);      /* R'G'B'A, sRGB */
+gboolean celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing);
+gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink);
+
+/* Pictures of the size of the call; not cleared. */
+gboolean celd_op_new_plane   (CeldOp *op, CeldPlane *plane);
+gboolean celd_op_new_labels  (CeldOp *op, CeldLabels *labels);
+gboolean celd_op_new_mask    (CeldOp *op, CeldMask *mask);
+gboolean celd_op_new_paint   (CeldOp *op, CeldPaint *paint);
+gboolean celd_op_new_vectors (CeldOp *op, CeldVectors *vectors);
+
+/* The relations of a text (may be NULL) and of a painted layer (a pad that may be empty), in this order, to op->relations;
+ * unclear arrows to op->problems. */
+gboolean celd_op_read_relations (CeldOp *op, const char *text, const char *pad, CeldArrowStyle style);
+
+/* Seed labels and op->palette from painted strokes. */
+gboolean celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *settings, CeldLabels *seeds);
+
+/* A colour property as sRGB. */
+void celd_op_get_colour (GeglColor *colour, uint8_t rgb[3]);
+
+/* The output, in the format that prepare set for it. */
+gboolean celd_op_write         (CeldOp *op, const void *pixels);
+gboolean celd_op_write_drawing (CeldOp *op, const CeldDrawing *drawing);
+gboolean celd_op_write_paint   (CeldOp *op, const CeldLabels *labels, const CeldPalette *palette);
+gboolean celd_op_write_lit     (CeldOp *op, const char *pad, const CeldPlane *light);             /* art under light */
+gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean directx); /* 0.5 + 0.5 n */
+
+#endif

@@ -1,0 +1,240 @@
+/* Pictures from pads to core and back.  Buffers arrive in whatever format the host keeps them: every format is explicit.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op.h"
+
+#include <string.h>
+
+static gsize
+count (const CeldOp *op)
+{
+  return (gsize) op->picture.width * (gsize) op->picture.height;
+}
+
+/* ------------------------------------------------------------------ memory */
+
+gboolean
+celd_op_new_plane (CeldOp *op, CeldPlane *plane)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *plane = (CeldPlane) { w, h, (size_t) w, celd_op_alloc (op, count (op) * sizeof (float)) };
+  return plane->data != NULL;
+}
+
+gboolean
+celd_op_new_labels (CeldOp *op, CeldLabels *labels)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *labels = (CeldLabels) { w, h, (size_t) w, celd_op_alloc (op, count (op) * sizeof (uint32_t)) };
+  return labels->data != NULL;
+}
+
+gboolean
+celd_op_new_mask (CeldOp *op, CeldMask *mask)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *mask = (CeldMask) { w, h, (size_t) w, celd_op_alloc (op, count (op)) };
+  return mask->data != NULL;
+}
+
+gboolean
+celd_op_new_paint (CeldOp *op, CeldPaint *paint)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *paint = (CeldPaint) { w, h, (size_t) w, celd_op_alloc (op, 4 * count (op)) };
+  return paint->data != NULL;
+}
+
+gboolean
+celd_op_new_vectors (CeldOp *op, CeldVectors *vectors)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *vectors = (CeldVectors) { w, h, (size_t) w, celd_op_alloc (op, 3 * count (op) * sizeof (float)) };
+  return vectors->data != NULL;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static void
+get (CeldOp *op, const char *pad, const GeglRectangle *rect, const char *format, GeglAbyssPolicy outside, void *pixels)
+{
+  GeglBuffer *buffer = GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad));
+
+  gegl_buffer_get (buffer, rect, 1.0, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, outside);
+}
+
+static gboolean
+has_alpha (CeldOp *op, const char *pad)
+{
+  return babl_format_has_alpha (gegl_buffer_get_format (GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad))));
+}
+
+/* Round a layer that is smaller than the picture: nothing, or, if it cannot be seen through, more white paper. */
+static GeglAbyssPolicy
+paper (CeldOp *op, const char *pad)
+{
+  return has_alpha (op, pad) ? GEGL_ABYSS_NONE : GEGL_ABYSS_WHITE;
+}
+
+gboolean
+celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
+{
+  if (!celd_op_new_plane (op, plane))
+    return FALSE;
+  get (op, pad, &op->picture, "Y float", GEGL_ABYSS_NONE, plane->data);
+  return TRUE;
+}
+
+gboolean
+celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
+{
+  if (!celd_op_new_paint (op, paint))
+    return FALSE;
+  get (op, pad, &op->picture, "R'G'B'A u8", paper (op, pad), paint->data);
+  return TRUE;
+}
+
+/* Luma of encoded values, which babl's Y' is not: that is encoded luminance, much lighter for strong colours. */
+gboolean
+celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
+{
+  GeglRectangle row = { op->picture.x, op->picture.y, op->picture.width, 1 };
+  gsize         w = (gsize) row.width;
+  float        *rgba = celd_op_alloc (op, w * 4 * sizeof (float));
+
+  *drawing = (CeldDrawing) { 0 };
+  if (!rgba || !celd_op_new_plane (op, &drawing->luma) || (has_alpha (op, pad) && !celd_op_new_plane (op, &drawing->alpha)))
+    return FALSE;
+  for (gsize y = 0; y < (gsize) op->picture.height; y++, row.y++)
+    {
+      get (op, pad, &row, "R'G'B'A float", paper (op, pad), rgba);
+      for (gsize x = 0; x < w; x++)
+        {
+          const float *p = rgba + 4 * x;
+
+          drawing->luma.data[y * w + x] = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+          if (drawing->alpha.data)
+            drawing->alpha.data[y * w + x] = p[3];
+        }
+    }
+  return TRUE;
+}
+
+gboolean
+celd_op_read_ink (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink)
+{
+  CeldDrawing drawing;
+
+  return celd_op_read_drawing (op, pad, &drawing) &&
+         celd_op_new_plane (op, ink) &&
+         celd_op_try (op, celd_ink (&drawing, mode, &op->quiet, ink));
+}
+
+gboolean
+celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *settings, CeldLabels *seeds)
+{
+  CeldPaint paint;
+
+  if (!celd_op_new_labels (op, seeds))
+    return FALSE;
+  memset (seeds->data, 0, count (op) * sizeof (uint32_t));
+  return !celd_op_has (op, pad) ||
+         (celd_op_read_paint (op, pad, &paint) &&
+          celd_op_try (op, celd_scribbles_read (&paint, settings, &op->quiet, seeds, &op->palette)));
+}
+
+gboolean
+celd_op_read_relations (CeldOp *op, const char *text, const char *pad, CeldArrowStyle style)
+{
+  CeldTextError error = { 0 };
+  CeldPaint     paint;
+
+  return celd_op_try_text (op, celd_relations_parse (text ? text : "", &op->relations, &error), &error) &&
+         (!celd_op_has (op, pad) ||
+          (celd_op_read_paint (op, pad, &paint) &&
+           celd_op_try (op, celd_arrows_read (&paint, style, &op->quiet, &op->relations, &op->problems))));
+}
+
+void
+celd_op_get_colour (GeglColor *colour, uint8_t rgb[3])
+{
+  if (colour)
+    gegl_color_get_pixel (colour, babl_format ("R'G'B' u8"), rgb);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+gboolean
+celd_op_write (CeldOp *op, const void *pixels)
+{
+  GeglBuffer *output = gegl_operation_context_get_target (op->context, "output");
+  const Babl *format = gegl_operation_get_format (GEGL_OPERATION (op->operation), "output");
+
+  gegl_buffer_set (output, &op->picture, 0, format, pixels, GEGL_AUTO_ROWSTRIDE);
+  return TRUE;
+}
+
+gboolean
+celd_op_write_drawing (CeldOp *op, const CeldDrawing *drawing)
+{
+  float *pairs;
+
+  if (!drawing->alpha.data)
+    return celd_op_write (op, drawing->luma.data);
+  pairs = celd_op_alloc (op, 2 * count (op) * sizeof (float));
+  if (!pairs)
+    return FALSE;
+  for (gsize i = 0; i < count (op); i++)
+    {
+      pairs[2 * i]     = drawing->luma.data[i];
+      pairs[2 * i + 1] = drawing->alpha.data[i];
+    }
+  return celd_op_write (op, pairs);
+}
+
+gboolean
+celd_op_write_paint (CeldOp *op, const CeldLabels *labels, const CeldPalette *palette)
+{
+  CeldPaint paint;
+
+  return celd_op_new_paint (op, &paint) &&
+         celd_op_try (op, celd_labels_paint (labels, palette, &paint)) &&
+         celd_op_write (op, paint.data);
+}
+
+gboolean
+celd_op_write_lit (CeldOp *op, const char *pad, const CeldPlane *light)
+{
+  float *rgba = celd_op_alloc (op, 4 * count (op) * sizeof (float));
+
+  if (!rgba)
+    return FALSE;
+  get (op, pad, &op->picture, "RGBA float", paper (op, pad), rgba);
+  for (gsize i = 0; i < count (op); i++)
+    for (int c = 0; c < 3; c++)
+      rgba[4 * i + (gsize) c] *= light->data[i];
+  return celd_op_write (op, rgba);
+}
+
+gboolean
+celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean directx)
+{
+  CeldVectors stored;
+  float       up = directx ? -0.5f : 0.5f;
+
+  if (!celd_op_new_vectors (op, &stored))
+    return FALSE;
+  for (gsize i = 0; i < count (op); i++)
+    {
+      stored.data[3 * i]     = 0.5f + 0.5f * normals->data[3 * i];
+      stored.data[3 * i + 1] = 0.5f + up * normals->data[3 * i + 1];
+      stored.data[3 * i + 2] = 0.5f + 0.5f * normals->data[3 * i + 2];
+    }
+  return celd_op_write (op, stored.data);
+}

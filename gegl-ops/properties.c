@@ -1,0 +1,73 @@
+/* The enumerations of the properties as GEGL knows them: a name for dialogs, a nick for the command line.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "properties.h"
+
+#define ENUM_TYPE(function, Name, ...)                                \
+  GType                                                               \
+  function (void)                                                     \
+  {                                                                   \
+    static const GEnumValue values[] = { __VA_ARGS__, { 0, NULL, NULL } }; \
+    static GType            type;                                     \
+                                                                      \
+    if (!type)                                                        \
+      type = g_enum_register_static (Name, values);                   \
+    return type;                                                      \
+  }
+
+ENUM_TYPE (celd_ink_mode_get_type, "CeldInkMode",
+           { CELD_INK_AUTO, "Automatic", "auto" },
+           { CELD_INK_DARK, "Dark lines", "dark" },
+           { CELD_INK_LIGHT, "Light lines", "light" },
+           { CELD_INK_ALPHA, "What is opaque", "alpha" })
+
+ENUM_TYPE (celd_method_get_type, "CeldMethod",
+           { CELD_METHOD_EXACT, "Exact", "exact" })
+
+ENUM_TYPE (celd_background_get_type, "CeldBackground",
+           { CELD_BACKGROUND_AUTO, "Along the frame", "auto" },
+           { CELD_BACKGROUND_NONE, "None", "none" },
+           { CELD_BACKGROUND_COLOUR, "Of a colour", "colour" })
+
+ENUM_TYPE (celd_seeds_get_type, "CeldSeeds",
+           { CELD_SEEDS_AUTO, "Where no scribble is", "auto" },
+           { CELD_SEEDS_SCRIBBLES, "Never", "scribbles" })
+
+ENUM_TYPE (celd_same_colour_get_type, "CeldSameColour",
+           { CELD_SAME_COLOUR_ONE, "One depth", "one" },
+           { CELD_SAME_COLOUR_SEPARATE, "Separate", "separate" })
+
+ENUM_TYPE (celd_arrow_style_get_type, "CeldArrowStyle",
+           { CELD_ARROW_HEAD, "The arrowhead points at the farther part", "head" },
+           { CELD_ARROW_DOT, "A dot marks the nearer end", "dot" },
+           { CELD_ARROW_FADE, "The opaque end is nearer", "fade" },
+           { CELD_ARROW_TAPER, "The thick end is nearer", "taper" })
+
+ENUM_TYPE (celd_anchors_get_type, "CeldAnchors",
+           { CELD_ANCHORS_SCRIBBLES, "Scribbles", "scribbles" },
+           { CELD_ANCHORS_ARROWS, "Ends of arrows", "arrows" },
+           { CELD_ANCHORS_BOTH, "Scribbles and arrows", "both" },
+           { CELD_ANCHORS_CORE, "The core of each region", "core" })
+
+ENUM_TYPE (celd_encoding_get_type, "CeldEncoding",
+           { CELD_ENCODING_NORMALIZED, "From 0 to 1", "normalized" },
+           { CELD_ENCODING_RANK, "Ranks", "rank" },
+           { CELD_ENCODING_FIXED, "Fixed scale", "fixed" })
+
+ENUM_TYPE (celd_purpose_get_type, "CeldPurpose",
+           { CELD_FOR_SEGMENTATION, "For segmentation", "segmentation" },
+           { CELD_FOR_DEPTH, "For depth", "depth" })
+
+ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
+           { CELD_LUMO_ART, "Shaded art", "art" },
+           { CELD_LUMO_SHADING, "Shading", "shading" },
+           { CELD_LUMO_NORMALS, "Normals", "normals" })
+
+ENUM_TYPE (celd_popup_result_get_type, "CeldPopupResult",
+           { CELD_POPUP_LABELS, "Labels: the regions as flat colours", "labels" },
+           { CELD_POPUP_ORDER, "Order: the level of each region", "order" },
+           { CELD_POPUP_LEVELS, "Levels: ink given to its owner", "levels" },
+           { CELD_POPUP_DEPTH, "Depth: smooth", "depth" },
+           { CELD_POPUP_NORMALS, "Normals", "normals" },
+           { CELD_POPUP_SHADING, "Shading", "shading" })

@@ -1,0 +1,145 @@
+/* The settings of core as properties, one wording for all operations that have them.
+ *
+ * For the property list of an operation, which gegl-op.h reads several times with other meanings of property_double ()
+ * and its kin; hence macros.  The enumerations are core's own where it has them; their types are in properties.c.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PROPERTIES_H
+#define CELD_PROPERTIES_H
+
+#include "op.h"
+
+GType celd_ink_mode_get_type    (void);
+GType celd_method_get_type      (void);
+GType celd_background_get_type  (void);
+GType celd_seeds_get_type       (void);
+GType celd_same_colour_get_type (void);
+GType celd_arrow_style_get_type (void);
+GType celd_anchors_get_type     (void);
+GType celd_encoding_get_type    (void);
+GType celd_purpose_get_type     (void);
+
+typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
+typedef enum
+{
+  CELD_POPUP_LABELS, CELD_POPUP_ORDER, CELD_POPUP_LEVELS, CELD_POPUP_DEPTH, CELD_POPUP_NORMALS, CELD_POPUP_SHADING
+} CeldPopupResult;
+
+GType celd_lumo_result_get_type  (void);
+GType celd_popup_result_get_type (void);
+
+/* ------------------------------------------------------------------ the drawing */
+
+#define CELD_PROPERTY_INK \
+  property_enum (ink, "Ink", CeldInkMode, celd_ink_mode, CELD_INK_AUTO) \
+    description ("What is ink: lines darker than the paper, lighter than the paper (chalk), or whatever is painted on a transparent layer")
+
+#define CELD_PROPERTY_INK_THRESHOLD \
+  property_double (ink_threshold, "Ink threshold", 0.25) \
+    description ("Ink at or below this value counts as fully inked: 0 is ink, 1 is paper. Raise it if depth leaks through pale contours") \
+    value_range (0.0, 0.99) \
+    ui_range (0.0, 0.6) \
+    ui_steps (0.01, 0.05) \
+    ui_digits (2)
+
+/* ------------------------------------------------------------------ scribbles and regions */
+
+#define CELD_PROPERTY_METHOD \
+  property_enum (method, "Method", CeldMethod, celd_method, CELD_METHOD_EXACT) \
+    description ("How regions are found")
+
+#define CELD_PROPERTY_HARDNESS \
+  property_double (hardness, "Hardness", 0.05) \
+    description ("Soft strokes may be sloppy: the majority of paint wins. At 1 every painted pixel is obeyed") \
+    value_range (0.01, 1.0) \
+    ui_range (0.01, 1.0) \
+    ui_gamma (2.0) \
+    ui_digits (2)
+
+#define CELD_PROPERTY_FLATS \
+  property_boolean (flats, "Scribbles are flat colours", FALSE) \
+    description ("The scribbles layer is a finished flat colouring: each of its colours is a region")
+
+#define CELD_PROPERTY_BACKGROUND \
+  property_enum (background, "Background", CeldBackground, celd_background, CELD_BACKGROUND_AUTO) \
+    description ("Which region lies behind all others: the one along the frame, none, or the one of a colour") \
+  property_color (background_colour, "Background colour", "white") \
+    description ("The scribble colour of the background") \
+    ui_meta ("visible", "background {colour}")
+
+#define CELD_PROPERTY_SEEDS \
+  property_enum (seeds, "Regions from arrows", CeldSeeds, celd_seeds, CELD_SEEDS_AUTO) \
+    description ("May the end of an arrow in a region without a scribble make that region one of its own?")
+
+#define CELD_PROPERTY_SAME_COLOUR \
+  property_enum (same_colour, "Same colour", CeldSameColour, celd_same_colour, CELD_SAME_COLOUR_ONE) \
+    description ("Do all regions of one colour have one depth, or has each of them its own?")
+
+/* ------------------------------------------------------------------ relations and levels */
+
+#define CELD_PROPERTY_RELATIONS \
+  property_string (relations, "Relations", "") \
+    description ("What is nearer than what, in words: 120,80 > 300,95 compares two points, #ff0000 > #00ff00 two colours, = means equal. One a line, or with ; between") \
+    ui_meta ("multiline", "true")
+
+#define CELD_PROPERTY_ARROW_STYLE \
+  property_enum (arrow_style, "Arrow style", CeldArrowStyle, celd_arrow_style, CELD_ARROW_HEAD) \
+    description ("How a painted arrow says which of its ends is nearer")
+
+#define CELD_PROPERTY_ENCODING \
+  property_enum (encoding, "Encoding", CeldEncoding, celd_encoding, CELD_ENCODING_NORMALIZED) \
+    description ("How levels leave: from 0 to 1, as ranks 0, 1, 2, ..., or on a fixed scale that a new arrow does not change") \
+  property_double (near_level, "Near level", 1.0) \
+    description ("This level becomes 1") \
+    value_range (-1e6, 1e6) \
+    ui_range (0.0, 20.0) \
+    ui_meta ("visible", "encoding {fixed}") \
+  property_double (far_level, "Far level", 0.0) \
+    description ("This level becomes 0; it must be less than the near level") \
+    value_range (-1e6, 1e6) \
+    ui_range (0.0, 20.0) \
+    ui_meta ("visible", "encoding {fixed}")
+
+/* ------------------------------------------------------------------ smooth depth */
+
+#define CELD_PROPERTY_TOLERANCE \
+  property_double (tolerance, "Tolerance", 1e-4) \
+    description ("Largest error of smooth depth, as a share of its range") \
+    value_range (1e-7, 0.1) \
+    ui_range (1e-5, 1e-2) \
+    ui_gamma (3.0) \
+    ui_digits (5)
+
+/* ------------------------------------------------------------------ normals and light */
+
+#define CELD_PROPERTY_BULGE \
+  property_double (bulge, "Bulge", 1.0) \
+    description ("How round the parts look: 0 is flat, 1 like balls") \
+    value_range (0.0, 4.0) \
+    ui_range (0.0, 2.0) \
+    ui_digits (2)
+
+#define CELD_PROPERTY_LIGHT \
+  property_double (light_azimuth, "Light azimuth", 135.0) \
+    description ("Where the light comes from: 0 from the right, 90 from above, 180 from the left") \
+    value_range (-360.0, 360.0) \
+    ui_range (0.0, 360.0) \
+    ui_meta ("unit", "degree") \
+    ui_meta ("direction", "ccw") \
+  property_double (light_elevation, "Light elevation", 45.0) \
+    description ("How high the light stands: 0 beside the picture, 90 before it") \
+    value_range (-90.0, 90.0) \
+    ui_range (0.0, 90.0) \
+    ui_meta ("unit", "degree") \
+  property_double (ambient, "Ambient light", 0.25) \
+    description ("The share of light that reaches every pixel") \
+    value_range (0.0, 1.0) \
+    ui_digits (2)
+
+#define CELD_PROPERTY_DIRECTX \
+  property_boolean (directx, "DirectX normals", FALSE) \
+    description ("Green points down, as DirectX wants it, and not up as in OpenGL") \
+    ui_meta ("visible", "result {normals}")
+
+#endif
