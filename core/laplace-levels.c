@@ -1,0 +1,516 @@
+/* The coarse levels of the Laplacian solver: component-split quadtree aggregation.
+ *
+ * A node of level l is one strongly connected component of pixels inside one cell of 2^l x 2^l pixels, so that no wall,
+ * however thin, is averaged over.  A node whose links are all weak beside those of its strongest neighbour hangs on that
+ * neighbour's aggregate as a leaf and joins nothing else.  Prolongation is constant on aggregates, so that coarse
+ * weights are plain sums, never differences.  Aggregation that is this simple needs two helps: the correction is
+ * stretched, and each level is solved by up to two steps of a flexible conjugate gradient round the next cycle
+ * (K-cycle, Y. Notay and P. S. Vassilevski, "Recursive Krylov-based multigrid cycles", 2008).
+ * Cost: O(pixels) set-up and cycle; about 25 bytes a pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "laplace.h"
+
+#include <string.h>
+
+#define STRONG      0.2f /* of the strongest link of either end: a strong link */
+#define BOTTOM      150  /* nodes that are eliminated directly */
+#define FEWER       0.6  /* share of nodes that a new level may keep at most */
+#define WHOLE       15   /* doublings after which every cell is the whole picture: 2^15 > CELD_MAX_SIDE */
+#define STRETCH     1.4f /* of the coarse correction */
+#define ENOUGH      0.25 /* of the residual left after one inner step: no second one */
+
+/* ------------------------------------------------------------------ the graph of a level */
+
+static void
+level_clear (CeldLevel *level)
+{
+  void *part[] = { level->start, level->neighbour, level->weight, level->sink, level->inverse, level->coarser,
+                   level->cell, level->b, level->x, level->step, level->image, level->image2 };
+
+  for (size_t i = 0; i < sizeof part / sizeof *part; i++)
+    celd_free (part[i]);
+  *level = (CeldLevel) { 0 };
+}
+
+/* What every level has before its edges are known. */
+static CeldStatus
+level_new (uint32_t n, CeldLevel *level)
+{
+  *level = (CeldLevel) {
+    .n       = n,
+    .start   = celd_alloc0 ((size_t) n + 1, sizeof (uint32_t)),
+    .sink    = celd_alloc0 (n, sizeof (float)),
+    .coarser = celd_alloc (n, sizeof (uint32_t)),
+    .cell    = celd_alloc (2 * (size_t) n, sizeof (uint16_t)),
+  };
+  return level->start && level->sink && level->coarser && level->cell ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static CeldStatus
+level_edges (CeldLevel *level, uint32_t edges)
+{
+  level->neighbour = celd_alloc (edges, sizeof (uint32_t));
+  level->weight    = celd_alloc (edges, sizeof (float));
+  return level->neighbour && level->weight ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+add_edge (CeldLevel *level, uint32_t *at, uint32_t j, float w)
+{
+  if (w > 0)
+    {
+      level->neighbour[*at] = j;
+      level->weight[*at]    = w;
+      (*at)++;
+    }
+}
+
+/* The pixels as a graph. */
+static CeldStatus
+pixel_graph (int width, int height, const float *east, const float *south, const float *diagonal, CeldLevel *level)
+{
+  uint32_t   w = (uint32_t) width, h = (uint32_t) height, edges = 0;
+  CeldStatus status = level_new (w * h, level);
+
+  for (uint32_t i = 0; i < w * h; i++)
+    edges += (i % w < w - 1 && east[i] > 0 ? 2u : 0u) + (i / w < h - 1 && south[i] > 0 ? 2u : 0u);
+  if (status == CELD_OK)
+    status = level_edges (level, edges);
+  if (status != CELD_OK)
+    return status;
+  memcpy (level->sink, diagonal, (size_t) w * h * sizeof (float));
+  edges = 0;
+  for (uint32_t y = 0, i = 0; y < h; y++)
+    for (uint32_t x = 0; x < w; x++, i++)
+      {
+        if (y > 0)
+          add_edge (level, &edges, i - w, south[i - w]);
+        if (x > 0)
+          add_edge (level, &edges, i - 1, east[i - 1]);
+        if (x < w - 1)
+          add_edge (level, &edges, i + 1, east[i]);
+        if (y < h - 1)
+          add_edge (level, &edges, i + w, south[i]);
+        level->start[i + 1]    = edges;
+        level->cell[2 * i]     = (uint16_t) x;
+        level->cell[2 * i + 1] = (uint16_t) y;
+      }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ aggregation */
+
+static uint32_t
+root_of (uint32_t *parent, uint32_t i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/* The smaller index stays the root, so that aggregates keep the order of their first nodes. */
+static void
+unite (uint32_t *parent, uint32_t i, uint32_t j)
+{
+  i = root_of (parent, i);
+  j = root_of (parent, j);
+  if (i < j)
+    parent[j] = i;
+  else
+    parent[i] = j;
+}
+
+static bool
+same_cell (const CeldLevel *level, uint32_t i, uint32_t j, int doublings)
+{
+  const uint16_t *c = level->cell;
+
+  return c[2 * i] >> doublings == c[2 * j] >> doublings && c[2 * i + 1] >> doublings == c[2 * j + 1] >> doublings;
+}
+
+/* Position of the strongest link of node i, which has at least one. */
+static uint32_t
+strongest_link (const CeldLevel *level, uint32_t i)
+{
+  uint32_t best = level->start[i];
+
+  for (uint32_t e = best + 1; e < level->start[i + 1]; e++)
+    if (level->weight[e] > level->weight[best])
+      best = e;
+  return best;
+}
+
+/* Fills level->coarser with the aggregates inside cells that are 2^doublings times larger; returns their number.
+ * link: workspace of n, the strongest link of each node. */
+static uint32_t
+aggregate (CeldLevel *level, int doublings, float strong, uint32_t *link)
+{
+  uint32_t *parent = level->coarser, count = 0;
+
+  for (uint32_t i = 0; i < level->n; i++)
+    {
+      parent[i] = i;
+      link[i]   = level->start[i] < level->start[i + 1] ? strongest_link (level, i) : CELD_NO_NODE;
+    }
+  for (uint32_t i = 0; i < level->n; i++)
+    {
+      if (link[i] == CELD_NO_NODE)
+        continue;
+
+      float    own  = level->weight[link[i]];
+      uint32_t best = level->neighbour[link[i]];
+
+      if (own < strong * level->weight[link[best]]) /* a leaf */
+        {
+          if (same_cell (level, i, best, doublings))
+            unite (parent, i, best);
+          continue;
+        }
+      for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
+        {
+          uint32_t j     = level->neighbour[e];
+          float    other = level->weight[link[j]];
+
+          if (j > i && level->weight[e] >= strong * (own > other ? own : other) && same_cell (level, i, j, doublings))
+            unite (parent, i, j);
+        }
+    }
+  for (uint32_t i = 0; i < level->n; i++) /* a root comes before its members */
+    if (link[i] == CELD_NO_NODE)
+      parent[i] = CELD_NO_NODE;
+    else if (parent[i] == i)
+      link[i] = count++;
+    else
+      link[i] = link[root_of (parent, i)];
+  for (uint32_t i = 0; i < level->n; i++)
+    if (parent[i] != CELD_NO_NODE)
+      parent[i] = link[i];
+  return count;
+}
+
+/* The nodes of `fine` by aggregate: those of aggregate c are member[first[c]] .. member[first[c+1]-1]. */
+static void
+list_members (const CeldLevel *fine, uint32_t n, uint32_t *first, uint32_t *member)
+{
+  memset (first, 0, ((size_t) n + 1) * sizeof *first);
+  for (uint32_t i = 0; i < fine->n; i++)
+    if (fine->coarser[i] != CELD_NO_NODE)
+      first[fine->coarser[i]]++;
+  for (uint32_t c = 1; c <= n; c++)
+    first[c] += first[c - 1];
+  for (uint32_t i = fine->n; i-- > 0;)
+    if (fine->coarser[i] != CELD_NO_NODE)
+      member[--first[fine->coarser[i]]] = i;
+}
+
+/* Edges between aggregates: sums of the weights of the edges between their members.  With coarse->neighbour NULL they
+ * are only counted.  place: workspace of n, the position of the edge to each aggregate in the row that is being made. */
+static uint32_t
+sum_edges (const CeldLevel *fine, const uint32_t *first, const uint32_t *member, uint32_t *place, CeldLevel *coarse)
+{
+  uint32_t edges = 0;
+
+  for (uint32_t c = 0; c < coarse->n; c++)
+    place[c] = CELD_NO_NODE;
+  for (uint32_t c = 0; c < coarse->n; c++)
+    {
+      for (uint32_t m = first[c]; m < first[c + 1]; m++)
+        for (uint32_t e = fine->start[member[m]]; e < fine->start[member[m] + 1]; e++)
+          {
+            uint32_t d = fine->coarser[fine->neighbour[e]];
+
+            if (d == c)
+              continue;
+            if (place[d] == CELD_NO_NODE || place[d] < coarse->start[c])
+              {
+                place[d] = edges++;
+                if (coarse->neighbour)
+                  {
+                    coarse->neighbour[place[d]] = d;
+                    coarse->weight[place[d]]    = 0;
+                  }
+              }
+            if (coarse->neighbour)
+              coarse->weight[place[d]] += fine->weight[e];
+          }
+      coarse->start[c + 1] = edges;
+    }
+  return edges;
+}
+
+/* The next level from the aggregates of `fine`. */
+static CeldStatus
+contract (const CeldLevel *fine, uint32_t n, int doublings, CeldLevel *coarse)
+{
+  uint32_t  *first  = celd_alloc ((size_t) n + 1, sizeof *first);
+  uint32_t  *member = celd_alloc (fine->n, sizeof *member);
+  uint32_t  *place  = celd_alloc (n, sizeof *place);
+  CeldStatus status = first && member && place ? level_new (n, coarse) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      list_members (fine, n, first, member);
+      status = level_edges (coarse, sum_edges (fine, first, member, place, coarse));
+    }
+  if (status == CELD_OK)
+    {
+      sum_edges (fine, first, member, place, coarse);
+      for (uint32_t c = 0; c < n; c++)
+        {
+          for (uint32_t m = first[c]; m < first[c + 1]; m++)
+            coarse->sink[c] += fine->sink[member[m]];
+          coarse->cell[2 * c]     = (uint16_t) (fine->cell[2 * member[first[c]]] >> doublings);
+          coarse->cell[2 * c + 1] = (uint16_t) (fine->cell[2 * member[first[c]] + 1] >> doublings);
+        }
+    }
+  celd_free (first);
+  celd_free (member);
+  celd_free (place);
+  return status;
+}
+
+/* Aggregates `fine` until few enough nodes are left: cells are doubled once, more often where walls keep too many
+ * nodes apart; once a cell is the whole picture, weaker and weaker links count as strong. */
+static CeldStatus
+coarsen (CeldLevel *fine, int *doubled, CeldLevel *coarse)
+{
+  uint32_t *link      = celd_alloc (fine->n, sizeof *link);
+  int       doublings = 1;
+  float     strong    = STRONG;
+  uint32_t  n;
+
+  if (!link)
+    return CELD_NO_MEMORY;
+  while ((n = aggregate (fine, doublings, strong, link)) > FEWER * (double) fine->n)
+    if (*doubled + doublings < WHOLE)
+      doublings++;
+    else if (strong > 0)
+      strong = strong > 1e-9f ? 0.1f * strong : 0;
+    else
+      break;
+  celd_free (link);
+  *doubled += doublings;
+  if (*doubled > WHOLE)
+    *doubled = WHOLE;
+  return contract (fine, n, doublings, coarse);
+}
+
+/* ------------------------------------------------------------------ set-up */
+
+/* What the cycle needs beside the edges. */
+static CeldStatus
+ready_cycle (CeldLevel *level)
+{
+  float **vector[] = { &level->inverse, &level->b, &level->x, &level->step, &level->image, &level->image2 };
+
+  for (size_t v = 0; v < sizeof vector / sizeof *vector; v++)
+    if (!(*vector[v] = celd_alloc0 (level->n, sizeof (float))))
+      return CELD_NO_MEMORY;
+  for (uint32_t i = 0; i < level->n; i++)
+    {
+      float diagonal = level->sink[i];
+
+      for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
+        diagonal += level->weight[e];
+      level->inverse[i] = diagonal > 0 ? 1 / diagonal : 0;
+    }
+  return CELD_OK;
+}
+
+static CeldStatus
+eliminate_last (const CeldLevel *last, CeldBand *bottom)
+{
+  uint32_t   band   = last->n > 1 ? last->n - 1 : 1;
+  CeldStatus status = celd_band_new (last->n, band, bottom);
+
+  if (status != CELD_OK)
+    return status;
+  for (uint32_t i = 0; i < last->n; i++)
+    {
+      bottom->sink[i] = (double) last->sink[i];
+      for (uint32_t e = last->start[i]; e < last->start[i + 1]; e++)
+        if (last->neighbour[e] > i)
+          bottom->weight[(size_t) i * band + last->neighbour[e] - i - 1] = (double) last->weight[e];
+    }
+  celd_band_eliminate (bottom);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_levels_new (int width, int height, const float *east, const float *south, const float *diagonal,
+                 const CeldRun *run, CeldLevels *levels)
+{
+  CeldLevel  pixels  = { 0 };
+  CeldLevel *fine    = &pixels;
+  int        doubled = 0;
+  CeldStatus status;
+
+  *levels = (CeldLevels) { 0 };
+  status = pixel_graph (width, height, east, south, diagonal, &pixels);
+  while (status == CELD_OK && (fine == &pixels || fine->n > BOTTOM) && levels->n < CELD_MAX_LEVELS)
+    {
+      CeldLevel *coarse = &levels->level[levels->n++];
+
+      status = celd_step (run, doubled / (double) WHOLE);
+      if (status == CELD_OK)
+        status = coarsen (fine, &doubled, coarse);
+      if (status == CELD_OK)
+        status = ready_cycle (coarse);
+      celd_free (fine->cell);
+      fine->cell = NULL;
+      fine = coarse;
+    }
+  if (status == CELD_OK)
+    status = eliminate_last (fine, &levels->bottom);
+  levels->coarser = pixels.coarser;
+  pixels.coarser  = NULL;
+  level_clear (&pixels);
+  if (status != CELD_OK)
+    celd_levels_clear (levels);
+  return status;
+}
+
+void
+celd_levels_clear (CeldLevels *levels)
+{
+  for (int l = 0; l < levels->n; l++)
+    level_clear (&levels->level[l]);
+  celd_band_clear (&levels->bottom);
+  celd_free (levels->coarser);
+  *levels = (CeldLevels) { 0 };
+}
+
+/* ------------------------------------------------------------------ the cycle */
+
+static void
+relax (const CeldLevel *level, uint32_t i, const float *b, float *x)
+{
+  float sum = b[i];
+
+  for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
+    sum += level->weight[e] * x[level->neighbour[e]];
+  x[i] = sum * level->inverse[i];
+}
+
+/* Row i of A x; differences first, so that flat parts give exactly nothing. */
+static float
+apply (const CeldLevel *level, uint32_t i, const float *x)
+{
+  float sum = level->sink[i] * x[i];
+
+  for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
+    sum += level->weight[e] * (x[i] - x[level->neighbour[e]]);
+  return sum;
+}
+
+static double
+apply_dot (const CeldLevel *level, const float *x, float *image)
+{
+  double dot = 0;
+
+  for (uint32_t i = 0; i < level->n; i++)
+    {
+      image[i] = apply (level, i, x);
+      dot += (double) x[i] * (double) image[i];
+    }
+  return dot;
+}
+
+static double
+dot (const CeldLevel *level, const float *a, const float *b)
+{
+  double sum = 0;
+
+  for (uint32_t i = 0; i < level->n; i++)
+    sum += (double) a[i] * (double) b[i];
+  return sum;
+}
+
+static void krylov (CeldLevels *levels, int l);
+
+/* One cycle of level l, not the last: x becomes approximately the solution for level->b. */
+static void
+cycle (CeldLevels *levels, int l, float *x)
+{
+  CeldLevel *level = &levels->level[l], *next = level + 1;
+
+  memset (x, 0, level->n * sizeof *x);
+  for (uint32_t i = 0; i < level->n; i++)
+    relax (level, i, level->b, x);
+
+  memset (next->b, 0, next->n * sizeof *next->b);
+  for (uint32_t i = 0; i < level->n; i++)
+    if (level->coarser[i] != CELD_NO_NODE)
+      next->b[level->coarser[i]] += level->b[i] - apply (level, i, x);
+  krylov (levels, l + 1);
+  for (uint32_t i = 0; i < level->n; i++)
+    if (level->coarser[i] != CELD_NO_NODE)
+      x[i] += STRETCH * next->x[level->coarser[i]];
+
+  for (uint32_t i = level->n; i-- > 0;)
+    relax (level, i, level->b, x);
+}
+
+static void
+solve_last (CeldLevels *levels)
+{
+  CeldLevel *last = &levels->level[levels->n - 1];
+
+  for (uint32_t i = 0; i < last->n; i++)
+    levels->bottom.x[i] = (double) last->b[i];
+  celd_band_solve (&levels->bottom);
+  for (uint32_t i = 0; i < last->n; i++)
+    last->x[i] = (float) levels->bottom.x[i];
+}
+
+/* Level l: level->x becomes approximately the solution for level->b, which is used up. */
+static void
+krylov (CeldLevels *levels, int l)
+{
+  CeldLevel *level = &levels->level[l];
+  float     *x = level->x, *y = level->step, *ax = level->image, *ay = level->image2;
+  double     before, after = 0, rho, alpha;
+
+  if (l == levels->n - 1)
+    {
+      solve_last (levels);
+      return;
+    }
+
+  cycle (levels, l, x);
+  before = dot (level, level->b, level->b);
+  rho    = apply_dot (level, x, ax);
+  if (!(rho > 0))
+    return;
+  alpha = dot (level, x, level->b) / rho;
+  for (uint32_t i = 0; i < level->n; i++)
+    {
+      level->b[i] -= (float) alpha * ax[i];
+      after += (double) level->b[i] * (double) level->b[i];
+    }
+
+  double first = alpha, second = 0;
+  if (after > ENOUGH * ENOUGH * before)
+    {
+      cycle (levels, l, y);
+
+      double gamma = dot (level, y, ax), beta = apply_dot (level, y, ay) - gamma * gamma / rho;
+
+      if (beta > 0)
+        {
+          second = dot (level, y, level->b) / beta;
+          first -= second * gamma / rho;
+        }
+    }
+  for (uint32_t i = 0; i < level->n; i++)
+    x[i] = (float) first * x[i] + (second != 0 ? (float) second * y[i] : 0.f);
+}
+
+void
+celd_levels_solve (CeldLevels *levels)
+{
+  if (levels->n > 0)
+    krylov (levels, 0);
+}
