@@ -1,0 +1,231 @@
+/* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors (the paper's U_o).
+ *
+ * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
+ * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink of the 3x3
+ * neighbourhoods of p and q, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are
+ * expanded or not, and a gap or a virtual contour gives a smooth transition.
+ *
+ * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
+ * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  What
+ * no anchor reaches keeps its level, the mean over its area if it has several.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "private.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ weights of edges */
+
+/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture; NaN reads as paper. */
+static float
+least_ink (const CeldPlane *ink, int x0, int y0, int x1, int y1)
+{
+  float least = 1;
+
+  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < ink->height; y++)
+    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < ink->width; x++)
+      if (CELD_AT (ink, x, y) < least)
+        least = CELD_AT (ink, x, y);
+  return least;
+}
+
+static float
+weight (const CeldPlane *ink, float level_p, float level_q, int x0, int y0, int x1, int y1, float threshold)
+{
+  if (level_p == level_q)
+    return 1;
+
+  float least = least_ink (ink, x0, y0, x1, y1);
+
+  return least <= threshold ? 0 : least;
+}
+
+CeldStatus
+celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run, float *east, float *south)
+{
+  int w = ink->width, h = ink->height;
+
+  for (int y = 0; y < h; y++)
+    {
+      size_t i = (size_t) y * (size_t) w;
+
+      if (y % 64 == 0 && celd_step (run, (double) y / h) != CELD_OK)
+        return CELD_CANCELLED;
+      for (int x = 0; x < w; x++, i++)
+        {
+          east[i]  = x + 1 < w ? weight (ink, level[i], level[i + 1], x - 1, y - 1, x + 2, y + 1, threshold) : 0;
+          south[i] = y + 1 < h ? weight (ink, level[i], level[i + (size_t) w], x - 1, y - 1, x + 1, y + 2, threshold) : 0;
+        }
+    }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ levels */
+
+void
+celd_depth_levels (const CeldPlane *levels, float *level)
+{
+  float least = INFINITY;
+
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      if (isfinite (CELD_AT (levels, x, y)) && CELD_AT (levels, x, y) < least)
+        least = CELD_AT (levels, x, y);
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        float d = CELD_AT (levels, x, y);
+
+        *level++ = isfinite (d) ? d + 0.f : isfinite (least) ? least : 0; /* + 0 makes -0 the same level as 0 */
+      }
+}
+
+/* ------------------------------------------------------------------ anchors */
+
+/* Every distinct level as a label: its bits. */
+static CeldStatus
+level_regions (const float *level, const CeldRun *run, CeldLabels *regions, CeldComponent **list, size_t *n)
+{
+  CeldLabels bits;
+  size_t     pixels = (size_t) regions->width * (size_t) regions->height;
+  CeldStatus status = celd_labels_new (regions->width, regions->height, &bits);
+
+  if (status == CELD_OK)
+    {
+      memcpy (bits.data, level, pixels * sizeof *level);
+      status = celd_components (&bits, UINT32_MAX, false, run, regions, list, n);
+    }
+  celd_free (bits.data);
+  return status;
+}
+
+/* Pixels beside another region. */
+static void
+mark_borders (const CeldLabels *regions, uint8_t *border)
+{
+  size_t w = (size_t) regions->width, n = w * (size_t) regions->height;
+
+  memset (border, 0, n);
+  for (size_t i = 0; i < n; i++)
+    {
+      if (i % w + 1 < w && regions->data[i] != regions->data[i + 1])
+        border[i] = border[i + 1] = 1;
+      if (i + w < n && regions->data[i] != regions->data[i + w])
+        border[i] = border[i + w] = 1;
+    }
+}
+
+/* Marks the inner core of each region. */
+static CeldStatus
+inner_cores (int width, int height, const float *level, const CeldRun *run, uint8_t *core)
+{
+  size_t         n = (size_t) width * (size_t) height, count = 0;
+  CeldLabels     regions;
+  CeldComponent *list    = NULL;
+  int32_t       *squared = celd_alloc (n, sizeof *squared), *deepest = NULL;
+  CeldPart       first, second;
+  CeldRun        finding = celd_run_part (&first, run, 0, 0.5), measuring = celd_run_part (&second, run, 0.5, 1);
+  CeldStatus     status  = celd_labels_new (width, height, &regions);
+
+  if (status == CELD_OK)
+    status = squared ? level_regions (level, &finding, &regions, &list, &count) : CELD_NO_MEMORY;
+  if (status != CELD_OK)
+    goto done;
+  deepest = celd_alloc0 (count + 1, sizeof *deepest);
+  mark_borders (&regions, core);
+  status = deepest ? celd_distance (width, height, core, &measuring, squared) : CELD_NO_MEMORY;
+  if (status != CELD_OK)
+    goto done;
+  for (size_t i = 0; i < n; i++)
+    if (squared[i] > deepest[regions.data[i]])
+      deepest[regions.data[i]] = squared[i];
+  for (size_t i = 0; i < n; i++)
+    core[i] = squared[i] >= deepest[regions.data[i]] / 4;
+
+done:
+  celd_free (regions.data);
+  celd_free (list);
+  celd_free (squared);
+  celd_free (deepest);
+  return status;
+}
+
+static CeldStatus
+mark_anchors (int width, int height, const float *level, const CeldMask *anchors, const CeldRun *run, uint8_t *fixed)
+{
+  if (!anchors)
+    return inner_cores (width, height, level, run, fixed);
+  for (int y = 0; y < height; y++)
+    for (int x = 0; x < width; x++)
+      *fixed++ = CELD_AT (anchors, x, y) != 0;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the step */
+
+/* The result, kept within the levels: the solver's error must not carry it beyond. */
+static void
+deliver (const float *x, const CeldPlane *levels, CeldPlane *depth)
+{
+  float low = INFINITY, high = -INFINITY;
+
+  for (int y = 0; y < levels->height; y++)
+    for (int x_ = 0; x_ < levels->width; x_++)
+      if (isfinite (CELD_AT (levels, x_, y)))
+        {
+          low  = fminf (low, CELD_AT (levels, x_, y));
+          high = fmaxf (high, CELD_AT (levels, x_, y));
+        }
+  for (int y = 0; y < depth->height; y++)
+    for (int x_ = 0; x_ < depth->width; x_++, x++)
+      CELD_AT (depth, x_, y) = low <= high ? fminf (fmaxf (*x, low), high) : 0;
+}
+
+CeldStatus
+celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors, const CeldSettings *settings,
+             const CeldRun *run, CeldPlane *depth, CeldSolve *solve)
+{
+  if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, depth) || (anchors && !CELD_SAME_SIZE (ink, anchors)))
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+
+  int          w = ink->width, h = ink->height;
+  size_t       n = (size_t) w * (size_t) h;
+  float       *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
+  float       *diagonal = celd_alloc0 (n, sizeof *diagonal), *b = celd_alloc0 (n, sizeof *b);
+  float       *x = celd_alloc (n, sizeof *x);
+  uint8_t     *fixed = celd_alloc (n, sizeof *fixed);
+  CeldLaplace *laplace = NULL;
+  CeldPart     part[4];
+  CeldRun      anchoring = celd_run_part (&part[0], run, 0, 0.1), weighing = celd_run_part (&part[1], run, 0.1, 0.15);
+  CeldRun      setting_up = celd_run_part (&part[2], run, 0.15, 0.3), solving = celd_run_part (&part[3], run, 0.3, 1);
+  CeldStatus   status = east && south && diagonal && b && x && fixed ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  celd_depth_levels (levels, x);
+  status = mark_anchors (w, h, x, anchors, &anchoring, fixed);
+  if (status == CELD_OK)
+    status = celd_depth_weights (ink, x, settings->ink_threshold, &weighing, east, south);
+  if (status != CELD_OK)
+    goto done;
+  celd_lap_pin (w, h, fixed, 1, x, east, south, diagonal, b);
+  status = celd_lap_setup (w, h, east, south, diagonal, &setting_up, &laplace);
+  if (status == CELD_OK)
+    status = celd_lap_solve (laplace, 1, b, x, (double) settings->tolerance, &solving, solve);
+  if (status == CELD_OK)
+    deliver (x, levels, depth);
+
+done:
+  celd_lap_free (laplace);
+  celd_free (east);
+  celd_free (south);
+  celd_free (diagonal);
+  celd_free (b);
+  celd_free (x);
+  celd_free (fixed);
+  return status;
+}
