@@ -23,6 +23,19 @@
 
 /* ------------------------------------------------------------------ one value a pixel */
 
+/* fminf and fmaxf, but for numbers only and not through a call. */
+static inline float
+least (float a, float b)
+{
+  return a < b ? a : b;
+}
+
+static inline float
+most (float a, float b)
+{
+  return a > b ? a : b;
+}
+
 static float
 in_unit (float value, float otherwise)
 {
@@ -72,7 +85,7 @@ is_line_layer (const CeldDrawing *drawing)
                 float beyond = opacity (drawing, u, v);
 
                 outline += fabsf (alpha - beyond);
-                inside += fminf (alpha, beyond) * fabsf (luma - in_unit (CELD_AT (&drawing->luma, u, v), 1));
+                inside += least (alpha, beyond) * fabsf (luma - in_unit (CELD_AT (&drawing->luma, u, v), 1));
               }
           }
       }
@@ -125,13 +138,13 @@ resolve_mode (const CeldDrawing *drawing, CeldInkMode mode)
 
 typedef struct { int side, width, height; float *level, *spare; } Tiles;
 
-/* The value that a fifth of a tile's pixels exceed; exact where these have one value. */
+/* The commonest value among the lightest fifth of a tile's pixels, edges left out; 0 if all of it is edges. */
 static float
 upper_value (const CeldPlane *value, int left, int top, int side)
 {
   unsigned of[BINS] = { 0 }, all = 0, above = 0;
   double   sum[BINS] = { 0 };
-  int      bin = BINS - 1;
+  int      bin = BINS - 1, fullest;
 
   for (int y = top; y < top + side && y < value->height; y++)
     for (int x = left; x < left + side && x < value->width; x++)
@@ -139,13 +152,20 @@ upper_value (const CeldPlane *value, int left, int top, int side)
         float v = CELD_AT (value, x, y);
         int   i = (int) (v * (BINS - 1) + 0.5f);
 
+        if (fabsf (v - CELD_AT (value, x > 0 ? x - 1 : 0, y)) > 0.06f)
+          continue;
         of[i]++;
         sum[i] += v;
         all++;
       }
-  while (5 * (above += of[bin]) < all)
-    bin--;
-  return (float) (sum[bin] / of[bin]);
+  if (!all)
+    return 0;
+  for (fullest = bin; 5 * (above += of[bin]) < all; bin--)
+    if (of[bin] > of[fullest])
+      fullest = bin;
+  if (of[bin] > of[fullest])
+    fullest = bin;
+  return (float) (sum[fullest] / of[fullest]);
 }
 
 /* Keeps the tiles whose level can be reached from the brightest in small steps, as shadows and vignettes can; sets the
@@ -157,7 +177,7 @@ drop_inked_tiles (Tiles *t)
   bool  moved = true;
 
   for (int i = 0; i < t->width * t->height; i++)
-    brightest = fmaxf (brightest, t->level[i]);
+    brightest = most (brightest, t->level[i]);
   for (int i = 0; i < t->width * t->height; i++)
     t->spare[i] = t->level[i] >= 0.9f * brightest ? t->level[i] : 0;
   while (moved)
@@ -171,10 +191,10 @@ drop_inked_tiles (Tiles *t)
 
             if (t->spare[i] > 0)
               continue;
-            around = fmaxf (around, x > 0 ? t->spare[i - 1] : 0);
-            around = fmaxf (around, x < t->width - 1 ? t->spare[i + 1] : 0);
-            around = fmaxf (around, y > 0 ? t->spare[i - t->width] : 0);
-            around = fmaxf (around, y < t->height - 1 ? t->spare[i + t->width] : 0);
+            around = most (around, x > 0 ? t->spare[i - 1] : 0);
+            around = most (around, x < t->width - 1 ? t->spare[i + 1] : 0);
+            around = most (around, y > 0 ? t->spare[i - t->width] : 0);
+            around = most (around, y < t->height - 1 ? t->spare[i + t->width] : 0);
             if (around > 0 && t->level[i] >= 0.8f * around)
               {
                 t->spare[i] = t->level[i];
@@ -231,8 +251,8 @@ fill_tiles (Tiles *t)
 static float
 paper_at (const Tiles *t, int x, int y)
 {
-  float u = fminf (fmaxf (((float) x + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->width - 1));
-  float v = fminf (fmaxf (((float) y + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->height - 1));
+  float u = least (most (((float) x + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->width - 1));
+  float v = least (most (((float) y + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->height - 1));
   int   i = (int) u, j = (int) v, right = i + 1 < t->width, below = j + 1 < t->height ? t->width : 0;
   const float *l = t->level + j * t->width + i;
 
@@ -245,8 +265,8 @@ paper_at (const Tiles *t, int x, int y)
 static CeldStatus
 flatten_paper (CeldPlane *value)
 {
-  int        least = value->width < value->height ? value->width : value->height;
-  Tiles      t = { .side = least / 24 < 16 ? 16 : least / 24 };
+  int        smaller = value->width < value->height ? value->width : value->height;
+  Tiles      t = { .side = smaller / 24 < 16 ? 16 : smaller / 24 };
   CeldStatus status = CELD_NO_MEMORY;
 
   t.width = (value->width + t.side - 1) / t.side;
@@ -257,12 +277,12 @@ flatten_paper (CeldPlane *value)
     goto done;
   for (int y = 0; y < t.height; y++)
     for (int x = 0; x < t.width; x++)
-      t.level[y * t.width + x] = fmaxf (upper_value (value, x * t.side, y * t.side, t.side), 1e-3f);
+      t.level[y * t.width + x] = most (upper_value (value, x * t.side, y * t.side, t.side), 1e-3f);
   drop_inked_tiles (&t);
   fill_tiles (&t);
   for (int y = 0; y < value->height; y++)
     for (int x = 0; x < value->width; x++)
-      CELD_AT (value, x, y) = fmaxf (1 - CELD_AT (value, x, y) / paper_at (&t, x, y), 0);
+      CELD_AT (value, x, y) = most (1 - CELD_AT (value, x, y) / paper_at (&t, x, y), 0);
   status = CELD_OK;
 
 done:
@@ -273,27 +293,51 @@ done:
 
 /* ------------------------------------------------------------------ noise */
 
-/* The standard deviation of the grain of the paper: median second difference along rows where there is no ink. */
+/* The standard deviation of the grain of the paper at one scale: median second difference along rows, where no ink is. */
 static float
-paper_noise (const CeldPlane *contrast)
+noise_at (const CeldPlane *contrast, int step)
 {
   size_t of[BINS] = { 0 }, all = 0, below = 0;
   int    bin = 0;
 
   for (int y = 0; y < contrast->height; y++)
-    for (int x = 1; x < contrast->width - 1; x++)
+    for (int x = step; x < contrast->width - step; x++)
       {
         const float *c = &CELD_AT (contrast, x, y);
 
-        if (c[-1] < 0.25f && c[0] < 0.25f && c[1] < 0.25f)
+        if (c[-step] < 0.25f && c[0] < 0.25f && c[step] < 0.25f)
           {
-            of[(int) fminf (fabsf (c[-1] - 2 * c[0] + c[1]) * 1024, BINS - 1)]++;
+            of[(int) least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
             all++;
           }
       }
   while (bin < BINS - 1 && 2 * (below += of[bin]) < all)
     bin++;
   return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
+}
+
+/* The ripple that one of a hundred paper pixels near dark ink exceeds: the echoes of a lossy picture; 0 in a clean one.
+ * `around` is the largest contrast in some neighbourhood. */
+static float
+echo_level (const CeldPlane *contrast, const CeldPlane *around, float dark)
+{
+  size_t of[BINS] = { 0 }, all = 0, above = 0;
+  int    bin = BINS - 1;
+
+  for (int y = 1; y < contrast->height - 1; y++)
+    for (int x = 1; x < contrast->width - 1; x++)
+      {
+        const float *c = &CELD_AT (contrast, x, y), *above_c = c - contrast->stride, *below_c = c + contrast->stride;
+        float        beside = most (most (c[-1], c[1]), most (above_c[0], below_c[0]));
+
+        if (CELD_AT (around, x, y) < 0.7f * dark || most (beside, c[0]) > 0.25f * dark)
+          continue;
+        of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
+        all++;
+      }
+  while (bin > 0 && 100 * (above += of[bin]) < all)
+    bin--;
+  return (float) bin / (BINS - 1);
 }
 
 /* One pass of the binomial filter (1 2 1)/4 in both directions; `spare` is overwritten. */
@@ -335,9 +379,9 @@ least_along_rows (CeldPlane *plane, int radius, float *line)
       memcpy (line + radius, row, (size_t) plane->width * sizeof *row);
       for (span = 1; 2 * span <= window; span *= 2)
         for (int i = 0; i < n - span; i++)
-          line[i] = fminf (line[i], line[i + span]);
+          line[i] = least (line[i], line[i + span]);
       for (int x = 0; x < plane->width; x++)
-        row[x] = fminf (line[x], line[x + window - span]);
+        row[x] = least (line[x], line[x + window - span]);
     }
 }
 
@@ -443,7 +487,7 @@ find_pale (const CeldPlane *contrast, const Measure *m, CeldPlane *level)
     for (int x = 0; x < contrast->width; x++)
       {
         float c = CELD_AT (contrast, x, y), *l = &CELD_AT (level, x, y);
-        bool  shows = c >= m->faintest && (m->noisy || *l < 0.45f * m->dark || is_solid (contrast, x, y));
+        bool  shows = c >= m->faintest && (m->noisy || *l < 0.45f * m->dark || (c < 0.75f * m->dark && is_solid (contrast, x, y)));
 
         *l = shows ? c : 0;
         found = found || (shows && c < 0.95f * m->dark);
@@ -464,7 +508,7 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
 
   if (!CELD_SAME_SIZE (&drawing->luma, ink) || (drawing->alpha.data && !CELD_SAME_SIZE (&drawing->alpha, ink)))
     return CELD_BAD_SIZE;
-  widest = (width < height ? width : height) / 64 > 8 ? (width < height ? width : height) / 64 : 8;
+  widest = (width < height ? width : height) / 32 > 12 ? (width < height ? width : height) / 32 : 12;
   line = celd_alloc ((size_t) (width > height ? width : height) + 2 * (size_t) widest, sizeof *line);
   if (!line || celd_plane_new (width, height, &contrast) != CELD_OK || celd_plane_new (width, height, &area) != CELD_OK ||
       celd_plane_new (width, height, &level) != CELD_OK || celd_plane_new (width, height, &spare) != CELD_OK)
@@ -483,7 +527,7 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
   if (status != CELD_OK)
     goto done;
 
-  m.noise = paper_noise (&contrast);
+  m.noise = most (most (noise_at (&contrast, 1), noise_at (&contrast, 4)), noise_at (&contrast, 16));
   m.noisy = m.noise > NOISELESS;
   if (m.noisy)
     {
@@ -492,18 +536,23 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
       smooth (&contrast, &spare);
       smooth (&contrast, &spare);
       for (size_t i = 0; i < (size_t) width * (size_t) height; i++)
-        contrast.data[i] = fmaxf (contrast.data[i] - zero, 0) / (1 - zero);
+        contrast.data[i] = most (contrast.data[i] - zero, 0) / (1 - zero);
     }
-  m.faintest = fmaxf (FAINTEST, 8 * m.noise);
+  m.faintest = most (FAINTEST, 8 * m.noise);
   m.dark = dark_level (&contrast, m.faintest);
   if (m.noisy)
-    m.faintest = fmaxf (m.faintest, 0.2f * m.dark);
+    {
+      m.dark = most (m.dark, 16 * m.noise);
+      m.faintest = most (m.faintest, 0.2f * m.dark);
+    }
   status = celd_step (run, 0.5);
   if (status != CELD_OK)
     goto done;
 
   memcpy (level.data, contrast.data, (size_t) width * (size_t) height * sizeof (float));
-  dilate (&level, 2, &spare, line);
+  dilate (&level, m.noisy ? 2 : 5, &spare, line);
+  if (!m.noisy)
+    m.faintest = most (m.faintest, 1.5f * echo_level (&contrast, &level, m.dark));
   pale = find_pale (&contrast, &m, &level);
   if (pale)
     {
@@ -511,8 +560,9 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
       erode (&area, widest, &spare, line);
       dilate (&area, widest, &spare, line);
       for (size_t i = 0; i < (size_t) width * (size_t) height; i++)
-        level.data[i] = contrast.data[i] - area.data[i] >= m.faintest ? fminf (level.data[i], contrast.data[i] - area.data[i]) : 0;
-      dilate (&level, 2, &spare, line);
+        if (contrast.data[i] - area.data[i] < most (m.faintest, 0.5f * contrast.data[i]))
+          level.data[i] = 0;
+      dilate (&level, m.noisy ? 2 : 5, &spare, line);
     }
   status = celd_step (run, 0.9);
   if (status != CELD_OK)
@@ -523,9 +573,9 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
         size_t i = (size_t) y * (size_t) width + (size_t) x;
         float  c = contrast.data[i] / m.dark;
 
-        if (pale && level.data[i] > 0)
-          c = fmaxf (c, (contrast.data[i] - area.data[i]) / (level.data[i] * (m.noisy ? 0.8f : 1)));
-        CELD_AT (ink, x, y) = 1 - fminf (c, 1);
+        if (pale && level.data[i] > 0 && contrast.data[i] <= 1.05f * level.data[i])
+          c = most (c, (contrast.data[i] - area.data[i]) / (level.data[i] * (m.noisy ? 0.8f : 1)));
+        CELD_AT (ink, x, y) = 1 - least (c, 1);
       }
 
 done:
