@@ -27,12 +27,18 @@ as_root ()
   fi
 }
 
-# packages_missing GROUP...: names from tests/packages that are not installed
-packages_missing ()
+# packages_of GROUP...: names from tests/packages
+packages_of ()
 {
   for group; do
     sed -n "s/^$group //p" tests/packages
-  done | while read -r package; do
+  done
+}
+
+# packages_missing GROUP...: those that are not installed
+packages_missing ()
+{
+  packages_of "$@" | while read -r package; do
     dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || echo "$package"
   done
 }
