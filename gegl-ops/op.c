@@ -13,20 +13,25 @@ G_DEFINE_DYNAMIC_TYPE_EXTENDED (CeldOperation, celd_operation, GEGL_TYPE_OPERATI
 /* ------------------------------------------------------------------ pads and regions */
 
 static void
-attach (GeglOperation *operation)
+create_pad (GeglOperation *operation, const char *name, const char *label, const char *description, GParamFlags flags)
 {
-  GParamSpec *pad = g_param_spec_object ("output", "Output", "The result", GEGL_TYPE_BUFFER,
-                                         G_PARAM_READABLE | GEGL_PARAM_PAD_OUTPUT);
+  GParamSpec *pad = g_param_spec_object (name, label, description, GEGL_TYPE_BUFFER, flags);
 
   gegl_operation_create_pad (operation, pad);
   g_param_spec_sink (pad);
-  for (const CeldPad *p = GET_CLASS (operation)->pads; p->name; p++)
-    {
-      pad = g_param_spec_object (p->name, p->label, p->description, GEGL_TYPE_BUFFER,
-                                 G_PARAM_READWRITE | GEGL_PARAM_PAD_INPUT);
-      gegl_operation_create_pad (operation, pad);
-      g_param_spec_sink (pad);
-    }
+}
+
+/* Last pad first: GEGL lists the newest first, and so do dialogs. */
+static void
+attach (GeglOperation *operation)
+{
+  const CeldPad *pads = GET_CLASS (operation)->pads, *pad = pads;
+
+  while (pad->name)
+    pad++;
+  while (pad-- > pads)
+    create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE | GEGL_PARAM_PAD_INPUT);
+  create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE | GEGL_PARAM_PAD_OUTPUT);
 }
 
 /* The whole input, whatever the host asks for: every result depends on every pixel. */
@@ -215,9 +220,9 @@ check_pad (CeldOp *op, const CeldPad *pad)
 
   if (!r)
     return !pad->required ||
-           celd_op_fail (op, "There is no %s. Choose a layer for the input “%s” (pad %s).", pad->label, pad->label, pad->name);
+           celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);
   if (!gegl_rectangle_intersect (NULL, r, p))
-    return celd_op_fail (op, "%s (%d × %d at %d, %d) lies outside the picture (%d × %d at %d, %d). "
+    return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
                          "Move it over the picture, or give it the picture's size.",
                          pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
   return TRUE;
@@ -231,7 +236,7 @@ check_pads (CeldOp *op)
   if (gegl_rectangle_is_infinite_plane (p))
     return celd_op_fail (op, "The input has no size. Crop it first.");
   if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture is %d × %d pixels large; at most %d a side can be worked on. Scale it down first.",
+    return celd_op_fail (op, "The picture is %d x %d pixels large; at most %d a side can be worked on. Scale it down first.",
                          p->width, p->height, CELD_MAX_SIDE);
   for (const CeldPad *pad = GET_CLASS (op->operation)->pads; pad->name; pad++)
     if (!check_pad (op, pad))
