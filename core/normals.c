@@ -4,7 +4,8 @@
  * side goes on behind and gets nothing.  n_x and n_y are harmonic in between, each by itself, and n_z follows from unit
  * length; on a disc that is exactly a hemisphere.  Virtual borders neither cut nor give normals, nor do their ends, where
  * they run into the ink of another contour: both sides of an outline must be apart all around.  The frame of the
- * picture gives none; what has no outline at all faces the viewer.
+ * picture gives none.  What has no outline of its own faces the viewer: the paper stays flat behind a figure, also
+ * where a gap in the figure's contour joins both.
  *
  * The outline runs on edges of pixels, half a pixel from the centres that it holds, hence the coupling 2.  Its direction
  * comes from the first moment of the matte "at least as near" under a Gaussian round the edge's middle: steps of
@@ -23,11 +24,15 @@
 
 #define WINDOW   (2 * REACH + 1)
 
+#define FLAT     1.f    /* coupling of a pixel that shall face the viewer */
+
 /* What the outline of the picture's parts is made of. */
 typedef struct
 {
   int          width, height;
   const float *level, *east, *south;
+  CeldLabels   region;          /* connected regions of one level */
+  uint8_t     *front, *behind;  /* of each region: has it an outline, is it behind one? */
   double       gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
 } Outline;
 
@@ -116,6 +121,8 @@ hold_edge (const Outline *o, int x, int y, int east, int south, float *diagonal,
 
   if (way_round (o, x, y, east, south))
     return;
+  o->front[o->region.data[near]]                = 1;
+  o->behind[o->region.data[near == p ? q : p]] = 1;
   outward (o, o->level[near], x, y, east, south, &nx, &ny);
   diagonal[near] += COUPLING;
   b[near]        += COUPLING * (float) nx;
@@ -124,27 +131,55 @@ hold_edge (const Outline *o, int x, int y, int east, int south, float *diagonal,
 
 /* Every edge that the weights cut holds the normal of its nearer side. */
 static CeldStatus
-hold_outline (int w, int h, const float *level, const float *east, const float *south, const CeldRun *run,
-              float *diagonal, float *b)
+hold_edges (const Outline *o, const CeldRun *run, float *diagonal, float *b)
 {
-  Outline o = { .width = w, .height = h, .level = level, .east = east, .south = south };
+  size_t i = 0;
 
-  outline_init (&o);
-  for (int y = 0; y < h; y++)
+  for (int y = 0; y < o->height; y++)
     {
-      if (y % 16 == 0 && celd_step (run, (double) y / h) != CELD_OK)
+      if (y % 16 == 0 && celd_step (run, (double) y / o->height) != CELD_OK)
         return CELD_CANCELLED;
-      for (int x = 0; x < w; x++)
+      for (int x = 0; x < o->width; x++, i++)
         {
-          size_t i = (size_t) y * (size_t) w + (size_t) x;
-
-          if (x + 1 < w && east[i] <= 0)
-            hold_edge (&o, x, y, 1, 0, diagonal, b);
-          if (y + 1 < h && south[i] <= 0)
-            hold_edge (&o, x, y, 0, 1, diagonal, b);
+          if (x + 1 < o->width && o->east[i] <= 0)
+            hold_edge (o, x, y, 1, 0, diagonal, b);
+          if (y + 1 < o->height && o->south[i] <= 0)
+            hold_edge (o, x, y, 0, 1, diagonal, b);
         }
     }
   return CELD_OK;
+}
+
+/* Outlines give their normals; regions that are only behind others are held flat. */
+static CeldStatus
+hold_outlines (int w, int h, const float *level, const float *east, const float *south, const CeldRun *run,
+               float *diagonal, float *b)
+{
+  Outline        o = { .width = w, .height = h, .level = level, .east = east, .south = south };
+  CeldComponent *list = NULL;
+  size_t         n = (size_t) w * (size_t) h, count = 0;
+  CeldPart       part[2];
+  CeldRun        finding = celd_run_part (&part[0], run, 0, 0.5), holding = celd_run_part (&part[1], run, 0.5, 1);
+  CeldStatus     status  = celd_labels_new (w, h, &o.region);
+
+  if (status == CELD_OK)
+    status = celd_depth_regions (w, h, level, &finding, &o.region, &list, &count);
+  if (status != CELD_OK)
+    goto done;
+  outline_init (&o);
+  o.front  = celd_alloc0 (count + 1, sizeof *o.front);
+  o.behind = celd_alloc0 (count + 1, sizeof *o.behind);
+  status   = o.front && o.behind ? hold_edges (&o, &holding, diagonal, b) : CELD_NO_MEMORY;
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    if (o.behind[o.region.data[i]] && !o.front[o.region.data[i]])
+      diagonal[i] += FLAT;
+
+done:
+  celd_free (o.region.data);
+  celd_free (o.front);
+  celd_free (o.behind);
+  celd_free (list);
+  return status;
 }
 
 /* n_z from unit length; the slope n_xy / n_z is scaled by the bulge. */
@@ -192,7 +227,7 @@ celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings 
   celd_depth_levels (levels, level);
   status = celd_depth_weights (ink, level, settings->ink_threshold, &weighing, east, south);
   if (status == CELD_OK)
-    status = hold_outline (w, h, level, east, south, &holding, diagonal, b);
+    status = hold_outlines (w, h, level, east, south, &holding, diagonal, b);
   if (status == CELD_OK)
     status = celd_lap_setup (w, h, east, south, diagonal, &setting_up, &laplace);
   if (status == CELD_OK)

@@ -86,16 +86,6 @@ void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
 /* Adds the inner core of each region of `levels` to `anchors`: what celd_smooth takes when it is given none. */
 CeldStatus celd_anchor_core (const CeldPlane *levels, CeldMask *anchors);
 
-/* ------------------------------------------------------------------ smooth.c: where depth is cut */
-
-/* Levels as a tight plane; what is not finite reads as the farthest level. */
-void celd_depth_levels (const CeldPlane *levels, float *level);
-
-/* Edge weights v_pq of eq. (3) for celd_lap_setup: 1 where levels are equal, 0 across a depth discontinuity, else the
- * least ink around.  `level` is a tight plane of the size of the ink. */
-CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
-                               float *east, float *south);
-
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
 /* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;
@@ -113,5 +103,19 @@ typedef struct { uint32_t label; int x, y, left, top, right, bottom; size_t area
  * end it with celd_free.  `components` may alias `labels`. */
 CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
                             CeldLabels *components, CeldComponent **list, size_t *n);
+
+/* ------------------------------------------------------------------ smooth.c: where depth is cut */
+
+/* Levels as a tight plane; what is not finite reads as the farthest level. */
+void celd_depth_levels (const CeldPlane *levels, float *level);
+
+/* Connected regions of one level, as celd_components gives them. */
+CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldRun *run, CeldLabels *regions,
+                               CeldComponent **list, size_t *n);
+
+/* Edge weights v_pq of eq. (3) for celd_lap_setup: 1 where levels are equal, 0 across a depth discontinuity, else the
+ * least ink around.  `level` is a tight plane of the size of the ink. */
+CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
+                               float *east, float *south);
 
 #endif

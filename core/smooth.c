@@ -82,24 +82,23 @@ celd_depth_levels (const CeldPlane *levels, float *level)
       }
 }
 
-/* ------------------------------------------------------------------ anchors */
-
-/* Every distinct level as a label: its bits. */
-static CeldStatus
-level_regions (const float *level, const CeldRun *run, CeldLabels *regions, CeldComponent **list, size_t *n)
+CeldStatus
+celd_depth_regions (int width, int height, const float *level, const CeldRun *run, CeldLabels *regions,
+                    CeldComponent **list, size_t *n)
 {
-  CeldLabels bits;
-  size_t     pixels = (size_t) regions->width * (size_t) regions->height;
-  CeldStatus status = celd_labels_new (regions->width, regions->height, &bits);
+  CeldLabels bits; /* every distinct level as a label */
+  CeldStatus status = celd_labels_new (width, height, &bits);
 
   if (status == CELD_OK)
     {
-      memcpy (bits.data, level, pixels * sizeof *level);
+      memcpy (bits.data, level, (size_t) width * (size_t) height * sizeof *level);
       status = celd_components (&bits, UINT32_MAX, false, run, regions, list, n);
     }
   celd_free (bits.data);
   return status;
 }
+
+/* ------------------------------------------------------------------ anchors */
 
 /* Pixels beside another region. */
 static void
@@ -130,7 +129,7 @@ inner_cores (int width, int height, const float *level, const CeldRun *run, uint
   CeldStatus     status  = celd_labels_new (width, height, &regions);
 
   if (status == CELD_OK)
-    status = squared ? level_regions (level, &finding, &regions, &list, &count) : CELD_NO_MEMORY;
+    status = squared ? celd_depth_regions (width, height, level, &finding, &regions, &list, &count) : CELD_NO_MEMORY;
   if (status != CELD_OK)
     goto done;
   deepest = celd_alloc0 (count + 1, sizeof *deepest);

@@ -196,6 +196,27 @@ a_virtual_border_neither_cuts_nor_bends (void)
   picture_free (&q);
 }
 
+/* A contour with a gap: the disc still bends, the paper that it is joined with stays flat. */
+static void
+paper_stays_flat_behind_a_gap (void)
+{
+  Disc    d = { 60, 60, 40 };
+  Picture p = picture (120, 120);
+  double  largest;
+
+  put_disc (&p, d, 3, 1);
+  for (int y = 50; y < 70; y++)
+    for (int x = 90; x < 110; x++)
+      p.ink.data[y * 120 + x] = 1;
+  make (&p, 1);
+  CHECK (compare_disc (&p, d, &largest) < 10);
+  CHECK (angle (&p, 93, 60, 0, 0, 1) < angle (&p, 26, 60, 0, 0, 1) - 30); /* it flattens towards the gap */
+  for (int i = 0; i < 120 * 120; i += 7)
+    if (hypot (i % 120 - 60, i / 120 - 60) > 44)
+      NEAR (angle (&p, i % 120, i / 120, 0, 0, 1), 0, 2);
+  picture_free (&p);
+}
+
 static void
 bulge_scales_the_slope (void)
 {
@@ -253,6 +274,7 @@ main (void)
   RUN (all_normals_have_unit_length);
   RUN (only_the_nearer_side_bends);
   RUN (a_virtual_border_neither_cuts_nor_bends);
+  RUN (paper_stays_flat_behind_a_gap);
   RUN (bulge_scales_the_slope);
   RUN (bad_input_does_no_harm);
   return DONE;
