@@ -73,7 +73,55 @@ celd_session_free (CeldSession *session)
   celd_free (session);
 }
 
-/* ------------------------------------------------------------------ setting */
+/* ------------------------------------------------------------------ setting: hosts set everything again at each preview */
+
+/* Do the rows of two pictures hold the same?  No picture is the same as no picture. */
+static bool
+same_rows (const void *a, size_t a_stride, const void *b, size_t b_stride, int height, size_t row)
+{
+  const uint8_t *p = a, *q = b;
+
+  for (int y = 0; p && q && y < height; y++, p += a_stride, q += b_stride)
+    if (memcmp (p, q, row))
+      return false;
+  return !p == !q;
+}
+
+static bool
+same_plane (const CeldPlane *a, const CeldPlane *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, a->stride * sizeof (float), b->data, b->stride * sizeof (float), a->height,
+                    (size_t) a->width * sizeof (float));
+}
+
+static bool
+same_paint (const CeldPaint *a, const CeldPaint *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, 4 * a->stride, b->data, 4 * b->stride, a->height, 4 * (size_t) a->width);
+}
+
+static bool
+same_term (const CeldTerm *a, const CeldTerm *b)
+{
+  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
+}
+
+static bool
+same_relations (const CeldRelations *a, const CeldRelations *b)
+{
+  for (size_t i = 0; i < a->n && a->n == b->n; i++)
+    {
+      const CeldRelation *p = &a->item[i], *q = &b->item[i];
+
+      if (!same_term (&p->nearer, &q->nearer) || !same_term (&p->farther, &q->farther) || p->equal != q->equal ||
+          p->crack != q->crack || p->anchor != q->anchor || p->weight != q->weight || p->gap != q->gap ||
+          p->line != q->line || p->column != q->column)
+        return false;
+    }
+  return a->n == b->n;
+}
 
 CeldStatus
 celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
@@ -123,6 +171,8 @@ celd_session_set_drawing (CeldSession *session, const CeldDrawing *drawing)
 
   if (!CELD_SAME_SIZE (luma, luma) || (alpha->data && !CELD_SAME_SIZE (luma, alpha)))
     return CELD_BAD_SIZE;
+  if (same_plane (luma, old) && same_plane (alpha, &session->drawing.alpha))
+    return CELD_OK;
   status = copy_plane (luma, &copy.luma);
   if (status == CELD_OK && alpha->data)
     status = copy_plane (alpha, &copy.alpha);
@@ -154,12 +204,16 @@ set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage fi
 
       if (!CELD_SAME_SIZE (&s->drawing.luma, from))
         return CELD_BAD_SIZE;
+      if (same_paint (from, layer))
+        return CELD_OK;
       copy = (CeldPaint) { from->width, from->height, (size_t) from->width, celd_alloc ((size_t) from->height, row) };
       if (!copy.data)
         return CELD_NO_MEMORY;
       for (int y = 0; y < from->height; y++)
         memcpy (CELD_RGBA (&copy, 0, y), CELD_RGBA (from, 0, y), row);
     }
+  else if (!layer->data)
+    return CELD_OK;
   celd_free (layer->data);
   *layer = copy;
   celd_session_forget (s, first_touched);
@@ -192,6 +246,11 @@ celd_session_set_relations (CeldSession *session, const char *text, CeldTextErro
 
   if (status != CELD_OK)
     return status;
+  if (same_relations (&relations, &session->text))
+    {
+      celd_relations_clear (&relations);
+      return CELD_OK;
+    }
   celd_relations_clear (&session->text);
   session->text = relations;
   celd_session_forget (session, STAGE_RELATIONS);
