@@ -327,9 +327,10 @@ echo_level (const CeldPlane *contrast, const CeldPlane *around, float dark)
   for (int y = 1; y < contrast->height - 1; y++)
     for (int x = 1; x < contrast->width - 1; x++)
       {
-        const float *c = &CELD_AT (contrast, x, y), *above_c = c - contrast->stride, *below_c = c + contrast->stride;
-        float        beside = most (most (c[-1], c[1]), most (above_c[0], below_c[0]));
+        const float *c = &CELD_AT (contrast, x, y), *up = c - contrast->stride, *down = c + contrast->stride;
+        float        beside = most (most (up[-1], up[0]), most (up[1], c[-1]));
 
+        beside = most (beside, most (most (c[1], down[-1]), most (down[0], down[1])));
         if (CELD_AT (around, x, y) < 0.7f * dark || most (beside, c[0]) > 0.25f * dark)
           continue;
         of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
@@ -552,7 +553,7 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
   memcpy (level.data, contrast.data, (size_t) width * (size_t) height * sizeof (float));
   dilate (&level, m.noisy ? 2 : 5, &spare, line);
   if (!m.noisy)
-    m.faintest = most (m.faintest, 1.5f * echo_level (&contrast, &level, m.dark));
+    m.faintest = most (m.faintest, 4 * echo_level (&contrast, &level, m.dark));
   pale = find_pale (&contrast, &m, &level);
   if (pale)
     {
