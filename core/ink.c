@@ -1,27 +1,25 @@
 /* Line art of a drawing: ink 0, paper 1, whatever the drawing was made with.
  *
- * 1. One value a pixel, 1 = paper: composited on paper, polarity resolved (`auto` below).
- * 2. Paper: a high quantile in each tile; tiles without paper (solid black) are filled in from those around; bilinear.
- * 3. Noise: the median second difference.  A drawing without noise is not smoothed, and clean black on white comes out
- *    as it went in: its antialiasing says where between two pixels a contour lies.
- * 4. Ink: contrast against the paper, divided by that of the drawing's dark strokes, or of the stroke itself where this
- *    is pale: LazyBrush [SDC09b] takes the response of a LoG filter for the same end, so that a faint contour is one.
- *    Here a stroke is what a grey opening removes, so that flat grey areas stay as grey as they are.
- * Cost: O(pixels), 20 bytes a pixel.
+ * 1. One value a pixel, and its contrast against the paper around (paper.c).
+ * 2. Noise: median second differences at three scales.  A drawing without noise is not smoothed, and clean black on
+ *    white comes out as it went in: its antialiasing says where between two pixels a contour lies.
+ * 3. Ink: the contrast, divided by that of the drawing's dark strokes, or of the stroke itself where that is pale:
+ *    LazyBrush [SDC09b] takes the response of a LoG filter for the same end, so that a faint contour is one.  Here a
+ *    stroke is what a grey opening removes, so that flat grey areas stay as grey as they are.
+ * Cost: O(pixels), independent of the width of strokes; 16 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "private.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define BINS 256
 #define FAINTEST 0.05f        /* least contrast of a stroke; yellow on white has 0.07 */
 #define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
-
-/* ------------------------------------------------------------------ one value a pixel */
+#define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
+#define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
 
 /* fminf and fmaxf, but for numbers only and not through a call. */
 static inline float
@@ -34,261 +32,6 @@ static inline float
 most (float a, float b)
 {
   return a > b ? a : b;
-}
-
-static float
-in_unit (float value, float otherwise)
-{
-  return value >= 0 ? (value < 1 ? value : 1) : value < 0 ? 0 : otherwise;
-}
-
-static float
-opacity (const CeldDrawing *drawing, int x, int y)
-{
-  return drawing->alpha.data ? in_unit (CELD_AT (&drawing->alpha, x, y), 0) : 1;
-}
-
-/* The value of a pixel on paper that is white, or black for chalk. */
-static float
-paper_value (const CeldDrawing *drawing, CeldInkMode mode, int x, int y)
-{
-  float luma = CELD_AT (&drawing->luma, x, y), alpha = opacity (drawing, x, y);
-
-  if (isnan (luma))
-    return 1;
-  luma = in_unit (luma, 1);
-  return mode == CELD_INK_ALPHA ? 1 - alpha : mode == CELD_INK_LIGHT ? 1 - luma * alpha : 1 - (1 - luma) * alpha;
-}
-
-/* Lines on a transparent layer: most of it is transparent, what is not is thin, and inside a line there is no contrast
- * as there is between the outline and the fill of a sprite. */
-static bool
-is_line_layer (const CeldDrawing *drawing)
-{
-  int    width = drawing->luma.width, height = drawing->luma.height, side = width < height ? width : height;
-  double opaque = 0, outline = 0, inside = 0;
-
-  if (!drawing->alpha.data)
-    return false;
-  for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      {
-        float alpha = opacity (drawing, x, y), luma = in_unit (CELD_AT (&drawing->luma, x, y), 1);
-
-        opaque += alpha;
-        for (int k = 0; k < 2; k++)
-          {
-            int u = x + !k, v = y + k;
-
-            if (u < width && v < height)
-              {
-                float beyond = opacity (drawing, u, v);
-
-                outline += fabsf (alpha - beyond);
-                inside += least (alpha, beyond) * fabsf (luma - in_unit (CELD_AT (&drawing->luma, u, v), 1));
-              }
-          }
-      }
-  return opaque < 0.6 * width * height && inside < 0.15 * outline && 2 * opaque < 0.06 * side * outline;
-}
-
-/* Chalk on dark paper: dark is the frame, and dark is most of the picture; dark and light part half way between the
- * darkest and the lightest that there is. */
-static bool
-is_chalk (const CeldDrawing *drawing)
-{
-  int    width = drawing->luma.width, height = drawing->luma.height, band = 1 + (width < height ? width : height) / 50;
-  size_t of[BINS] = { 0 }, frame[BINS] = { 0 }, all = (size_t) width * (size_t) height, framed = 0;
-  size_t below = 0, dark = 0, dark_frame = 0, tail = all / 200;
-  int    low = 0, high = BINS - 1;
-
-  for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      {
-        int  bin = (int) (paper_value (drawing, CELD_INK_DARK, x, y) * (BINS - 1) + 0.5f);
-        bool on_frame = x < band || y < band || x >= width - band || y >= height - band;
-
-        of[bin]++;
-        frame[bin] += on_frame;
-        framed += on_frame;
-      }
-  for (below = of[0]; below <= tail && low < BINS - 1; below += of[++low])
-    ;
-  for (below = of[BINS - 1]; below <= tail && high > 0; below += of[--high])
-    ;
-  if (high - low < BINS / 16)
-    return low + high < BINS - 1;
-  for (int i = 0; 2 * i <= low + high; i++)
-    {
-      dark += of[i];
-      dark_frame += frame[i];
-    }
-  return 2 * dark > all && 2 * dark_frame > framed;
-}
-
-static CeldInkMode
-resolve_mode (const CeldDrawing *drawing, CeldInkMode mode)
-{
-  if (mode != CELD_INK_AUTO)
-    return mode;
-  return is_line_layer (drawing) ? CELD_INK_ALPHA : is_chalk (drawing) ? CELD_INK_LIGHT : CELD_INK_DARK;
-}
-
-/* ------------------------------------------------------------------ paper */
-
-typedef struct { int side, width, height; float *level, *spare; } Tiles;
-
-/* The commonest value among the lightest fifth of a tile's pixels, edges left out; 0 if all of it is edges. */
-static float
-upper_value (const CeldPlane *value, int left, int top, int side)
-{
-  unsigned of[BINS] = { 0 }, all = 0, above = 0;
-  double   sum[BINS] = { 0 };
-  int      bin = BINS - 1, fullest;
-
-  for (int y = top; y < top + side && y < value->height; y++)
-    for (int x = left; x < left + side && x < value->width; x++)
-      {
-        float v = CELD_AT (value, x, y);
-        int   i = (int) (v * (BINS - 1) + 0.5f);
-
-        if (fabsf (v - CELD_AT (value, x > 0 ? x - 1 : 0, y)) > 0.06f)
-          continue;
-        of[i]++;
-        sum[i] += v;
-        all++;
-      }
-  if (!all)
-    return 0;
-  for (fullest = bin; 5 * (above += of[bin]) < all; bin--)
-    if (of[bin] > of[fullest])
-      fullest = bin;
-  if (of[bin] > of[fullest])
-    fullest = bin;
-  return (float) (sum[fullest] / of[fullest]);
-}
-
-/* Keeps the tiles whose level can be reached from the brightest in small steps, as shadows and vignettes can; sets the
- * others, inside solid ink, to 0. */
-static void
-drop_inked_tiles (Tiles *t)
-{
-  float brightest = 0;
-  bool  moved = true;
-
-  for (int i = 0; i < t->width * t->height; i++)
-    brightest = most (brightest, t->level[i]);
-  for (int i = 0; i < t->width * t->height; i++)
-    t->spare[i] = t->level[i] >= 0.9f * brightest ? t->level[i] : 0;
-  while (moved)
-    {
-      moved = false;
-      for (int y = 0; y < t->height; y++)
-        for (int x = 0; x < t->width; x++)
-          {
-            int   i = y * t->width + x;
-            float around = 0;
-
-            if (t->spare[i] > 0)
-              continue;
-            around = most (around, x > 0 ? t->spare[i - 1] : 0);
-            around = most (around, x < t->width - 1 ? t->spare[i + 1] : 0);
-            around = most (around, y > 0 ? t->spare[i - t->width] : 0);
-            around = most (around, y < t->height - 1 ? t->spare[i + t->width] : 0);
-            if (around > 0 && t->level[i] >= 0.8f * around)
-              {
-                t->spare[i] = t->level[i];
-                moved = true;
-              }
-          }
-    }
-  memcpy (t->level, t->spare, (size_t) t->width * (size_t) t->height * sizeof *t->level);
-}
-
-/* Mean of the known tiles among the 3x3 round (x,y), 0 if none is known. */
-static float
-mean_around (const Tiles *t, int x, int y)
-{
-  float sum = 0, n = 0;
-
-  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < t->height; v++)
-    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < t->width; u++)
-      if (t->level[v * t->width + u] > 0)
-        {
-          sum += t->level[v * t->width + u];
-          n++;
-        }
-  return n > 0 ? sum / n : 0;
-}
-
-/* Fills unknown tiles ring by ring, then evens out the whole. */
-static void
-fill_tiles (Tiles *t)
-{
-  size_t bytes = (size_t) t->width * (size_t) t->height * sizeof *t->level;
-  bool   unknown = true;
-
-  for (int round = 0; unknown; round++)
-    {
-      unknown = false;
-      for (int y = 0; y < t->height; y++)
-        for (int x = 0; x < t->width; x++)
-          {
-            int i = y * t->width + x;
-
-            t->spare[i] = t->level[i] > 0 ? t->level[i] : mean_around (t, x, y);
-            unknown = unknown || t->spare[i] <= 0;
-          }
-      memcpy (t->level, t->spare, bytes);
-    }
-  for (int y = 0; y < t->height; y++)
-    for (int x = 0; x < t->width; x++)
-      t->spare[y * t->width + x] = mean_around (t, x, y);
-  memcpy (t->level, t->spare, bytes);
-}
-
-/* The bilinear paper level at a pixel. */
-static float
-paper_at (const Tiles *t, int x, int y)
-{
-  float u = least (most (((float) x + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->width - 1));
-  float v = least (most (((float) y + 0.5f) / (float) t->side - 0.5f, 0), (float) (t->height - 1));
-  int   i = (int) u, j = (int) v, right = i + 1 < t->width, below = j + 1 < t->height ? t->width : 0;
-  const float *l = t->level + j * t->width + i;
-
-  u -= (float) i;
-  v -= (float) j;
-  return (1 - v) * ((1 - u) * l[0] + u * l[right]) + v * ((1 - u) * l[below] + u * l[below + right]);
-}
-
-/* Values become contrasts: 0 on paper, 1 where nothing of its light is left. */
-static CeldStatus
-flatten_paper (CeldPlane *value)
-{
-  int        smaller = value->width < value->height ? value->width : value->height;
-  Tiles      t = { .side = smaller / 24 < 16 ? 16 : smaller / 24 };
-  CeldStatus status = CELD_NO_MEMORY;
-
-  t.width = (value->width + t.side - 1) / t.side;
-  t.height = (value->height + t.side - 1) / t.side;
-  t.level = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.level);
-  t.spare = celd_alloc ((size_t) t.width * (size_t) t.height, sizeof *t.spare);
-  if (!t.level || !t.spare)
-    goto done;
-  for (int y = 0; y < t.height; y++)
-    for (int x = 0; x < t.width; x++)
-      t.level[y * t.width + x] = most (upper_value (value, x * t.side, y * t.side, t.side), 1e-3f);
-  drop_inked_tiles (&t);
-  fill_tiles (&t);
-  for (int y = 0; y < value->height; y++)
-    for (int x = 0; x < value->width; x++)
-      CELD_AT (value, x, y) = most (1 - CELD_AT (value, x, y) / paper_at (&t, x, y), 0);
-  status = CELD_OK;
-
-done:
-  celd_free (t.level);
-  celd_free (t.spare);
-  return status;
 }
 
 /* ------------------------------------------------------------------ noise */
@@ -454,14 +197,91 @@ dark_level (const CeldPlane *contrast, float faintest)
   return (float) (sum[bin] / (double) of[bin]);
 }
 
-/* What is known of a drawing's contrast before its strokes are looked at one by one. */
 typedef struct
 {
-  float noise;      /* of the paper */
-  float faintest;   /* least contrast of a stroke */
-  float dark;       /* contrast of the dark strokes */
-  bool  noisy;
-} Measure;
+  size_t    pixels;
+  int       widest;         /* half width of the widest stroke */
+  CeldPlane contrast;       /* against the paper: 0 .. 1 */
+  CeldPlane area;           /* contrast without strokes: the grey opening */
+  CeldPlane level;          /* contrast of the dark core of the stroke here; 0 = not known */
+  CeldPlane spare;
+  float    *line;           /* for least_along_rows */
+  float     noise;          /* of the paper */
+  bool      noisy;          /* by more than rounding */
+  float     faintest;       /* least contrast of a stroke */
+  float     dark;           /* contrast of the dark strokes */
+} Work;
+
+static CeldStatus
+start_work (int width, int height, Work *w)
+{
+  int shorter = width < height ? width : height, longer = width < height ? height : width;
+
+  w->pixels = (size_t) width * (size_t) height;
+  w->widest = shorter / 32 > 12 ? shorter / 32 : 12;
+  w->line = celd_alloc ((size_t) longer + 2 * (size_t) w->widest, sizeof *w->line);
+  if (!w->line || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
+      celd_plane_new (width, height, &w->area) != CELD_OK || celd_plane_new (width, height, &w->level) != CELD_OK)
+    return CELD_NO_MEMORY;
+  return celd_plane_new (width, height, &w->spare);
+}
+
+static void
+end_work (Work *w)
+{
+  celd_free (w->contrast.data);
+  celd_free (w->area.data);
+  celd_free (w->level.data);
+  celd_free (w->spare.data);
+  celd_free (w->line);
+}
+
+/* Reflectance against the paper, as a contrast. */
+static CeldStatus
+measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
+{
+  CeldStatus status;
+
+  celd_ink_values (drawing, celd_ink_mode (drawing, mode), &w->contrast);
+  status = celd_paper_levels (&w->contrast, &w->level);
+  for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
+    w->contrast.data[i] = most (1 - w->contrast.data[i] / w->level.data[i], 0);
+  return status;
+}
+
+/* Grain, and blotches up to 16 pixels across, go; strokes stay. */
+static void
+quieten (Work *w)
+{
+  float zero;
+
+  w->noise = most (most (noise_at (&w->contrast, 1), noise_at (&w->contrast, 4)), noise_at (&w->contrast, 16));
+  w->noisy = w->noise > NOISELESS;
+  if (!w->noisy)
+    return;
+  smooth (&w->contrast, &w->spare);
+  smooth (&w->contrast, &w->spare);
+  zero = least (2 * w->noise, 0.5f);
+  for (size_t i = 0; i < w->pixels; i++)
+    w->contrast.data[i] = most (w->contrast.data[i] - zero, 0) / (1 - zero);
+}
+
+/* How dark is ink?  In a noisy drawing the darkest is well above the noise, so that empty paper stays empty. */
+static void
+measure_ink (Work *w)
+{
+  w->faintest = most (FAINTEST, 8 * w->noise);
+  w->dark = dark_level (&w->contrast, w->faintest);
+  memcpy (w->level.data, w->contrast.data, w->pixels * sizeof (float));
+  dilate (&w->level, w->noisy ? NEAR_NOISY : NEAR, &w->spare, w->line);
+  if (w->noisy)
+    {
+      w->dark = most (w->dark, 16 * w->noise);
+      w->faintest = most (w->faintest, 0.2f * w->dark);
+    }
+  else
+    w->faintest = most (w->faintest, 4 * echo_level (&w->contrast, &w->level, w->dark));
+}
 
 /* Is the pixel inside a stroke, not on its antialiased rim: do the 3x3 pixels round it differ by a tenth at most? */
 static bool
@@ -476,114 +296,93 @@ is_solid (const CeldPlane *contrast, int x, int y)
   return true;
 }
 
-/* Where a pixel shows how dark its stroke is, `level` becomes this, else 0.  In: `level` holds the largest contrast of
- * the 5x5 round about.  A grey pixel without noise may be the rim of a black stroke unless it is inside a grey one, or
- * fainter than any rim whose stroke is that near. */
+/* Does a pixel of contrast c show how dark its stroke is?  Without noise a grey one may be the rim of a black stroke,
+ * unless it is inside a grey stroke, or fainter than a rim whose stroke is that near.  `around`: largest contrast near. */
 static bool
-find_pale (const CeldPlane *contrast, const Measure *m, CeldPlane *level)
+shows_level (const Work *w, int x, int y, float around)
+{
+  float c = CELD_AT (&w->contrast, x, y);
+
+  if (c < w->faintest || w->noisy)
+    return c >= w->faintest;
+  return around < 0.45f * w->dark || (c < 0.75f * w->dark && is_solid (&w->contrast, x, y));
+}
+
+/* Fills in area and level; false if all strokes are as dark as ink is, so that neither is needed. */
+static bool
+find_pale_strokes (Work *w)
 {
   bool found = false;
 
-  for (int y = 0; y < contrast->height; y++)
-    for (int x = 0; x < contrast->width; x++)
+  for (int y = 0; y < w->level.height; y++)
+    for (int x = 0; x < w->level.width; x++)
       {
-        float c = CELD_AT (contrast, x, y), *l = &CELD_AT (level, x, y);
-        bool  shows = c >= m->faintest && (m->noisy || *l < 0.45f * m->dark || (c < 0.75f * m->dark && is_solid (contrast, x, y)));
+        float c = CELD_AT (&w->contrast, x, y), *level = &CELD_AT (&w->level, x, y);
 
-        *l = shows ? c : 0;
-        found = found || (shows && c < 0.95f * m->dark);
+        *level = shows_level (w, x, y, *level) ? c : 0;
+        found = found || (*level > 0 && c < 0.95f * w->dark);
       }
-  return found;
+  if (!found)
+    return false;
+
+  memcpy (w->area.data, w->contrast.data, w->pixels * sizeof (float));
+  erode (&w->area, w->widest, &w->spare, w->line);
+  dilate (&w->area, w->widest, &w->spare, w->line);
+  for (size_t i = 0; i < w->pixels; i++)
+    if (w->contrast.data[i] - w->area.data[i] < most (w->faintest, 0.5f * w->contrast.data[i]))
+      w->level.data[i] = 0;
+  dilate (&w->level, w->noisy ? NEAR_NOISY : NEAR, &w->spare, w->line);
+  return true;
+}
+
+static void
+write_ink (const Work *w, bool pale, CeldPlane *ink)
+{
+  float full = w->noisy ? 0.8f : 1; /* share of its level at which a stroke is all ink: grain may not pierce it */
+
+  for (int y = 0; y < ink->height; y++)
+    for (int x = 0; x < ink->width; x++)
+      {
+        size_t i = (size_t) y * (size_t) ink->width + (size_t) x;
+        float  c = w->contrast.data[i], share = c / w->dark;
+
+        if (pale && w->level.data[i] > 0 && c <= 1.05f * w->level.data[i]) /* else the rim of a darker stroke beside */
+          share = most (share, (c - w->area.data[i]) / (full * w->level.data[i]));
+        CELD_AT (ink, x, y) = 1 - least (share, 1);
+      }
 }
 
 CeldStatus
 celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink)
 {
-  int        width = ink->width, height = ink->height;
-  CeldPlane  contrast = { 0 }, area = { 0 }, level = { 0 }, spare = { 0 };
-  float     *line = NULL;
-  Measure    m;
+  Work       w = { 0 };
   bool       pale;
-  CeldStatus status = CELD_BAD_SIZE;
-  int        widest;
+  CeldStatus status;
 
   if (!CELD_SAME_SIZE (&drawing->luma, ink) || (drawing->alpha.data && !CELD_SAME_SIZE (&drawing->alpha, ink)))
     return CELD_BAD_SIZE;
-  widest = (width < height ? width : height) / 32 > 12 ? (width < height ? width : height) / 32 : 12;
-  line = celd_alloc ((size_t) (width > height ? width : height) + 2 * (size_t) widest, sizeof *line);
-  if (!line || celd_plane_new (width, height, &contrast) != CELD_OK || celd_plane_new (width, height, &area) != CELD_OK ||
-      celd_plane_new (width, height, &level) != CELD_OK || celd_plane_new (width, height, &spare) != CELD_OK)
-    {
-      status = CELD_NO_MEMORY;
-      goto done;
-    }
-
-  mode = resolve_mode (drawing, mode);
-  for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      CELD_AT (&contrast, x, y) = paper_value (drawing, mode, x, y);
-  status = flatten_paper (&contrast);
+  status = start_work (ink->width, ink->height, &w);
+  if (status == CELD_OK)
+    status = measure_contrast (&w, drawing, mode);
   if (status == CELD_OK)
     status = celd_step (run, 0.3);
   if (status != CELD_OK)
     goto done;
 
-  m.noise = most (most (noise_at (&contrast, 1), noise_at (&contrast, 4)), noise_at (&contrast, 16));
-  m.noisy = m.noise > NOISELESS;
-  if (m.noisy)
-    {
-      float zero = 2 * m.noise;
-
-      smooth (&contrast, &spare);
-      smooth (&contrast, &spare);
-      for (size_t i = 0; i < (size_t) width * (size_t) height; i++)
-        contrast.data[i] = most (contrast.data[i] - zero, 0) / (1 - zero);
-    }
-  m.faintest = most (FAINTEST, 8 * m.noise);
-  m.dark = dark_level (&contrast, m.faintest);
-  if (m.noisy)
-    {
-      m.dark = most (m.dark, 16 * m.noise);
-      m.faintest = most (m.faintest, 0.2f * m.dark);
-    }
+  quieten (&w);
   status = celd_step (run, 0.5);
   if (status != CELD_OK)
     goto done;
-
-  memcpy (level.data, contrast.data, (size_t) width * (size_t) height * sizeof (float));
-  dilate (&level, m.noisy ? 2 : 5, &spare, line);
-  if (!m.noisy)
-    m.faintest = most (m.faintest, 4 * echo_level (&contrast, &level, m.dark));
-  pale = find_pale (&contrast, &m, &level);
-  if (pale)
-    {
-      memcpy (area.data, contrast.data, (size_t) width * (size_t) height * sizeof (float));
-      erode (&area, widest, &spare, line);
-      dilate (&area, widest, &spare, line);
-      for (size_t i = 0; i < (size_t) width * (size_t) height; i++)
-        if (contrast.data[i] - area.data[i] < most (m.faintest, 0.5f * contrast.data[i]))
-          level.data[i] = 0;
-      dilate (&level, m.noisy ? 2 : 5, &spare, line);
-    }
-  status = celd_step (run, 0.9);
+  measure_ink (&w);
+  status = celd_step (run, 0.7);
   if (status != CELD_OK)
     goto done;
-  for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      {
-        size_t i = (size_t) y * (size_t) width + (size_t) x;
-        float  c = contrast.data[i] / m.dark;
-
-        if (pale && level.data[i] > 0 && contrast.data[i] <= 1.05f * level.data[i])
-          c = most (c, (contrast.data[i] - area.data[i]) / (level.data[i] * (m.noisy ? 0.8f : 1)));
-        CELD_AT (ink, x, y) = 1 - least (c, 1);
-      }
+  pale = find_pale_strokes (&w);
+  status = celd_step (run, 0.95);
+  if (status == CELD_OK)
+    write_ink (&w, pale, ink);
 
 done:
-  celd_free (line);
-  celd_free (contrast.data);
-  celd_free (area.data);
-  celd_free (level.data);
-  celd_free (spare.data);
+  end_work (&w);
   return status;
 }

@@ -50,6 +50,17 @@ CeldStatus celd_step (const CeldRun *run, double done);
 /* body (data, 0 .. n-1), on the host's threads if it lends any. */
 void celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *data);
 
+/* ------------------------------------------------------------------ paper.c: what a drawing was made with */
+
+/* The mode that CELD_INK_AUTO stands for; any other mode itself. */
+CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
+
+/* One value a pixel, 1 = bright paper, 0 = full ink, in a mode that is not CELD_INK_AUTO; of the drawing's size. */
+void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);
+
+/* The level of the paper round each pixel, on the scale of the values, > 0. */
+CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
+
 /* ------------------------------------------------------------------ maxflow.c: grid max-flow */
 
 /* Minimum cut of a 4-connected grid, exact.  Knows nothing of pictures: nodes are pixels of the grid, capacities
