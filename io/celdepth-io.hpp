@@ -6,6 +6,7 @@
 
 #include "celdepth-io.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
@@ -47,6 +48,7 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
     }
   while (!why.empty () && (why.back () == '\n' || why.back () == ' '))
     why.pop_back ();
+  std::replace (why.begin (), why.end (), '\n', ' ');
   std::snprintf (error->text, sizeof error->text, "Cannot %s \"%s\": %s", verb, path.c_str (), why.c_str ());
   return false;
 }

@@ -105,7 +105,8 @@ open_file (CeldIoFile &file)
   wishes.attribute ("oiio:UnassociatedAlpha", 1);
   file.input = OIIO::ImageInput::open (file.path, &wishes);
   if (!file.input)
-    throw IoFailure (OIIO::geterror () + " (Readable: PNG, TIFF, EXR, PSD, JPEG and others; save XCF, ORA and KRA as PSD.)");
+    throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; save XCF, ORA and "
+                     "KRA as PSD). " + OIIO::geterror ());
   for (int i = 0; file.input->seek_subimage (i, 0); i++)
     file.parts.push_back ({ file.input->spec (i, 0), "", {} });
   if (file.parts.empty ())

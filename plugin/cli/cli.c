@@ -1,0 +1,78 @@
+/* celdepth: depth for hand-drawn cartoons, for batches and scripts.  Chooses the sub-command.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <string.h>
+
+static const CliCommand commands[] = {
+  { "popup", CLI_POPUP, "DRAWING|LAYERED", "The whole route: regions, order, depth, normals and shading of a drawing.",
+    "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
+    "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
+    "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"
+    "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
+    cli_popup },
+  { "segment", CLI_SEGMENT, "DRAWING|LAYERED", "Gives every pixel of a drawing to one of the scribbles.",
+    "  celdepth segment bee.png --scribbles strokes.png --labels flat.png", cli_segment },
+  { "order", CLI_ORDER, "LABELS", "Orders regions by depth; contours still belong to whoever segmentation gave them.",
+    "  celdepth order flat.png --arrows arrows.png --drawing bee.png --levels flat-levels.npy\n"
+    "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' --levels flat-levels.npy", cli_order },
+  { "expand", CLI_EXPAND, "LEVELS", "Gives each contour to the region that drew it.",
+    "  celdepth expand flat-levels.npy --drawing bee.png --levels levels.npy", cli_expand },
+  { "smooth", CLI_SMOOTH, "LEVELS", "Makes depth smooth except across contours between levels.",
+    "  celdepth smooth levels.npy --drawing bee.png --anchors strokes.png --depth depth.exr", cli_smooth },
+  { "shade", CLI_SHADE, "LEVELS", "Bends normals at the contours of expanded levels, and shades them.",
+    "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
+    "      --light-azimuth 45", cli_shade },
+};
+
+static void
+print_help (FILE *where)
+{
+  fprintf (where, "Usage: celdepth COMMAND ...\n\nDepth for hand-drawn cartoons from scribbles and arrows.\n\nCommands:\n");
+  for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
+    fprintf (where, "  %-8s %s\n", commands[i].name, commands[i].summary);
+  fprintf (where, "\n'celdepth COMMAND --help' shows the options and examples of a command.\n"
+                  "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but relations contradicted each other.\n");
+}
+
+static int
+run_command (const CliCommand *command, int argc, char **argv)
+{
+  CliOptions options;
+  int        code = cli_options_parse (command, argc, argv, &options);
+
+  if (code == CLI_DONE)
+    code = command->run (&options);
+  cli_options_clear (&options);
+  return code;
+}
+
+int
+main (int argc, char **argv)
+{
+  const char *word = argc > 1 ? argv[1] : "";
+
+  /* For file names only: numbers keep their point whatever the language. */
+  setlocale (LC_CTYPE, "");
+  if (!strcmp (word, "--help") || !strcmp (word, "-h") || !strcmp (word, "help"))
+    {
+      print_help (stdout);
+      return CLI_DONE;
+    }
+  if (!strcmp (word, "--version"))
+    {
+      puts ("celdepth " CELDEPTH_VERSION);
+      return CLI_DONE;
+    }
+  for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
+    if (!strcmp (word, commands[i].name))
+      return run_command (&commands[i], argc - 1, argv + 1);
+  if (word[0])
+    cli_say ("There is no command '%s'.", word);
+  print_help (stderr);
+  return CLI_USAGE;
+}

@@ -1,0 +1,160 @@
+/* What the files of the celdepth command share.
+ *
+ *   cli.c       which sub-command              layers.c    a drawing and its layers from one file or several
+ *   options.c   the options of a sub-command   pictures.c  pictures in and out, colours through babl
+ *   popup.c     popup and segment              npy.c       numpy files
+ *   steps.c     order, expand, smooth, shade   report.c    --report
+ *   run.c       progress, cancel, timings      messages.c  sentences on stderr
+ *   threads.c   the cores of the machine
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELDEPTH_CLI_H
+#define CELDEPTH_CLI_H
+
+#include "celdepth-io.h"
+#include "celdepth.h"
+
+#include <glib.h>
+
+/* Exit codes; part of the command's interface. */
+enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
+
+/* ------------------------------------------------------------------ options.c */
+
+typedef enum
+{
+  CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32
+} CliSteps;
+
+/* File names are NULL where not given. */
+typedef struct
+{
+  char        *input;
+  char        *drawing, *scribbles, *contours, *arrows, *anchors;
+  char        *relations, *relations_file;
+  char        *labels, *order, *levels, *depth, *normals, *shading, *report;
+  bool         quiet, background_colour; /* was a background colour given? */
+  CeldSettings settings;
+} CliOptions;
+
+typedef struct
+{
+  const char *name;
+  CliSteps    step;
+  const char *input;       /* what its argument is called */
+  const char *summary, *examples;
+  int       (*run) (const CliOptions *options);
+} CliCommand;
+
+/* CLI_DONE, or the exit code of the mistake, which was said.  `options` must be cleared in every case. */
+int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
+void cli_options_clear (CliOptions *options);
+
+/* ------------------------------------------------------------------ messages.c */
+
+/* "celdepth: ..." on stderr. */
+void cli_say (const char *format, ...) G_GNUC_PRINTF (1, 2);
+/* The same; false, for `return cli_error (...)`. */
+bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
+/* Says why a step failed, unless it did not; is it CELD_OK? */
+bool cli_check (CeldStatus status);
+/* "3,4 > #ff0000 @2 !crack" as the grammar has it; free with g_free. */
+char *cli_relation_text (const CeldRelation *relation);
+void cli_say_cycles (const CeldOrder *order, const CeldRelations *relations);
+/* All but contradictions. */
+void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
+
+/* ------------------------------------------------------------------ run.c, threads.c */
+
+typedef struct CliThreads CliThreads;
+
+typedef struct { const char *stage; double seconds; } CliTiming;
+
+/* The command's CeldRun: a bar on stderr, cancelled by SIGINT, with the time that each stage took. */
+typedef struct
+{
+  CeldRun     run;
+  GArray     *timings;     /* CliTiming */
+  gint64      began;       /* of the stage, in microseconds */
+  gint64      drawn;       /* when the bar was drawn last; 0 = there is no bar on the screen */
+  bool        visible;
+  CliThreads *threads;
+} CliRun;
+
+void cli_run_begin (CliRun *run, bool quiet);
+/* The next stage begins, the one before is over; NULL: all stages are over. */
+void cli_run_stage (CliRun *run, const char *stage);
+void cli_run_end   (CliRun *run);
+bool cli_run_cancelled (void);
+
+CliThreads *cli_threads_new  (void);                     /* NULL: there is one core only */
+void        cli_threads_free (CliThreads *threads);      /* accepts NULL */
+void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *data, int i), void *data);
+
+/* ------------------------------------------------------------------ pictures.c, npy.c */
+
+bool cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing);
+bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
+bool cli_read_levels  (const char *path, CeldPlane *levels);
+
+bool cli_can_write     (const char *path);
+bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
+bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPalette *palette);
+bool cli_write_normals (const char *path, const CeldVectors *normals);
+bool cli_write_shading (const char *path, const CeldPlane *shading);
+
+bool cli_plane_new (int width, int height, CeldPlane *plane);   /* end with g_free (data) */
+bool cli_labels_new (int width, int height, CeldLabels *labels);
+
+bool cli_is_npy   (const char *path);
+bool cli_npy_read (const char *path, CeldPlane *plane);
+/* width x height x depth floats; depth 0: a plane without a third axis. */
+bool cli_npy_write (const char *path, int width, int height, int depth, size_t row, const float *data);
+
+/* ------------------------------------------------------------------ layers.c */
+
+typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS = 8 } CliRoles;
+
+/* data NULL where there is none. */
+typedef struct { int width, height; CeldDrawing drawing; CeldPaint scribbles, arrows, contours; } CliLayers;
+
+/* The layers of the wanted roles: from the files that the options name, else from the parts of `input` (may be NULL) that bear the
+ * role's name.  All must be as large as the layers' width and height, where these are set before. */
+bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers);
+void cli_layers_clear (CliLayers *layers);
+/* One picture: its part of that name, or else its first. */
+bool cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint);
+
+/* The text of --relations or --relations-file; "" if neither is given, NULL if it cannot be read. */
+char *cli_relations_text (const CliOptions *options);
+/* Says where relations text cannot be read. */
+bool cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTextError *error);
+
+/* ------------------------------------------------------------------ report.c */
+
+/* What a sub-command found; NULL what it did not look for. */
+typedef struct
+{
+  const char          *command;
+  int                  width, height;
+  const CeldPalette   *palette;
+  const CeldRelations *relations;
+  const CeldOrder     *order;
+  const CeldProblems  *problems;
+  const CeldSettings  *settings;
+  const GArray        *timings;
+} CliReport;
+
+bool cli_report_write (const char *path, const CliReport *report);
+
+/* ------------------------------------------------------------------ the sub-commands */
+
+int cli_popup   (const CliOptions *options);
+int cli_segment (const CliOptions *options);
+int cli_order   (const CliOptions *options);
+int cli_expand  (const CliOptions *options);
+int cli_smooth  (const CliOptions *options);
+int cli_shade   (const CliOptions *options);
+
+#endif

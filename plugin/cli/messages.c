@@ -1,0 +1,118 @@
+/* What the artist is told, on stderr.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void
+say (const char *format, va_list arguments)
+{
+  fputs ("celdepth: ", stderr);
+  vfprintf (stderr, format, arguments);
+  fputc ('\n', stderr);
+}
+
+void
+cli_say (const char *format, ...)
+{
+  va_list arguments;
+
+  va_start (arguments, format);
+  say (format, arguments);
+  va_end (arguments);
+}
+
+bool
+cli_error (const char *format, ...)
+{
+  va_list arguments;
+
+  va_start (arguments, format);
+  say (format, arguments);
+  va_end (arguments);
+  return false;
+}
+
+bool
+cli_check (CeldStatus status)
+{
+  return status == CELD_OK || cli_error ("%s", celd_status_text (status));
+}
+
+static void
+append_number (GString *text, const char *before, double value)
+{
+  char number[G_ASCII_DTOSTR_BUF_SIZE];
+
+  g_string_append (text, before);
+  g_string_append (text, g_ascii_formatd (number, sizeof number, "%.6g", value));
+}
+
+static void
+append_term (GString *text, const CeldTerm *term)
+{
+  if (term->by_colour)
+    g_string_append_printf (text, "#%02x%02x%02x", term->colour[0], term->colour[1], term->colour[2]);
+  else
+    {
+      append_number (text, "", term->x);
+      append_number (text, ",", term->y);
+    }
+}
+
+char *
+cli_relation_text (const CeldRelation *relation)
+{
+  GString *text = g_string_new (NULL);
+
+  append_term (text, &relation->nearer);
+  g_string_append (text, relation->equal ? " = " : " > ");
+  append_term (text, &relation->farther);
+  if (relation->weight < 1 || relation->weight > 1)
+    append_number (text, " @", relation->weight);
+  if (relation->gap < 1 || relation->gap > 1)
+    append_number (text, " +", relation->gap);
+  if (relation->crack)
+    g_string_append (text, " !crack");
+  if (relation->anchor)
+    g_string_append (text, " !anchor");
+  return g_string_free (text, FALSE);
+}
+
+void
+cli_say_cycles (const CeldOrder *order, const CeldRelations *relations)
+{
+  for (size_t i = 0; i < order->n_cycles; i++)
+    {
+      const CeldCycle *cycle = &order->cycle[i];
+
+      cli_say ("These relations contradict each other; the first of them was left out:");
+      for (size_t k = 0; k < cycle->n; k++)
+        {
+          const CeldRelation *relation = &relations->item[cycle->item[k]];
+          char               *text = cli_relation_text (relation);
+
+          if (relation->source == CELD_SOURCE_ARROW)
+            fprintf (stderr, "    %s  (painted arrow)\n", text);
+          else
+            fprintf (stderr, "    %s  (line %d, column %d)\n", text, relation->line, relation->column);
+          g_free (text);
+        }
+    }
+}
+
+void
+cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations)
+{
+  for (size_t i = 0; problems && i < problems->n; i++)
+    if (problems->item[i].kind != CELD_PROBLEM_CONTRADICTION)
+      {
+        char text[400];
+
+        celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
+        cli_say ("%s", text);
+      }
+}

@@ -1,0 +1,97 @@
+/* Numpy files of 32-bit floats, the simplest way to hand numbers on exactly.  Format version 1.0: a magic word, the
+ * length of the header, the header as Python text, then the numbers row by row, least byte first.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <errno.h>
+#include <glib/gstdio.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PREFIX      10  /* magic word, version, length of the header */
+#define HEADER_SIZE 128 /* with the prefix; numpy wants a multiple of 64 */
+
+bool
+cli_is_npy (const char *path)
+{
+  size_t length = strlen (path);
+
+  return length > 4 && !g_ascii_strcasecmp (path + length - 4, ".npy");
+}
+
+bool
+cli_npy_write (const char *path, int width, int height, int depth, size_t row, const float *data)
+{
+  char    header[HEADER_SIZE] = "\x93NUMPY\x01", axes[64];
+  char   *beside = g_strdup_printf ("%s.new-%d", path, (int) getpid ());
+  FILE   *file = g_file_test (path, G_FILE_TEST_IS_DIR) ? NULL : fopen (beside, "wb");
+  bool    good;
+
+  snprintf (axes, sizeof axes, depth ? "%d, %d, %d" : "%d, %d", height, width, depth);
+  header[8] = HEADER_SIZE - PREFIX;
+  memset (header + PREFIX, ' ', HEADER_SIZE - PREFIX);
+  header[PREFIX + snprintf (header + PREFIX, HEADER_SIZE - PREFIX, "{'descr': '%cf4', 'fortran_order': False, 'shape': (%s), }",
+                            G_BYTE_ORDER == G_LITTLE_ENDIAN ? '<' : '>', axes)] = ' ';
+  header[HEADER_SIZE - 1] = '\n';
+
+  good = file && fwrite (header, HEADER_SIZE, 1, file) == 1;
+  for (int y = 0; good && y < height; y++)
+    good = fwrite (data + (size_t) y * row, sizeof (float) * (size_t) (depth ? depth : 1), (size_t) width, file) == (size_t) width;
+  good = file && !fclose (file) && good && !g_rename (beside, path);
+  if (!good)
+    cli_say ("Cannot write \"%s\": %s.", path, g_strerror (errno));
+  if (!good && file)
+    g_unlink (beside);
+  g_free (beside);
+  return good;
+}
+
+/* The numbers in "...'key': (12, 34)..." behind a key. */
+static bool
+read_header (const char *header, int *height, int *width, int *axes)
+{
+  const char *shape = strstr (header, "'shape': (");
+
+  if (!shape || !strstr (header, G_BYTE_ORDER == G_LITTLE_ENDIAN ? "'<f4'" : "'>f4'") || !strstr (header, "'fortran_order': False"))
+    return false;
+  *axes = sscanf (shape, "'shape': (%d, %d)", height, width);
+  return *axes == 2 && *height >= 1 && *width >= 1 && *height <= CELD_MAX_SIDE && *width <= CELD_MAX_SIDE;
+}
+
+bool
+cli_npy_read (const char *path, CeldPlane *plane)
+{
+  char   *bytes = NULL;
+  gsize   length, header_end;
+  int     height, width, axes;
+  GError *error = NULL;
+  bool    good = false;
+
+  if (!g_file_get_contents (path, &bytes, &length, &error))
+    {
+      cli_say ("Cannot read \"%s\": %s", path, error->message);
+      g_error_free (error);
+      return false;
+    }
+  header_end = length > PREFIX ? PREFIX + (guchar) bytes[8] + 256 * (gsize) (guchar) bytes[9] : 0;
+  if (!header_end || header_end >= length || memcmp (bytes, "\x93NUMPY\x01", 7) || bytes[header_end - 1] != '\n')
+    cli_say ("Cannot read \"%s\": it is no numpy file of version 1, or it is damaged.", path);
+  else
+    {
+      bytes[header_end - 1] = 0;
+      if (!read_header (bytes + PREFIX, &height, &width, &axes))
+        cli_say ("Cannot read \"%s\": it holds no plane of 32-bit floats of 1 to %d pixels a side.", path, CELD_MAX_SIDE);
+      else if ((length - header_end) / sizeof (float) / (gsize) width < (gsize) height)
+        cli_say ("Cannot read \"%s\": it is cut short.", path);
+      else if (cli_plane_new (width, height, plane))
+        {
+          memcpy (plane->data, bytes + header_end, sizeof (float) * (gsize) width * (gsize) height);
+          good = true;
+        }
+    }
+  g_free (bytes);
+  return good;
+}

@@ -1,0 +1,299 @@
+/* The options of each sub-command: files, and every member of CeldSettings that the sub-command uses, under the name
+ * that the property of the GEGL operations has.  Numbers have a point in every language.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MADE_OF_LABELS (CLI_POPUP | CLI_SEGMENT)
+#define WITH_INK       (CLI_POPUP | CLI_SEGMENT | CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE)
+
+/* ------------------------------------------------------------------ files */
+
+typedef enum { INPUT, TEXT, OUTPUT, REPORT } FileKind;
+
+typedef struct
+{
+  const char *name;
+  int         steps;       /* CliSteps that have this option */
+  int         required;    /* CliSteps that cannot do without */
+  FileKind    kind;
+  size_t      offset;      /* in CliOptions */
+  const char *value, *help;
+} FileOption;
+
+#define MEMBER(name) offsetof (CliOptions, name)
+
+static const FileOption files[] = {
+  { "drawing", CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, INPUT, MEMBER (drawing),
+    "DRAWING", "the drawing that belongs to it" },
+  { "scribbles", MADE_OF_LABELS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour a region" },
+  { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
+    "virtual contours: red cuts, blue cuts regions only, green erases ink" },
+  { "arrows", MADE_OF_LABELS | CLI_ORDER, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
+  { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
+    "painted pixels keep their level; without: the inner core of each region" },
+  { "relations", MADE_OF_LABELS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
+    "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
+  { "relations-file", MADE_OF_LABELS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
+  { "labels", MADE_OF_LABELS, CLI_SEGMENT, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
+  { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT", "write levels before contours are given to their owners" },
+  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT", "write levels" },
+  { "depth", CLI_POPUP | CLI_SMOOTH, CLI_SMOOTH, OUTPUT, MEMBER (depth), "OUT", "write smooth depth" },
+  { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
+  { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
+  { "report", MADE_OF_LABELS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT", "write what was found, as JSON" },
+};
+
+static char **
+file_name (CliOptions *options, const FileOption *file)
+{
+  return (char **) ((char *) options + file->offset);
+}
+
+/* ------------------------------------------------------------------ settings */
+
+typedef enum { CHOICE, NUMBER, SWITCH, COLOUR } SettingKind;
+
+typedef struct
+{
+  const char *name;
+  int         steps;
+  SettingKind kind;
+  size_t      offset;      /* in CeldSettings */
+  const char *value;       /* of a choice: its words in the order of the enumeration */
+  const char *help;
+} SettingOption;
+
+#undef MEMBER
+#define MEMBER(name) offsetof (CeldSettings, name)
+
+static const SettingOption settings[] = {
+  { "ink", WITH_INK, CHOICE, MEMBER (ink), "auto|dark|light|alpha", "what is ink" },
+  { "ink-threshold", CLI_POPUP | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
+    "ink at or below this is full ink; 0.25" },
+  { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "exact", "how regions are found" },
+  { "hardness", MADE_OF_LABELS, NUMBER, MEMBER (hardness), "0.01-1", "1 obeys every stroke, less lets the majority win; 0.05" },
+  { "flats", MADE_OF_LABELS, SWITCH, MEMBER (flats), NULL, "the scribbles are a flat colouring" },
+  { "background", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (background), "auto|none|colour", "which region is the background" },
+  { "background-colour", MADE_OF_LABELS | CLI_ORDER, COLOUR, MEMBER (background_colour), "#RRGGBB",
+    "the scribble colour that is the background" },
+  { "seeds", MADE_OF_LABELS, CHOICE, MEMBER (seeds), "auto|scribbles", "may arrows make regions of their own?" },
+  { "same-colour", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (same_colour), "one|separate",
+    "regions of one colour have one depth, or each its own" },
+  { "arrow-style", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper", "how arrows are painted" },
+  { "encoding", CLI_POPUP | CLI_ORDER, CHOICE, MEMBER (encoding), "normalized|rank|fixed", "how levels become numbers" },
+  { "near-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (near_level), "N", "with fixed encoding, the level that becomes 1" },
+  { "far-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (far_level), "N", "with fixed encoding, the level that becomes 0" },
+  { "anchors", CLI_POPUP, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core", "which pixels keep their level in smooth depth" },
+  { "tolerance", CLI_POPUP | CLI_SMOOTH, NUMBER, MEMBER (tolerance), "0-0.1", "largest error of smooth depth; 0.0001" },
+  { "bulge", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
+  { "light-azimuth", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_azimuth), "DEGREES", "0 from the right, 90 from above; 135" },
+  { "light-elevation", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_elevation), "DEGREES", "90 from the viewer; 45" },
+  { "ambient", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (ambient), "0-1", "light that reaches every pixel; 0.25" },
+};
+
+/* The place of a word in "a|b|c"; -1 if it is not there. */
+static int
+find_word (const char *words, const char *word)
+{
+  char **list = g_strsplit (words, "|", 0);
+  int    found = -1;
+
+  for (int i = 0; list[i] && found < 0; i++)
+    if (!strcmp (list[i], word))
+      found = i;
+  g_strfreev (list);
+  return found;
+}
+
+static bool
+set_colour (CeldSettings *to, const char *value)
+{
+  unsigned colour = 0;
+  int      n = 0;
+
+  value += value[0] == '#';
+  while (g_ascii_isxdigit (value[n]) && n < 7)
+    colour = colour * 16 + (unsigned) g_ascii_xdigit_value (value[n++]);
+  for (int i = 0; i < 3; i++)
+    to->background_colour[i] = (uint8_t) (colour >> (16 - 8 * i));
+  to->background = CELD_BACKGROUND_COLOUR;
+  return n == 6 && !value[n];
+}
+
+static bool
+set_setting (const SettingOption *setting, const char *value, CeldSettings *to)
+{
+  char  *place = (char *) to + setting->offset;
+  char  *end;
+  int    word;
+  double number;
+
+  switch (setting->kind)
+    {
+    case CHOICE:
+      /* Every enumeration of CeldSettings is as large as any other. */
+      word = find_word (setting->value, value);
+      if (word >= 0)
+        memcpy (place, &word, sizeof word);
+      return word >= 0;
+    case NUMBER:
+      number = g_ascii_strtod (value, &end);
+      *(float *) place = (float) number;
+      return end != value && !*end;
+    case SWITCH:
+      *(bool *) place = true;
+      return true;
+    case COLOUR:
+      return set_colour (to, value);
+    }
+  return false;
+}
+
+/* One setting of the command line: right by itself? */
+static gboolean
+take_setting (const char *name, const char *value, gpointer data, GError **error)
+{
+  CliOptions          *options = data;
+  const SettingOption *setting = settings;
+  CeldSettings         alone = celd_settings ();
+
+  while (strcmp (setting->name, name + 2))
+    setting++;
+  if (set_setting (setting, value, &alone) && celd_settings_check (&alone) == CELD_OK)
+    {
+      options->background_colour = options->background_colour || setting->kind == COLOUR;
+      return set_setting (setting, value, &options->settings);
+    }
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value, setting->value);
+  return FALSE;
+}
+
+/* ------------------------------------------------------------------ parsing */
+
+static void
+append_entries (const CliCommand *command, CliOptions *options, GArray *entries)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    if (files[i].steps & (int) command->step)
+      g_array_append_val (entries, ((GOptionEntry) {
+        files[i].name, 0, 0, files[i].kind == TEXT ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
+        file_name (options, &files[i]), files[i].help, files[i].value }));
+  for (size_t i = 0; i < G_N_ELEMENTS (settings); i++)
+    if (settings[i].steps & (int) command->step)
+      g_array_append_val (entries, ((GOptionEntry) {
+        settings[i].name, 0, settings[i].kind == SWITCH ? G_OPTION_FLAG_NO_ARG : 0, G_OPTION_ARG_CALLBACK,
+        (gpointer) take_setting, settings[i].help, settings[i].value }));
+}
+
+/* GOption's part. */
+static bool
+parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
+{
+  GArray         *entries = g_array_new (TRUE, TRUE, sizeof (GOptionEntry));
+  GOptionContext *context = g_option_context_new (command->input);
+  GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
+  char           *description = g_strdup_printf ("Examples:\n%s\n", command->examples);
+  char           *program = g_strdup_printf ("celdepth %s", command->name);
+  gboolean        quiet = FALSE;
+  GError         *error = NULL;
+  bool            good;
+
+  append_entries (command, options, entries);
+  g_array_append_val (entries, ((GOptionEntry) { "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "neither progress nor remarks", NULL }));
+  g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
+  g_option_context_set_main_group (context, group);
+  g_option_context_set_summary (context, command->summary);
+  g_option_context_set_description (context, description);
+  g_set_prgname (program);
+  good = g_option_context_parse (context, argc, argv, &error);
+  options->quiet = quiet;
+  if (!good)
+    cli_say ("%s", error->message);
+  g_clear_error (&error);
+  g_option_context_free (context);
+  g_array_free (entries, TRUE);
+  g_free (description);
+  g_free (program);
+  return good;
+}
+
+static bool
+same_file (const char *a, const char *b)
+{
+  char *full_a = g_canonicalize_filename (a, NULL), *full_b = g_canonicalize_filename (b, NULL);
+  bool  same = !strcmp (full_a, full_b);
+
+  g_free (full_a);
+  g_free (full_b);
+  return same;
+}
+
+/* Each output has a name of its own, and an ending that can be written. */
+static bool
+check_files (const CliCommand *command, CliOptions *options)
+{
+  int outputs = 0;
+
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    {
+      const char *name = *file_name (options, &files[i]);
+
+      if (!name && files[i].required & (int) command->step)
+        return cli_error ("--%s is missing.", files[i].name);
+      if (!name || files[i].kind < OUTPUT)
+        continue;
+      outputs++;
+      if (files[i].kind == OUTPUT && !cli_can_write (name))
+        return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
+      if (same_file (name, options->input))
+        return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
+      for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
+        {
+          const char *other = *file_name (options, &files[k]);
+
+          if (k != i && other && files[k].kind != TEXT && same_file (name, other))
+            return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
+        }
+    }
+  return outputs || cli_error ("Nothing to write: name at least one output, such as --%s.",
+                               command->step == CLI_SHADE ? "shading" : "depth");
+}
+
+static bool
+check (const CliCommand *command, int argc, char **argv, CliOptions *options)
+{
+  if (argc != 2)
+    return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
+  options->input = g_strdup (argv[1]);
+  if (options->relations && options->relations_file)
+    return cli_error ("Give --relations or --relations-file, not both.");
+  if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
+    return cli_error ("--background colour needs --background-colour.");
+  if (celd_settings_check (&options->settings) != CELD_OK)
+    return cli_error ("--near-level must be above --far-level.");
+  return check_files (command, options);
+}
+
+int
+cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options)
+{
+  *options = (CliOptions) { .settings = celd_settings () };
+  if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
+    return CLI_DONE;
+  fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);
+  return CLI_USAGE;
+}
+
+void
+cli_options_clear (CliOptions *options)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    g_free (*file_name (options, &files[i]));
+  g_free (options->input);
+}

@@ -1,0 +1,144 @@
+/* The whole route, and segmentation alone: what a session makes of a drawing, its layers and relations.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+/* Views of what the session made; data NULL where it was not asked for. */
+typedef struct
+{
+  CeldLabels       labels;
+  const CeldOrder *order;
+  CeldPlane        flat, levels, depth, shading;
+  CeldVectors      normals;
+} Results;
+
+/* Hands the input over to the session. */
+static bool
+load (CeldSession *session, const CliOptions *options, CliLayers *layers)
+{
+  char         *text = cli_relations_text (options);
+  CeldTextError error;
+  bool          good = text && cli_check_relations (celd_session_set_relations (session, text, &error), options, &error) &&
+                       cli_layers_read (options->input, options, CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS, layers) &&
+                       cli_check (celd_session_set_settings (session, &options->settings)) &&
+                       cli_check (celd_session_set_drawing (session, &layers->drawing));
+
+  if (good && layers->scribbles.data)
+    good = cli_check (celd_session_set_scribbles (session, &layers->scribbles));
+  if (good && layers->arrows.data)
+    good = cli_check (celd_session_set_arrows (session, &layers->arrows));
+  if (good && layers->contours.data)
+    good = cli_check (celd_session_set_contours (session, &layers->contours));
+  g_free (text);
+  return good;
+}
+
+/* Stage by stage, so that each has its time and its bar; the session makes what a stage needs in any case. */
+static CeldStatus
+make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun *run, Results *results)
+{
+  CeldPlane  ink;
+  CeldStatus status;
+
+  cli_run_stage (run, "ink");
+  status = celd_session_ink (session, &run->run, &ink, NULL);
+  cli_run_stage (run, "labels");
+  if (status == CELD_OK)
+    status = celd_session_labels (session, &run->run, &results->labels, NULL);
+  if (status != CELD_OK || !whole_route)
+    return status;
+  cli_run_stage (run, "order");
+  status = celd_session_order (session, &run->run, &results->order);
+  if (status == CELD_OK && options->order)
+    status = celd_session_flat (session, &run->run, &results->flat, NULL);
+  if (options->levels || options->depth || options->normals || options->shading)
+    cli_run_stage (run, "levels");
+  if (status == CELD_OK && options->levels)
+    status = celd_session_levels (session, &run->run, &results->levels, NULL);
+  if (options->depth)
+    cli_run_stage (run, "depth");
+  if (status == CELD_OK && options->depth)
+    status = celd_session_depth (session, &run->run, &results->depth, NULL);
+  if (options->normals || options->shading)
+    cli_run_stage (run, "normals");
+  if (status == CELD_OK && options->normals)
+    status = celd_session_normals (session, &run->run, &results->normals, NULL);
+  if (status == CELD_OK && options->shading)
+    status = celd_session_shading (session, &run->run, &results->shading, NULL);
+  return status;
+}
+
+static bool
+write_results (CeldSession *session, const CliOptions *options, const Results *results)
+{
+  bool  ranks = options->settings.encoding == CELD_ENCODING_RANK && results->order && results->order->levels > 1;
+  float nearest = ranks ? (float) (results->order->levels - 1) : 1;
+
+  return (!options->labels  || cli_write_labels (options->labels, &results->labels, celd_session_palette (session))) &&
+         (!options->order   || cli_write_depth (options->order, &results->flat, nearest)) &&
+         (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
+         (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
+         (!options->normals || cli_write_normals (options->normals, &results->normals)) &&
+         (!options->shading || cli_write_shading (options->shading, &results->shading));
+}
+
+static bool
+write_report (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
+{
+  return !options->report || cli_report_write (options->report, &(CliReport) {
+    .command   = command,
+    .width     = results->labels.width,
+    .height    = results->labels.height,
+    .palette   = celd_session_palette (session),
+    .relations = celd_session_relations (session),
+    .order     = results->order,
+    .problems  = celd_session_problems (session),
+    .settings  = &options->settings,
+    .timings   = run->timings,
+  });
+}
+
+static int
+run_route (const CliOptions *options, const char *command, bool whole_route)
+{
+  CeldSession *session = celd_session_new ();
+  CliLayers    layers = { 0 };
+  Results      results = { 0 };
+  CliRun       run;
+  int          code = CLI_FAILED;
+  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && load (session, options, &layers);
+
+  cli_layers_clear (&layers);
+  cli_run_begin (&run, options->quiet);
+  if (good)
+    {
+      CeldStatus status = make (session, options, whole_route, &run, &results);
+
+      cli_run_stage (&run, NULL);
+      good = cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+    }
+  if (good && write_results (session, options, &results) && write_report (session, command, options, &run, &results))
+    {
+      code = results.order && results.order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
+      if (results.order)
+        cli_say_cycles (results.order, celd_session_relations (session));
+      if (!options->quiet)
+        cli_say_problems (celd_session_problems (session), celd_session_palette (session), celd_session_relations (session));
+    }
+  cli_run_end (&run);
+  celd_session_free (session);
+  return code;
+}
+
+int
+cli_popup (const CliOptions *options)
+{
+  return run_route (options, "popup", true);
+}
+
+int
+cli_segment (const CliOptions *options)
+{
+  return run_route (options, "segment", false);
+}

@@ -1,0 +1,249 @@
+/* --report: what was found, as JSON; docs/report.md says what each member means.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <json-glib/json-glib.h>
+#include <stdio.h>
+#include <sys/resource.h>
+
+#define SCHEMA 1 /* rises when a member changes its meaning or goes; not when one is added */
+
+static void
+add_text (JsonBuilder *json, const char *name, const char *text)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_add_string_value (json, text);
+}
+
+static void
+add_integer (JsonBuilder *json, const char *name, gint64 value)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_add_int_value (json, value);
+}
+
+static void
+add_number (JsonBuilder *json, const char *name, double value)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_add_double_value (json, value);
+}
+
+static void
+add_truth (JsonBuilder *json, const char *name, bool value)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_add_boolean_value (json, value);
+}
+
+static void
+add_place (JsonBuilder *json, const char *name, double x, double y)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_begin_array (json);
+  json_builder_add_double_value (json, x);
+  json_builder_add_double_value (json, y);
+  json_builder_end_array (json);
+}
+
+static void
+begin_list (JsonBuilder *json, const char *name)
+{
+  json_builder_set_member_name (json, name);
+  json_builder_begin_array (json);
+}
+
+/* ------------------------------------------------------------------ labels */
+
+static void
+add_label (JsonBuilder *json, const CliReport *report, size_t index)
+{
+  static const char  *origins[] = { "scribble", "arrow", "background" };
+  const CeldRegion   *region = &report->palette->item[index];
+  const uint8_t      *c = region->colour;
+  char                colour[16];
+
+  g_snprintf (colour, sizeof colour, c[3] ? "#%02x%02x%02x" : "transparent", c[0], c[1], c[2]);
+  json_builder_begin_object (json);
+  add_integer (json, "label", (gint64) index + 1);
+  add_text (json, "colour", colour);
+  add_text (json, "origin", origins[region->origin]);
+  add_truth (json, "background", region->background);
+  add_integer (json, "seeds", (gint64) region->seeds);
+  add_integer (json, "area", (gint64) region->area);
+  add_place (json, "place", region->x, region->y);
+  if (report->order && index < report->order->n)
+    {
+      uint32_t level = report->order->level[index];
+
+      add_integer (json, "level", level);
+      add_number (json, "value", (double) celd_encode_level (level, report->order->levels, report->settings));
+    }
+  json_builder_end_object (json);
+}
+
+/* ------------------------------------------------------------------ relations */
+
+/* Why a relation was left out; NULL if it was not. */
+static const char *
+left_out (const CeldProblems *problems, size_t relation)
+{
+  for (size_t i = 0; problems && i < problems->n; i++)
+    if (problems->item[i].relation == relation)
+      switch (problems->item[i].kind)
+        {
+        case CELD_PROBLEM_OUTSIDE:        return "outside";
+        case CELD_PROBLEM_UNKNOWN_COLOUR: return "unknown-colour";
+        case CELD_PROBLEM_SAME_REGION:    return "same-region";
+        case CELD_PROBLEM_CONTRADICTION:  return "contradiction";
+        default:                          break;
+        }
+  return NULL;
+}
+
+static void
+add_relation (JsonBuilder *json, const CliReport *report, size_t index)
+{
+  const CeldRelation *relation = &report->relations->item[index];
+  const char         *why = left_out (report->problems, index);
+  char               *text = cli_relation_text (relation);
+
+  json_builder_begin_object (json);
+  add_text (json, "text", text);
+  add_text (json, "source", relation->source == CELD_SOURCE_ARROW ? "arrow" : "text");
+  if (relation->source == CELD_SOURCE_TEXT)
+    {
+      add_integer (json, "line", relation->line);
+      add_integer (json, "column", relation->column);
+    }
+  add_truth (json, "equal", relation->equal);
+  add_number (json, "weight", relation->weight);
+  add_number (json, "gap", relation->gap);
+  add_truth (json, "crack", relation->crack);
+  add_truth (json, "anchor", relation->anchor);
+  if (why)
+    add_text (json, "left-out", why);
+  json_builder_end_object (json);
+  g_free (text);
+}
+
+static void
+add_cycle (JsonBuilder *json, const CeldCycle *cycle)
+{
+  json_builder_begin_array (json);
+  for (size_t i = 0; i < cycle->n; i++)
+    json_builder_add_int_value (json, (gint64) cycle->item[i]);
+  json_builder_end_array (json);
+}
+
+/* ------------------------------------------------------------------ problems, cost */
+
+static void
+add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *problem)
+{
+  static const char *kinds[] = {
+    "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
+    "contradiction", "not-converged",
+  };
+  char text[400];
+
+  celd_problem_text (problem, report->palette, report->relations, text, sizeof text);
+  json_builder_begin_object (json);
+  add_text (json, "kind", kinds[problem->kind]);
+  add_text (json, "text", text);
+  if (problem->x >= 0 && problem->y >= 0)
+    add_place (json, "place", problem->x, problem->y);
+  if (problem->label)
+    add_integer (json, "label", problem->label);
+  if (problem->relation != CELD_NO_INDEX)
+    add_integer (json, "relation", (gint64) problem->relation);
+  json_builder_end_object (json);
+}
+
+static void
+add_cost (JsonBuilder *json, const GArray *timings)
+{
+  struct rusage usage;
+
+  json_builder_set_member_name (json, "seconds");
+  json_builder_begin_object (json);
+  for (guint i = 0; i < timings->len; i++)
+    {
+      const CliTiming *timing = &g_array_index (timings, CliTiming, i);
+
+      add_number (json, timing->stage, timing->seconds);
+    }
+  json_builder_end_object (json);
+  if (!getrusage (RUSAGE_SELF, &usage))
+    add_integer (json, "peak-memory", (gint64) usage.ru_maxrss * 1024);
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static void
+add_order (JsonBuilder *json, const CliReport *report)
+{
+  add_integer (json, "levels", report->order->levels);
+  begin_list (json, "cycles");
+  for (size_t i = 0; i < report->order->n_cycles; i++)
+    add_cycle (json, &report->order->cycle[i]);
+  json_builder_end_array (json);
+}
+
+static char *
+make_text (const CliReport *report)
+{
+  JsonBuilder   *json = json_builder_new ();
+  JsonGenerator *generator = json_generator_new ();
+  JsonNode      *root;
+  char          *text;
+
+  json_builder_begin_object (json);
+  add_text (json, "celdepth", CELDEPTH_VERSION);
+  add_integer (json, "schema", SCHEMA);
+  add_text (json, "command", report->command);
+  add_integer (json, "width", report->width);
+  add_integer (json, "height", report->height);
+  begin_list (json, "labels");
+  for (size_t i = 0; i < report->palette->n; i++)
+    add_label (json, report, i);
+  json_builder_end_array (json);
+  begin_list (json, "relations");
+  for (size_t i = 0; i < report->relations->n; i++)
+    add_relation (json, report, i);
+  json_builder_end_array (json);
+  if (report->order)
+    add_order (json, report);
+  begin_list (json, "problems");
+  for (size_t i = 0; report->problems && i < report->problems->n; i++)
+    add_problem (json, report, &report->problems->item[i]);
+  json_builder_end_array (json);
+  add_cost (json, report->timings);
+  json_builder_end_object (json);
+
+  root = json_builder_get_root (json);
+  json_generator_set_root (generator, root);
+  json_generator_set_pretty (generator, TRUE);
+  text = json_generator_to_data (generator, NULL);
+  json_node_unref (root);
+  g_object_unref (generator);
+  g_object_unref (json);
+  return text;
+}
+
+bool
+cli_report_write (const char *path, const CliReport *report)
+{
+  char   *data = make_text (report), *text = g_strconcat (data, "\n", NULL);
+  GError *error = NULL;
+  bool    good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+
+  if (!good)
+    cli_say ("Cannot write \"%s\": %s", path, error->message);
+  g_clear_error (&error);
+  g_free (text);
+  g_free (data);
+  return good;
+}

@@ -1,0 +1,323 @@
+/* Single steps, on pictures that earlier steps wrote.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ shared */
+
+/* Ends a step: says why it failed, if it did. */
+static bool
+finish (CliRun *run, CeldStatus status)
+{
+  cli_run_stage (run, NULL);
+  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+}
+
+/* Ink of the drawing for one purpose, with virtual contours. */
+static bool
+make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink)
+{
+  CeldDrawing *drawing = &layers->drawing;
+  CeldInkMode  mode = options->settings.ink;
+  CeldStatus   status = CELD_OK;
+
+  if (!cli_plane_new (drawing->luma.width, drawing->luma.height, ink))
+    return false;
+  cli_run_stage (run, "ink");
+  if (layers->contours.data)
+    status = celd_contours_bake (drawing, &layers->contours, purpose, mode, &run->run, drawing);
+  if (status == CELD_OK)
+    status = celd_ink (drawing, mode, &run->run, ink);
+  return finish (run, status);
+}
+
+/* Levels and the ink of their drawing: what expand, smooth and shade start from. */
+typedef struct
+{
+  CeldPlane levels, ink;
+  CliLayers layers;
+  CliRun    run;
+} Step;
+
+static bool
+begin_step (const CliOptions *options, Step *step)
+{
+  *step = (Step) { 0 };
+  cli_run_begin (&step->run, options->quiet);
+  if (!cli_read_levels (options->input, &step->levels))
+    return false;
+  step->layers.width  = step->levels.width;
+  step->layers.height = step->levels.height;
+  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
+         make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink);
+}
+
+static int
+end_step (Step *step, bool good)
+{
+  g_free (step->levels.data);
+  g_free (step->ink.data);
+  cli_layers_clear (&step->layers);
+  cli_run_end (&step->run);
+  return good ? CLI_DONE : CLI_FAILED;
+}
+
+/* The near end of levels whose encoding is not known: 1, or the largest rank. */
+static float
+nearest_level (const CeldPlane *levels)
+{
+  float nearest = 1;
+
+  for (size_t i = 0; i < (size_t) levels->width * (size_t) levels->height; i++)
+    nearest = MAX (nearest, levels->data[i]);
+  return nearest;
+}
+
+/* ------------------------------------------------------------------ order */
+
+/* What order works on. */
+typedef struct
+{
+  CliLayers     layers;
+  CeldPaint     paint;
+  CeldLabels    labels;
+  CeldPlane     ink;
+  CeldPalette   palette;
+  CeldRelations relations;
+  CeldOrder     order;
+  CeldProblems  problems;
+  CliRun        run;
+} Ordering;
+
+static bool
+load_ordering (const CliOptions *options, Ordering *o)
+{
+  char         *text = cli_relations_text (options);
+  CeldTextError error;
+  bool          good = text && cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
+                       cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
+                       cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
+                       cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&
+                       cli_check (celd_labels_read (&o->paint, &o->labels, &o->palette));
+
+  g_free (text);
+  return good && (!options->drawing || make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));
+}
+
+static CeldStatus
+make_order (const CeldSettings *settings, Ordering *o)
+{
+  const CeldPlane *ink = o->ink.data ? &o->ink : NULL;
+  const CeldRun   *run = &o->run.run;
+  CeldStatus       status = celd_background_mark (&o->labels, ink, settings, &o->palette);
+
+  if (status == CELD_OK && settings->same_colour == CELD_SAME_COLOUR_SEPARATE)
+    status = celd_separate (run, &o->labels, &o->palette);
+  if (status == CELD_OK && o->layers.arrows.data)
+    status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, run, &o->relations, &o->problems);
+  if (status == CELD_OK)
+    status = celd_order (&o->labels, &o->palette, &o->relations, ink, run, &o->order, &o->problems);
+  return status;
+}
+
+static bool
+write_ordering (const CliOptions *options, const Ordering *o)
+{
+  const CeldSettings *settings = &options->settings;
+  bool                ranks = settings->encoding == CELD_ENCODING_RANK && o->order.levels > 1;
+  CeldPlane           levels;
+  bool                good = cli_plane_new (o->labels.width, o->labels.height, &levels);
+
+  for (size_t i = 0; good && i < (size_t) levels.width * (size_t) levels.height; i++)
+    levels.data[i] = celd_encode_level (o->order.level[o->labels.data[i] - 1], o->order.levels, settings);
+  good = good && cli_write_depth (options->levels, &levels, ranks ? (float) (o->order.levels - 1) : 1);
+  g_free (levels.data);
+  return good && (!options->report || cli_report_write (options->report, &(CliReport) {
+    .command   = "order",
+    .width     = o->labels.width,
+    .height    = o->labels.height,
+    .palette   = &o->palette,
+    .relations = &o->relations,
+    .order     = &o->order,
+    .problems  = &o->problems,
+    .settings  = settings,
+    .timings   = o->run.timings,
+  }));
+}
+
+static void
+clear_ordering (Ordering *o)
+{
+  cli_layers_clear (&o->layers);
+  g_free (o->paint.data);
+  g_free (o->labels.data);
+  g_free (o->ink.data);
+  celd_palette_clear (&o->palette);
+  celd_relations_clear (&o->relations);
+  celd_order_clear (&o->order);
+  celd_problems_clear (&o->problems);
+  cli_run_end (&o->run);
+}
+
+int
+cli_order (const CliOptions *options)
+{
+  Ordering o = { 0 };
+  int      code = CLI_FAILED;
+  bool     good;
+
+  cli_run_begin (&o.run, options->quiet);
+  good = load_ordering (options, &o);
+  if (good)
+    {
+      cli_run_stage (&o.run, "order");
+      good = finish (&o.run, make_order (&options->settings, &o));
+    }
+  if (good && write_ordering (options, &o))
+    {
+      code = o.order.n_cycles ? CLI_CONTRADICTED : CLI_DONE;
+      cli_say_cycles (&o.order, &o.relations);
+      if (!options->quiet)
+        cli_say_problems (&o.problems, &o.palette, &o.relations);
+    }
+  clear_ordering (&o);
+  return code;
+}
+
+/* ------------------------------------------------------------------ expand */
+
+static int
+compare_floats (const void *a, const void *b)
+{
+  float x = *(const float *) a, y = *(const float *) b;
+
+  return (x > y) - (x < y);
+}
+
+/* Levels of any encoding as ranks, and the value of each rank; NaN counts as 0. */
+static bool
+rank_levels (CeldPlane *levels, CeldLabels *ranks, float **values)
+{
+  size_t n = (size_t) levels->width * (size_t) levels->height, n_values = 0;
+  float *sorted = g_try_new (float, n);
+
+  *values = sorted;
+  if (!sorted || !cli_labels_new (levels->width, levels->height, ranks))
+    return cli_check (CELD_NO_MEMORY);
+  for (size_t i = 0; i < n; i++)
+    sorted[i] = levels->data[i] = isnan (levels->data[i]) ? 0 : levels->data[i];
+  qsort (sorted, n, sizeof *sorted, compare_floats);
+  for (size_t i = 0; i < n; i++)
+    if (!i || sorted[i] > sorted[n_values - 1])
+      sorted[n_values++] = sorted[i];
+  for (size_t i = 0; i < n; i++)
+    {
+      const float *found = bsearch (&levels->data[i], sorted, n_values, sizeof *sorted, compare_floats);
+
+      ranks->data[i] = (uint32_t) (found - sorted);
+    }
+  return true;
+}
+
+int
+cli_expand (const CliOptions *options)
+{
+  Step       step;
+  CeldLabels ranks = { 0 };
+  float     *values = NULL;
+  bool       good = begin_step (options, &step) && rank_levels (&step.levels, &ranks, &values);
+
+  if (good)
+    {
+      cli_run_stage (&step.run, "levels");
+      good = finish (&step.run, celd_expand (&step.ink, &ranks, &options->settings, &step.run.run, &ranks));
+    }
+  if (good)
+    {
+      for (size_t i = 0; i < (size_t) ranks.width * (size_t) ranks.height; i++)
+        step.levels.data[i] = values[ranks.data[i]];
+      good = cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
+    }
+  g_free (ranks.data);
+  g_free (values);
+  return end_step (&step, good);
+}
+
+/* ------------------------------------------------------------------ smooth */
+
+/* Pixels that are painted keep their level. */
+static bool
+read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
+{
+  CeldPaint   paint = { 0 };
+  CeldLabels  seeds = { 0 };
+  CeldPalette palette = { 0 };
+  size_t      n = (size_t) layers->width * (size_t) layers->height;
+  bool        good = cli_layer_read (options->anchors, "scribbles", layers, &paint) &&
+                     cli_labels_new (paint.width, paint.height, &seeds) &&
+                     cli_check (celd_scribbles_read (&paint, &options->settings, NULL, &seeds, &palette));
+
+  *anchors = (CeldMask) { layers->width, layers->height, (size_t) layers->width, good ? g_try_new (uint8_t, n) : NULL };
+  for (size_t i = 0; anchors->data && i < n; i++)
+    anchors->data[i] = seeds.data[i] != 0;
+  g_free (paint.data);
+  g_free (seeds.data);
+  celd_palette_clear (&palette);
+  return good && (anchors->data || cli_check (CELD_NO_MEMORY));
+}
+
+int
+cli_smooth (const CliOptions *options)
+{
+  Step      step;
+  CeldMask  anchors = { 0 };
+  CeldSolve solve = { 0 };
+  bool      good = begin_step (options, &step) && (!options->anchors || read_anchors (options, &step.layers, &anchors));
+
+  if (good)
+    {
+      float nearest = nearest_level (&step.levels);
+
+      cli_run_stage (&step.run, "depth");
+      good = finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL, &options->settings,
+                                             &step.run.run, &step.levels, &solve)) &&
+             cli_write_depth (options->depth, &step.levels, nearest);
+    }
+  if (good && !solve.converged && !options->quiet)
+    cli_say_problems (&(CeldProblems) { &(CeldProblem) { .kind = CELD_PROBLEM_NOT_CONVERGED, .relation = CELD_NO_INDEX }, 1 },
+                      NULL, NULL);
+  g_free (anchors.data);
+  return end_step (&step, good);
+}
+
+/* ------------------------------------------------------------------ shade */
+
+int
+cli_shade (const CliOptions *options)
+{
+  Step        step;
+  CeldVectors normals = { 0 };
+  CeldPlane   shading = { 0 };
+  bool        good = begin_step (options, &step);
+
+  if (good)
+    {
+      normals = (CeldVectors) { step.levels.width, step.levels.height, step.levels.stride,
+                                g_try_new (float, 3 * (gsize) step.levels.width * (gsize) step.levels.height) };
+      cli_run_stage (&step.run, "normals");
+      good = finish (&step.run, normals.data ? celd_normals (&step.ink, &step.levels, &options->settings, &step.run.run, &normals)
+                                             : CELD_NO_MEMORY) &&
+             cli_plane_new (step.levels.width, step.levels.height, &shading) &&
+             cli_check (celd_shade (&normals, &options->settings, &shading)) &&
+             (!options->normals || cli_write_normals (options->normals, &normals)) &&
+             (!options->shading || cli_write_shading (options->shading, &shading));
+    }
+  g_free (normals.data);
+  g_free (shading.data);
+  return end_step (&step, good);
+}
