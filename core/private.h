@@ -70,6 +70,23 @@ CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 CeldStatus celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
                          const CeldRun *run, uint8_t *side, int64_t *flow);
 
+/* ------------------------------------------------------------------ multiway.c: many labels on a grid */
+
+#define CELD_HARD INT32_MAX /* a vote that is always obeyed */
+
+typedef struct
+{
+  int             width, height;
+  const int32_t  *east, *south; /* V_pq > 0, as in celd_maxflow */
+  const uint32_t *seed;         /* painted label of each pixel, 0 = none */
+  const int32_t  *vote;         /* of label l: vote[l - 1], what one of its painted pixels costs with another label */
+  const uint32_t *order;        /* all labels, in the order in which they are told apart from the rest */
+  size_t          n_labels;     /* at least 1 */
+} CeldMultiway;
+
+/* Gives every pixel with label[p] == 0 a label.  Others keep theirs; of these only hard seeds matter to the rest. */
+CeldStatus celd_multiway (const CeldMultiway *problem, const CeldRun *run, uint32_t *label);
+
 /* ------------------------------------------------------------------ laplace.c: the one Laplacian solver */
 
 /* The system  A x = b  on the 4-grid, with  (A x)_p = diagonal_p x_p + sum over neighbours q of w_pq (x_p - x_q).
