@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LONGEST_RUN 256 /* longer runs of ink are no strokes' widths */
 #define COLOUR_ERROR 2
 
 typedef struct
@@ -27,39 +26,7 @@ typedef struct
 static bool
 on_ink (const CeldPlane *ink, int x, int y)
 {
-  return ink && CELD_AT (ink, x, y) < 0.5f; /* NaN is paper */
-}
-
-/* Counts runs of ink by length, along n lines of `length` pixels. */
-static void
-count_runs (const CeldPlane *ink, bool columns, size_t runs[LONGEST_RUN + 1])
-{
-  int n = columns ? ink->width : ink->height, length = columns ? ink->height : ink->width;
-
-  for (int i = 0; i < n; i++)
-    for (int j = 0, run = 0; j <= length; j++)
-      if (j < length && (columns ? on_ink (ink, i, j) : on_ink (ink, j, i)))
-        run++;
-      else if (run)
-        {
-          runs[run < LONGEST_RUN ? run : LONGEST_RUN]++;
-          run = 0;
-        }
-}
-
-static int
-stroke_width (const CeldPlane *ink)
-{
-  size_t runs[LONGEST_RUN + 1] = { 0 }, all = 0, below = 0;
-  int    width = 0;
-
-  count_runs (ink, false, runs);
-  count_runs (ink, true, runs);
-  for (int i = 1; i <= LONGEST_RUN; i++)
-    all += runs[i];
-  while (width < LONGEST_RUN && 2 * below < all)
-    below += runs[++width];
-  return width;
+  return ink && !celd_is_paper (CELD_AT (ink, x, y));
 }
 
 static uint32_t
@@ -78,7 +45,7 @@ label_near (Picture *picture, int x, int y)
   int      reach, best;
 
   if (!picture->stroke)
-    picture->stroke = stroke_width (picture->ink);
+    picture->stroke = celd_stroke_width (picture->ink);
   reach = picture->stroke;
   best  = (reach + 1) * (reach + 1);
   for (int v = y - reach < 0 ? 0 : y - reach; v <= y + reach && v < picture->labels->height; v++)

@@ -70,6 +70,32 @@ CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 CeldStatus celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
                          const CeldRun *run, uint8_t *side, int64_t *flow);
 
+/* ------------------------------------------------------------------ ink as the regions see it */
+
+/* Is this value of ink paper rather than ink?  NaN is. */
+static inline bool
+celd_is_paper (float ink)
+{
+  return !(ink < 0.5f);
+}
+
+/* stroke.c: the median length of the runs of ink along rows and columns, in pixels; 0 without ink, at most 256.
+ * Solid black areas hardly count. */
+int celd_stroke_width (const CeldPlane *ink);
+
+/* frame.c: the paper pixels along the frame, as y * width + x (ink NULL: all outermost pixels); corners may come twice.
+ * End with celd_free. */
+CeldStatus celd_frame (const CeldPlane *ink, int width, int height, size_t **pixel, size_t *n);
+
+/* ------------------------------------------------------------------ labels.c */
+
+/* Fills in the area of each label and a pixel of it as far as can be from ink (may be NULL) and other labels; -1,-1 for
+ * labels without a pixel. */
+CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run, CeldPalette *palette);
+
+/* The opaque label of this colour, within what colour management does to it; 0 if there is none. */
+uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3]);
+
 /* ------------------------------------------------------------------ multiway.c: many labels on a grid */
 
 #define CELD_HARD INT32_MAX /* a vote that is always obeyed */
