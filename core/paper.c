@@ -15,6 +15,7 @@
 #include <string.h>
 
 #define BINS 256
+#define DARKEST 1e-3f         /* no paper is darker, so that values can be divided by it */
 
 /* ------------------------------------------------------------------ one value a pixel */
 
@@ -211,14 +212,14 @@ mean_around (const Tiles *t, int x, int y)
   return n > 0 ? sum / n : 0;
 }
 
-/* Fills unknown tiles ring by ring, then evens out the whole. */
+/* Fills unknown tiles ring by ring. */
 static void
 fill_tiles (Tiles *t)
 {
   size_t bytes = (size_t) t->width * (size_t) t->height * sizeof *t->level;
   bool   unknown = true;
 
-  for (int round = 0; unknown; round++)
+  while (unknown)
     {
       unknown = false;
       for (int y = 0; y < t->height; y++)
@@ -231,30 +232,61 @@ fill_tiles (Tiles *t)
           }
       memcpy (t->level, t->spare, bytes);
     }
+}
+
+/* Evens out the tiles' levels; a steady slope stays one, at the frame too. */
+static void
+smooth_tiles (Tiles *t)
+{
   for (int y = 0; y < t->height; y++)
     for (int x = 0; x < t->width; x++)
-      t->spare[y * t->width + x] = mean_around (t, x, y);
-  memcpy (t->level, t->spare, bytes);
+      {
+        const float *l = t->level + y * t->width + x;
+
+        t->spare[y * t->width + x] = x > 0 && x < t->width - 1 ? 0.25f * (l[-1] + l[1]) + 0.5f * l[0] : l[0];
+      }
+  for (int y = 0; y < t->height; y++)
+    for (int x = 0; x < t->width; x++)
+      {
+        const float *l = t->spare + y * t->width + x;
+        bool         inside = y > 0 && y < t->height - 1;
+
+        t->level[y * t->width + x] = inside ? 0.25f * (l[-t->width] + l[t->width]) + 0.5f * l[0] : l[0];
+      }
 }
 
-static float
-between (float value, float highest)
+/* Of `n` tiles in a row, the first of the two that a pixel lies between, and how far it is on the way to the second;
+ * beyond the middle of the outermost tiles the slope goes on. */
+static int
+tile_before (int pixel, int side, int n, float *share)
 {
-  return value > 0 ? (value < highest ? value : highest) : 0;
+  float place = ((float) pixel + 0.5f) / (float) side - 0.5f;
+  int   tile = place > 0 ? (int) place : 0;
+
+  if (tile > n - 2)
+    tile = n > 1 ? n - 2 : 0;
+  *share = n > 1 ? place - (float) tile : 0;
+  return tile;
 }
 
-/* The bilinear paper level at a pixel. */
-static float
-paper_at (const Tiles *t, int x, int y)
+static void
+interpolate_tiles (const Tiles *t, CeldPlane *paper)
 {
-  float u = between (((float) x + 0.5f) / (float) t->side - 0.5f, (float) (t->width - 1));
-  float v = between (((float) y + 0.5f) / (float) t->side - 0.5f, (float) (t->height - 1));
-  int   i = (int) u, j = (int) v, right = i + 1 < t->width, below = j + 1 < t->height ? t->width : 0;
-  const float *l = t->level + j * t->width + i;
+  for (int y = 0; y < paper->height; y++)
+    {
+      float v;
+      int   j = tile_before (y, t->side, t->height, &v), below = t->height > 1 ? t->width : 0;
 
-  u -= (float) i;
-  v -= (float) j;
-  return (1 - v) * ((1 - u) * l[0] + u * l[right]) + v * ((1 - u) * l[below] + u * l[below + right]);
+      for (int x = 0; x < paper->width; x++)
+        {
+          float        u;
+          const float *l = t->level + j * t->width + tile_before (x, t->side, t->width, &u);
+          int          right = t->width > 1;
+          float        upper = l[0] + u * (l[right] - l[0]), lower = l[below] + u * (l[below + right] - l[below]);
+
+          CELD_AT (paper, x, y) = fmaxf (upper + v * (lower - upper), DARKEST);
+        }
+    }
 }
 
 CeldStatus
@@ -272,12 +304,11 @@ celd_paper_levels (const CeldPlane *value, CeldPlane *paper)
     goto done;
   for (int y = 0; y < t.height; y++)
     for (int x = 0; x < t.width; x++)
-      t.level[y * t.width + x] = fmaxf (upper_value (value, x * t.side, y * t.side, t.side), 1e-3f);
+      t.level[y * t.width + x] = fmaxf (upper_value (value, x * t.side, y * t.side, t.side), DARKEST);
   drop_inked_tiles (&t);
   fill_tiles (&t);
-  for (int y = 0; y < value->height; y++)
-    for (int x = 0; x < value->width; x++)
-      CELD_AT (paper, x, y) = paper_at (&t, x, y);
+  smooth_tiles (&t);
+  interpolate_tiles (&t, paper);
   status = CELD_OK;
 
 done:
