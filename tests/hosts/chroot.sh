@@ -3,6 +3,7 @@
 #   chroot_make SUITE NAME PACKAGE...  a system of its own under $chroot_home/NAME; one that is there is used again
 #   chroot_copy NAME COPY              a second one, to be spoilt
 #   chroot_tree NAME                   the working tree into its /celdepth, without what git ignores
+#   chroot_commit NAME                 the last commit into its /celdepth
 #   chroot_run NAME COMMAND...         runs a command in it
 #
 # Every command gets a mount and process space of its own: nothing stays mounted or running, however it ends.  The mirror
@@ -50,7 +51,16 @@ chroot_tree ()
   root=$chroot_home/$1
   rm -rf "$root/celdepth"
   mkdir "$root/celdepth"
-  git ls-files -z --cached --others --exclude-standard | xargs -0 -r ls -d 2>/dev/null | tar -cf - -T - | tar -xf - -C "$root/celdepth"
+  git -c safe.directory='*' ls-files -z --cached --others --exclude-standard | xargs -0 -r ls -d 2>/dev/null |
+    tar -cf - -T - | tar -xf - -C "$root/celdepth"
+}
+
+chroot_commit ()
+{
+  root=$chroot_home/$1
+  rm -rf "$root/celdepth"
+  mkdir "$root/celdepth"
+  git -c safe.directory='*' archive HEAD | tar -xf - -C "$root/celdepth"
 }
 
 chroot_run ()
