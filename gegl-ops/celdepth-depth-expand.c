@@ -99,7 +99,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:depth-expand",
     "title",           "Depth Expand",
     "categories",      "artistic",
-    "description",     "Gives each contour to the region in front, which drew it, so that levels change at the outer edge of the ink",
+    "description",     "Gives each contour to the region in front, which drew it, so that levels change at the "
+                       "outer edge of the ink",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Depth Expand...",

@@ -107,7 +107,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:depth-order",
     "title",           "Depth Order",
     "categories",      "artistic",
-    "description",     "Gives each region a depth level, from arrows and relations that say which is in front of which",
+    "description",     "Gives each region a depth level, from arrows and relations that say which is in front of "
+                       "which",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Depth Order...",

@@ -21,7 +21,8 @@ CELD_PROPERTY_TOLERANCE
 static const CeldPad pads[] = {
   { "input", "Levels", "Depth levels, from Depth Expand or Depth Order", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Anchors", "Where it is painted the depth keeps its level, for example the scribbles; without it the core of each region does", FALSE },
+  { "aux2", "Anchors", "Where it is painted the depth keeps its level, for example the scribbles; without it the "
+                       "core of each region does", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -80,7 +81,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:depth-smooth",
     "title",           "Depth Smooth",
     "categories",      "artistic",
-    "description",     "Makes smooth depth of depth levels: steps stay where there is ink, and vanish where the drawing is open",
+    "description",     "Makes smooth depth of depth levels: steps stay where there is ink, and vanish where the "
+                       "drawing is open",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Depth Smooth...",

@@ -64,7 +64,8 @@ render (CeldOp *op)
   return celd_op_read_ink (op, "input", o->ink, &ink) &&
          celd_op_read_scribbles (op, "aux", &s, &labels) &&
          celd_op_read_relations (op, o->relations, "aux2", o->arrow_style) &&
-         celd_op_try (op, celd_segment (&ink, &labels, &op->relations, &s, &op->run, &labels, &op->palette, &op->problems)) &&
+         celd_op_try (op, celd_segment (&ink, &labels, &op->relations, &s, &op->run,
+                                        &labels, &op->palette, &op->problems)) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations) &&
          celd_op_write_paint (op, &labels, &op->palette);
 }
@@ -82,7 +83,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:lazybrush-segment",
     "title",           "Lazybrush Segment",
     "categories",      "artistic",
-    "description",     "Finds the parts of a line drawing from a few sloppy strokes; each part gets the colour of its stroke",
+    "description",     "Finds the parts of a line drawing from a few sloppy strokes; each part gets the colour of "
+                       "its stroke",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Lazybrush Segment...",

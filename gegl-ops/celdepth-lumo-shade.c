@@ -7,7 +7,8 @@
 #ifdef GEGL_PROPERTIES
 
 property_enum (result, "Result", CeldLumoResult, celd_lumo_result, CELD_LUMO_ART)
-    description ("The art as the light falls on it, the light alone (linear), or the normals as 0.5 + 0.5 n (numbers, not colours)")
+    description ("The art as the light falls on it, the light alone (linear), or the normals as 0.5 + 0.5 n "
+                 "(numbers, not colours)")
 
 CELD_PROPERTY_BULGE
 CELD_PROPERTY_LIGHT
@@ -96,7 +97,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:lumo-shade",
     "title",           "Lumo Shade",
     "categories",      "artistic:light",
-    "description",     "Shades a drawing as if its parts were round: the parts in front bend at their contours, those behind do not",
+    "description",     "Shades a drawing as if its parts were round: the parts in front bend at their contours, "
+                       "those behind do not",
     "reference",       CELD_REFERENCE " S. F. Johnston: Lumo: Illumination for Cel Animation. NPAR 2002.",
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Lumo Shade...",

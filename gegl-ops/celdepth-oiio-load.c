@@ -128,9 +128,9 @@ static void
 prepare (GeglOperation *operation)
 {
   Source *source = get_source (operation);
-  bool    colours = GEGL_PROPERTIES (operation)->content == CELD_LOAD_COLOURS;
+  bool    colours = source->file && GEGL_PROPERTIES (operation)->content == CELD_LOAD_COLOURS;
 
-  gegl_operation_set_format (operation, "output", source->file && colours ? colour_format (source) : babl_format ("Y float"));
+  gegl_operation_set_format (operation, "output", colours ? colour_format (source) : babl_format ("Y float"));
 }
 
 static GeglRectangle

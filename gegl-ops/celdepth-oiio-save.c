@@ -10,7 +10,8 @@ property_string (path, "File", "")
     description ("The file to write; its ending chooses the format: .exr, .png, .tif")
 
 property_enum (content, "Content", CeldSaveContent, celd_save_content, CELD_SAVE_DEPTH)
-    description ("What the picture is: depth (EXR: Z and depth.V), normals (EXR: N.X, N.Y, N.Z), linear light, or colours")
+    description ("What the picture is: depth (EXR: Z and depth.V), normals (EXR: N.X, N.Y, N.Z), linear light, or "
+                 "colours")
 
 property_double (near_level, "Near level", 1.0)
     description ("The depth that the file shows as nearest: 1, or of ranks the largest")
@@ -86,7 +87,8 @@ save (GeglProperties *o, GeglBuffer *input, const GeglRectangle *roi, CeldIoErro
 
   if (!pixels)
     return false;
-  gegl_buffer_get (input, roi, 1.0, babl_format (writers[o->content].format), pixels, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  gegl_buffer_get (input, roi, 1.0, babl_format (writers[o->content].format), pixels,
+                   GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
   written = writers[o->content].write (o, roi->width, roi->height, pixels, error);
   g_free (pixels);
   return written;

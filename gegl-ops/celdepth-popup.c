@@ -42,7 +42,8 @@ static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
   { "aux", "Scribbles", "A stroke of another colour over each part", FALSE },
   { "aux2", "Arrows", "Arrows from nearer to farther parts", FALSE },
-  { "aux3", "Virtual contours", "Red: a border for regions and depth; blue: a border for regions, across which depth stays "
+  { "aux3", "Virtual contours", "Red: a border for regions and depth; blue: a border for regions, across which "
+                                "depth stays "
                                 "smooth; green: ink that is no border", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
@@ -168,7 +169,8 @@ render (CeldOp *op)
   if (!set_session (op) || !write_result (op))
     return FALSE;
   session = op->operation->session;
-  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session), celd_session_relations (session));
+  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session),
+                       celd_session_relations (session));
 }
 
 static void
@@ -184,7 +186,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:popup",
     "title",           "Pop-up",
     "categories",      "artistic",
-    "description",     "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther ones, in one step",
+    "description",     "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther "
+                       "ones, in one step",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Pop-up...",

@@ -7,7 +7,8 @@
 #ifdef GEGL_PROPERTIES
 
 property_enum (result, "Result", CeldPurpose, celd_purpose, CELD_FOR_SEGMENTATION)
-    description ("The drawing that the segmentation needs, or the one for depth: blue contours count in the former alone")
+    description ("The drawing that the segmentation needs, or the one for depth: blue contours count in the "
+                 "former alone")
 
 CELD_PROPERTY_INK
 
@@ -21,7 +22,8 @@ CELD_PROPERTY_INK
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Contours", "Red: a border for regions and depth; blue: a border for regions, across which depth stays smooth; "
+  { "aux", "Contours", "Red: a border for regions and depth; blue: a border for regions, across which depth stays "
+                       "smooth; "
                        "green: ink that is no border", TRUE },
   { NULL, NULL, NULL, FALSE }
 };
@@ -66,7 +68,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",            "celdepth:virtual-contours",
     "title",           "Virtual Contours",
     "categories",      "artistic",
-    "description",     "Draws painted contours into a line drawing: borders that the artist left out, and ink that is no border",
+    "description",     "Draws painted contours into a line drawing: borders that the artist left out, and ink "
+                       "that is no border",
     "reference",       CELD_REFERENCE,
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Virtual Contours...",

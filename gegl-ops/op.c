@@ -221,6 +221,10 @@ check_pad (CeldOp *op, const CeldPad *pad)
   if (!r)
     return !pad->required ||
            celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);
+  if (!r->width || !r->height)
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or see whether its "
+                             "file can be read.",
+                         pad->label, pad->name);
   if (!gegl_rectangle_intersect (NULL, r, p))
     return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
                          "Move it over the picture, or give it the picture's size.",
@@ -236,7 +240,8 @@ check_pads (CeldOp *op)
   if (gegl_rectangle_is_infinite_plane (p))
     return celd_op_fail (op, "The input has no size. Crop it first.");
   if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture is %d x %d pixels large; at most %d a side can be worked on. Scale it down first.",
+    return celd_op_fail (op, "The picture is %d x %d pixels large; at most %d a side can be worked on. Scale it "
+                             "down first.",
                          p->width, p->height, CELD_MAX_SIDE);
   for (const CeldPad *pad = GET_CLASS (op->operation)->pads; pad->name; pad++)
     if (!check_pad (op, pad))
@@ -256,7 +261,8 @@ pass_through (GeglOperationContext *context)
 }
 
 static gboolean
-process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad, const GeglRectangle *roi, gint level)
+process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad,
+         const GeglRectangle *roi, gint level)
 {
   CeldOperation *self = (CeldOperation *) operation;
   CeldOp         op = {

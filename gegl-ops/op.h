@@ -1,7 +1,7 @@
 /* What every operation of the suite is made of: a base class, and the steps that read pads and write the output.
  *
  * CeldOperation is a GeglOperation over the whole picture.  An operation of the suite derives from it (gegl-op.h takes
- * the two macros below), lists its pads, and gives `render`, which reads as a chain of steps that each say TRUE or FALSE:
+ * the two macros below), lists its pads, and gives `render`, a chain of steps that each say TRUE or FALSE:
  *
  *     return celd_op_read_plane (op, "input", &levels) &&
  *            celd_op_read_ink (op, "aux", o->ink, &ink) &&
@@ -88,7 +88,8 @@ gboolean celd_op_try (CeldOp *op, CeldStatus status);
 /* As celd_op_try, for steps that read the relations text. */
 gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
 /* Tells the artist; the result is delivered all the same, so always TRUE. */
-gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
+gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
+                       const CeldRelations *relations);
 
 /* The same for a solve that was less exact than asked for. */
 gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);
@@ -116,8 +117,8 @@ gboolean celd_op_new_mask    (CeldOp *op, CeldMask *mask);
 gboolean celd_op_new_paint   (CeldOp *op, CeldPaint *paint);
 gboolean celd_op_new_vectors (CeldOp *op, CeldVectors *vectors);
 
-/* The relations of a text (may be NULL) and of a painted layer (a pad that may be empty), in this order, to op->relations;
- * unclear arrows to op->problems. */
+/* The relations of a text (may be NULL) and of a painted layer (a pad that may be missing), in this order, to
+ * op->relations; unclear arrows to op->problems. */
 gboolean celd_op_read_relations (CeldOp *op, const char *text, const char *pad, CeldArrowStyle style);
 
 /* Seed labels and op->palette from painted strokes. */

@@ -1,4 +1,4 @@
-/* Pictures from pads to core and back.  Buffers arrive in whatever format the host keeps them: every format is explicit.
+/* Pictures from pads to core and back.  Buffers arrive in whatever format the host keeps them: each is named here.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -61,18 +61,22 @@ celd_op_new_vectors (CeldOp *op, CeldVectors *vectors)
 
 /* ------------------------------------------------------------------ reading */
 
+static GeglBuffer *
+buffer_of (CeldOp *op, const char *pad)
+{
+  return GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad));
+}
+
 static void
 get (CeldOp *op, const char *pad, const GeglRectangle *rect, const char *format, GeglAbyssPolicy outside, void *pixels)
 {
-  GeglBuffer *buffer = GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad));
-
-  gegl_buffer_get (buffer, rect, 1.0, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, outside);
+  gegl_buffer_get (buffer_of (op, pad), rect, 1.0, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, outside);
 }
 
 static gboolean
 has_alpha (CeldOp *op, const char *pad)
 {
-  return babl_format_has_alpha (gegl_buffer_get_format (GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad))));
+  return babl_format_has_alpha (gegl_buffer_get_format (buffer_of (op, pad)));
 }
 
 /* Round a layer that is smaller than the picture: nothing, or, if it cannot be seen through, more white paper. */
@@ -109,7 +113,8 @@ celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
   float        *rgba = celd_op_alloc (op, w * 4 * sizeof (float));
 
   *drawing = (CeldDrawing) { 0 };
-  if (!rgba || !celd_op_new_plane (op, &drawing->luma) || (has_alpha (op, pad) && !celd_op_new_plane (op, &drawing->alpha)))
+  if (!rgba || !celd_op_new_plane (op, &drawing->luma) ||
+      (has_alpha (op, pad) && !celd_op_new_plane (op, &drawing->alpha)))
     return FALSE;
   for (gsize y = 0; y < (gsize) op->picture.height; y++, row.y++)
     {

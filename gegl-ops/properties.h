@@ -33,11 +33,13 @@ GType celd_popup_result_get_type (void);
 
 #define CELD_PROPERTY_INK \
   property_enum (ink, "Ink", CeldInkMode, celd_ink_mode, CELD_INK_AUTO) \
-    description ("What is ink: lines darker than the paper, lighter than the paper (chalk), or whatever is painted on a transparent layer")
+    description ("What is ink: lines darker than the paper, lighter than the paper (chalk), or whatever is " \
+                 "painted on a transparent layer")
 
 #define CELD_PROPERTY_INK_THRESHOLD \
   property_double (ink_threshold, "Ink threshold", 0.25) \
-    description ("Ink at or below this value counts as fully inked: 0 is ink, 1 is paper. Raise it if depth leaks through pale contours") \
+    description ("Ink at or below this value counts as fully inked: 0 is ink, 1 is paper. Raise it if depth leaks " \
+                 "through pale contours") \
     value_range (0.0, 0.99) \
     ui_range (0.0, 0.6) \
     ui_steps (0.01, 0.05) \
@@ -80,7 +82,8 @@ GType celd_popup_result_get_type (void);
 
 #define CELD_PROPERTY_RELATIONS \
   property_string (relations, "Relations", "") \
-    description ("What is nearer than what, in words: 120,80 > 300,95 compares two points, #ff0000 > #00ff00 two colours, = means equal. One a line, or with ; between") \
+    description ("What is nearer than what, in words: 120,80 > 300,95 compares two points, #ff0000 > #00ff00 two " \
+                 "colours, = means equal. One a line, or with ; between") \
     ui_meta ("multiline", "true")
 
 #define CELD_PROPERTY_ARROW_STYLE \
@@ -89,7 +92,8 @@ GType celd_popup_result_get_type (void);
 
 #define CELD_PROPERTY_ENCODING \
   property_enum (encoding, "Encoding", CeldEncoding, celd_encoding, CELD_ENCODING_NORMALIZED) \
-    description ("How levels leave: from 0 to 1, as ranks 0, 1, 2, ..., or on a fixed scale that a new arrow does not change") \
+    description ("How levels leave: from 0 to 1, as ranks 0, 1, 2, ..., or on a fixed scale that a new arrow does " \
+                 "not change") \
   property_double (near_level, "Near level", 1.0) \
     description ("This level becomes 1") \
     value_range (-1e6, 1e6) \
