@@ -450,17 +450,20 @@ pass_measure (void *solution, int strip)
 
   for (int y = first_row (strip); y < last_row (l, strip); y++)
     {
-      size_t i = (size_t) y * (size_t) l->width;
+      size_t i  = (size_t) y * (size_t) l->width;
+      double zr = 0, zq = 0, top = 0;
 
-      s->sum[y] = s->sum2[y] = s->top[y] = 0;
       for (int x = 0; x < l->width; x++, i++)
         {
-          double z = (double) s->z[i];
+          double z = (double) s->z[i], size = z < 0 ? -z : z;
 
-          s->sum[y]  += z * s->r[i];
-          s->sum2[y] += z * s->q[i];
-          s->top[y]   = fmax (s->top[y], fabs (z));
+          zr += z * s->r[i];
+          zq += z * s->q[i];
+          top = size > top ? size : top;
         }
+      s->sum[y]  = zr;
+      s->sum2[y] = zq;
+      s->top[y]  = top;
     }
 }
 
@@ -486,14 +489,16 @@ pass_apply (void *solution, int strip)
 
   for (int y = first_row (strip); y < last_row (l, strip); y++)
     {
-      s->sum[y] = 0;
+      double pq = 0;
+
       for (int x = 0; x < l->width; x++)
         {
           size_t i = (size_t) y * (size_t) l->width + (size_t) x;
 
           s->q[i] = apply (l, x, y, i, s->p);
-          s->sum[y] += s->p[i] * s->q[i];
+          pq += s->p[i] * s->q[i];
         }
+      s->sum[y] = pq;
     }
 }
 
@@ -506,17 +511,18 @@ pass_advance (void *solution, int strip)
 
   for (int y = first_row (strip); y < last_row (l, strip); y++)
     {
-      size_t i = (size_t) y * (size_t) l->width;
+      size_t i   = (size_t) y * (size_t) l->width;
+      double low = INFINITY, high = -INFINITY;
 
-      s->sum[y]  = INFINITY;
-      s->sum2[y] = -INFINITY;
       for (int x = 0; x < l->width; x++, i++)
         {
           s->x[i] += s->factor * s->p[i];
           s->r[i] -= s->factor * s->q[i];
-          s->sum[y]  = fmin (s->sum[y], s->x[i]);
-          s->sum2[y] = fmax (s->sum2[y], s->x[i]);
+          low  = s->x[i] < low ? s->x[i] : low;
+          high = s->x[i] > high ? s->x[i] : high;
         }
+      s->sum[y]  = low;
+      s->sum2[y] = high;
     }
 }
 
@@ -625,7 +631,7 @@ iterate (Solution *s, CeldLaplace *l, double tolerance, const CeldRun *run, Celd
       if (k > 0)
         solve->error = top / fmax (least_eigenvalue (k, alpha, beta), 1e-6) / scale;
       first = k == 1 ? solve->error : first;
-      solve->converged = top <= 0 || solve->error <= tolerance;
+      solve->converged = zr == 0 || solve->error <= tolerance;
       if (solve->converged || !(zr > 0))
         break;
       if (k > 1)

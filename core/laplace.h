@@ -32,6 +32,7 @@ typedef struct
 {
   uint32_t  n;
   uint32_t *start, *neighbour;
+  uint32_t *middle;             /* where neighbours > i begin; only in levels that are ready for the cycle */
   float    *weight;             /* of each neighbour */
   float    *sink;               /* diagonal beyond the edge weights */
   float    *inverse;            /* 1 / whole diagonal; 0 for a floating node */
