@@ -51,8 +51,6 @@ is_line_layer (const CeldDrawing *drawing)
   int    width = drawing->luma.width, height = drawing->luma.height, side = width < height ? width : height;
   double opaque = 0, outline = 0, inside = 0;
 
-  if (!drawing->alpha.data)
-    return false;
   for (int y = 0; y < height; y++)
     for (int x = 0; x < width; x++)
       {
@@ -109,12 +107,29 @@ is_chalk (const CeldDrawing *drawing)
   return 2 * dark > all && 2 * dark_frame > framed;
 }
 
+static bool
+has_transparency (const CeldDrawing *drawing)
+{
+  if (drawing->alpha.data)
+    for (int y = 0; y < drawing->alpha.height; y++)
+      for (int x = 0; x < drawing->alpha.width; x++)
+        if (opacity (drawing, x, y) < 1)
+          return true;
+  return false;
+}
+
+/* An opaque picture has no lines in its alpha, whatever was asked for. */
 CeldInkMode
 celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode)
 {
-  if (mode != CELD_INK_AUTO)
+  bool transparent;
+
+  if (mode == CELD_INK_DARK || mode == CELD_INK_LIGHT)
     return mode;
-  return is_line_layer (drawing) ? CELD_INK_ALPHA : is_chalk (drawing) ? CELD_INK_LIGHT : CELD_INK_DARK;
+  transparent = has_transparency (drawing);
+  if (transparent && (mode == CELD_INK_ALPHA || is_line_layer (drawing)))
+    return CELD_INK_ALPHA;
+  return is_chalk (drawing) ? CELD_INK_LIGHT : CELD_INK_DARK;
 }
 
 void

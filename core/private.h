@@ -52,7 +52,7 @@ void celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), voi
 
 /* ------------------------------------------------------------------ paper.c: what a drawing was made with */
 
-/* The mode that CELD_INK_AUTO stands for; any other mode itself. */
+/* The mode that CELD_INK_AUTO stands for; any other mode itself, but for CELD_INK_ALPHA of an opaque picture. */
 CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
 
 /* One value a pixel, 1 = bright paper, 0 = full ink, in a mode that is not CELD_INK_AUTO; of the drawing's size. */
