@@ -6,7 +6,8 @@
  * The vertical pass streams along rows.  An inside pixel hides everything behind it from the rest of its row, so
  * each gap between inside pixels has an envelope of its own, and inside pixels cost next to nothing.
  *
- * Squares stay below 2 * CELD_MAX_SIDE^2 = 8e8 and are exact in int32_t.  O(pixels) time; three rows of workspace a job.
+ * Squares stay below 2 * CELD_MAX_SIDE^2 = 8e8 and are exact in int32_t.  O(pixels) time; three rows of workspace
+ * a job.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
