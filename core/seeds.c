@@ -1,0 +1,458 @@
+/* Arrows as strokes: the expert gesture of section 4 ("directly generate scribbles with a newly added depth inequality")
+ * and Figure 2, which has two arrows and nothing else.
+ *
+ * An end in a piece of paper that nothing reaches makes that piece a label.  Where both ends of an inequality end up in
+ * one region, it is split between them: the end that is nearer, within the region, to the seeds that the region has keeps
+ * its label, the other becomes a new one; only the region is cut again.  Equalities never split, and their ends share
+ * one label.
+ *
+ * A seed of one pixel would collapse: to wrap it is cheaper than any cut across.  So an end is seeded with discs that touch
+ * the contours beside it, first where it lies and then where climbing the distance to ink leads, all of them nearer to it
+ * than half the way to the other end; a cut between the ends is then cheaper across a gap than round a disc.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REACH      0.45          /* of the way between both ends, for the discs of each */
+#define WIDEST     8             /* discs are at most 1/8 of the shorter side */
+
+/* An end of a relation on the drawing: the nearest paper to its point. */
+typedef struct { bool there; int x, y; size_t p; } End;
+
+typedef struct { double x, y, radius; } Disc;
+
+/* ------------------------------------------------------------------ ends and discs */
+
+static End
+find_end (const CeldCanvas *canvas, const CeldTerm *term)
+{
+  End end = { 0 };
+  int reach = canvas->stroke, best, px, py;
+
+  if (term->by_colour || !(term->x >= 0 && term->y >= 0 && term->x < canvas->width && term->y < canvas->height))
+    return end;
+  px = (int) term->x;
+  py = (int) term->y;
+  best = reach * reach + 1;
+  for (int y = py - reach < 0 ? 0 : py - reach; y <= py + reach && y < canvas->height; y++)
+    for (int x = px - reach < 0 ? 0 : px - reach; x <= px + reach && x < canvas->width; x++)
+      {
+        int squared = (x - px) * (x - px) + (y - py) * (y - py);
+
+        if (squared >= best || !CELD_AT (&canvas->pieces, x, y))
+          continue;
+        best = squared;
+        end  = (End) { true, x, y, (size_t) y * (size_t) canvas->width + (size_t) x };
+      }
+  return end;
+}
+
+static double
+distance (End a, End b)
+{
+  return hypot (a.x - b.x, a.y - b.y);
+}
+
+/* Squared distance to ink of every pixel. */
+static CeldStatus
+distance_to_ink (const CeldCanvas *canvas, const CeldRun *run, int32_t **squared)
+{
+  uint8_t   *inked = celd_alloc (canvas->n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  *squared = celd_alloc (canvas->n, sizeof **squared);
+  if (inked && *squared)
+    {
+      for (size_t p = 0; p < canvas->n; p++)
+        inked[p] = !canvas->pieces.data[p];
+      status = celd_distance (canvas->width, canvas->height, inked, run, *squared);
+    }
+  celd_free (inked);
+  return status;
+}
+
+/* The largest disc round (x,y) without ink and no farther than `reach` from the end. */
+static Disc
+disc_at (const CeldCanvas *canvas, const int32_t *squared, End end, double reach, int x, int y)
+{
+  int    side = canvas->width < canvas->height ? canvas->width : canvas->height;
+  double radius = sqrt (squared[(size_t) y * (size_t) canvas->width + (size_t) x]) - 0.5;
+
+  radius = fmin (radius, fmin (fmax (1, (double) side / WIDEST), reach - hypot (x - end.x, y - end.y)));
+  return (Disc) { x, y, fmax (0, radius) };
+}
+
+/* One step to where the disc is larger; false on a summit. */
+static bool
+climb (const CeldCanvas *canvas, const int32_t *squared, End end, double reach, Disc *disc)
+{
+  Disc best = *disc;
+  int  cx = (int) disc->x, cy = (int) disc->y;
+
+  for (int y = cy > 0 ? cy - 1 : 0; y <= cy + 1 && y < canvas->height; y++)
+    for (int x = cx > 0 ? cx - 1 : 0; x <= cx + 1 && x < canvas->width; x++)
+      {
+        Disc other = disc_at (canvas, squared, end, reach, x, y);
+
+        if (other.radius > best.radius + 1e-9)
+          best = other;
+      }
+  if (best.radius <= disc->radius)
+    return false;
+  *disc = best;
+  return true;
+}
+
+/* Calls `paint` for the pixels of a disc, its centre always. */
+static void
+stamp (CeldCanvas *canvas, Disc disc, void (*paint) (CeldCanvas *canvas, size_t p, void *data), void *data)
+{
+  int r = (int) disc.radius, cx = (int) disc.x, cy = (int) disc.y;
+
+  for (int y = cy - r < 0 ? 0 : cy - r; y <= cy + r && y < canvas->height; y++)
+    for (int x = cx - r < 0 ? 0 : cx - r; x <= cx + r && x < canvas->width; x++)
+      if ((x - cx) * (x - cx) + (y - cy) * (y - cy) <= disc.radius * disc.radius)
+        paint (canvas, (size_t) y * (size_t) canvas->width + (size_t) x, data);
+}
+
+/* Both discs of an end: where it lies, and on the summit above. */
+static void
+stamp_end (CeldCanvas *canvas, const int32_t *squared, End end, double reach,
+           void (*paint) (CeldCanvas *canvas, size_t p, void *data), void *data)
+{
+  Disc disc = disc_at (canvas, squared, end, reach, end.x, end.y);
+
+  stamp (canvas, disc, paint, data);
+  while (climb (canvas, squared, end, reach, &disc))
+    ;
+  stamp (canvas, disc, paint, data);
+}
+
+/* ------------------------------------------------------------------ colours of new labels */
+
+static void
+from_hue (double hue, double saturation, double value, uint8_t colour[4])
+{
+  for (int i = 0; i < 3; i++)
+    {
+      double t = fmod (hue + (3 - i) / 3.0, 1) * 6; /* 0 at this channel's own hue */
+      double distance = fmin (t, 6 - t);            /* 0 .. 3 */
+      double share = fmax (0, fmin (1, 2 - distance));
+
+      colour[i] = (uint8_t) lround (255 * value * (1 - saturation + saturation * share));
+    }
+  colour[3] = 255;
+}
+
+static int
+colour_distance (const uint8_t a[4], const uint8_t b[4])
+{
+  return abs (a[0] - b[0]) + abs (a[1] - b[1]) + abs (a[2] - b[2]);
+}
+
+/* The first of a fixed row of colours that is far from all labels; the farther, the fewer labels there are. */
+static void
+new_colour (const CeldPalette *palette, uint8_t colour[4])
+{
+  for (int least = 150; ; least = least * 2 / 3)
+    for (int i = 0; i < 360; i++)
+      {
+        bool far = true;
+
+        from_hue (fmod (0.33 + i * 0.6180339887, 1), i % 3 == 1 ? 0.55 : 0.8, i % 3 == 2 ? 0.65 : 0.95, colour);
+        for (size_t k = 0; k < palette->n && far; k++)
+          far = !palette->item[k].colour[3] || colour_distance (palette->item[k].colour, colour) >= least;
+        if (far)
+          return;
+      }
+}
+
+static CeldStatus
+new_label (CeldCanvas *canvas, uint32_t *label)
+{
+  CeldRegion region = { .origin = CELD_FROM_ARROW, .hard = true };
+
+  new_colour (&canvas->palette, region.colour);
+  return celd_canvas_add (canvas, region, label);
+}
+
+/* ------------------------------------------------------------------ ends that nothing reaches */
+
+typedef struct { uint32_t label, piece; } Planting;
+
+static void
+paint_piece (CeldCanvas *canvas, size_t p, void *data)
+{
+  const Planting *planting = data;
+
+  if (canvas->pieces.data[p] != planting->piece || canvas->seeds.data[p])
+    return;
+  canvas->seeds.data[p] = planting->label;
+  canvas->palette.item[planting->label - 1].seeds++;
+}
+
+static CeldStatus
+plant_relation (const CeldRelation *relation, const int32_t *squared, bool *reached, CeldCanvas *canvas)
+{
+  End        end[2] = { find_end (canvas, &relation->nearer), find_end (canvas, &relation->farther) };
+  Planting   planting = { 0, 0 };
+  double     reach = INFINITY;
+  CeldStatus status = CELD_OK;
+
+  if (end[0].there && end[1].there && canvas->pieces.data[end[0].p] == canvas->pieces.data[end[1].p])
+    reach = REACH * distance (end[0], end[1]);
+  for (int i = 0; i < 2 && status == CELD_OK; i++)
+    {
+      planting.piece = end[i].there ? canvas->pieces.data[end[i].p] : 0;
+      if (!planting.piece || reached[planting.piece])
+        continue;
+      if (!planting.label || !relation->equal)
+        status = new_label (canvas, &planting.label);
+      if (status == CELD_OK)
+        stamp_end (canvas, squared, end[i], reach, paint_piece, &planting);
+      reached[planting.piece] = true;
+    }
+  return status;
+}
+
+CeldStatus
+celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
+{
+  bool      *reached = celd_alloc0 (canvas->n_pieces + 1, sizeof *reached);
+  int32_t   *squared = NULL;
+  CeldStatus status = reached ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK && relations->n)
+    status = distance_to_ink (canvas, run, &squared);
+  for (size_t p = 0; p < canvas->n && status == CELD_OK; p++)
+    if (canvas->seeds.data[p])
+      reached[canvas->pieces.data[p]] = true;
+  for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
+    status = plant_relation (&relations->item[i], squared, reached, canvas);
+  celd_free (squared);
+  celd_free (reached);
+  return status;
+}
+
+/* ------------------------------------------------------------------ both ends in one region */
+
+/* The region round an end, as a walk over its pixels in steps finds it. */
+typedef struct
+{
+  uint8_t  *mark;      /* INSIDE, and WALKED by the second walk; 0 elsewhere; one byte a pixel of the picture */
+  uint32_t *queue;
+  uint32_t  label;
+  int       left, top, right, bottom;
+} Region;
+
+enum { OUTSIDE, INSIDE, WALKED, NEW_DISC, KEPT_DISC };
+
+static void
+visit (Region *region, size_t p, uint8_t from, uint8_t to, size_t *n)
+{
+  if (region->mark[p] != from)
+    return;
+  region->mark[p] = to;
+  region->queue[(*n)++] = (uint32_t) p;
+}
+
+/* Walks over the pixels of the region's label that are marked `from`, marks them `to`, widens the box round them.
+ * Returns the steps to the nearest seed of the label; SIZE_MAX if there is none. */
+static size_t
+walk (const CeldCanvas *canvas, size_t start, uint8_t from, uint8_t to, Region *region)
+{
+  size_t w = (size_t) canvas->width, n = 0, steps = 0, nearest = SIZE_MAX;
+
+  visit (region, start, from, to, &n);
+  for (size_t i = 0, level = n; i < n; i++)
+    {
+      size_t p = region->queue[i];
+      int    x = (int) (p % w), y = (int) (p / w);
+
+      if (i == level)
+        {
+          level = n;
+          steps++;
+        }
+      if (nearest == SIZE_MAX && canvas->seeds.data[p] == region->label)
+        nearest = steps;
+      region->left   = x < region->left ? x : region->left;
+      region->right  = x > region->right ? x : region->right;
+      region->top    = y < region->top ? y : region->top;
+      region->bottom = y > region->bottom ? y : region->bottom;
+      if (x > 0 && canvas->labels.data[p - 1] == region->label)
+        visit (region, p - 1, from, to, &n);
+      if (x + 1 < canvas->width && canvas->labels.data[p + 1] == region->label)
+        visit (region, p + 1, from, to, &n);
+      if (y > 0 && canvas->labels.data[p - w] == region->label)
+        visit (region, p - w, from, to, &n);
+      if (y + 1 < canvas->height && canvas->labels.data[p + w] == region->label)
+        visit (region, p + w, from, to, &n);
+    }
+  return nearest;
+}
+
+typedef struct { Region *region; uint8_t mark; } Marking;
+
+static void
+paint_mark (CeldCanvas *canvas, size_t p, void *data)
+{
+  const Marking *marking = data;
+
+  if (marking->region->mark[p] && canvas->pieces.data[p])
+    marking->region->mark[p] = marking->mark;
+}
+
+/* The cut's own labels: what is new, what the other end keeps, and the seeds that the region had. */
+enum { LOCAL_NEW = 1, LOCAL_KEPT, LOCAL_OLD, LOCAL_LABELS = LOCAL_OLD };
+
+typedef struct { int width, height; int32_t *east, *south; uint32_t *seed, *label; } Local;
+
+static void
+local_clear (Local *local)
+{
+  celd_free (local->east);
+  celd_free (local->south);
+  celd_free (local->seed);
+  celd_free (local->label);
+}
+
+/* Copies what the cut needs from the region's box. */
+static CeldStatus
+local_new (const CeldCanvas *canvas, const Region *region, Local *local)
+{
+  int    w = region->right - region->left + 1, h = region->bottom - region->top + 1;
+  size_t n = (size_t) w * (size_t) h, i = 0;
+
+  *local = (Local) {
+    w, h, celd_alloc (n, sizeof *local->east), celd_alloc (n, sizeof *local->south),
+    celd_alloc0 (n, sizeof *local->seed), celd_alloc0 (n, sizeof *local->label)
+  };
+  if (!local->east || !local->south || !local->seed || !local->label)
+    return CELD_NO_MEMORY;
+  for (int y = region->top; y <= region->bottom; y++)
+    for (int x = region->left; x <= region->right; x++, i++)
+      {
+        size_t p = (size_t) y * (size_t) canvas->width + (size_t) x;
+
+        local->east[i]  = canvas->east[p];
+        local->south[i] = canvas->south[p];
+        if (region->mark[p] == OUTSIDE)
+          local->label[i] = UINT32_MAX; /* not to be solved */
+        else if (region->mark[p] == NEW_DISC)
+          local->seed[i] = LOCAL_NEW;
+        else if (region->mark[p] == KEPT_DISC)
+          local->seed[i] = LOCAL_KEPT;
+        else if (canvas->seeds.data[p] == region->label)
+          local->seed[i] = LOCAL_OLD;
+      }
+  return CELD_OK;
+}
+
+/* Gives the new label its side of the cut; discs are seeds from now on. */
+static void
+take_over (CeldCanvas *canvas, const Region *region, const Local *local, uint32_t label)
+{
+  size_t i = 0;
+
+  for (int y = region->top; y <= region->bottom; y++)
+    for (int x = region->left; x <= region->right; x++, i++)
+      {
+        size_t   p = (size_t) y * (size_t) canvas->width + (size_t) x;
+        uint32_t seed = region->mark[p] == NEW_DISC ? label : region->mark[p] == KEPT_DISC ? region->label : 0;
+
+        if (local->label[i] == LOCAL_NEW)
+          canvas->labels.data[p] = label;
+        if (!seed)
+          continue;
+        canvas->seeds.data[p] = seed;
+        canvas->palette.item[seed - 1].seeds += canvas->palette.item[seed - 1].origin == CELD_FROM_ARROW;
+      }
+}
+
+static CeldStatus
+cut_region (CeldCanvas *canvas, const Region *region, const CeldRun *run)
+{
+  const uint32_t order[LOCAL_LABELS] = { LOCAL_NEW, LOCAL_KEPT, LOCAL_OLD };
+  int32_t       *votes = celd_canvas_votes (canvas), vote[LOCAL_LABELS] = { CELD_HARD, CELD_HARD, 0 };
+  Local          local = { 0 };
+  uint32_t       label;
+  CeldMultiway   m;
+  CeldStatus     status = votes ? local_new (canvas, region, &local) : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  vote[LOCAL_OLD - 1] = votes[region->label - 1];
+  m = (CeldMultiway) { local.width, local.height, local.east, local.south, local.seed, vote, order, LOCAL_LABELS };
+  status = celd_multiway (&m, run, local.label);
+  if (status == CELD_OK)
+    status = new_label (canvas, &label);
+  if (status == CELD_OK)
+    take_over (canvas, region, &local, label);
+
+done:
+  celd_free (votes);
+  local_clear (&local);
+  return status;
+}
+
+static CeldStatus
+split_relation (CeldCanvas *canvas, const CeldRelation *relation, const int32_t *squared, Region *region,
+                const CeldRun *run)
+{
+  End        end[2] = { find_end (canvas, &relation->nearer), find_end (canvas, &relation->farther) };
+  CeldStatus status = CELD_OK;
+  size_t     steps[2];
+  int        kept;
+
+  if (relation->equal || !end[0].there || !end[1].there || end[0].p == end[1].p ||
+      canvas->labels.data[end[0].p] != canvas->labels.data[end[1].p])
+    return CELD_OK;
+  region->label = canvas->labels.data[end[0].p];
+  region->left  = region->right = end[0].x;
+  region->top   = region->bottom = end[0].y;
+  steps[0] = walk (canvas, end[0].p, OUTSIDE, INSIDE, region);
+  if (region->mark[end[1].p] == INSIDE)
+    {
+      steps[1] = walk (canvas, end[1].p, INSIDE, WALKED, region);
+      kept = steps[0] < steps[1] ? 0 : 1;
+      for (int i = 0; i < 2; i++)
+        {
+          Marking marking = { region, i == kept ? KEPT_DISC : NEW_DISC };
+
+          stamp_end (canvas, squared, end[i], REACH * distance (end[0], end[1]), paint_mark, &marking);
+        }
+      status = cut_region (canvas, region, run);
+    }
+  for (int y = region->top; y <= region->bottom; y++)
+    memset (&region->mark[(size_t) y * (size_t) canvas->width + (size_t) region->left], OUTSIDE,
+            (size_t) (region->right - region->left + 1));
+  return status;
+}
+
+CeldStatus
+celd_seeds_split (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
+{
+  Region     region = { .mark = celd_alloc0 (canvas->n, 1), .queue = celd_alloc (canvas->n, sizeof *region.queue) };
+  int32_t   *squared = NULL;
+  CeldStatus status = region.mark && region.queue ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK && relations->n)
+    status = distance_to_ink (canvas, NULL, &squared);
+  for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
+    {
+      CeldPart part;
+      CeldRun  one = celd_run_part (&part, run, (double) i / (double) relations->n, (double) (i + 1) / (double) relations->n);
+
+      status = split_relation (canvas, &relations->item[i], squared, &region, &one);
+    }
+  celd_free (region.mark);
+  celd_free (region.queue);
+  celd_free (squared);
+  return status;
+}

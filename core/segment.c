@@ -1,0 +1,363 @@
+/* LazyBrush [SDC09b] (section 3.2): every pixel gets the label of a scribble, borders run through ink.
+ *
+ * The energy is that of multiway.c with V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper costs
+ * more than any border inside ink could.  The paper leaves open:
+ *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
+ *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
+ *       behind costs nothing, half ink 1/27, and paper grain little.
+ *   votes  A painted pixel costs hardness K in LazyBrush, so that a stroke closes gaps up to hardness x its area, and
+ *       the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean
+ *       width of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the
+ *       brush and the resolution, and to wrap it costs twice that, so that a majority of paint wins.
+ *   frame  A page is often cropped to its drawing.  Edges along the frame between paper cost as if 1/64 of the perimeter's
+ *       half were left of the margin, so that the background holds together where a figure nearly touches the frame.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define UNIT        16             /* cost of an edge inside ink: energies are integers */
+#define MOST_VOTE   (1 << 28)
+#define BRUSH       20.0           /* pixels; at this width votes are hardness K */
+#define INK_STEPS   1024           /* of the table of g */
+
+/* ------------------------------------------------------------------ the canvas */
+
+CeldStatus
+celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label)
+{
+  CeldRegion *item = celd_grow (canvas->palette.item, canvas->palette.n + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  canvas->palette.item = item;
+  item[canvas->palette.n++] = region;
+  *label = (uint32_t) canvas->palette.n;
+  return CELD_OK;
+}
+
+static void
+canvas_clear (CeldCanvas *canvas)
+{
+  celd_free (canvas->seeds.data);
+  celd_free (canvas->labels.data);
+  celd_free (canvas->pieces.data);
+  celd_free (canvas->piece);
+  celd_free (canvas->east);
+  celd_free (canvas->south);
+  celd_palette_clear (&canvas->palette);
+}
+
+/* Copies the palette and those seeds that it knows; `seeds` counts them. */
+static CeldStatus
+copy_seeds (const CeldLabels *seeds, const CeldPalette *palette, CeldCanvas *canvas)
+{
+  for (size_t k = 0; k < palette->n; k++)
+    {
+      CeldRegion region = palette->item[k];
+      uint32_t   label;
+
+      region.seeds      = 0;
+      region.background = false;
+      if (celd_canvas_add (canvas, region, &label) != CELD_OK)
+        return CELD_NO_MEMORY;
+    }
+  for (int y = 0; y < canvas->height; y++)
+    for (int x = 0; x < canvas->width; x++)
+      {
+        uint32_t l = CELD_AT (seeds, x, y);
+
+        if (l < 1 || l > palette->n)
+          continue;
+        CELD_AT (&canvas->seeds, x, y) = l;
+        canvas->palette.item[l - 1].seeds++;
+      }
+  return CELD_OK;
+}
+
+/* Closed pieces of paper. */
+static CeldStatus
+find_pieces (CeldCanvas *canvas, const CeldRun *run)
+{
+  for (int y = 0; y < canvas->height; y++)
+    for (int x = 0; x < canvas->width; x++)
+      CELD_AT (&canvas->labels, x, y) = celd_is_paper (CELD_AT (canvas->ink, x, y));
+  return celd_components (&canvas->labels, 0, false, run, &canvas->pieces, &canvas->piece, &canvas->n_pieces);
+}
+
+static CeldStatus
+canvas_new (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette, const CeldSettings *settings,
+            const CeldRun *run, CeldCanvas *canvas)
+{
+  int        w = ink->width, h = ink->height;
+  CeldStatus status;
+
+  *canvas = (CeldCanvas) { .settings = settings, .ink = ink, .width = w, .height = h, .n = (size_t) w * (size_t) h };
+  canvas->stroke = celd_stroke_width (ink);
+  status = celd_labels_new (w, h, &canvas->seeds);
+  if (status == CELD_OK)
+    status = celd_labels_new (w, h, &canvas->labels);
+  if (status == CELD_OK)
+    status = celd_labels_new (w, h, &canvas->pieces);
+  if (status == CELD_OK)
+    status = copy_seeds (seeds, palette, canvas);
+  if (status == CELD_OK)
+    status = find_pieces (canvas, run);
+  return status;
+}
+
+static bool
+has_seeds (const CeldCanvas *canvas)
+{
+  for (size_t p = 0; p < canvas->n; p++)
+    if (canvas->seeds.data[p])
+      return true;
+  return false;
+}
+
+/* In a flat colouring the ink lines may be painted too: on ink, paint says nothing, unless it is a whole dark area. */
+static CeldStatus
+keep_flats_on_paper (CeldCanvas *canvas)
+{
+  size_t  n = canvas->palette.n, w = (size_t) canvas->width;
+  size_t *count = celd_alloc0 (3 * (n + 1), sizeof *count), *on_paper = count + n + 1, *sides = on_paper + n + 1;
+
+  if (!count)
+    return CELD_NO_MEMORY;
+  for (size_t p = 0; p < canvas->n; p++)
+    {
+      uint32_t l = canvas->seeds.data[p];
+
+      count[l]++;
+      on_paper[l] += canvas->pieces.data[p] != 0;
+      sides[l]    += p % w == 0 || canvas->seeds.data[p - 1] != l;
+    }
+  for (size_t p = 0; p < canvas->n; p++)
+    {
+      uint32_t l = canvas->seeds.data[p];
+      bool     dark_area = 20 * on_paper[l] < count[l] && count[l] > 3 * (size_t) canvas->stroke * sides[l];
+
+      if (!canvas->pieces.data[p] && !dark_area)
+        canvas->seeds.data[p] = 0;
+    }
+  celd_free (count);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the energy */
+
+static double
+perimeter (const CeldCanvas *canvas)
+{
+  return 2.0 * (canvas->width + canvas->height);
+}
+
+/* V of edges by their ink, in INK_STEPS + 1 steps from ink to paper. */
+static void
+tabulate_costs (const CeldCanvas *canvas, int32_t cost[INK_STEPS + 1])
+{
+  double threshold = (double) canvas->settings->ink_threshold;
+
+  for (int i = 0; i <= INK_STEPS; i++)
+    {
+      double paper = fmax (0, ((double) i / INK_STEPS - threshold) / (1 - threshold));
+
+      cost[i] = (int32_t) (UNIT * (1 + perimeter (canvas) * paper * paper * paper));
+    }
+}
+
+static int
+ink_step (float ink)
+{
+  return ink > 0 && ink < 1 ? (int) (ink * INK_STEPS) : ink <= 0 ? 0 : INK_STEPS; /* NaN is paper */
+}
+
+static int32_t
+edge_cost (const CeldCanvas *canvas, const int32_t *cost, int x, int y, int dx, int dy, int along_frame)
+{
+  int p = ink_step (CELD_AT (canvas->ink, x, y)), q;
+
+  if (x + dx >= canvas->width || y + dy >= canvas->height)
+    return 0;
+  q = ink_step (CELD_AT (canvas->ink, x + dx, y + dy));
+  if (along_frame && 2 * p >= INK_STEPS && 2 * q >= INK_STEPS)
+    return cost[p < q ? p : q] * (1 + (canvas->width + canvas->height) / 64);
+  return cost[p < q ? p : q];
+}
+
+static CeldStatus
+weigh_edges (CeldCanvas *canvas)
+{
+  int32_t cost[INK_STEPS + 1];
+  size_t  p = 0;
+
+  canvas->east  = celd_alloc (canvas->n, sizeof *canvas->east);
+  canvas->south = celd_alloc (canvas->n, sizeof *canvas->south);
+  if (!canvas->east || !canvas->south)
+    return CELD_NO_MEMORY;
+  tabulate_costs (canvas, cost);
+  for (int y = 0; y < canvas->height; y++)
+    for (int x = 0; x < canvas->width; x++, p++)
+      {
+        canvas->east[p]  = edge_cost (canvas, cost, x, y, 1, 0, y == 0 || y + 1 == canvas->height);
+        canvas->south[p] = edge_cost (canvas, cost, x, y, 0, 1, x == 0 || x + 1 == canvas->width);
+      }
+  return CELD_OK;
+}
+
+/* Mean width of soft strokes: twice their area over the length of their outline. */
+static double
+brush_width (const CeldCanvas *canvas)
+{
+  size_t w = (size_t) canvas->width, area = 0, outline = 0;
+
+  for (size_t p = 0; p < canvas->n; p++)
+    {
+      uint32_t l = canvas->seeds.data[p];
+
+      if (l && !canvas->palette.item[l - 1].hard)
+        area++;
+      if (p % w + 1 < w)
+        outline += l != canvas->seeds.data[p + 1];
+      if (p + w < canvas->n)
+        outline += l != canvas->seeds.data[p + w];
+    }
+  return outline ? fmax (1, 2.0 * (double) area / (double) outline) : BRUSH;
+}
+
+int32_t *
+celd_canvas_votes (const CeldCanvas *canvas)
+{
+  int32_t *vote = celd_alloc (canvas->palette.n, sizeof *vote);
+  bool     all_hard = canvas->settings->flats || canvas->settings->hardness >= 1;
+  double   soft = UNIT * perimeter (canvas) * (double) canvas->settings->hardness * BRUSH / brush_width (canvas);
+
+  for (size_t k = 0; vote && k < canvas->palette.n; k++)
+    vote[k] = all_hard || canvas->palette.item[k].hard ? CELD_HARD : (int32_t) fmax (1, fmin (soft, MOST_VOTE));
+  return vote;
+}
+
+/* ------------------------------------------------------------------ the cuts */
+
+typedef struct { uint32_t label; size_t seeds; } Turn;
+
+static int
+compare_turns (const void *a, const void *b)
+{
+  const Turn *p = a, *q = b;
+
+  if (p->seeds != q->seeds)
+    return p->seeds > q->seeds ? -1 : 1;
+  return p->label < q->label ? -1 : 1;
+}
+
+/* Labels by falling paint: most of the picture is decided first, and later cuts are small. */
+static CeldStatus
+order_labels (const CeldCanvas *canvas, uint32_t *order)
+{
+  Turn *turn = celd_alloc0 (canvas->palette.n, sizeof *turn);
+
+  if (!turn)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    turn[k].label = (uint32_t) k + 1;
+  for (size_t p = 0; p < canvas->n; p++)
+    if (canvas->seeds.data[p])
+      turn[canvas->seeds.data[p] - 1].seeds++;
+  qsort (turn, canvas->palette.n, sizeof *turn, compare_turns);
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    order[k] = turn[k].label;
+  celd_free (turn);
+  return CELD_OK;
+}
+
+static CeldStatus
+cut_labels (CeldCanvas *canvas, const CeldRun *run)
+{
+  uint32_t    *order = celd_alloc (canvas->palette.n, sizeof *order);
+  int32_t     *vote = celd_canvas_votes (canvas);
+  CeldMultiway m = {
+    canvas->width, canvas->height, canvas->east, canvas->south, canvas->seeds.data, vote, order, canvas->palette.n
+  };
+  CeldStatus   status = order && vote ? order_labels (canvas, order) : CELD_NO_MEMORY;
+
+  memset (canvas->labels.data, 0, canvas->n * sizeof *canvas->labels.data);
+  if (status == CELD_OK)
+    status = celd_multiway (&m, run, canvas->labels.data);
+  celd_free (order);
+  celd_free (vote);
+  return status;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static CeldStatus
+solve (CeldCanvas *canvas, const CeldRelations *relations, const CeldRun *run)
+{
+  CeldPart   part[2];
+  CeldRun    cuts = celd_run_part (&part[0], run, 0.1, 0.8), splits = celd_run_part (&part[1], run, 0.8, 0.9);
+  bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
+  CeldStatus status = arrows ? celd_seeds_plant (relations, NULL, canvas) : CELD_OK;
+
+  if (status == CELD_OK && !has_seeds (canvas))
+    status = CELD_NOTHING_TO_GO_BY;
+  if (status == CELD_OK && canvas->settings->flats)
+    status = keep_flats_on_paper (canvas);
+  if (status == CELD_OK)
+    status = celd_stains_remove (NULL, canvas);
+  if (status == CELD_OK)
+    status = celd_background_seed (NULL, canvas);
+  if (status == CELD_OK)
+    status = weigh_edges (canvas);
+  if (status == CELD_OK)
+    status = celd_step (run, 0.1);
+  if (status == CELD_OK)
+    status = cut_labels (canvas, &cuts);
+  if (status == CELD_OK && arrows)
+    status = celd_seeds_split (relations, &splits, canvas);
+  return status;
+}
+
+CeldStatus
+celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
+              const CeldSettings *settings, const CeldRun *run,
+              CeldLabels *labels, CeldPalette *palette, CeldProblems *problems)
+{
+  CeldCanvas   canvas = { 0 };
+  CeldProblems found = { 0 };
+  CeldStatus   status;
+
+  if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, labels))
+    return CELD_BAD_SIZE;
+  status = celd_settings_check (settings);
+  if (status == CELD_OK)
+    status = celd_step (run, 0);
+  if (status == CELD_OK)
+    status = canvas_new (ink, seeds, palette, settings, NULL, &canvas);
+  if (status == CELD_OK)
+    status = solve (&canvas, relations, run);
+  if (status == CELD_OK)
+    status = celd_palette_measure (&canvas.labels, ink, NULL, &canvas.palette);
+  if (status == CELD_OK)
+    status = celd_segment_report (&canvas, seeds, NULL, &found);
+  for (size_t i = 0; i < found.n && status == CELD_OK; i++)
+    status = celd_problem_add (problems, found.item[i]);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status != CELD_OK)
+    goto done;
+  for (int y = 0; y < canvas.height; y++)
+    memcpy (&CELD_AT (labels, 0, y), &CELD_AT (&canvas.labels, 0, y), (size_t) canvas.width * sizeof *labels->data);
+  celd_palette_clear (palette);
+  *palette       = canvas.palette;
+  canvas.palette = (CeldPalette) { 0 };
+
+done:
+  celd_problems_clear (&found);
+  canvas_clear (&canvas);
+  return status;
+}

@@ -1,0 +1,72 @@
+/* What the steps of the segmentation share: the picture that celd_segment works on, and where paint lies on it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_SEGMENT_H
+#define CELD_SEGMENT_H
+
+#include "private.h"
+
+typedef struct
+{
+  const CeldSettings *settings;
+  const CeldPlane    *ink;
+  int                 width, height;
+  size_t              n;        /* pixels */
+  int                 stroke;   /* width of the drawing's strokes */
+  CeldLabels          seeds;    /* painted labels, and those that arrows and the frame add; tight */
+  CeldLabels          labels;   /* the result; tight */
+  CeldLabels          pieces;   /* closed pieces of paper from 1; 0 = ink; tight */
+  CeldComponent      *piece;
+  size_t              n_pieces;
+  int32_t            *east, *south; /* V_pq */
+  CeldPalette         palette;  /* of all labels so far */
+} CeldCanvas;
+
+/* One more label, without seeds so far: *label is its number. */
+CeldStatus celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label);
+
+/* ------------------------------------------------------------------ paint.c: where strokes lie */
+
+/* What a connected stroke of one label leaves in one piece of paper. */
+typedef struct { uint32_t piece, label, stroke; size_t pixels; bool stain; } CeldShare;
+
+typedef struct
+{
+  CeldLabels strokes;           /* connected strokes from 1; 0 = no paint */
+  size_t    *total;             /* of stroke k: its pixels on paper, total[k] */
+  CeldShare *share;             /* by piece, label, stroke */
+  size_t     n;
+} CeldSpread;
+
+CeldStatus celd_spread_new (const CeldCanvas *canvas, const CeldRun *run, CeldSpread *spread);
+void       celd_spread_clear (CeldSpread *spread);
+
+/* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
+CeldStatus celd_stains_remove (const CeldRun *run, CeldCanvas *canvas);
+
+/* ------------------------------------------------------------------ background.c */
+
+/* Seeds along the frame, in pieces of paper that nothing reaches; marks the background in the palette. */
+CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
+
+/* ------------------------------------------------------------------ seeds.c: arrows as strokes */
+
+/* Seeds for each end of a relation that lies in a piece of paper which nothing reaches. */
+CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
+
+/* Splits regions in which both ends of an inequality lie. */
+CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
+
+/* ------------------------------------------------------------------ segment.c */
+
+/* Cost of one painted pixel of each label with another label: as many as the palette has.  End with celd_free. */
+int32_t *celd_canvas_votes (const CeldCanvas *canvas);
+
+/* ------------------------------------------------------------------ report.c */
+
+/* `seeds` are those that the artist painted. */
+CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldRun *run,
+                                CeldProblems *problems);
+
+#endif
