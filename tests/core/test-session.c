@@ -1,0 +1,254 @@
+/* The session: results equal the steps', edits redo what they touch, the host hears what changed.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "private.h"
+
+#define W 48
+#define H 32
+
+static const uint8_t red[3] = { 255, 0, 0 }, blue[3] = { 0, 0, 255 };
+
+/* A sheet in the middle of the page, outlined two pixels wide. */
+static CeldDrawing
+sheet (float *luma)
+{
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        bool inside = x >= 12 && x < 36 && y >= 8 && y < 24, core = x >= 14 && x < 34 && y >= 10 && y < 22;
+
+        luma[y * W + x] = inside && !core ? 0.f : 1.f;
+      }
+  return (CeldDrawing) { .luma = { W, H, W, luma } };
+}
+
+static void
+put_box (CeldSession *s, uint32_t id, int x, int y, int width, int height, const uint8_t colour[3])
+{
+  uint8_t  on[W * H];
+  CeldMask mask = { width, height, (size_t) width, on };
+
+  memset (on, 1, sizeof on);
+  CHECK (celd_session_put_stroke (s, id, x, y, &mask, colour) == CELD_OK);
+}
+
+/* The sheet with a red stroke in it and a blue one outside. */
+static CeldSession *
+scene (void)
+{
+  static float luma[W * H];
+  CeldDrawing  drawing = sheet (luma);
+  CeldSession *s = celd_session_new ();
+
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  put_box (s, 1, 18, 14, 10, 3, red);
+  put_box (s, 2, 2, 2, 40, 3, blue);
+  CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff", NULL) == CELD_OK);
+  return s;
+}
+
+static void
+whole_route (void)
+{
+  CeldSession     *s = scene ();
+  CeldLabels       labels;
+  CeldPlane        levels, depth, shading;
+  CeldVectors      normals;
+  const CeldOrder *order;
+  CeldRect         changed;
+
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK);
+  CHECK (changed.x == 0 && changed.y == 0 && changed.width == W && changed.height == H);
+  CHECK (celd_session_palette (s)->n == 2);
+  CHECK (CELD_AT (&labels, 24, 12) != CELD_AT (&labels, 2, 28));
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK && order->levels == 2 && order->n_cycles == 0);
+  CHECK (celd_session_levels (s, NULL, &levels, NULL) == CELD_OK);
+  CHECK (CELD_AT (&levels, 24, 12) == 1 && CELD_AT (&levels, 2, 28) == 0);
+  CHECK (CELD_AT (&levels, 12, 16) == 1 && CELD_AT (&levels, 35, 16) == 1); /* the outline is the sheet's */
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+  NEAR (CELD_AT (&depth, 24, 12), 1, 1e-4);
+  NEAR (CELD_AT (&depth, 2, 28), 0, 1e-4);
+  CHECK (celd_session_normals (s, NULL, &normals, NULL) == CELD_OK);
+  CHECK (CELD_XYZ (&normals, 13, 16)[0] < -0.5f && CELD_XYZ (&normals, 34, 16)[0] > 0.5f);
+  CHECK (CELD_XYZ (&normals, 24, 9)[1] > 0.5f); /* y up */
+  CHECK (celd_session_shading (s, NULL, &shading, NULL) == CELD_OK);
+  CHECK (celd_session_problems (s)->n == 0);
+  celd_session_free (s);
+}
+
+static void
+edits_say_what_changed (void)
+{
+  CeldSession *s = scene ();
+  CeldLabels   labels;
+  CeldPlane    levels;
+  CeldRect     changed;
+
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_session_levels (s, NULL, &levels, NULL) == CELD_OK);
+  CHECK (celd_session_set_relations (s, "#ff0000 < #0000ff", NULL) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_session_levels (s, NULL, &levels, &changed) == CELD_OK);
+  CHECK (CELD_AT (&levels, 24, 12) == 0 && CELD_AT (&levels, 2, 28) == 1);
+  CHECK (changed.width == W && changed.height == H);
+
+  put_box (s, 1, 18, 14, 10, 3, blue); /* the same stroke in the other colour: the sheet joins the page */
+  CHECK (celd_session_set_relations (s, "", NULL) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK);
+  CHECK (celd_session_palette (s)->n == 1);
+  CHECK (CELD_AT (&labels, 24, 12) == CELD_AT (&labels, 2, 28));
+  CHECK (celd_session_remove_stroke (s, 1) == CELD_OK);
+  CHECK (celd_session_remove_stroke (s, 1) == CELD_BAD_VALUE);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  celd_session_free (s);
+}
+
+static void
+single_relations (void)
+{
+  CeldSession     *s = scene ();
+  const CeldOrder *order;
+  CeldTextError    error;
+
+  CHECK (celd_session_put_relation (s, 7, "#0000ff > #ff0000", NULL) == CELD_OK); /* against the text */
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK && order->n_cycles == 1);
+  CHECK (celd_session_relations (s)->item[order->cycle[0].item[0]].id == 7); /* the later one gives way */
+  CHECK (celd_session_put_relation (s, 7, "#0000ff > #ff0000 @ 2", NULL) == CELD_OK); /* replaced by a heavier one */
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK && order->n_cycles == 1);
+  CHECK (celd_session_relations (s)->item[order->cycle[0].item[0]].id == 0);
+  CHECK (celd_session_put_relation (s, 7, "#0000ff >", &error) == CELD_BAD_RELATION && error.line == 1);
+  CHECK (celd_session_relations (s)->n == 2); /* as it was */
+  CHECK (celd_session_remove_relation (s, 7) == CELD_OK);
+  CHECK (celd_session_remove_relation (s, 7) == CELD_BAD_VALUE);
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK && order->n_cycles == 0);
+  celd_session_free (s);
+}
+
+static void
+anchors_keep_their_level (void)
+{
+  static float luma[W * H];
+  CeldDrawing  drawing = sheet (luma);
+  CeldSession *s = scene ();
+  CeldPlane    depth;
+
+  for (int y = 13; y < 19; y++) /* open the sheet to the right */
+    luma[y * W + 34] = luma[y * W + 35] = 1;
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff; 40,16 = 44,30 !anchor", NULL) == CELD_OK);
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+  NEAR (CELD_AT (&depth, 22, 15), 1, 1e-6);  /* the stroke */
+  NEAR (CELD_AT (&depth, 40, 16), 0, 1e-6);  /* the relation's end */
+  CHECK (CELD_AT (&depth, 33, 16) < 0.9f);   /* in between depth runs smoothly through the gap */
+  CHECK (CELD_AT (&depth, 33, 16) > CELD_AT (&depth, 36, 16));
+  celd_session_free (s);
+}
+
+static bool
+stop_at (void *host, double done)
+{
+  int *left = host;
+
+  CHECK (done >= 0 && done <= 1);
+  return (*left)-- > 0;
+}
+
+static void
+cancel_leaves_it_usable (void)
+{
+  CeldPlane depth;
+
+  for (int k = 0; k < 1000; k++)
+    {
+      CeldSession *s = scene ();
+      int          left = k;
+      CeldRun      run = { stop_at, NULL, &left };
+      CeldStatus   status = celd_session_depth (s, &run, &depth, NULL);
+
+      CHECK (status == CELD_OK || status == CELD_CANCELLED);
+      CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+      NEAR (CELD_AT (&depth, 24, 12), 1, 1e-4);
+      celd_session_free (s);
+      if (status == CELD_OK)
+        {
+          CHECK (k > 5); /* there were places to stop at */
+          return;
+        }
+    }
+  CHECK (!"ends within 1000 reports");
+}
+
+static void
+bad_input (void)
+{
+  static float   luma[W * H];
+  static uint8_t rgba[4 * 16];
+  CeldDrawing    drawing = sheet (luma), none = { 0 };
+  CeldPaint      small = { 4, 4, 4, rgba };
+  CeldSettings   wrong = celd_settings ();
+  CeldSession   *s = celd_session_new ();
+  CeldTextError  error = { 0 };
+  CeldLabels     labels;
+
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_BAD_SIZE); /* no drawing yet */
+  CHECK (celd_session_set_drawing (s, &none) == CELD_BAD_SIZE);
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_NOTHING_TO_GO_BY);
+  CHECK (celd_session_set_scribbles (s, &small) == CELD_BAD_SIZE);
+  CHECK (celd_session_set_relations (s, "1,1 > 2,2\n2", &error) == CELD_BAD_RELATION && error.line == 2);
+  wrong.tolerance = NAN;
+  CHECK (celd_session_set_settings (s, &wrong) == CELD_BAD_VALUE);
+  CHECK (celd_session_put_stroke (s, 0, 0, 0, &(CeldMask) { 4, 4, 4, rgba }, red) == CELD_BAD_VALUE);
+  celd_session_free (s);
+  celd_session_free (NULL);
+}
+
+static void
+strokes_far_outside (void)
+{
+  CeldSession *s = scene ();
+  CeldLabels   labels;
+  uint32_t     middle;
+
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  middle = CELD_AT (&labels, 24, 12);
+  put_box (s, 9, INT32_MAX - 2, INT32_MIN, 4, 4, blue);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (CELD_AT (&labels, 24, 12) == middle);
+  celd_session_free (s);
+}
+
+static void
+another_size_starts_anew (void)
+{
+  static float luma[20 * 20];
+  CeldDrawing  small = { .luma = { 20, 20, 20, luma } };
+  CeldSession *s = scene ();
+  CeldLabels   labels;
+  CeldRect     changed;
+
+  for (int i = 0; i < 400; i++)
+    luma[i] = 1;
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (celd_session_set_drawing (s, &small) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK);
+  CHECK (labels.width == 20 && changed.width == 20 && changed.height == 20);
+  celd_session_free (s);
+}
+
+int
+main (void)
+{
+  RUN (whole_route);
+  RUN (edits_say_what_changed);
+  RUN (single_relations);
+  RUN (anchors_keep_their_level);
+  RUN (cancel_leaves_it_usable);
+  RUN (bad_input);
+  RUN (strokes_far_outside);
+  RUN (another_size_starts_anew);
+  return DONE;
+}

@@ -1,0 +1,167 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The paper's situations as small drawings of our own.
+
+figures.py OUTDIR   writes one folder a figure: drawing.png and, where the figure has them, scribbles.png,
+                    contours.png, relations.txt and owner.png (who drew each ink pixel, as grey level: the label's
+                    index in the order below, 255 = paper).
+What must come out of each is stated and asserted in test-figures.py.
+"""
+import os
+import sys
+
+from PIL import Image, ImageDraw
+
+SCALE = 4                                  # drawn this much larger, then reduced: antialiased ink
+RED, BLUE, GREEN = (255, 0, 0), (0, 0, 255), (0, 160, 0)
+A, B, C, D = (220, 60, 60), (60, 140, 220), (240, 180, 40), (120, 200, 80)      # scribble colours
+
+
+class Figure:
+    """A page of ink and its layers, in pixels of the finished picture."""
+
+    def __init__(self, width=240, height=200):
+        self.size = width, height
+        self.page = Image.new('L', (width * SCALE, height * SCALE), 255)
+        self.ink = ImageDraw.Draw(self.page)
+        self.owner = Image.new('L', self.size, 255)
+        self.layers = {}
+        self.relations = None
+
+    def line(self, points, width=4):
+        """An ink line with round ends."""
+        big = [(x * SCALE, y * SCALE) for x, y in points]
+        r = width * SCALE / 2
+        self.ink.line(big, 0, int(width * SCALE))
+        for x, y in big:
+            self.ink.ellipse((x - r, y - r, x + r, y + r), 0)
+
+    def shape(self, points, width=4, index=None):
+        """A white sheet with an ink outline: hides what is below it."""
+        self.ink.polygon([(x * SCALE, y * SCALE) for x, y in points], 255)
+        if index is not None:                  # the sheet hides older ink; its outline is its own
+            mask = ImageDraw.Draw(self.owner)
+            mask.polygon(points, 255)
+            mask.line(points + points[:2], index, width + 2, joint='curve')
+        self.line(points + points[:1], width)
+
+    def stroke(self, layer, points, colour, width=5):
+        """A hard-edged stroke on a layer that is transparent elsewhere."""
+        picture = self.layers.setdefault(layer, Image.new('RGBA', self.size, (0, 0, 0, 0)))
+        ImageDraw.Draw(picture).line(points, colour + (255,), width, joint='curve')
+
+    def save(self, folder):
+        os.makedirs(folder, exist_ok=True)
+        self.page.resize(self.size, Image.BOX).save(os.path.join(folder, 'drawing.png'))
+        self.owner.save(os.path.join(folder, 'owner.png'))
+        for layer, picture in self.layers.items():
+            picture.save(os.path.join(folder, layer + '.png'))
+        if self.relations is not None:
+            with open(os.path.join(folder, 'relations.txt'), 'w') as file:
+                file.write(self.relations + '\n')
+
+
+def box(left, top, right, bottom):
+    return [(left, top), (right, top), (right, bottom), (left, bottom)]
+
+
+def two_arrows():
+    """Figure 2: two arrows only.  Two legs that are open at the top into the body, one before it and one behind it."""
+    f = Figure()
+    f.line([(30, 60), (60, 30), (180, 30), (210, 60), (210, 110), (190, 120)])
+    f.line([(190, 120), (190, 180), (150, 180), (150, 80)])        # the far leg: its left side runs up into the body
+    f.line([(150, 122), (90, 122)])
+    f.line([(90, 80), (90, 180), (50, 180), (50, 80)])             # the near leg: both sides run up into the body
+    f.line([(50, 120), (30, 110), (30, 60)])
+    f.relations = '70,160 > 120,70\n120,70 > 172,160'
+    return f
+
+
+def thick():
+    """Figure 3: thick contours, T-junctions and a small gap.  A bar runs behind a disc-like sheet."""
+    f = Figure()
+    f.shape(box(20, 80, 220, 120), 10, 1)
+    f.shape(box(80, 40, 160, 160), 10, 2)
+    f.ink.ellipse([v * SCALE for v in (117, 152, 123, 168)], 255)   # a gap in the front sheet's lower side
+    f.stroke('scribbles', [(100, 60), (140, 140)], A)
+    f.stroke('scribbles', [(35, 100), (65, 100)], B)
+    f.stroke('scribbles', [(175, 100), (205, 100)], B)
+    f.stroke('scribbles', [(10, 15), (230, 15)], C)
+    f.relations = '#dc3c3c > #3c8cdc; #3c8cdc > #f0b428'
+    return f
+
+
+def contours():
+    """Figure 6: a wrinkle erased (green), a contour introduced (red), a cut for segmentation only (blue)."""
+    f = Figure()
+    f.shape(box(20, 30, 220, 170))
+    f.line([(60, 30), (60, 168)])                                   # the wrinkle
+    f.stroke('contours', [(60, 36), (60, 164)], GREEN, 9)
+    f.stroke('contours', [(120, 30), (120, 170)], RED, 3)
+    f.stroke('contours', [(170, 30), (170, 170)], BLUE, 3)
+    f.stroke('scribbles', [(35, 60), (105, 60)], A, 6)
+    f.stroke('scribbles', [(145, 60), (145, 140)], B, 6)
+    f.stroke('scribbles', [(195, 60), (195, 140)], C, 6)
+    f.stroke('scribbles', [(10, 10), (230, 10)], D, 6)
+    f.relations = '#dc3c3c > #3c8cdc > #f0b428 > #78c850'
+    return f
+
+
+def two_characters():
+    """Two characters that have nothing to do with each other, on a background without a scribble."""
+    f = Figure()
+    f.shape(box(30, 40, 90, 160))
+    f.shape(box(140, 60, 210, 170))
+    f.stroke('scribbles', [(50, 60), (70, 140)], A)
+    f.stroke('scribbles', [(160, 80), (190, 150)], B)
+    return f
+
+
+def frame():
+    """Shapes that are cut by the frame: a hill along the lower edge and a tree that leaves at the top."""
+    f = Figure()
+    f.line([(-10, 130), (60, 110), (150, 125), (250, 105)])
+    f.shape([(150, -20), (190, -20), (190, 150), (150, 150)])
+    f.stroke('scribbles', [(30, 160), (120, 170)], A)
+    f.stroke('scribbles', [(170, 20), (170, 130)], B)
+    f.stroke('scribbles', [(30, 30), (120, 60)], C)
+    f.relations = '#3c8cdc > #dc3c3c > #f0b428'
+    return f
+
+
+def limbs():
+    """Limbs of one colour on both sides of a body, one before it and one behind it."""
+    f = Figure()
+    f.shape(box(130, 90, 220, 120))
+    f.shape(box(80, 30, 160, 180))
+    f.shape(box(20, 60, 110, 90))
+    f.stroke('scribbles', [(35, 75), (95, 75)], A)
+    f.stroke('scribbles', [(175, 105), (205, 105)], A)
+    f.stroke('scribbles', [(120, 120), (120, 165)], B)
+    f.stroke('scribbles', [(10, 15), (230, 15)], C)
+    f.relations = '60,75 > 120,150 > 190,105 > 120,15'
+    return f
+
+
+def cycle():
+    """Three leaves that overlap in a circle, each before the next."""
+    f = Figure()
+    f.shape(box(20, 20, 220, 180))
+    f.line([(120, 100), (120, 20)])
+    f.line([(120, 100), (20, 180)])
+    f.line([(120, 100), (220, 180)])
+    f.stroke('scribbles', [(45, 50), (85, 80)], A)
+    f.stroke('scribbles', [(195, 50), (155, 80)], B)
+    f.stroke('scribbles', [(100, 160), (140, 160)], C)
+    f.relations = '60,60 > 180,60\n180,60 > 120,160\n120,160 > 60,60'
+    return f
+
+
+FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle]
+
+
+if __name__ == '__main__':
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    for make in FIGURES:
+        make().save(os.path.join(sys.argv[1], make.__name__.replace('_', '-')))

@@ -1,0 +1,140 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What must come out of the paper's situations (figures.py), by the command line.
+
+test-figures.py CELDEPTH    prints 'N passed, N failed'
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from PIL import Image
+
+import figures
+
+
+class Result:
+    """One run of `celdepth popup` on a figure: its pictures as arrays, indexed [y, x]."""
+
+    def __init__(self, celdepth, folder, *options):
+        def layer(name):
+            return os.path.join(folder, name)
+        command = [celdepth, 'popup', layer('drawing.png'), '--quiet',
+                   '--labels', layer('labels.png'), '--levels', layer('levels.npy'), '--depth', layer('depth.npy')]
+        for option in 'scribbles', 'contours':
+            if os.path.exists(layer(option + '.png')):
+                command += ['--' + option, layer(option + '.png')]
+        if os.path.exists(layer('relations.txt')):
+            command += ['--relations-file', layer('relations.txt')]
+        run = subprocess.run(command + list(options), capture_output=True, text=True)
+        self.code, self.said = run.returncode, run.stderr
+        if self.code not in (0, 3):
+            raise RuntimeError(f'exit {self.code}: {self.said}')
+        self.labels = np.array(Image.open(layer('labels.png')).convert('RGBA'))
+        self.levels = np.load(layer('levels.npy'))
+        self.depth = np.load(layer('depth.npy'))
+        self.drawing = np.array(Image.open(layer('drawing.png')))
+        self.owner = np.array(Image.open(layer('owner.png')))
+
+    def level(self, x, y):
+        return float(self.levels[y, x])
+
+    def colour(self, x, y):
+        return tuple(int(v) for v in self.labels[y, x, :3])
+
+
+def largest_step(values):
+    return float(np.abs(np.diff(values)).max())
+
+
+def two_arrows(run):
+    r = run()
+    near, body, far, paper = r.level(70, 160), r.level(120, 70), r.level(172, 160), r.level(5, 190)
+    yield 'exit code 0', r.code == 0
+    yield 'order: near leg, body, far leg, background', near > body > far > paper
+    yield 'the background is transparent', r.labels[190, 5, 3] == 0
+    yield 'four labels', len(np.unique(r.labels.reshape(-1, 4), axis=0)) == 4
+    way = np.concatenate([r.depth[160:60:-1, 70], r.depth[60, 70:120]])
+    yield 'smooth where the near leg is open', largest_step(way) < 0.25 * (near - body)
+    yield 'sharp along its contour', r.depth[112, 82] - r.depth[112, 98] > 0.4 * (near - body)
+    yield 'sharp at the silhouette', r.depth[160, 70] - r.depth[160, 30] > 0.9 * (near - paper)
+
+
+def thick(run):
+    r = run()
+    front, bar, paper = r.level(120, 100), r.level(50, 100), r.level(10, 60)
+    yield 'order', front > bar > paper and r.code == 0
+    yield 'both ends of the bar are one depth', r.level(50, 100) == r.level(190, 100)
+    ink = (r.drawing < 64) & (r.owner != 255)
+    right = np.where(r.owner == 2, r.levels == front, r.levels == bar)
+    yield 'ink goes to the sheet that drew it', right[ink].mean() >= 0.95
+    yield 'the outline of the front sheet is whole at the T-junction', (r.levels[78:122, 78:82] == front).mean() > 0.95
+    yield 'the gap does not leak', r.colour(120, 190) == figures.C and r.colour(120, 145) == figures.A
+
+
+def contours(run):
+    r = run()
+    a, b, c = r.level(40, 100), r.level(145, 100), r.level(195, 100)
+    yield 'order', a > b > c > r.level(10, 190) and r.code == 0
+    yield 'the wrinkle is no border', np.all(r.levels[50:150, 50:70] == a) and largest_step(r.depth[100, 40:80]) < 0.02 * (a - b)
+    yield 'the red contour is a step', r.depth[100, 116] - r.depth[100, 124] > 0.9 * (a - b)
+    yield 'the blue contour divides the labels', r.colour(150, 100) == figures.B and r.colour(190, 100) == figures.C
+    yield 'the blue contour leaves no step', largest_step(r.depth[100, 126:212]) < 0.25 * (b - c)
+    yield 'depth still falls across it', r.depth[100, 145] - r.depth[100, 195] > 0.9 * (b - c)
+
+
+def two_characters(run):
+    r = run()
+    yield 'exit code 0', r.code == 0
+    yield 'side by side before the background', r.level(60, 100) == r.level(175, 100) > r.level(5, 5)
+    yield 'the background is transparent', r.labels[5, 5, 3] == 0 and r.labels[100, 115, 3] == 0
+
+
+def frame(run):
+    r = run()
+    yield 'order', r.level(170, 60) > r.level(40, 180) > r.level(40, 20) and r.code == 0
+    yield 'regions reach the frame', (r.colour(2, 197), r.colour(170, 0), r.colour(2, 2), r.colour(237, 2)) == \
+        (figures.A, figures.B, figures.C, figures.C)
+    yield 'nothing is transparent', np.all(r.labels[..., 3] == 255)
+
+
+def limbs(run):
+    r = run('--same-colour', 'separate')
+    yield 'separate limbs: before and behind the body', r.level(60, 75) > r.level(120, 150) > r.level(190, 105) > r.level(10, 100)
+    yield 'exit code 0', r.code == 0
+    one = run()
+    yield 'one colour is one depth', one.level(60, 75) == one.level(190, 105)
+    yield 'so the arrows contradict each other', one.code == 3 and 'contradict' in one.said
+
+
+def cycle(run):
+    r = run()
+    a, b, c = r.level(60, 60), r.level(180, 60), r.level(120, 160)
+    yield 'exit code 3', r.code == 3
+    yield 'the latest relation gives way, the rest is ordered', a > b > c
+    yield 'all three are named', all(f'line {n}' in r.said for n in (1, 2, 3))
+
+
+OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle]
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    counts = {True: 0, False: 0}
+    with tempfile.TemporaryDirectory() as scratch:
+        for make, outcome in zip(figures.FIGURES, OUTCOMES):
+            folder = os.path.join(scratch, make.__name__)
+            make().save(folder)
+            for fact, holds in outcome(lambda *options: Result(sys.argv[1], folder, *options)):
+                counts[bool(holds)] += 1
+                if not holds:
+                    print(f'{make.__name__}: not so: {fact}', file=sys.stderr)
+    print(f'{counts[True]} passed, {counts[False]} failed')
+    return 1 if counts[False] else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
