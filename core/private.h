@@ -137,8 +137,8 @@ void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
 
 /* ------------------------------------------------------------------ smooth.c */
 
-/* Adds the inner core of each region of `levels` to `anchors`: what celd_smooth takes when it is given none. */
-CeldStatus celd_anchor_core (const CeldPlane *levels, CeldMask *anchors);
+/* Marks the inner core of each region: what celd_smooth takes for anchors when it is given none.  Tight planes. */
+CeldStatus celd_anchor_core (int width, int height, const float *level, const CeldRun *run, uint8_t *core);
 
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 

@@ -354,7 +354,7 @@ choose_anchors (const CeldSession *s, CeldMask *anchors)
   if (status == CELD_OK && scribbles)
     memcpy (anchors->data, s->painted.data, (size_t) anchors->width * (size_t) anchors->height);
   else if (status == CELD_OK && !arrows)
-    status = celd_anchor_core (&s->levels, anchors);
+    status = celd_anchor_core (anchors->width, anchors->height, s->levels.data, NULL, anchors->data);
   for (size_t i = 0; status == CELD_OK && i < s->relations.n; i++)
     if (arrows || s->relations.item[i].anchor)
       {

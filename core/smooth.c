@@ -116,9 +116,8 @@ mark_borders (const CeldLabels *regions, uint8_t *border)
     }
 }
 
-/* Marks the inner core of each region. */
-static CeldStatus
-inner_cores (int width, int height, const float *level, const CeldRun *run, uint8_t *core)
+CeldStatus
+celd_anchor_core (int width, int height, const float *level, const CeldRun *run, uint8_t *core)
 {
   size_t         n = (size_t) width * (size_t) height, count = 0;
   CeldLabels     regions;
@@ -155,7 +154,7 @@ static CeldStatus
 mark_anchors (int width, int height, const float *level, const CeldMask *anchors, const CeldRun *run, uint8_t *fixed)
 {
   if (!anchors)
-    return inner_cores (width, height, level, run, fixed);
+    return celd_anchor_core (width, height, level, run, fixed);
   for (int y = 0; y < height; y++)
     for (int x = 0; x < width; x++)
       *fixed++ = CELD_AT (anchors, x, y) != 0;
