@@ -1,0 +1,333 @@
+/* Every operation against the step of core that it wraps: the same page in, the same numbers out.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "page.h"
+
+#include <locale.h>
+
+/* What core makes of the page, step by step, without threads. */
+static CeldPlane     ink = { WIDTH, HEIGHT, WIDTH, (float[PIXELS]) { 0 } };
+static CeldLabels    labels = { WIDTH, HEIGHT, WIDTH, (uint32_t[PIXELS]) { 0 } };
+static CeldPaint     colours = { WIDTH, HEIGHT, WIDTH, (uint8_t[4 * PIXELS]) { 0 } };
+static CeldPlane     flat = { WIDTH, HEIGHT, WIDTH, (float[PIXELS]) { 0 } };
+static CeldPlane     levels = { WIDTH, HEIGHT, WIDTH, (float[PIXELS]) { 0 } };
+static CeldPlane     depth = { WIDTH, HEIGHT, WIDTH, (float[PIXELS]) { 0 } };
+static CeldVectors   normals = { WIDTH, HEIGHT, WIDTH, (float[3 * PIXELS]) { 0 } };
+static CeldPlane     shading = { WIDTH, HEIGHT, WIDTH, (float[PIXELS]) { 0 } };
+static CeldPalette   palette;
+static CeldRelations relations;
+
+static float result[4 * PIXELS];
+
+/* ------------------------------------------------------------------ core */
+
+static CeldStatus
+make_order (const CeldSettings *settings, CeldLabels *ranks)
+{
+  CeldOrder  order = { 0 };
+  CeldStatus status = celd_order (&labels, &palette, &relations, &ink, NULL, &order, NULL);
+
+  for (int i = 0; status == CELD_OK && i < PIXELS; i++)
+    {
+      ranks->data[i] = order.level[labels.data[i] - 1];
+      flat.data[i]   = celd_encode_level (ranks->data[i], order.levels, settings);
+    }
+  if (status == CELD_OK)
+    status = celd_expand (&ink, ranks, settings, NULL, ranks);
+  for (int i = 0; status == CELD_OK && i < PIXELS; i++)
+    levels.data[i] = celd_encode_level (ranks->data[i], order.levels, settings);
+  celd_order_clear (&order);
+  return status;
+}
+
+static void
+core_makes_the_page (void)
+{
+  CeldSettings settings = celd_settings ();
+  CeldLabels   ranks = { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
+  CeldMask     anchors = { WIDTH, HEIGHT, WIDTH, malloc (PIXELS) };
+
+  CHECK (celd_ink (&page_drawing, CELD_INK_AUTO, NULL, &ink) == CELD_OK);
+  CHECK (celd_scribbles_read (&scribbles_paint, &settings, NULL, &labels, &palette) == CELD_OK);
+  for (int i = 0; i < PIXELS; i++)
+    anchors.data[i] = labels.data[i] != 0;
+  CHECK (celd_arrows_read (&arrows_paint, CELD_ARROW_HEAD, NULL, &relations, NULL) == CELD_OK);
+  CHECK (relations.n == 1);
+  CHECK (celd_segment (&ink, &labels, &relations, &settings, NULL, &labels, &palette, NULL) == CELD_OK);
+  CHECK (palette.n == 3);
+  CHECK (celd_labels_paint (&labels, &palette, &colours) == CELD_OK);
+  CHECK (make_order (&settings, &ranks) == CELD_OK);
+  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_normals (&ink, &levels, &settings, NULL, &normals) == CELD_OK);
+  CHECK (celd_shade (&normals, &settings, &shading) == CELD_OK);
+  NEAR (range (flat.data, PIXELS), 1, 0);
+  free (ranks.data);
+  free (anchors.data);
+}
+
+/* ------------------------------------------------------------------ the table */
+
+/* Colours of 8 bits are compared as floats, like all else. */
+static const float *
+as_floats (const uint8_t *bytes, int n)
+{
+  static float floats[4 * PIXELS];
+
+  for (int i = 0; i < n; i++)
+    floats[i] = (float) bytes[i] / 255;
+  return floats;
+}
+
+/* What normals are stored as. */
+static const float *
+stored_normals (bool directx)
+{
+  static float stored[3 * PIXELS];
+
+  for (int i = 0; i < 3 * PIXELS; i++)
+    stored[i] = 0.5f + (directx && i % 3 == 1 ? -0.5f : 0.5f) * normals.data[i];
+  return stored;
+}
+
+/* The drawing as grey light, under the shading. */
+static const float *
+lit_drawing (void)
+{
+  static float lit[4 * PIXELS];
+  const Babl  *fish = babl_fish (babl_format ("Y' float"), babl_format ("RGBA float"));
+
+  babl_process (fish, page_luma, lit, PIXELS);
+  for (int i = 0; i < 4 * PIXELS; i++)
+    if (i % 4 != 3)
+      lit[i] *= shading.data[i / 4];
+  return lit;
+}
+
+#define SAME(wanted, channels) NEAR (difference (result, wanted, (size_t) (channels) * PIXELS), 0, 1e-5)
+
+static void
+contours_are_those_of_core (void)
+{
+  float      *baked = malloc (PIXELS * sizeof (float));
+  CeldDrawing out = { .luma = { WIDTH, HEIGHT, WIDTH, baked } };
+
+  for (int purpose = CELD_FOR_SEGMENTATION; purpose <= CELD_FOR_DEPTH; purpose++)
+    {
+      CHECK (celd_contours_bake (&page_drawing, &contours_paint, (CeldPurpose) purpose, CELD_INK_AUTO, NULL, &out) ==
+             CELD_OK);
+      operate ("celdepth:virtual-contours", (Pads) { { drawing, contours } }, "Y' float", result,
+               "result", purpose, NULL);
+      SAME (baked, 1);
+    }
+  free (baked);
+}
+
+static void
+labels_are_those_of_core (void)
+{
+  operate ("celdepth:lazybrush-segment", (Pads) { { drawing, scribbles, arrows } }, "R'G'B'A float", result, NULL);
+  SAME (as_floats (colours.data, 4 * PIXELS), 4);
+}
+
+static void
+order_is_that_of_core (void)
+{
+  GeglBuffer *input = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+
+  operate ("celdepth:depth-order", (Pads) { { input, arrows, drawing } }, "Y float", result, NULL);
+  SAME (flat.data, 1);
+  operate ("celdepth:depth-order", (Pads) { { input, NULL, drawing } }, "Y float", result,
+           "relations", "#ff0000 > #00ff00", "encoding", CELD_ENCODING_RANK, NULL);
+  for (int i = 0; i < PIXELS; i++)
+    result[i] /= 2;
+  SAME (flat.data, 1);
+  g_object_unref (input);
+}
+
+static void
+levels_are_those_of_core (void)
+{
+  GeglBuffer *input = page_buffer ("Y float", "Y float", flat.data);
+
+  operate ("celdepth:depth-expand", (Pads) { { input, drawing } }, "Y float", result, NULL);
+  SAME (levels.data, 1);
+  CHECK (difference (flat.data, levels.data, PIXELS) > 0);
+  g_object_unref (input);
+}
+
+static void
+depth_is_that_of_core (void)
+{
+  GeglBuffer *input = page_buffer ("Y float", "Y float", levels.data);
+
+  operate ("celdepth:depth-smooth", (Pads) { { input, drawing, scribbles } }, "Y float", result, NULL);
+  SAME (depth.data, 1);
+  g_object_unref (input);
+}
+
+static void
+light_is_that_of_core (void)
+{
+  GeglBuffer *input = page_buffer ("Y float", "Y float", levels.data);
+  Pads        pads = { { input, drawing } };
+
+  operate ("celdepth:lumo-shade", pads, "Y float", result, "result", 1, NULL);
+  SAME (shading.data, 1);
+  operate ("celdepth:lumo-shade", pads, "RGB float", result, "result", 2, NULL);
+  SAME (stored_normals (false), 3);
+  operate ("celdepth:lumo-shade", pads, "RGB float", result, "result", 2, "directx", TRUE, NULL);
+  SAME (stored_normals (true), 3);
+  operate ("celdepth:lumo-shade", pads, "RGBA float", result, "result", 0, NULL);
+  SAME (lit_drawing (), 4);
+  g_object_unref (input);
+}
+
+static void
+popup_is_the_steps_of_core (void)
+{
+  Pads         pads = { { drawing, scribbles, arrows } };
+  const float *wanted[] = { NULL, flat.data, levels.data, depth.data, NULL, shading.data };
+
+  operate ("celdepth:popup", pads, "R'G'B'A float", result, "result", 0, NULL);
+  SAME (as_floats (colours.data, 4 * PIXELS), 4);
+  for (int i = 0; i < 6; i++)
+    if (wanted[i])
+      {
+        operate ("celdepth:popup", pads, "Y float", result, "result", i, NULL);
+        SAME (wanted[i], 1);
+      }
+  operate ("celdepth:popup", pads, "RGB float", result, "result", 4, NULL);
+  SAME (stored_normals (false), 3);
+}
+
+/* ------------------------------------------------------------------ graphs */
+
+/* One node, asked again and again with other properties, as a preview does. */
+static void
+popup_follows_its_properties (void)
+{
+  GeglNode *graph = gegl_node_new ();
+  GeglNode *node = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles, arrows } });
+
+  gegl_node_set (node, "result", 3, NULL);
+  get_output (node, "Y float", result);
+  SAME (depth.data, 1);
+  gegl_node_set (node, "result", 0, NULL);
+  get_output (node, "R'G'B'A float", result);
+  SAME (as_floats (colours.data, 4 * PIXELS), 4);
+  gegl_node_set (node, "result", 2, "encoding", CELD_ENCODING_FIXED, "near-level", 4.0, "far-level", 0.0, NULL);
+  get_output (node, "Y float", result);
+  for (int i = 0; i < PIXELS; i++)
+    result[i] *= 2;
+  SAME (levels.data, 1);
+  g_object_unref (graph);
+}
+
+/* The reference chain of the manual, contours included. */
+static void
+chain_agrees_with_popup (void)
+{
+  GeglNode *graph = gegl_node_new (), *cut_labels, *cut_depth, *segment, *order, *expand, *smooth;
+  float    *one = malloc (PIXELS * sizeof (float));
+
+  cut_labels = add_operation (graph, "celdepth:virtual-contours", (Pads) { { drawing, contours } });
+  cut_depth  = add_operation (graph, "celdepth:virtual-contours", (Pads) { { drawing, contours } });
+  segment    = add_operation (graph, "celdepth:lazybrush-segment", (Pads) { { NULL, scribbles, arrows } });
+  order      = add_operation (graph, "celdepth:depth-order", (Pads) { { NULL, arrows } });
+  expand     = add_operation (graph, "celdepth:depth-expand", (Pads) { { NULL } });
+  smooth     = add_operation (graph, "celdepth:depth-smooth", (Pads) { { NULL, NULL, scribbles } });
+  gegl_node_set (cut_depth, "result", CELD_FOR_DEPTH, NULL);
+  join (cut_labels, segment, "input");
+  join (segment, order, "input");
+  join (cut_labels, order, "aux2");
+  join (order, expand, "input");
+  join (cut_depth, expand, "aux");
+  join (expand, smooth, "input");
+  join (cut_depth, smooth, "aux");
+  get_output (smooth, "Y float", result);
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows, contours } }, "Y float", one, NULL);
+  NEAR (difference (result, one, PIXELS), 0, 1e-4);
+  CHECK (range (one, PIXELS) > 0.5);
+  CHECK (difference (one, depth.data, PIXELS) > 0.01); /* the contours matter */
+  g_object_unref (graph);
+  free (one);
+}
+
+/* ------------------------------------------------------------------ formats */
+
+static void
+every_depth_of_colour_gives_the_same (void)
+{
+  static const char *const formats[] = { "R'G'B' u8", "R'G'B'A u16", "RGB float", "RGBA float", "Y float", "Y'A half" };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (formats); i++)
+    {
+      GeglBuffer *other = page_buffer (formats[i], "Y' float", page_luma);
+      GeglBuffer *painted = page_buffer ("RGBA float", "R'G'B'A u8", page_scribbles);
+
+      operate ("celdepth:popup", (Pads) { { other, painted, arrows } }, "Y float", result, NULL);
+      NEAR (difference (result, depth.data, PIXELS), 0, 1e-3);
+      g_object_unref (other);
+      g_object_unref (painted);
+    }
+}
+
+/* Coloured ink: luma of encoded values, whatever the buffer holds. */
+static void
+colour_is_read_as_luma (void)
+{
+  static float rgb[3 * PIXELS], grey[PIXELS], blank[4 * PIXELS];
+  GeglBuffer  *coloured, *nothing = page_buffer ("R'G'B'A u8", "R'G'B'A float", blank);
+
+  for (int i = 0; i < PIXELS; i++)
+    {
+      rgb[3 * i]     = 1;
+      rgb[3 * i + 1] = page_luma[i];
+      rgb[3 * i + 2] = page_luma[i];
+      grey[i] = 0.2126f + 0.7874f * page_luma[i];
+    }
+  coloured = page_buffer ("RGB float", "R'G'B' float", rgb);
+  operate ("celdepth:virtual-contours", (Pads) { { coloured, nothing } }, "Y' float", result, NULL);
+  SAME (grey, 1);
+  g_object_unref (coloured);
+  g_object_unref (nothing);
+}
+
+/* A layer that is smaller than the canvas is read at its place. */
+static void
+small_layers_keep_their_place (void)
+{
+  GeglBuffer *small = gegl_buffer_new (GEGL_RECTANGLE (3, 3, 112, 60), babl_format ("R'G'B'A u8"));
+
+  gegl_buffer_copy (scribbles, GEGL_RECTANGLE (3, 3, 112, 60), GEGL_ABYSS_NONE, small, GEGL_RECTANGLE (3, 3, 0, 0));
+  operate ("celdepth:popup", (Pads) { { drawing, small, arrows } }, "Y float", result, NULL);
+  SAME (depth.data, 1);
+  g_object_unref (small);
+}
+
+int
+main (int argc, char **argv)
+{
+  setlocale (LC_ALL, "");
+  gegl_init (&argc, &argv);
+  make_page ();
+  RUN (core_makes_the_page);
+  RUN (contours_are_those_of_core);
+  RUN (labels_are_those_of_core);
+  RUN (order_is_that_of_core);
+  RUN (levels_are_those_of_core);
+  RUN (depth_is_that_of_core);
+  RUN (light_is_that_of_core);
+  RUN (popup_is_the_steps_of_core);
+  RUN (popup_follows_its_properties);
+  RUN (chain_agrees_with_popup);
+  RUN (every_depth_of_colour_gives_the_same);
+  RUN (colour_is_read_as_luma);
+  RUN (small_layers_keep_their_place);
+  celd_palette_clear (&palette);
+  celd_relations_clear (&relations);
+  drop_page ();
+  gegl_exit ();
+  return DONE;
+}

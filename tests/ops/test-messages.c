@@ -1,0 +1,198 @@
+/* What the artist is told when something is wrong: one message that names the cause, the input passed through.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "listen.h"
+#include "page.h"
+
+static float result[4 * PIXELS], input_light[4 * PIXELS];
+
+/* One call that must fail well: one message, no warning, the drawing comes out as it went in. */
+#define PASSES_THROUGH() \
+  do { \
+    CHECK (times_said == 1); \
+    CHECK (warnings == 0); \
+    NEAR (difference (result, input_light, 4 * PIXELS), 0, 1e-6); \
+  } while (0)
+
+static void
+missing_pads_are_named (void)
+{
+  static const struct { const char *operation, *pad; } cases[] = {
+    { "celdepth:virtual-contours", "Contours" }, { "celdepth:depth-expand", "Drawing" },
+    { "celdepth:depth-smooth", "Drawing" }, { "celdepth:lumo-shade", "Drawing" },
+  };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
+    {
+      be_quiet ();
+      operate (cases[i].operation, (Pads) { { drawing } }, "RGBA float", result, NULL);
+      PASSES_THROUGH ();
+      CHECK (SAYS (cases[i].pad));
+    }
+}
+
+static void
+nothing_to_go_by_is_said (void)
+{
+  be_quiet ();
+  operate ("celdepth:lazybrush-segment", (Pads) { { drawing } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("scribble"));
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Pop-up: ") && SAYS ("scribble"));
+}
+
+static void
+unreadable_relations_are_located (void)
+{
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles } }, "RGBA float", result,
+           "relations", "45,40 > 90,40\n45,40 >> 90,40", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("line 2") && SAYS ("column 8"));
+  be_quiet ();
+  operate ("celdepth:depth-order", (Pads) { { drawing } }, "RGBA float", result, "relations", "red > green", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("line 1"));
+}
+
+static void
+layers_elsewhere_are_refused (void)
+{
+  GeglBuffer *elsewhere = gegl_buffer_new (GEGL_RECTANGLE (500, 0, 10, 10), babl_format ("R'G'B'A u8"));
+  GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
+
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, elsewhere } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Scribbles") && SAYS ("outside"));
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles, empty } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Arrows") && SAYS ("empty"));
+  g_object_unref (empty);
+  g_object_unref (elsewhere);
+}
+
+static void
+bad_settings_are_refused (void)
+{
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles } }, "RGBA float", result,
+           "encoding", CELD_ENCODING_FIXED, "near-level", 1.0, "far-level", 2.0, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("setting"));
+}
+
+static void
+an_endless_input_is_refused (void)
+{
+  GeglNode *graph = gegl_node_new (), *node = add_operation (graph, "celdepth:popup", (Pads) { { NULL, scribbles } });
+  GeglNode *endless = gegl_node_new_child (graph, "operation", "gegl:color", NULL);
+
+  be_quiet ();
+  join (endless, node, "input");
+  get_output (node, "RGBA float", result);
+  CHECK (times_said == 1 && SAYS ("Crop"));
+  CHECK (warnings == 0);
+  g_object_unref (graph);
+}
+
+static void
+empty_and_single_pixels_do_no_harm (void)
+{
+  static const char *const operations[] = {
+    "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
+    "celdepth:depth-smooth", "celdepth:lumo-shade", "celdepth:popup",
+  };
+  GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
+  GeglBuffer *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
+
+  be_quiet ();
+  for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
+    {
+      operate (operations[i], (Pads) { { empty, empty } }, "RGBA float", result, NULL);
+      operate (operations[i], (Pads) { { pixel, pixel } }, "RGBA float", result, NULL);
+      operate (operations[i], (Pads) { { drawing, empty } }, "RGBA float", result, NULL);
+      operate (operations[i], (Pads) { { NULL, scribbles } }, "RGBA float", result, NULL);
+    }
+  CHECK (warnings == 0);
+  g_object_unref (empty);
+  g_object_unref (pixel);
+}
+
+static void
+numbers_that_are_none_do_no_harm (void)
+{
+  static float poisoned[4 * PIXELS];
+  GeglBuffer  *bad;
+
+  for (int i = 0; i < 4 * PIXELS; i++)
+    poisoned[i] = i % 7 == 0 ? NAN : i % 11 == 0 ? INFINITY : i % 13 == 0 ? -5.f : page_luma[i / 4];
+  bad = page_buffer ("RGBA float", "RGBA float", poisoned);
+  be_quiet ();
+  operate ("celdepth:depth-expand", (Pads) { { bad, bad } }, "Y float", result, NULL);
+  operate ("celdepth:depth-smooth", (Pads) { { bad, drawing, scribbles } }, "Y float", result, NULL);
+  operate ("celdepth:popup", (Pads) { { bad, scribbles, arrows } }, "Y float", result, NULL);
+  for (int i = 0; i < PIXELS; i++)
+    if (!isfinite (result[i]))
+      {
+        CHECK (!"depth is a number everywhere");
+        break;
+      }
+  CHECK (warnings == 0);
+  g_object_unref (bad);
+}
+
+/* Contradictions leave a result; they are said once, and again only after something else was true. */
+static void
+contradictions_are_said_once (void)
+{
+  GeglNode *graph = gegl_node_new ();
+  GeglNode *node = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles } });
+
+  be_quiet ();
+  gegl_node_set (node, "relations", "#ff0000 > #00ff00; #00ff00 > #ff0000", NULL);
+  get_output (node, "Y float", result);
+  CHECK (times_said == 1 && SAYS ("contradicts"));
+  NEAR (range (result, PIXELS), 1, 1e-3);
+  gegl_node_set (node, "tolerance", 1e-5, NULL);
+  get_output (node, "Y float", result);
+  CHECK (times_said == 1);
+  gegl_node_set (node, "relations", "#ff0000 > #00ff00", NULL);
+  get_output (node, "Y float", result);
+  CHECK (times_said == 1);
+  gegl_node_set (node, "relations", "#ff0000 > #00ff00; #00ff00 > #ff0000", NULL);
+  get_output (node, "Y float", result);
+  CHECK (times_said == 2);
+  CHECK (warnings == 0);
+  g_object_unref (graph);
+}
+
+int
+main (int argc, char **argv)
+{
+  int failed;
+
+  gegl_init (&argc, &argv);
+  make_page ();
+  gegl_buffer_get (drawing, NULL, 1.0, babl_format ("RGBA float"), input_light, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  start_to_listen ();
+  RUN (missing_pads_are_named);
+  RUN (nothing_to_go_by_is_said);
+  RUN (unreadable_relations_are_located);
+  RUN (layers_elsewhere_are_refused);
+  RUN (bad_settings_are_refused);
+  RUN (an_endless_input_is_refused);
+  RUN (empty_and_single_pixels_do_no_harm);
+  RUN (numbers_that_are_none_do_no_harm);
+  RUN (contradictions_are_said_once);
+  failed = DONE;
+  stop_to_listen ();
+  drop_page ();
+  gegl_exit ();
+  return failed;
+}

@@ -1,0 +1,130 @@
+/* What hosts read of the operations: names, menus, pads, properties.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+
+#include <gegl-plugin.h>
+
+static const struct { const char *name; const char *pads; const char *properties; } operations[] = {
+  { "celdepth:virtual-contours", "input aux", "result ink" },
+  { "celdepth:lazybrush-segment", "input aux aux2",
+    "ink ink-threshold method hardness flats background background-colour seeds relations arrow-style" },
+  { "celdepth:depth-order", "input aux aux2",
+    "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
+  { "celdepth:depth-expand", "input aux", "ink ink-threshold" },
+  { "celdepth:depth-smooth", "input aux aux2", "ink ink-threshold tolerance" },
+  { "celdepth:lumo-shade", "input aux aux2",
+    "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
+  { "celdepth:popup", "input aux aux2 aux3",
+    "result ink ink-threshold method hardness flats background background-colour seeds same-colour relations "
+    "arrow-style encoding near-level far-level anchors tolerance bulge light-azimuth light-elevation ambient directx" },
+};
+
+static bool
+speaks (const char *operation, const char *key)
+{
+  const char *value = gegl_operation_get_key (operation, key);
+
+  return value && *value;
+}
+
+static void
+every_operation_is_described (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
+    {
+      const char *name = operations[i].name;
+
+      CHECK (gegl_has_operation (name));
+      CHECK (speaks (name, "title"));
+      CHECK (speaks (name, "description"));
+      CHECK (speaks (name, "categories"));
+      CHECK (speaks (name, "reference"));
+      CHECK (speaks (name, "gimp:menu-label"));
+      CHECK (!g_strcmp0 (gegl_operation_get_key (name, "gimp:menu-path"), "<Image>/Filters/Cartoon Depth"));
+      CHECK (!gegl_operation_get_key (name, "license")); /* would hide it from hosts that are not GPL */
+    }
+}
+
+static void
+pads_are_those_of_the_contract (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
+    {
+      GeglNode *node = gegl_node_new (), *child = gegl_node_new_child (node, "operation", operations[i].name, NULL);
+      gchar   **pads = gegl_node_list_input_pads (child), *list = pads ? g_strjoinv (" ", pads) : NULL;
+
+      CHECK (!g_strcmp0 (list, operations[i].pads));
+      CHECK (gegl_node_has_pad (child, "output"));
+      g_free (list);
+      g_strfreev (pads);
+      g_object_unref (node);
+    }
+}
+
+/* In the order of dialogs, each explained, none of a type that ends GIMP's list of arguments. */
+static void
+properties_are_complete (void)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
+    {
+      guint        n;
+      GParamSpec **specs = gegl_operation_list_properties (operations[i].name, &n);
+      GString     *list = g_string_new (NULL);
+
+      for (guint k = 0; k < n; k++)
+        {
+          const char *type = G_PARAM_SPEC_TYPE_NAME (specs[k]), *blurb = g_param_spec_get_blurb (specs[k]);
+
+          g_string_append_printf (list, "%s%s", k ? " " : "", g_param_spec_get_name (specs[k]));
+          CHECK (blurb && *blurb);
+          CHECK (!strstr (type, "Path"));
+        }
+      CHECK (!strcmp (list->str, operations[i].properties));
+      g_string_free (list, TRUE);
+      g_free (specs);
+    }
+}
+
+static const GEnumClass *
+choices (const char *operation, const char *property)
+{
+  GParamSpec *spec = gegl_operation_find_property (operation, property);
+
+  return spec ? G_PARAM_SPEC_ENUM (spec)->enum_class : NULL;
+}
+
+static void
+choices_have_the_nicks_of_the_contract (void)
+{
+  static const struct { const char *property, *nicks; } cases[] = {
+    { "result", "labels order levels depth normals shading" }, { "ink", "auto dark light alpha" },
+    { "background", "auto none colour" }, { "seeds", "auto scribbles" }, { "same-colour", "one separate" },
+    { "arrow-style", "head dot fade taper" }, { "encoding", "normalized rank fixed" },
+    { "anchors", "scribbles arrows both core" },
+  };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
+    {
+      const GEnumClass *klass = choices ("celdepth:popup", cases[i].property);
+      GString          *list = g_string_new (NULL);
+
+      for (guint k = 0; klass && k < klass->n_values; k++)
+        g_string_append_printf (list, "%s%s", k ? " " : "", klass->values[k].value_nick);
+      CHECK (!strcmp (list->str, cases[i].nicks));
+      g_string_free (list, TRUE);
+    }
+}
+
+int
+main (int argc, char **argv)
+{
+  gegl_init (&argc, &argv);
+  RUN (every_operation_is_described);
+  RUN (pads_are_those_of_the_contract);
+  RUN (properties_are_complete);
+  RUN (choices_have_the_nicks_of_the_contract);
+  gegl_exit ();
+  return DONE;
+}
