@@ -24,7 +24,6 @@
 #define LEAST_OPACITY 128  /* of paint; a fading stroke reaches on to FADED_OPACITY */
 #define FADED_OPACITY 16
 #define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
-#define WIDENING      1.4  /* wider than this many shafts is no shaft any more */
 #define EXTREMITIES   4    /* tail, tip and two barbs */
 
 /* The two ends of an arrow. */
@@ -116,10 +115,10 @@ foremost (const CeldTrail *trail, const View *view, double most_s)
 static double
 shaft_end (const CeldTrail *trail, double w)
 {
-  double length = celd_trail_length (trail), run = fmax (w, 3), d = w;
+  double length = celd_trail_length (trail), run = fmax (w, 4), wide = 1.3 * w + 0.8, d = w;
 
-  while (d + run < length && !(celd_trail_width (trail, d, d + run) > WIDENING * w &&
-                               celd_trail_width (trail, d, d + 0.5 * run) > WIDENING * w))
+  while (d + run < length && (celd_trail_width (trail, d, d + run) < wide ||
+                              celd_trail_width (trail, d, d + 0.5 * run) < wide))
     d += 0.5;
   return d + run < length ? d : length;
 }
@@ -205,7 +204,7 @@ read_from_tail (CeldTrail *trail, uint32_t tail, CeldArrowStyle style, Ends *end
   view = (View) { .origin = celd_trail_centre (trail, end - 0.25 * back, end), .from = end };
   view.axis = direction (celd_trail_centre (trail, end - back, end - 0.75 * back), view.origin);
   e    = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (!reaches_out (&e, w))
+  if (fmin (e.left, -e.right) < 0.4 * w)
     return false;
   turn_to_tip (trail, &view, &e);
   e = extent_between (trail, &view, -INFINITY, INFINITY);
@@ -217,7 +216,7 @@ read_from_tail (CeldTrail *trail, uint32_t tail, CeldArrowStyle style, Ends *end
   /* What is farthest from the tip is the tail, or else it was some place in the middle of the shaft. */
   tail = nearest_pixel (trail, tip);
   last = celd_trail_point (trail, celd_trail_follow (trail, &tail, 1));
-  return hypot (last.x - ends->nearer.x, last.y - ends->nearer.y) < 2 * w;
+  return hypot (last.x - ends->nearer.x, last.y - ends->nearer.y) < w + 2;
 }
 
 /* Reads the stroke from every extremity; true if all that see an arrow agree. */
