@@ -24,6 +24,7 @@
 #define LEAST_OPACITY 128  /* of paint; a fading stroke reaches on to FADED_OPACITY */
 #define FADED_OPACITY 16
 #define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
+#define LEAST_COSINE  0.7  /* of the angle between the shaft's end and the head's axis */
 #define EXTREMITIES   4    /* tail, tip and two barbs */
 
 /* The two ends of an arrow. */
@@ -141,17 +142,66 @@ falls_back (const Extent *e, double w)
   return left > 0.25 * e->left && right > -0.25 * e->right && e->most_s - e->least_s < 0.8 * (left + right) + 1.5 * w;
 }
 
-/* Is it narrow near the tip and wider and wider behind, as open and filled heads are; or round? */
-static bool
-has_form (const CeldTrail *trail, const View *view, const Extent *e, CeldArrowStyle style)
+/* The place s forwards and v sideways. */
+static CeldPoint
+place (const View *view, double s, double v)
 {
-  double breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
-  bool   narrows = breadth_at (trail, view, e->most_s - 0.25 * depth) < 0.72 * breadth;
+  return (CeldPoint) { view->origin.x + s * view->axis.x - v * view->axis.y, view->origin.y + s * view->axis.y + v * view->axis.x };
+}
 
-  if (style == CELD_ARROW_DOT)
-    return !narrows;
-  return narrows && breadth_at (trail, view, e->most_s - 0.5 * depth) > 0.35 * breadth &&
-         breadth_at (trail, view, e->most_s - 0.75 * depth) > 0.5 * breadth;
+static bool
+is_painted (const CeldTrail *trail, CeldPoint p)
+{
+  const float *d = &trail->distance[(size_t) (p.y + 1) * trail->row + (size_t) (p.x + 1)];
+
+  return isfinite (*d) || isfinite (d[-1]) || isfinite (d[1]) || isfinite (d[-(ptrdiff_t) trail->row]) || isfinite (d[trail->row]);
+}
+
+/* Is the straight way painted, all but a fifth of it? */
+static bool
+is_line (const CeldTrail *trail, CeldPoint from, CeldPoint to)
+{
+  int n = (int) hypot (to.x - from.x, to.y - from.y) + 1, painted = 0;
+
+  for (int i = 0; i <= n; i++)
+    painted += is_painted (trail, (CeldPoint) { from.x + (to.x - from.x) * i / n, from.y + (to.y - from.y) * i / n });
+  return 5 * painted >= 4 * (n + 1);
+}
+
+/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and is
+ * nothing outside of the triangle?  That holds for open and for filled heads. */
+static bool
+is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double w)
+{
+  double    breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
+  double    tip = e->most_s - fmin (0.6 * w, 0.3 * depth), slope = 0.5 * breadth / depth;
+  CeldPoint foremost = place (view, tip, 0);
+  size_t    outside = 0;
+
+  if (breadth_at (trail, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
+      breadth_at (trail, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
+      breadth_at (trail, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
+    return false;
+  if (!is_line (trail, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
+      !is_line (trail, foremost, place (view, e->right_s, e->right + 0.4 * w)))
+    return false;
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+
+      outside += trail->distance[trail->pixel[i]] >= view->from &&
+                 fabs (sideways (view, p)) > slope * (e->most_s - forwards (view, p)) + 0.7 * w + 1;
+    }
+  return 20 * outside < e->n;
+}
+
+/* Is it a filled disc? */
+static bool
+is_dot (const Extent *e)
+{
+  double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
+
+  return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.65 * breadth * depth;
 }
 
 /* Turns the axis to run from between the barbs to the tip: the shaft may be bent. */
@@ -161,7 +211,7 @@ turn_to_tip (const CeldTrail *trail, View *view, const Extent *e)
   double    s = 0.5 * (e->left_s + e->right_s), v = 0.5 * (e->left + e->right);
   CeldPoint a = view->axis, o = view->origin;
 
-  view->origin = (CeldPoint) { o.x + s * a.x - v * a.y, o.y + s * a.y + v * a.x };
+  view->origin = place (view, s, v);
   view->axis   = direction (view->origin, foremost (trail, &(View) { o, a, view->from }, e->most_s));
 }
 
@@ -192,7 +242,7 @@ read_from_tail (CeldTrail *trail, uint32_t tail, CeldArrowStyle style, Ends *end
   View      view;
   Extent    e;
   double    length, w, end, back;
-  CeldPoint tip, last;
+  CeldPoint shaft, tip, last;
 
   celd_trail_follow (trail, &tail, 1);
   length = celd_trail_length (trail);
@@ -206,9 +256,12 @@ read_from_tail (CeldTrail *trail, uint32_t tail, CeldArrowStyle style, Ends *end
   e    = extent_between (trail, &view, -INFINITY, INFINITY);
   if (fmin (e.left, -e.right) < 0.4 * w)
     return false;
+  shaft = view.axis;
   turn_to_tip (trail, &view, &e);
+  if (shaft.x * view.axis.x + shaft.y * view.axis.y < LEAST_COSINE)
+    return false;
   e = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (!reaches_out (&e, w) || !falls_back (&e, w) || !has_form (trail, &view, &e, style))
+  if (!reaches_out (&e, w) || (style == CELD_ARROW_DOT ? !is_dot (&e) : !falls_back (&e, w) || !is_arrowhead (trail, &view, &e, w)))
     return false;
   tip   = foremost (trail, &view, e.most_s);
   *ends = (Ends) { celd_trail_centre (trail, 0, fmax (1, w)), style == CELD_ARROW_DOT ? view.origin : tip };
