@@ -23,6 +23,7 @@ struct Part
   ImageSpec   spec;
   std::string name;
   CeldIoPart  face;
+  bool        covers; // the whole canvas
 };
 
 struct CeldIoFile
@@ -75,18 +76,29 @@ is_linear (const ImageSpec &spec, const char *format)
   return OIIO::Strutil::istarts_with (spec.get_string_attribute ("oiio:ColorSpace"), "lin") || iequals (format, "openexr");
 }
 
+// OpenImageIO tells where the layer of a PSD lies, but calls the layer's own size the full one, and says of the last
+// layer only that alpha is straight, which it is in all.
+static void
+place_layer (ImageSpec &spec, const ImageSpec &merged)
+{
+  spec.full_x = spec.full_y = 0;
+  spec.full_width = merged.full_width;
+  spec.full_height = merged.full_height;
+  spec.attribute ("oiio:UnassociatedAlpha", 1);
+}
+
 static void
 describe (Part &part, int width, int height, const char *format)
 {
   const ImageSpec &spec = part.spec;
   Channels         c = colour_channels (spec);
   int64_t          left = int64_t (spec.x) - spec.full_x, top = int64_t (spec.y) - spec.full_y;
-  bool             covers = left <= 0 && top <= 0 && left + spec.width >= width && top + spec.height >= height;
 
+  part.covers = left <= 0 && top <= 0 && left + spec.width >= width && top + spec.height >= height;
   part.name = spec.get_string_attribute ("oiio:subimagename");
   if (part.name.empty ())
     part.name = spec.get_string_attribute ("tiff:PageName");
-  part.face.alpha = c.alpha >= 0 || !covers;
+  part.face.alpha = c.alpha >= 0 || !part.covers;
   part.face.grey = c.red == c.green && c.red == c.blue;
   part.face.linear = is_linear (spec, format);
   part.face.bits = int (8 * spec.format.basesize ());
@@ -108,7 +120,8 @@ open_file (CeldIoFile &file)
     throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; save XCF, ORA and "
                      "KRA as PSD). " + OIIO::geterror ());
   for (int i = 0; file.input->seek_subimage (i, 0); i++)
-    file.parts.push_back ({ file.input->spec (i, 0), "", {} });
+    file.parts.push_back ({ file.input->spec (i, 0), "", {}, false });
+  file.input->geterror (); // of the search beyond the last part
   if (file.parts.empty ())
     throw IoFailure ("it holds no picture.");
   file.width = file.parts[0].spec.full_width;
@@ -116,6 +129,9 @@ open_file (CeldIoFile &file)
   if (file.width < 1 || file.height < 1 || file.width > CELD_MAX_SIDE || file.height > CELD_MAX_SIDE)
     throw IoFailure ("its size of " + std::to_string (file.width) + " x " + std::to_string (file.height) +
                      " pixels is outside 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
+  if (iequals (file.input->format_name (), "psd"))
+    for (Part &part : file.parts)
+      place_layer (part.spec, file.parts[0].spec);
   for (Part &part : file.parts)
     describe (part, file.width, file.height, file.input->format_name ());
   for (Part &part : file.parts)
@@ -163,7 +179,8 @@ read_pixels (CeldIoFile &file, size_t index, Take take)
                     : file.input->read_scanlines (part, 0, spec.y + y, spec.y + end, spec.z, 0, n, OIIO::TypeFloat,
                                                   pixels.data ());
 
-      if (!good)
+      // Of a TIFF that is cut short the error is kept, but reading counts as good.
+      if (!good || file.input->has_error ())
         throw IoFailure ("it is damaged or cut short (" + file.input->geterror () + ").");
       for (int j = std::max (y, -top); j < std::min (end, file.height - top); j++)
         for (int i = std::max (0, -left); i < std::min (spec.width, file.width - left); i++)
@@ -180,7 +197,9 @@ read_colours (CeldIoFile &file, size_t index, float *rgba)
   const bool       premultiplied = c.alpha >= 0 && !spec.get_int_attribute ("oiio:UnassociatedAlpha");
 
   check_part (file, index);
-  std::fill (rgba, rgba + 4 * size_t (file.width) * size_t (file.height), 0.f);
+  // Not where it is overwritten: a damaged file of 20000 x 20000 pixels must not cost the memory that it asks for.
+  if (!file.parts[index].covers)
+    std::fill (rgba, rgba + 4 * size_t (file.width) * size_t (file.height), 0.f);
   read_pixels (file, index, [=] (const float *pixel, size_t place) {
     float *out = rgba + 4 * place;
     float  alpha = c.alpha >= 0 ? pixel[c.alpha] : 1.f;
@@ -220,7 +239,8 @@ read_values (CeldIoFile &file, size_t index, float *values)
   const Scale scale = value_scale (file.parts.at (index).spec);
 
   check_part (file, index);
-  std::fill (values, values + size_t (file.width) * size_t (file.height), 0.f);
+  if (!file.parts[index].covers)
+    std::fill (values, values + size_t (file.width) * size_t (file.height), 0.f);
   read_pixels (file, index, [=] (const float *pixel, size_t place) {
     values[place] = scale.offset + scale.factor * pixel[scale.channel];
   });
