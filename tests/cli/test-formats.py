@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+"""Every result in every format, read back by readers that are not ours, and by the single steps.
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import json
+import unittest
+
+import numpy as np
+
+from pictures import BLUE, GREEN, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, png_chunks
+
+ENDINGS = ('png', 'exr', 'tif', 'npy')
+
+
+class Formats(Test):
+    def make(self, option, *words):
+        """One result in all formats."""
+        for ending in ENDINGS:
+            self.popup('--relations', RELATIONS, f'--{option}', f'{option}.{ending}', *words)
+        return np.load(self.path(f'{option}.npy'))
+
+    def test_labels(self):
+        numbers = self.make('labels')
+        self.assertEqual(numbers.dtype, np.float32)
+        self.assertEqual(len({at(numbers, p) for p in (IN_A, IN_B, IN_PAGE)} | set(np.unique(numbers))), 3)
+        for ending in ('png', 'tif'):
+            colours = self.picture(f'labels.{ending}')
+            self.assertEqual(colours.shape, (HEIGHT, WIDTH, 4))
+            for place, colour in ((IN_A, RED), (IN_B, BLUE), (IN_PAGE, GREEN)):
+                self.assertEqual(tuple(at(colours, place)), colour + (255,))
+        self.assertAlmostEqual(at(self.channel('labels.exr', 'G'), IN_PAGE), ((160 / 255 + 0.055) / 1.055) ** 2.4, places=3)
+        self.assertEqual(at(self.channel('labels.exr', 'B'), IN_B), 1)
+
+    def test_transparent_background(self):
+        """Where no scribble is the background, its label is transparent, and its colour is straight."""
+        self.popup('--labels', 'labels.png', '--background', 'auto')
+        self.assertEqual(png_chunks(self.path('labels.png'))[1][2:4], (8, 6))
+
+    def check_planes(self, option, values):
+        """Values in [0,1] in all formats."""
+        stored = self.picture(f'{option}.png')
+        names, header = png_chunks(self.path(f'{option}.png'))
+        self.assertEqual(header[:4], (WIDTH, HEIGHT, 16, 0))
+        for name in ('sRGB', 'gAMA', 'iCCP'):
+            self.assertNotIn(name, names)
+        np.testing.assert_allclose(stored / 65535, values, atol=0.51 / 65535)
+        np.testing.assert_array_equal(self.picture(f'{option}.tif'), values)
+        np.testing.assert_array_equal(self.channel(f'{option}.exr', 'depth.V'), values)
+        np.testing.assert_allclose(self.channel(f'{option}.exr', 'Z'), 2 - values, atol=1e-6)
+
+    def test_levels(self):
+        values = self.make('levels')
+        self.assertEqual([at(values, p) for p in (IN_PAGE, IN_A, IN_B)], [0, 0.5, 1])
+        self.check_planes('levels', values)
+        self.check_planes('order', self.make('order'))
+
+    def test_depth(self):
+        values = self.make('depth')
+        self.assertLess(at(values, IN_PAGE), at(values, IN_A))
+        self.assertLess(at(values, IN_A), at(values, IN_B))
+        self.check_planes('depth', values)
+
+    def test_ranks(self):
+        """Ranks are numbers where the format has numbers; elsewhere near is white, and they come back as ranks."""
+        ranks = self.make('order', '--encoding', 'rank')
+        self.assertEqual(sorted(set(ranks.flat)), [0, 1, 2])
+        np.testing.assert_array_equal(self.picture('order.tif'), ranks)
+        np.testing.assert_allclose(self.picture('order.png') / 65535, ranks / 2, atol=1e-5)
+        np.testing.assert_array_equal(self.channel('order.exr', 'depth.V'), ranks / 2)
+        for ending in ENDINGS:
+            with self.subTest(ending):
+                self.celdepth('expand', f'order.{ending}', '--drawing', 'drawing.png', '--levels', 'again.npy')
+                self.assertLess(np.abs(np.round(np.load(self.path('again.npy'))) - np.load(self.path('again.npy'))).max(), 1e-4)
+                self.assertEqual(at(np.load(self.path('again.npy')), IN_B), 2)
+
+    def test_fixed_levels(self):
+        self.popup('--relations', RELATIONS, '--levels', 'l.npy', '--encoding', 'fixed', '--near-level', '10', '--far-level', '-10')
+        np.testing.assert_allclose([at(np.load(self.path('l.npy')), p) for p in (IN_PAGE, IN_A, IN_B)], [0.5, 0.55, 0.6], atol=1e-6)
+
+    def test_normals(self):
+        normals = self.make('normals')
+        self.assertEqual(normals.shape, (HEIGHT, WIDTH, 3))
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1, atol=1e-3)
+        for i, name in enumerate(('N.X', 'N.Y', 'N.Z')):
+            np.testing.assert_array_equal(self.channel('normals.exr', name), normals[:, :, i])
+        names, header = png_chunks(self.path('normals.png'))
+        self.assertEqual(header[:4], (WIDTH, HEIGHT, 16, 2))
+        self.assertNotIn('sRGB', names)
+        np.testing.assert_allclose(self.picture('normals.png') / 255, 0.5 + 0.5 * normals, atol=1.1 / 255)
+
+    def test_shading(self):
+        shading = self.make('shading')
+        self.assertGreaterEqual(shading.min(), 0)
+        np.testing.assert_array_equal(self.picture('shading.tif'), shading)
+        np.testing.assert_array_equal(self.channel('shading.exr', 'Y'), shading)
+        encoded = np.where(shading <= 0.0031308, 12.92 * shading, 1.055 * np.maximum(shading, 0) ** (1 / 2.4) - 0.055)
+        np.testing.assert_allclose(self.picture('shading.png') / 65535, encoded, atol=2e-5)
+        self.assertIn('sRGB', png_chunks(self.path('shading.png'))[0])
+
+    def test_steps_equal_the_route(self):
+        """segment, order, expand, smooth, shade one after the other, by way of files."""
+        self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',
+                   '--depth', 'a-depth.npy', '--normals', 'a-normals.npy', '--shading', 'a-shading.npy')
+        drawing = ('--drawing', 'drawing.png')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'b.png')
+        self.celdepth('order', 'b.png', *drawing, '--relations', RELATIONS, '--levels', 'b-order.npy')
+        self.celdepth('expand', 'b-order.npy', *drawing, '--levels', 'b-levels.npy')
+        self.celdepth('smooth', 'b-levels.npy', *drawing, '--anchors', 'scribbles.png', '--depth', 'b-depth.npy')
+        self.celdepth('shade', 'b-levels.npy', *drawing, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
+        np.testing.assert_array_equal(self.picture('a.png'), self.picture('b.png'))
+        for name in ('order', 'levels', 'depth', 'normals', 'shading'):
+            np.testing.assert_allclose(np.load(self.path(f'a-{name}.npy')), np.load(self.path(f'b-{name}.npy')), atol=1e-4)
+
+    def test_report(self):
+        self.popup('--relations', RELATIONS + '; 20,20 > 22,22; 500,5 > 1,1; #123456 > 1,1 @2.5 !crack', '--seeds', 'scribbles',
+                   '--report', 'report.json')
+        with open(self.path('report.json'), encoding='utf-8') as file:
+            report = json.load(file)
+        self.assertEqual((report['schema'], report['command'], report['width'], report['height']), (1, 'popup', WIDTH, HEIGHT))
+        self.assertEqual({l['colour']: l['level'] for l in report['labels']}, {'#0000ff': 2, '#ff0000': 1, '#00a000': 0})
+        self.assertEqual(sum(l['area'] for l in report['labels']), WIDTH * HEIGHT)
+        self.assertEqual([l['background'] for l in report['labels'] if l['colour'] == '#00a000'], [True])
+        self.assertEqual([r.get('left-out') for r in report['relations']], [None, None, 'same-region', 'outside', 'unknown-colour'])
+        self.assertEqual(report['relations'][4]['text'], '#123456 > 1,1 @2.5 !crack')
+        self.assertEqual((report['relations'][1]['line'], report['relations'][1]['column']), (1, 16))
+        self.assertEqual({p['kind'] for p in report['problems']}, {'same-region', 'outside', 'unknown-colour'})
+        self.assertEqual((report['levels'], report['cycles']), (3, []))
+        self.assertGreater(report['seconds']['labels'], 0)
+        self.assertGreater(report['peak-memory'], 1e6)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,199 @@
+#!/usr/bin/python3
+"""Layered files, unusual pictures, and bad ones: exit code 1, a message that names the cause, nothing written.
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import os
+import struct
+import subprocess
+import unittest
+import zlib
+
+import numpy as np
+from PIL import Image, ImageOps
+
+from pictures import HEIGHT, RED, RELATIONS, WIDTH, Test, drawing, scribbles, write_psd
+
+
+def layers():
+    """Drawing and scribbles as layers that are smaller than the page, as editors store them."""
+    strokes = scribbles()
+    box = strokes.getbbox()
+    page = drawing().convert('RGBA').crop((4, 4, WIDTH, HEIGHT))
+    return [('Drawing', 4, 4, page), ('scribbles', box[0], box[1], strokes.crop(box))]
+
+
+class Layers(Test):
+    def same_labels(self, *words, reference='labels.npy'):
+        self.celdepth('segment', *words, '--labels', 'again.npy')
+        np.testing.assert_array_equal(np.load(self.path(reference)), np.load(self.path('again.npy')))
+
+    def setUp(self):
+        super().setUp()
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'labels.npy')
+
+    def test_psd(self):
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
+        self.same_labels('page.psd')
+        self.celdepth('popup', 'page.psd', '--relations', RELATIONS, '--depth', 'a.npy')
+        self.popup('--relations', RELATIONS, '--depth', 'b.npy')
+        np.testing.assert_allclose(np.load(self.path('a.npy')), np.load(self.path('b.npy')), atol=1e-5)
+
+    def test_option_before_layer(self):
+        other = [(name, x, y, layer if name != 'scribbles' else Image.new('RGBA', (5, 5), RED)) for name, x, y, layer in layers()]
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), other)
+        self.same_labels('page.psd', '--scribbles', 'scribbles.png')
+
+    def test_missing_layers(self):
+        write_psd(self.path('no-drawing.psd'), (WIDTH, HEIGHT), [('Lines', *layers()[0][1:]), layers()[1]])
+        self.fails('popup', 'no-drawing.psd', '--depth', 'd.png', naming='no layer named "drawing". Its layers are "Lines", "scribbles"')
+        write_psd(self.path('no-scribbles.psd'), (WIDTH, HEIGHT), layers()[:1])
+        self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='nothing to go by')
+
+    def test_layers_without_our_names(self):
+        """A PSD with other layers is an ordinary picture: its merged one (white here)."""
+        write_psd(self.path('plain.psd'), (WIDTH, HEIGHT), [('Layer 1', *layers()[0][1:])])
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        self.celdepth('segment', 'white.png', '--scribbles', 'scribbles.png', '--labels', 'white.npy')
+        self.same_labels('plain.psd', '--scribbles', 'scribbles.png', reference='white.npy')
+
+    def test_exr_parts(self):
+        parts = []
+        for name in ('drawing', 'scribbles'):
+            parts += [self.path(f'{name}.png'), '--colorconvert', 'sRGB', 'linear', '-d', 'float', '--attrib', 'oiio:subimagename', name]
+        subprocess.run(['oiiotool', *parts, '--siappendall', '-o', self.path('page.exr')], check=True)
+        self.same_labels('page.exr')
+
+
+class Drawings(Test):
+    """The same drawing in other clothes gives the same regions."""
+
+    def same_labels(self, name, *words):
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'labels.npy')
+        self.celdepth('segment', name, '--scribbles', 'scribbles.png', '--labels', 'again.npy', *words)
+        different = np.load(self.path('labels.npy')) != np.load(self.path('again.npy'))
+        self.assertEqual(different.sum(), 0)
+
+    def test_16_bit(self):
+        Image.fromarray(np.array(drawing(), np.uint16) * 257).save(self.path('deep.png'))
+        self.same_labels('deep.png')
+
+    def test_float_with_nan(self):
+        values = np.array(drawing(), np.float32) / 255
+        values[2, 2] = np.nan
+        Image.fromarray(values).save(self.path('float.tif'))
+        self.same_labels('float.tif')
+
+    def test_ink_in_alpha(self):
+        ink = Image.new('RGBA', (WIDTH, HEIGHT))
+        ink.putalpha(ImageOps.invert(drawing()))
+        ink.save(self.path('ink.png'))
+        self.same_labels('ink.png')
+        self.same_labels('ink.png', '--ink', 'alpha')
+
+    def test_chalk(self):
+        ImageOps.invert(drawing()).save(self.path('chalk.png'))
+        self.same_labels('chalk.png', '--ink', 'light')
+
+    def test_palette(self):
+        drawing().convert('RGB').quantize(4).save(self.path('palette.png'))
+        self.same_labels('palette.png')
+
+    def test_one_pixel_wide(self):
+        Image.new('L', (1, 8), 255).save(self.path('line.png'))
+        Image.new('RGBA', (1, 8), RED + (255,)).save(self.path('red.png'))
+        self.celdepth('popup', 'line.png', '--scribbles', 'red.png', '--labels', 'l.png', '--depth', 'd.npy', '--normals', 'n.png', '--flats')
+        self.assertEqual(tuple(self.picture('l.png')[0, 0]), RED + (255,))
+
+
+class BadInput(Test):
+    def test_missing_and_unfit_files(self):
+        os.mkdir(self.path('folder.png'))
+        self.fails('popup', 'none.png', '--depth', 'd.png', naming='"none.png": there is no such file')
+        self.fails('popup', 'folder.png', '--depth', 'd.png', naming='"folder.png": it is a folder')
+        self.fails('popup', 'drawing.png', '--scribbles', 'none.png', '--depth', 'd.png', naming='none.png')
+        with open(self.path('text.png'), 'w', encoding='ascii') as file:
+            file.write('this is no picture')
+        self.fails('popup', 'text.png', '--depth', 'd.png', naming='text.png')
+        open(self.path('empty.png'), 'wb').close()
+        self.fails('popup', 'empty.png', '--depth', 'd.png', naming='empty.png')
+
+    def test_cut_short(self):
+        noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
+        picture = Image.fromarray(noise)
+        picture.save(self.path('whole.png'))
+        picture.save(self.path('whole.tif'))
+        write_psd(self.path('whole.psd'), (64, 64), [('drawing', 0, 0, picture.convert('RGBA'))])
+        subprocess.run(['oiiotool', self.path('whole.png'), '-o', self.path('whole.exr')], check=True)
+        np.save(self.path('whole.npy'), noise[:, :, 0].astype(np.float32))
+        for ending in ('png', 'tif', 'psd', 'exr', 'npy'):
+            with open(self.path(f'whole.{ending}'), 'rb') as file:
+                data = file.read()
+            for share in (0.001, 0.01, 0.3, 0.5):
+                name = f'cut.{ending}'
+                with open(self.path(name), 'wb') as file:
+                    file.write(data[:max(int(share * len(data)), 1)])
+                with self.subTest(ending=ending, share=share):
+                    if ending == 'npy':
+                        self.fails('smooth', name, '--drawing', 'whole.png', '--depth', 'd.png', naming=name)
+                    else:
+                        self.fails('popup', name, '--depth', 'd.png', naming=name)
+
+    def test_absurd_sizes(self):
+        for width, height in ((30000, 10), (10, 30000), (20000, 20000), (2 ** 31 - 1, 2 ** 31 - 1)):
+            header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
+            chunks = b''
+            for name, data in ((b'IHDR', header), (b'IDAT', zlib.compress(b'\0' * 100)), (b'IEND', b'')):
+                chunks += struct.pack('>I', len(data)) + name + data + struct.pack('>I', zlib.crc32(name + data))
+            with open(self.path('absurd.png'), 'wb') as file:
+                file.write(b'\x89PNG\r\n\x1a\n' + chunks)
+            with self.subTest(width=width, height=height):
+                self.fails('popup', 'absurd.png', '--depth', 'd.png', naming='absurd.png')
+
+    def test_sizes_that_differ(self):
+        scribbles().resize((50, 40)).save(self.path('small.png'))
+        self.fails('popup', 'drawing.png', '--scribbles', 'small.png', '--depth', 'd.png', naming='"small.png" has 50 x 40 pixels, but 96 x 64')
+        np.save(self.path('small.npy'), np.zeros((5, 5), np.float32))
+        self.fails('smooth', 'small.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='96 x 64')
+
+    def test_nothing_to_go_by(self):
+        Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('blank.png'))
+        self.fails('popup', 'drawing.png', '--depth', 'd.png', naming='nothing to go by')
+        self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='nothing to go by')
+
+    def test_unreadable_relations(self):
+        text = self.popup('--relations', '1,1 > 2,2;\n3,3 ? 4,4', '--depth', 'd.png', code=1)
+        self.assertRegex(text, 'line 2, column 5: expected .*found')
+        with open(self.path('relations.txt'), 'wb') as file:
+            file.write(b'1,1 > 2,\n')
+        self.assertIn('relations.txt, line', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+        with open(self.path('relations.txt'), 'wb') as file:
+            file.write(b'1,1 > 2,2\0 and more')
+        self.assertIn('no text', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+
+    def test_contradictions(self):
+        """Code 3, both relations by name, and the best order of the rest."""
+        text = self.popup('--relations', '70,45 > 20,20 @2\n20,20 > 70,45', '--levels', 'l.npy', '--quiet', code=3)
+        self.assertIn('70,45 > 20,20 @2  (line 1, column 1)', text)
+        self.assertIn('20,20 > 70,45  (line 2, column 1)', text)
+        levels = np.load(self.path('l.npy'))
+        self.assertGreater(levels[45, 70], levels[20, 20])
+
+    def test_unwritable(self):
+        for output in ('nowhere/d.png', 'nowhere/d.npy', 'nowhere/d.exr'):
+            self.assertIn(output, self.popup('--depth', output, code=1))
+        os.mkdir(self.path('taken.png'))
+        self.assertIn('taken.png', self.popup('--depth', 'taken.png', code=1))
+        self.assertIn('r.json', self.popup('--report', 'nowhere/r.json', code=1))
+
+    def test_replaces_a_file(self):
+        for name in ('d.png', 'd.npy', 'd.exr', 'd.tif'):
+            with open(self.path(name), 'wb') as file:
+                file.write(b'old')
+            self.popup('--relations', RELATIONS, '--depth', name)
+            self.assertGreater(os.path.getsize(self.path(name)), 100)
+        self.assertFalse([name for name in os.listdir(self.folder) if '.new-' in name])
+
+
+if __name__ == '__main__':
+    unittest.main()
