@@ -244,12 +244,10 @@ celd_session_set_relations (CeldSession *session, const char *text, CeldTextErro
   CeldRelations relations = { 0 };
   CeldStatus    status = celd_relations_parse (text ? text : "", &relations, error);
 
-  if (status != CELD_OK)
-    return status;
-  if (same_relations (&relations, &session->text))
+  if (status != CELD_OK || same_relations (&relations, &session->text))
     {
       celd_relations_clear (&relations);
-      return CELD_OK;
+      return status;
     }
   celd_relations_clear (&session->text);
   session->text = relations;

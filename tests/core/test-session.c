@@ -156,6 +156,32 @@ stop_at (void *host, double done)
   return (*left)-- > 0;
 }
 
+/* A run that would be cancelled at its first step is not even asked when everything set was set before. */
+static void
+setting_the_same_makes_nothing_again (void)
+{
+  static float   luma[W * H];
+  static uint8_t pixels[4 * W * H];
+  CeldDrawing    drawing = sheet (luma);
+  CeldPaint      layer = { W, H, W, pixels };
+  CeldSession   *s = scene ();
+  CeldPlane      shading;
+  int            left = 0;
+  CeldRun        none = { .progress = stop_at, .host = &left };
+
+  CHECK (celd_session_set_contours (s, &layer) == CELD_OK);
+  CHECK (celd_session_shading (s, NULL, &shading, NULL) == CELD_OK);
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_set_contours (s, &layer) == CELD_OK);
+  CHECK (celd_session_set_arrows (s, NULL) == CELD_OK);
+  CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff", NULL) == CELD_OK);
+  CHECK (celd_session_shading (s, &none, &shading, NULL) == CELD_OK);
+  pixels[3] = 255;
+  CHECK (celd_session_set_contours (s, &layer) == CELD_OK);
+  CHECK (celd_session_shading (s, &none, &shading, NULL) == CELD_CANCELLED);
+  celd_session_free (s);
+}
+
 static void
 cancel_leaves_it_usable (void)
 {
@@ -246,6 +272,7 @@ main (void)
   RUN (edits_say_what_changed);
   RUN (single_relations);
   RUN (anchors_keep_their_level);
+  RUN (setting_the_same_makes_nothing_again);
   RUN (cancel_leaves_it_usable);
   RUN (bad_input);
   RUN (strokes_far_outside);
