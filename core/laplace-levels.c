@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-#define STRONG      0.2f /* of the strongest link of either end: a strong link */
+#define STRONG      0.5f /* of the strongest link of either end: a strong link */
 #define BOTTOM      150  /* nodes that are eliminated directly */
 #define FEWER       0.6  /* share of nodes that a new level may keep at most */
 #define WHOLE       15   /* doublings after which every cell is the whole picture: 2^15 > CELD_MAX_SIDE */
