@@ -1,7 +1,7 @@
 /* Which label is the background, and what of the paper along the frame it gets.
  *
- * Paper along the frame belongs to the label that holds most of it: the label with most paint in a piece of paper holds
- * that piece, where strokes that are at home elsewhere do not count.  Pieces along the frame that nobody holds are seeded
+ * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room (rooms.c) holds
+ * that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that nobody holds are seeded
  * for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for a transparent label of
  * their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the background.)
  *
@@ -9,33 +9,38 @@
  */
 #include "segment.h"
 
+#define MAIN_SHARE 4 /* a quarter of the frame is the main part of it */
+
 typedef struct
 {
   size_t   *pixel;     /* paper along the frame */
+  uint32_t *holder;    /* the label that holds each of these; 0 = nobody */
   size_t    n;
-  uint32_t *holder;    /* of piece k: the label that holds it, holder[k]; 0 = nobody */
   size_t   *held;      /* of label l: frame pixels, held[l]; held[0]: nobody's */
 } Frame;
 
-/* The label with most paint in each piece.  With soft strokes only those that leave at least half of their paint there. */
-static void
-find_holders (const CeldCanvas *canvas, const CeldSpread *spread, uint32_t *holder)
+/* holder[k]: the label with most paint in piece or room k, 0 if there is none.  With soft strokes only those count that
+ * leave at least half of their paint there. */
+static CeldStatus
+find_holders (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, uint32_t *holder)
 {
-  bool all_count = canvas->settings->flats || canvas->settings->hardness >= 1;
+  bool       all_count = canvas->settings->flats || canvas->settings->hardness >= 1;
+  CeldSpread spread;
+  CeldStatus status = celd_spread_new (canvas, pieces, run, &spread);
 
-  for (size_t i = 0; i < spread->n;)
+  for (size_t i = 0; i < spread.n;)
     {
-      uint32_t piece = spread->share[i].piece;
+      uint32_t piece = spread.share[i].piece;
       size_t   most = 0;
 
-      while (i < spread->n && spread->share[i].piece == piece)
+      while (i < spread.n && spread.share[i].piece == piece)
         {
-          uint32_t label = spread->share[i].label;
+          uint32_t label = spread.share[i].label;
           size_t   paint = 0;
 
-          for (; i < spread->n && spread->share[i].piece == piece && spread->share[i].label == label; i++)
-            if (all_count || 2 * spread->share[i].pixels >= spread->total[spread->share[i].stroke])
-              paint += spread->share[i].pixels;
+          for (; i < spread.n && spread.share[i].piece == piece && spread.share[i].label == label; i++)
+            if (all_count || 2 * spread.share[i].pixels >= spread.total[spread.share[i].stroke])
+              paint += spread.share[i].pixels;
           if (paint > most)
             {
               most          = paint;
@@ -43,6 +48,38 @@ find_holders (const CeldCanvas *canvas, const CeldSpread *spread, uint32_t *hold
             }
         }
     }
+  celd_spread_clear (&spread);
+  return status;
+}
+
+/* Who holds each pixel of the frame: who holds its room; behind a small gap in a contour, where its room is not most of
+ * the frame, also who holds its piece. */
+static CeldStatus
+hold_frame (const CeldCanvas *canvas, const CeldRun *run, Frame *frame)
+{
+  uint32_t  *of_piece = celd_alloc0 (canvas->n_pieces + 1, sizeof *of_piece);
+  uint32_t  *of_room = celd_alloc0 (canvas->n_rooms + 1, sizeof *of_room);
+  size_t    *along = celd_alloc0 (canvas->n_rooms + 1, sizeof *along);
+  CeldStatus status = of_piece && of_room && along ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = find_holders (canvas, &canvas->pieces, run, of_piece);
+  if (status == CELD_OK)
+    status = find_holders (canvas, &canvas->rooms, run, of_room);
+  for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
+    along[canvas->rooms.data[frame->pixel[i]]]++;
+  for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
+    {
+      uint32_t room = canvas->rooms.data[frame->pixel[i]];
+
+      frame->holder[i] = of_room[room] || MAIN_SHARE * along[room] >= frame->n
+                         ? of_room[room] : of_piece[canvas->pieces.data[frame->pixel[i]]];
+      frame->held[frame->holder[i]]++;
+    }
+  celd_free (of_piece);
+  celd_free (of_room);
+  celd_free (along);
+  return status;
 }
 
 /* Label 0 if the frame is nobody's. */
@@ -54,7 +91,7 @@ main_holder (const Frame *frame, size_t n_labels)
   for (uint32_t l = 1; l <= n_labels; l++)
     if (frame->held[l] && (!best || frame->held[l] > frame->held[best]))
       best = l;
-  if (best && 4 * frame->held[best] < frame->n && frame->held[0] > frame->held[best])
+  if (best && MAIN_SHARE * frame->held[best] < frame->n && frame->held[0] > frame->held[best])
     return 0;
   return best;
 }
@@ -76,56 +113,51 @@ choose (CeldCanvas *canvas, const Frame *frame, uint32_t *label)
   return celd_canvas_add (canvas, made, label);
 }
 
-/* Pieces along the frame that nobody holds get the background's seeds there, and lose the stains in them. */
-static void
-seed (CeldCanvas *canvas, const Frame *frame, uint32_t label, bool *along)
+/* Rooms along the frame that nobody holds get the background's seeds there, and lose the stains in them. */
+static CeldStatus
+seed (CeldCanvas *canvas, const Frame *frame, uint32_t label)
 {
+  bool *along = celd_alloc0 (canvas->n_rooms + 1, sizeof *along);
+
+  if (!along)
+    return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
-    along[canvas->pieces.data[frame->pixel[i]]] = true;
+    if (!frame->holder[i])
+      along[canvas->rooms.data[frame->pixel[i]]] = true;
   for (size_t p = 0; p < canvas->n; p++)
-    if (along[canvas->pieces.data[p]] && !frame->holder[canvas->pieces.data[p]])
+    if (along[canvas->rooms.data[p]])
       canvas->seeds.data[p] = 0;
   for (size_t i = 0; i < frame->n; i++)
-    if (!frame->holder[canvas->pieces.data[frame->pixel[i]]])
+    if (!frame->holder[i])
       canvas->seeds.data[frame->pixel[i]] = label;
+  celd_free (along);
+  return CELD_OK;
 }
 
 CeldStatus
 celd_background_seed (const CeldRun *run, CeldCanvas *canvas)
 {
   Frame      frame = { 0 };
-  CeldSpread spread = { 0 };
-  bool      *along = NULL;
   uint32_t   label = 0;
   CeldStatus status;
 
   if (canvas->settings->background == CELD_BACKGROUND_NONE)
     return CELD_OK;
   status = celd_frame (canvas->ink, canvas->width, canvas->height, &frame.pixel, &frame.n);
-  if (status == CELD_OK)
-    status = celd_spread_new (canvas, run, &spread);
   if (status != CELD_OK)
-    goto done;
-  status = CELD_NO_MEMORY;
-  frame.holder = celd_alloc0 (canvas->n_pieces + 1, sizeof *frame.holder);
+    return status;
+  frame.holder = celd_alloc (frame.n, sizeof *frame.holder);
   frame.held   = celd_alloc0 (canvas->palette.n + 1, sizeof *frame.held);
-  along        = celd_alloc0 (canvas->n_pieces + 1, sizeof *along);
-  if (!frame.holder || !frame.held || !along)
-    goto done;
-  find_holders (canvas, &spread, frame.holder);
-  for (size_t i = 0; i < frame.n; i++)
-    frame.held[frame.holder[canvas->pieces.data[frame.pixel[i]]]]++;
-  status = choose (canvas, &frame, &label);
-  if (status != CELD_OK || !label)
-    goto done;
-  canvas->palette.item[label - 1].background = true;
-  seed (canvas, &frame, label, along);
-
-done:
-  celd_spread_clear (&spread);
+  status = frame.holder && frame.held ? hold_frame (canvas, run, &frame) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = choose (canvas, &frame, &label);
+  if (status == CELD_OK && label)
+    {
+      canvas->palette.item[label - 1].background = true;
+      status = seed (canvas, &frame, label);
+    }
   celd_free (frame.pixel);
   celd_free (frame.holder);
   celd_free (frame.held);
-  celd_free (along);
   return status;
 }

@@ -12,15 +12,16 @@
 
 /* ------------------------------------------------------------------ area and place of each label */
 
-/* Ink, and pixels beside another label: everything else is inside its region. */
+/* Ink, pixels beside another label, and the outermost ones: everything else is inside its region. */
 static bool
 on_border (const CeldLabels *labels, const CeldPlane *ink, int x, int y)
 {
   uint32_t l = CELD_AT (labels, x, y);
 
   return (ink && !celd_is_paper (CELD_AT (ink, x, y))) ||
-         (x > 0 && CELD_AT (labels, x - 1, y) != l) || (x + 1 < labels->width && CELD_AT (labels, x + 1, y) != l) ||
-         (y > 0 && CELD_AT (labels, x, y - 1) != l) || (y + 1 < labels->height && CELD_AT (labels, x, y + 1) != l);
+         x == 0 || x + 1 == labels->width || y == 0 || y + 1 == labels->height ||
+         CELD_AT (labels, x - 1, y) != l || CELD_AT (labels, x + 1, y) != l ||
+         CELD_AT (labels, x, y - 1) != l || CELD_AT (labels, x, y + 1) != l;
 }
 
 CeldStatus

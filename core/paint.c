@@ -29,7 +29,7 @@ compare_shares (const void *a, const void *b)
 
 /* Paint on paper as runs of pixels of one stroke and piece. */
 static CeldStatus
-gather_runs (const CeldCanvas *canvas, CeldSpread *spread)
+gather_runs (const CeldCanvas *canvas, const CeldLabels *pieces, CeldSpread *spread)
 {
   uint32_t piece = 0, stroke = 0;
 
@@ -37,10 +37,10 @@ gather_runs (const CeldCanvas *canvas, CeldSpread *spread)
     {
       CeldShare *share;
 
-      if (!canvas->seeds.data[p] || !canvas->pieces.data[p])
+      if (!canvas->seeds.data[p] || !pieces->data[p])
         continue;
       spread->total[spread->strokes.data[p]]++;
-      if (spread->n && canvas->pieces.data[p] == piece && spread->strokes.data[p] == stroke)
+      if (spread->n && pieces->data[p] == piece && spread->strokes.data[p] == stroke)
         {
           spread->share[spread->n - 1].pixels++;
           continue;
@@ -48,7 +48,7 @@ gather_runs (const CeldCanvas *canvas, CeldSpread *spread)
       share = celd_grow (spread->share, spread->n + 1, sizeof *share);
       if (!share)
         return CELD_NO_MEMORY;
-      piece  = canvas->pieces.data[p];
+      piece  = pieces->data[p];
       stroke = spread->strokes.data[p];
       spread->share = share;
       share[spread->n++] = (CeldShare) { piece, canvas->seeds.data[p], stroke, 1, false };
@@ -82,7 +82,7 @@ celd_spread_clear (CeldSpread *spread)
 }
 
 CeldStatus
-celd_spread_new (const CeldCanvas *canvas, const CeldRun *run, CeldSpread *spread)
+celd_spread_new (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, CeldSpread *spread)
 {
   CeldComponent *stroke = NULL;
   size_t         n = 0;
@@ -95,7 +95,7 @@ celd_spread_new (const CeldCanvas *canvas, const CeldRun *run, CeldSpread *sprea
   if (status == CELD_OK)
     {
       spread->total = celd_alloc0 (n + 1, sizeof *spread->total);
-      status = spread->total ? gather_runs (canvas, spread) : CELD_NO_MEMORY;
+      status = spread->total ? gather_runs (canvas, pieces, spread) : CELD_NO_MEMORY;
     }
   celd_free (stroke);
   if (status != CELD_OK)
@@ -153,7 +153,7 @@ celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
 
   if (canvas->settings->flats || canvas->settings->hardness >= 1)
     return CELD_OK; /* every stroke is obeyed */
-  status = celd_spread_new (canvas, run, &spread);
+  status = celd_spread_new (canvas, &canvas->pieces, run, &spread);
   if (status != CELD_OK)
     return status;
   for (size_t i = 0, j; i < spread.n; i = j)

@@ -89,40 +89,51 @@ report_lost (const CeldCanvas *canvas, const CeldLabels *seeds, CeldProblems *pr
 
 /* ------------------------------------------------------------------ regions */
 
-/* Pieces of paper of a sensible size without a seed, as `unreached` of piece k at [k]. */
-static bool
-find_unreached (const CeldCanvas *canvas, bool *unreached)
+/* Numbers pieces of a sensible size without a seed from 1, others 0; returns how many.  Pieces, not rooms: a stroke
+ * reaches through a gap. */
+static size_t
+number_unreached (const CeldCanvas *canvas, size_t *area, uint32_t *number)
 {
   size_t side = (size_t) (SMALLEST_WIDTH * canvas->stroke), n = 0;
 
-  for (size_t k = 1; k <= canvas->n_pieces; k++)
-    unreached[k] = canvas->piece[k - 1].area >= side * side && canvas->piece[k - 1].area >= canvas->n / SMALLEST_SHARE;
+  for (size_t p = 0; p < canvas->n; p++)
+    area[canvas->pieces.data[p]]++;
   for (size_t p = 0; p < canvas->n; p++)
     if (canvas->seeds.data[p])
-      unreached[canvas->pieces.data[p]] = false;
+      area[canvas->pieces.data[p]] = 0;
   for (size_t k = 1; k <= canvas->n_pieces; k++)
-    n += unreached[k];
-  return n > 0;
+    if (area[k] >= side * side && area[k] > canvas->n / SMALLEST_SHARE)
+      number[k] = (uint32_t) ++n;
+  return n;
 }
 
 static CeldStatus
 report_unreached (const CeldCanvas *canvas, const CeldRun *run, CeldProblems *problems)
 {
-  bool       *unreached = celd_alloc0 (canvas->n_pieces + 1, sizeof *unreached);
-  CeldPalette place = { celd_alloc0 (canvas->n_pieces, sizeof (CeldRegion)), canvas->n_pieces };
-  CeldStatus  status = unreached && place.item ? CELD_OK : CELD_NO_MEMORY;
+  size_t     *area = celd_alloc0 (canvas->n_pieces + 1, sizeof *area);
+  uint32_t   *number = celd_alloc0 (canvas->n_pieces + 1, sizeof *number);
+  CeldLabels  numbers = { 0 };
+  CeldPalette place = { 0 };
+  CeldStatus  status = area && number ? CELD_OK : CELD_NO_MEMORY;
 
-  if (status != CELD_OK || !find_unreached (canvas, unreached))
+  if (status != CELD_OK || !(place.n = number_unreached (canvas, area, number)))
     goto done;
-  status = celd_palette_measure (&canvas->pieces, NULL, run, &place);
-  for (size_t k = 1; k <= canvas->n_pieces && status == CELD_OK; k++)
-    if (unreached[k])
-      status = celd_problem_add (problems, (CeldProblem) {
-        CELD_PROBLEM_REGION_UNREACHED, place.item[k - 1].x, place.item[k - 1].y,
-        CELD_AT (&canvas->labels, place.item[k - 1].x, place.item[k - 1].y), 0, CELD_NO_INDEX });
+  place.item = celd_alloc0 (place.n, sizeof *place.item);
+  status = place.item ? celd_labels_new (canvas->width, canvas->height, &numbers) : CELD_NO_MEMORY;
+  if (status != CELD_OK)
+    goto done;
+  for (size_t p = 0; p < canvas->n; p++)
+    numbers.data[p] = number[canvas->pieces.data[p]];
+  status = celd_palette_measure (&numbers, NULL, run, &place);
+  for (size_t k = 0; k < place.n && status == CELD_OK; k++)
+    status = celd_problem_add (problems, (CeldProblem) {
+      CELD_PROBLEM_REGION_UNREACHED, place.item[k].x, place.item[k].y,
+      CELD_AT (&canvas->labels, place.item[k].x, place.item[k].y), 0, CELD_NO_INDEX });
 
 done:
-  celd_free (unreached);
+  celd_free (area);
+  celd_free (number);
+  celd_free (numbers.data);
   celd_free (place.item);
   return status;
 }

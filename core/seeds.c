@@ -1,7 +1,7 @@
 /* Arrows as strokes: the expert gesture of section 4 ("directly generate scribbles with a newly added depth inequality")
  * and Figure 2, which has two arrows and nothing else.
  *
- * An end in a piece of paper that nothing reaches makes that piece a label.  Where both ends of an inequality end up in
+ * An end in a room (rooms.c) that nothing reaches makes that room a label.  Where both ends of an inequality end up in
  * one region, it is split between them: the end that is nearer, within the region, to the seeds that the region has keeps
  * its label, the other becomes a new one; only the region is cut again.  Equalities never split, and their ends share
  * one label.
@@ -183,17 +183,15 @@ new_label (CeldCanvas *canvas, uint32_t *label)
 
 /* ------------------------------------------------------------------ ends that nothing reaches */
 
-typedef struct { uint32_t label, piece; } Planting;
+typedef struct { uint32_t label, room; } Planting;
 
 static void
-paint_piece (CeldCanvas *canvas, size_t p, void *data)
+paint_room (CeldCanvas *canvas, size_t p, void *data)
 {
   const Planting *planting = data;
 
-  if (canvas->pieces.data[p] != planting->piece || canvas->seeds.data[p])
-    return;
-  canvas->seeds.data[p] = planting->label;
-  canvas->palette.item[planting->label - 1].seeds++;
+  if (canvas->rooms.data[p] == planting->room && !canvas->seeds.data[p])
+    canvas->seeds.data[p] = planting->label;
 }
 
 static CeldStatus
@@ -204,18 +202,18 @@ plant_relation (const CeldRelation *relation, const int32_t *squared, bool *reac
   double     reach = INFINITY;
   CeldStatus status = CELD_OK;
 
-  if (end[0].there && end[1].there && canvas->pieces.data[end[0].p] == canvas->pieces.data[end[1].p])
+  if (end[0].there && end[1].there && canvas->rooms.data[end[0].p] == canvas->rooms.data[end[1].p])
     reach = REACH * distance (end[0], end[1]);
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
-      planting.piece = end[i].there ? canvas->pieces.data[end[i].p] : 0;
-      if (!planting.piece || reached[planting.piece])
+      planting.room = end[i].there ? canvas->rooms.data[end[i].p] : 0;
+      if (!planting.room || reached[planting.room])
         continue;
       if (!planting.label || !relation->equal)
         status = new_label (canvas, &planting.label);
       if (status == CELD_OK)
-        stamp_end (canvas, squared, end[i], reach, paint_piece, &planting);
-      reached[planting.piece] = true;
+        stamp_end (canvas, squared, end[i], reach, paint_room, &planting);
+      reached[planting.room] = true;
     }
   return status;
 }
@@ -223,7 +221,7 @@ plant_relation (const CeldRelation *relation, const int32_t *squared, bool *reac
 CeldStatus
 celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
 {
-  bool      *reached = celd_alloc0 (canvas->n_pieces + 1, sizeof *reached);
+  bool      *reached = celd_alloc0 (canvas->n_rooms + 1, sizeof *reached);
   int32_t   *squared = NULL;
   CeldStatus status = reached ? CELD_OK : CELD_NO_MEMORY;
 
@@ -231,7 +229,7 @@ celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas
     status = distance_to_ink (canvas, run, &squared);
   for (size_t p = 0; p < canvas->n && status == CELD_OK; p++)
     if (canvas->seeds.data[p])
-      reached[canvas->pieces.data[p]] = true;
+      reached[canvas->rooms.data[p]] = true;
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     status = plant_relation (&relations->item[i], squared, reached, canvas);
   celd_free (squared);
@@ -368,10 +366,8 @@ take_over (CeldCanvas *canvas, const Region *region, const Local *local, uint32_
 
         if (local->label[i] == LOCAL_NEW)
           canvas->labels.data[p] = label;
-        if (!seed)
-          continue;
-        canvas->seeds.data[p] = seed;
-        canvas->palette.item[seed - 1].seeds += canvas->palette.item[seed - 1].origin == CELD_FROM_ARROW;
+        if (seed)
+          canvas->seeds.data[p] = seed;
       }
 }
 

@@ -46,7 +46,7 @@ canvas_clear (CeldCanvas *canvas)
   celd_free (canvas->seeds.data);
   celd_free (canvas->labels.data);
   celd_free (canvas->pieces.data);
-  celd_free (canvas->piece);
+  celd_free (canvas->rooms.data);
   celd_free (canvas->east);
   celd_free (canvas->south);
   celd_palette_clear (&canvas->palette);
@@ -79,16 +79,6 @@ copy_seeds (const CeldLabels *seeds, const CeldPalette *palette, CeldCanvas *can
   return CELD_OK;
 }
 
-/* Closed pieces of paper. */
-static CeldStatus
-find_pieces (CeldCanvas *canvas, const CeldRun *run)
-{
-  for (int y = 0; y < canvas->height; y++)
-    for (int x = 0; x < canvas->width; x++)
-      CELD_AT (&canvas->labels, x, y) = celd_is_paper (CELD_AT (canvas->ink, x, y));
-  return celd_components (&canvas->labels, 0, false, run, &canvas->pieces, &canvas->piece, &canvas->n_pieces);
-}
-
 static CeldStatus
 canvas_new (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette, const CeldSettings *settings,
             const CeldRun *run, CeldCanvas *canvas)
@@ -104,9 +94,11 @@ canvas_new (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *pa
   if (status == CELD_OK)
     status = celd_labels_new (w, h, &canvas->pieces);
   if (status == CELD_OK)
+    status = celd_labels_new (w, h, &canvas->rooms);
+  if (status == CELD_OK)
     status = copy_seeds (seeds, palette, canvas);
   if (status == CELD_OK)
-    status = find_pieces (canvas, run);
+    status = celd_rooms (run, canvas);
   return status;
 }
 
@@ -295,6 +287,18 @@ cut_labels (CeldCanvas *canvas, const CeldRun *run)
 
 /* ------------------------------------------------------------------ the whole */
 
+static void
+count_arrow_seeds (CeldCanvas *canvas)
+{
+  for (size_t p = 0; p < canvas->n; p++)
+    {
+      uint32_t l = canvas->seeds.data[p];
+
+      if (l && canvas->palette.item[l - 1].origin == CELD_FROM_ARROW)
+        canvas->palette.item[l - 1].seeds++;
+    }
+}
+
 static CeldStatus
 solve (CeldCanvas *canvas, const CeldRelations *relations, const CeldRun *run)
 {
@@ -343,11 +347,13 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
   if (status == CELD_OK)
     status = celd_palette_measure (&canvas.labels, ink, NULL, &canvas.palette);
   if (status == CELD_OK)
+    count_arrow_seeds (&canvas);
+  if (status == CELD_OK)
     status = celd_segment_report (&canvas, seeds, NULL, &found);
-  for (size_t i = 0; i < found.n && status == CELD_OK; i++)
-    status = celd_problem_add (problems, found.item[i]);
   if (status == CELD_OK)
     status = celd_step (run, 1);
+  for (size_t i = 0; i < found.n && status == CELD_OK; i++)
+    status = celd_problem_add (problems, found.item[i]);
   if (status != CELD_OK)
     goto done;
   for (int y = 0; y < canvas.height; y++)

@@ -17,8 +17,8 @@ typedef struct
   CeldLabels          seeds;    /* painted labels, and those that arrows and the frame add; tight */
   CeldLabels          labels;   /* the result; tight */
   CeldLabels          pieces;   /* closed pieces of paper from 1; 0 = ink; tight */
-  CeldComponent      *piece;
-  size_t              n_pieces;
+  CeldLabels          rooms;    /* the same, but parted where a contour has a small gap */
+  size_t              n_pieces, n_rooms;
   int32_t            *east, *south; /* V_pq */
   CeldPalette         palette;  /* of all labels so far */
 } CeldCanvas;
@@ -26,9 +26,14 @@ typedef struct
 /* One more label, without seeds so far: *label is its number. */
 CeldStatus celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label);
 
+/* ------------------------------------------------------------------ rooms.c */
+
+/* Fills in pieces, rooms and their numbers. */
+CeldStatus celd_rooms (const CeldRun *run, CeldCanvas *canvas);
+
 /* ------------------------------------------------------------------ paint.c: where strokes lie */
 
-/* What a connected stroke of one label leaves in one piece of paper. */
+/* What a connected stroke of one label leaves in one piece, or one room. */
 typedef struct { uint32_t piece, label, stroke; size_t pixels; bool stain; } CeldShare;
 
 typedef struct
@@ -39,7 +44,8 @@ typedef struct
   size_t     n;
 } CeldSpread;
 
-CeldStatus celd_spread_new (const CeldCanvas *canvas, const CeldRun *run, CeldSpread *spread);
+/* `pieces` are the canvas' pieces or rooms. */
+CeldStatus celd_spread_new (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, CeldSpread *spread);
 void       celd_spread_clear (CeldSpread *spread);
 
 /* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
@@ -47,12 +53,12 @@ CeldStatus celd_stains_remove (const CeldRun *run, CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ background.c */
 
-/* Seeds along the frame, in pieces of paper that nothing reaches; marks the background in the palette. */
+/* Seeds along the frame where nothing reaches; marks the background in the palette. */
 CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ seeds.c: arrows as strokes */
 
-/* Seeds for each end of a relation that lies in a piece of paper which nothing reaches. */
+/* Seeds for each end of a relation that lies in a room which nothing reaches. */
 CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
 
 /* Splits regions in which both ends of an inequality lie. */
