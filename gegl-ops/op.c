@@ -260,32 +260,49 @@ pass_through (GeglOperationContext *context)
     gegl_operation_context_get_target (context, "output");
 }
 
-static gboolean
-process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad,
-         const GeglRectangle *roi, gint level)
+static void
+render_or_pass (CeldOperation *self, GeglOperationContext *context)
 {
-  CeldOperation *self = (CeldOperation *) operation;
-  CeldOp         op = {
+  CeldOp op = {
     .operation = self,
     .context   = context,
-    .picture   = whole_picture (operation),
+    .picture   = whole_picture (GEGL_OPERATION (self)),
     .scratch   = g_ptr_array_new_with_free_func (g_free),
     .message   = g_string_new (NULL),
   };
 
   op.run   = (CeldRun) { report_progress, distribute, &op };
   op.quiet = (CeldRun) { NULL, distribute, &op };
-  g_mutex_lock (&self->busy);
-  if (!check_pads (&op) || !GET_CLASS (self)->render (&op))
+  if (check_pads (&op) && GET_CLASS (self)->render (&op))
+    report_progress (&op, 1);
+  else
     pass_through (context);
   speak (&op);
-  g_mutex_unlock (&self->busy);
   celd_palette_clear (&op.palette);
   celd_relations_clear (&op.relations);
   celd_problems_clear (&op.problems);
   celd_order_clear (&op.order);
   g_ptr_array_unref (op.scratch);
   g_string_free (op.message, TRUE);
+}
+
+/* A host that draws its windows while it shows progress may ask again from within: it gets the input. */
+static gboolean
+process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad,
+         const GeglRectangle *roi, gint level)
+{
+  CeldOperation *self = (CeldOperation *) operation;
+
+  g_rec_mutex_lock (&self->busy);
+  if (self->rendering)
+    pass_through (context);
+  else
+    {
+      self->rendering = TRUE;
+      render_or_pass (self, context);
+      self->rendering = FALSE;
+    }
+  g_rec_mutex_unlock (&self->busy);
   return TRUE;
 }
 
@@ -298,14 +315,14 @@ finalize (GObject *object)
 
   celd_session_free (self->session);
   g_free (self->said);
-  g_mutex_clear (&self->busy);
+  g_rec_mutex_clear (&self->busy);
   G_OBJECT_CLASS (celd_operation_parent_class)->finalize (object);
 }
 
 static void
 celd_operation_init (CeldOperation *self)
 {
-  g_mutex_init (&self->busy);
+  g_rec_mutex_init (&self->busy);
 }
 
 static void

@@ -44,7 +44,8 @@ typedef struct
 typedef struct
 {
   GeglOperation parent_instance;
-  GMutex        busy;              /* over the members below, and over render */
+  GRecMutex     busy;              /* over the members below, and over render */
+  gboolean      rendering;
   char         *said;              /* the last message; NULL if all was well */
   CeldSession  *session;           /* of operations that keep the route between calls; made by celd_op_session */
 } CeldOperation;

@@ -172,6 +172,28 @@ contradictions_are_said_once (void)
   g_object_unref (graph);
 }
 
+static void
+hear_progress (GeglNode *node, double done, gpointer data)
+{
+  double *last = data;
+
+  CHECK (done >= *last && done <= 1);
+  *last = done;
+}
+
+static void
+progress_rises_to_the_end (void)
+{
+  GeglNode *graph = gegl_node_new ();
+  GeglNode *node = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles, arrows } });
+  double    last = 0;
+
+  g_signal_connect (node, "progress", G_CALLBACK (hear_progress), &last);
+  get_output (node, "Y float", result);
+  CHECK (last > 0.98);
+  g_object_unref (graph);
+}
+
 int
 main (int argc, char **argv)
 {
@@ -190,6 +212,7 @@ main (int argc, char **argv)
   RUN (empty_and_single_pixels_do_no_harm);
   RUN (numbers_that_are_none_do_no_harm);
   RUN (contradictions_are_said_once);
+  RUN (progress_rises_to_the_end);
   failed = DONE;
   stop_to_listen ();
   drop_page ();
