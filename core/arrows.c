@@ -1,16 +1,15 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
- * Each connected stroke is followed from its extremities (trail.c); every style asks the same question of each of them:
- * is this the tail of an arrow?  One answer makes a relation.  None, or answers that differ, make a problem: nothing is
- * guessed.  Geometry decides, colour only marks blue strokes (crack).
+ * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the commonest
+ * colour) is one arrow.  Its form decides, its colour only says whether registration may tear there (blue).
  *
- *   head   the stroke keeps the width w of its shaft up to a part that reaches out on both sides, falls back from the
- *          tip and narrows towards it: an open or a filled arrowhead
- *   dot    the same, but the part is round: it does not narrow; its centre is the nearer end
- *   fade   the mean opacity of the first third differs from that of the last one
- *   taper  the same of the mean width, with the middle third between
+ *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
+ *   dot    a blob is the nearer end (arrowhead.c)
+ *   fade   the first and the last third differ in opacity, with the middle one between: the opaque end is nearer.  Such a
+ *          stroke is read down to an alpha of FADED_OPACITY: its faint end is the farther end
+ *   taper  the same with their width: the thick end is nearer
  *
- * Costs a few sweeps over the pixels of each stroke.
+ * Strokes that do not say clearly are reported, never guessed.  Costs a few sweeps over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,277 +23,9 @@
 #define LEAST_OPACITY 128  /* of paint; a fading stroke reaches on to FADED_OPACITY */
 #define FADED_OPACITY 16
 #define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
-#define LEAST_COSINE  0.7  /* of the angle between the shaft's end and the head's axis */
-#define EXTREMITIES   4    /* tail, tip and two barbs */
 
 /* The two ends of an arrow. */
 typedef struct { CeldPoint nearer, farther; } Ends;
-
-/* Part of a stroke seen along an axis: s forwards, v sideways, from an origin. */
-typedef struct { CeldPoint origin, axis; double from; } View; /* pixels at this distance and beyond */
-typedef struct { double least_s, most_s, left, right, left_s, right_s; size_t n; } Extent;
-
-static CeldPoint
-direction (CeldPoint from, CeldPoint to)
-{
-  double length = hypot (to.x - from.x, to.y - from.y);
-
-  return length > 0 ? (CeldPoint) { (to.x - from.x) / length, (to.y - from.y) / length } : (CeldPoint) { 0, 0 };
-}
-
-static double
-forwards (const View *view, CeldPoint p)
-{
-  return (p.x - view->origin.x) * view->axis.x + (p.y - view->origin.y) * view->axis.y;
-}
-
-static double
-sideways (const View *view, CeldPoint p)
-{
-  return (p.y - view->origin.y) * view->axis.x - (p.x - view->origin.x) * view->axis.y;
-}
-
-/* How far the view reaches between two values of s.  `right` is negative sideways. */
-static Extent
-extent_between (const CeldTrail *trail, const View *view, double from, double to)
-{
-  Extent e = { .least_s = INFINITY, .most_s = -INFINITY, .left = -INFINITY, .right = INFINITY };
-
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
-      double    s = forwards (view, p), v = sideways (view, p);
-
-      if (trail->distance[trail->pixel[i]] < view->from || s < from || s > to)
-        continue;
-      e.n++;
-      e.least_s = fmin (e.least_s, s);
-      e.most_s  = fmax (e.most_s, s);
-      if (v > e.left)
-        {
-          e.left   = v;
-          e.left_s = s;
-        }
-      if (v < e.right)
-        {
-          e.right   = v;
-          e.right_s = s;
-        }
-    }
-  return e;
-}
-
-static double
-breadth_at (const CeldTrail *trail, const View *view, double s)
-{
-  Extent e = extent_between (trail, view, s - 0.75, s + 0.75);
-
-  return e.n ? e.left - e.right + 1 : 0;
-}
-
-/* The middle of the foremost pixels. */
-static CeldPoint
-foremost (const CeldTrail *trail, const View *view, double most_s)
-{
-  CeldPoint sum = { 0, 0 };
-  double    n   = 0;
-
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
-
-      if (trail->distance[trail->pixel[i]] < view->from || forwards (view, p) < most_s - 0.5)
-        continue;
-      sum.x += p.x;
-      sum.y += p.y;
-      n++;
-    }
-  return (CeldPoint) { sum.x / n, sum.y / n };
-}
-
-/* The distance at which the stroke gets wider than its shaft and stays so; its length if it does not. */
-static double
-shaft_end (const CeldTrail *trail, double w)
-{
-  double length = celd_trail_length (trail), run = fmax (w, 4), wide = 1.3 * w + 0.8, d = w;
-
-  while (d + run < length && (celd_trail_width (trail, d, d + run) < wide ||
-                              celd_trail_width (trail, d, d + 0.5 * run) < wide))
-    d += 0.5;
-  return d + run < length ? d : length;
-}
-
-/* Does the part beyond the shaft reach out on both sides? */
-static bool
-reaches_out (const Extent *e, double w)
-{
-  double least = 0.5 * w + fmax (0.25 * w, 0.75), left = e->left, right = -e->right;
-
-  return left > least && right > least && fmin (left, right) > 0.3 * fmax (left, right);
-}
-
-/* Does it fall back from its tip on both sides, and end there? */
-static bool
-falls_back (const Extent *e, double w)
-{
-  double left = e->most_s - e->left_s, right = e->most_s - e->right_s;
-
-  return left > 0.25 * e->left && right > -0.25 * e->right && e->most_s - e->least_s < 0.8 * (left + right) + 1.5 * w;
-}
-
-/* The place s forwards and v sideways. */
-static CeldPoint
-place (const View *view, double s, double v)
-{
-  return (CeldPoint) { view->origin.x + s * view->axis.x - v * view->axis.y, view->origin.y + s * view->axis.y + v * view->axis.x };
-}
-
-static bool
-is_painted (const CeldTrail *trail, CeldPoint p)
-{
-  const float *d = &trail->distance[(size_t) (p.y + 1) * trail->row + (size_t) (p.x + 1)];
-
-  return isfinite (*d) || isfinite (d[-1]) || isfinite (d[1]) || isfinite (d[-(ptrdiff_t) trail->row]) || isfinite (d[trail->row]);
-}
-
-/* Is the straight way painted, all but a fifth of it? */
-static bool
-is_line (const CeldTrail *trail, CeldPoint from, CeldPoint to)
-{
-  int n = (int) hypot (to.x - from.x, to.y - from.y) + 1, painted = 0;
-
-  for (int i = 0; i <= n; i++)
-    painted += is_painted (trail, (CeldPoint) { from.x + (to.x - from.x) * i / n, from.y + (to.y - from.y) * i / n });
-  return 5 * painted >= 4 * (n + 1);
-}
-
-/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and is
- * nothing outside of the triangle?  That holds for open and for filled heads. */
-static bool
-is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double w)
-{
-  double    breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
-  double    tip = e->most_s - fmin (0.6 * w, 0.3 * depth), slope = 0.5 * breadth / depth;
-  CeldPoint foremost = place (view, tip, 0);
-  size_t    outside = 0;
-
-  if (breadth_at (trail, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
-      breadth_at (trail, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
-      breadth_at (trail, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
-    return false;
-  if (!is_line (trail, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
-      !is_line (trail, foremost, place (view, e->right_s, e->right + 0.4 * w)))
-    return false;
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
-
-      outside += trail->distance[trail->pixel[i]] >= view->from &&
-                 fabs (sideways (view, p)) > slope * (e->most_s - forwards (view, p)) + 0.7 * w + 1;
-    }
-  return 20 * outside < e->n;
-}
-
-/* Is it a filled disc? */
-static bool
-is_dot (const Extent *e)
-{
-  double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
-
-  return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.65 * breadth * depth;
-}
-
-/* Turns the axis to run from between the barbs to the tip: the shaft may be bent. */
-static void
-turn_to_tip (const CeldTrail *trail, View *view, const Extent *e)
-{
-  double    s = 0.5 * (e->left_s + e->right_s), v = 0.5 * (e->left + e->right);
-  CeldPoint a = view->axis, o = view->origin;
-
-  view->origin = place (view, s, v);
-  view->axis   = direction (view->origin, foremost (trail, &(View) { o, a, view->from }, e->most_s));
-}
-
-static uint32_t
-nearest_pixel (const CeldTrail *trail, CeldPoint p)
-{
-  uint32_t nearest = trail->pixel[0];
-  double   least   = INFINITY;
-
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      CeldPoint q = celd_trail_point (trail, trail->pixel[i]);
-      double    d = hypot (p.x - q.x, p.y - q.y);
-
-      if (d < least)
-        {
-          least   = d;
-          nearest = trail->pixel[i];
-        }
-    }
-  return nearest;
-}
-
-/* If the stroke followed from `tail` ends in a head (or a dot): its ends. */
-static bool
-read_from_tail (CeldTrail *trail, uint32_t tail, CeldArrowStyle style, Ends *ends)
-{
-  View      view;
-  Extent    e;
-  double    length, w, end, back;
-  CeldPoint shaft, tip, last;
-
-  celd_trail_follow (trail, &tail, 1);
-  length = celd_trail_length (trail);
-  w      = celd_trail_width (trail, 1, 0.5 * length);
-  end    = shaft_end (trail, w);
-  if (length < 6 || end >= length || end < 1.5 * w)
-    return false;
-  back = fmin (fmax (2 * w, 6), 0.6 * end);
-  view = (View) { .origin = celd_trail_centre (trail, end - 0.25 * back, end), .from = end };
-  view.axis = direction (celd_trail_centre (trail, end - back, end - 0.75 * back), view.origin);
-  e    = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (fmin (e.left, -e.right) < 0.4 * w)
-    return false;
-  shaft = view.axis;
-  turn_to_tip (trail, &view, &e);
-  if (shaft.x * view.axis.x + shaft.y * view.axis.y < LEAST_COSINE)
-    return false;
-  e = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (!reaches_out (&e, w) || (style == CELD_ARROW_DOT ? !is_dot (&e) : !falls_back (&e, w) || !is_arrowhead (trail, &view, &e, w)))
-    return false;
-  tip   = foremost (trail, &view, e.most_s);
-  *ends = (Ends) { celd_trail_centre (trail, 0, fmax (1, w)), style == CELD_ARROW_DOT ? view.origin : tip };
-
-  /* What is farthest from the tip is the tail, or else it was some place in the middle of the shaft. */
-  tail = nearest_pixel (trail, tip);
-  last = celd_trail_point (trail, celd_trail_follow (trail, &tail, 1));
-  return hypot (last.x - ends->nearer.x, last.y - ends->nearer.y) < w + 2;
-}
-
-/* Reads the stroke from every extremity; true if all that see an arrow agree. */
-static bool
-read_head (CeldTrail *trail, CeldArrowStyle style, Ends *ends)
-{
-  uint32_t extremity[EXTREMITIES];
-  bool     found = false;
-
-  extremity[0] = celd_trail_follow (trail, trail->pixel, 1);
-  for (size_t i = 1; i < EXTREMITIES; i++)
-    extremity[i] = celd_trail_follow (trail, extremity, i);
-  for (size_t i = 0; i < EXTREMITIES; i++)
-    {
-      Ends one;
-
-      if (!read_from_tail (trail, extremity[i], style, &one))
-        continue;
-      if (found && hypot (one.farther.x - ends->farther.x, one.farther.y - ends->farther.y) > 3)
-        return false;
-      found = true;
-      *ends = one;
-    }
-  return found;
-}
 
 /* Opacity of a layer's pixels: its alpha, or the contrast to the commonest colour of a layer without. */
 typedef struct
@@ -331,7 +62,7 @@ strength (const CeldTrail *trail, const Layer *layer, double from, double to)
 
       if (trail->distance[p] < from || trail->distance[p] > to)
         continue;
-      a = opacity (layer, (int) (p % trail->row) - 1, (int) (p / trail->row) - 1);
+      a = opacity (layer, celd_trail_x (trail, p), celd_trail_y (trail, p));
       sum     += a * a;
       weights += a;
     }
@@ -367,18 +98,13 @@ read_slope (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *en
 static bool
 read_stroke (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *ends)
 {
-  CeldPoint swap;
+  CeldEnds found;
 
   if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
     return read_slope (trail, layer, style, ends);
-  if (!read_head (trail, style, ends))
+  if (!celd_arrowhead (trail, style == CELD_ARROW_DOT, &found))
     return false;
-  if (style == CELD_ARROW_DOT)
-    {
-      swap = ends->nearer;
-      ends->nearer  = ends->farther;
-      ends->farther = swap;
-    }
+  *ends = style == CELD_ARROW_DOT ? (Ends) { found.tip, found.tail } : (Ends) { found.tail, found.tip };
   return true;
 }
 
@@ -417,7 +143,7 @@ is_blue (const CeldTrail *trail, const Layer *layer)
 
   for (size_t i = 0; i < trail->n; i++)
     {
-      int            x = (int) (trail->pixel[i] % trail->row) - 1, y = (int) (trail->pixel[i] / trail->row) - 1;
+      int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
       const uint8_t *c = CELD_RGBA (layer->paint, x, y);
       int            a = opacity (layer, x, y);
 
@@ -504,7 +230,7 @@ gather_pixels (Strokes *s)
     }
   s->pixel = celd_alloc (all, sizeof *s->pixel);
   s->trail = (CeldTrail) {
-    .row = width + 2, .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
+    .width = s->strokes.width, .height = s->strokes.height, .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
   };
   if (!next || !s->pixel || !s->trail.distance || !s->trail.front)
     {
@@ -525,9 +251,11 @@ gather_pixels (Strokes *s)
 static CeldProblem
 unclear_arrow (const CeldTrail *trail)
 {
-  CeldPoint p = celd_trail_point (trail, trail->pixel[trail->n / 2]);
+  uint32_t middle = trail->pixel[trail->n / 2];
 
-  return (CeldProblem) { .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = (int) p.x, .y = (int) p.y, .relation = CELD_NO_INDEX };
+  return (CeldProblem) {
+    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = celd_trail_x (trail, middle), .y = celd_trail_y (trail, middle), .relation = CELD_NO_INDEX,
+  };
 }
 
 static CeldStatus

@@ -10,10 +10,42 @@
 
 #include <math.h>
 
+/* Pixels in a row of a plane with its border. */
+static size_t
+row_length (const CeldTrail *trail)
+{
+  return (size_t) trail->width + 2;
+}
+
+int
+celd_trail_x (const CeldTrail *trail, uint32_t pixel)
+{
+  return (int) (pixel % row_length (trail)) - 1;
+}
+
+int
+celd_trail_y (const CeldTrail *trail, uint32_t pixel)
+{
+  return (int) (pixel / row_length (trail)) - 1;
+}
+
 CeldPoint
 celd_trail_point (const CeldTrail *trail, uint32_t pixel)
 {
-  return (CeldPoint) { (double) (pixel % trail->row) - 0.5, (double) (pixel / trail->row) - 0.5 }; /* less the border */
+  return (CeldPoint) { celd_trail_x (trail, pixel) + 0.5, celd_trail_y (trail, pixel) + 0.5 };
+}
+
+bool
+celd_trail_painted (const CeldTrail *trail, CeldPoint p)
+{
+  const float *d, *above, *below;
+
+  if (!(p.x >= 0 && p.y >= 0 && p.x < trail->width && p.y < trail->height))
+    return false;
+  d     = &trail->distance[((size_t) p.y + 1) * row_length (trail) + (size_t) p.x + 1];
+  above = d - row_length (trail);
+  below = d + row_length (trail);
+  return isfinite (*d) || isfinite (d[-1]) || isfinite (d[1]) || isfinite (*above) || isfinite (*below);
 }
 
 /* Lowers the distance of a pixel to what its neighbours allow. */
@@ -21,7 +53,7 @@ static bool
 relax (CeldTrail *trail, uint32_t pixel)
 {
   const float diagonal = 1.41421356f;
-  float      *d = &trail->distance[pixel], *above = d - trail->row, *below = d + trail->row;
+  float      *d = &trail->distance[pixel], *above = d - row_length (trail), *below = d + row_length (trail);
   float       straight = fminf (fminf (d[-1], d[1]), fminf (*above, *below)) + 1;
   float       slanted  = fminf (fminf (above[-1], above[1]), fminf (below[-1], below[1])) + diagonal;
   float       least    = fminf (straight, slanted);
