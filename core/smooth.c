@@ -6,8 +6,9 @@
  * expanded or not, and a gap or a virtual contour gives a smooth transition.
  *
  * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
- * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  What
- * no anchor reaches keeps its level, the mean over its area if it has several.
+ * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  Specks
+ * are not held: they would stand out as spikes.  What no anchor reaches keeps its level, the mean over its area if it
+ * has several.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,6 +16,8 @@
 
 #include <math.h>
 #include <string.h>
+
+#define SPECK 16 /* regions of fewer pixels have no core, as in celd_separate */
 
 /* ------------------------------------------------------------------ weights of edges */
 
@@ -140,7 +143,7 @@ celd_anchor_core (int width, int height, const float *level, const CeldRun *run,
     if (squared[i] > deepest[regions.data[i]])
       deepest[regions.data[i]] = squared[i];
   for (size_t i = 0; i < n; i++)
-    core[i] = squared[i] >= deepest[regions.data[i]] / 4;
+    core[i] = squared[i] >= deepest[regions.data[i]] / 4 && list[regions.data[i] - 1].area >= SPECK;
 
 done:
   celd_free (regions.data);

@@ -250,6 +250,37 @@ what_no_anchor_reaches_keeps_its_level (void)
 }
 
 static void
+a_speck_is_no_spike (void)
+{
+  CeldPlane ink = plane (60, 50, 1), levels = plane (60, 50, 1), depth = plane (60, 50, 0);
+  CeldSettings settings = celd_settings ();
+
+  levels.data[25 * 60 + 30] = levels.data[25 * 60 + 31] = 3;
+  CHECK (celd_smooth (&ink, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+  for (int i = 0; i < 60 * 50; i++)
+    NEAR (depth.data[i], 1, 1e-3);
+  free (ink.data);
+  free (levels.data);
+  free (depth.data);
+}
+
+static void
+pale_ink_cuts_as_far_as_the_threshold (void)
+{
+  Shape     s = { DISC, 48, 45, 28, 0 };
+  CeldPlane ink = draw (&s, 96, 90, 4), levels = fill (&s, 96, 90, 0);
+
+  for (int i = 0; i < 96 * 90; i++)
+    ink.data[i] = 1 - 0.78f * (1 - ink.data[i]);
+  NEAR (leak (&ink, &levels, NULL), 0, 1e-4);
+  for (int i = 0; i < 96 * 90; i++)
+    ink.data[i] = 1 - 0.9f * (1 - ink.data[i]);
+  CHECK (leak (&ink, &levels, NULL) > 0.1); /* ink 0.3 is none */
+  free (ink.data);
+  free (levels.data);
+}
+
+static void
 bad_input_does_no_harm (void)
 {
   CeldSettings settings = celd_settings ();
@@ -291,6 +322,8 @@ main (void)
   RUN (a_gap_gives_a_smooth_monotone_transition);
   RUN (anchors_keep_their_level_and_the_rest_is_harmonic);
   RUN (what_no_anchor_reaches_keeps_its_level);
+  RUN (a_speck_is_no_spike);
+  RUN (pale_ink_cuts_as_far_as_the_threshold);
   RUN (bad_input_does_no_harm);
   return DONE;
 }
