@@ -40,21 +40,18 @@ search_end (Search *s)
   celd_free (s->goal);
 }
 
+/* Also after a failure search_end is to follow. */
 static CeldStatus
 search_new (const CeldGraph *graph, Search *s)
 {
-  size_t     states = 2 * (graph->n_labels + graph->n_links);
-  CeldStatus status;
+  size_t states = 2 * (graph->n_labels + graph->n_links);
 
   *s = (Search) {
     .graph = graph,
     .queue = celd_alloc (states, sizeof (size_t)), .from = celd_alloc (states, sizeof (size_t)),
     .seen = celd_alloc0 (states, sizeof (size_t)), .goal = celd_alloc0 (graph->n_labels, sizeof (size_t)),
   };
-  status = s->queue && s->from && s->seen && s->goal ? celd_graph_index (graph, CELD_NEARER, &s->down) : CELD_NO_MEMORY;
-  if (status != CELD_OK)
-    search_end (s);
-  return status;
+  return s->queue && s->from && s->seen && s->goal ? celd_graph_index (graph, CELD_NEARER, &s->down) : CELD_NO_MEMORY;
 }
 
 static void
