@@ -107,6 +107,9 @@ make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldRun *run, CeldPlane
 {
   const CeldDrawing *drawing = &s->drawing;
   int                w = drawing->luma.width, h = drawing->luma.height;
+  CeldPart           part[2];
+  CeldRun            bake = celd_run_part (&part[0], run, 0, 0.3);
+  CeldRun            rest = celd_run_part (&part[1], run, s->contours.data ? 0.3 : 0, 1);
   CeldDrawing        baked = { 0 };
   CeldStatus         status = celd_plane_new (w, h, ink);
 
@@ -116,11 +119,11 @@ make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldRun *run, CeldPlane
       if (status == CELD_OK && drawing->alpha.data)
         status = celd_plane_new (w, h, &baked.alpha);
       if (status == CELD_OK)
-        status = celd_contours_bake (drawing, &s->contours, purpose, s->settings.ink, run, &baked);
+        status = celd_contours_bake (drawing, &s->contours, purpose, s->settings.ink, &bake, &baked);
       drawing = &baked;
     }
   if (status == CELD_OK)
-    status = celd_ink (drawing, s->settings.ink, run, ink);
+    status = celd_ink (drawing, s->settings.ink, &rest, ink);
   celd_free (baked.luma.data);
   celd_free (baked.alpha.data);
   return status;
