@@ -5,8 +5,8 @@
  * farther region to share with; what is left when its turn comes goes to the nearest region, pixel by pixel.
  *
  * Contour is ink below one half: an antialiased pixel goes where the larger part of it is.  A patch of a rank that is
- * ink throughout, like a black shoe with a scribble of its own, keeps its pixels as if they were paper.  Paper
- * never changes.  Ranks in one picture of one rank, of ink alone or of paper alone come out as they went in.
+ * ink throughout, like a black shoe with a scribble of its own, keeps its pixels as if they were paper.  Paper never
+ * changes.  Ranks in one picture of one rank, of ink alone or of paper alone come out as they went in.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -88,11 +88,11 @@ free_ink (const CeldPlane *ink, const CeldRun *run, CeldSheet *sheet)
       list[p].label = 0; /* its ink is free */
   for (int y = 0; y < sheet->height; y++)
     for (int x = 0; x < sheet->width; x++)
-      if (!(CELD_AT (ink, x, y) < 0.5f))
+      if (celd_is_paper (CELD_AT (ink, x, y)))
         list[CELD_AT (&patch, x, y) - 1].label = 0;
   for (int y = 0; y < sheet->height; y++)
     for (int x = 0; x < sheet->width; x++)
-      if (CELD_AT (ink, x, y) < 0.5f && !list[CELD_AT (&patch, x, y) - 1].label)
+      if (!celd_is_paper (CELD_AT (ink, x, y)) && !list[CELD_AT (&patch, x, y) - 1].label)
         CELD_AT (&level, x, y) = 0;
 done:
   celd_free (patch.data);
