@@ -1,0 +1,233 @@
+/* The steps that faults.c tries, on a small scene that gives each of them something to do.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "faults.h"
+
+/* ------------------------------------------------------------------ the scene */
+
+Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels;
+
+static Pixels        ink_pixels, seed_pixels, level_pixels, expanded_pixels, normal_pixels;
+static CeldPalette   seed_palette, label_palette;
+static CeldRelations relations;
+static CeldSettings  settings;
+
+static void
+fill_box (Pixels *p, int left, int top, int right, int bottom, float luma, uint32_t rgba)
+{
+  for (int y = top; y < bottom; y++)
+    for (int x = left; x < right; x++)
+      {
+        p->plane[y * W + x] = luma;
+        for (int c = 0; c < 4; c++)
+          p->paint[4 * (y * W + x) + c] = (uint8_t) (rgba >> (24 - 8 * c));
+      }
+}
+
+/* Two overlapping sheets with outlines; a stroke in each and behind them; an arrow; a virtual contour of each kind. */
+static void
+draw_scene (void)
+{
+  Pixels *d = &drawing_pixels, *s = &scribble_pixels, *a = &arrow_pixels, *c = &contour_pixels;
+
+  for (int p = 0; p < W * H; p++)
+    d->plane[p] = d->alpha[p] = 1;
+  fill_box (d, 6, 6, 34, 36, 0, 0);
+  fill_box (d, 9, 9, 31, 33, 1, 0);
+  fill_box (d, 24, 16, 58, 42, 0, 0);
+  fill_box (d, 27, 19, 55, 39, 1, 0);
+  fill_box (d, 40, 24, 41, 30, 0, 0);
+  fill_box (s, 12, 12, 20, 16, 0, 0xe02020ff);
+  fill_box (s, 32, 22, 50, 26, 0, 0x2040e0ff);
+  fill_box (s, 2, 1, 60, 4, 0, 0x20c040ff);
+  fill_box (a, 14, 24, 36, 26, 0, 0x202020ff);
+  for (int k = 0; k < 6; k++)
+    fill_box (a, 36 - k, 24 - k, 37 - k, 26 + k, 0, 0x202020ff);
+  fill_box (c, 20, 28, 23, 33, 0, 0xff0000ff);
+  fill_box (c, 44, 33, 48, 36, 0, 0x0000ffff);
+  fill_box (c, 40, 24, 42, 30, 0, 0x00ff00ff);
+}
+
+/* ------------------------------------------------------------------ the steps */
+
+static CeldStatus
+ink_step (const CeldRun *run, Results *r)
+{
+  CeldDrawing drawing = drawing_of (&drawing_pixels);
+  CeldPlane   ink = plane_of (r->pixels);
+
+  return celd_ink (&drawing, CELD_INK_AUTO, run, &ink);
+}
+
+static CeldStatus
+contours_step (const CeldRun *run, Results *r)
+{
+  CeldDrawing drawing = drawing_of (&drawing_pixels), baked = drawing_of (r->pixels);
+  CeldPaint   contours = paint_of (&contour_pixels);
+
+  return celd_contours_bake (&drawing, &contours, CELD_FOR_DEPTH, CELD_INK_AUTO, run, &baked);
+}
+
+static CeldStatus
+scribbles_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&scribble_pixels);
+  CeldLabels seeds = labels_of (r->pixels);
+
+  return celd_scribbles_read (&scribbles, &settings, run, &seeds, &r->palette);
+}
+
+static CeldStatus
+relations_step (const CeldRun *run, Results *r)
+{
+  (void) run;
+  return celd_relations_parse ("14,30 > 40,35 @2; #2040e0 > #e02020; 1,1 < 14,30; #e02020 = 14,14 !anchor\n"
+                               "3,3 < 4,30 < 40,30; 5,5 = 6,6; 7,7 = 8,8; 9,9 = 10,10", &r->relations, NULL);
+}
+
+static CeldStatus
+arrows_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&arrow_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+segment_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+
+  return celd_segment (&ink, &seeds, &relations, &settings, run, &labels, &r->palette, &r->problems);
+}
+
+static CeldStatus
+separate_step (const CeldRun *run, Results *r)
+{
+  CeldLabels labels = labels_of (r->pixels);
+
+  return celd_separate (run, &labels, &r->palette);
+}
+
+static CeldStatus
+labels_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&scribble_pixels);
+  CeldLabels labels = labels_of (r->pixels);
+
+  (void) run;
+  return celd_labels_read (&scribbles, &labels, &r->palette);
+}
+
+static CeldStatus
+background_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels labels = labels_of (&label_pixels);
+
+  (void) run;
+  return celd_background_mark (&labels, &ink, &settings, &r->palette);
+}
+
+static CeldStatus
+order_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels labels = labels_of (&label_pixels);
+
+  return celd_order (&labels, &label_palette, &relations, &ink, run, &r->order, &r->problems);
+}
+
+static CeldStatus
+expand_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels ranks = labels_of (&label_pixels), expanded = labels_of (r->pixels);
+
+  return celd_expand (&ink, &ranks, &settings, run, &expanded);
+}
+
+static CeldStatus
+smooth_step (const CeldRun *run, Results *r)
+{
+  CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), depth = plane_of (r->pixels);
+
+  return celd_smooth (&ink, &levels, NULL, &settings, run, &depth, NULL);
+}
+
+static CeldStatus
+normals_step (const CeldRun *run, Results *r)
+{
+  CeldPlane   ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldVectors normals = vectors_of (r->pixels);
+
+  return celd_normals (&ink, &levels, &settings, run, &normals);
+}
+
+static CeldStatus
+shade_step (const CeldRun *run, Results *r)
+{
+  CeldVectors normals = vectors_of (&normal_pixels);
+  CeldPlane   shading = plane_of (r->pixels);
+
+  (void) run;
+  return celd_shade (&normals, &settings, &shading);
+}
+
+const Step steps[] = {
+  { "ink", ink_step, NULL, true },
+  { "contours", contours_step, NULL, true },
+  { "scribbles", scribbles_step, NULL, true },
+  { "relations", relations_step, NULL, false },
+  { "arrows", arrows_step, NULL, true },
+  { "segment", segment_step, &seed_palette, true },
+  { "separate", separate_step, &label_palette, true },
+  { "labels", labels_step, NULL, false },
+  { "background", background_step, &label_palette, false },
+  { "order", order_step, NULL, true },
+  { "expand", expand_step, NULL, true },
+  { "smooth", smooth_step, NULL, true },
+  { "normals", normals_step, NULL, true },
+  { "shade", shade_step, NULL, false },
+};
+
+const size_t n_steps = sizeof steps / sizeof *steps;
+
+/* ------------------------------------------------------------------ inputs of the later steps */
+
+bool
+make_inputs (void)
+{
+  Results ink = { .pixels = &ink_pixels }, seeds = { .pixels = &seed_pixels }, all = { .pixels = &label_pixels };
+  Results expanded = { .pixels = &expanded_pixels }, normals = { .pixels = &normal_pixels };
+  bool    good;
+
+  settings = celd_settings ();
+  draw_scene ();
+  good = ink_step (NULL, &ink) == CELD_OK &&
+         scribbles_step (NULL, &seeds) == CELD_OK && seeds.palette.n == 3 &&
+         scribbles_step (NULL, &all) == CELD_OK &&
+         arrows_step (NULL, &all) == CELD_OK && all.relations.n == 1 &&
+         celd_relations_parse ("#e02020 < #2040e0; #e02020 > 1,1", &all.relations, NULL) == CELD_OK; /* a circle */
+  seed_palette = seeds.palette;
+  relations = all.relations;
+  good = good && segment_step (NULL, &all) == CELD_OK && expand_step (NULL, &expanded) == CELD_OK;
+  label_palette = all.palette;
+  celd_problems_clear (&all.problems);
+  for (int p = 0; p < W * H; p++)
+    {
+      level_pixels.plane[p] = (float) label_pixels.labels[p];
+      expanded_pixels.plane[p] = (float) expanded_pixels.labels[p];
+    }
+  return good && normals_step (NULL, &normals) == CELD_OK;
+}
+
+void
+free_inputs (void)
+{
+  celd_palette_clear (&seed_palette);
+  celd_palette_clear (&label_palette);
+  celd_relations_clear (&relations);
+}

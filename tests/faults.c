@@ -1,0 +1,326 @@
+/* Every allocation of every step fails once, and every step is cancelled at each of its reports of progress.
+ *
+ * A step then answers CELD_NO_MEMORY or CELD_CANCELLED (or succeeds all the same, with the same result), leaves its
+ * results as they were, and gives back all it has taken.  A session delivers when it is asked again.
+ * The program is linked with --wrap, so that the four functions below stand before those of the C library.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "faults.h"
+
+/* ------------------------------------------------------------------ memory that fails */
+
+static size_t allocations, failing; /* counted from 1; the one that fails, 0 for none */
+static long   live;                 /* blocks not given back */
+
+void *__real_malloc (size_t size);
+void *__real_calloc (size_t count, size_t size);
+void *__real_realloc (void *memory, size_t size);
+void  __real_free (void *memory);
+void *__wrap_malloc (size_t size);
+void *__wrap_calloc (size_t count, size_t size);
+void *__wrap_realloc (void *memory, size_t size);
+void  __wrap_free (void *memory);
+
+static void *
+counted (void *memory)
+{
+  live += memory != NULL;
+  return memory;
+}
+
+void *
+__wrap_malloc (size_t size)
+{
+  return ++allocations == failing ? NULL : counted (__real_malloc (size));
+}
+
+void *
+__wrap_calloc (size_t count, size_t size)
+{
+  return ++allocations == failing ? NULL : counted (__real_calloc (count, size));
+}
+
+void *
+__wrap_realloc (void *memory, size_t size)
+{
+  if (++allocations == failing)
+    return NULL;
+  return memory ? __real_realloc (memory, size) : counted (__real_realloc (NULL, size));
+}
+
+void
+__wrap_free (void *memory)
+{
+  live -= memory != NULL;
+  __real_free (memory);
+}
+
+/* ------------------------------------------------------------------ a host that cancels */
+
+typedef struct { int calls, last; double done; } Host; /* calls of progress so far, the last one that is answered yes */
+
+static bool
+report (void *data, double done)
+{
+  Host *host = data;
+
+  CHECK (done >= host->done && done <= 1);
+  host->done = done;
+  return ++host->calls <= host->last;
+}
+
+/* ------------------------------------------------------------------ results before and after */
+
+static Pixels result_pixels;
+
+static void
+start_results (const Step *step, Results *r)
+{
+  *r = (Results) { .pixels = &result_pixels };
+  memset (&result_pixels, 0x3e, sizeof result_pixels);
+  memcpy (result_pixels.labels, label_pixels.labels, sizeof label_pixels.labels);
+  if (step->palette)
+    {
+      r->palette.item = malloc (step->palette->n * sizeof *r->palette.item);
+      r->palette.n = step->palette->n;
+      memcpy (r->palette.item, step->palette->item, step->palette->n * sizeof *r->palette.item);
+    }
+}
+
+static void
+clear_results (Results *r)
+{
+  celd_palette_clear (&r->palette);
+  celd_relations_clear (&r->relations);
+  celd_problems_clear (&r->problems);
+  celd_order_clear (&r->order);
+}
+
+static uint64_t
+add_bytes (uint64_t print, const void *data, size_t size)
+{
+  const uint8_t *byte = data;
+
+  for (size_t i = 0; i < size; i++)
+    print = (print ^ byte[i]) * 1099511628211u; /* FNV-1a */
+  return print;
+}
+
+/* A number that tells results apart: pixels, colours, areas, relations, levels, and how many there are of all. */
+static uint64_t
+fingerprint (const Results *r)
+{
+  size_t   count[] = { r->palette.n, r->relations.n, r->problems.n, r->order.n, r->order.n_cycles };
+  uint64_t print = add_bytes (14695981039346656037u, count, sizeof count);
+
+  print = add_bytes (print, r->pixels, sizeof *r->pixels);
+  for (size_t k = 0; k < r->palette.n; k++)
+    {
+      print = add_bytes (print, r->palette.item[k].colour, 4);
+      print = add_bytes (print, &r->palette.item[k].area, sizeof r->palette.item[k].area);
+      print = print * 2 + r->palette.item[k].background;
+    }
+  for (size_t k = 0; k < r->relations.n; k++)
+    print = add_bytes (print, &r->relations.item[k].nearer.x, sizeof (double));
+  return r->order.n ? add_bytes (print, r->order.level, r->order.n * sizeof *r->order.level) : print;
+}
+
+/* ------------------------------------------------------------------ the tests of the steps */
+
+/* One try of a step that must answer `failure`, with everything as before, or succeed as it did undisturbed. */
+static void
+try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, uint64_t wanted)
+{
+  Results    r;
+  Host       host = { 0, last_report, 0 };
+  CeldRun    run = { report, NULL, &host };
+  long       taken = live;
+  uint64_t   before;
+  CeldStatus status;
+
+  start_results (step, &r);
+  before = fingerprint (&r);
+  allocations = 0;
+  failing = fail;
+  status = step->go (&run, &r);
+  failing = 0;
+  if (status)
+    CHECK (status == failure);
+  CHECK (fingerprint (&r) == (status ? before : wanted));
+  CHECK (status || failure != CELD_CANCELLED);
+  clear_results (&r);
+  CHECK (live == taken);
+  if (check_bad)
+    fprintf (stderr, "  in step %s: allocation %zu fails, cancelled after %d reports\n", step->name, fail, last_report);
+}
+
+/* An undisturbed try: how many allocations and reports it makes, and what it gives. */
+static uint64_t
+try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
+{
+  Results  r;
+  Host     host = { 0, INT32_MAX, 0 };
+  CeldRun  run = { report, NULL, &host };
+  long     taken = live;
+  uint64_t print;
+
+  start_results (step, &r);
+  allocations = 0;
+  CHECK (step->go (&run, &r) == CELD_OK);
+  *n_allocations = allocations;
+  *n_reports = host.calls;
+  print = fingerprint (&r);
+  clear_results (&r);
+  CHECK (live == taken);
+  return print;
+}
+
+static void
+every_allocation_fails_once (void)
+{
+  for (const Step *step = steps; step < steps + n_steps && !check_bad; step++)
+    {
+      size_t   n;
+      int      reports;
+      uint64_t print = try_undisturbed (step, &n, &reports);
+
+      for (size_t k = 1; k <= n && !check_bad; k++)
+        try_once (step, k, INT32_MAX, CELD_NO_MEMORY, print);
+    }
+}
+
+static void
+every_report_cancels (void)
+{
+  for (const Step *step = steps; step < steps + n_steps && !check_bad; step++)
+    {
+      size_t   n;
+      int      reports;
+      uint64_t print = try_undisturbed (step, &n, &reports);
+
+      CHECK (!step->reports || reports > 0);
+      for (int k = 0; k < reports && !check_bad; k++)
+        try_once (step, 0, k, CELD_CANCELLED, print);
+    }
+}
+
+/* ------------------------------------------------------------------ the session */
+
+/* The i-th call of a host; false when there are no more. */
+static bool
+call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus *status)
+{
+  CeldDrawing drawing = drawing_of (&drawing_pixels);
+  CeldPaint   scribbles = paint_of (&scribble_pixels), arrows = paint_of (&arrow_pixels);
+  CeldPaint   contours = paint_of (&contour_pixels);
+  CeldLabels  labels;
+  CeldPlane   plane = { 0 };
+  CeldVectors vectors = { 0 };
+  CeldRect    changed;
+
+  switch (i)
+    {
+    case 0: *status = celd_session_set_drawing (s, &drawing); break;
+    case 1: *status = celd_session_set_scribbles (s, &scribbles); break;
+    case 2: *status = celd_session_set_arrows (s, &arrows); break;
+    case 3: *status = celd_session_set_contours (s, &contours); break;
+    case 4: *status = celd_session_put_relation (s, 7, "#2040e0 > #20c040", NULL); break;
+    case 5: *status = celd_session_set_relations (s, "#e02020 > #20c040", NULL); break;
+    case 6: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 7: *status = celd_session_levels (s, run, &plane, &changed); break;
+    case 8: *status = celd_session_remove_relation (s, 7); break;
+    case 9: *status = celd_session_depth (s, run, &plane, &changed); break;
+    case 10: *status = celd_session_normals (s, run, &vectors, &changed); break;
+    case 11: *status = celd_session_shading (s, run, &plane, &changed); break;
+    default: return false;
+    }
+  if (!*status && vectors.data)
+    memcpy (out->vectors, vectors.data, sizeof out->vectors);
+  if (!*status && i == 9)
+    memcpy (out->plane, plane.data, sizeof out->plane);
+  if (!*status && i == 11)
+    memcpy (out->alpha, plane.data, sizeof out->alpha);
+  return true;
+}
+
+/* The whole route through a session; a call that fails is made once more.  Returns how many failed. */
+static int
+ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, uint64_t *print)
+{
+  Host         host = { 0, cancelled, 0 };
+  CeldRun      run = { report, NULL, &host };
+  CeldStatus   status = CELD_OK, wanted = fail ? CELD_NO_MEMORY : CELD_CANCELLED;
+  CeldSession *s;
+  long         taken = live;
+  int          failures = 0;
+
+  memset (&result_pixels, 0, sizeof result_pixels);
+  allocations = 0;
+  failing = fail;
+  s = celd_session_new ();
+  if (!s && ++failures)
+    s = celd_session_new ();
+  for (int i = 0; s && call_session (s, i, &run, &result_pixels, &status); i++)
+    {
+      host.done = 0;
+      if (status)
+        {
+          CHECK (status == wanted);
+          failures++;
+          host.last = INT32_MAX;
+          call_session (s, i, &run, &result_pixels, &status);
+          host.done = 0;
+        }
+      CHECK (status == CELD_OK);
+    }
+  failing = 0;
+  *n_allocations = allocations;
+  *n_reports = host.calls;
+  *print = add_bytes (0, &result_pixels, sizeof result_pixels);
+  celd_session_free (s);
+  CHECK (live == taken);
+  return failures;
+}
+
+static void
+session_delivers_when_asked_again (void)
+{
+  size_t   n, ignored_n;
+  int      reports, ignored_reports;
+  uint64_t wanted, print;
+
+  CHECK (ask_session (0, INT32_MAX, &n, &reports, &wanted) == 0);
+  for (size_t k = 1; k <= n && !check_bad; k++)
+    {
+      CHECK (ask_session (k, INT32_MAX, &ignored_n, &ignored_reports, &print) <= 1);
+      CHECK (print == wanted);
+      if (check_bad)
+        fprintf (stderr, "  allocation %zu of the session fails\n", k);
+    }
+  for (int k = 0; k < reports && !check_bad; k++)
+    {
+      CHECK (ask_session (0, k, &ignored_n, &ignored_reports, &print) == 1);
+      CHECK (print == wanted);
+      if (check_bad)
+        fprintf (stderr, "  the session is cancelled after %d reports\n", k);
+    }
+}
+
+static void
+inputs_can_be_made (void)
+{
+  CHECK (make_inputs ());
+}
+
+int
+main (void)
+{
+  RUN (inputs_can_be_made);
+  RUN (every_allocation_fails_once);
+  RUN (every_report_cancels);
+  RUN (session_delivers_when_asked_again);
+  free_inputs ();
+  return DONE;
+}

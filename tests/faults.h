@@ -1,0 +1,55 @@
+/* What faults.c (memory that fails, hosts that cancel) and faults-steps.c (what they are tried on) share.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef FAULTS_H
+#define FAULTS_H
+
+#include "private.h"
+
+#define W 64
+#define H 48
+
+typedef struct
+{
+  float    plane[W * H], alpha[W * H], vectors[3 * W * H];
+  uint32_t labels[W * H];
+  uint8_t  paint[4 * W * H];
+} Pixels;
+
+/* Results of a step, or inputs of the next one. */
+typedef struct
+{
+  Pixels        *pixels;
+  CeldPalette    palette;
+  CeldRelations  relations;
+  CeldProblems   problems;
+  CeldOrder      order;
+} Results;
+
+typedef struct
+{
+  const char        *name;
+  CeldStatus       (*go) (const CeldRun *run, Results *r);
+  const CeldPalette *palette;    /* that the results start from; NULL: an empty one */
+  bool               reports;    /* progress */
+} Step;
+
+extern Pixels drawing_pixels;                                 /* plane: luma, alpha */
+extern Pixels scribble_pixels, arrow_pixels, contour_pixels;  /* paint */
+extern Pixels label_pixels;                                   /* labels */
+
+static inline CeldPlane   plane_of (Pixels *p)   { return (CeldPlane) { W, H, W, p->plane }; }
+static inline CeldLabels  labels_of (Pixels *p)  { return (CeldLabels) { W, H, W, p->labels }; }
+static inline CeldPaint   paint_of (Pixels *p)   { return (CeldPaint) { W, H, W, p->paint }; }
+static inline CeldVectors vectors_of (Pixels *p) { return (CeldVectors) { W, H, W, p->vectors }; }
+static inline CeldDrawing drawing_of (Pixels *p) { return (CeldDrawing) { plane_of (p), { W, H, W, p->alpha } }; }
+
+extern const Step   steps[];
+extern const size_t n_steps;
+
+/* Draws the scene and makes the inputs of all steps; false if a step fails, or misses what it is meant to meet. */
+bool make_inputs (void);
+void free_inputs (void);
+
+#endif
