@@ -87,7 +87,7 @@ typedef struct { const char *name; const char *text; float number; } CeldIoNote;
 /* Can this file name be written?  By its ending: .exr .png .tif .tiff (upper or lower case). */
 bool celd_io_can_write (const char *path);
 
-/* Any picture.  Only EXR and TIFF hold several parts. */
+/* Any picture.  Only EXR holds several parts. */
 bool celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,
                     CeldIoError *error);
 

@@ -96,7 +96,7 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
   if (picture.srgb && format != Format::exr)
     spec.attribute ("oiio:ColorSpace", "sRGB");
   if (picture.name)
-    spec.attribute (format == Format::tiff ? "tiff:PageName" : "oiio:subimagename", picture.name);
+    spec.attribute ("oiio:subimagename", picture.name);
   // PNG keeps texts only.
   for (size_t i = 0; i < n_notes; i++)
     if (notes[i].text)
@@ -153,7 +153,7 @@ write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const
 
   if (format == Format::none)
     throw IoFailure ("its ending is none of .exr .png .tif.");
-  if (n < 1 || (n > 1 && format == Format::png))
+  if (n < 1 || (n > 1 && format != Format::exr))
     throw IoFailure ("it cannot hold so many parts.");
   for (size_t i = 0; i < n; i++)
     specs.push_back (make_spec (parts[i], format, notes, n_notes));
@@ -166,8 +166,7 @@ write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const
   for (size_t i = 0; i < n; i++)
     {
       bool good = i ? output->open (file.name (), specs[i], OIIO::ImageOutput::AppendSubimage) :
-                  n > 1 && format == Format::exr ? output->open (file.name (), int (n), specs.data ()) :
-                  output->open (file.name (), specs[0]);
+                      output->open (file.name (), int (n), specs.data ());
 
       if (!good)
         throw IoFailure (output->geterror ());
