@@ -62,7 +62,7 @@ bool cli_check (CeldStatus status);
 /* "3,4 > #ff0000 @2 !crack" as the grammar has it; free with g_free. */
 char *cli_relation_text (const CeldRelation *relation);
 void cli_say_cycles (const CeldOrder *order, const CeldRelations *relations);
-/* All but contradictions. */
+/* All but contradictions; a few of them if there are many. */
 void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
 
 /* ------------------------------------------------------------------ run.c, threads.c */

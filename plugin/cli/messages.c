@@ -7,6 +7,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#define MOST_PROBLEMS 12 /* that are said */
+
 static void
 say (const char *format, va_list arguments)
 {
@@ -107,12 +109,16 @@ cli_say_cycles (const CeldOrder *order, const CeldRelations *relations)
 void
 cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations)
 {
+  size_t n = 0;
+
   for (size_t i = 0; problems && i < problems->n; i++)
-    if (problems->item[i].kind != CELD_PROBLEM_CONTRADICTION)
+    if (problems->item[i].kind != CELD_PROBLEM_CONTRADICTION && n++ < MOST_PROBLEMS)
       {
         char text[400];
 
         celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
         cli_say ("%s", text);
       }
+  if (n > MOST_PROBLEMS)
+    cli_say ("And %" G_GSIZE_FORMAT " more remarks; --report writes them all.", n - MOST_PROBLEMS);
 }

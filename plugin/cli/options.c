@@ -5,9 +5,12 @@
  */
 #include "cli.h"
 
+#include <errno.h>
+#include <glib/gstdio.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #define MADE_OF_LABELS (CLI_POPUP | CLI_SEGMENT)
 #define WITH_INK       (CLI_POPUP | CLI_SEGMENT | CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE)
@@ -265,6 +268,24 @@ check_files (const CliCommand *command, CliOptions *options)
                                command->step == CLI_SHADE ? "shading" : "depth");
 }
 
+/* Before the work rather than after it. */
+static bool
+check_folders (CliOptions *options)
+{
+  bool good = true;
+
+  for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)
+    {
+      const char *name = *file_name (options, &files[i]);
+      char       *folder = name && files[i].kind >= OUTPUT ? g_path_get_dirname (name) : NULL;
+
+      if (folder && g_access (folder, W_OK))
+        good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
+      g_free (folder);
+    }
+  return good;
+}
+
 static bool
 check (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
@@ -285,7 +306,7 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
 {
   *options = (CliOptions) { .settings = celd_settings () };
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
-    return CLI_DONE;
+    return check_folders (options) ? CLI_DONE : CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);
   return CLI_USAGE;
 }
