@@ -112,6 +112,21 @@ class Formats(Test):
         for name in ('order', 'levels', 'depth', 'normals', 'shading'):
             np.testing.assert_allclose(np.load(self.path(f'a-{name}.npy')), np.load(self.path(f'b-{name}.npy')), atol=1e-4)
 
+    def test_labels_come_back(self):
+        """order reads the labels that segment wrote."""
+        for ending in ('png', 'exr', 'tif'):
+            with self.subTest(ending):
+                self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', f'l.{ending}', '--report', 's.json')
+                self.celdepth('order', f'l.{ending}', '--relations', RELATIONS, '--levels', 'o.npy', '--report', 'o.json')
+                levels = np.load(self.path('o.npy'))
+                self.assertEqual([at(levels, p) for p in (IN_PAGE, IN_A, IN_B)], [0, 0.5, 1])
+                reports = []
+                for name in ('s.json', 'o.json'):
+                    with open(self.path(name), encoding='utf-8') as file:
+                        reports.append(json.load(file))
+                areas = [{l['colour']: l['area'] for l in report['labels']} for report in reports]
+                self.assertEqual(areas[0], areas[1])
+
     def test_report(self):
         self.popup('--relations', RELATIONS + '; 20,20 > 22,22; 500,5 > 1,1; #123456 > 1,1 @2.5 !crack', '--seeds', 'scribbles',
                    '--report', 'report.json')

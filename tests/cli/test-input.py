@@ -3,6 +3,7 @@
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import json
 import os
 import struct
 import subprocess
@@ -10,7 +11,7 @@ import unittest
 import zlib
 
 import numpy as np
-from PIL import Image, ImageOps
+from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
 from pictures import HEIGHT, RED, RELATIONS, WIDTH, Test, drawing, scribbles, write_psd
 
@@ -58,11 +59,71 @@ class Layers(Test):
         self.same_labels('plain.psd', '--scribbles', 'scribbles.png', reference='white.npy')
 
     def test_exr_parts(self):
+        """Linear light and premultiplied alpha."""
+        drawing().convert('RGB').save(self.path('drawing.png'))
         parts = []
-        for name in ('drawing', 'scribbles'):
-            parts += [self.path(f'{name}.png'), '--colorconvert', 'sRGB', 'linear', '-d', 'float', '--attrib', 'oiio:subimagename', name]
+        for name, channels in (('drawing', 'R,G,B,A=1.0'), ('scribbles', 'R,G,B,A')):
+            parts += [self.path(f'{name}.png'), '--ch', channels, '--colorconvert', 'sRGB', 'linear', '-d', 'float',
+                      '--attrib', 'oiio:subimagename', name]
         subprocess.run(['oiiotool', *parts, '--siappendall', '-o', self.path('page.exr')], check=True)
         self.same_labels('page.exr')
+
+    def test_tiff_pages(self):
+        page_name = 285
+        with TiffImagePlugin.AppendingTiffWriter(self.path('page.tif'), True) as file:
+            for name, layer in (('scribbles', scribbles()), ('DRAWING', drawing())):
+                layer.save(file, 'TIFF', tiffinfo={page_name: name})
+                file.newFrame()
+        self.same_labels('page.tif')
+
+    def test_drawing_option(self):
+        """The steps take the drawing out of a layered file too."""
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
+        np.save(self.path('levels.npy'), np.load(self.path('labels.npy')))
+        self.celdepth('expand', 'levels.npy', '--drawing', 'page.psd', '--levels', 'a.npy')
+        self.celdepth('expand', 'levels.npy', '--drawing', 'drawing.png', '--levels', 'b.npy')
+        np.testing.assert_array_equal(np.load(self.path('a.npy')), np.load(self.path('b.npy')))
+
+
+class Strokes(Test):
+    """Painted arrows and virtual contours."""
+
+    def layer(self, name, *strokes):
+        """Strokes: (colour, points)."""
+        layer = Image.new('RGBA', (WIDTH, HEIGHT))
+        for colour, points in strokes:
+            ImageDraw.Draw(layer).line(points, fill=colour, width=2)
+        layer.save(self.path(name))
+
+    def test_arrows_are_relations(self):
+        """An arrow's head points at the farther part."""
+        self.layer('arrows.png', ((255, 128, 0, 255), [(70, 40), (70, 18)]), ((255, 128, 0, 255), [(64, 24), (70, 18), (76, 24)]))
+        self.popup('--arrows', 'arrows.png', '--levels', 'l.npy', '--report', 'r.json')
+        with open(self.path('r.json'), encoding='utf-8') as file:
+            relation, = json.load(file)['relations']
+        self.assertEqual(relation['source'], 'arrow')
+        levels = np.load(self.path('l.npy'))
+        self.assertGreater(levels[45, 70], levels[18, 75])
+
+    def test_arrows_alone(self):
+        self.layer('arrows.png', ((255, 128, 0, 255), [(70, 40), (70, 18)]), ((255, 128, 0, 255), [(64, 24), (70, 18), (76, 24)]))
+        self.celdepth('popup', 'drawing.png', '--arrows', 'arrows.png', '--levels', 'l.npy')
+        levels = np.load(self.path('l.npy'))
+        self.assertGreater(levels[45, 70], levels[18, 75])
+
+    def test_contours(self):
+        """A red stroke parts box B, whose halves have two colours, where the stroke is."""
+        page = scribbles()
+        ImageDraw.Draw(page).line([(78, 30), (80, 53)], fill=(255, 0, 255, 255), width=3)
+        page.save(self.path('scribbles.png'))
+        self.layer('contours.png', ((255, 0, 0, 255), [(60, 24), (60, 58)]))
+        self.layer('blank.png')
+        ends = []
+        for name in ('contours.png', 'blank.png'):
+            self.popup('--contours', name, '--labels', 'l.png')
+            ends.append((self.picture('l.png')[29:54, 42:83, :3] == (255, 0, 255)).all(2).sum(1).mean())
+        self.assertAlmostEqual(ends[0], 83 - 60, delta=2)
+        self.assertGreater(abs(ends[1] - ends[0]), 3)
 
 
 class Drawings(Test):
