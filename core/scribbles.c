@@ -17,12 +17,18 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <stdio.h>
 
 #define THIN 3          /* pixels: a run of a colour at most this long can be a fringe */
 #define RAMP 8          /* pixels on either side over which a soft edge is recognised */
 #define LEAST 4         /* honest pixels that make a label: a dot of 2 x 2 */
 #define CLEAN 3         /* rounding of un-premultiplied colours: as near as this is equal */
 #define NOISY 20        /* colours farther apart than this are never one label */
+
+#define LOSSY 14
+#define SATELLITE 40
+#define PASSES 3
+#define SIMILAR 36      /* colours this near may be one colour in a lossy picture */
 
 #define NO_CLUSTER UINT32_MAX
 
@@ -52,6 +58,7 @@ typedef struct
   size_t           slots;       /* a power of two */
   uint32_t         paper;       /* the colour that means none in a picture without alpha; 0 = transparent does */
   int              radius;      /* colours as near as this are equal */
+  bool             lossy;       /* there was noise to be filtered */
   Cluster         *cluster;
   size_t           n_clusters;
   uint32_t        *head;        /* first cluster in each cell of colour space */
@@ -159,32 +166,120 @@ distance_squared (const int *a, const int *b)
   return d0 * d0 + d1 * d1 + d2 * d2;
 }
 
-/* How far neighbouring pixels of one stroke are apart: nine of ten pairs, pairs across an edge left out. */
+/* How far a pixel is from the mean of those beside it, in nine of ten places where the three are of one stroke; a ramp
+ * is no noise. */
 static void
 measure_noise (Reading *r)
 {
-  size_t pairs[NOISY + 1] = { 0 }, all = 0, below = 0;
+  size_t places[NOISY + 1] = { 0 }, all = 0, below = 0;
   int    noise = 0;
 
   for (int y = 0; y < r->height; y++)
-    {
-      const uint32_t *id = r->id + (size_t) y * (size_t) r->width;
+    for (int x = 1; x < r->width - 1; x++)
+      {
+        const uint32_t *id = r->id + (size_t) y * (size_t) r->width + (size_t) x;
+        const int      *a, *b, *c;
+        int             mean[3], d = 0;
 
-      for (int x = 1; x < r->width; x++)
-        if (id[x] && id[x - 1] && id[x] != r->paper && id[x - 1] != r->paper)
+        if (!id[-1] || !id[0] || !id[1] || id[0] == r->paper)
+          continue;
+        a = r->colour[id[-1]].channel;
+        b = r->colour[id[1]].channel;
+        c = r->colour[id[0]].channel;
+        if (id[-1] != id[0] || id[1] != id[0])
           {
-            int d = id[x] == id[x - 1] ? 0 : distance_squared (r->colour[id[x]].channel, r->colour[id[x - 1]].channel);
-
-            if (d <= NOISY * NOISY)
-              {
-                pairs[(int) ceil (sqrt (d))]++;
-                all++;
-              }
+            if (distance_squared (a, c) > SIMILAR * SIMILAR || distance_squared (b, c) > SIMILAR * SIMILAR)
+              continue;
+            for (int i = 0; i < 3; i++)
+              mean[i] = (a[i] + b[i] + 1) / 2;
+            d = (int) sqrt (distance_squared (mean, c));
           }
-    }
-  while (noise < NOISY && 10 * (below += pairs[noise]) < 9 * all)
+        places[d < NOISY ? d : NOISY]++;
+        all++;
+      }
+  while (noise < NOISY && 10 * (below += places[noise]) < 9 * all)
     noise++;
   r->radius = noise + CLEAN < NOISY ? noise + CLEAN : NOISY;
+  if (getenv ("DBG")) fprintf (stderr, "radius %d\n", r->radius);
+}
+
+/* ------------------------------------------------------------------ noise */
+
+typedef struct { const CeldPaint *from; CeldPaint to; const Colour *paper; } Filter; /* paper NULL: transparent */
+
+static bool
+is_none (const Filter *f, const uint8_t *rgba)
+{
+  const int *p = f->paper ? f->paper->channel : NULL;
+
+  return rgba[3] < 128 || (p && rgba[0] == p[0] && rgba[1] == p[1] && rgba[2] == p[2]);
+}
+
+/* Each pixel becomes the mean of those among the 5x5 round it that have nearly its colour (a sigma filter, [Lee83]):
+ * the blocks and echoes of lossy pictures go, edges stay. */
+static void
+filter_row (void *data, int y)
+{
+  Filter *f = data;
+
+  for (int x = 0; x < f->to.width; x++)
+    {
+      const uint8_t *c = CELD_RGBA (f->from, x, y);
+      int            sum[3] = { 0 }, n = 0;
+
+      memcpy (CELD_RGBA (&f->to, x, y), c, 4);
+      if (is_none (f, c))
+        continue;
+      for (int v = y > 2 ? y - 2 : 0; v <= y + 2 && v < f->to.height; v++)
+        for (int u = x > 2 ? x - 2 : 0; u <= x + 2 && u < f->to.width; u++)
+          {
+            const uint8_t *q = CELD_RGBA (f->from, u, v);
+            int            d0 = q[0] - c[0], d1 = q[1] - c[1], d2 = q[2] - c[2];
+
+            if (q[3] < 128 || d0 * d0 + d1 * d1 + d2 * d2 > SIMILAR * SIMILAR)
+              continue;
+            sum[0] += q[0];
+            sum[1] += q[1];
+            sum[2] += q[2];
+            n++;
+          }
+      for (int i = 0; i < 3; i++)
+        CELD_RGBA (&f->to, x, y)[i] = (uint8_t) ((2 * sum[i] + n) / (2 * n));
+    }
+}
+
+static CeldStatus
+filter (Reading *r, bool flats, const CeldRun *run)
+{
+  size_t     pixels = (size_t) r->width * (size_t) r->height;
+  CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (pixels, 4) },
+                           { r->width, r->height, (size_t) r->width, celd_alloc (pixels, 4) } };
+  CeldStatus status = buffer[0].data && buffer[1].data ? CELD_OK : CELD_NO_MEMORY;
+
+  for (int i = 0; i < PASSES && status == CELD_OK; i++)
+    {
+      Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
+
+      celd_each (run, r->height, filter_row, &f);
+      status = celd_step (run, 0);
+    }
+  if (status == CELD_OK)
+    {
+      const CeldPaint *unfiltered = r->paint;
+
+      r->n = 1;
+      r->paper = 0;
+      memset (r->slot, 0, r->slots * sizeof *r->slot);
+      r->colour[0].pixels = 0;
+      r->paint = &buffer[(PASSES + 1) % 2];
+      status = count_colours (r, flats, run);
+      r->paint = unfiltered;
+      r->radius = LOSSY;
+      r->lossy = true;
+    }
+  celd_free (buffer[0].data);
+  celd_free (buffer[1].data);
+  return status;
 }
 
 /* ------------------------------------------------------------------ fringes */
@@ -335,13 +430,98 @@ add_cluster (Reading *r, uint32_t id)
   return CELD_OK;
 }
 
+static void
+tally_clusters (Reading *r)
+{
+  for (size_t k = 0; k < r->n_clusters; k++)
+    r->cluster[k].pixels = r->cluster[k].honest = r->cluster[k].core = 0;
+  for (size_t i = 1; i < r->n; i++)
+    if (r->colour[i].cluster != NO_CLUSTER)
+      {
+        const Colour *c = &r->colour[i];
+        Cluster      *k = &r->cluster[c->cluster];
+
+        k->pixels += c->pixels;
+        k->honest += c->honest;
+        k->core += c->core;
+      }
+}
+
+/* Is an eighth of the cluster inside strokes, as it is not for the rims of strokes? */
+static bool
+has_core (const Cluster *k)
+{
+  return k->core >= LEAST && 8 * (size_t) k->core >= k->pixels;
+}
+
+/* The nearest larger cluster of nearly the same colour; the cluster itself if there is none. */
+static uint32_t
+larger_cluster (const Reading *r, uint32_t k)
+{
+  const Cluster *c = &r->cluster[k];
+  int            least = SATELLITE * SATELLITE + 1;
+  uint32_t       found = k;
+
+  for (uint32_t j = 0; j < r->n_clusters && k; j++)
+    {
+      const Cluster *l = &r->cluster[j];
+      int            d = distance_squared (c->channel, l->channel);
+
+      if (d < least && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)))
+        {
+          least = d;
+          found = j;
+        }
+    }
+  return found;
+}
+
+/* In a lossy picture the rim and the ends of strokes make clusters of their own: a cluster that keeps touching a larger
+ * one of nearly its colour is a part of that. */
+static CeldStatus
+absorb_satellites (Reading *r)
+{
+  uint32_t *parent = celd_alloc (r->n_clusters, sizeof *parent), *touch = celd_alloc0 (r->n_clusters, sizeof *touch);
+
+  if (!parent || !touch)
+    {
+      celd_free (touch);
+      celd_free (parent);
+      return CELD_NO_MEMORY;
+    }
+  for (uint32_t k = 0; k < r->n_clusters; k++)
+    parent[k] = larger_cluster (r, k);
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      for (int i = 0; i < 2; i++)
+        if (x + !i < r->width && y + i < r->height)
+          {
+            size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = i ? p + (size_t) r->width : p + 1;
+            uint32_t a = r->colour[r->id[p]].cluster, b = r->colour[r->id[q]].cluster;
+
+            if (a == b || a == NO_CLUSTER || b == NO_CLUSTER)
+              continue;
+            touch[a] += parent[a] == b;
+            touch[b] += parent[b] == a;
+          }
+  for (uint32_t k = 0; k < r->n_clusters; k++)
+    if (touch[k] < LEAST || 10 * (size_t) touch[k] < r->cluster[k].pixels || (!r->lossy && has_core (&r->cluster[k])))
+      parent[k] = k;
+  for (size_t i = 1; i < r->n; i++)
+    while (r->colour[i].cluster != NO_CLUSTER && parent[r->colour[i].cluster] != r->colour[i].cluster)
+      r->colour[i].cluster = parent[r->colour[i].cluster];
+  celd_free (touch);
+  celd_free (parent);
+  return CELD_OK;
+}
+
 /* Honest enough to be a label?  In a noisy picture a fringe may pass for a pencil line, so there a label needs an inside. */
 static bool
 is_label (const Reading *r, const Cluster *k)
 {
   if (k->honest < LEAST || 3 * (size_t) k->honest < k->pixels)
     return false;
-  return r->radius == CLEAN || (k->core >= LEAST && 8 * (size_t) k->core >= k->pixels);
+  return !r->lossy || has_core (k);
 }
 
 /* The colours with most honest pixels first; each takes in what lies within the radius. */
@@ -367,17 +547,13 @@ cluster_colours (Reading *r)
     if (nearest_cluster (r, r->colour[candidate[i].id].channel) == NO_CLUSTER)
       status = add_cluster (r, candidate[i].id);
   for (size_t i = 1; i < r->n && status == CELD_OK; i++)
+    r->colour[i].cluster = nearest_cluster (r, r->colour[i].channel);
+  if (status == CELD_OK)
+    tally_clusters (r);
+  if (status == CELD_OK)
     {
-      Colour  *c = &r->colour[i];
-      Cluster *k;
-
-      c->cluster = nearest_cluster (r, c->channel);
-      if (c->cluster == NO_CLUSTER)
-        continue;
-      k = &r->cluster[c->cluster];
-      k->pixels += c->pixels;
-      k->honest += c->honest;
-      k->core += c->core;
+      status = absorb_satellites (r);
+      tally_clusters (r);
     }
   for (size_t k = 1; k < r->n_clusters && status == CELD_OK; k++)
     r->cluster[k].is_label = is_label (r, &r->cluster[k]);
@@ -643,6 +819,11 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   if (status == CELD_OK)
     {
       measure_noise (&r);
+      if (r.radius > 2 * CLEAN)
+        status = filter (&r, settings->flats, run);
+    }
+  if (status == CELD_OK)
+    {
       celd_each (run, r.height, judge_row, &r);
       count_honest (&r);
       status = celd_step (run, 0.6);
