@@ -5,12 +5,14 @@
  *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
  *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
  *       behind costs nothing, half ink 1/27, and paper grain little.
+ *   ink  costs less the deeper it is, so that borders run along the middle of a line, not along its shorter side
+ *       (LazyBrush filters the drawing with a LoG to that end); with ragged pencil lines this keeps both sides clean.
  *   votes  A painted pixel costs hardness K in LazyBrush, so that a stroke closes gaps up to hardness x its area, and
  *       the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean
  *       width of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the
  *       brush and the resolution, and to wrap it costs twice that, so that a majority of paint wins.
- *   frame  A page is often cropped to its drawing.  Edges along the frame between paper cost as if 1/64 of the perimeter's
- *       half were left of the margin, so that the background holds together where a figure nearly touches the frame.
+ *   frame  A page is often cropped to its drawing.  Edges of paper along the frame cost as if some of the margin were
+ *       left, so that the background holds together where a figure nearly touches the frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,6 +23,8 @@
 #include <string.h>
 
 #define UNIT        16             /* cost of an edge inside ink: energies are integers */
+#define DEEP        10             /* an edge deep inside ink costs this much less than one at its rim */
+#define MARGIN      64             /* of half the perimeter: the margin that a cropped page is taken to have had */
 #define MOST_VOTE   (1 << 28)
 #define BRUSH       20.0           /* pixels; at this width votes are hardness K */
 #define INK_STEPS   1024           /* of the table of g */
@@ -148,19 +152,12 @@ perimeter (const CeldCanvas *canvas)
   return 2.0 * (canvas->width + canvas->height);
 }
 
-/* V of edges by their ink, in INK_STEPS + 1 steps from ink to paper. */
-static void
-tabulate_costs (const CeldCanvas *canvas, int32_t cost[INK_STEPS + 1])
+typedef struct
 {
-  double threshold = (double) canvas->settings->ink_threshold;
-
-  for (int i = 0; i <= INK_STEPS; i++)
-    {
-      double paper = fmax (0, ((double) i / INK_STEPS - threshold) / (1 - threshold));
-
-      cost[i] = (int32_t) (UNIT * (1 + perimeter (canvas) * paper * paper * paper));
-    }
-}
+  int32_t  by_ink[INK_STEPS + 1]; /* V in steps from ink to paper */
+  int32_t *depth;                 /* of each pixel in ink: squared distance to paper */
+  int32_t  margin;                /* edges of paper along the frame stand for so many */
+} Costs;
 
 static int
 ink_step (float ink)
@@ -168,37 +165,69 @@ ink_step (float ink)
   return ink > 0 && ink < 1 ? (int) (ink * INK_STEPS) : ink <= 0 ? 0 : INK_STEPS; /* NaN is paper */
 }
 
-static int32_t
-edge_cost (const CeldCanvas *canvas, const int32_t *cost, int x, int y, int dx, int dy, int along_frame)
+static CeldStatus
+costs_new (const CeldCanvas *canvas, const CeldRun *run, Costs *costs)
 {
-  int p = ink_step (CELD_AT (canvas->ink, x, y)), q;
+  double     threshold = (double) canvas->settings->ink_threshold;
+  uint8_t   *paper = celd_alloc (canvas->n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  costs->margin = 1 + (canvas->width + canvas->height) / MARGIN;
+  for (int i = 0; i <= INK_STEPS; i++)
+    {
+      double g = fmax (0, ((double) i / INK_STEPS - threshold) / (1 - threshold));
+
+      costs->by_ink[i] = (int32_t) (UNIT * (1 + perimeter (canvas) * g * g * g));
+    }
+  costs->depth = celd_alloc (canvas->n, sizeof *costs->depth);
+  if (paper && costs->depth)
+    {
+      for (size_t p = 0; p < canvas->n; p++)
+        paper[p] = canvas->pieces.data[p] != 0;
+      status = celd_distance (canvas->width, canvas->height, paper, run, costs->depth);
+    }
+  celd_free (paper);
+  return status;
+}
+
+/* V between the pixel p = (x,y) and its neighbour q at (x + dx, y + dy); 0 beyond the frame. */
+static int32_t
+edge_cost (const CeldCanvas *canvas, const Costs *costs, int x, int y, int dx, int dy)
+{
+  size_t  p = (size_t) y * (size_t) canvas->width + (size_t) x, q = p + (size_t) (dx ? 1 : canvas->width);
+  int     ink, other;
+  int32_t depth;
+  bool    along_frame = dx ? y == 0 || y + 1 == canvas->height : x == 0 || x + 1 == canvas->width;
 
   if (x + dx >= canvas->width || y + dy >= canvas->height)
     return 0;
-  q = ink_step (CELD_AT (canvas->ink, x + dx, y + dy));
-  if (along_frame && 2 * p >= INK_STEPS && 2 * q >= INK_STEPS)
-    return cost[p < q ? p : q] * (1 + (canvas->width + canvas->height) / 64);
-  return cost[p < q ? p : q];
+  ink   = ink_step (CELD_AT (canvas->ink, x, y));
+  other = ink_step (CELD_AT (canvas->ink, x + dx, y + dy));
+  ink   = ink < other ? ink : other;
+  depth = costs->depth[p] < costs->depth[q] ? costs->depth[p] : costs->depth[q];
+  if (along_frame && 2 * ink >= INK_STEPS)
+    return costs->by_ink[ink] * costs->margin;
+  return costs->by_ink[ink] - (depth > 1 ? (int32_t) (DEEP * (1 - 1 / sqrt (depth))) : 0);
 }
 
 static CeldStatus
-weigh_edges (CeldCanvas *canvas)
+weigh_edges (CeldCanvas *canvas, const CeldRun *run)
 {
-  int32_t cost[INK_STEPS + 1];
-  size_t  p = 0;
+  Costs      costs = { .depth = NULL };
+  size_t     p = 0;
+  CeldStatus status;
 
   canvas->east  = celd_alloc (canvas->n, sizeof *canvas->east);
   canvas->south = celd_alloc (canvas->n, sizeof *canvas->south);
-  if (!canvas->east || !canvas->south)
-    return CELD_NO_MEMORY;
-  tabulate_costs (canvas, cost);
-  for (int y = 0; y < canvas->height; y++)
+  status = canvas->east && canvas->south ? costs_new (canvas, run, &costs) : CELD_NO_MEMORY;
+  for (int y = 0; y < canvas->height && status == CELD_OK; y++)
     for (int x = 0; x < canvas->width; x++, p++)
       {
-        canvas->east[p]  = edge_cost (canvas, cost, x, y, 1, 0, y == 0 || y + 1 == canvas->height);
-        canvas->south[p] = edge_cost (canvas, cost, x, y, 0, 1, x == 0 || x + 1 == canvas->width);
+        canvas->east[p]  = edge_cost (canvas, &costs, x, y, 1, 0);
+        canvas->south[p] = edge_cost (canvas, &costs, x, y, 0, 1);
       }
-  return CELD_OK;
+  celd_free (costs.depth);
+  return status;
 }
 
 /* Mean width of soft strokes: twice their area over the length of their outline. */
@@ -316,7 +345,7 @@ solve (CeldCanvas *canvas, const CeldRelations *relations, const CeldRun *run)
   if (status == CELD_OK)
     status = celd_background_seed (NULL, canvas);
   if (status == CELD_OK)
-    status = weigh_edges (canvas);
+    status = weigh_edges (canvas, NULL);
   if (status == CELD_OK)
     status = celd_step (run, 0.1);
   if (status == CELD_OK)
