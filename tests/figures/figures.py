@@ -125,6 +125,7 @@ def frame():
     f.stroke('scribbles', [(30, 160), (120, 170)], A)
     f.stroke('scribbles', [(170, 20), (170, 130)], B)
     f.stroke('scribbles', [(30, 30), (120, 60)], C)
+    f.stroke('scribbles', [(205, 30), (225, 60)], C)
     f.relations = '#3c8cdc > #dc3c3c > #f0b428'
     return f
 
