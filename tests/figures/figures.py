@@ -73,7 +73,7 @@ def two_arrows():
     f.line([(150, 122), (90, 122)])
     f.line([(90, 80), (90, 180), (50, 180), (50, 80)])             # the near leg: both sides run up into the body
     f.line([(50, 120), (30, 110), (30, 60)])
-    f.relations = '70,160 > 120,70\n120,70 > 172,160'
+    f.relations = '70,105 > 115,100\n125,100 > 172,150'         # each across the contour that tells
     return f
 
 
