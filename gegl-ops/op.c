@@ -21,15 +21,11 @@ create_pad (GeglOperation *operation, const char *name, const char *label, const
   g_param_spec_sink (pad);
 }
 
-/* Last pad first: GEGL lists the newest first, and so do dialogs. */
+/* In the order in which GIMP shows them (GEGL's own list has the newest first). */
 static void
 attach (GeglOperation *operation)
 {
-  const CeldPad *pads = GET_CLASS (operation)->pads, *pad = pads;
-
-  while (pad->name)
-    pad++;
-  while (pad-- > pads)
+  for (const CeldPad *pad = GET_CLASS (operation)->pads; pad->name; pad++)
     create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE | GEGL_PARAM_PAD_INPUT);
   create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE | GEGL_PARAM_PAD_OUTPUT);
 }
@@ -94,9 +90,12 @@ celd_op_fail (CeldOp *op, const char *format, ...)
   return FALSE;
 }
 
+/* While the artist is still choosing layers, that there is nothing to go by is no news. */
 gboolean
 celd_op_try (CeldOp *op, CeldStatus status)
 {
+  if (status == CELD_NOTHING_TO_GO_BY && op->choosing)
+    return FALSE;
   return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
 }
 
@@ -205,10 +204,26 @@ celd_op_session (CeldOp *op)
 
 /* ------------------------------------------------------------------ the frame round render */
 
+/* A layer picker in which nothing is chosen yet: GIMP connects a source without a buffer. */
+static gboolean
+is_open_picker (CeldOp *op, const char *pad)
+{
+  GeglNode   *producer = gegl_node_get_producer (GEGL_OPERATION (op->operation)->node, pad, NULL);
+  GeglBuffer *buffer = NULL;
+
+  if (!producer || g_strcmp0 (gegl_node_get_operation (producer), "gegl:buffer-source"))
+    return FALSE;
+  gegl_node_get (producer, "buffer", &buffer, NULL);
+  if (!buffer)
+    return TRUE;
+  g_object_unref (buffer);
+  return FALSE;
+}
+
 gboolean
 celd_op_has (CeldOp *op, const char *pad)
 {
-  return gegl_operation_context_get_object (op->context, pad) != NULL;
+  return gegl_operation_context_get_object (op->context, pad) != NULL && !is_open_picker (op, pad);
 }
 
 /* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
@@ -218,6 +233,11 @@ check_pad (CeldOp *op, const CeldPad *pad)
   const GeglRectangle *p = &op->picture;
   const GeglRectangle *r = gegl_operation_source_get_bounding_box (GEGL_OPERATION (op->operation), pad->name);
 
+  if (is_open_picker (op, pad->name))
+    {
+      op->choosing = TRUE;
+      return !pad->required;
+    }
   if (!r)
     return !pad->required ||
            celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);

@@ -78,6 +78,7 @@ struct _CeldOp
   GPtrArray            *scratch;
   GString              *message;
   double                progress;
+  gboolean              choosing;  /* the host's dialog still has a picker without a layer */
 };
 
 /* ------------------------------------------------------------------ op.c */

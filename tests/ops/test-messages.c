@@ -77,6 +77,30 @@ layers_elsewhere_are_refused (void)
   g_object_unref (elsewhere);
 }
 
+/* A dialog of GIMP that has just opened: its pickers are sources without a buffer. */
+static void
+open_pickers_are_no_mistake (void)
+{
+  GeglNode *graph = gegl_node_new (), *picker = gegl_node_new_child (graph, "operation", "gegl:buffer-source", NULL);
+  GeglNode *popup = add_operation (graph, "celdepth:popup", (Pads) { { drawing } });
+  GeglNode *expand = add_operation (graph, "celdepth:depth-expand", (Pads) { { drawing } });
+  GeglNode *chosen = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles } });
+
+  be_quiet ();
+  join (picker, popup, "aux");
+  join (picker, popup, "aux2");
+  get_output (popup, "RGBA float", result);
+  NEAR (difference (result, input_light, 4 * PIXELS), 0, 1e-6);
+  join (picker, expand, "aux");
+  get_output (expand, "RGBA float", result);
+  NEAR (difference (result, input_light, 4 * PIXELS), 0, 1e-6);
+  join (picker, chosen, "aux2");
+  get_output (chosen, "RGBA float", result);
+  CHECK (difference (result, input_light, 4 * PIXELS) > 0.1);
+  CHECK (times_said == 0 && warnings == 0);
+  g_object_unref (graph);
+}
+
 static void
 bad_settings_are_refused (void)
 {
@@ -207,6 +231,7 @@ main (int argc, char **argv)
   RUN (nothing_to_go_by_is_said);
   RUN (unreadable_relations_are_located);
   RUN (layers_elsewhere_are_refused);
+  RUN (open_pickers_are_no_mistake);
   RUN (bad_settings_are_refused);
   RUN (an_endless_input_is_refused);
   RUN (empty_and_single_pixels_do_no_harm);

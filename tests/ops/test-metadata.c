@@ -7,16 +7,16 @@
 #include <gegl-plugin.h>
 
 static const struct { const char *name; const char *pads; const char *properties; } operations[] = {
-  { "celdepth:virtual-contours", "input aux", "result ink" },
-  { "celdepth:lazybrush-segment", "input aux aux2",
+  { "celdepth:virtual-contours", "aux input", "result ink" },
+  { "celdepth:lazybrush-segment", "aux2 aux input",
     "ink ink-threshold method hardness flats background background-colour seeds relations arrow-style" },
-  { "celdepth:depth-order", "input aux aux2",
+  { "celdepth:depth-order", "aux2 aux input",
     "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
-  { "celdepth:depth-expand", "input aux", "ink ink-threshold" },
-  { "celdepth:depth-smooth", "input aux aux2", "ink ink-threshold tolerance" },
-  { "celdepth:lumo-shade", "input aux aux2",
+  { "celdepth:depth-expand", "aux input", "ink ink-threshold" },
+  { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold tolerance" },
+  { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
-  { "celdepth:popup", "input aux aux2 aux3",
+  { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method hardness flats background background-colour seeds same-colour relations "
     "arrow-style encoding near-level far-level anchors tolerance bulge light-azimuth light-elevation ambient directx" },
 };
@@ -47,6 +47,7 @@ every_operation_is_described (void)
     }
 }
 
+/* GEGL lists the newest pad first, and GIMP's dialogs show the list from its end. */
 static void
 pads_are_those_of_the_contract (void)
 {

@@ -26,7 +26,8 @@ def open_layers(name, layers, bits):
     """The layers of an example by name, from an XCF that is written and read back."""
     image = Gimp.file_load(QUIET, file(EXAMPLES, name, 'drawing.png'))
     image.convert_rgb()
-    image.convert_precision(PRECISIONS[bits])
+    if image.get_precision() != PRECISIONS[bits]:
+        image.convert_precision(PRECISIONS[bits])
     drawing, = image.get_layers()
     drawing.set_name('drawing')
     for layer in layers:
