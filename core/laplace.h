@@ -1,4 +1,4 @@
-/* What laplace.c, laplace-levels.c and laplace-band.c share: the parts of the Laplacian solver.
+/* What the laplace*.c share: the parts of the Laplacian solver.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,7 +23,7 @@ void       celd_band_eliminate (CeldBand *matrix);
 void       celd_band_solve (CeldBand *matrix);
 void       celd_band_clear (CeldBand *matrix);                            /* accepts a zeroed one */
 
-/* ------------------------------------------------------------------ laplace-levels.c: the coarse levels */
+/* ------------------------------------------------------------------ laplace-levels.c: the coarse levels; laplace-cycle.c: their cycle */
 
 #define CELD_NO_NODE UINT32_MAX
 
@@ -54,8 +54,56 @@ typedef struct
 
 CeldStatus celd_levels_new (int width, int height, const float *east, const float *south, const float *diagonal,
                             const CeldRun *run, CeldLevels *levels);
-/* level[0].x becomes approximately the solution for level[0].b. */
-void       celd_levels_solve (CeldLevels *levels);
 void       celd_levels_clear (CeldLevels *levels);                        /* accepts a zeroed one */
+
+/* level[0].x becomes approximately the solution for level[0].b, which is used up. */
+void       celd_levels_cycle (CeldLevels *levels);
+
+/* ------------------------------------------------------------------ laplace.c: the system */
+
+struct CeldLaplace
+{
+  int          width, height;
+  const float *east, *south, *diagonal;   /* borrowed */
+  float       *inverse;                   /* 1 / whole diagonal; 0 for a floating single pixel */
+  float       *nothing;                   /* a row of edges of weight 0, above the first and below the last row */
+  uint32_t    *floating;                  /* of each pixel: its floating component, 1 .. n_floating; else 0; NULL if there is none */
+  size_t      *floating_size;             /* pixels of each floating component */
+  uint32_t     n_floating;
+  bool         direct;                    /* by elimination of `band`, without levels */
+  CeldBand     band;
+  CeldLevels   levels;
+};
+
+/* The vectors of one solution. */
+typedef struct
+{
+  double *x, *r, *p, *q;        /* solution, residual, direction, A p */
+  float  *z;                    /* preconditioned residual */
+  double *row[3];               /* sums and extremes of each row */
+} CeldSolution;
+
+/* ------------------------------------------------------------------ laplace-floating.c: components that nothing holds */
+
+/* Finds the floating components of more than one pixel. */
+CeldStatus celd_floating_find (CeldLaplace *laplace);
+/* Means of v over each; mean has n_floating + 1 items. */
+void       celd_floating_means (const CeldLaplace *laplace, const double *v, double *mean);
+/* Shifts v in each to the wanted mean (NULL: zero); mean: workspace of n_floating + 1. */
+void       celd_floating_shift (const CeldLaplace *laplace, const double *wanted, double *mean, double *v);
+
+/* ------------------------------------------------------------------ laplace-pixels.c: passes over the pixels */
+
+void   celd_pixels_invert (CeldLaplace *laplace);                         /* fills inverse */
+void   celd_pixels_residual (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s);  /* r = -A x */
+void   celd_pixels_cycle (CeldLaplace *laplace, const CeldRun *run, CeldSolution *s);           /* z = about A^-1 r */
+/* *zr = z r, *zq = z q, *largest = max |z|. */
+void   celd_pixels_measure (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s,
+                            double *zr, double *zq, double *largest);
+/* p = z + beta p, q = A p; returns p q. */
+double celd_pixels_turn (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s, double beta);
+/* x += alpha p, r -= alpha q; *low and *high are the extremes of x. */
+void   celd_pixels_advance (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s, double alpha,
+                            double *low, double *high);
 
 #endif

@@ -106,7 +106,7 @@ the_cycle_solves_approximately (void)
 
   for (uint32_t c = 0; c < l->n; c++) /* A x for x = 1 everywhere */
     l->b[c] = l->sink[c];
-  celd_levels_solve (&g->levels);
+  celd_levels_cycle (&g->levels);
   for (uint32_t c = 0; c < l->n; c++)
     {
       error += (l->x[c] - 1.) * (l->x[c] - 1.);
@@ -125,7 +125,7 @@ pixels_without_an_edge_are_left_out (void)
   CHECK (g->levels.n == 1 && g->levels.level[0].n == 0);
   for (int i = 0; i < W * H; i += 11)
     CHECK (g->levels.coarser[i] == CELD_NO_NODE);
-  celd_levels_solve (&g->levels);
+  celd_levels_cycle (&g->levels);
   grid_free (g);
 }
 

@@ -1,0 +1,124 @@
+/* Floating components of a Laplacian system: those that no diagonal holds.
+ *
+ * There the solution is known but for a constant, and exists only if the right-hand side sums to zero.  So the
+ * residual is shifted to sum zero before, and the solution to the mean of its start after; single pixels need neither.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "laplace.h"
+
+static uint32_t
+root_of (uint32_t *parent, uint32_t i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+static void
+unite (uint32_t *parent, uint32_t i, uint32_t j)
+{
+  i = root_of (parent, i);
+  j = root_of (parent, j);
+  if (i < j)
+    parent[j] = i;
+  else
+    parent[i] = j;
+}
+
+/* The component of each pixel, by its root. */
+static void
+join_pixels (const CeldLaplace *l, uint32_t *parent)
+{
+  size_t w = (size_t) l->width, n = w * (size_t) l->height;
+
+  for (size_t i = 0; i < n; i++)
+    parent[i] = (uint32_t) i;
+  for (size_t i = 0; i < n; i++)
+    {
+      if (i % w + 1 < w && l->east[i] > 0)
+        unite (parent, (uint32_t) i, (uint32_t) i + 1);
+      if (i + w < n && l->south[i] > 0)
+        unite (parent, (uint32_t) i, (uint32_t) (i + w));
+    }
+}
+
+/* Numbers the components of several pixels without a diagonal; returns how many there are. */
+static uint32_t
+number_floating (const CeldLaplace *l, uint32_t *parent, uint32_t *number)
+{
+  size_t   n = (size_t) l->width * (size_t) l->height;
+  uint32_t count = 0;
+
+  for (size_t i = 0; i < n; i++)
+    if (l->diagonal[i] > 0)
+      number[root_of (parent, (uint32_t) i)] = CELD_NO_NODE; /* held */
+  for (size_t i = 0; i < n; i++) /* a root comes before its members, and is numbered when the first of them comes */
+    {
+      uint32_t root = root_of (parent, (uint32_t) i);
+
+      if (root == i)
+        continue;
+      if (number[root] == 0)
+        number[root] = ++count;
+      number[i] = number[root];
+    }
+  for (size_t i = 0; i < n; i++)
+    if (number[i] == CELD_NO_NODE)
+      number[i] = 0;
+  return count;
+}
+
+CeldStatus
+celd_floating_find (CeldLaplace *l)
+{
+  size_t     n      = (size_t) l->width * (size_t) l->height;
+  uint32_t  *parent = celd_alloc (n, sizeof *parent), *number = celd_alloc0 (n, sizeof *number);
+  CeldStatus status = parent && number ? CELD_OK : CELD_NO_MEMORY;
+  uint32_t   count  = 0;
+
+  if (status == CELD_OK)
+    {
+      join_pixels (l, parent);
+      count = number_floating (l, parent, number);
+    }
+  celd_free (parent);
+  if (count)
+    {
+      l->floating      = number;
+      l->n_floating    = count;
+      l->floating_size = celd_alloc0 ((size_t) count + 1, sizeof *l->floating_size);
+      if (!l->floating_size)
+        return CELD_NO_MEMORY;
+      for (size_t i = 0; i < n; i++)
+        l->floating_size[number[i]]++;
+    }
+  else
+    celd_free (number);
+  return status;
+}
+
+void
+celd_floating_means (const CeldLaplace *l, const double *v, double *mean)
+{
+  size_t n = (size_t) l->width * (size_t) l->height;
+
+  for (uint32_t c = 1; c <= l->n_floating; c++)
+    mean[c] = 0;
+  for (size_t i = 0; i < n && l->n_floating; i++)
+    if (l->floating[i])
+      mean[l->floating[i]] += v[i];
+  for (uint32_t c = 1; c <= l->n_floating; c++)
+    mean[c] /= (double) l->floating_size[c];
+}
+
+void
+celd_floating_shift (const CeldLaplace *l, const double *wanted, double *mean, double *v)
+{
+  size_t n = (size_t) l->width * (size_t) l->height;
+
+  celd_floating_means (l, v, mean);
+  for (size_t i = 0; i < n && l->n_floating; i++)
+    if (l->floating[i])
+      v[i] += (wanted ? wanted[l->floating[i]] : 0) - mean[l->floating[i]];
+}
