@@ -153,6 +153,7 @@ numbers_that_are_none_do_no_harm (void)
 {
   static float poisoned[4 * PIXELS];
   GeglBuffer  *bad;
+  int          strange = 0;
 
   for (int i = 0; i < 4 * PIXELS; i++)
     poisoned[i] = i % 7 == 0 ? NAN : i % 11 == 0 ? INFINITY : i % 13 == 0 ? -5.f : page_luma[i / 4];
@@ -162,11 +163,8 @@ numbers_that_are_none_do_no_harm (void)
   operate ("celdepth:depth-smooth", (Pads) { { bad, drawing, scribbles } }, "Y float", result, NULL);
   operate ("celdepth:popup", (Pads) { { bad, scribbles, arrows } }, "Y float", result, NULL);
   for (int i = 0; i < PIXELS; i++)
-    if (!isfinite (result[i]))
-      {
-        CHECK (!"depth is a number everywhere");
-        break;
-      }
+    strange += !isfinite (result[i]);
+  CHECK (strange == 0);
   CHECK (warnings == 0);
   g_object_unref (bad);
 }
