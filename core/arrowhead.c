@@ -15,6 +15,7 @@
 #define EXTREMITIES  4   /* tail, tip and two barbs */
 #define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
 #define SHORTEST     6   /* pixels */
+#define TURNS        3   /* of the axis towards the tip */
 
 /* Part of a stroke seen along an axis: s forwards, v sideways, from an origin. */
 typedef struct { CeldPoint origin, axis; double from; } View; /* pixels at this distance and beyond */
@@ -38,6 +39,13 @@ static double
 sideways (const View *view, CeldPoint p)
 {
   return (p.y - view->origin.y) * view->axis.x - (p.x - view->origin.x) * view->axis.y;
+}
+
+/* The place s forwards and v sideways. */
+static CeldPoint
+place (const View *view, double s, double v)
+{
+  return (CeldPoint) { view->origin.x + s * view->axis.x - v * view->axis.y, view->origin.y + s * view->axis.y + v * view->axis.x };
 }
 
 /* How far the view reaches between two values of s.  `right` is negative sideways. */
@@ -110,29 +118,39 @@ shaft_end (const CeldTrail *trail, double w)
   return d + run < length ? d : length;
 }
 
-/* Does the part beyond the shaft reach out on both sides? */
+/* Is the stroke about equally wide all the way to the end of its shaft?  Pens that start thin are. */
 static bool
-reaches_out (const Extent *e, double w)
+is_even (const CeldTrail *trail, double end)
 {
-  double least = 0.5 * w + fmax (0.25 * w, 0.75), left = e->left, right = -e->right;
+  double a = celd_trail_width (trail, 0, end / 3), b = celd_trail_width (trail, end / 3, 2 * end / 3);
+  double c = celd_trail_width (trail, 2 * end / 3, end);
 
-  return left > least && right > least && fmin (left, right) > 0.3 * fmax (left, right);
+  return fmax (a, fmax (b, c)) < 1.8 * fmin (a, fmin (b, c));
 }
 
-/* Does it fall back from its tip on both sides, and end there? */
+/* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
+static bool
+reaches_out (const View *view, const Extent *e, double w, const View *shaft)
+{
+  double least  = 0.5 * w + fmax (0.25 * w, 0.75);
+  double cosine = shaft->axis.x * view->axis.x + shaft->axis.y * view->axis.y, way;
+  CeldPoint entry;
+
+  if (cosine < LEAST_COSINE || e->left < least || -e->right < least)
+    return false;
+  way   = (0.5 * (e->left_s + e->right_s) - forwards (view, shaft->origin)) / cosine;
+  entry = place (shaft, way, 0);
+  return fabs (sideways (view, entry)) < 0.35 * (e->left - e->right) + 0.25 * w;
+}
+
+/* Does it fall back from its tip on both sides, alike, and end there? */
 static bool
 falls_back (const Extent *e, double w)
 {
   double left = e->most_s - e->left_s, right = e->most_s - e->right_s;
 
-  return left > 0.25 * e->left && right > -0.25 * e->right && e->most_s - e->least_s < 0.8 * (left + right) + 1.5 * w;
-}
-
-/* The place s forwards and v sideways. */
-static CeldPoint
-place (const View *view, double s, double v)
-{
-  return (CeldPoint) { view->origin.x + s * view->axis.x - v * view->axis.y, view->origin.y + s * view->axis.y + v * view->axis.x };
+  return left > 0.25 * e->left && right > -0.25 * e->right && fmin (left, right) > 0.3 * fmax (left, right) &&
+         e->most_s - e->least_s < 1.2 * fmax (left, right) + w + 2;
 }
 
 /* Is the straight way painted, all but a fifth of it? */
@@ -179,18 +197,25 @@ is_dot (const Extent *e)
 {
   double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
 
-  return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.65 * breadth * depth;
+  return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.66 * breadth * depth;
 }
 
-/* Turns the axis to run from between the barbs to the tip: the shaft may be bent. */
-static void
-turn_to_tip (const CeldTrail *trail, View *view, const Extent *e)
+/* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is askew.
+ * The answer is what the view shows then. */
+static Extent
+turn_to_tip (const CeldTrail *trail, View *view)
 {
-  double    s = 0.5 * (e->left_s + e->right_s), v = 0.5 * (e->left + e->right);
-  CeldPoint a = view->axis, o = view->origin;
+  Extent e = extent_between (trail, view, -INFINITY, INFINITY);
 
-  view->origin = place (view, s, v);
-  view->axis   = direction (view->origin, foremost (trail, &(View) { o, a, view->from }, e->most_s));
+  for (int i = 0; i < TURNS && e.left > 0 && e.right < 0; i++)
+    {
+      CeldPoint tip = foremost (trail, view, e.most_s);
+
+      view->origin = place (view, 0.5 * (e.left_s + e.right_s), 0.5 * (e.left + e.right));
+      view->axis   = direction (view->origin, tip);
+      e = extent_between (trail, view, -INFINITY, INFINITY);
+    }
+  return e;
 }
 
 static uint32_t
@@ -218,7 +243,7 @@ static View
 look_ahead (const CeldTrail *trail, double w, double end)
 {
   double    back = fmin (fmax (2 * w, 6), 0.6 * end);
-  CeldPoint last = celd_trail_centre (trail, end - 0.25 * back, end);
+  CeldPoint last = celd_trail_centre (trail, end - 0.4 * back, end - 0.15 * back);
 
   return (View) { last, direction (celd_trail_centre (trail, end - back, end - 0.75 * back), last), end };
 }
@@ -227,10 +252,10 @@ look_ahead (const CeldTrail *trail, double w, double end)
 static bool
 read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
 {
-  View      view;
+  View      view, shaft;
   Extent    e;
   double    length, w, end;
-  CeldPoint shaft, tip, last;
+  CeldPoint tip, last;
 
   celd_trail_follow (trail, &tail, 1);
   length = celd_trail_length (trail);
@@ -238,17 +263,13 @@ read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
     return false;
   w   = celd_trail_width (trail, 1, 0.5 * length);
   end = shaft_end (trail, w);
-  if (end >= length || end < 1.5 * w)
+  if (end >= length || end < 1.5 * w || !is_even (trail, end))
     return false;
-  view = look_ahead (trail, w, end);
-  e    = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (fmin (e.left, -e.right) < 0.4 * w)
-    return false;
-  shaft = view.axis;
-  turn_to_tip (trail, &view, &e);
-  e = extent_between (trail, &view, -INFINITY, INFINITY);
-  if (shaft.x * view.axis.x + shaft.y * view.axis.y < LEAST_COSINE || !reaches_out (&e, w) ||
-      !(dot ? is_dot (&e) : falls_back (&e, w) && is_arrowhead (trail, &view, &e, w)))
+  view  = look_ahead (trail, w, end);
+  shaft = view;
+  e     = turn_to_tip (trail, &view);
+  if (!reaches_out (&view, &e, w, &shaft) || is_dot (&e) != dot ||
+      (!dot && (!falls_back (&e, w) || !is_arrowhead (trail, &view, &e, w))))
     return false;
   tip   = foremost (trail, &view, e.most_s);
   *ends = (CeldEnds) { celd_trail_centre (trail, 0, fmax (1, w)), dot ? view.origin : tip };
