@@ -120,7 +120,7 @@ celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palet
       add_to_message (op, text);
     }
   if (problems && problems->n > MOST_PROBLEMS)
-    g_string_append_printf (op->message, "\nThere are %zu more problems of this kind.", problems->n - MOST_PROBLEMS);
+    g_string_append_printf (op->message, "\nThere are %zu more remarks.", problems->n - MOST_PROBLEMS);
   return TRUE;
 }
 
