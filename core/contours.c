@@ -4,39 +4,19 @@
  * it makes has to stay smooth, it is no ink, and ink along which it runs becomes paper; ink that it only crosses, as
  * where a stroke is carried on over a contour, is left alone.
  *
- * A stroke is a contour only if nothing leaks past it: one pixel wide, it is widened to two; an open end is joined to
- * the nearest ink, other stroke or frame a few pixels away.  An end is a rim pixel whose surrounding square, a little
- * wider than the stroke, meets the stroke in one place.  Colours are told by their hue, other hues are ignored.
- * Cost: O(pixels), 22 bytes a pixel.
+ * A stroke is a contour only if nothing leaks past it: one pixel wide, it is widened to two, and its open ends are
+ * joined to what is near (contour-ends.c).  Colours are told by their hue, other hues are ignored.
+ * Cost: O(pixels), about that of celd_ink; 24 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "private.h"
+#include "contours.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define VIVID 0.3f      /* least difference of the largest and the smallest channel of a stroke's colour */
 #define ALONG 3         /* a stroke runs along ink that it covers for so many of its widths */
-
-typedef enum { NOTHING, HARD, SOFT, ERASE } Kind;
-
-typedef struct
-{
-  int            width, height;
-  size_t         pixels;
-  CeldPlane      ink;           /* of the drawing, by celd_ink */
-  CeldPlane      value;         /* of the drawing, by celd_ink_values; becomes the result */
-  CeldPlane      paper;         /* its level */
-  float          dark;          /* the value that ink of this drawing has */
-  CeldMask       kind, cover;   /* Kind of each pixel, and opacity of its stroke */
-  CeldMask       wall;          /* 1 = becomes ink */
-  CeldLabels     mark, part;    /* what celd_components takes and gives: the connected strokes */
-  CeldComponent *list;          /* of part */
-  size_t         n;
-  float         *breadth;       /* of each stroke, in pixels */
-} Bake;
 
 /* ------------------------------------------------------------------ strokes */
 
@@ -123,15 +103,6 @@ is_block (const CeldMask *wall, int x, int y)
          CELD_AT (wall, x + 1, y) & 1 && CELD_AT (wall, x, y + 1) & 1 && CELD_AT (wall, x + 1, y + 1) & 1;
 }
 
-/* A wall of 2 x 2 pixels, those of them that lie in the picture. */
-static void
-stamp (CeldMask *wall, int x, int y, uint8_t value)
-{
-  for (int v = y > 0 ? y : 0; v <= y + 1 && v < wall->height; v++)
-    for (int u = x > 0 ? x : 0; u <= x + 1 && u < wall->width; u++)
-      CELD_AT (wall, u, v) |= value;
-}
-
 /* Walls of this purpose, nowhere less than two pixels wide. */
 static void
 raise_walls (Bake *b, CeldPurpose purpose)
@@ -148,7 +119,7 @@ raise_walls (Bake *b, CeldPurpose purpose)
     for (int x = 0; x < b->width; x++)
       if (CELD_AT (&b->wall, x, y) & 1 && !is_block (&b->wall, x, y) && !is_block (&b->wall, x - 1, y) &&
           !is_block (&b->wall, x, y - 1) && !is_block (&b->wall, x - 1, y - 1))
-        stamp (&b->wall, x, y, 2);
+        celd_contour_stamp (&b->wall, x, y, 2);
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
       CELD_AT (&b->wall, x, y) = CELD_AT (&b->wall, x, y) != 0;
@@ -175,161 +146,14 @@ find_strokes (Bake *b, const CeldRun *run)
       {
         uint32_t k = CELD_AT (&b->part, x, y);
 
-        b->breadth[k] += (float) ((x == 0 || CELD_AT (&b->part, x - 1, y) != k) + (y == 0 || CELD_AT (&b->part, x, y - 1) != k) +
-                                  (x == b->width - 1 || CELD_AT (&b->part, x + 1, y) != k) +
-                                  (y == b->height - 1 || CELD_AT (&b->part, x, y + 1) != k));
+        b->breadth[k] += x == 0 || CELD_AT (&b->part, x - 1, y) != k;
+        b->breadth[k] += y == 0 || CELD_AT (&b->part, x, y - 1) != k;
+        b->breadth[k] += x == b->width - 1 || CELD_AT (&b->part, x + 1, y) != k;
+        b->breadth[k] += y == b->height - 1 || CELD_AT (&b->part, x, y + 1) != k;
       }
   for (size_t k = 1; k <= b->n; k++)
     b->breadth[k] = 2 * (float) b->list[k - 1].area / b->breadth[k];
   return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ open ends */
-
-/* A rim pixel near the end of a stroke, and the nearest thing that the stroke may be joined to. */
-typedef struct { int x, y, to_x, to_y, squared; uint32_t stroke; bool dab; } End;
-
-/* In how many places does the square of half side `radius` round (x,y) meet the stroke? */
-static int
-crossings (const Bake *b, int x, int y, int radius, uint32_t stroke)
-{
-  int  n = 0;
-  bool first = false, before = false;
-
-  for (int i = 0; i < 8 * radius; i++)
-    {
-      int  along = i % (2 * radius) - radius;
-      int  u = i < 2 * radius ? x + along : i < 4 * radius ? x + radius : i < 6 * radius ? x - along : x - radius;
-      int  v = i < 2 * radius ? y - radius : i < 4 * radius ? y + along : i < 6 * radius ? y + radius : y - along;
-      bool here = u >= 0 && v >= 0 && u < b->width && v < b->height && CELD_AT (&b->part, u, v) == stroke;
-
-      n += here && !before;
-      first = i == 0 ? here : first;
-      before = here;
-    }
-  return n - (n > 1 && first && before);
-}
-
-/* Finds the nearest ink, other stroke or edge of the picture within the reach. */
-static bool
-find_target (const Bake *b, int reach, End *end)
-{
-  end->squared = reach * reach + 1;
-  for (int v = end->y - reach; v <= end->y + reach; v++)
-    for (int u = end->x - reach; u <= end->x + reach; u++)
-      {
-        int  squared = (u - end->x) * (u - end->x) + (v - end->y) * (v - end->y);
-        bool inside = u >= 0 && v >= 0 && u < b->width && v < b->height;
-
-        if (squared >= end->squared)
-          continue;
-        if (inside && CELD_AT (&b->ink, u, v) > 0.5f &&
-            (!CELD_AT (&b->part, u, v) || CELD_AT (&b->part, u, v) == end->stroke))
-          continue;
-        end->squared = squared;
-        end->to_x = u;
-        end->to_y = v;
-      }
-  return end->squared <= reach * reach;
-}
-
-static int
-by_squared_distance (const void *a, const void *b)
-{
-  const End *p = a, *q = b;
-
-  if (p->squared != q->squared)
-    return p->squared - q->squared;
-  return p->y != q->y ? p->y - q->y : p->x - q->x;
-}
-
-/* Is the end answered by a joint made before?  A stroke that touches ink at this end needs no other joint there; a dab
- * may be joined on several sides. */
-static bool
-is_joined (const Bake *b, const End *end, const End *joint, size_t n)
-{
-  int size = (int) b->breadth[end->stroke] + 3;
-
-  for (size_t i = 0; i < n; i++)
-    {
-      const End *j = &joint[i];
-      int        dot = (end->to_x - end->x) * (j->to_x - j->x) + (end->to_y - end->y) * (j->to_y - j->y);
-
-      int        far = abs (j->x - end->x) > abs (j->y - end->y) ? abs (j->x - end->x) : abs (j->y - end->y);
-
-      if (j->stroke == end->stroke && ((dot > 0 && far <= 2 * size) || (j->squared <= 2 && !end->dab && far <= size)))
-        return true;
-    }
-  return false;
-}
-
-static bool
-is_rim (const Bake *b, int x, int y)
-{
-  uint32_t k = CELD_AT (&b->part, x, y);
-
-  return (x > 0 && CELD_AT (&b->part, x - 1, y) != k) || (x < b->width - 1 && CELD_AT (&b->part, x + 1, y) != k) ||
-         (y > 0 && CELD_AT (&b->part, x, y - 1) != k) || (y < b->height - 1 && CELD_AT (&b->part, x, y + 1) != k);
-}
-
-static CeldStatus
-find_ends (const Bake *b, int reach, const CeldRun *run, End **ends, size_t *n)
-{
-  for (int y = 0; y < b->height; y++)
-    {
-      if (celd_step (run, (double) y / b->height) != CELD_OK)
-        return CELD_CANCELLED;
-      for (int x = 0; x < b->width; x++)
-        {
-          End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->part, x, y) };
-          End *grown;
-          int  met;
-
-          if (!end.stroke || !is_rim (b, x, y) || !find_target (b, reach, &end))
-            continue;
-          met = crossings (b, x, y, (int) b->breadth[end.stroke] + 3, end.stroke);
-          if (met > 1)
-            continue;
-          end.dab = met == 0;
-          grown = celd_grow (*ends, *n + 1, sizeof *grown);
-          if (!grown)
-            return CELD_NO_MEMORY;
-          *ends = grown;
-          grown[(*n)++] = end;
-        }
-    }
-  return CELD_OK;
-}
-
-/* Joins open ends; joints are kept at the front of the list of ends. */
-static CeldStatus
-join_ends (Bake *b, const CeldRun *run)
-{
-  End       *end = NULL;
-  size_t     n = 0, joints = 0;
-  int        reach = 4 + (b->width < b->height ? b->width : b->height) / 256;
-  CeldStatus status = find_ends (b, reach, run, &end, &n);
-
-  if (status == CELD_OK && n)
-    qsort (end, n, sizeof *end, by_squared_distance);
-  for (size_t i = 0; i < n && status == CELD_OK; i++)
-    {
-      End e = end[i];
-      int steps = abs (e.to_x - e.x) > abs (e.to_y - e.y) ? abs (e.to_x - e.x) : abs (e.to_y - e.y);
-
-      if (is_joined (b, &e, end, joints))
-        continue;
-      end[joints++] = e;
-      for (int s = 1; s <= steps; s++)
-        {
-          int x = e.x + (int) lround ((double) s * (e.to_x - e.x) / steps);
-          int y = e.y + (int) lround ((double) s * (e.to_y - e.y) / steps);
-
-          stamp (&b->wall, x, y, 1);
-        }
-    }
-  celd_free (end);
-  return status;
 }
 
 /* ------------------------------------------------------------------ blue strokes for depth */
@@ -477,9 +301,12 @@ study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const Celd
 {
   CeldStatus status = CELD_NO_MEMORY;
 
-  if (celd_plane_new (b->width, b->height, &b->ink) == CELD_OK && celd_plane_new (b->width, b->height, &b->value) == CELD_OK &&
-      celd_plane_new (b->width, b->height, &b->paper) == CELD_OK && celd_mask_new (b->width, b->height, &b->wall) == CELD_OK &&
-      celd_labels_new (b->width, b->height, &b->mark) == CELD_OK && celd_labels_new (b->width, b->height, &b->part) == CELD_OK)
+  if (celd_plane_new (b->width, b->height, &b->ink) == CELD_OK &&
+      celd_plane_new (b->width, b->height, &b->value) == CELD_OK &&
+      celd_plane_new (b->width, b->height, &b->paper) == CELD_OK &&
+      celd_mask_new (b->width, b->height, &b->wall) == CELD_OK &&
+      celd_labels_new (b->width, b->height, &b->mark) == CELD_OK &&
+      celd_labels_new (b->width, b->height, &b->part) == CELD_OK)
     status = celd_ink (drawing, mode, run, &b->ink);
   if (status != CELD_OK)
     return status;
@@ -516,7 +343,7 @@ build (Bake *b, CeldPurpose purpose, const CeldRun *run)
     b->mark.data[i] = b->wall.data[i];
   status = find_strokes (b, NULL);
   if (status == CELD_OK)
-    status = join_ends (b, &half);
+    status = celd_contour_join (b, &half);
   if (status == CELD_OK && purpose == CELD_FOR_DEPTH)
     status = soften (b, NULL);
   return status;

@@ -36,7 +36,7 @@ most (float a, float b)
 
 /* ------------------------------------------------------------------ noise */
 
-/* The standard deviation of the grain of the paper at one scale: median second difference along rows, where no ink is. */
+/* The standard deviation of the paper's grain at one scale: median second difference along rows, where no ink is. */
 static float
 noise_at (const CeldPlane *contrast, int step)
 {
@@ -296,8 +296,8 @@ is_solid (const CeldPlane *contrast, int x, int y)
   return true;
 }
 
-/* Does a pixel of contrast c show how dark its stroke is?  Without noise a grey one may be the rim of a black stroke,
- * unless it is inside a grey stroke, or fainter than a rim whose stroke is that near.  `around`: largest contrast near. */
+/* Does a pixel show how dark its stroke is?  Without noise a grey one may be the rim of a black stroke, unless it is
+ * inside a grey stroke, or fainter than a rim whose stroke is that near.  `around` is the largest contrast near. */
 static bool
 shows_level (const Work *w, int x, int y, float around)
 {

@@ -1,8 +1,8 @@
 /* What a drawing was made with: dark lines, chalk or a transparent layer; and how light its paper is.
  *
  * `auto` takes a layer of which little is opaque, and that little is thin and of one tone, for lines on a transparent
- * layer; and a picture whose frame is mostly dark, and which is mostly dark, for chalk.  Anything else is dark on light,
- * so that solid black areas stay ink while paper has the frame.
+ * layer; and a picture whose frame is mostly dark, and which is mostly dark, for chalk.  Anything else is dark on
+ * light, so that solid black areas stay ink while paper has the frame.
  *
  * The paper level is a high quantile in each tile; tiles without paper (solid ink) are filled in from those around;
  * between the tiles it is bilinear.  White paper comes out as exactly 1.  Cost: O(pixels).

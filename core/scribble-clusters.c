@@ -1,8 +1,8 @@
 /* Which colours of a painted layer are labels.
  *
  * The colours with most honest pixels come first; each takes in the colours within the radius of rounding, or of loss.
- * A cluster needs honest pixels of its own; in a lossy picture it needs an inside, too, for there a fringe may look like
- * a pencil line.  Rims and ends of strokes, which loss and resampling leave in a colour of their own, are given back
+ * A cluster needs honest pixels of its own; in a lossy picture it needs an inside, too, for there a fringe may look
+ * like a pencil line.  Rims and ends of strokes, left in a colour of their own by loss and resampling, are given back
  * to the stroke that they keep touching.
  * Cost: a sort of the colours; clusters are found through cells of colour space, O(1) each.
  *
@@ -183,7 +183,7 @@ absorb_satellites (Reading *r)
   return CELD_OK;
 }
 
-/* Honest enough to be a label?  In a noisy picture a fringe may pass for a pencil line, so there a label needs an inside. */
+/* Honest enough to be a label?  In a lossy picture a fringe may pass for a pencil line: there it needs an inside. */
 static bool
 is_label (const Reading *r, const Cluster *k)
 {

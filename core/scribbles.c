@@ -1,10 +1,10 @@
 /* Scribbles as an artist paints them -> one label a colour.
  *
- * A pixel is FRINGE when it lies in a thin run, or on a ramp, between two other colours, and its own colour lies between
- * theirs too: that is what soft brushes, antialiasing, overlaps and resampling make, while a pencil line one pixel wide
- * has the same colour on both its sides.  Colours with honest pixels are labels (scribble-clusters.c); every other
- * pixel goes to the label nearby whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its
- * full colour is taken by its strongest one.
+ * A pixel is FRINGE when it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
+ * between theirs too: that is what soft brushes, antialiasing, overlaps and resampling make, while a pencil line one
+ * pixel wide has the same colour on both its sides.  Colours with honest pixels are labels (scribble-clusters.c);
+ * every other pixel goes to the label nearby whose colour is nearest.  A line on opaque paper that is too thin to have
+ * a pixel of its full colour is taken by its strongest one.
  *
  * Transparent counts as a colour that is unlike every other.
  * Cost: O(pixels); 9 bytes a pixel, and 8 more for each pixel that has to be handed to a neighbour.
@@ -82,8 +82,12 @@ judge_row (void *data, int y)
       else if (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width))
         r->kind[i] = FRINGE;
       else
-        r->kind[i] = (left && differ (r, p[-1], *p)) || (right && differ (r, p[1], *p)) ||
-                     (above && differ (r, p[-(ptrdiff_t) width], *p)) || (below && differ (r, p[width], *p)) ? HONEST : CORE;
+        {
+          bool rim = (left && differ (r, p[-1], *p)) || (right && differ (r, p[1], *p)) ||
+                     (above && differ (r, p[-(ptrdiff_t) width], *p)) || (below && differ (r, p[width], *p));
+
+          r->kind[i] = rim ? HONEST : CORE;
+        }
     }
 }
 
