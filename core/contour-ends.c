@@ -133,7 +133,7 @@ celd_contour_join (Bake *b, const CeldRun *run)
 {
   End       *end = NULL;
   size_t     n = 0, joints = 0;
-  int        reach = 4 + (b->width < b->height ? b->width : b->height) / 256;
+  int        reach = 5 + (b->width < b->height ? b->width : b->height) / 256;
   CeldStatus status = find_ends (b, reach, run, &end, &n);
 
   if (status == CELD_OK && n)

@@ -265,7 +265,7 @@ sizes (void)
   clear ();
   rectangle (0, 0, 60, 60, red);
   CHECK (celd_contours_bake (&drawing, &paint, CELD_FOR_DEPTH, CELD_INK_AUTO, NULL, &drawing) == CELD_BAD_SIZE);
-  for (int w = 1; w < 40; w += 6)
+  for (int w = 2; w < 40; w += 6)
     for (int h = 1; h < 40; h += 6)
       {
         clear ();
