@@ -7,25 +7,6 @@
  */
 #include "laplace.h"
 
-static uint32_t
-root_of (uint32_t *parent, uint32_t i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-static void
-unite (uint32_t *parent, uint32_t i, uint32_t j)
-{
-  i = root_of (parent, i);
-  j = root_of (parent, j);
-  if (i < j)
-    parent[j] = i;
-  else
-    parent[i] = j;
-}
-
 /* The component of each pixel, by its root. */
 static void
 join_pixels (const CeldLaplace *l, uint32_t *parent)
@@ -37,9 +18,9 @@ join_pixels (const CeldLaplace *l, uint32_t *parent)
   for (size_t i = 0; i < n; i++)
     {
       if (i % w + 1 < w && l->east[i] > 0)
-        unite (parent, (uint32_t) i, (uint32_t) i + 1);
+        celd_join (parent, (uint32_t) i, (uint32_t) i + 1);
       if (i + w < n && l->south[i] > 0)
-        unite (parent, (uint32_t) i, (uint32_t) (i + w));
+        celd_join (parent, (uint32_t) i, (uint32_t) (i + w));
     }
 }
 
@@ -52,10 +33,10 @@ number_floating (const CeldLaplace *l, uint32_t *parent, uint32_t *number)
 
   for (size_t i = 0; i < n; i++)
     if (l->diagonal[i] > 0)
-      number[root_of (parent, (uint32_t) i)] = CELD_NO_NODE; /* held */
+      number[celd_root (parent, (uint32_t) i)] = CELD_NO_NODE; /* held */
   for (size_t i = 0; i < n; i++) /* a root comes before its members, and is numbered when the first of them comes */
     {
-      uint32_t root = root_of (parent, (uint32_t) i);
+      uint32_t root = celd_root (parent, (uint32_t) i);
 
       if (root == i)
         continue;

@@ -1,9 +1,10 @@
 /* The coarse levels of the Laplacian solver: component-split quadtree aggregation.
  *
- * A node of level l is one strongly connected component of pixels inside one cell of 2^l x 2^l pixels, so that no wall,
- * however thin, is averaged over.  A node whose links are all weak beside those of its strongest neighbour hangs on that
+ * A node of level l is one strongly connected component of pixels inside one cell of 2^l x 2^l pixels: no wall, however
+ * thin, is averaged over.  A node whose links are all weak beside those of its strongest neighbour hangs on that
  * neighbour's aggregate as a leaf and joins nothing else.  Prolongation is constant on aggregates, so that coarse
- * weights are plain sums, never differences.
+ * weights are plain sums, never differences.  Nodes without an edge have no coarser node: relaxation solves them.
+ *
  * Cost: O(pixels); about 25 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -98,26 +99,6 @@ pixel_graph (int width, int height, const float *east, const float *south, const
 
 /* ------------------------------------------------------------------ aggregation */
 
-static uint32_t
-root_of (uint32_t *parent, uint32_t i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/* The smaller index stays the root, so that aggregates keep the order of their first nodes. */
-static void
-unite (uint32_t *parent, uint32_t i, uint32_t j)
-{
-  i = root_of (parent, i);
-  j = root_of (parent, j);
-  if (i < j)
-    parent[j] = i;
-  else
-    parent[i] = j;
-}
-
 static bool
 same_cell (const CeldLevel *level, uint32_t i, uint32_t j, int doublings)
 {
@@ -138,8 +119,39 @@ strongest_link (const CeldLevel *level, uint32_t i)
   return best;
 }
 
+/* Are all links of node i weak beside those of its strongest neighbour?  link: the strongest link of each node. */
+static bool
+is_leaf (const CeldLevel *level, const uint32_t *link, float strong, uint32_t i)
+{
+  return level->weight[link[i]] < strong * level->weight[link[level->neighbour[link[i]]]];
+}
+
+/* Joins node i with those of its neighbours that belong to its aggregate. */
+static void
+join_node (CeldLevel *level, const uint32_t *link, int doublings, float strong, uint32_t i)
+{
+  uint32_t *parent = level->coarser;
+  uint32_t  best   = level->neighbour[link[i]];
+  float     own    = level->weight[link[i]];
+
+  if (is_leaf (level, link, strong, i))
+    {
+      if (same_cell (level, i, best, doublings))
+        celd_join (parent, i, best);
+      return;
+    }
+  for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
+    {
+      uint32_t j = level->neighbour[e];
+
+      if (j > i && same_cell (level, i, j, doublings) && level->weight[e] >= strong * own &&
+          level->weight[e] >= strong * level->weight[link[j]] && !is_leaf (level, link, strong, j))
+        celd_join (parent, i, j);
+    }
+}
+
 /* Fills level->coarser with the aggregates inside cells that are 2^doublings times larger; returns their number.
- * link: workspace of n, the strongest link of each node. */
+ * link: workspace of n. */
 static uint32_t
 aggregate (CeldLevel *level, int doublings, float strong, uint32_t *link)
 {
@@ -151,38 +163,13 @@ aggregate (CeldLevel *level, int doublings, float strong, uint32_t *link)
       link[i]   = level->start[i] < level->start[i + 1] ? strongest_link (level, i) : CELD_NO_NODE;
     }
   for (uint32_t i = 0; i < level->n; i++)
-    {
-      if (link[i] == CELD_NO_NODE)
-        continue;
-
-      float    own  = level->weight[link[i]];
-      uint32_t best = level->neighbour[link[i]];
-
-      if (own < strong * level->weight[link[best]]) /* a leaf */
-        {
-          if (same_cell (level, i, best, doublings))
-            unite (parent, i, best);
-          continue;
-        }
-      for (uint32_t e = level->start[i]; e < level->start[i + 1]; e++)
-        {
-          uint32_t j     = level->neighbour[e];
-          float    other = level->weight[link[j]];
-
-          if (j > i && level->weight[e] >= strong * (own > other ? own : other) && same_cell (level, i, j, doublings))
-            unite (parent, i, j);
-        }
-    }
-  for (uint32_t i = 0; i < level->n; i++) /* a root comes before its members */
-    if (link[i] == CELD_NO_NODE)
-      parent[i] = CELD_NO_NODE;
-    else if (parent[i] == i)
-      link[i] = count++;
-    else
-      link[i] = link[root_of (parent, i)];
+    if (link[i] != CELD_NO_NODE)
+      join_node (level, link, doublings, strong, i);
+  for (uint32_t i = 0; i < level->n; i++) /* numbers go to roots first, which come before their members */
+    if (link[i] != CELD_NO_NODE)
+      link[i] = parent[i] == i ? count++ : link[celd_root (parent, i)];
   for (uint32_t i = 0; i < level->n; i++)
-    if (parent[i] != CELD_NO_NODE)
-      parent[i] = link[i];
+    parent[i] = link[i];
   return count;
 }
 
@@ -201,8 +188,34 @@ list_members (const CeldLevel *fine, uint32_t n, uint32_t *first, uint32_t *memb
       member[--first[fine->coarser[i]]] = i;
 }
 
-/* Edges between aggregates: sums of the weights of the edges between their members.  With coarse->neighbour NULL they
- * are only counted.  place: workspace of n, the position of the edge to each aggregate in the row that is being made. */
+/* Adds the edges of one node of `fine` to those of its aggregate c, the last row of `coarse` so far; returns how many
+ * edges there are now.  place: see sum_edges. */
+static uint32_t
+sum_node (const CeldLevel *fine, uint32_t i, uint32_t c, uint32_t edges, uint32_t *place, CeldLevel *coarse)
+{
+  for (uint32_t e = fine->start[i]; e < fine->start[i + 1]; e++)
+    {
+      uint32_t d = fine->coarser[fine->neighbour[e]];
+
+      if (d == c)
+        continue;
+      if (place[d] == CELD_NO_NODE || place[d] < coarse->start[c])
+        {
+          place[d] = edges++;
+          if (coarse->neighbour)
+            {
+              coarse->neighbour[place[d]] = d;
+              coarse->weight[place[d]]    = 0;
+            }
+        }
+      if (coarse->neighbour)
+        coarse->weight[place[d]] += fine->weight[e];
+    }
+  return edges;
+}
+
+/* Edges between aggregates: sums of the weights of the edges between their members; returns how many there are.  With
+ * coarse->neighbour NULL they are only counted.  place: workspace of n, where the edge to each aggregate stands. */
 static uint32_t
 sum_edges (const CeldLevel *fine, const uint32_t *first, const uint32_t *member, uint32_t *place, CeldLevel *coarse)
 {
@@ -213,24 +226,7 @@ sum_edges (const CeldLevel *fine, const uint32_t *first, const uint32_t *member,
   for (uint32_t c = 0; c < coarse->n; c++)
     {
       for (uint32_t m = first[c]; m < first[c + 1]; m++)
-        for (uint32_t e = fine->start[member[m]]; e < fine->start[member[m] + 1]; e++)
-          {
-            uint32_t d = fine->coarser[fine->neighbour[e]];
-
-            if (d == c)
-              continue;
-            if (place[d] == CELD_NO_NODE || place[d] < coarse->start[c])
-              {
-                place[d] = edges++;
-                if (coarse->neighbour)
-                  {
-                    coarse->neighbour[place[d]] = d;
-                    coarse->weight[place[d]]    = 0;
-                  }
-              }
-            if (coarse->neighbour)
-              coarse->weight[place[d]] += fine->weight[e];
-          }
+        edges = sum_node (fine, member[m], c, edges, place, coarse);
       coarse->start[c + 1] = edges;
     }
   return edges;

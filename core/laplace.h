@@ -7,14 +7,37 @@
 
 #include "private.h"
 
+/* ------------------------------------------------------------------ sets of nodes that are joined (union-find) */
+
+/* The representative of node i's set; parent[i] = i to begin with. */
+static inline uint32_t
+celd_root (uint32_t *parent, uint32_t i)
+{
+  while (parent[i] != i)
+    i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/* Joins two sets.  The smaller root stays one, so that a root comes before its members. */
+static inline void
+celd_join (uint32_t *parent, uint32_t i, uint32_t j)
+{
+  i = celd_root (parent, i);
+  j = celd_root (parent, j);
+  if (i < j)
+    parent[j] = i;
+  else
+    parent[i] = j;
+}
+
 /* ------------------------------------------------------------------ laplace-band.c: elimination of a narrow graph */
 
 /* Nodes 0 .. n-1, edges only between i and i+1 .. i+band. */
 typedef struct
 {
   uint32_t n, band;
-  double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; after elimination divided by pivot i */
-  double  *sink;                /* diagonal beyond the edge weights; after elimination 1 / pivot, 0 for a floating node */
+  double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; eliminated: divided by pivot i */
+  double  *sink;                /* diagonal beyond the edge weights; eliminated: 1 / pivot, 0 for a floating node */
   double  *x;                   /* right-hand side in, solution out */
 } CeldBand;
 
@@ -23,7 +46,7 @@ void       celd_band_eliminate (CeldBand *matrix);
 void       celd_band_solve (CeldBand *matrix);
 void       celd_band_clear (CeldBand *matrix);                            /* accepts a zeroed one */
 
-/* ------------------------------------------------------------------ laplace-levels.c: the coarse levels; laplace-cycle.c: their cycle */
+/* ------------------------------------------------------------------ laplace-levels.c, laplace-cycle.c: coarse levels */
 
 #define CELD_NO_NODE UINT32_MAX
 
@@ -67,7 +90,7 @@ struct CeldLaplace
   const float *east, *south, *diagonal;   /* borrowed */
   float       *inverse;                   /* 1 / whole diagonal; 0 for a floating single pixel */
   float       *nothing;                   /* a row of edges of weight 0, above the first and below the last row */
-  uint32_t    *floating;                  /* of each pixel: its floating component, 1 .. n_floating; else 0; NULL if there is none */
+  uint32_t    *floating;                  /* of each pixel: its floating component, 1 .. n_floating, or 0; NULL if none */
   size_t      *floating_size;             /* pixels of each floating component */
   uint32_t     n_floating;
   bool         direct;                    /* by elimination of `band`, without levels */

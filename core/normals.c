@@ -2,13 +2,13 @@
  *
  * At a depth discontinuity the nearer side ends: there its normal lies in the picture and points outward.  The farther
  * side goes on behind and gets nothing.  n_x and n_y are harmonic in between, each by itself, and n_z follows from unit
- * length; on a disc that is exactly a hemisphere.  Virtual borders neither cut nor give normals, nor do their ends, where
- * they run into the ink of another contour: both sides of an outline must be apart all around.  The frame of the
+ * length; on a disc that is exactly a hemisphere.  Virtual borders neither cut nor give normals; nor do their ends,
+ * where they run into the ink of another contour: both sides of an outline must be apart all around.  The frame of the
  * picture gives none.  What has no outline of its own faces the viewer: the paper stays flat behind a figure, also
  * where a gap in the figure's contour joins both.
  *
- * The outline runs on edges of pixels, half a pixel from the centres that it holds, hence the coupling 2.  Its direction
- * comes from the first moment of the matte "at least as near" under a Gaussian round the edge's middle: steps of
+ * The outline runs on edges of pixels, half a pixel from the centres that it holds, hence the coupling 2.  Its
+ * direction comes from the first moment of the matte "at least as near" under a Gaussian round the edge's middle: steps of
  * pixels average out, and the outline goes on straight where something nearer hides it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later

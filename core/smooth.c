@@ -46,20 +46,20 @@ weight (const CeldPlane *ink, float level_p, float level_q, int x0, int y0, int 
 }
 
 CeldStatus
-celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run, float *east, float *south)
+celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
+                    float *east, float *south)
 {
-  int w = ink->width, h = ink->height;
+  int    w = ink->width, h = ink->height;
+  size_t i = 0, below = (size_t) w;
 
   for (int y = 0; y < h; y++)
     {
-      size_t i = (size_t) y * (size_t) w;
-
       if (y % 64 == 0 && celd_step (run, (double) y / h) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < w; x++, i++)
         {
           east[i]  = x + 1 < w ? weight (ink, level[i], level[i + 1], x - 1, y - 1, x + 2, y + 1, threshold) : 0;
-          south[i] = y + 1 < h ? weight (ink, level[i], level[i + (size_t) w], x - 1, y - 1, x + 1, y + 2, threshold) : 0;
+          south[i] = y + 1 < h ? weight (ink, level[i], level[i + below], x - 1, y - 1, x + 1, y + 2, threshold) : 0;
         }
     }
   return CELD_OK;

@@ -2,64 +2,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "check.h"
-#include "private.h"
+#include "systems.h"
 
 #include <float.h>
-
-/* A system of the test, its start and its right-hand sides. */
-typedef struct
-{
-  int    w, h, nrhs;
-  float *east, *south, *diagonal, *b, *x;
-} System;
-
-static size_t
-pixels (const System *s)
-{
-  return (size_t) s->w * (size_t) s->h;
-}
-
-static System
-system_new (int w, int h, int nrhs, float weight)
-{
-  size_t n = (size_t) w * (size_t) h;
-  System s = { w, h, nrhs, malloc (n * sizeof (float)), malloc (n * sizeof (float)), calloc (n, sizeof (float)),
-               calloc (n * (size_t) nrhs, sizeof (float)), calloc (n * (size_t) nrhs, sizeof (float)) };
-
-  for (size_t i = 0; i < n; i++)
-    s.east[i] = s.south[i] = weight;
-  return s;
-}
-
-static void
-system_free (System *s)
-{
-  free (s->east);
-  free (s->south);
-  free (s->diagonal);
-  free (s->b);
-  free (s->x);
-}
-
-static void
-pin (System *s, const uint8_t *fixed, const float *value)
-{
-  celd_lap_pin (s->w, s->h, fixed, s->nrhs, value, s->east, s->south, s->diagonal, s->b);
-}
-
-static CeldSolve
-solve (System *s, double tolerance)
-{
-  CeldLaplace *l = NULL;
-  CeldSolve    how = { 0 };
-
-  CHECK (celd_lap_setup (s->w, s->h, s->east, s->south, s->diagonal, NULL, &l) == CELD_OK);
-  if (l)
-    CHECK (celd_lap_solve (l, s->nrhs, s->b, s->x, tolerance, NULL, &how) == CELD_OK);
-  celd_lap_free (l);
-  return how;
-}
 
 /* Exact solution by Cholesky in a band, for systems without floating components. */
 static double *
@@ -129,38 +74,6 @@ error_of (const System *s)
     }
   free (x);
   return worst / fmax (high - low, 1e-3 * fabs (high));
-}
-
-/* Weights from nothing over 1e-6 to 1, walls of one pixel, and pins; every component is held by a small diagonal. */
-static System
-random_system (int w, int h, uint32_t *seed)
-{
-  static const float choice[] = { 0, 1e-6f, 1e-3f, 0.1f, 0.5f, 1, 1, 1 };
-  System             s = system_new (w, h, 1, 1);
-  uint8_t           *fixed = calloc (pixels (&s), 1);
-  float             *value = calloc (pixels (&s), sizeof *value);
-  int                kind = (int) check_random (seed, 3);
-
-  for (size_t i = 0; i < pixels (&s); i++)
-    {
-      int x = (int) i % w, y = (int) i / w, wall = (x + y * 2) % 23 == 0 || (kind == 1 && y % 17 == 0);
-
-      if (kind == 0)
-        {
-          s.east[i]  = choice[check_random (seed, 8)];
-          s.south[i] = choice[check_random (seed, 8)];
-        }
-      else if (wall)
-        s.east[i] = s.south[i] = check_random (seed, 40) ? 1e-6f : 0.3f;
-      fixed[i]      = check_random (seed, 400) == 0;
-      value[i]      = (float) check_random (seed, 5);
-      s.diagonal[i] = kind == 0 ? 1e-5f : 0;
-    }
-  fixed[0] = fixed[pixels (&s) - 1] = 1;
-  pin (&s, fixed, value);
-  free (fixed);
-  free (value);
-  return s;
 }
 
 static void
@@ -268,49 +181,6 @@ a_gap_in_a_wall_lets_depth_through_smoothly (void)
 }
 
 static void
-a_floating_component_keeps_the_mean_of_its_start (void)
-{
-  static const int size[][2] = { { 1, 1 }, { 1, 50 }, { 30, 20 }, { 250, 220 } };
-
-  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
-    {
-      System   s = system_new (size[k][0], size[k][1], 1, 1);
-      uint32_t seed = 5;
-      double   left = 0, n = 0;
-      int      wall = s.w / 2;
-
-      for (int y = 0; y < s.h; y++)
-        for (int x = 0; x < s.w; x++)
-          {
-            s.x[y * s.w + x] = 3 + (float) check_random (&seed, 100) / 100;
-            if (x == wall)
-              s.east[y * s.w + x] = 0;
-            left += x <= wall ? (double) s.x[y * s.w + x] : 0;
-            n    += x <= wall;
-          }
-      CHECK (solve (&s, 1e-5).converged);
-      for (int y = 0; y < s.h; y++)
-        for (int x = 0; x <= wall; x++)
-          NEAR (s.x[y * s.w + x], left / n, 1e-4);
-      system_free (&s);
-    }
-}
-
-static void
-a_floating_component_bends_under_its_right_hand_side (void)
-{
-  System s = system_new (130, 110, 1, 1);
-
-  s.b[0] = 1;
-  s.b[129] = -1;
-  CHECK (solve (&s, 1e-6).converged);
-  for (int y = 0; y < s.h; y++)
-    NEAR (s.x[y * s.w] + s.x[y * s.w + 129], 0, 2e-5);
-  NEAR ((double) s.x[0] * 2 - (double) s.x[1] - (double) s.x[130], 1, 1e-3);
-  system_free (&s);
-}
-
-static void
 several_right_hand_sides_equal_single_ones (void)
 {
   System   s = system_new (140, 120, 3, 1);
@@ -345,54 +215,6 @@ several_right_hand_sides_equal_single_ones (void)
   system_free (&s);
 }
 
-/* A host that runs the pieces backwards, and one that cancels. */
-static void
-backwards (void *host, int n, void (*body) (void *data, int i), void *data)
-{
-  (void) host;
-  while (n-- > 0)
-    body (data, n);
-}
-
-typedef struct { int left; double last; bool fell; } Patience;
-
-static bool
-impatient (void *host, double done)
-{
-  Patience *p = host;
-
-  p->fell = p->fell || done < p->last || done > 1;
-  p->last = done;
-  return p->left-- > 0;
-}
-
-static void
-threads_change_nothing_and_cancelling_works (void)
-{
-  uint32_t     seed = 23;
-  System       s = random_system (150, 170, &seed);
-  size_t       n = pixels (&s);
-  float       *x = calloc (n, sizeof *x);
-  Patience     patience = { 1000, 0, false };
-  CeldRun      run = { impatient, backwards, &patience };
-  CeldLaplace *l = NULL;
-
-  solve (&s, 1e-4);
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &l) == CELD_OK);
-  CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &run, NULL) == CELD_OK);
-  CHECK (memcmp (x, s.x, n * sizeof *x) == 0);
-  CHECK (!patience.fell);
-  patience = (Patience) { 2, 0, false };
-  memset (x, 0, n * sizeof *x);
-  CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &run, NULL) == CELD_CANCELLED);
-  celd_lap_free (l);
-  patience = (Patience) { 1, 0, false };
-  l = NULL;
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, &run, &l) == CELD_CANCELLED && !l);
-  free (x);
-  system_free (&s);
-}
-
 int
 main (void)
 {
@@ -401,9 +223,6 @@ main (void)
   RUN (between_two_columns_it_is_a_ramp);
   RUN (a_closed_wall_of_one_pixel_keeps_both_sides_apart);
   RUN (a_gap_in_a_wall_lets_depth_through_smoothly);
-  RUN (a_floating_component_keeps_the_mean_of_its_start);
-  RUN (a_floating_component_bends_under_its_right_hand_side);
   RUN (several_right_hand_sides_equal_single_ones);
-  RUN (threads_change_nothing_and_cancelling_works);
   return DONE;
 }

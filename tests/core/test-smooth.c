@@ -106,7 +106,8 @@ a_closed_contour_does_not_leak (void)
     {
       double    width = 2 + round % 5;
       Shape     s = { round % 3, 48 + check_random (&seed, 100) / 100., 45 + check_random (&seed, 100) / 100.,
-                      26 + check_random (&seed, 100) / 50., round % 2 ? check_random (&seed, 1000) / 500. : round * 0.7853981634 };
+                      26 + check_random (&seed, 100) / 50.,
+                      round % 2 ? check_random (&seed, 1000) / 500. : round * 0.7853981634 };
       CeldPlane ink = draw (&s, W, H, width);
 
       for (int border = -1; border <= 1; border++) /* at the inner edge, in the middle, expanded */

@@ -1,0 +1,73 @@
+/* The solver on the host's threads, and under a host that cancels.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "systems.h"
+
+/* A host that runs the pieces backwards, and one that cancels. */
+static void
+backwards (void *host, int n, void (*body) (void *data, int i), void *data)
+{
+  (void) host;
+  while (n-- > 0)
+    body (data, n);
+}
+
+typedef struct { int left; double last; bool fell; } Patience;
+
+static bool
+impatient (void *host, double done)
+{
+  Patience *p = host;
+
+  p->fell = p->fell || done < p->last || done > 1;
+  p->last = done;
+  return p->left-- > 0;
+}
+
+static void
+threads_change_nothing (void)
+{
+  uint32_t     seed = 23;
+  System       s = random_system (150, 170, &seed);
+  float       *x = calloc (pixels (&s), sizeof *x);
+  Patience     patience = { 1000, 0, false };
+  CeldRun      run = { impatient, backwards, &patience };
+  CeldLaplace *l = NULL;
+
+  solve (&s, 1e-4);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &run, NULL) == CELD_OK);
+  CHECK (memcmp (x, s.x, pixels (&s) * sizeof *x) == 0);
+  CHECK (!patience.fell);
+  celd_lap_free (l);
+  free (x);
+  system_free (&s);
+}
+
+static void
+a_host_can_cancel (void)
+{
+  uint32_t     seed = 23;
+  System       s = random_system (150, 170, &seed);
+  Patience     patience = { 2, 0, false };
+  CeldRun      run = { impatient, NULL, &patience };
+  CeldLaplace *l = NULL;
+
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_solve (l, 1, s.b, s.x, 1e-9, &run, NULL) == CELD_CANCELLED);
+  CHECK (isfinite (s.x[0]));
+  celd_lap_free (l);
+  patience = (Patience) { 1, 0, false };
+  l = NULL;
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, &run, &l) == CELD_CANCELLED && !l);
+  system_free (&s);
+}
+
+int
+main (void)
+{
+  RUN (threads_change_nothing);
+  RUN (a_host_can_cancel);
+  return DONE;
+}
