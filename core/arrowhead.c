@@ -1,10 +1,10 @@
 /* Arrowheads: where is the tail of a stroke, and where its tip?
  *
  * A stroke is followed from each of its extremities.  One of them is the tail if the stroke keeps the width w of its
- * shaft up to a part that reaches out on both sides, with lines from its tip back to both barbs and nothing beside them.
- * Nothing is asked about what lies between the lines, so open and filled heads are the same; antialiasing, unsteady hands
- * and bent shafts are allowed for.  If two extremities look like tails of different arrows, or none does, there is no
- * answer.  A dot at the end of a shaft is found in the same way: a filled disc instead of the lines.
+ * shaft up to a part that reaches out on both sides, with lines from its tip back to both barbs and nothing beside
+ * them.  Nothing is asked about what lies between the lines, so open and filled heads are the same; antialiasing,
+ * unsteady hands and bent shafts are allowed for.  If two extremities look like tails of different arrows, or none
+ * does, there is no answer.  A dot at the end of a shaft is found in the same way: a filled disc instead of the lines.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -45,7 +45,9 @@ sideways (const View *view, CeldPoint p)
 static CeldPoint
 place (const View *view, double s, double v)
 {
-  return (CeldPoint) { view->origin.x + s * view->axis.x - v * view->axis.y, view->origin.y + s * view->axis.y + v * view->axis.x };
+  CeldPoint o = view->origin, a = view->axis;
+
+  return (CeldPoint) { o.x + s * a.x - v * a.y, o.y + s * a.y + v * a.x };
 }
 
 /* How far the view reaches between two values of s.  `right` is negative sideways. */
@@ -157,15 +159,16 @@ falls_back (const Extent *e, double w)
 static bool
 is_line (const CeldTrail *trail, CeldPoint from, CeldPoint to)
 {
-  int n = (int) hypot (to.x - from.x, to.y - from.y) + 1, painted = 0;
+  double dx = to.x - from.x, dy = to.y - from.y;
+  int    n  = (int) hypot (dx, dy) + 1, painted = 0;
 
   for (int i = 0; i <= n; i++)
-    painted += celd_trail_painted (trail, (CeldPoint) { from.x + (to.x - from.x) * i / n, from.y + (to.y - from.y) * i / n });
+    painted += celd_trail_painted (trail, (CeldPoint) { from.x + dx * i / n, from.y + dy * i / n });
   return 5 * painted >= 4 * (n + 1);
 }
 
-/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and is
- * nothing outside of the triangle?  That holds for open and for filled heads. */
+/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and
+ * is nothing outside of the triangle?  That holds for open and for filled heads. */
 static bool
 is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double w)
 {
@@ -200,8 +203,8 @@ is_dot (const Extent *e)
   return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.66 * breadth * depth;
 }
 
-/* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is askew.
- * The answer is what the view shows then. */
+/* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is
+ * askew.  The answer is what the view shows then. */
 static Extent
 turn_to_tip (const CeldTrail *trail, View *view)
 {

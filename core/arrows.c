@@ -1,12 +1,12 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
- * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the commonest
- * colour) is one arrow.  Its form decides, its colour only says whether registration may tear there (blue).
+ * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
+ * commonest colour) is one arrow.  Its form decides, its colour only says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)
- *   fade   the first and the last third differ in opacity, with the middle one between: the opaque end is nearer.  Such a
- *          stroke is read down to an alpha of FADED_OPACITY: its faint end is the farther end
+ *   fade   the first and the last third differ in opacity, with the middle one between: the opaque end is nearer.
+ *          Such a stroke is read down to an alpha of FADED_OPACITY: its faint end is the farther end
  *   taper  the same with their width: the thick end is nearer
  *
  * Strokes that do not say clearly are reported, never guessed.  Costs a few sweeps over the pixels of each stroke.
@@ -230,7 +230,8 @@ gather_pixels (Strokes *s)
     }
   s->pixel = celd_alloc (all, sizeof *s->pixel);
   s->trail = (CeldTrail) {
-    .width = s->strokes.width, .height = s->strokes.height, .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
+    .width = s->strokes.width, .height = s->strokes.height,
+    .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
   };
   if (!next || !s->pixel || !s->trail.distance || !s->trail.front)
     {
@@ -241,8 +242,12 @@ gather_pixels (Strokes *s)
     s->trail.distance[i] = INFINITY;
   for (int y = 0; y < s->strokes.height; y++)
     for (int x = 0; x < s->strokes.width; x++)
-      if (CELD_AT (&s->strokes, x, y))
-        s->pixel[next[CELD_AT (&s->strokes, x, y) - 1]++] = (uint32_t) ((size_t) (y + 1) * (width + 2) + (size_t) x + 1);
+      {
+        uint32_t k = CELD_AT (&s->strokes, x, y);
+
+        if (k)
+          s->pixel[next[k - 1]++] = (uint32_t) ((size_t) (y + 1) * (width + 2) + (size_t) x + 1);
+      }
   celd_free (next);
   return CELD_OK;
 }
@@ -254,7 +259,8 @@ unclear_arrow (const CeldTrail *trail)
   uint32_t middle = trail->pixel[trail->n / 2];
 
   return (CeldProblem) {
-    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .x = celd_trail_x (trail, middle), .y = celd_trail_y (trail, middle), .relation = CELD_NO_INDEX,
+    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
+    .x = celd_trail_x (trail, middle), .y = celd_trail_y (trail, middle),
   };
 }
 

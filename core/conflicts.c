@@ -38,6 +38,7 @@ search_end (Search *s)
   celd_free (s->from);
   celd_free (s->seen);
   celd_free (s->goal);
+  *s = (Search) { 0 };
 }
 
 /* Also after a failure search_end is to follow. */

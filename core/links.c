@@ -3,14 +3,13 @@
  * A point means the label of its pixel.  A point on ink (I < 1/2) means the nearest paper within one stroke width:
  * labels end somewhere inside the ink, so the pixel's own label says little there.  The stroke width is the median run
  * of ink along rows and columns; farther from paper than that it is no stroke but a black area with a label of its own.
- * A colour means every label that has it; colours may be off by 2 of 255 (colour management), and then the nearest counts.
- * An equality inside one region holds by itself and is kept without a word; an inequality there is reported.
+ * A colour means every label that has it; colours may be off by 2 of 255 (colour management), and then the nearest
+ * counts.  An equality inside one region holds by itself and is kept without a word; an inequality there is reported.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #define COLOUR_ERROR 2

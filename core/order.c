@@ -5,9 +5,9 @@
  * the relations allow, levels are the same whatever the order of equal choices, and two unrelated regions are both
  * directly in front of the background.  Linear time behind conflicts.c, which leaves no oriented loop.
  *
- * Choices where the paper is silent: gaps are whole levels, rounded up, at most LARGEST_GAP.  A label without a pixel (a
- * colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the level
- * of what is behind it, so that the levels that can be seen have no holes.
+ * Choices where the paper is silent: gaps are whole levels, rounded up, at most LARGEST_GAP.  A label without a pixel
+ * (a colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the
+ * level of what is behind it, so that the levels that can be seen have no holes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -250,9 +250,10 @@ report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalet
 
   for (size_t i = 0; i < order->n_cycles && status == CELD_OK; i++)
     {
-      CeldProblem problem = { .kind = CELD_PROBLEM_CONTRADICTION, .other = (uint32_t) i, .relation = order->cycle[i].item[0] };
+      size_t      left    = order->cycle[i].item[0];
+      CeldProblem problem = { .kind = CELD_PROBLEM_CONTRADICTION, .other = (uint32_t) i, .relation = left };
 
-      celd_relation_place (labels, palette, &relations->item[problem.relation], &problem.x, &problem.y);
+      celd_relation_place (labels, palette, &relations->item[left], &problem.x, &problem.y);
       status = celd_problem_add (problems, problem);
     }
   return status;

@@ -15,7 +15,7 @@ typedef struct
 {
   const CeldRelations *relations;
   size_t               n_labels, n_links, n_ends;
-  size_t              *first; /* farther labels of link i: end[first[2i]] .. ; nearer ones: end[first[2i+1]] .. ; up to first[2i+2] */
+  size_t              *first; /* of link i: farther labels from end[first[2i]] on, nearer ones from end[first[2i+1]] on */
   uint32_t            *end;   /* label - 1 */
   bool                *kept;  /* does link i count? */
 } CeldGraph;
@@ -41,6 +41,7 @@ CeldStatus celd_graph_index (const CeldGraph *graph, CeldSide side, CeldIndex *i
 CeldStatus celd_graph_settle (CeldGraph *graph, const CeldRun *run, CeldOrder *order);
 
 /* Where an artist finds a relation: an end inside the drawing; -1,-1 if none is. */
-void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation, int *x, int *y);
+void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation,
+                          int *x, int *y);
 
 #endif

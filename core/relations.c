@@ -30,7 +30,7 @@ typedef struct
 /* A term, and where it stands. */
 typedef struct { CeldTerm term; int line, column; } PlacedTerm;
 
-/* Past one character of the grammar, which is ASCII: at any other character reading ends, so columns count characters. */
+/* Past one character of the grammar.  They are all ASCII: reading ends at any other, so columns count characters. */
 static void
 advance (Reader *r)
 {

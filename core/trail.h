@@ -16,7 +16,7 @@ typedef struct { double count, x, y; } CeldFront;
 typedef struct
 {
   int             width, height; /* of the picture */
-  float          *distance;      /* such a plane: from the start along the stroke, in pixels; infinite off the strokes */
+  float          *distance;      /* such a plane: from the start along the stroke, in pixels; infinite off it */
   const uint32_t *pixel;         /* of the stroke, in reading order */
   size_t          n;
   CeldFront      *front;         /* front[i]: pixels with distance < i; room for 3 n / 2 + 4 */

@@ -96,7 +96,8 @@ opacity_at (const Arrow *a, Point p)
       opacity = 1;
   if (a->head == FILLED)
     {
-      double s = side_of (p, a->tip, a->barb[0]), u = side_of (p, a->barb[0], a->barb[1]), v = side_of (p, a->barb[1], a->tip);
+      double s = side_of (p, a->tip, a->barb[0]), u = side_of (p, a->barb[0], a->barb[1]);
+      double v = side_of (p, a->barb[1], a->tip);
 
       if ((s >= 0 && u >= 0 && v >= 0) || (s <= 0 && u <= 0 && v <= 0))
         opacity = 1;
@@ -199,7 +200,11 @@ judge_arrow (const Arrow *a, int size, CeldArrowStyle style, bool tip_is_nearer)
   verdict = tip_is_nearer ? judge (&answer, a->tip, a->point[0], a->width + a->size / 2)
                           : judge (&answer, a->point[0], a->tip, a->width);
   for (size_t i = 0; i < answer.problems.n; i++) /* a problem lies on its stroke */
-    CHECK (paint.data[4 * ((size_t) answer.problems.item[i].y * paint.stride + (size_t) answer.problems.item[i].x) + 3] > 0);
+    {
+      const CeldProblem *p = &answer.problems.item[i];
+
+      CHECK (paint.data[4 * ((size_t) p->y * paint.stride + (size_t) p->x) + 3] > 0);
+    }
   forget (&answer);
   free (paint.data);
   return verdict;

@@ -25,7 +25,8 @@ heads_of_all_kinds (void)
   for (int i = 0; i < n; i++)
     {
       double width = random_between (&state, 2, 12), least = fmax (20, 6 * width);
-      double length = i % 3 ? least : random_between (&state, least, 120), head = fmin (fmax (6, 3.5 * width), 0.55 * length);
+      double length = i % 3 ? least : random_between (&state, least, 120);
+      double head = fmin (fmax (6, 3.5 * width), 0.55 * length);
       double angle = random_between (&state, 0, 6.28);
       Point  tail = { 90 - 0.5 * length * cos (angle), 90 - 0.5 * length * sin (angle) };
       Arrow  a = arrow_at (tail, angle, length, width, random_between (&state, -0.7, 0.7), 0.1 * width,
@@ -43,7 +44,8 @@ without_direction (void)
 {
   for (int degrees = 0; degrees < 360; degrees += 24)
     {
-      Arrow line = straight (degrees, 4, BARE, 0), bar = straight (degrees, 4, BAR, 12), dot = straight (degrees, 4, DOT, 7);
+      Arrow line = straight (degrees, 4, BARE, 0), bar = straight (degrees, 4, BAR, 12);
+      Arrow dot = straight (degrees, 4, DOT, 7);
       Arrow there = straight (degrees, 4, OPEN, 14), back = straight (degrees + 180, 4, OPEN, 14);
       CeldPaint paint = blank (100, 100);
       Answer    answer;

@@ -27,7 +27,9 @@ typedef struct
 static void
 make_case (Case *c, uint32_t *state)
 {
-  *c = (Case) { .n_labels = 2 + (int) check_random (state, MOST_LABELS - 1), .n = (int) check_random (state, MOST_RELATIONS + 1) };
+  *c = (Case) { 0 };
+  c->n_labels = 2 + (int) check_random (state, MOST_LABELS - 1);
+  c->n        = (int) check_random (state, MOST_RELATIONS + 1);
   for (int k = 0; k < c->n_labels; k++)
     {
       c->region[k].colour[0] = (uint8_t) (20 * k + 5);
@@ -61,8 +63,8 @@ solve (Case *c)
     c->kept[c->order.cycle[i].item[0]] = false;
 }
 
-/* Raises levels until all relations marked in `use` hold and the background (if behind[] is given, where it is false) is
- * behind; false if they cannot hold. */
+/* Raises levels until all relations marked in `use` hold and the background (if behind[] is given, where it is false)
+ * is behind; false if they cannot hold. */
 static bool
 least_levels (const Case *c, const bool *use, const bool *behind, int level[MOST_LABELS])
 {
@@ -206,7 +208,9 @@ large_graph (uint32_t random_of_100, double seconds)
       uint32_t a = check_random (&state, N), b = (a + 1 + check_random (&state, N - 1)) % N;
       bool     swap = check_random (&state, 100) >= random_of_100 && a < b;
 
-      item[i] = (CeldRelation) { .nearer = { .x = swap ? b : a }, .farther = { .x = swap ? a : b }, .weight = 1, .gap = 1 };
+      item[i] = (CeldRelation) { .weight = 1, .gap = 1 };
+      item[i].nearer.x  = swap ? b : a;
+      item[i].farther.x = swap ? a : b;
       kept[i] = true;
     }
   start = clock ();

@@ -1,82 +1,8 @@
-/* Order: hand-made situations with known levels, terms that name regions, contradictions named relation by relation.
+/* Order: hand-made situations with known levels, and contradictions named relation by relation.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "check.h"
-
-static const char *const PARTS[] = { /* six regions, the last one is the background where a test says so */
-  "AABBCCDDEEFF",
-  "AABBCCDDEEFF",
-  NULL
-};
-
-/* A palette of n labels of the colours #010101 .. , the last one background if `background`. */
-static CeldPalette
-palette_of (size_t n, bool background)
-{
-  CeldPalette palette = { calloc (n, sizeof (CeldRegion)), n };
-
-  for (size_t k = 0; k < n; k++)
-    palette.item[k] = (CeldRegion) { .colour = { (uint8_t) (10 * k + 10), 0, 0, 255 }, .x = (int) (2 * k), .y = 1 };
-  palette.item[n - 1].background = background;
-  return palette;
-}
-
-typedef struct { CeldOrder order; CeldProblems problems; CeldRelations relations; CeldStatus status; } Answer;
-
-/* Orders `rows` by relations in short: capital letters stand for points in the regions of PARTS. */
-static Answer
-ask (const char *const *rows, const CeldPalette *palette, const char *relations, const CeldPlane *ink)
-{
-  CeldLabels labels = art_labels (rows);
-  Answer     a      = { .status = CELD_OK };
-  char       text[2000], *end = text;
-
-  for (const char *c = relations; *c; c++)
-    if (*c >= 'A' && *c <= 'Z')
-      end += sprintf (end, "%d.5,0.5", 2 * (*c - 'A'));
-    else
-      *end++ = *c;
-  *end = 0;
-  CHECK (celd_relations_parse (text, &a.relations, NULL) == CELD_OK);
-  a.status = celd_order (&labels, palette, &a.relations, ink, NULL, &a.order, &a.problems);
-  CHECK (a.status == CELD_OK && a.order.n == palette->n);
-  free (labels.data);
-  return a;
-}
-
-static void
-forget (Answer *a)
-{
-  celd_order_clear (&a->order);
-  celd_problems_clear (&a->problems);
-  celd_relations_clear (&a->relations);
-}
-
-/* The levels of all labels as digits. */
-static bool
-levels_are (const Answer *a, const char *wanted)
-{
-  char     got[64] = "";
-  uint32_t most    = 0;
-
-  for (size_t k = 0; k < a->order.n; k++)
-    {
-      got[k] = (char) ('0' + a->order.level[k]);
-      if (a->order.level[k] > most)
-        most = a->order.level[k];
-    }
-  if (strcmp (got, wanted) != 0 || a->order.levels != most + 1)
-    fprintf (stderr, "levels %s (%u), wanted %s\n", got, a->order.levels, wanted);
-  return strcmp (got, wanted) == 0 && a->order.levels == most + 1;
-}
-
-static bool
-cycle_is (const Answer *a, size_t i, size_t n, const size_t *wanted)
-{
-  return i < a->order.n_cycles && a->order.cycle[i].n == n &&
-         memcmp (a->order.cycle[i].item, wanted, n * sizeof *wanted) == 0;
-}
+#include "ask-order.h"
 
 /* One situation: relations in, levels out, so many contradictions. */
 static void
@@ -162,75 +88,6 @@ lighter_relations_give_way (void)
   celd_palette_clear (&palette);
 }
 
-static bool
-only_problem (const Answer *a, CeldProblemKind kind, size_t relation)
-{
-  return a->problems.n == 1 && a->problems.item[0].kind == kind && a->problems.item[0].relation == relation &&
-         a->order.n_cycles == 0;
-}
-
-static void
-terms_that_join_nothing (void)
-{
-  CeldPalette palette = palette_of (6, false);
-  Answer      a       = ask (PARTS, &palette, "B>A; -1,0 > A", NULL);
-
-  CHECK (only_problem (&a, CELD_PROBLEM_OUTSIDE, 1) && levels_are (&a, "010000"));
-  CHECK (a.problems.item[0].x == 0 && a.problems.item[0].y == 0);
-  forget (&a);
-  a = ask (PARTS, &palette, "12,0 > 0,2", NULL);
-  CHECK (only_problem (&a, CELD_PROBLEM_OUTSIDE, 0) && a.problems.item[0].x == -1);
-  forget (&a);
-  a = ask (PARTS, &palette, "A > #123456", NULL);
-  CHECK (only_problem (&a, CELD_PROBLEM_UNKNOWN_COLOUR, 0) && levels_are (&a, "000000"));
-  forget (&a);
-  a = ask (PARTS, &palette, "B>A; #140000 > 3,1", NULL);
-  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 1) && a.problems.item[0].label == 2);
-  forget (&a);
-  celd_palette_clear (&palette);
-}
-
-static void
-colours_within_two (void)
-{
-  CeldPalette palette = palette_of (6, false);
-  Answer      a       = ask (PARTS, &palette, "#0a0000 > #160200", NULL); /* #160200 is #140000, 2 off */
-
-  CHECK (a.problems.n == 0 && levels_are (&a, "100000"));
-  forget (&a);
-  palette.item[2].colour[0] = 11; /* #0b0000 beside #0a0000: the nearest one counts */
-  a = ask (PARTS, &palette, "#0b0000 > #0a0000", NULL);
-  CHECK (a.problems.n == 0 && levels_are (&a, "001000"));
-  forget (&a);
-  palette.item[0].colour[3] = 0;
-  a = ask (PARTS, &palette, "#0a0000 > #0b0000", NULL); /* a transparent label has no colour */
-  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
-  forget (&a);
-  celd_palette_clear (&palette);
-}
-
-/* Three regions of one colour, told apart by same-colour=separate: a colour names all of them. */
-static void
-separate_regions_of_a_colour (void)
-{
-  CeldPalette palette = palette_of (6, false);
-  Answer      a;
-
-  memcpy (palette.item[2].colour, palette.item[0].colour, 4);
-  memcpy (palette.item[4].colour, palette.item[0].colour, 4);
-  a = ask (PARTS, &palette, "#0a0000 > B; C > A; D > E", NULL);
-  CHECK (a.problems.n == 0 && levels_are (&a, "102210"));
-  forget (&a);
-  a = ask (PARTS, &palette, "B = #0a0000; C > A; F > D", NULL); /* equal to one another too */
-  CHECK (a.order.n_cycles == 1 && levels_are (&a, "000001"));
-  CHECK (cycle_is (&a, 0, 2, (size_t[]) { 1, 0 }));
-  forget (&a);
-  a = ask (PARTS, &palette, "A > #0a0000", NULL);
-  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
-  forget (&a);
-  celd_palette_clear (&palette);
-}
-
 static void
 lost_labels_leave_no_hole (void)
 {
@@ -247,45 +104,6 @@ lost_labels_leave_no_hole (void)
   CHECK (levels_are (&a, "000000"));
   forget (&a);
   celd_palette_clear (&palette);
-}
-
-static void
-points_on_ink (void)
-{
-  static const char *const rows[]  = { "AAAAAAAABBBB", "AAAAAAAABBBB", "AAAAAAAABBBB", "CCCCCCCCCCCC", NULL };
-  static const char *const lines[] = { "......##9...", "......##9...", "......##9...", "............", NULL };
-  CeldPlane                ink     = art_plane (lines);
-  CeldPalette              palette = palette_of (3, false);
-  Answer                   a       = ask (rows, &palette, "7.5,0.5 > 0,0", &ink); /* A's own ink, B's paper beside it */
-
-  CHECK (a.problems.n == 0 && levels_are (&a, "010"));
-  forget (&a);
-  a = ask (rows, &palette, "7.5,0.5 > 0,0", NULL);
-  CHECK (only_problem (&a, CELD_PROBLEM_SAME_REGION, 0));
-  forget (&a);
-  a = ask (rows, &palette, "6.5,1 > 11,0", &ink);
-  CHECK (a.problems.n == 0 && levels_are (&a, "100"));
-  forget (&a);
-  celd_palette_clear (&palette);
-  free (ink.data);
-}
-
-/* Deep inside a black area the pixel's own label counts: it is no stroke. */
-static void
-points_in_black_areas (void)
-{
-  static const char *const rows[]  = { "AAAAAAAAAAAAA", "BBBBBBBBBBBBB", "BBBBBBBBBBBBB", "BBBBBBBBBBBBB",
-                                       "BBBBBBBBBBBBB", "AAAAAAAAAAAAA", "AAAAAAAAAAAAA", NULL };
-  static const char *const lines[] = { ".#.#.#.#.#.#.", "#############", "#############", "#############",
-                                       "#############", ".............", ".#.#.#.#.#.#.", NULL };
-  CeldPlane                ink     = art_plane (lines);
-  CeldPalette              palette = palette_of (2, false);
-  Answer                   a       = ask (rows, &palette, "6,3 > 6,5", &ink);
-
-  CHECK (a.problems.n == 0 && levels_are (&a, "01"));
-  forget (&a);
-  celd_palette_clear (&palette);
-  free (ink.data);
 }
 
 static void
@@ -339,12 +157,7 @@ main (void)
   RUN (contradictions_leave_the_best_order);
   RUN (cycles_are_named_in_order);
   RUN (lighter_relations_give_way);
-  RUN (terms_that_join_nothing);
-  RUN (colours_within_two);
-  RUN (separate_regions_of_a_colour);
   RUN (lost_labels_leave_no_hole);
-  RUN (points_on_ink);
-  RUN (points_in_black_areas);
   RUN (bad_input);
   RUN (encodings);
   return DONE;
