@@ -38,92 +38,116 @@ space_of (const CeldIoFile *file, size_t part)
   return space;
 }
 
-/* The colours of a part as the file has them, and the way from there to a format of sRGB. */
-static float *
-read_colours (CeldIoFile *file, size_t part, const char *wanted, const Babl **fish)
+/* The colours of a part on their way from the file to a format of sRGB. */
+typedef struct
+{
+  float      *rgba;        /* as the file has them */
+  const Babl *fish;
+  int         width, height, bits, channels; /* bits, channels: of the pixels that the fish takes */
+  void       *row;         /* one row of such pixels */
+} Colours;
+
+static void
+colours_clear (Colours *colours)
+{
+  g_free (colours->rgba);
+  g_free (colours->row);
+}
+
+/* The fish takes what GEGL's loader would give it, integers too, so that both come to the last bit of the same result. */
+static bool
+colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colours)
 {
   const CeldIoPart *about = celd_io_part (file, part);
-  const char       *stored = about->grey ? (about->linear ? "YA float" : "Y'A float") :
-                                           (about->linear ? "RGBA float" : "R'G'B'A float");
-  float            *rgba = g_try_new (float, 4 * (gsize) celd_io_width (file) * (gsize) celd_io_height (file));
+  int               width = celd_io_width (file), height = celd_io_height (file);
+  bool              integers = !about->linear && (about->bits == 8 || about->bits == 16);
+  char              stored[32];
   CeldIoError       error;
 
-  if (!rgba)
-    {
-      cli_check (CELD_NO_MEMORY);
-      return NULL;
-    }
-  if (!celd_io_read_colours (file, part, rgba, &error))
-    {
-      cli_say ("%s", error.text);
-      g_free (rgba);
-      return NULL;
-    }
+  *colours = (Colours) {
+    .rgba     = g_try_new (float, 4 * (gsize) width * (gsize) height),
+    .row      = g_new (float, 4 * (gsize) width),
+    .width    = width,
+    .height   = height,
+    .bits     = integers ? about->bits : 32,
+    .channels = about->grey ? 2 : 4,
+  };
+  if (!colours->rgba)
+    return cli_check (CELD_NO_MEMORY);
+  if (!celd_io_read_colours (file, part, colours->rgba, &error))
+    return cli_error ("%s", error.text);
+  g_snprintf (stored, sizeof stored, "%s %s", about->linear ? (about->grey ? "YA" : "RGBA") : (about->grey ? "Y'A" : "R'G'B'A"),
+              colours->bits == 8 ? "u8" : colours->bits == 16 ? "u16" : "float");
   /* Reading its cache, babl tries out tables of 350 MB, which costs half a second; we need one conversion. */
   g_setenv ("BABL_INHIBIT_CACHE", "1", FALSE);
   babl_init ();
-  *fish = babl_fish (babl_format_with_space (stored, space_of (file, part)), babl_format (wanted));
-  return rgba;
+  colours->fish = babl_fish (babl_format_with_space (stored, space_of (file, part)), babl_format (wanted));
+  return true;
 }
 
-/* One row through the fish; grey rows are packed to two floats a pixel first, in place. */
+/* One row through the fish; grey pixels have their value and alpha only. */
 static void
-convert_row (const Babl *fish, bool grey, float *row, int width, void *to)
+colours_convert (const Colours *colours, int y, void *to)
 {
-  for (int x = 0; grey && x < width; x++)
-    {
-      row[2 * x]     = row[4 * x];
-      row[2 * x + 1] = row[4 * x + 3];
-    }
-  babl_process (fish, row, to, width);
+  const float *from = colours->rgba + 4 * (size_t) y * (size_t) colours->width;
+
+  for (int x = 0, n = 0; x < colours->width; x++)
+    for (int k = 0; k < colours->channels; k++, n++)
+      {
+        float value = from[4 * x + (colours->channels == 2 && k ? 3 : k)];
+
+        if (colours->bits == 8)
+          ((uint8_t *) colours->row)[n] = (uint8_t) (255 * value + 0.5f);
+        else if (colours->bits == 16)
+          ((uint16_t *) colours->row)[n] = (uint16_t) (65535 * value + 0.5f);
+        else
+          ((float *) colours->row)[n] = value;
+      }
+  babl_process (colours->fish, colours->row, to, colours->width);
 }
 
+/* Luma of encoded values, as core wants it; babl's Y' is encoded luminance. */
 bool
 cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
 {
-  int         width = celd_io_width (file), height = celd_io_height (file);
-  bool        grey = celd_io_part (file, part)->grey;
-  const Babl *fish;
-  float      *rgba = read_colours (file, part, "Y'A float", &fish), *converted = NULL;
-  bool        good = rgba && cli_plane_new (width, height, &drawing->luma) &&
-                     (!celd_io_part (file, part)->alpha || cli_plane_new (width, height, &drawing->alpha));
+  int     width = celd_io_width (file), height = celd_io_height (file);
+  bool    alpha = celd_io_part (file, part)->alpha;
+  float  *row = g_new (float, 4 * (gsize) width);
+  Colours colours;
+  bool    good = colours_read (file, part, "R'G'B'A float", &colours) && cli_plane_new (width, height, &drawing->luma) &&
+                 (!alpha || cli_plane_new (width, height, &drawing->alpha));
 
-  if (good)
-    converted = g_new (float, 2 * (gsize) width);
   for (int y = 0; good && y < height; y++)
     {
-      size_t row = (size_t) y * (size_t) width;
+      size_t start = (size_t) y * (size_t) width;
 
-      convert_row (fish, grey, rgba + 4 * row, width, converted);
+      colours_convert (&colours, y, row);
       for (int x = 0; x < width; x++)
-        drawing->luma.data[row + (size_t) x] = converted[2 * x];
-      for (int x = 0; drawing->alpha.data && x < width; x++)
-        drawing->alpha.data[row + (size_t) x] = converted[2 * x + 1];
+        drawing->luma.data[start + (size_t) x] = 0.2126f * row[4 * x] + 0.7152f * row[4 * x + 1] + 0.0722f * row[4 * x + 2];
+      for (int x = 0; alpha && x < width; x++)
+        drawing->alpha.data[start + (size_t) x] = row[4 * x + 3];
     }
-  g_free (converted);
-  g_free (rgba);
+  g_free (row);
+  colours_clear (&colours);
   return good;
 }
 
 bool
 cli_read_paint (CeldIoFile *file, size_t part, CeldPaint *paint)
 {
-  int         width = celd_io_width (file), height = celd_io_height (file);
-  bool        grey = celd_io_part (file, part)->grey;
-  const Babl *fish;
-  float      *rgba = read_colours (file, part, "R'G'B'A u8", &fish);
+  int     width = celd_io_width (file), height = celd_io_height (file);
+  Colours colours;
+  bool    good = colours_read (file, part, "R'G'B'A u8", &colours);
 
-  if (!rgba)
-    return false;
-  *paint = (CeldPaint) { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
-  for (int y = 0; paint->data && y < height; y++)
+  if (good)
     {
-      size_t row = 4 * (size_t) y * (size_t) width;
-
-      convert_row (fish, grey, rgba + row, width, paint->data + row);
+      *paint = (CeldPaint) { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
+      good = cli_check (paint->data ? CELD_OK : CELD_NO_MEMORY);
     }
-  g_free (rgba);
-  return paint->data || cli_check (CELD_NO_MEMORY);
+  for (int y = 0; good && y < height; y++)
+    colours_convert (&colours, y, paint->data + 4 * (size_t) y * (size_t) width);
+  colours_clear (&colours);
+  return good;
 }
 
 bool
