@@ -74,7 +74,7 @@ celd_scribble_cluster_add (Reading *r, uint32_t id)
   if (!grown)
     return CELD_NO_MEMORY;
   r->cluster = grown;
-  grown[r->n_clusters] = (Cluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, false };
+  grown[r->n_clusters] = (Cluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
   if (id) /* transparent is near nothing */
     {
       grown[r->n_clusters].next = r->head[cell];
@@ -88,7 +88,10 @@ static void
 tally_clusters (Reading *r)
 {
   for (size_t k = 0; k < r->n_clusters; k++)
-    r->cluster[k].pixels = r->cluster[k].honest = r->cluster[k].core = 0;
+    {
+      r->cluster[k].pixels = r->cluster[k].honest = r->cluster[k].core = 0;
+      r->cluster[k].opacity = 0;
+    }
   for (size_t i = 1; i < r->n; i++)
     if (r->colour[i].cluster != CELD_NO_CLUSTER)
       {
@@ -98,6 +101,7 @@ tally_clusters (Reading *r)
         k->pixels += c->pixels;
         k->honest += c->honest;
         k->core += c->core;
+        k->opacity += c->opacity;
       }
 }
 

@@ -76,7 +76,7 @@ colour_index (Reading *r, const uint8_t *rgba)
   if (!grown)
     return 0;
   r->colour = grown;
-  grown[r->n] = (Colour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, CELD_NO_CLUSTER };
+  grown[r->n] = (Colour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
   r->slot[s] = (uint32_t) r->n;
   return (uint32_t) r->n++;
 }
@@ -103,6 +103,7 @@ count_colours (Reading *r, bool flats, const CeldRun *run)
           else if (!(id[x] = colour_index (r, p)))
             return CELD_NO_MEMORY;
           r->colour[id[x]].pixels++;
+          r->colour[id[x]].opacity += p[3];
         }
     }
   if (opaque && !flats)
@@ -241,7 +242,7 @@ celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
   r->colour = celd_grow (NULL, 1, sizeof *r->colour);
   if (!r->colour)
     return CELD_NO_MEMORY;
-  r->colour[0] = (Colour) { { 0, 0, 0 }, 0, 0, 0, 0 };
+  r->colour[0] = (Colour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
   r->n = 1;
   status = count_colours (r, flats, run);
   if (status != CELD_OK)

@@ -468,6 +468,8 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   celd_each (run, r.height, judge_row, &r);
   count_honest (&r);
   status = celd_scribble_clusters (&r, run);
+  if (status == CELD_OK && !settings->flats)
+    status = celd_scribble_overlaps (&r);
   if (status != CELD_OK)
     goto done;
 

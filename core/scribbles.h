@@ -1,5 +1,6 @@
 /* What the files that read scribbles share: scribble-colours.c counts and cleans the colours of a layer,
- * scribble-clusters.c says which of them are labels, scribbles.c tells fringes and hands out the pixels.
+ * scribble-clusters.c and scribble-overlaps.c say which of them are labels, scribbles.c tells fringes and hands out the
+ * pixels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,6 +20,7 @@ typedef struct
 {
   int      channel[3];
   uint32_t pixels, honest, core;        /* how many pixels it has, and of those kinds (core ones are honest too) */
+  uint64_t opacity;                     /* sum of its pixels' alpha, 0 .. 255 each */
   uint32_t cluster;
 } Colour;
 
@@ -29,6 +31,7 @@ typedef struct
   uint32_t colour;                      /* the colour of most honest pixels */
   uint32_t next;                        /* in the same cell of colour space */
   uint32_t pixels, honest, core;
+  uint64_t opacity;
   bool     is_label;
 } Cluster;
 
@@ -65,6 +68,9 @@ CeldStatus celd_scribble_colours (Reading *r, bool flats, const CeldRun *run);
 
 /* Fills in cluster, from colours whose honest and core pixels are counted. */
 CeldStatus celd_scribble_clusters (Reading *r, const CeldRun *run);
+
+/* Takes the label from clusters that are only where two translucent strokes overlap. */
+CeldStatus celd_scribble_overlaps (Reading *r);
 
 /* One more cluster, round a colour. */
 CeldStatus celd_scribble_cluster_add (Reading *r, uint32_t colour);

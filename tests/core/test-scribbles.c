@@ -166,6 +166,27 @@ soft_overlaps (void)
       }
 }
 
+/* Strokes of two thirds opacity that cross: the flat mixture in the middle is one of the two, on a layer and on paper. */
+static void
+translucent_overlaps (void)
+{
+  for (int white = 0; white < 2; white++)
+    {
+      clear_paint (white);
+      for (int k = 0; k < 2; k++)
+        for (int y = 0; y < HEIGHT; y++)
+          for (int x = 0; x < WIDTH; x++)
+            {
+              double from = fabs (k ? 0.6 * (x - 200) + 0.8 * (y - 150) : 0.6 * (x - 200) - 0.8 * (y - 150));
+
+              if (x > 40 && x < 360)
+                lay (x, y, k ? red : blue, 0.67 * fmin (fmax (20.5 - from, 0), 1));
+            }
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+      CHECK (seed_of[150 * WIDTH + 200] != 0);
+    }
+}
+
 /* A grey label next to black strokes on white: the rims of black are as grey, but no label. */
 static void
 rims_of_another_label (void)
@@ -274,6 +295,7 @@ main (void)
   RUN (tiny_strokes);
   RUN (two_hundred_labels);
   RUN (soft_overlaps);
+  RUN (translucent_overlaps);
   RUN (rims_of_another_label);
   RUN (thin_lines_on_paper);
   RUN (lossy_paint);
