@@ -1,18 +1,25 @@
 /* The pieces of paper that a drawing's contours enclose, and its rooms: the same with small gaps in the contours closed.
  *
- * Paper farther from ink than one stroke width is open; connected open paper is a room, and takes in the paper within
- * that distance again.  So passages narrower than two stroke widths part rooms.  Of what is left over, corners of a room
- * too acute for that disc belong to it; but a bay that is wider inside than at its mouth is a small region behind a gap,
- * a room of its own, as is what touches no open paper at all.
+ * Paper farther from ink than one stroke width is open.  Connected open paper takes in the paper within that distance
+ * again, and what is left over are bays.  So passages narrower than two stroke widths part these basins.  But not every
+ * such passage is a gap: from the widest on, passages join basins again unless both are clearly wider than the passage.
+ * Acute corners and narrow corridors stay with their room, and a small region behind a gap stays by itself.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define BAY 1.25 /* times as wide inside as at its mouth, and a pixel more */
+#define WIDER 1.25 /* times as wide as a passage, and a pixel more */
+
+/* Where two basins touch: the squared distance to ink there. */
+typedef struct { uint32_t a, b; int32_t squared; } Passage;
+
+/* Basins joined so far: each one's parent, itself for the first of a room, and its largest squared distance to ink. */
+typedef struct { uint32_t parent; int32_t widest; } Basin;
 
 typedef struct
 {
@@ -22,10 +29,9 @@ typedef struct
   int32_t    *to_ink;    /* squared distance to ink */
   int32_t    *to_open, *nearest;
   uint8_t    *inside;
+  Passage    *passage;
+  size_t      n_passages, n_basins;
 } Work;
-
-/* What is known of a bay: squared distances to ink, the largest inside and at its mouth, and the room there. */
-typedef struct { int32_t inside, mouth; uint32_t room; } Bay;
 
 static bool
 is_paper (const CeldCanvas *canvas, size_t p)
@@ -62,6 +68,7 @@ work_clear (Work *work)
   celd_free (work->to_open);
   celd_free (work->nearest);
   celd_free (work->inside);
+  celd_free (work->passage);
 }
 
 static CeldStatus
@@ -93,7 +100,6 @@ find_open (Work *work, const CeldRun *run)
 {
   CeldCanvas *canvas = work->canvas;
   int32_t     radius = canvas->stroke, reach = (2 * radius + 3) * (2 * radius + 3); /* (2 x (radius + 3/2))^2 */
-  size_t      n;
   CeldStatus  status;
 
   for (size_t p = 0; p < canvas->n; p++)
@@ -102,56 +108,22 @@ find_open (Work *work, const CeldRun *run)
   for (size_t p = 0; p < canvas->n; p++)
     work->mask.data[p] = work->inside[p] = is_paper (canvas, p) && work->to_ink[p] > radius * radius;
   if (status == CELD_OK)
-    status = count_components (work, run, &n);
+    status = count_components (work, run, &work->n_basins);
   if (status == CELD_OK)
     status = celd_nearest (canvas->width, canvas->height, work->inside, run, work->to_open, work->nearest);
   if (status != CELD_OK)
     return status;
-  canvas->n_rooms = n;
   for (size_t p = 0; p < canvas->n; p++)
     canvas->rooms.data[p] = is_paper (canvas, p) && work->to_open[p] <= reach / 4 && work->nearest[p] >= 0
                              ? work->found.data[work->nearest[p]] : 0;
   return CELD_OK;
 }
 
-static void
-look_out (const Work *work, Bay *bay, size_t p, size_t q)
-{
-  if (!work->canvas->rooms.data[q] || work->to_ink[p] <= bay->mouth)
-    return;
-  bay->mouth = work->to_ink[p];
-  bay->room = work->canvas->rooms.data[q];
-}
-
-static void
-measure_bays (const Work *work, Bay *bay)
-{
-  size_t w = (size_t) work->canvas->width;
-
-  for (size_t p = 0; p < work->canvas->n; p++)
-    {
-      Bay *b = &bay[work->found.data[p]];
-
-      if (!work->found.data[p])
-        continue;
-      b->inside = work->to_ink[p] > b->inside ? work->to_ink[p] : b->inside;
-      if (p % w > 0)
-        look_out (work, b, p, p - 1);
-      if (p % w + 1 < w)
-        look_out (work, b, p, p + 1);
-      if (p >= w)
-        look_out (work, b, p, p - w);
-      if (p + w < work->canvas->n)
-        look_out (work, b, p, p + w);
-    }
-}
-
-/* Paper that is in no room so far. */
+/* Paper that is in no basin so far. */
 static CeldStatus
 find_bays (Work *work, const CeldRun *run)
 {
   CeldCanvas *canvas = work->canvas;
-  Bay        *bay;
   size_t      n = 0;
   CeldStatus  status;
 
@@ -160,18 +132,111 @@ find_bays (Work *work, const CeldRun *run)
   status = count_components (work, run, &n);
   if (status != CELD_OK)
     return status;
-  bay = celd_alloc0 (n + 1, sizeof *bay);
-  if (!bay)
-    return CELD_NO_MEMORY;
-  measure_bays (work, bay);
-  for (size_t k = 1; k <= n; k++)
-    if (!bay[k].room || sqrt (bay[k].inside) > BAY * sqrt (bay[k].mouth) + 1)
-      bay[k].room = (uint32_t) ++canvas->n_rooms;
   for (size_t p = 0; p < canvas->n; p++)
     if (work->found.data[p])
-      canvas->rooms.data[p] = bay[work->found.data[p]].room;
-  celd_free (bay);
+      canvas->rooms.data[p] = (uint32_t) work->n_basins + work->found.data[p];
+  work->n_basins += n;
   return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ joining basins */
+
+static CeldStatus
+note_passage (Work *work, size_t p, size_t q)
+{
+  uint32_t a = work->canvas->rooms.data[p], b = work->canvas->rooms.data[q];
+  Passage *passage;
+
+  if (!a || !b || a == b)
+    return CELD_OK;
+  passage = celd_grow (work->passage, work->n_passages + 1, sizeof *passage);
+  if (!passage)
+    return CELD_NO_MEMORY;
+  work->passage = passage;
+  passage[work->n_passages++] = (Passage) { a, b, work->to_ink[p] < work->to_ink[q] ? work->to_ink[p] : work->to_ink[q] };
+  return CELD_OK;
+}
+
+static CeldStatus
+find_passages (Work *work)
+{
+  size_t     w = (size_t) work->canvas->width;
+  CeldStatus status = CELD_OK;
+
+  for (size_t p = 0; p < work->canvas->n && status == CELD_OK; p++)
+    {
+      if (p % w + 1 < w)
+        status = note_passage (work, p, p + 1);
+      if (p + w < work->canvas->n && status == CELD_OK)
+        status = note_passage (work, p, p + w);
+    }
+  return status;
+}
+
+/* The widest first; ties in a fixed order. */
+static int
+compare_passages (const void *a, const void *b)
+{
+  const Passage *p = a, *q = b;
+
+  if (p->squared != q->squared)
+    return p->squared > q->squared ? -1 : 1;
+  if (p->a != q->a)
+    return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+static uint32_t
+first_basin (Basin *basin, uint32_t k)
+{
+  while (basin[k].parent != k)
+    k = basin[k].parent = basin[basin[k].parent].parent;
+  return k;
+}
+
+static void
+pass (Basin *basin, const Passage *passage)
+{
+  uint32_t a = first_basin (basin, passage->a), b = first_basin (basin, passage->b);
+  int32_t  narrower = basin[a].widest < basin[b].widest ? basin[a].widest : basin[b].widest;
+
+  if (a == b || sqrt (narrower) > WIDER * sqrt (passage->squared) + 1)
+    return;
+  if (basin[b].widest > basin[a].widest)
+    basin[a].widest = basin[b].widest;
+  basin[b].parent = a;
+}
+
+/* Joins basins and numbers what they make, the rooms. */
+static CeldStatus
+join_basins (Work *work)
+{
+  CeldCanvas *canvas = work->canvas;
+  Basin      *basin = celd_alloc0 (work->n_basins + 1, sizeof *basin);
+  uint32_t   *room = celd_alloc0 (work->n_basins + 1, sizeof *room);
+  CeldStatus  status = basin && room ? find_passages (work) : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  for (uint32_t k = 0; k <= work->n_basins; k++)
+    basin[k].parent = k;
+  for (size_t p = 0; p < canvas->n; p++)
+    if (work->to_ink[p] > basin[canvas->rooms.data[p]].widest)
+      basin[canvas->rooms.data[p]].widest = work->to_ink[p];
+  if (work->n_passages)
+    qsort (work->passage, work->n_passages, sizeof *work->passage, compare_passages);
+  for (size_t i = 0; i < work->n_passages; i++)
+    pass (basin, &work->passage[i]);
+  for (uint32_t k = 1; k <= work->n_basins; k++)
+    if (basin[k].parent == k)
+      room[k] = (uint32_t) ++canvas->n_rooms;
+  for (size_t p = 0; p < canvas->n; p++)
+    canvas->rooms.data[p] = room[first_basin (basin, canvas->rooms.data[p])];
+
+done:
+  celd_free (basin);
+  celd_free (room);
+  return status;
 }
 
 CeldStatus
@@ -186,6 +251,8 @@ celd_rooms (const CeldRun *run, CeldCanvas *canvas)
     status = find_open (&work, run);
   if (status == CELD_OK)
     status = find_bays (&work, run);
+  if (status == CELD_OK)
+    status = join_basins (&work);
   work_clear (&work);
   return status;
 }

@@ -230,7 +230,7 @@ weigh_edges (CeldCanvas *canvas, const CeldRun *run)
   return status;
 }
 
-/* Mean width of soft strokes: twice their area over the length of their outline. */
+/* Mean width of the artist's strokes: twice their area over the length of their outline. */
 static double
 brush_width (const CeldCanvas *canvas)
 {
@@ -240,8 +240,7 @@ brush_width (const CeldCanvas *canvas)
     {
       uint32_t l = canvas->seeds.data[p];
 
-      if (l && !canvas->palette.item[l - 1].hard)
-        area++;
+      area += l != 0;
       if (p % w + 1 < w)
         outline += l != canvas->seeds.data[p + 1];
       if (p + w < canvas->n)
@@ -250,15 +249,22 @@ brush_width (const CeldCanvas *canvas)
   return outline ? fmax (1, 2.0 * (double) area / (double) outline) : BRUSH;
 }
 
+static void
+weigh_strokes (CeldCanvas *canvas)
+{
+  double vote = UNIT * perimeter (canvas) * (double) canvas->settings->hardness * BRUSH / brush_width (canvas);
+
+  canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
+}
+
 int32_t *
 celd_canvas_votes (const CeldCanvas *canvas)
 {
   int32_t *vote = celd_alloc (canvas->palette.n, sizeof *vote);
   bool     all_hard = canvas->settings->flats || canvas->settings->hardness >= 1;
-  double   soft = UNIT * perimeter (canvas) * (double) canvas->settings->hardness * BRUSH / brush_width (canvas);
 
   for (size_t k = 0; vote && k < canvas->palette.n; k++)
-    vote[k] = all_hard || canvas->palette.item[k].hard ? CELD_HARD : (int32_t) fmax (1, fmin (soft, MOST_VOTE));
+    vote[k] = all_hard || canvas->palette.item[k].hard ? CELD_HARD : canvas->soft_vote;
   return vote;
 }
 
@@ -334,8 +340,10 @@ solve (CeldCanvas *canvas, const CeldRelations *relations, const CeldRun *run)
   CeldPart   part[2];
   CeldRun    cuts = celd_run_part (&part[0], run, 0.1, 0.8), splits = celd_run_part (&part[1], run, 0.8, 0.9);
   bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
-  CeldStatus status = arrows ? celd_seeds_plant (relations, NULL, canvas) : CELD_OK;
+  CeldStatus status;
 
+  weigh_strokes (canvas); /* before anything else adds seeds */
+  status = arrows ? celd_seeds_plant (relations, NULL, canvas) : CELD_OK;
   if (status == CELD_OK && !has_seeds (canvas))
     status = CELD_NOTHING_TO_GO_BY;
   if (status == CELD_OK && canvas->settings->flats)

@@ -20,6 +20,7 @@ typedef struct
   CeldLabels          rooms;    /* the same, but parted where a contour has a small gap */
   size_t              n_pieces, n_rooms;
   int32_t            *east, *south; /* V_pq */
+  int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
   CeldPalette         palette;  /* of all labels so far */
 } CeldCanvas;
 
@@ -66,7 +67,7 @@ CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run,
 
 /* ------------------------------------------------------------------ segment.c */
 
-/* Cost of one painted pixel of each label with another label: as many as the palette has.  End with celd_free. */
+/* The votes of all labels of the palette, as celd_multiway wants them.  End with celd_free. */
 int32_t *celd_canvas_votes (const CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ report.c */
