@@ -9,7 +9,8 @@
  *          Such a stroke is read down to an alpha of FADED_OPACITY: its faint end is the farther end
  *   taper  the same with their width: the thick end is nearer
  *
- * Strokes that do not say clearly are reported, never guessed.  Costs a few sweeps over the pixels of each stroke.
+ * Strokes that do not say clearly, or whose arrowhead says the opposite, are reported, never guessed.  Costs a few
+ * sweeps over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,6 +21,7 @@
 
 #define LEAST_STROKE  6    /* pixels; fewer are a speck */
 #define LEAST_SIGNAL  0.2  /* fade and taper: least difference, as a share of the larger value */
+#define SLACK         0.1  /* the middle third may leave their range by this share: ends are round and soft */
 #define LEAST_OPACITY 128  /* of paint; a fading stroke reaches on to FADED_OPACITY */
 #define FADED_OPACITY 16
 #define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
@@ -74,7 +76,7 @@ static bool
 read_slope (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *ends)
 {
   uint32_t  start = celd_trail_follow (trail, trail->pixel, 1);
-  double    third, value[3], w;
+  double    third, value[3], least, most, w;
   CeldPoint first, last;
 
   celd_trail_follow (trail, &start, 1);
@@ -84,9 +86,9 @@ read_slope (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *en
   for (int i = 0; i < 3; i++)
     value[i] = style == CELD_ARROW_FADE ? strength (trail, layer, i * third, (i + 1) * third)
                                         : celd_trail_width (trail, i * third, (i + 1) * third);
-  if (fabs (value[0] - value[2]) < LEAST_SIGNAL * fmax (value[0], value[2]))
-    return false;
-  if (value[1] < fmin (value[0], value[2]) || value[1] > fmax (value[0], value[2]))
+  least = fmin (value[0], value[2]);
+  most  = fmax (value[0], value[2]);
+  if (most - least < LEAST_SIGNAL * most || value[1] < least - SLACK * most || value[1] > most + SLACK * most)
     return false;
   w     = fmax (1, celd_trail_width (trail, 0, 3 * third));
   first = celd_trail_centre (trail, 0, w);
@@ -95,13 +97,23 @@ read_slope (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *en
   return true;
 }
 
+/* Is there an arrowhead, and at the nearer end? */
+static bool
+head_disagrees (CeldTrail *trail, const Ends *ends)
+{
+  CeldEnds found;
+
+  return celd_arrowhead (trail, false, &found) && hypot (found.tip.x - ends->nearer.x, found.tip.y - ends->nearer.y) <
+                                                  hypot (found.tip.x - ends->farther.x, found.tip.y - ends->farther.y);
+}
+
 static bool
 read_stroke (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *ends)
 {
   CeldEnds found;
 
   if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
-    return read_slope (trail, layer, style, ends);
+    return read_slope (trail, layer, style, ends) && !head_disagrees (trail, ends);
   if (!celd_arrowhead (trail, style == CELD_ARROW_DOT, &found))
     return false;
   *ends = style == CELD_ARROW_DOT ? (Ends) { found.tip, found.tail } : (Ends) { found.tail, found.tip };

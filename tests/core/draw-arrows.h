@@ -89,7 +89,7 @@ opacity_at (const Arrow *a, Point p)
       double d = from_segment (p, a->point[i], a->point[i + 1], &t), way = (i + t) / (a->n - 1);
 
       if (d <= 0.5 * (a->width + way * (a->last_width - a->width)))
-        opacity = fmax (opacity, a->alpha + way * (a->last_alpha - a->alpha));
+        opacity = fmax (opacity, fmin (1, a->alpha + way * (a->last_alpha - a->alpha)));
     }
   for (int side = 0; side < 2 && (a->head == OPEN || a->head == BAR); side++)
     if (from_segment (p, a->tip, a->barb[side], &t) <= 0.5 * a->width)

@@ -24,11 +24,13 @@ thick_ends_are_nearer (void)
   for (int degrees = 0; degrees < 360; degrees += 15)
     {
       Arrow taper = straight (degrees, 10, BARE, 0), line = straight (degrees, 6, BARE, 0);
+      Arrow head = straight (degrees, 4, FILLED, 22); /* thick at its tip, which is farther */
 
       taper.last_width = 3;
       CHECK (judge_arrow (&taper, 100, CELD_ARROW_TAPER, false) == 1);
       CHECK (judge_arrow (&taper, 100, CELD_ARROW_HEAD, false) == 0);
       CHECK (judge_arrow (&line, 100, CELD_ARROW_TAPER, false) == 0);
+      CHECK (judge_arrow (&head, 100, CELD_ARROW_TAPER, false) == 0);
     }
 }
 
@@ -37,12 +39,15 @@ opaque_ends_are_nearer (void)
 {
   for (int degrees = 0; degrees < 360; degrees += 15)
     {
-      Arrow fade = straight (degrees, 6, BARE, 0), even = fade, faint = fade;
+      Arrow fade = straight (degrees, 6, BARE, 0), even = fade, faint = fade, late = fade;
 
       fade.last_alpha = 0.1; /* far below one half: still its end */
       even.last_alpha = 0.9;
       faint.alpha     = 0.1;
+      late.alpha      = 2; /* opaque for half of the way */
+      late.last_alpha = 0.1;
       CHECK (judge_arrow (&fade, 100, CELD_ARROW_FADE, false) == 1);
+      CHECK (judge_arrow (&late, 100, CELD_ARROW_FADE, false) == 1);
       CHECK (judge_arrow (&even, 100, CELD_ARROW_FADE, false) == 0);
       CHECK (judge_arrow (&faint, 100, CELD_ARROW_FADE, true) == 1);
     }
