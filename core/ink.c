@@ -20,6 +20,31 @@
 #define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
 #define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
 #define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
+#define PASSES 14             /* over the picture, of about the same length */
+
+typedef struct
+{
+  const CeldRun *run;
+  int            passes;        /* done so far */
+  size_t         pixels;
+  int            widest;        /* half width of the widest stroke */
+  CeldPlane      contrast;      /* against the paper: 0 .. 1 */
+  CeldPlane      area;          /* contrast without strokes: the grey opening */
+  CeldPlane      level;         /* contrast of the dark core of the stroke here; 0 = not known */
+  CeldPlane      spare;
+  float         *line;          /* for least_along_rows */
+  float          noise;         /* of the paper */
+  bool           noisy;         /* by more than rounding */
+  float          faintest;      /* least contrast of a stroke */
+  float          dark;          /* contrast of the dark strokes */
+} Work;
+
+/* One more pass over the picture is done, of the PASSES that the longest way takes. */
+static CeldStatus
+pass_done (Work *w)
+{
+  return celd_step (w->run, (double) ++w->passes / PASSES);
+}
 
 /* fminf and fmaxf, but for numbers only and not through a call. */
 static inline float
@@ -142,13 +167,19 @@ transpose (const CeldPlane *from, CeldPlane *to)
           CELD_AT (to, y, x) = CELD_AT (from, x, y);
 }
 
-static void
-erode (CeldPlane *plane, int radius, CeldPlane *spare, float *line)
+static CeldStatus
+erode (Work *w, CeldPlane *plane, int radius)
 {
-  least_along_rows (plane, radius, line);
-  transpose (plane, spare);
-  least_along_rows (spare, radius, line);
-  transpose (spare, plane);
+  CeldStatus status;
+
+  least_along_rows (plane, radius, w->line);
+  status = pass_done (w);
+  if (status != CELD_OK)
+    return status;
+  transpose (plane, &w->spare);
+  least_along_rows (&w->spare, radius, w->line);
+  transpose (&w->spare, plane);
+  return pass_done (w);
 }
 
 static void
@@ -160,12 +191,15 @@ negate (CeldPlane *plane)
     plane->data[i] = -plane->data[i];
 }
 
-static void
-dilate (CeldPlane *plane, int radius, CeldPlane *spare, float *line)
+static CeldStatus
+dilate (Work *w, CeldPlane *plane, int radius)
 {
+  CeldStatus status;
+
   negate (plane);
-  erode (plane, radius, spare, line);
+  status = erode (w, plane, radius);
   negate (plane);
+  return status;
 }
 
 /* ------------------------------------------------------------------ ink */
@@ -196,21 +230,6 @@ dark_level (const CeldPlane *contrast, float faintest)
     bin--;
   return (float) (sum[bin] / (double) of[bin]);
 }
-
-typedef struct
-{
-  size_t    pixels;
-  int       widest;         /* half width of the widest stroke */
-  CeldPlane contrast;       /* against the paper: 0 .. 1 */
-  CeldPlane area;           /* contrast without strokes: the grey opening */
-  CeldPlane level;          /* contrast of the dark core of the stroke here; 0 = not known */
-  CeldPlane spare;
-  float    *line;           /* for least_along_rows */
-  float     noise;          /* of the paper */
-  bool      noisy;          /* by more than rounding */
-  float     faintest;       /* least contrast of a stroke */
-  float     dark;           /* contrast of the dark strokes */
-} Work;
 
 static CeldStatus
 start_work (int width, int height, Work *w)
@@ -243,37 +262,49 @@ measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
   CeldStatus status;
 
   celd_ink_values (drawing, celd_ink_mode (drawing, mode), &w->contrast);
-  status = celd_paper_levels (&w->contrast, &w->level);
+  status = pass_done (w);
+  if (status == CELD_OK)
+    status = celd_paper_levels (&w->contrast, &w->level);
   for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
     w->contrast.data[i] = most (1 - w->contrast.data[i] / w->level.data[i], 0);
-  return status;
+  return status == CELD_OK ? pass_done (w) : status;
 }
 
 /* Grain, and blotches up to 16 pixels across, go; strokes stay. */
-static void
+static CeldStatus
 quieten (Work *w)
 {
-  float zero;
+  CeldStatus status = CELD_OK;
+  float      zero;
 
-  w->noise = most (most (noise_at (&w->contrast, 1), noise_at (&w->contrast, 4)), noise_at (&w->contrast, 16));
+  for (int step = 1; step <= 16 && status == CELD_OK; step *= 4)
+    {
+      w->noise = most (w->noise, noise_at (&w->contrast, step));
+      status = pass_done (w);
+    }
   w->noisy = w->noise > NOISELESS;
-  if (!w->noisy)
-    return;
+  if (status != CELD_OK || !w->noisy)
+    return status;
   smooth (&w->contrast, &w->spare);
   smooth (&w->contrast, &w->spare);
   zero = least (2 * w->noise, 0.5f);
   for (size_t i = 0; i < w->pixels; i++)
     w->contrast.data[i] = most (w->contrast.data[i] - zero, 0) / (1 - zero);
+  return pass_done (w);
 }
 
 /* How dark is ink?  In a noisy drawing the darkest is well above the noise, so that empty paper stays empty. */
-static void
+static CeldStatus
 measure_ink (Work *w)
 {
+  CeldStatus status;
+
   w->faintest = most (FAINTEST, 8 * w->noise);
   w->dark = dark_level (&w->contrast, w->faintest);
   memcpy (w->level.data, w->contrast.data, w->pixels * sizeof (float));
-  dilate (&w->level, w->noisy ? NEAR_NOISY : NEAR, &w->spare, w->line);
+  status = dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR);
+  if (status != CELD_OK)
+    return status;
   if (w->noisy)
     {
       w->dark = most (w->dark, 16 * w->noise);
@@ -281,6 +312,7 @@ measure_ink (Work *w)
     }
   else
     w->faintest = most (w->faintest, 4 * echo_level (&w->contrast, &w->level, w->dark));
+  return CELD_OK;
 }
 
 /* Is the pixel inside a stroke, not on its antialiased rim: do the 3x3 pixels round it differ by a tenth at most? */
@@ -308,11 +340,11 @@ shows_level (const Work *w, int x, int y, float around)
   return around < 0.45f * w->dark || (c < 0.75f * w->dark && is_solid (&w->contrast, x, y));
 }
 
-/* Fills in area and level; false if all strokes are as dark as ink is, so that neither is needed. */
+/* Keeps in level the pixels that show how dark their stroke is.  Are there strokes paler than ink is? */
 static bool
-find_pale_strokes (Work *w)
+find_levels (Work *w)
 {
-  bool found = false;
+  bool pale = false;
 
   for (int y = 0; y < w->level.height; y++)
     for (int x = 0; x < w->level.width; x++)
@@ -320,19 +352,25 @@ find_pale_strokes (Work *w)
         float c = CELD_AT (&w->contrast, x, y), *level = &CELD_AT (&w->level, x, y);
 
         *level = shows_level (w, x, y, *level) ? c : 0;
-        found = found || (*level > 0 && c < 0.95f * w->dark);
+        pale = pale || (*level > 0 && c < 0.95f * w->dark);
       }
-  if (!found)
-    return false;
+  return pale;
+}
+
+/* Fills in area, and level on the whole breadth of each stroke. */
+static CeldStatus
+spread_levels (Work *w)
+{
+  CeldStatus status;
 
   memcpy (w->area.data, w->contrast.data, w->pixels * sizeof (float));
-  erode (&w->area, w->widest, &w->spare, w->line);
-  dilate (&w->area, w->widest, &w->spare, w->line);
+  status = erode (w, &w->area, w->widest);
+  if (status == CELD_OK)
+    status = dilate (w, &w->area, w->widest);
   for (size_t i = 0; i < w->pixels; i++)
     if (w->contrast.data[i] - w->area.data[i] < most (w->faintest, 0.5f * w->contrast.data[i]))
       w->level.data[i] = 0;
-  dilate (&w->level, w->noisy ? NEAR_NOISY : NEAR, &w->spare, w->line);
-  return true;
+  return status == CELD_OK ? dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR) : status;
 }
 
 static void
@@ -355,8 +393,8 @@ write_ink (const Work *w, bool pale, CeldPlane *ink)
 CeldStatus
 celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink)
 {
-  Work       w = { 0 };
-  bool       pale;
+  Work       w = { .run = run };
+  bool       pale = false;
   CeldStatus status;
 
   if (!CELD_SAME_SIZE (&drawing->luma, ink) || (drawing->alpha.data && !CELD_SAME_SIZE (&drawing->alpha, ink)))
@@ -365,24 +403,16 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, Celd
   if (status == CELD_OK)
     status = measure_contrast (&w, drawing, mode);
   if (status == CELD_OK)
-    status = celd_step (run, 0.3);
-  if (status != CELD_OK)
-    goto done;
-
-  quieten (&w);
-  status = celd_step (run, 0.5);
-  if (status != CELD_OK)
-    goto done;
-  measure_ink (&w);
-  status = celd_step (run, 0.7);
-  if (status != CELD_OK)
-    goto done;
-  pale = find_pale_strokes (&w);
-  status = celd_step (run, 0.95);
+    status = quieten (&w);
+  if (status == CELD_OK)
+    status = measure_ink (&w);
+  if (status == CELD_OK)
+    {
+      pale = find_levels (&w);
+      status = pale ? spread_levels (&w) : CELD_OK;
+    }
   if (status == CELD_OK)
     write_ink (&w, pale, ink);
-
-done:
   end_work (&w);
   return status;
 }

@@ -91,7 +91,7 @@ count_colours (Reading *r, bool flats, const CeldRun *run)
       const uint8_t *p = CELD_RGBA (r->paint, 0, y);
       uint32_t      *id = r->id + (size_t) y * (size_t) r->width;
 
-      if (celd_step (run, 0.3 * y / r->height) != CELD_OK)
+      if (celd_step (run, (double) y / r->height) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < r->width; x++, p += 4)
         {
@@ -200,6 +200,7 @@ forget_colours (Reading *r)
   r->n = 1;
   r->paper = 0;
   r->colour[0].pixels = 0;
+  r->colour[0].opacity = 0;
   memset (r->slot, 0, r->slots * sizeof *r->slot);
 }
 
@@ -207,6 +208,8 @@ forget_colours (Reading *r)
 static CeldStatus
 filter (Reading *r, bool flats, const CeldRun *run)
 {
+  CeldPart   part;
+  CeldRun    again = celd_run_part (&part, run, 0.8, 1);
   CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
                            { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) } };
   CeldStatus status = buffer[0].data && buffer[1].data ? CELD_OK : CELD_NO_MEMORY;
@@ -216,7 +219,7 @@ filter (Reading *r, bool flats, const CeldRun *run)
       Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
 
       celd_each (run, r->height, filter_row, &f);
-      status = celd_step (run, 0);
+      status = celd_step (run, 0.2 * (i + 1));
     }
   if (status == CELD_OK)
     {
@@ -224,7 +227,7 @@ filter (Reading *r, bool flats, const CeldRun *run)
 
       forget_colours (r);
       r->paint = &buffer[(PASSES + 1) % 2];
-      status = count_colours (r, flats, run);
+      status = count_colours (r, flats, &again);
       r->paint = unfiltered;
       r->radius = LOSSY;
       r->lossy = true;
@@ -237,6 +240,8 @@ filter (Reading *r, bool flats, const CeldRun *run)
 CeldStatus
 celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
 {
+  CeldPart   part[2];
+  CeldRun    count = celd_run_part (&part[0], run, 0, 0.3), clean = celd_run_part (&part[1], run, 0.3, 1);
   CeldStatus status;
 
   r->colour = celd_grow (NULL, 1, sizeof *r->colour);
@@ -244,9 +249,9 @@ celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
     return CELD_NO_MEMORY;
   r->colour[0] = (Colour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
   r->n = 1;
-  status = count_colours (r, flats, run);
+  status = count_colours (r, flats, &count);
   if (status != CELD_OK)
     return status;
   measure_noise (r);
-  return r->radius > 2 * CLEAN ? filter (r, flats, run) : CELD_OK;
+  return r->radius > 2 * CLEAN ? filter (r, flats, &clean) : CELD_OK;
 }

@@ -452,6 +452,8 @@ CeldStatus
 celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
                      CeldLabels *seeds, CeldPalette *palette)
 {
+  CeldPart   part;
+  CeldRun    begin = celd_run_part (&part, run, 0, 0.5);
   Reading    r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
   CeldStatus status;
 
@@ -461,20 +463,24 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   r.id = celd_alloc (r.pixels, sizeof *r.id);
   r.label = celd_alloc (r.pixels, sizeof *r.label);
   r.kind = celd_alloc (r.pixels, 1);
-  status = r.id && r.label && r.kind ? celd_scribble_colours (&r, settings->flats, run) : CELD_NO_MEMORY;
+  status = r.id && r.label && r.kind ? celd_scribble_colours (&r, settings->flats, &begin) : CELD_NO_MEMORY;
   if (status != CELD_OK)
     goto done;
 
   celd_each (run, r.height, judge_row, &r);
   count_honest (&r);
-  status = celd_scribble_clusters (&r, run);
+  status = celd_step (run, 0.6);
+  if (status == CELD_OK)
+    status = celd_scribble_clusters (&r, run);
   if (status == CELD_OK && !settings->flats)
     status = celd_scribble_overlaps (&r);
   if (status != CELD_OK)
     goto done;
 
   celd_each (run, r.height, place_row, &r);
-  status = place_rest (&r, run);
+  status = celd_step (run, 0.8);
+  if (status == CELD_OK)
+    status = place_rest (&r, run);
   if (status == CELD_OK && r.paper)
     status = rescue_lines (&r);
   if (status == CELD_OK)
