@@ -292,8 +292,8 @@ CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, 
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
                                  const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
 
-/* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends.
- * `levels` are expanded. */
+/* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends; a region
+ * without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldRun *run, CeldVectors *normals);
 
