@@ -60,7 +60,7 @@ dot (const CeldLevel *level, const float *a, const float *b)
 static void krylov (CeldLevels *levels, int l);
 
 /* One cycle of level l, not the last: x becomes approximately the solution for level->b.
- * The first sweep starts from zero: it sees only the neighbours before and leaves the pull of those after as residual. */
+ * The first sweep starts from zero: it sees only the neighbours before, and the pull of those after is the residual. */
 static void
 cycle (CeldLevels *levels, int l, float *x)
 {

@@ -19,7 +19,7 @@
 #include <math.h>
 
 #define MOST_ROUNDS  200
-#define SAFETY       1.5        /* of the estimated error, as the cycle is not quite linear; it was seen 1.4 too small */
+#define SAFETY       1.5        /* of the estimated error, as the cycle is not quite linear; it was seen 1.4 short */
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
 #define BAND_WORK    (1u << 26) /* ... and in multiplications */
 

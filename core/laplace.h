@@ -36,8 +36,8 @@ celd_join (uint32_t *parent, uint32_t i, uint32_t j)
 typedef struct
 {
   uint32_t n, band;
-  double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; eliminated: divided by pivot i */
-  double  *sink;                /* diagonal beyond the edge weights; eliminated: 1 / pivot, 0 for a floating node */
+  double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; later divided by pivot i */
+  double  *sink;                /* diagonal beyond the edge weights; later 1 / pivot, 0 for a floating node */
   double  *x;                   /* right-hand side in, solution out */
 } CeldBand;
 
@@ -46,7 +46,7 @@ void       celd_band_eliminate (CeldBand *matrix);
 void       celd_band_solve (CeldBand *matrix);
 void       celd_band_clear (CeldBand *matrix);                            /* accepts a zeroed one */
 
-/* ------------------------------------------------------------------ laplace-levels.c, laplace-cycle.c: coarse levels */
+/* ------------------------------------------------------------------ laplace-levels.c, -cycle.c: coarse levels */
 
 #define CELD_NO_NODE UINT32_MAX
 
@@ -90,7 +90,7 @@ struct CeldLaplace
   const float *east, *south, *diagonal;   /* borrowed */
   float       *inverse;                   /* 1 / whole diagonal; 0 for a floating single pixel */
   float       *nothing;                   /* a row of edges of weight 0, above the first and below the last row */
-  uint32_t    *floating;                  /* of each pixel: its floating component, 1 .. n_floating, or 0; NULL if none */
+  uint32_t    *floating;                  /* of each pixel: its floating component from 1, or 0; NULL if none */
   size_t      *floating_size;             /* pixels of each floating component */
   uint32_t     n_floating;
   bool         direct;                    /* by elimination of `band`, without levels */
@@ -106,7 +106,7 @@ typedef struct
   double *row[3];               /* sums and extremes of each row */
 } CeldSolution;
 
-/* ------------------------------------------------------------------ laplace-floating.c: components that nothing holds */
+/* ------------------------------------------------------------------ laplace-floating.c: parts that nothing holds */
 
 /* Finds the floating components of more than one pixel. */
 CeldStatus celd_floating_find (CeldLaplace *laplace);

@@ -8,8 +8,8 @@
  * where a gap in the figure's contour joins both.
  *
  * The outline runs on edges of pixels, half a pixel from the centres that it holds, hence the coupling 2.  Its
- * direction comes from the first moment of the matte "at least as near" under a Gaussian round the edge's middle: steps of
- * pixels average out, and the outline goes on straight where something nearer hides it.
+ * direction comes from the first moment of the matte "at least as near" under a Gaussian round the edge's middle:
+ * steps of pixels average out, and the outline goes on straight where something nearer hides it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
