@@ -312,6 +312,8 @@ measure_ink (Work *w)
     }
   else
     w->faintest = most (w->faintest, 4 * echo_level (&w->contrast, &w->level, w->dark));
+  if (w->dark > 0.9f && !w->noisy)
+    w->dark = 1; /* black lines of a pixel or less are not quite black anywhere */
   return CELD_OK;
 }
 
