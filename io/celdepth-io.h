@@ -28,7 +28,7 @@ typedef struct CeldIoFile CeldIoFile;
 
 typedef struct
 {
-  const char *name;      /* of the layer or part; "" if it has none (the merged picture of a PSD is part 0, without a name) */
+  const char *name;      /* of the layer or part; "" if it has none (as part 0 of a PSD, the merged picture) */
   bool        alpha;     /* has alpha, or does not cover the canvas */
   bool        grey;      /* red, green and blue are the same */
   bool        linear;    /* linear light (EXR, HDR); else encoded */
@@ -88,8 +88,8 @@ typedef struct { const char *name; const char *text; float number; } CeldIoNote;
 bool celd_io_can_write (const char *path);
 
 /* Any picture.  Only EXR holds several parts. */
-bool celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts, const CeldIoNote *notes, size_t n_notes,
-                    CeldIoError *error);
+bool celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts,
+                    const CeldIoNote *notes, size_t n_notes, CeldIoError *error);
 
 /* Depth or levels, larger = nearer.  `farthest` and `nearest` (0 and 1; 0 and levels - 1 for ranks) are the values that
  * the format shows as its far and near end:

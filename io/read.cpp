@@ -59,7 +59,8 @@ struct Channels
 static Channels
 colour_channels (const ImageSpec &spec)
 {
-  Channels c = { find_channel (spec, "R"), find_channel (spec, "G"), find_channel (spec, "B"), find_channel (spec, "A") };
+  Channels c = { find_channel (spec, "R"), find_channel (spec, "G"), find_channel (spec, "B"),
+                 find_channel (spec, "A") };
 
   if (c.red < 0 || c.green < 0 || c.blue < 0)
     c.red = find_channel (spec, "N.X"), c.green = find_channel (spec, "N.Y"), c.blue = find_channel (spec, "N.Z");
@@ -73,7 +74,8 @@ colour_channels (const ImageSpec &spec)
 static bool
 is_linear (const ImageSpec &spec, const char *format)
 {
-  return OIIO::Strutil::istarts_with (spec.get_string_attribute ("oiio:ColorSpace"), "lin") || iequals (format, "openexr");
+  return iequals (format, "openexr") ||
+         OIIO::Strutil::istarts_with (spec.get_string_attribute ("oiio:ColorSpace"), "lin");
 }
 
 // OpenImageIO tells where the layer of a PSD lies, but calls the layer's own size the full one, and says of the last
@@ -117,8 +119,8 @@ open_file (CeldIoFile &file)
   wishes.attribute ("oiio:UnassociatedAlpha", 1);
   file.input = OIIO::ImageInput::open (file.path, &wishes);
   if (!file.input)
-    throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; save XCF, ORA and "
-                     "KRA as PSD). " + OIIO::geterror ());
+    throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; "
+                     "save XCF, ORA and KRA as PSD). " + OIIO::geterror ());
   for (int i = 0; file.input->seek_subimage (i, 0); i++)
     file.parts.push_back ({ file.input->spec (i, 0), "", {}, false });
   file.input->geterror (); // of the search beyond the last part
@@ -153,7 +155,8 @@ check_part (const CeldIoFile &file, size_t index)
   if (spec.deep || spec.depth > 1)
     throw IoFailure ("deep and volume pictures cannot be used.");
   if (spec.width > 2 * CELD_MAX_SIDE || spec.height > 2 * CELD_MAX_SIDE || spec.nchannels < 1 ||
-      std::abs (int64_t (spec.x) - spec.full_x) > farthest_place || std::abs (int64_t (spec.y) - spec.full_y) > farthest_place)
+      std::abs (int64_t (spec.x) - spec.full_x) > farthest_place ||
+      std::abs (int64_t (spec.y) - spec.full_y) > farthest_place)
     throw IoFailure ("its part " + std::to_string (index) + " is too large or too far outside.");
 }
 

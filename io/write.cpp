@@ -20,7 +20,8 @@ using OIIO::ImageSpec;
 // Distances in EXR, as compositors expect them: of the nearest and of the farthest point.
 constexpr float near_distance = 1, far_distance = 2;
 
-constexpr const char *convention = "Z = far - d (far - near) is the distance to the viewer; depth.V = d is 1 at near, 0 at far";
+constexpr const char *convention =
+  "Z = far - d (far - near) is the distance to the viewer; depth.V = d is 1 at near, 0 at far";
 
 // ------------------------------------------------------------------ names
 
@@ -82,7 +83,8 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
 {
   OIIO::TypeDesc sample = picture.sample == CELD_IO_8_BIT ? OIIO::TypeUInt8 :
                           picture.sample == CELD_IO_16_BIT ? OIIO::TypeUInt16 : OIIO::TypeFloat;
-  ImageSpec      spec (picture.width, picture.height, picture.channels, format == Format::exr ? OIIO::TypeFloat : sample);
+  ImageSpec      spec (picture.width, picture.height, picture.channels,
+                       format == Format::exr ? OIIO::TypeFloat : sample);
 
   spec.channelnames.clear ();
   for (int i = 0; i < picture.channels; i++)
@@ -277,7 +279,8 @@ write_light (const std::string &path, const CeldPlane &light)
     encoded[i] = encode_srgb (light.data[i / width * light.stride + i % width]);
 
   const CeldIoChannel grey = { "Y", png ? encoded.data () : light.data, 1, png ? width : light.stride };
-  const CeldIoPicture picture = { nullptr, light.width, light.height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, png, &grey, 1 };
+  const CeldIoPicture picture = { nullptr, light.width, light.height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, png,
+                                  &grey, 1 };
 
   write_file (path, &picture, 1, nullptr, 0);
 }

@@ -32,7 +32,9 @@ static const CliCommand commands[] = {
 static void
 print_help (FILE *where)
 {
-  fprintf (where, "Usage: celdepth COMMAND ...\n\nDepth for hand-drawn cartoons from scribbles and arrows.\n\nCommands:\n");
+  fputs ("Usage: celdepth COMMAND ...\n\n"
+         "Depth for hand-drawn cartoons from scribbles and arrows.\n\n"
+         "Commands:\n", where);
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
     fprintf (where, "  %-8s %s\n", commands[i].name, commands[i].summary);
   fprintf (where, "\n'celdepth COMMAND --help' shows the options and examples of a command.\n"

@@ -119,8 +119,8 @@ typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS 
 /* data NULL where there is none. */
 typedef struct { int width, height; CeldDrawing drawing; CeldPaint scribbles, arrows, contours; } CliLayers;
 
-/* The layers of the wanted roles: from the files that the options name, else from the parts of `input` (may be NULL) that bear the
- * role's name.  All must be as large as the layers' width and height, where these are set before. */
+/* The layers of the wanted roles: from the files that the options name, else from the parts of `input` (may be NULL)
+ * that bear the role's name.  All must be as large as the layers' width and height, where these are set before. */
 bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers);
 void cli_layers_clear (CliLayers *layers);
 /* One picture: its part of that name, or else its first. */

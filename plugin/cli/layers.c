@@ -64,7 +64,8 @@ cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint
 {
   CeldIoFile *file = open_file (path);
   size_t      part = file ? celd_io_find (file, role) : 0;
-  bool        good = file && check_size (file, path, layers) && cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
+  bool        good = file && check_size (file, path, layers) &&
+                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
 
   celd_io_close (file);
   return good;
@@ -90,7 +91,8 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
 {
   CeldIoFile *file = open_file (path);
   size_t      part = file ? find_drawing (file, path) : CELD_NO_INDEX;
-  bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) && cli_read_drawing (file, part, &layers->drawing);
+  bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) &&
+                     cli_read_drawing (file, part, &layers->drawing);
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
@@ -155,6 +157,7 @@ cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTex
 {
   if (status != CELD_BAD_RELATION)
     return cli_check (status);
-  return cli_error ("%s, line %d, column %d: expected %s, found %s.", options->relations_file ? options->relations_file : "Relations",
+  return cli_error ("%s, line %d, column %d: expected %s, found %s.",
+                    options->relations_file ? options->relations_file : "Relations",
                     error->line, error->column, error->expected, error->found);
 }

@@ -13,6 +13,7 @@
 
 #define PREFIX      10  /* magic word, version, length of the header */
 #define HEADER_SIZE 128 /* with the prefix; numpy wants a multiple of 64 */
+#define FLOATS      (G_BYTE_ORDER == G_LITTLE_ENDIAN ? "'<f4'" : "'>f4'")
 
 bool
 cli_is_npy (const char *path)
@@ -26,6 +27,7 @@ bool
 cli_npy_write (const char *path, int width, int height, int depth, size_t row, const float *data)
 {
   char    header[HEADER_SIZE] = "\x93NUMPY\x01", axes[64];
+  size_t  pixel = sizeof (float) * (size_t) (depth ? depth : 1);
   char   *beside = g_strdup_printf ("%s.new-%d", path, (int) getpid ());
   FILE   *file = g_file_test (path, G_FILE_TEST_IS_DIR) ? NULL : fopen (beside, "wb");
   bool    good;
@@ -33,13 +35,13 @@ cli_npy_write (const char *path, int width, int height, int depth, size_t row, c
   snprintf (axes, sizeof axes, depth ? "%d, %d, %d" : "%d, %d", height, width, depth);
   header[8] = HEADER_SIZE - PREFIX;
   memset (header + PREFIX, ' ', HEADER_SIZE - PREFIX);
-  header[PREFIX + snprintf (header + PREFIX, HEADER_SIZE - PREFIX, "{'descr': '%cf4', 'fortran_order': False, 'shape': (%s), }",
-                            G_BYTE_ORDER == G_LITTLE_ENDIAN ? '<' : '>', axes)] = ' ';
+  header[PREFIX + snprintf (header + PREFIX, HEADER_SIZE - PREFIX,
+                            "{'descr': %s, 'fortran_order': False, 'shape': (%s), }", FLOATS, axes)] = ' ';
   header[HEADER_SIZE - 1] = '\n';
 
   good = file && fwrite (header, HEADER_SIZE, 1, file) == 1;
   for (int y = 0; good && y < height; y++)
-    good = fwrite (data + (size_t) y * row, sizeof (float) * (size_t) (depth ? depth : 1), (size_t) width, file) == (size_t) width;
+    good = fwrite (data + (size_t) y * row, pixel, (size_t) width, file) == (size_t) width;
   good = file && !fclose (file) && good && !g_rename (beside, path);
   if (!good)
     cli_say ("Cannot write \"%s\": %s.", path, g_strerror (errno));
@@ -55,7 +57,7 @@ read_header (const char *header, int *height, int *width, int *axes)
 {
   const char *shape = strstr (header, "'shape': (");
 
-  if (!shape || !strstr (header, G_BYTE_ORDER == G_LITTLE_ENDIAN ? "'<f4'" : "'>f4'") || !strstr (header, "'fortran_order': False"))
+  if (!shape || !strstr (header, FLOATS) || !strstr (header, "'fortran_order': False"))
     return false;
   *axes = sscanf (shape, "'shape': (%d, %d)", height, width);
   return *axes == 2 && *height >= 1 && *width >= 1 && *height <= CELD_MAX_SIDE && *width <= CELD_MAX_SIDE;
@@ -83,7 +85,8 @@ cli_npy_read (const char *path, CeldPlane *plane)
     {
       bytes[header_end - 1] = 0;
       if (!read_header (bytes + PREFIX, &height, &width, &axes))
-        cli_say ("Cannot read \"%s\": it holds no plane of 32-bit floats of 1 to %d pixels a side.", path, CELD_MAX_SIDE);
+        cli_say ("Cannot read \"%s\": it holds no plane of 32-bit floats of 1 to %d pixels a side.", path,
+                 CELD_MAX_SIDE);
       else if ((length - header_end) / sizeof (float) / (gsize) width < (gsize) height)
         cli_say ("Cannot read \"%s\": it is cut short.", path);
       else if (cli_plane_new (width, height, plane))

@@ -32,8 +32,8 @@ typedef struct
 #define MEMBER(name) offsetof (CliOptions, name)
 
 static const FileOption files[] = {
-  { "drawing", CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, INPUT, MEMBER (drawing),
-    "DRAWING", "the drawing that belongs to it" },
+  { "drawing", CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, INPUT,
+    MEMBER (drawing), "DRAWING", "the drawing that belongs to it" },
   { "scribbles", MADE_OF_LABELS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour a region" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
     "virtual contours: red cuts, blue cuts regions only, green erases ink" },
@@ -43,9 +43,11 @@ static const FileOption files[] = {
   { "relations", MADE_OF_LABELS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", MADE_OF_LABELS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
-  { "labels", MADE_OF_LABELS, CLI_SEGMENT, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
+  { "labels", MADE_OF_LABELS, CLI_SEGMENT, OUTPUT, MEMBER (labels), "OUT",
+    "write regions in the colours of their scribbles" },
   { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT", "write levels before contours are given to their owners" },
-  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT", "write levels" },
+  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
+    "write levels" },
   { "depth", CLI_POPUP | CLI_SMOOTH, CLI_SMOOTH, OUTPUT, MEMBER (depth), "OUT", "write smooth depth" },
   { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
   { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
@@ -80,22 +82,30 @@ static const SettingOption settings[] = {
   { "ink-threshold", CLI_POPUP | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
     "ink at or below this is full ink; 0.25" },
   { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "exact", "how regions are found" },
-  { "hardness", MADE_OF_LABELS, NUMBER, MEMBER (hardness), "0.01-1", "1 obeys every stroke, less lets the majority win; 0.05" },
+  { "hardness", MADE_OF_LABELS, NUMBER, MEMBER (hardness), "0.01-1",
+    "1 obeys every stroke, less lets the majority win; 0.05" },
   { "flats", MADE_OF_LABELS, SWITCH, MEMBER (flats), NULL, "the scribbles are a flat colouring" },
-  { "background", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (background), "auto|none|colour", "which region is the background" },
+  { "background", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (background), "auto|none|colour",
+    "which region is the background" },
   { "background-colour", MADE_OF_LABELS | CLI_ORDER, COLOUR, MEMBER (background_colour), "#RRGGBB",
     "the scribble colour that is the background" },
   { "seeds", MADE_OF_LABELS, CHOICE, MEMBER (seeds), "auto|scribbles", "may arrows make regions of their own?" },
   { "same-colour", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (same_colour), "one|separate",
     "regions of one colour have one depth, or each its own" },
-  { "arrow-style", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper", "how arrows are painted" },
-  { "encoding", CLI_POPUP | CLI_ORDER, CHOICE, MEMBER (encoding), "normalized|rank|fixed", "how levels become numbers" },
-  { "near-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (near_level), "N", "with fixed encoding, the level that becomes 1" },
-  { "far-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (far_level), "N", "with fixed encoding, the level that becomes 0" },
-  { "anchors", CLI_POPUP, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core", "which pixels keep their level in smooth depth" },
+  { "arrow-style", MADE_OF_LABELS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper",
+    "how arrows are painted" },
+  { "encoding", CLI_POPUP | CLI_ORDER, CHOICE, MEMBER (encoding), "normalized|rank|fixed",
+    "how levels become numbers" },
+  { "near-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (near_level), "N",
+    "with fixed encoding, the level that becomes 1" },
+  { "far-level", CLI_POPUP | CLI_ORDER, NUMBER, MEMBER (far_level), "N",
+    "with fixed encoding, the level that becomes 0" },
+  { "anchors", CLI_POPUP, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
+    "which pixels keep their level in smooth depth" },
   { "tolerance", CLI_POPUP | CLI_SMOOTH, NUMBER, MEMBER (tolerance), "0-0.1", "largest error of smooth depth; 0.0001" },
   { "bulge", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
-  { "light-azimuth", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_azimuth), "DEGREES", "0 from the right, 90 from above; 135" },
+  { "light-azimuth", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_azimuth), "DEGREES",
+    "0 from the right, 90 from above; 135" },
   { "light-elevation", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_elevation), "DEGREES", "90 from the viewer; 45" },
   { "ambient", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (ambient), "0-1", "light that reaches every pixel; 0.25" },
 };
@@ -173,7 +183,8 @@ take_setting (const char *name, const char *value, gpointer data, GError **error
       options->background_colour = options->background_colour || setting->kind == COLOUR;
       return set_setting (setting, value, &options->settings);
     }
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value, setting->value);
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value,
+               setting->value);
   return FALSE;
 }
 
@@ -208,7 +219,8 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   bool            good;
 
   append_entries (command, options, entries);
-  g_array_append_val (entries, ((GOptionEntry) { "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "neither progress nor remarks", NULL }));
+  g_array_append_val (entries, ((GOptionEntry) {
+    "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "neither progress nor remarks", NULL }));
   g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
   g_option_context_set_main_group (context, group);
   g_option_context_set_summary (context, command->summary);

@@ -54,13 +54,14 @@ colours_clear (Colours *colours)
   g_free (colours->row);
 }
 
-/* The fish takes what GEGL's loader would give it, integers too, so that both come to the last bit of the same result. */
+/* The fish takes what GEGL's loader would give it, integers too: the results are the same to the last bit. */
 static bool
 colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colours)
 {
   const CeldIoPart *about = celd_io_part (file, part);
   int               width = celd_io_width (file), height = celd_io_height (file);
   bool              integers = !about->linear && (about->bits == 8 || about->bits == 16);
+  const char       *model = about->grey ? "Y'A" : "R'G'B'A";
   char              stored[32];
   CeldIoError       error;
 
@@ -76,7 +77,9 @@ colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colour
     return cli_check (CELD_NO_MEMORY);
   if (!celd_io_read_colours (file, part, colours->rgba, &error))
     return cli_error ("%s", error.text);
-  g_snprintf (stored, sizeof stored, "%s %s", about->linear ? (about->grey ? "YA" : "RGBA") : (about->grey ? "Y'A" : "R'G'B'A"),
+  if (about->linear)
+    model = about->grey ? "YA" : "RGBA";
+  g_snprintf (stored, sizeof stored, "%s %s", model,
               colours->bits == 8 ? "u8" : colours->bits == 16 ? "u16" : "float");
   /* Reading its cache, babl tries out tables of 350 MB, which costs half a second; we need one conversion. */
   g_setenv ("BABL_INHIBIT_CACHE", "1", FALSE);
@@ -114,7 +117,8 @@ cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
   bool    alpha = celd_io_part (file, part)->alpha;
   float  *row = g_new (float, 4 * (gsize) width);
   Colours colours;
-  bool    good = colours_read (file, part, "R'G'B'A float", &colours) && cli_plane_new (width, height, &drawing->luma) &&
+  bool    good = colours_read (file, part, "R'G'B'A float", &colours) &&
+                 cli_plane_new (width, height, &drawing->luma) &&
                  (!alpha || cli_plane_new (width, height, &drawing->alpha));
 
   for (int y = 0; good && y < height; y++)
@@ -123,9 +127,13 @@ cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
 
       colours_convert (&colours, y, row);
       for (int x = 0; x < width; x++)
-        drawing->luma.data[start + (size_t) x] = 0.2126f * row[4 * x] + 0.7152f * row[4 * x + 1] + 0.0722f * row[4 * x + 2];
-      for (int x = 0; alpha && x < width; x++)
-        drawing->alpha.data[start + (size_t) x] = row[4 * x + 3];
+        {
+          const float *p = row + 4 * x;
+
+          drawing->luma.data[start + (size_t) x] = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+          if (alpha)
+            drawing->alpha.data[start + (size_t) x] = p[3];
+        }
     }
   g_free (row);
   colours_clear (&colours);

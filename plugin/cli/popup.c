@@ -19,7 +19,8 @@ load (CeldSession *session, const CliOptions *options, CliLayers *layers)
 {
   char         *text = cli_relations_text (options);
   CeldTextError error;
-  bool          good = text && cli_check_relations (celd_session_set_relations (session, text, &error), options, &error) &&
+  bool          good = text &&
+                       cli_check_relations (celd_session_set_relations (session, text, &error), options, &error) &&
                        cli_layers_read (options->input, options, CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS, layers) &&
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
@@ -84,7 +85,8 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
 }
 
 static bool
-write_report (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
+write_report (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run,
+              const Results *results)
 {
   return !options->report || cli_report_write (options->report, &(CliReport) {
     .command   = command,
@@ -124,7 +126,8 @@ run_route (const CliOptions *options, const char *command, bool whole_route)
       if (results.order)
         cli_say_cycles (results.order, celd_session_relations (session));
       if (!options->quiet)
-        cli_say_problems (celd_session_problems (session), celd_session_palette (session), celd_session_relations (session));
+        cli_say_problems (celd_session_problems (session), celd_session_palette (session),
+                          celd_session_relations (session));
     }
   cli_run_end (&run);
   celd_session_free (session);

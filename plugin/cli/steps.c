@@ -99,7 +99,8 @@ load_ordering (const CliOptions *options, Ordering *o)
 {
   char         *text = cli_relations_text (options);
   CeldTextError error;
-  bool          good = text && cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
+  bool          good = text &&
+                       cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
                        cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
                        cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&
@@ -284,13 +285,16 @@ cli_smooth (const CliOptions *options)
       float nearest = nearest_level (&step.levels);
 
       cli_run_stage (&step.run, "depth");
-      good = finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL, &options->settings,
-                                             &step.run.run, &step.levels, &solve)) &&
+      good = finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL,
+                                             &options->settings, &step.run.run, &step.levels, &solve)) &&
              cli_write_depth (options->depth, &step.levels, nearest);
     }
   if (good && !solve.converged && !options->quiet)
-    cli_say_problems (&(CeldProblems) { &(CeldProblem) { .kind = CELD_PROBLEM_NOT_CONVERGED, .relation = CELD_NO_INDEX }, 1 },
-                      NULL, NULL);
+    {
+      CeldProblem problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .relation = CELD_NO_INDEX };
+
+      cli_say_problems (&(CeldProblems) { &problem, 1 }, NULL, NULL);
+    }
   g_free (anchors.data);
   return end_step (&step, good);
 }
@@ -310,8 +314,8 @@ cli_shade (const CliOptions *options)
       normals = (CeldVectors) { step.levels.width, step.levels.height, step.levels.stride,
                                 g_try_new (float, 3 * (gsize) step.levels.width * (gsize) step.levels.height) };
       cli_run_stage (&step.run, "normals");
-      good = finish (&step.run, normals.data ? celd_normals (&step.ink, &step.levels, &options->settings, &step.run.run, &normals)
-                                             : CELD_NO_MEMORY) &&
+      good = cli_check (normals.data ? CELD_OK : CELD_NO_MEMORY) &&
+             finish (&step.run, celd_normals (&step.ink, &step.levels, &options->settings, &step.run.run, &normals)) &&
              cli_plane_new (step.levels.width, step.levels.height, &shading) &&
              cli_check (celd_shade (&normals, &options->settings, &shading)) &&
              (!options->normals || cli_write_normals (options->normals, &normals)) &&

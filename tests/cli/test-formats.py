@@ -29,7 +29,8 @@ class Formats(Test):
             self.assertEqual(colours.shape, (HEIGHT, WIDTH, 4))
             for place, colour in ((IN_A, RED), (IN_B, BLUE), (IN_PAGE, GREEN)):
                 self.assertEqual(tuple(at(colours, place)), colour + (255,))
-        self.assertAlmostEqual(at(self.channel('labels.exr', 'G'), IN_PAGE), ((160 / 255 + 0.055) / 1.055) ** 2.4, places=3)
+        linear = ((160 / 255 + 0.055) / 1.055) ** 2.4
+        self.assertAlmostEqual(at(self.channel('labels.exr', 'G'), IN_PAGE), linear, places=3)
         self.assertEqual(at(self.channel('labels.exr', 'B'), IN_B), 1)
 
     def test_transparent_background(self):
@@ -71,12 +72,15 @@ class Formats(Test):
         for ending in ENDINGS:
             with self.subTest(ending):
                 self.celdepth('expand', f'order.{ending}', '--drawing', 'drawing.png', '--levels', 'again.npy')
-                self.assertLess(np.abs(np.round(np.load(self.path('again.npy'))) - np.load(self.path('again.npy'))).max(), 1e-4)
-                self.assertEqual(at(np.load(self.path('again.npy')), IN_B), 2)
+                again = np.load(self.path('again.npy'))
+                np.testing.assert_allclose(again, np.round(again), atol=1e-4)
+                self.assertEqual(at(again, IN_B), 2)
 
     def test_fixed_levels(self):
-        self.popup('--relations', RELATIONS, '--levels', 'l.npy', '--encoding', 'fixed', '--near-level', '10', '--far-level', '-10')
-        np.testing.assert_allclose([at(np.load(self.path('l.npy')), p) for p in (IN_PAGE, IN_A, IN_B)], [0.5, 0.55, 0.6], atol=1e-6)
+        self.popup('--relations', RELATIONS, '--levels', 'l.npy', '--encoding', 'fixed', '--near-level', '10',
+                   '--far-level', '-10')
+        levels = np.load(self.path('l.npy'))
+        np.testing.assert_allclose([at(levels, p) for p in (IN_PAGE, IN_A, IN_B)], [0.5, 0.55, 0.6], atol=1e-6)
 
     def test_normals(self):
         normals = self.make('normals')
@@ -110,14 +114,17 @@ class Formats(Test):
         self.celdepth('shade', 'b-levels.npy', *drawing, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
         np.testing.assert_array_equal(self.picture('a.png'), self.picture('b.png'))
         for name in ('order', 'levels', 'depth', 'normals', 'shading'):
-            np.testing.assert_allclose(np.load(self.path(f'a-{name}.npy')), np.load(self.path(f'b-{name}.npy')), atol=1e-4)
+            a, b = (np.load(self.path(f'{run}-{name}.npy')) for run in 'ab')
+            np.testing.assert_allclose(a, b, atol=1e-4)
 
     def test_labels_come_back(self):
         """order reads the labels that segment wrote."""
         for ending in ('png', 'exr', 'tif'):
             with self.subTest(ending):
-                self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', f'l.{ending}', '--report', 's.json')
-                self.celdepth('order', f'l.{ending}', '--relations', RELATIONS, '--levels', 'o.npy', '--report', 'o.json')
+                self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', f'l.{ending}',
+                              '--report', 's.json')
+                self.celdepth('order', f'l.{ending}', '--relations', RELATIONS, '--levels', 'o.npy',
+                              '--report', 'o.json')
                 levels = np.load(self.path('o.npy'))
                 self.assertEqual([at(levels, p) for p in (IN_PAGE, IN_A, IN_B)], [0, 0.5, 1])
                 reports = []
@@ -128,15 +135,18 @@ class Formats(Test):
                 self.assertEqual(areas[0], areas[1])
 
     def test_report(self):
-        self.popup('--relations', RELATIONS + '; 20,20 > 22,22; 500,5 > 1,1; #123456 > 1,1 @2.5 !crack', '--seeds', 'scribbles',
-                   '--report', 'report.json')
+        unfit = '; 20,20 > 22,22; 500,5 > 1,1; #123456 > 1,1 @2.5 !crack'
+        self.popup('--relations', RELATIONS + unfit, '--seeds', 'scribbles', '--report', 'report.json')
         with open(self.path('report.json'), encoding='utf-8') as file:
             report = json.load(file)
-        self.assertEqual((report['schema'], report['command'], report['width'], report['height']), (1, 'popup', WIDTH, HEIGHT))
-        self.assertEqual({l['colour']: l['level'] for l in report['labels']}, {'#0000ff': 2, '#ff0000': 1, '#00a000': 0})
+        self.assertEqual([report[name] for name in ('schema', 'command', 'width', 'height')],
+                         [1, 'popup', WIDTH, HEIGHT])
+        self.assertEqual({l['colour']: l['level'] for l in report['labels']},
+                         {'#0000ff': 2, '#ff0000': 1, '#00a000': 0})
         self.assertEqual(sum(l['area'] for l in report['labels']), WIDTH * HEIGHT)
         self.assertEqual([l['background'] for l in report['labels'] if l['colour'] == '#00a000'], [True])
-        self.assertEqual([r.get('left-out') for r in report['relations']], [None, None, 'same-region', 'outside', 'unknown-colour'])
+        self.assertEqual([r.get('left-out') for r in report['relations']],
+                         [None, None, 'same-region', 'outside', 'unknown-colour'])
         self.assertEqual(report['relations'][4]['text'], '#123456 > 1,1 @2.5 !crack')
         self.assertEqual((report['relations'][1]['line'], report['relations'][1]['column']), (1, 16))
         self.assertEqual({p['kind'] for p in report['problems']}, {'same-region', 'outside', 'unknown-colour'})

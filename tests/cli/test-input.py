@@ -41,13 +41,14 @@ class Layers(Test):
         np.testing.assert_allclose(np.load(self.path('a.npy')), np.load(self.path('b.npy')), atol=1e-5)
 
     def test_option_before_layer(self):
-        other = [(name, x, y, layer if name != 'scribbles' else Image.new('RGBA', (5, 5), RED)) for name, x, y, layer in layers()]
-        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), other)
+        other = ('scribbles', 0, 0, Image.new('RGBA', (5, 5), RED))
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), [layers()[0], other])
         self.same_labels('page.psd', '--scribbles', 'scribbles.png')
 
     def test_missing_layers(self):
         write_psd(self.path('no-drawing.psd'), (WIDTH, HEIGHT), [('Lines', *layers()[0][1:]), layers()[1]])
-        self.fails('popup', 'no-drawing.psd', '--depth', 'd.png', naming='no layer named "drawing". Its layers are "Lines", "scribbles"')
+        self.fails('popup', 'no-drawing.psd', '--depth', 'd.png',
+                   naming='no layer named "drawing". Its layers are "Lines", "scribbles"')
         write_psd(self.path('no-scribbles.psd'), (WIDTH, HEIGHT), layers()[:1])
         self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='nothing to go by')
 
@@ -95,9 +96,13 @@ class Strokes(Test):
             ImageDraw.Draw(layer).line(points, fill=colour, width=2)
         layer.save(self.path(name))
 
+    def arrow(self):
+        """From box B up to the page: its head points at the farther part."""
+        orange = (255, 128, 0, 255)
+        self.layer('arrows.png', (orange, [(70, 40), (70, 18)]), (orange, [(64, 24), (70, 18), (76, 24)]))
+
     def test_arrows_are_relations(self):
-        """An arrow's head points at the farther part."""
-        self.layer('arrows.png', ((255, 128, 0, 255), [(70, 40), (70, 18)]), ((255, 128, 0, 255), [(64, 24), (70, 18), (76, 24)]))
+        self.arrow()
         self.popup('--arrows', 'arrows.png', '--levels', 'l.npy', '--report', 'r.json')
         with open(self.path('r.json'), encoding='utf-8') as file:
             relation, = json.load(file)['relations']
@@ -106,7 +111,7 @@ class Strokes(Test):
         self.assertGreater(levels[45, 70], levels[18, 75])
 
     def test_arrows_alone(self):
-        self.layer('arrows.png', ((255, 128, 0, 255), [(70, 40), (70, 18)]), ((255, 128, 0, 255), [(64, 24), (70, 18), (76, 24)]))
+        self.arrow()
         self.celdepth('popup', 'drawing.png', '--arrows', 'arrows.png', '--levels', 'l.npy')
         levels = np.load(self.path('l.npy'))
         self.assertGreater(levels[45, 70], levels[18, 75])
@@ -163,7 +168,8 @@ class Drawings(Test):
     def test_one_pixel_wide(self):
         Image.new('L', (1, 8), 255).save(self.path('line.png'))
         Image.new('RGBA', (1, 8), RED + (255,)).save(self.path('red.png'))
-        self.celdepth('popup', 'line.png', '--scribbles', 'red.png', '--labels', 'l.png', '--depth', 'd.npy', '--normals', 'n.png', '--flats')
+        self.celdepth('popup', 'line.png', '--scribbles', 'red.png', '--flats', '--labels', 'l.png', '--depth', 'd.npy',
+                      '--normals', 'n.png')
         self.assertEqual(tuple(self.picture('l.png')[0, 0]), RED + (255,))
 
 
@@ -213,7 +219,8 @@ class BadInput(Test):
 
     def test_sizes_that_differ(self):
         scribbles().resize((50, 40)).save(self.path('small.png'))
-        self.fails('popup', 'drawing.png', '--scribbles', 'small.png', '--depth', 'd.png', naming='"small.png" has 50 x 40 pixels, but 96 x 64')
+        self.fails('popup', 'drawing.png', '--scribbles', 'small.png', '--depth', 'd.png',
+                   naming='"small.png" has 50 x 40 pixels, but 96 x 64')
         np.save(self.path('small.npy'), np.zeros((5, 5), np.float32))
         self.fails('smooth', 'small.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='96 x 64')
 
@@ -227,7 +234,8 @@ class BadInput(Test):
         self.assertRegex(text, 'line 2, column 5: expected .*found')
         with open(self.path('relations.txt'), 'wb') as file:
             file.write(b'1,1 > 2,\n')
-        self.assertIn('relations.txt, line', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+        text = self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1)
+        self.assertIn('relations.txt, line', text)
         with open(self.path('relations.txt'), 'wb') as file:
             file.write(b'1,1 > 2,2\0 and more')
         self.assertIn('no text', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))

@@ -45,8 +45,9 @@ class Usage(Test):
 
     def test_wrong_values(self):
         for option, value in (('--hardness', '7'), ('--hardness', '0,5'), ('--hardness', 'nan'), ('--hardness', ''),
-                              ('--ink', 'Dark'), ('--ink', 'dark|light'), ('--encoding', 'rank '), ('--tolerance', '0'),
-                              ('--background-colour', '#12345'), ('--background-colour', '#1234567'), ('--bulge', '1x')):
+                              ('--ink', 'Dark'), ('--ink', 'dark|light'), ('--encoding', 'rank '),
+                              ('--tolerance', '0'), ('--bulge', '1x'),
+                              ('--background-colour', '#12345'), ('--background-colour', '#1234567')):
             with self.subTest(option=option, value=value):
                 self.wrong('popup', 'a.png', '--depth', 'b.png', option, value, naming=f"{option} cannot be '{value}'")
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--background', 'colour', naming='--background-colour')
@@ -60,7 +61,8 @@ class Usage(Test):
         self.wrong('popup', 'a.png', '--depth', 'a.png', naming='overwrite')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--levels', './b.png', naming='same file')
         self.wrong('popup', 'a.png', '--scribbles', 's.png', '--depth', 's.png', naming='same file')
-        self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1>2,2', '--relations-file', 'r.txt', naming='not both')
+        self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1>2,2', '--relations-file', 'r.txt',
+                   naming='not both')
 
     def test_comma_locale(self):
         localedef = ['localedef', '-i', 'de_DE', '-f', 'UTF-8', self.path('de_DE.UTF-8')]
@@ -84,8 +86,8 @@ class Usage(Test):
         Image.fromarray(strokes).save(self.path('strokes.png'))
         before = set(os.listdir(self.folder))
         screen, terminal = pty.openpty()
-        process = subprocess.Popen([COMMAND, 'popup', 'large.png', '--scribbles', 'strokes.png', '--depth', 'depth.png'],
-                                   cwd=self.folder, stderr=terminal)
+        words = [COMMAND, 'popup', 'large.png', '--scribbles', 'strokes.png', '--depth', 'depth.png']
+        process = subprocess.Popen(words, cwd=self.folder, stderr=terminal)
         shown = os.read(screen, 1000)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(60), 1)
