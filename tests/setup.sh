@@ -30,6 +30,7 @@ as_root ()
 # packages_of GROUP...: names from tests/packages
 packages_of ()
 {
+  local group
   for group; do
     sed -n "s/^$group //p" tests/packages
   done
@@ -46,6 +47,7 @@ packages_missing ()
 # packages_install GROUP...: asks first when a person is at the terminal, unless -y was given
 packages_install ()
 {
+  local missing answer
   missing=$(packages_missing "$@" | tr '\n' ' ')
   [ -n "$missing" ] || return 0
   echo "Debian packages needed: $missing"
@@ -65,7 +67,7 @@ packages_install ()
 # build_tree FOLDER MESON-OPTION...: configures once, then builds
 build_tree ()
 {
-  folder=$1
+  local folder=$1
   shift
   [ -e "$folder/build.ninja" ] || meson setup "$folder" "$@" || return 1
   ninja -C "$folder"
@@ -81,6 +83,7 @@ build_with_clang ()
 # use_build FOLDER: `gegl` and `celdepth` of this build come first
 use_build ()
 {
+  local built
   built=$(cd "$1" && pwd)
   PATH=$built/plugin/cli:$PATH
   GEGL_PATH=$(pkg-config --variable=pluginsdir gegl-0.4):$built/gegl-ops
@@ -95,7 +98,7 @@ passed=0 failed=0 skipped=0
 # line the command itself is one test.  Its output is shown if it fails, and kept in $logs.
 step ()
 {
-  name=$1
+  local name=$1 log begin status counts step_failed
   shift
   log=$logs/$(echo "$name" | tr -c 'a-zA-Z0-9\n' -).log
   begin=$(date +%s)
@@ -128,7 +131,7 @@ step_end ()
 # meson_test FOLDER OPTION...: the test programs of a build, with a closing line of the usual form
 meson_test ()
 {
-  folder=$1
+  local folder=$1 status
   shift
   meson test -C "$folder" --no-rebuild --print-errorlogs "$@" >"$folder/meson-test.out"
   status=$?

@@ -15,6 +15,7 @@ chroot_home=${CELDEPTH_CHROOT:-/var/tmp/celdepth-chroot}
 
 chroot_mirror ()
 {
+  local codename
   codename=$(. /etc/os-release && echo "$VERSION_CODENAME")
   apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
     sed -n "s/^$codename main //p" | head -n 1
@@ -22,9 +23,8 @@ chroot_mirror ()
 
 chroot_make ()
 {
-  suite=$1 name=$2
+  local suite=$1 name=$2 root=$chroot_home/$2
   shift 2
-  root=$chroot_home/$name
   if [ ! -e "$root/.base" ]; then
     rm -rf "$root"
     mkdir -p "$chroot_home"
@@ -48,7 +48,7 @@ chroot_copy ()
 
 chroot_tree ()
 {
-  root=$chroot_home/$1
+  local root=$chroot_home/$1
   rm -rf "$root/celdepth"
   mkdir "$root/celdepth"
   git -c safe.directory='*' ls-files -z --cached --others --exclude-standard | xargs -0 -r ls -d 2>/dev/null |
@@ -57,7 +57,7 @@ chroot_tree ()
 
 chroot_commit ()
 {
-  root=$chroot_home/$1
+  local root=$chroot_home/$1
   rm -rf "$root/celdepth"
   mkdir "$root/celdepth"
   git -c safe.directory='*' archive HEAD | tar -xf - -C "$root/celdepth"
@@ -65,7 +65,7 @@ chroot_commit ()
 
 chroot_run ()
 {
-  root=$chroot_home/$1
+  local root=$chroot_home/$1
   shift
   unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" sh -c '
     root=$1
