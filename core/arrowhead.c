@@ -14,6 +14,8 @@
 
 #define EXTREMITIES  4   /* tail, tip and two barbs */
 #define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
+#define EVEN         2.2 /* largest ratio of widths along a shaft: pens start thin */
+#define THICK_START  1.5 /* largest ratio of a shaft's first third to its second: there is no other head */
 #define SHORTEST     6   /* pixels */
 #define TURNS        3   /* of the axis towards the tip */
 
@@ -108,26 +110,37 @@ foremost (const CeldTrail *trail, const View *view, double most_s)
   return (CeldPoint) { sum.x / n, sum.y / n };
 }
 
-/* The distance at which the stroke gets wider than its shaft and stays so; its length if it does not. */
+/* Width of the last piece before a distance, four widths long; the start may be thin, but not that thin. */
+static double
+width_before (const CeldTrail *trail, double w, double distance)
+{
+  return fmax (0.75 * w, celd_trail_width (trail, fmax (0, distance - 4 * w), distance));
+}
+
+/* The distance at which the stroke gets wider than just before and stays so; its length if it does not. */
 static double
 shaft_end (const CeldTrail *trail, double w)
 {
-  double length = celd_trail_length (trail), run = fmax (w, 4), wide = 1.3 * w + 0.8, d = w;
+  double length = celd_trail_length (trail), run = fmax (w, 4), d = w;
 
-  while (d + run < length && (celd_trail_width (trail, d, d + run) < wide ||
-                              celd_trail_width (trail, d, d + 0.5 * run) < wide))
-    d += 0.5;
-  return d + run < length ? d : length;
+  for (; d + run < length; d += 0.5)
+    {
+      double wide = 1.3 * width_before (trail, w, d) + 0.8;
+
+      if (celd_trail_width (trail, d, d + run) > wide && celd_trail_width (trail, d, d + 0.5 * run) > wide)
+        return d;
+    }
+  return length;
 }
 
-/* Is the stroke about equally wide all the way to the end of its shaft?  Pens that start thin are. */
+/* Is the stroke about equally wide all the way to the end of its shaft? */
 static bool
 is_even (const CeldTrail *trail, double end)
 {
   double a = celd_trail_width (trail, 0, end / 3), b = celd_trail_width (trail, end / 3, 2 * end / 3);
   double c = celd_trail_width (trail, 2 * end / 3, end);
 
-  return fmax (a, fmax (b, c)) < 1.8 * fmin (a, fmin (b, c));
+  return a < THICK_START * b && fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
 }
 
 /* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
@@ -268,6 +281,7 @@ read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
   end = shaft_end (trail, w);
   if (end >= length || end < 1.5 * w || !is_even (trail, end))
     return false;
+  w     = width_before (trail, w, end);
   view  = look_ahead (trail, w, end);
   shaft = view;
   e     = turn_to_tip (trail, &view);

@@ -40,6 +40,20 @@ heads_of_all_kinds (void)
 }
 
 static void
+pens_that_start_or_end_thin (void)
+{
+  for (int degrees = 0; degrees < 360; degrees += 15)
+    {
+      Arrow growing = straight (degrees, 3, FILLED, 20), ending = straight (degrees, 6, FILLED, 20);
+
+      growing.last_width = 6;
+      ending.last_width  = 3;
+      CHECK (judge_arrow (&growing, 100, CELD_ARROW_HEAD, false) == 1);
+      CHECK (judge_arrow (&ending, 100, CELD_ARROW_HEAD, false) == 1);
+    }
+}
+
+static void
 without_direction (void)
 {
   for (int degrees = 0; degrees < 360; degrees += 24)
@@ -85,6 +99,7 @@ main (void)
 {
   RUN (heads_at_all_angles);
   RUN (heads_of_all_kinds);
+  RUN (pens_that_start_or_end_thin);
   RUN (without_direction);
   RUN (crossing_arrows_are_not_guessed);
   return DONE;
