@@ -15,7 +15,7 @@
 #define EXTREMITIES  4   /* tail, tip and two barbs */
 #define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
 #define EVEN         2.2 /* largest ratio of widths along a shaft: pens start thin */
-#define THICK_START  1.5 /* largest ratio of a shaft's first third to its second: there is no other head */
+#define THICK_START  1.4 /* largest ratio of the width near the tail to that in the middle: more is another head */
 #define SHORTEST     6   /* pixels */
 #define TURNS        3   /* of the axis towards the tip */
 
@@ -133,14 +133,17 @@ shaft_end (const CeldTrail *trail, double w)
   return length;
 }
 
-/* Is the stroke about equally wide all the way to the end of its shaft? */
+/* Is the stroke about equally wide all the way to the end of its shaft, without another head at its start? */
 static bool
-is_even (const CeldTrail *trail, double end)
+is_even (const CeldTrail *trail, double w, double end)
 {
   double a = celd_trail_width (trail, 0, end / 3), b = celd_trail_width (trail, end / 3, 2 * end / 3);
-  double c = celd_trail_width (trail, 2 * end / 3, end);
+  double c = celd_trail_width (trail, 2 * end / 3, end), run = fmax (w, 4);
 
-  return a < THICK_START * b && fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
+  for (double d = 0; d < fmin (end - run, 8 * w); d += 0.5)
+    if (celd_trail_width (trail, d, d + run) > THICK_START * b + 0.8)
+      return false;
+  return fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
 }
 
 /* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
@@ -279,7 +282,7 @@ read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
     return false;
   w   = celd_trail_width (trail, 1, 0.5 * length);
   end = shaft_end (trail, w);
-  if (end >= length || end < 1.5 * w || !is_even (trail, end))
+  if (end >= length || end < 1.5 * w || !is_even (trail, w, end))
     return false;
   w     = width_before (trail, w, end);
   view  = look_ahead (trail, w, end);
