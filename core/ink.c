@@ -84,7 +84,7 @@ noise_at (const CeldPlane *contrast, int step)
   return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
 }
 
-/* The ripple that one of a hundred paper pixels near dark ink exceeds: the echoes of a lossy picture; 0 in a clean one.
+/* The ripple that one of ten paper pixels near dark ink exceeds: the echoes of a lossy picture; 0 in a clean one.
  * `around` is the largest contrast in some neighbourhood. */
 static float
 echo_level (const CeldPlane *contrast, const CeldPlane *around, float dark)
@@ -104,7 +104,7 @@ echo_level (const CeldPlane *contrast, const CeldPlane *around, float dark)
         of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
         all++;
       }
-  while (bin > 0 && 100 * (above += of[bin]) < all)
+  while (bin > 0 && 10 * (above += of[bin]) < all)
     bin--;
   return (float) bin / (BINS - 1);
 }
@@ -311,7 +311,7 @@ measure_ink (Work *w)
       w->faintest = most (w->faintest, 0.2f * w->dark);
     }
   else
-    w->faintest = most (w->faintest, 4 * echo_level (&w->contrast, &w->level, w->dark));
+    w->faintest = most (w->faintest, 6 * echo_level (&w->contrast, &w->level, w->dark));
   if (w->dark > 0.9f && !w->noisy)
     w->dark = 1; /* black lines of a pixel or less are not quite black anywhere */
   return CELD_OK;
