@@ -20,6 +20,7 @@
 
 #define REACH      0.45          /* of the way between both ends, for the discs of each */
 #define WIDEST     8             /* discs are at most 1/8 of the shorter side */
+#define HARD_PULL  ((1 << 30) - 1) /* what celd_maxflow takes */
 
 /* An end of a relation on the drawing: the nearest paper to its point. */
 typedef struct { bool there; int x, y; size_t p; } End;
@@ -120,8 +121,8 @@ stamp (CeldCanvas *canvas, Disc disc, void (*paint) (CeldCanvas *canvas, size_t 
         paint (canvas, (size_t) y * (size_t) canvas->width + (size_t) x, data);
 }
 
-/* Both discs of an end: where it lies, and on the summit above. */
-static void
+/* Both discs of an end: where it lies, and on the summit above, whose squared distance to ink is returned. */
+static int32_t
 stamp_end (CeldCanvas *canvas, const int32_t *squared, End end, double reach,
            void (*paint) (CeldCanvas *canvas, size_t p, void *data), void *data)
 {
@@ -131,6 +132,7 @@ stamp_end (CeldCanvas *canvas, const int32_t *squared, End end, double reach,
   while (climb (canvas, squared, end, reach, &disc))
     ;
   stamp (canvas, disc, paint, data);
+  return squared[(size_t) disc.y * (size_t) canvas->width + (size_t) disc.x];
 }
 
 /* ------------------------------------------------------------------ colours of new labels */
@@ -306,95 +308,107 @@ paint_mark (CeldCanvas *canvas, size_t p, void *data)
     marking->region->mark[p] = marking->mark;
 }
 
-/* The cut's own labels: what is new, what the other end keeps, and the seeds that the region had. */
-enum { LOCAL_NEW = 1, LOCAL_KEPT, LOCAL_OLD, LOCAL_LABELS = LOCAL_OLD };
-
-typedef struct { int width, height; int32_t *east, *south; uint32_t *seed, *label; } Local;
+/* A cut of the region's box between the end that has more room round it, the source, and the other. */
+typedef struct { int width, height; int32_t *east, *south, *terminal; uint8_t *side; } Local;
 
 static void
 local_clear (Local *local)
 {
   celd_free (local->east);
   celd_free (local->south);
-  celd_free (local->seed);
-  celd_free (local->label);
+  celd_free (local->terminal);
+  celd_free (local->side);
 }
 
-/* Copies what the cut needs from the region's box. */
+/* What a pixel of the region pulls to the new label (> 0) or to the old one (< 0). */
+static int32_t
+pull (const CeldCanvas *canvas, const Region *region, size_t p)
+{
+  if (region->mark[p] == NEW_DISC)
+    return HARD_PULL;
+  if (region->mark[p] == KEPT_DISC)
+    return -HARD_PULL;
+  if (canvas->seeds.data[p] != region->label)
+    return 0;
+  return celd_canvas_vote (canvas, region->label) == CELD_HARD ? -HARD_PULL : -canvas->soft_vote;
+}
+
+/* Copies what the cut needs from the region's box; no edge leaves the region. */
 static CeldStatus
-local_new (const CeldCanvas *canvas, const Region *region, Local *local)
+local_new (const CeldCanvas *canvas, const Region *region, bool new_is_source, Local *local)
 {
   int    w = region->right - region->left + 1, h = region->bottom - region->top + 1;
-  size_t n = (size_t) w * (size_t) h, i = 0;
+  size_t n = (size_t) w * (size_t) h, i = 0, stride = (size_t) canvas->width;
 
   *local = (Local) {
-    w, h, celd_alloc (n, sizeof *local->east), celd_alloc (n, sizeof *local->south),
-    celd_alloc0 (n, sizeof *local->seed), celd_alloc0 (n, sizeof *local->label)
+    w, h, celd_alloc0 (n, sizeof *local->east), celd_alloc0 (n, sizeof *local->south),
+    celd_alloc0 (n, sizeof *local->terminal), celd_alloc0 (n, 1)
   };
-  if (!local->east || !local->south || !local->seed || !local->label)
+  if (!local->east || !local->south || !local->terminal || !local->side)
     return CELD_NO_MEMORY;
   for (int y = region->top; y <= region->bottom; y++)
     for (int x = region->left; x <= region->right; x++, i++)
       {
-        size_t p = (size_t) y * (size_t) canvas->width + (size_t) x;
+        size_t p = (size_t) y * stride + (size_t) x;
 
-        local->east[i]  = canvas->east[p];
-        local->south[i] = canvas->south[p];
         if (region->mark[p] == OUTSIDE)
-          local->label[i] = UINT32_MAX; /* not to be solved */
-        else if (region->mark[p] == NEW_DISC)
-          local->seed[i] = LOCAL_NEW;
-        else if (region->mark[p] == KEPT_DISC)
-          local->seed[i] = LOCAL_KEPT;
-        else if (canvas->seeds.data[p] == region->label)
-          local->seed[i] = LOCAL_OLD;
+          continue;
+        if (x < region->right && region->mark[p + 1])
+          local->east[i] = canvas->east[p];
+        if (y < region->bottom && region->mark[p + stride])
+          local->south[i] = canvas->south[p];
+        local->terminal[i] = new_is_source ? pull (canvas, region, p) : -pull (canvas, region, p);
       }
   return CELD_OK;
 }
 
 /* Gives the new label its side of the cut; discs are seeds from now on. */
 static void
-take_over (CeldCanvas *canvas, const Region *region, const Local *local, uint32_t label)
+take_over (CeldCanvas *canvas, const Region *region, const Local *local, bool new_is_source, uint32_t label)
 {
   size_t i = 0;
 
   for (int y = region->top; y <= region->bottom; y++)
     for (int x = region->left; x <= region->right; x++, i++)
       {
-        size_t   p = (size_t) y * (size_t) canvas->width + (size_t) x;
-        uint32_t seed = region->mark[p] == NEW_DISC ? label : region->mark[p] == KEPT_DISC ? region->label : 0;
+        size_t p = (size_t) y * (size_t) canvas->width + (size_t) x;
 
-        if (local->label[i] == LOCAL_NEW)
+        if (region->mark[p] != OUTSIDE && (local->side[i] != 0) == new_is_source)
           canvas->labels.data[p] = label;
-        if (seed)
-          canvas->seeds.data[p] = seed;
+        if (region->mark[p] == NEW_DISC || region->mark[p] == KEPT_DISC)
+          canvas->seeds.data[p] = region->mark[p] == NEW_DISC ? label : region->label;
       }
 }
 
+/* Of all smallest cuts this is the one nearest to the end with more room: a limb reaches up to where the body begins. */
 static CeldStatus
-cut_region (CeldCanvas *canvas, const Region *region, const CeldRun *run)
+cut_region (CeldCanvas *canvas, const Region *region, bool new_is_source, const CeldRun *run)
 {
-  const uint32_t order[LOCAL_LABELS] = { LOCAL_NEW, LOCAL_KEPT, LOCAL_OLD };
-  int32_t       *votes = celd_canvas_votes (canvas), vote[LOCAL_LABELS] = { CELD_HARD, CELD_HARD, 0 };
-  Local          local = { 0 };
-  uint32_t       label;
-  CeldMultiway   m;
-  CeldStatus     status = votes ? local_new (canvas, region, &local) : CELD_NO_MEMORY;
+  Local      local = { 0 };
+  uint32_t   label;
+  CeldStatus status = local_new (canvas, region, new_is_source, &local);
 
-  if (status != CELD_OK)
-    goto done;
-  vote[LOCAL_OLD - 1] = votes[region->label - 1];
-  m = (CeldMultiway) { local.width, local.height, local.east, local.south, local.seed, vote, order, LOCAL_LABELS };
-  status = celd_multiway (&m, run, local.label);
+  if (status == CELD_OK)
+    status = celd_maxflow (local.width, local.height, local.east, local.south, local.terminal, run, local.side, NULL);
   if (status == CELD_OK)
     status = new_label (canvas, &label);
   if (status == CELD_OK)
-    take_over (canvas, region, &local, label);
-
-done:
-  celd_free (votes);
+    take_over (canvas, region, &local, new_is_source, label);
   local_clear (&local);
   return status;
+}
+
+/* Marks the discs of both ends, that of the new label last, and cuts between them. */
+static CeldStatus
+split_region (CeldCanvas *canvas, const int32_t *squared, End kept, End new, Region *region, const CeldRun *run)
+{
+  double  reach = REACH * distance (kept, new);
+  int32_t room[2]; /* how much there is round the ends */
+  Marking marking[2] = { { region, KEPT_DISC }, { region, NEW_DISC } };
+
+  room[0] = stamp_end (canvas, squared, kept, reach, paint_mark, &marking[0]);
+  room[1] = stamp_end (canvas, squared, new, reach, paint_mark, &marking[1]);
+  return cut_region (canvas, region, room[1] > room[0], run);
 }
 
 static CeldStatus
@@ -404,7 +418,6 @@ split_relation (CeldCanvas *canvas, const CeldRelation *relation, const int32_t 
   End        end[2] = { find_end (canvas, &relation->nearer), find_end (canvas, &relation->farther) };
   CeldStatus status = CELD_OK;
   size_t     steps[2];
-  int        kept;
 
   if (relation->equal || !end[0].there || !end[1].there || end[0].p == end[1].p ||
       canvas->labels.data[end[0].p] != canvas->labels.data[end[1].p])
@@ -416,14 +429,8 @@ split_relation (CeldCanvas *canvas, const CeldRelation *relation, const int32_t 
   if (region->mark[end[1].p] == INSIDE)
     {
       steps[1] = walk (canvas, end[1].p, INSIDE, WALKED, region);
-      kept = steps[0] < steps[1] ? 0 : 1;
-      for (int i = 0; i < 2; i++)
-        {
-          Marking marking = { region, i == kept ? KEPT_DISC : NEW_DISC };
-
-          stamp_end (canvas, squared, end[i], REACH * distance (end[0], end[1]), paint_mark, &marking);
-        }
-      status = cut_region (canvas, region, run);
+      status = steps[0] < steps[1] ? split_region (canvas, squared, end[0], end[1], region, run)
+                                   : split_region (canvas, squared, end[1], end[0], region, run);
     }
   for (int y = region->top; y <= region->bottom; y++)
     memset (&region->mark[(size_t) y * (size_t) canvas->width + (size_t) region->left], OUTSIDE,

@@ -257,15 +257,12 @@ weigh_strokes (CeldCanvas *canvas)
   canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
 }
 
-int32_t *
-celd_canvas_votes (const CeldCanvas *canvas)
+int32_t
+celd_canvas_vote (const CeldCanvas *canvas, uint32_t label)
 {
-  int32_t *vote = celd_alloc (canvas->palette.n, sizeof *vote);
-  bool     all_hard = canvas->settings->flats || canvas->settings->hardness >= 1;
+  bool all_hard = canvas->settings->flats || canvas->settings->hardness >= 1;
 
-  for (size_t k = 0; vote && k < canvas->palette.n; k++)
-    vote[k] = all_hard || canvas->palette.item[k].hard ? CELD_HARD : canvas->soft_vote;
-  return vote;
+  return all_hard || canvas->palette.item[label - 1].hard ? CELD_HARD : canvas->soft_vote;
 }
 
 /* ------------------------------------------------------------------ the cuts */
@@ -306,13 +303,15 @@ static CeldStatus
 cut_labels (CeldCanvas *canvas, const CeldRun *run)
 {
   uint32_t    *order = celd_alloc (canvas->palette.n, sizeof *order);
-  int32_t     *vote = celd_canvas_votes (canvas);
+  int32_t     *vote = celd_alloc (canvas->palette.n, sizeof *vote);
   CeldMultiway m = {
     canvas->width, canvas->height, canvas->east, canvas->south, canvas->seeds.data, vote, order, canvas->palette.n
   };
   CeldStatus   status = order && vote ? order_labels (canvas, order) : CELD_NO_MEMORY;
 
   memset (canvas->labels.data, 0, canvas->n * sizeof *canvas->labels.data);
+  for (size_t k = 0; k < canvas->palette.n && status == CELD_OK; k++)
+    vote[k] = celd_canvas_vote (canvas, (uint32_t) k + 1);
   if (status == CELD_OK)
     status = celd_multiway (&m, run, canvas->labels.data);
   celd_free (order);

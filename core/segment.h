@@ -67,8 +67,8 @@ CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run,
 
 /* ------------------------------------------------------------------ segment.c */
 
-/* The votes of all labels of the palette, as celd_multiway wants them.  End with celd_free. */
-int32_t *celd_canvas_votes (const CeldCanvas *canvas);
+/* The vote of a label, as celd_multiway wants it. */
+int32_t celd_canvas_vote (const CeldCanvas *canvas, uint32_t label);
 
 /* ------------------------------------------------------------------ report.c */
 

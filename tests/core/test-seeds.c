@@ -1,0 +1,231 @@
+/* Arrows as strokes: regions that no stroke reaches, regions that an arrow splits, Figure 2 of the paper.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "private.h"
+
+typedef struct
+{
+  CeldPlane     ink;
+  CeldLabels    seeds, labels;
+  CeldPalette   palette;
+  CeldRelations relations;
+  CeldStatus    status;
+} Case;
+
+/* Scribbles 'A', 'B', ... may stand on paper in the drawing itself. */
+static Case
+segment (const char *const *drawing, const char *relations, CeldSettings settings)
+{
+  Case     c = { .ink = art_plane (drawing), .seeds = art_labels (drawing), .labels = art_labels (drawing) };
+  uint32_t n = 0;
+
+  for (int i = 0; i < c.ink.width * c.ink.height; i++)
+    n = c.seeds.data[i] > n ? c.seeds.data[i] : n;
+  c.palette = (CeldPalette) { calloc (n ? n : 1, sizeof (CeldRegion)), n };
+  for (uint32_t k = 0; k < n; k++)
+    c.palette.item[k] = (CeldRegion) { .colour = { (uint8_t) (60 * k), 200, 0, 255 } };
+  CHECK (celd_relations_parse (relations, &c.relations, NULL) == CELD_OK);
+  c.status = celd_segment (&c.ink, &c.seeds, &c.relations, &settings, NULL, &c.labels, &c.palette, NULL);
+  return c;
+}
+
+static void
+case_clear (Case *c)
+{
+  free (c->ink.data), free (c->seeds.data), free (c->labels.data);
+  celd_palette_clear (&c->palette);
+  celd_relations_clear (&c->relations);
+}
+
+#define LABEL(x, y) CELD_AT (&c.labels, x, y)
+
+static const char *const rooms[] = {
+  "........................",
+  ".######################.",
+  ".#.......#......#.....#.",
+  ".#.......#......#.....#.",
+  ".#.......#......#.....#.",
+  ".#.......#......#.....#.",
+  ".#.......#......#.....#.",
+  ".######################.",
+  "........................", NULL };
+
+static void
+ends_make_regions (void)
+{
+  Case c = segment (rooms, "4.5,4.5 > 12.5,4.5", celd_settings ());
+
+  CHECK (c.status == CELD_OK && c.palette.n == 3); /* the third room goes along with one of them, or the background */
+  CHECK (LABEL (4, 4) == 1 && LABEL (2, 2) == 1 && LABEL (8, 6) == 1);
+  CHECK (LABEL (12, 4) == 2 && LABEL (10, 6) == 2);
+  CHECK (LABEL (0, 0) == 3 && c.palette.item[2].background && c.palette.item[2].colour[3] == 0);
+  CHECK (c.palette.item[0].origin == CELD_FROM_ARROW && c.palette.item[0].hard && c.palette.item[0].colour[3] == 255);
+  CHECK (c.palette.item[0].seeds > 1 && c.palette.item[0].seeds <= 35);
+  case_clear (&c);
+}
+
+static void
+equal_ends_make_one_region (void)
+{
+  Case c = segment (rooms, "4.5,4.5 = 19.5,4.5", celd_settings ());
+
+  CHECK (c.palette.n == 2);
+  CHECK (LABEL (4, 4) == 1 && LABEL (19, 4) == 1 && LABEL (0, 0) == 2);
+  case_clear (&c);
+}
+
+/* An end on ink means the paper beside it; ends outside are left to others. */
+static void
+ends_on_ink_and_outside (void)
+{
+  Case c = segment (rooms, "1.5,4.5 > 12.5,4.5; 19.5,4.5 > 900,3", celd_settings ());
+
+  CHECK (c.status == CELD_OK && c.palette.n == 3);
+  CHECK (LABEL (12, 4) == 2 && LABEL (19, 4) == 3);
+  case_clear (&c);
+}
+
+static void
+scribbled_regions_stay (void)
+{
+  const char *const drawing[] = {
+    "...CCC..................",
+    ".######################.",
+    ".#.......#......#.....#.",
+    ".#.AAAA..#.BBB..#.....#.",
+    ".#.......#......#.....#.",
+    ".#.......#......#.....#.",
+    ".#.......#......#.....#.",
+    ".######################.",
+    "........................", NULL };
+  CeldSettings settings = celd_settings ();
+  Case         c = segment (drawing, "4,5 > 12,5; 12,5 > 19,4", settings);
+
+  CHECK (c.palette.n == 4 && LABEL (4, 5) == 1 && LABEL (12, 5) == 2 && LABEL (19, 4) == 4 && LABEL (0, 8) == 3);
+  case_clear (&c);
+  settings.seeds = CELD_SEEDS_SCRIBBLES;
+  c = segment (drawing, "4,5 > 12,5; 12,5 > 19,4", settings);
+  CHECK (c.palette.n == 3 && LABEL (4, 5) == 1 && LABEL (12, 5) == 2);
+  case_clear (&c);
+  settings.seeds = CELD_SEEDS_SCRIBBLES;
+  c = segment (rooms, "4,5 > 12,5", settings);
+  CHECK (c.status == CELD_NOTHING_TO_GO_BY);
+  case_clear (&c);
+}
+
+/* New colours are opaque and differ clearly from each other and from the scribbles. */
+static void
+colours_differ (void)
+{
+  Case c = segment (rooms, "4,4 > 12,4; 12,4 > 19,4; 19,4 > 0,0", celd_settings ());
+
+  CHECK (c.palette.n == 4);
+  for (size_t i = 0; i < c.palette.n; i++)
+    for (size_t j = 0; j < i; j++)
+      {
+        const uint8_t *p = c.palette.item[i].colour, *q = c.palette.item[j].colour;
+
+        CHECK (p[3] == 255 && abs (p[0] - q[0]) + abs (p[1] - q[1]) + abs (p[2] - q[2]) > 60);
+      }
+  CHECK (c.palette.item[LABEL (0, 0) - 1].background); /* the arrow's own region, nothing is added */
+  case_clear (&c);
+}
+
+/* ------------------------------------------------------------------ splitting */
+
+/* A body with two legs that are open to it. */
+static const char *const figure2[] = {
+  "........................................",
+  "......############################......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#..........................#......",
+  "......#......##############......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......#......#............#......#......",
+  "......########............########......",
+  "........................................", NULL };
+
+static void
+figure_2_of_the_paper (void)
+{
+  Case     c = segment (figure2, "9.5,14.5 > 20.5,5.5; 29.5,14.5 > 20.5,5.5", celd_settings ());
+  uint32_t left = LABEL (9, 14), body = LABEL (20, 5), right = LABEL (29, 14), back = LABEL (0, 0);
+
+  CHECK (c.status == CELD_OK && c.palette.n == 4);
+  CHECK (left != body && right != body && left != right && back != left && back != right && back != body);
+  CHECK (LABEL (8, 16) == left && LABEL (11, 11) == left);
+  CHECK (LABEL (31, 16) == right && LABEL (28, 11) == right);
+  CHECK (LABEL (8, 3) == body && LABEL (31, 3) == body && LABEL (20, 7) == body);
+  CHECK (LABEL (20, 14) == back && c.palette.item[back - 1].background);
+  case_clear (&c);
+}
+
+/* The end nearer to the region's scribble keeps its label, whichever way the arrow points; an equality splits nothing. */
+static void
+scribbled_regions_are_split (void)
+{
+  const char *const drawing[] = {
+    "........................................",
+    ".######################################.",
+    ".#.................#..................#.",
+    ".#.AAAAAAA.........#..................#.",
+    ".#....................................#.",
+    ".#....................................#.",
+    ".#....................................#.",
+    ".#....................................#.",
+    ".#....................................#.",
+    ".#.................#..................#.",
+    ".######################################.",
+    "........................................", NULL };
+  const char *const arrow[] = { "9.5,6.5 > 30.5,6.5", "30.5,6.5 > 9.5,6.5" };
+  Case c;
+
+  for (int i = 0; i < 2; i++)
+    {
+      c = segment (drawing, arrow[i], celd_settings ());
+      CHECK (c.palette.n == 3 && LABEL (9, 6) == 1 && LABEL (3, 3) == 1 && LABEL (18, 9) == 1);
+      CHECK (LABEL (30, 6) == 3 && LABEL (21, 3) == 3 && LABEL (36, 9) == 3);
+      CHECK (c.palette.item[2].origin == CELD_FROM_ARROW && c.palette.item[2].area > 100);
+      case_clear (&c);
+    }
+  c = segment (drawing, "9.5,6.5 = 30.5,6.5", celd_settings ());
+  CHECK (c.palette.n == 2 && LABEL (30, 6) == 1);
+  case_clear (&c);
+}
+
+/* Ends so close that no disc has room: still a result. */
+static void
+close_ends (void)
+{
+  const char *const blank[] = { "........", "........", "........", "........", NULL };
+  Case c = segment (blank, "3,1 > 4,1; 3,1 > 3.4,1.2", celd_settings ());
+
+  CHECK (c.status == CELD_OK && LABEL (3, 1) != LABEL (4, 1));
+  case_clear (&c);
+}
+
+int
+main (void)
+{
+  RUN (ends_make_regions);
+  RUN (equal_ends_make_one_region);
+  RUN (ends_on_ink_and_outside);
+  RUN (scribbled_regions_stay);
+  RUN (colours_differ);
+  RUN (figure_2_of_the_paper);
+  RUN (scribbled_regions_are_split);
+  RUN (close_ends);
+  return DONE;
+}
