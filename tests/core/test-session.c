@@ -182,6 +182,37 @@ setting_the_same_makes_nothing_again (void)
   celd_session_free (s);
 }
 
+/* Left of a straight grey line is red, right of a jagged black one is blue.  What lies between is red's while grey
+ * ink costs more than black, and blue's when both cost the same, because the grey line is the shorter one. */
+static void
+a_new_ink_threshold_reaches_the_labels (void)
+{
+  static float luma[W * H];
+  CeldDrawing  drawing = { .luma = { W, H, W, luma } };
+  CeldSettings settings = celd_settings ();
+  CeldSession *s = celd_session_new ();
+  CeldLabels   labels;
+
+  for (int i = 0; i < W * H; i++)
+    luma[i] = i % W == 12 ? 0.4f : 1.f;
+  for (int y = 0; y < H; y++)
+    for (int x = 28; x <= 32; x++)
+      if (y % 4 == 0 || x == (y / 4 % 2 ? 28 : 32))
+        luma[y * W + x] = 0;
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  put_box (s, 1, 4, 8, 3, 16, red);
+  put_box (s, 2, 40, 8, 3, 16, blue);
+  settings.background = CELD_BACKGROUND_NONE;
+  CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (CELD_AT (&labels, 20, 16) == CELD_AT (&labels, 5, 16));
+  settings.ink_threshold = 0.9f;
+  CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (CELD_AT (&labels, 20, 16) == CELD_AT (&labels, 41, 16));
+  celd_session_free (s);
+}
+
 static void
 cancel_leaves_it_usable (void)
 {
@@ -273,6 +304,7 @@ main (void)
   RUN (single_relations);
   RUN (anchors_keep_their_level);
   RUN (setting_the_same_makes_nothing_again);
+  RUN (a_new_ink_threshold_reaches_the_labels);
   RUN (cancel_leaves_it_usable);
   RUN (bad_input);
   RUN (strokes_far_outside);
