@@ -219,7 +219,8 @@ colour_key (const uint8_t *rgba)
 static Colour *
 find_slot (const Colours *colours, uint32_t key)
 {
-  size_t i = (key * UINT32_C (2654435769)) & (colours->room - 1);
+  uint32_t hash = key * UINT32_C (2654435769); /* its high bits depend on all bits of the key, its low bits do not */
+  size_t   i = (hash ^ hash >> 16) & (colours->room - 1);
 
   while (colours->slot[i].label && colours->slot[i].key != key)
     i = (i + 1) & (colours->room - 1);
