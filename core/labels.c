@@ -353,18 +353,35 @@ done:
 
 /* ------------------------------------------------------------------ the background */
 
+/* The largest difference of a channel. */
+static int
+colour_error (const uint8_t a[3], const uint8_t b[3])
+{
+  int error = 0;
+
+  for (int i = 0; i < 3; i++)
+    if (abs (a[i] - b[i]) > error)
+      error = abs (a[i] - b[i]);
+  return error;
+}
+
 uint32_t
 celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
 {
+  uint32_t label = 0;
+  int      least = COLOUR_ERROR + 1;
+
   for (size_t k = 0; k < palette->n; k++)
     {
       const uint8_t *c = palette->item[k].colour;
 
-      if (c[3] && abs (c[0] - colour[0]) <= COLOUR_ERROR && abs (c[1] - colour[1]) <= COLOUR_ERROR &&
-          abs (c[2] - colour[2]) <= COLOUR_ERROR)
-        return (uint32_t) k + 1;
+      if (c[3] && colour_error (c, colour) < least)
+        {
+          least = colour_error (c, colour);
+          label = (uint32_t) k + 1;
+        }
     }
-  return 0;
+  return label;
 }
 
 /* The label that most of the paper along the frame has. */

@@ -10,9 +10,7 @@
  */
 #include "order.h"
 
-#include <stdlib.h>
-
-#define COLOUR_ERROR 2
+#include <string.h>
 
 typedef struct
 {
@@ -67,34 +65,16 @@ inside (const CeldLabels *labels, const CeldTerm *term)
   return term->x >= 0 && term->y >= 0 && term->x < labels->width && term->y < labels->height; /* false for NaN */
 }
 
-/* The largest difference of a channel. */
-static int
-colour_error (const CeldRegion *region, const uint8_t colour[3])
-{
-  int error = 0;
-
-  for (int i = 0; i < 3; i++)
-    if (abs (region->colour[i] - colour[i]) > error)
-      error = abs (region->colour[i] - colour[i]);
-  return region->colour[3] ? error : 255;
-}
-
+/* The label that celd_palette_find finds, and all others of the same colour. */
 static CeldStatus
 add_colour (CeldGraph *graph, const CeldPalette *palette, const uint8_t colour[3])
 {
-  const uint8_t *nearest = NULL;
-  int            best    = COLOUR_ERROR + 1;
-  CeldStatus     status  = CELD_OK;
+  uint32_t   first  = celd_palette_find (palette, colour);
+  CeldStatus status = CELD_OK;
 
-  for (size_t k = 0; k < palette->n; k++)
-    if (colour_error (&palette->item[k], colour) < best)
-      {
-        best    = colour_error (&palette->item[k], colour);
-        nearest = palette->item[k].colour;
-      }
-  for (size_t k = 0; nearest && k < palette->n && status == CELD_OK; k++)
-    if (colour_error (&palette->item[k], nearest) == 0)
-      status = celd_graph_add (graph, (uint32_t) k + 1);
+  for (size_t k = first; first && k <= palette->n && status == CELD_OK; k++)
+    if (!memcmp (palette->item[k - 1].colour, palette->item[first - 1].colour, 4))
+      status = celd_graph_add (graph, (uint32_t) k);
   return status;
 }
 
@@ -120,6 +100,7 @@ celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const
 {
   const CeldTerm *term = relation->nearer.by_colour || inside (labels, &relation->nearer) ? &relation->nearer
                                                                                           : &relation->farther;
+  uint32_t        label = term->by_colour ? celd_palette_find (palette, term->colour) : 0;
 
   *x = *y = -1;
   if (!term->by_colour && inside (labels, term))
@@ -127,12 +108,11 @@ celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const
       *x = (int) term->x;
       *y = (int) term->y;
     }
-  for (size_t k = palette->n; term->by_colour && k-- > 0;)
-    if (colour_error (&palette->item[k], term->colour) <= COLOUR_ERROR)
-      {
-        *x = palette->item[k].x;
-        *y = palette->item[k].y;
-      }
+  if (label)
+    {
+      *x = palette->item[label - 1].x;
+      *y = palette->item[label - 1].y;
+    }
 }
 
 /* A label on both sides of a link, or 0; both sides are sorted. */

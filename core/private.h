@@ -93,7 +93,8 @@ CeldStatus celd_frame (const CeldPlane *ink, int width, int height, size_t **pix
  * labels without a pixel. */
 CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run, CeldPalette *palette);
 
-/* The opaque label of this colour, within what colour management does to it; 0 if there is none. */
+/* The first opaque label of this colour, or of the nearest one that colour management may have made of it (2 of 255 a
+ * channel); 0 if there is none. */
 uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3]);
 
 /* ------------------------------------------------------------------ multiway.c: many labels on a grid */

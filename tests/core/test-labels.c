@@ -71,6 +71,18 @@ thousands_of_colours (void)
   free (paint.data), free (labels.data);
 }
 
+static void
+the_nearest_colour_counts (void)
+{
+  CeldRegion    region[3] = { { .colour = { 0, 0, 0, 0 } }, { .colour = { 2, 1, 0, 255 } }, { .colour = { 1, 0, 0, 255 } } };
+  CeldPalette   palette = { region, 3 };
+  const uint8_t exact[3] = { 2, 1, 0 }, black[3] = { 0 }, far[3] = { 0, 4, 0 };
+
+  CHECK (celd_palette_find (&palette, exact) == 2);
+  CHECK (celd_palette_find (&palette, black) == 3); /* neither the transparent one nor the first that would do */
+  CHECK (celd_palette_find (&palette, far) == 0);
+}
+
 /* ------------------------------------------------------------------ regions */
 
 static void
@@ -227,6 +239,7 @@ main (void)
 {
   RUN (painting_and_reading_back);
   RUN (thousands_of_colours);
+  RUN (the_nearest_colour_counts);
   RUN (measures);
   RUN (separate_regions);
   RUN (background_by_the_frame);
