@@ -38,25 +38,10 @@ label_at (const Picture *picture, int x, int y)
 static uint32_t
 label_near (Picture *picture, int x, int y)
 {
-  uint32_t label = label_at (picture, x, y);
-  int      reach, best;
-
   if (!picture->stroke)
     picture->stroke = celd_stroke_width (picture->ink);
-  reach = picture->stroke;
-  best  = (reach + 1) * (reach + 1);
-  for (int v = y - reach < 0 ? 0 : y - reach; v <= y + reach && v < picture->labels->height; v++)
-    for (int u = x - reach < 0 ? 0 : x - reach; u <= x + reach && u < picture->labels->width; u++)
-      {
-        int squared = (u - x) * (u - x) + (v - y) * (v - y);
-
-        if (squared < best && !on_ink (picture->ink, u, v) && label_at (picture, u, v))
-          {
-            best  = squared;
-            label = label_at (picture, u, v);
-          }
-      }
-  return label;
+  celd_paper_near (picture->ink, picture->stroke, &x, &y);
+  return label_at (picture, x, y);
 }
 
 static bool

@@ -83,6 +83,9 @@ celd_is_paper (float ink)
  * Solid black areas hardly count. */
 int celd_stroke_width (const CeldPlane *ink);
 
+/* Moves (*x,*y) to the nearest paper, itself if it is paper; false if there is none within `reach` pixels. */
+bool celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y);
+
 /* frame.c: the paper pixels along the frame, as y * width + x (ink NULL: all outermost pixels); corners may come twice.
  * End with celd_free. */
 CeldStatus celd_frame (const CeldPlane *ink, int width, int height, size_t **pixel, size_t *n);

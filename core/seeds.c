@@ -33,23 +33,13 @@ static End
 find_end (const CeldCanvas *canvas, const CeldTerm *term)
 {
   End end = { 0 };
-  int reach = canvas->stroke, best, px, py;
 
   if (term->by_colour || !(term->x >= 0 && term->y >= 0 && term->x < canvas->width && term->y < canvas->height))
     return end;
-  px = (int) term->x;
-  py = (int) term->y;
-  best = reach * reach + 1;
-  for (int y = py - reach < 0 ? 0 : py - reach; y <= py + reach && y < canvas->height; y++)
-    for (int x = px - reach < 0 ? 0 : px - reach; x <= px + reach && x < canvas->width; x++)
-      {
-        int squared = (x - px) * (x - px) + (y - py) * (y - py);
-
-        if (squared >= best || !CELD_AT (&canvas->pieces, x, y))
-          continue;
-        best = squared;
-        end  = (End) { true, x, y, (size_t) y * (size_t) canvas->width + (size_t) x };
-      }
+  end.x     = (int) term->x;
+  end.y     = (int) term->y;
+  end.there = celd_paper_near (canvas->ink, canvas->stroke, &end.x, &end.y);
+  end.p     = (size_t) end.y * (size_t) canvas->width + (size_t) end.x;
   return end;
 }
 

@@ -1,4 +1,4 @@
-/* How wide the strokes of a drawing are.
+/* How wide the strokes of a drawing are, and what a point on one of them means: the paper beside it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -36,4 +36,25 @@ celd_stroke_width (const CeldPlane *ink)
   while (width < LONGEST_RUN && 2 * below < all)
     below += runs[++width];
   return width;
+}
+
+bool
+celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y)
+{
+  int  px = *x, py = *y, least = reach * reach + 1;
+  bool found = false;
+
+  for (int v = py - reach < 0 ? 0 : py - reach; v <= py + reach && v < ink->height; v++)
+    for (int u = px - reach < 0 ? 0 : px - reach; u <= px + reach && u < ink->width; u++)
+      {
+        int squared = (u - px) * (u - px) + (v - py) * (v - py);
+
+        if (squared >= least || !celd_is_paper (CELD_AT (ink, u, v)))
+          continue;
+        least = squared;
+        found = true;
+        *x    = u;
+        *y    = v;
+      }
+  return found;
 }

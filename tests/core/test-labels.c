@@ -206,18 +206,6 @@ paper_along_the_frame (void)
 }
 
 static void
-stroke_widths (void)
-{
-  const char *const thick[] = { ".......###......", ".......###......", ".......###......", ".......###......", NULL };
-  const char *const none[] = { "....", NULL };
-  CeldPlane a = art_plane (thick), b = art_plane (none);
-
-  CHECK (celd_stroke_width (&a) >= 3 && celd_stroke_width (&a) <= 4);
-  CHECK (celd_stroke_width (&b) == 0);
-  free (a.data), free (b.data);
-}
-
-static void
 bad_sizes (void)
 {
   CeldLabels   labels = art_labels (figure), none = { 0 };
@@ -244,7 +232,6 @@ main (void)
   RUN (separate_regions);
   RUN (background_by_the_frame);
   RUN (paper_along_the_frame);
-  RUN (stroke_widths);
   RUN (bad_sizes);
   return DONE;
 }
