@@ -142,8 +142,8 @@ celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette)
   uint32_t      *number = NULL;
   CeldPalette    made = { 0 };
   size_t         n = 0;
-  CeldPart       part;
-  CeldRun        first = celd_run_part (&part, run, 0, 0.5);
+  CeldPart       part[2];
+  CeldRun        first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
   CeldStatus     status;
 
   if (!CELD_SAME_SIZE (labels, labels))
@@ -164,7 +164,7 @@ celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette)
     goto done;
   for (size_t p = 0; p < (size_t) regions.width * (size_t) regions.height; p++)
     regions.data[p] = regions.data[p] ? number[regions.data[p] - 1] : 0;
-  status = celd_palette_measure (&regions, NULL, NULL, &made);
+  status = celd_palette_measure (&regions, NULL, &second, &made);
   if (status == CELD_OK)
     status = celd_step (run, 1);
   if (status != CELD_OK)

@@ -40,7 +40,8 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 
 /* ------------------------------------------------------------------ progress and threads (run.c) */
 
-/* The part [from,to] of a longer run, as a run of its own: `part` must outlive it. */
+/* The part [from,to] of a longer run, as a run of its own: `part` must outlive it.  With from = to it reports no
+ * progress, but cancels and lends threads: for short steps, of which several may share it. */
 typedef struct { const CeldRun *whole; double from, to; } CeldPart;
 CeldRun celd_run_part (CeldPart *part, const CeldRun *whole, double from, double to);
 

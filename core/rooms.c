@@ -105,10 +105,11 @@ find_open (Work *work, const CeldRun *run)
   for (size_t p = 0; p < canvas->n; p++)
     work->inside[p] = !is_paper (canvas, p);
   status = celd_distance (canvas->width, canvas->height, work->inside, run, work->to_ink);
+  if (status != CELD_OK)
+    return status;
   for (size_t p = 0; p < canvas->n; p++)
     work->mask.data[p] = work->inside[p] = is_paper (canvas, p) && work->to_ink[p] > radius * radius;
-  if (status == CELD_OK)
-    status = count_components (work, run, &work->n_basins);
+  status = count_components (work, run, &work->n_basins);
   if (status == CELD_OK)
     status = celd_nearest (canvas->width, canvas->height, work->inside, run, work->to_open, work->nearest);
   if (status != CELD_OK)

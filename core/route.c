@@ -208,8 +208,9 @@ static CeldStatus
 make_labels (CeldSession *s, const CeldRun *run)
 {
   int          w = s->drawing.luma.width, h = s->drawing.luma.height;
-  CeldPart     part;
-  CeldRun      segment = celd_run_part (&part, run, 0.1, 1);
+  CeldPart     part[3];
+  CeldRun      read = celd_run_part (&part[0], run, 0, 0.1), segment = celd_run_part (&part[1], run, 0.1, 0.95);
+  CeldRun      separate = celd_run_part (&part[2], run, 0.95, 1);
   CeldLabels   labels;
   CeldMask     painted = { 0 };
   CeldPalette  palette = { 0 };
@@ -220,7 +221,7 @@ make_labels (CeldSession *s, const CeldRun *run)
   if (status == CELD_OK)
     status = celd_mask_new (w, h, &painted);
   if (status == CELD_OK)
-    status = read_scribbles (s, NULL, &labels, &palette);
+    status = read_scribbles (s, &read, &labels, &palette);
   if (status == CELD_OK)
     {
       for (size_t i = 0; i < (size_t) w * (size_t) h; i++)
@@ -228,7 +229,7 @@ make_labels (CeldSession *s, const CeldRun *run)
       status = celd_segment (&s->ink, &labels, &s->relations, &s->settings, &segment, &labels, &palette, &problems);
     }
   if (status == CELD_OK && s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE)
-    status = celd_separate (NULL, &labels, &palette);
+    status = celd_separate (&separate, &labels, &palette);
   if (status != CELD_OK)
     {
       celd_free (labels.data);
@@ -347,7 +348,7 @@ anchor_end (const CeldTerm *end, CeldMask *anchors)
 
 /* The paper's U_o.  Asked-for scribbles that do not exist leave it to the inner core of each region. */
 static CeldStatus
-choose_anchors (const CeldSession *s, CeldMask *anchors)
+choose_anchors (const CeldSession *s, const CeldRun *run, CeldMask *anchors)
 {
   CeldAnchors choice = s->settings.anchors;
   bool        scribbles = (choice == CELD_ANCHORS_SCRIBBLES || choice == CELD_ANCHORS_BOTH) && s->n_painted;
@@ -357,7 +358,7 @@ choose_anchors (const CeldSession *s, CeldMask *anchors)
   if (status == CELD_OK && scribbles)
     memcpy (anchors->data, s->painted.data, (size_t) anchors->width * (size_t) anchors->height);
   else if (status == CELD_OK && !arrows)
-    status = celd_anchor_core (anchors->width, anchors->height, s->levels.data, NULL, anchors->data);
+    status = celd_anchor_core (anchors->width, anchors->height, s->levels.data, run, anchors->data);
   for (size_t i = 0; status == CELD_OK && i < s->relations.n; i++)
     if (arrows || s->relations.item[i].anchor)
       {
@@ -373,12 +374,14 @@ make_depth (CeldSession *s, const CeldRun *run)
   CeldMask   anchors;
   CeldPlane  depth = { 0 };
   CeldSolve  solve = { 0 };
-  CeldStatus status = choose_anchors (s, &anchors);
+  CeldPart   part[2];
+  CeldRun    choose = celd_run_part (&part[0], run, 0, 0.1), smooth = celd_run_part (&part[1], run, 0.1, 1);
+  CeldStatus status = choose_anchors (s, &choose, &anchors);
 
   if (status == CELD_OK)
     status = celd_plane_new (s->levels.width, s->levels.height, &depth);
   if (status == CELD_OK)
-    status = celd_smooth (depth_ink (s), &s->levels, &anchors, &s->settings, run, &depth, &solve);
+    status = celd_smooth (depth_ink (s), &s->levels, &anchors, &s->settings, &smooth, &depth, &solve);
   if (status == CELD_OK)
     {
       celd_problems_clear (&s->problems[STAGE_DEPTH]);

@@ -433,10 +433,12 @@ celd_seeds_split (const CeldRelations *relations, const CeldRun *run, CeldCanvas
 {
   Region     region = { .mark = celd_alloc0 (canvas->n, 1), .queue = celd_alloc (canvas->n, sizeof *region.queue) };
   int32_t   *squared = NULL;
+  CeldPart   first;
+  CeldRun    measuring = celd_run_part (&first, run, 0, 0);
   CeldStatus status = region.mark && region.queue ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK && relations->n)
-    status = distance_to_ink (canvas, NULL, &squared);
+    status = distance_to_ink (canvas, &measuring, &squared);
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
       CeldPart part;

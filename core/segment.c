@@ -120,10 +120,12 @@ static CeldStatus
 keep_flats_on_paper (CeldCanvas *canvas)
 {
   size_t  n = canvas->palette.n, w = (size_t) canvas->width;
-  size_t *count = celd_alloc0 (3 * (n + 1), sizeof *count), *on_paper = count + n + 1, *sides = on_paper + n + 1;
+  size_t *count = celd_alloc0 (3 * (n + 1), sizeof *count), *on_paper, *sides;
 
   if (!count)
     return CELD_NO_MEMORY;
+  on_paper = count + n + 1;
+  sides    = on_paper + n + 1;
   for (size_t p = 0; p < canvas->n; p++)
     {
       uint32_t l = canvas->seeds.data[p];
@@ -336,23 +338,24 @@ count_arrow_seeds (CeldCanvas *canvas)
 static CeldStatus
 solve (CeldCanvas *canvas, const CeldRelations *relations, const CeldRun *run)
 {
-  CeldPart   part[2];
-  CeldRun    cuts = celd_run_part (&part[0], run, 0.1, 0.8), splits = celd_run_part (&part[1], run, 0.8, 0.9);
+  CeldPart   part[3];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 0); /* short steps: no progress, but cancel and threads */
+  CeldRun    cuts = celd_run_part (&part[1], run, 0.1, 0.9), splits = celd_run_part (&part[2], run, 0.9, 1);
   bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
   CeldStatus status;
 
   weigh_strokes (canvas); /* before anything else adds seeds */
-  status = arrows ? celd_seeds_plant (relations, NULL, canvas) : CELD_OK;
+  status = arrows ? celd_seeds_plant (relations, &first, canvas) : CELD_OK;
   if (status == CELD_OK && !has_seeds (canvas))
     status = CELD_NOTHING_TO_GO_BY;
   if (status == CELD_OK && canvas->settings->flats)
     status = keep_flats_on_paper (canvas);
   if (status == CELD_OK)
-    status = celd_stains_remove (NULL, canvas);
+    status = celd_stains_remove (&first, canvas);
   if (status == CELD_OK)
-    status = celd_background_seed (NULL, canvas);
+    status = celd_background_seed (&first, canvas);
   if (status == CELD_OK)
-    status = weigh_edges (canvas, NULL);
+    status = weigh_edges (canvas, &first);
   if (status == CELD_OK)
     status = celd_step (run, 0.1);
   if (status == CELD_OK)
@@ -369,23 +372,24 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
 {
   CeldCanvas   canvas = { 0 };
   CeldProblems found = { 0 };
+  CeldPart     part[3];
+  CeldRun      begin = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.05, 0.95);
+  CeldRun      end = celd_run_part (&part[2], run, 0.95, 0.95);
   CeldStatus   status;
 
   if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, labels))
     return CELD_BAD_SIZE;
   status = celd_settings_check (settings);
   if (status == CELD_OK)
-    status = celd_step (run, 0);
+    status = canvas_new (ink, seeds, palette, settings, &begin, &canvas);
   if (status == CELD_OK)
-    status = canvas_new (ink, seeds, palette, settings, NULL, &canvas);
+    status = solve (&canvas, relations, &solving);
   if (status == CELD_OK)
-    status = solve (&canvas, relations, run);
-  if (status == CELD_OK)
-    status = celd_palette_measure (&canvas.labels, ink, NULL, &canvas.palette);
+    status = celd_palette_measure (&canvas.labels, ink, &end, &canvas.palette);
   if (status == CELD_OK)
     count_arrow_seeds (&canvas);
   if (status == CELD_OK)
-    status = celd_segment_report (&canvas, seeds, NULL, &found);
+    status = celd_segment_report (&canvas, seeds, &end, &found);
   if (status == CELD_OK)
     status = celd_step (run, 1);
   for (size_t i = 0; i < found.n && status == CELD_OK; i++)
