@@ -42,9 +42,9 @@ space_of (const CeldIoFile *file, size_t part)
 typedef struct
 {
   float      *rgba;        /* as the file has them */
+  float      *row;         /* one row of pixels as the fish takes them */
   const Babl *fish;
-  int         width, height, bits, channels; /* bits, channels: of the pixels that the fish takes */
-  void       *row;         /* one row of such pixels */
+  int         width, channels; /* 4, or 2 where the picture is grey */
 } Colours;
 
 static void
@@ -54,37 +54,30 @@ colours_clear (Colours *colours)
   g_free (colours->row);
 }
 
-/* The fish takes what GEGL's loader would give it, integers too: the results are the same to the last bit. */
 static bool
 colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colours)
 {
   const CeldIoPart *about = celd_io_part (file, part);
   int               width = celd_io_width (file), height = celd_io_height (file);
-  bool              integers = !about->linear && (about->bits == 8 || about->bits == 16);
-  const char       *model = about->grey ? "Y'A" : "R'G'B'A";
-  char              stored[32];
+  const char       *encoded = about->grey ? "Y'A float" : "R'G'B'A float";
+  const char       *linear = about->grey ? "YA float" : "RGBA float";
   CeldIoError       error;
 
   *colours = (Colours) {
     .rgba     = g_try_new (float, 4 * (gsize) width * (gsize) height),
     .row      = g_new (float, 4 * (gsize) width),
     .width    = width,
-    .height   = height,
-    .bits     = integers ? about->bits : 32,
     .channels = about->grey ? 2 : 4,
   };
   if (!colours->rgba)
     return cli_check (CELD_NO_MEMORY);
   if (!celd_io_read_colours (file, part, colours->rgba, &error))
     return cli_error ("%s", error.text);
-  if (about->linear)
-    model = about->grey ? "YA" : "RGBA";
-  g_snprintf (stored, sizeof stored, "%s %s", model,
-              colours->bits == 8 ? "u8" : colours->bits == 16 ? "u16" : "float");
-  /* Reading its cache, babl tries out tables of 350 MB, which costs half a second; we need one conversion. */
+  /* Floats and no cache of conversions: otherwise babl tries out tables of 350 MB, which costs half a second. */
   g_setenv ("BABL_INHIBIT_CACHE", "1", FALSE);
   babl_init ();
-  colours->fish = babl_fish (babl_format_with_space (stored, space_of (file, part)), babl_format (wanted));
+  colours->fish = babl_fish (babl_format_with_space (about->linear ? linear : encoded, space_of (file, part)),
+                             babl_format (wanted));
   return true;
 }
 
@@ -96,16 +89,7 @@ colours_convert (const Colours *colours, int y, void *to)
 
   for (int x = 0, n = 0; x < colours->width; x++)
     for (int k = 0; k < colours->channels; k++, n++)
-      {
-        float value = from[4 * x + (colours->channels == 2 && k ? 3 : k)];
-
-        if (colours->bits == 8)
-          ((uint8_t *) colours->row)[n] = (uint8_t) (255 * value + 0.5f);
-        else if (colours->bits == 16)
-          ((uint16_t *) colours->row)[n] = (uint16_t) (65535 * value + 0.5f);
-        else
-          ((float *) colours->row)[n] = value;
-      }
+      colours->row[n] = from[4 * x + (colours->channels == 2 && k ? 3 : k)];
   babl_process (colours->fish, colours->row, to, colours->width);
 }
 
