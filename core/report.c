@@ -6,6 +6,7 @@
 
 #define SMALLEST_SHARE 2000 /* regions below 1/2000 of the picture are not worth a word */
 #define SMALLEST_WIDTH 3    /* nor are those below the square of so many stroke widths */
+#define SCRAP          8    /* nor 1/8 of a colour's paint, which another stroke has cut off */
 
 /* How a connected stroke fared.  `other` is the label that most of its overruled pixels have, found by majority vote:
  * `lead` is how far it leads. */
@@ -54,7 +55,8 @@ report_overruled (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldR
     goto done;
   follow_strokes (canvas, &strokes, seeds, fate);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
-    if (2 * fate[i + 1].overruled > stroke[i].area && stroke[i].label <= canvas->palette.n)
+    if (stroke[i].label <= canvas->palette.n && 2 * fate[i + 1].overruled > stroke[i].area &&
+        SCRAP * stroke[i].area >= canvas->palette.item[stroke[i].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
         CELD_PROBLEM_STROKE_OVERRULED, fate[i + 1].x, fate[i + 1].y, stroke[i].label, fate[i + 1].other, CELD_NO_INDEX });
 
