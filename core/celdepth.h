@@ -224,6 +224,9 @@ typedef struct { bool converged; int iterations; double error; } CeldSolve; /* e
 
 /* ------------------------------------------------------------------ the steps, in the order of the route */
 
+/* Luma, and alpha if it is not NULL, of n pixels R'G'B'A with the values of sRGB: a drawing as every host reads it. */
+CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
+
 /* Line art of a drawing: composited on paper, polarity resolved, contrast normalised against the paper around
  * (uneven paper and grey pencil become ink 0 and paper 1).  `ink` may not alias the drawing. */
 CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink);

@@ -104,29 +104,21 @@ celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
   return TRUE;
 }
 
-/* Luma of encoded values, which babl's Y' is not: that is encoded luminance, much lighter for strong colours. */
 gboolean
 celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 {
   GeglRectangle row = { op->picture.x, op->picture.y, op->picture.width, 1 };
-  gsize         w = (gsize) row.width;
+  gsize         start = 0, w = (gsize) row.width;
   float        *rgba = celd_op_alloc (op, w * 4 * sizeof (float));
 
   *drawing = (CeldDrawing) { 0 };
   if (!rgba || !celd_op_new_plane (op, &drawing->luma) ||
       (has_alpha (op, pad) && !celd_op_new_plane (op, &drawing->alpha)))
     return FALSE;
-  for (gsize y = 0; y < (gsize) op->picture.height; y++, row.y++)
+  for (int y = 0; y < op->picture.height; y++, row.y++, start += w)
     {
       get (op, pad, &row, "R'G'B'A float", paper (op, pad), rgba);
-      for (gsize x = 0; x < w; x++)
-        {
-          const float *p = rgba + 4 * x;
-
-          drawing->luma.data[y * w + x] = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-          if (drawing->alpha.data)
-            drawing->alpha.data[y * w + x] = p[3];
-        }
+      celd_luma (rgba, w, drawing->luma.data + start, drawing->alpha.data ? drawing->alpha.data + start : NULL);
     }
   return TRUE;
 }

@@ -93,7 +93,6 @@ colours_convert (const Colours *colours, int y, void *to)
   babl_process (colours->fish, colours->row, to, colours->width);
 }
 
-/* Luma of encoded values, as core wants it; babl's Y' is encoded luminance. */
 bool
 cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
 {
@@ -110,14 +109,7 @@ cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
       size_t start = (size_t) y * (size_t) width;
 
       colours_convert (&colours, y, row);
-      for (int x = 0; x < width; x++)
-        {
-          const float *p = row + 4 * x;
-
-          drawing->luma.data[start + (size_t) x] = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-          if (alpha)
-            drawing->alpha.data[start + (size_t) x] = p[3];
-        }
+      celd_luma (row, (size_t) width, drawing->luma.data + start, alpha ? drawing->alpha.data + start : NULL);
     }
   g_free (row);
   colours_clear (&colours);
