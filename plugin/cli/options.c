@@ -79,7 +79,7 @@ typedef struct
 
 static const SettingOption settings[] = {
   { "ink", WITH_INK, CHOICE, MEMBER (ink), "auto|dark|light|alpha", "what is ink" },
-  { "ink-threshold", CLI_POPUP | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
+  { "ink-threshold", MADE_OF_LABELS | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
     "ink at or below this is full ink; 0.25" },
   { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "exact", "how regions are found" },
   { "hardness", MADE_OF_LABELS, NUMBER, MEMBER (hardness), "0.01-1",
