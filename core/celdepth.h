@@ -285,8 +285,12 @@ CELD_API float celd_encode_level (uint32_t level, uint32_t levels, const CeldSet
 
 /* Depth expansion (section 3.3): ink goes to the region that drew it.  `ranks` may have any values, larger = nearer;
  * `expanded` holds the same values and may alias `ranks`. */
-CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldSettings *settings,
-                                 const CeldRun *run, CeldLabels *expanded);
+CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run,
+                                 CeldLabels *expanded);
+
+/* The same for levels of any encoding; not a number reads as 0. */
+CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldRun *run,
+                                        CeldPlane *expanded);
 
 /* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` (NULL: the inner core of each region) keep their level;
  * an edge is cut where levels differ and the least ink of the 3x3 neighbourhoods of its two pixels is at or below

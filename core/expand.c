@@ -13,6 +13,7 @@
 #include "expand.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define LEAST_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
 
@@ -175,8 +176,7 @@ write_ranks (const CeldSheet *sheet, const CeldLabels *ranks, CeldLabels *expand
 }
 
 CeldStatus
-celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldSettings *settings, const CeldRun *run,
-             CeldLabels *expanded)
+celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run, CeldLabels *expanded)
 {
   CeldSheet  sheet = { 0 };
   CeldPart   part[4];
@@ -184,7 +184,6 @@ celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldSettings *
   CeldRun    third = celd_run_part (&part[2], run, 0.1, 0.9), fourth = celd_run_part (&part[3], run, 0.9, 1);
   CeldStatus status;
 
-  (void) settings; /* section 3.3 leaves nothing to set */
   if (!CELD_SAME_SIZE (ink, ranks) || !CELD_SAME_SIZE (ranks, expanded))
     return CELD_BAD_SIZE;
   sheet.width = ranks->width;
@@ -211,5 +210,49 @@ done:
   celd_free (sheet.depth_in_ink);
   celd_free (sheet.rank);
   celd_free (sheet.box);
+  return status;
+}
+
+/* ------------------------------------------------------------------ levels */
+
+/* The bits of a float as a number that sorts as the float does. */
+static uint32_t
+rank_of_level (float level)
+{
+  float    number = level == level ? level + 0.f : 0; /* neither NaN nor -0 */
+  uint32_t bits;
+
+  memcpy (&bits, &number, sizeof bits);
+  return bits & UINT32_C (0x80000000) ? ~bits : bits | UINT32_C (0x80000000);
+}
+
+static float
+level_of_rank (uint32_t rank)
+{
+  uint32_t bits = rank & UINT32_C (0x80000000) ? rank & UINT32_C (0x7fffffff) : ~rank;
+  float    level;
+
+  memcpy (&level, &bits, sizeof level);
+  return level;
+}
+
+CeldStatus
+celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldRun *run, CeldPlane *expanded)
+{
+  CeldLabels ranks;
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (levels, expanded))
+    return CELD_BAD_SIZE;
+  status = celd_labels_new (levels->width, levels->height, &ranks);
+  for (int y = 0; y < levels->height && status == CELD_OK; y++)
+    for (int x = 0; x < levels->width; x++)
+      CELD_AT (&ranks, x, y) = rank_of_level (CELD_AT (levels, x, y));
+  if (status == CELD_OK)
+    status = celd_expand (ink, &ranks, run, &ranks);
+  for (int y = 0; y < levels->height && status == CELD_OK; y++)
+    for (int x = 0; x < levels->width; x++)
+      CELD_AT (expanded, x, y) = level_of_rank (CELD_AT (&ranks, x, y));
+  celd_free (ranks.data);
   return status;
 }

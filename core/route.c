@@ -319,7 +319,7 @@ make_levels (CeldSession *s, const CeldRun *run)
   CeldStatus status = rank_labels (s, &ranks);
 
   if (status == CELD_OK)
-    status = celd_expand (depth_ink (s), &ranks, &s->settings, run, &ranks);
+    status = celd_expand (depth_ink (s), &ranks, run, &ranks);
   if (status == CELD_OK)
     status = celd_plane_new (ranks.width, ranks.height, &levels);
   if (status == CELD_OK)

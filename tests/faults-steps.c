@@ -146,7 +146,7 @@ expand_step (const CeldRun *run, Results *r)
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels ranks = labels_of (&label_pixels), expanded = labels_of (r->pixels);
 
-  return celd_expand (&ink, &ranks, &settings, run, &expanded);
+  return celd_expand (&ink, &ranks, run, &expanded);
 }
 
 static CeldStatus

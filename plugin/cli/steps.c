@@ -4,10 +4,6 @@
  */
 #include "cli.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ------------------------------------------------------------------ shared */
 
 /* Ends a step: says why it failed, if it did. */
@@ -192,60 +188,18 @@ cli_order (const CliOptions *options)
 
 /* ------------------------------------------------------------------ expand */
 
-static int
-compare_floats (const void *a, const void *b)
-{
-  float x = *(const float *) a, y = *(const float *) b;
-
-  return (x > y) - (x < y);
-}
-
-/* Levels of any encoding as ranks, and the value of each rank; NaN counts as 0. */
-static bool
-rank_levels (CeldPlane *levels, CeldLabels *ranks, float **values)
-{
-  size_t n = (size_t) levels->width * (size_t) levels->height, n_values = 0;
-  float *sorted = g_try_new (float, n);
-
-  *values = sorted;
-  if (!sorted || !cli_labels_new (levels->width, levels->height, ranks))
-    return cli_check (CELD_NO_MEMORY);
-  for (size_t i = 0; i < n; i++)
-    sorted[i] = levels->data[i] = isnan (levels->data[i]) ? 0 : levels->data[i];
-  qsort (sorted, n, sizeof *sorted, compare_floats);
-  for (size_t i = 0; i < n; i++)
-    if (!i || sorted[i] > sorted[n_values - 1])
-      sorted[n_values++] = sorted[i];
-  for (size_t i = 0; i < n; i++)
-    {
-      const float *found = bsearch (&levels->data[i], sorted, n_values, sizeof *sorted, compare_floats);
-
-      ranks->data[i] = (uint32_t) (found - sorted);
-    }
-  return true;
-}
-
 int
 cli_expand (const CliOptions *options)
 {
-  Step       step;
-  CeldLabels ranks = { 0 };
-  float     *values = NULL;
-  bool       good = begin_step (options, &step) && rank_levels (&step.levels, &ranks, &values);
+  Step step;
+  bool good = begin_step (options, &step);
 
   if (good)
     {
       cli_run_stage (&step.run, "levels");
-      good = finish (&step.run, celd_expand (&step.ink, &ranks, &options->settings, &step.run.run, &ranks));
+      good = finish (&step.run, celd_expand_levels (&step.ink, &step.levels, &step.run.run, &step.levels)) &&
+             cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
     }
-  if (good)
-    {
-      for (size_t i = 0; i < (size_t) ranks.width * (size_t) ranks.height; i++)
-        step.levels.data[i] = values[ranks.data[i]];
-      good = cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
-    }
-  g_free (ranks.data);
-  g_free (values);
   return end_step (&step, good);
 }
 

@@ -49,14 +49,14 @@ expect (const char *const *rows, const char *const *wanted)
   CeldLabels w = art_labels (wanted);
   size_t     n = w.stride * (size_t) w.height;
 
-  CHECK (celd_expand (&p.ink, &p.ranks, NULL, NULL, &p.expanded) == CELD_OK);
+  CHECK (celd_expand (&p.ink, &p.ranks, NULL, &p.expanded) == CELD_OK);
   CHECK (memcmp (p.expanded.data, w.data, n * sizeof *w.data) == 0);
   for (int y = 0; check_bad && y < w.height; y++, fputc ('\n', stderr))
     for (int x = 0; x < w.width; x++)
       fputc ("0ABCDEFGHIJ"[CELD_AT (&p.expanded, x, y) % 11], stderr);
 
   /* What was given to its owner stays there. */
-  CHECK (celd_expand (&p.ink, &p.expanded, NULL, NULL, &p.expanded) == CELD_OK);
+  CHECK (celd_expand (&p.ink, &p.expanded, NULL, &p.expanded) == CELD_OK);
   CHECK (memcmp (p.expanded.data, w.data, n * sizeof *w.data) == 0);
   picture_free (&p);
   free (w.data);
@@ -178,7 +178,7 @@ paper_alone_and_ink_alone (void)
   expect (paper, paper);
   expect (dot, dot);
   expect (column, column_wanted);
-  CHECK (celd_expand (&ink, &ranks, NULL, NULL, &expanded) == CELD_OK);
+  CHECK (celd_expand (&ink, &ranks, NULL, &expanded) == CELD_OK);
   CHECK (memcmp (data, result, sizeof data) == 0);
 }
 
@@ -200,7 +200,7 @@ black_region_keeps_its_ink (void)
           black[p] = patch ? 0.f : 1.f;
           data[p] = patch ? rank : 4;
         }
-      CHECK (celd_expand (&ink, &ranks, NULL, NULL, &expanded) == CELD_OK);
+      CHECK (celd_expand (&ink, &ranks, NULL, &expanded) == CELD_OK);
       CHECK (memcmp (data, result, sizeof data) == 0);
     }
 }
@@ -282,12 +282,12 @@ facts_of_random_pictures (void)
       int paper_changed = 0, unknown = 0, not_shifted = 0;
 
       draw_at_random (&state, &ink, &ranks);
-      CHECK (celd_expand (&ink, &ranks, NULL, NULL, &expanded) == CELD_OK);
+      CHECK (celd_expand (&ink, &ranks, NULL, &expanded) == CELD_OK);
       check_lonely_ink (&ink, &ranks, &expanded);
       for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++)
           CELD_AT (&other, x, y) = UINT32_MAX - 100 + 2 * CELD_AT (&ranks, x, y); /* the same order */
-      CHECK (celd_expand (&ink, &other, NULL, NULL, &other) == CELD_OK);             /* in place */
+      CHECK (celd_expand (&ink, &other, NULL, &other) == CELD_OK);             /* in place */
       for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++)
           {
@@ -323,7 +323,7 @@ progress_rises_and_cancel_changes_nothing (void)
   CeldRun                  run = { count_down, NULL, state };
   int                      calls;
 
-  CHECK (celd_expand (&p.ink, &p.ranks, NULL, &run, &p.expanded) == CELD_OK);
+  CHECK (celd_expand (&p.ink, &p.ranks, &run, &p.expanded) == CELD_OK);
   CHECK (state[1] > 0.9);
   calls = (int) (1e9 - state[0]);
   for (int k = 0; k < calls; k++)
@@ -331,10 +331,35 @@ progress_rises_and_cancel_changes_nothing (void)
       state[0] = k;
       state[1] = 0;
       memset (p.expanded.data, 77, p.expanded.stride * (size_t) p.expanded.height * sizeof (uint32_t));
-      CHECK (celd_expand (&p.ink, &p.ranks, NULL, &run, &p.expanded) == CELD_CANCELLED);
+      CHECK (celd_expand (&p.ink, &p.ranks, &run, &p.expanded) == CELD_CANCELLED);
       CHECK (p.expanded.data[0] == 0x4d4d4d4d && p.expanded.data[31] == 0x4d4d4d4d);
     }
   picture_free (&p);
+}
+
+/* Levels of every sign and size move as their ranks would. */
+static void
+levels_are_expanded_as_ranks (void)
+{
+  const char *const drawing[] = { "..##..##..", "..##..##..", "..##..##..", NULL };
+  const float       level[3] = { -2.5f, 0, 1e-9f }, odd[3] = { -2.5f, NAN, 1e-9f };
+  CeldPlane         ink = art_plane (drawing), levels = art_plane (drawing), expanded = art_plane (drawing);
+  CeldLabels        ranks = art_labels (drawing);
+
+  for (int i = 0; i < 30; i++)
+    {
+      ranks.data[i]  = i % 10 < 3 ? 1 : i % 10 < 7 ? 0 : 2; /* both borders lie in ink */
+      levels.data[i] = odd[ranks.data[i]];
+    }
+  CHECK (celd_expand (&ink, &ranks, NULL, &ranks) == CELD_OK);
+  CHECK (celd_expand_levels (&ink, &levels, NULL, &expanded) == CELD_OK);
+  for (int i = 0; i < 30; i++)
+    CHECK (expanded.data[i] == level[ranks.data[i]]);
+  CHECK (celd_expand_levels (&ink, &levels, NULL, &levels) == CELD_OK); /* in place */
+  CHECK (!memcmp (levels.data, expanded.data, 30 * sizeof (float)));
+  levels.width = 9;
+  CHECK (celd_expand_levels (&ink, &levels, NULL, &expanded) == CELD_BAD_SIZE);
+  free (ink.data), free (levels.data), free (expanded.data), free (ranks.data);
 }
 
 static void
@@ -345,9 +370,9 @@ bad_sizes (void)
   CeldPlane  ink = { 2, 1, 2, white };
   CeldLabels ranks = { 1, 2, 1, data }, expanded = { 2, 1, 2, result };
 
-  CHECK (celd_expand (&ink, &ranks, NULL, NULL, &expanded) == CELD_BAD_SIZE);
+  CHECK (celd_expand (&ink, &ranks, NULL, &expanded) == CELD_BAD_SIZE);
   ink.width = 0;
-  CHECK (celd_expand (&ink, &expanded, NULL, NULL, &expanded) == CELD_BAD_SIZE);
+  CHECK (celd_expand (&ink, &expanded, NULL, &expanded) == CELD_BAD_SIZE);
   CHECK (result[0] == 7 && result[1] == 7);
 }
 
@@ -363,6 +388,7 @@ main (void)
   RUN (black_region_keeps_its_ink);
   RUN (facts_of_random_pictures);
   RUN (progress_rises_and_cancel_changes_nothing);
+  RUN (levels_are_expanded_as_ranks);
   RUN (bad_sizes);
   return DONE;
 }

@@ -34,7 +34,7 @@ make_order (const CeldSettings *settings, CeldLabels *ranks)
       flat.data[i]   = celd_encode_level (ranks->data[i], order.levels, settings);
     }
   if (status == CELD_OK)
-    status = celd_expand (&ink, ranks, settings, NULL, ranks);
+    status = celd_expand (&ink, ranks, NULL, ranks);
   for (int i = 0; status == CELD_OK && i < PIXELS; i++)
     levels.data[i] = celd_encode_level (ranks->data[i], order.levels, settings);
   celd_order_clear (&order);

@@ -12,7 +12,7 @@ static const struct { const char *name; const char *pads; const char *properties
     "ink ink-threshold method hardness flats background background-colour seeds relations arrow-style" },
   { "celdepth:depth-order", "aux2 aux input",
     "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
-  { "celdepth:depth-expand", "aux input", "ink ink-threshold" },
+  { "celdepth:depth-expand", "aux input", "ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold tolerance" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
