@@ -51,16 +51,17 @@ cli_npy_write (const char *path, int width, int height, int depth, size_t row, c
   return good;
 }
 
-/* The numbers in "...'key': (12, 34)..." behind a key. */
+/* The two numbers in "...'shape': (12, 34)...". */
 static bool
-read_header (const char *header, int *height, int *width, int *axes)
+read_header (const char *header, int *height, int *width)
 {
   const char *shape = strstr (header, "'shape': (");
+  int         behind = 0; /* the closing bracket; never reached where there are more axes */
 
   if (!shape || !strstr (header, FLOATS) || !strstr (header, "'fortran_order': False"))
     return false;
-  *axes = sscanf (shape, "'shape': (%d, %d)", height, width);
-  return *axes == 2 && *height >= 1 && *width >= 1 && *height <= CELD_MAX_SIDE && *width <= CELD_MAX_SIDE;
+  return sscanf (shape, "'shape': (%d, %d)%n", height, width, &behind) == 2 && behind && *height >= 1 && *width >= 1 &&
+         *height <= CELD_MAX_SIDE && *width <= CELD_MAX_SIDE;
 }
 
 bool
@@ -68,7 +69,7 @@ cli_npy_read (const char *path, CeldPlane *plane)
 {
   char   *bytes = NULL;
   gsize   length, header_end;
-  int     height, width, axes;
+  int     height, width;
   GError *error = NULL;
   bool    good = false;
 
@@ -84,7 +85,7 @@ cli_npy_read (const char *path, CeldPlane *plane)
   else
     {
       bytes[header_end - 1] = 0;
-      if (!read_header (bytes + PREFIX, &height, &width, &axes))
+      if (!read_header (bytes + PREFIX, &height, &width))
         cli_say ("Cannot read \"%s\": it holds no plane of 32-bit floats of 1 to %d pixels a side.", path,
                  CELD_MAX_SIDE);
       else if ((length - header_end) / sizeof (float) / (gsize) width < (gsize) height)

@@ -13,7 +13,7 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import HEIGHT, RED, RELATIONS, WIDTH, Test, drawing, scribbles, write_psd
+from pictures import HEIGHT, IN_A, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_psd
 
 
 def layers():
@@ -247,6 +247,24 @@ class BadInput(Test):
         self.assertIn('20,20 > 70,45  (line 2, column 1)', text)
         levels = np.load(self.path('l.npy'))
         self.assertGreater(levels[45, 70], levels[20, 20])
+
+    def test_numbers_of_three_axes(self):
+        """Normals are no levels."""
+        np.save(self.path('normals.npy'), np.zeros((HEIGHT, WIDTH, 3), np.float32))
+        self.fails('smooth', 'normals.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='no plane')
+
+    def test_colours_above_their_alpha(self):
+        """Premultiplied colours that cannot be are as bright as they can be."""
+        strokes = np.array(scribbles())
+        strokes[strokes[:, :, 3] > 0, 3] = 200
+        Image.fromarray(strokes).save(self.path('s.tif'))
+        with open(self.path('s.tif'), 'rb+') as file:
+            straight, data = struct.pack('<HHIHH', TiffImagePlugin.EXTRASAMPLES, 3, 1, 2, 0), file.read()
+            self.assertEqual(data.count(straight), 1)
+            file.seek(data.index(straight) + 8)
+            file.write(b'\1')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 's.tif', '--labels', 'l.png')
+        self.assertEqual(tuple(at(self.picture('l.png'), IN_A)), RED + (255,))
 
     def test_unwritable(self):
         for output in ('nowhere/d.png', 'nowhere/d.npy', 'nowhere/d.exr'):
