@@ -280,20 +280,41 @@ check_files (const CliCommand *command, CliOptions *options)
                                command->step == CLI_SHADE ? "shading" : "depth");
 }
 
+bool
+cli_is_device (const char *path)
+{
+  return g_file_test (path, G_FILE_TEST_EXISTS) && !g_file_test (path, G_FILE_TEST_IS_REGULAR) &&
+         !g_file_test (path, G_FILE_TEST_IS_DIR);
+}
+
+/* Pictures are written beside their name and moved there; a report may go to a device. */
+static bool
+check_place (const char *name, FileKind kind)
+{
+  char *folder = g_path_get_dirname (name);
+  bool  device = cli_is_device (name), good = true;
+
+  if (g_file_test (name, G_FILE_TEST_IS_DIR))
+    good = cli_error ("Cannot write \"%s\": it is a folder.", name);
+  else if (device && kind == OUTPUT)
+    good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
+  else if (!device && g_access (folder, W_OK))
+    good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
+  g_free (folder);
+  return good;
+}
+
 /* Before the work rather than after it. */
 static bool
-check_folders (CliOptions *options)
+check_places (CliOptions *options)
 {
   bool good = true;
 
   for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)
     {
       const char *name = *file_name (options, &files[i]);
-      char       *folder = name && files[i].kind >= OUTPUT ? g_path_get_dirname (name) : NULL;
 
-      if (folder && g_access (folder, W_OK))
-        good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
-      g_free (folder);
+      good = !name || files[i].kind < OUTPUT || check_place (name, files[i].kind);
     }
   return good;
 }
@@ -318,7 +339,7 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
 {
   *options = (CliOptions) { .settings = celd_settings () };
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
-    return check_folders (options) ? CLI_DONE : CLI_FAILED;
+    return check_places (options) ? CLI_DONE : CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);
   return CLI_USAGE;
 }

@@ -4,6 +4,7 @@
  */
 #include "cli.h"
 
+#include <errno.h>
 #include <json-glib/json-glib.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -86,29 +87,24 @@ add_label (JsonBuilder *json, const CliReport *report, size_t index)
 
 /* ------------------------------------------------------------------ relations */
 
-/* Why a relation was left out; NULL if it was not. */
+/* Why a relation was left out, by the problem that names it; NULL if that problem leaves it in. */
 static const char *
-left_out (const CeldProblems *problems, size_t relation)
+reason (CeldProblemKind kind)
 {
-  for (size_t i = 0; problems && i < problems->n; i++)
-    if (problems->item[i].relation == relation)
-      switch (problems->item[i].kind)
-        {
-        case CELD_PROBLEM_OUTSIDE:        return "outside";
-        case CELD_PROBLEM_UNKNOWN_COLOUR: return "unknown-colour";
-        case CELD_PROBLEM_SAME_REGION:    return "same-region";
-        case CELD_PROBLEM_CONTRADICTION:  return "contradiction";
-        default:                          break;
-        }
-  return NULL;
+  switch (kind)
+    {
+    case CELD_PROBLEM_OUTSIDE:        return "outside";
+    case CELD_PROBLEM_UNKNOWN_COLOUR: return "unknown-colour";
+    case CELD_PROBLEM_SAME_REGION:    return "same-region";
+    case CELD_PROBLEM_CONTRADICTION:  return "contradiction";
+    default:                          return NULL;
+    }
 }
 
 static void
-add_relation (JsonBuilder *json, const CliReport *report, size_t index)
+add_relation (JsonBuilder *json, const CeldRelation *relation, const char *why)
 {
-  const CeldRelation *relation = &report->relations->item[index];
-  const char         *why = left_out (report->problems, index);
-  char               *text = cli_relation_text (relation);
+  char *text = cli_relation_text (relation);
 
   json_builder_begin_object (json);
   add_text (json, "text", text);
@@ -127,6 +123,23 @@ add_relation (JsonBuilder *json, const CliReport *report, size_t index)
     add_text (json, "left-out", why);
   json_builder_end_object (json);
   g_free (text);
+}
+
+static void
+add_relations (JsonBuilder *json, const CliReport *report)
+{
+  const CeldRelations *relations = report->relations;
+  const CeldProblems  *problems = report->problems;
+  const char         **why = g_new0 (const char *, relations->n);
+
+  for (size_t i = 0; problems && i < problems->n; i++)
+    if (problems->item[i].relation < relations->n && reason (problems->item[i].kind))
+      why[problems->item[i].relation] = reason (problems->item[i].kind);
+  begin_list (json, "relations");
+  for (size_t i = 0; i < relations->n; i++)
+    add_relation (json, &relations->item[i], why[i]);
+  json_builder_end_array (json);
+  g_free (why);
 }
 
 static void
@@ -210,10 +223,7 @@ make_text (const CliReport *report)
   for (size_t i = 0; i < report->palette->n; i++)
     add_label (json, report, i);
   json_builder_end_array (json);
-  begin_list (json, "relations");
-  for (size_t i = 0; i < report->relations->n; i++)
-    add_relation (json, report, i);
-  json_builder_end_array (json);
+  add_relations (json, report);
   if (report->order)
     add_order (json, report);
   begin_list (json, "problems");
@@ -233,15 +243,32 @@ make_text (const CliReport *report)
   return text;
 }
 
+/* A finished file must not take the place of a device. */
+static bool
+write_device (const char *path, const char *text)
+{
+  FILE *device = fopen (path, "w");
+  bool  good = device && fputs (text, device) >= 0;
+
+  good = device && !fclose (device) && good;
+  return good || cli_error ("Cannot write \"%s\": %s.", path, g_strerror (errno));
+}
+
 bool
 cli_report_write (const char *path, const CliReport *report)
 {
   char   *data = make_text (report), *text = g_strconcat (data, "\n", NULL);
   GError *error = NULL;
-  bool    good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+  bool    good;
 
-  if (!good)
-    cli_say ("Cannot write \"%s\": %s", path, error->message);
+  if (cli_is_device (path))
+    good = write_device (path, text);
+  else
+    {
+      good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+      if (!good)
+        cli_say ("Cannot write \"%s\": %s", path, error->message);
+    }
   g_clear_error (&error);
   g_free (text);
   g_free (data);

@@ -266,6 +266,17 @@ class BadInput(Test):
         self.celdepth('segment', 'drawing.png', '--scribbles', 's.tif', '--labels', 'l.png')
         self.assertEqual(tuple(at(self.picture('l.png'), IN_A)), RED + (255,))
 
+    def test_devices(self):
+        """A report goes to a device; a picture would replace it."""
+        os.symlink('/dev/full', self.path('full.json'))
+        self.assertIn('full.json', self.popup('--report', 'full.json', code=1))
+        self.assertTrue(os.path.islink(self.path('full.json')))
+        self.assertEqual(json.loads(self.popup('--report', '/dev/stdout'))['width'], WIDTH)
+        for name in ('full.png', 'full.npy'):
+            os.symlink('/dev/full', self.path(name))
+            self.assertIn('not an ordinary file', self.popup('--depth', name, code=1))
+            self.assertTrue(os.path.islink(self.path(name)))
+
     def test_unwritable(self):
         for output in ('nowhere/d.png', 'nowhere/d.npy', 'nowhere/d.exr'):
             self.assertIn(output, self.popup('--depth', output, code=1))
