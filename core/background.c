@@ -24,7 +24,7 @@ typedef struct
 static CeldStatus
 find_holders (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, uint32_t *holder)
 {
-  bool       all_count = canvas->settings->flats || canvas->settings->hardness >= 1;
+  bool       all_count = celd_canvas_obeys (canvas);
   CeldSpread spread;
   CeldStatus status = celd_spread_new (canvas, pieces, run, &spread);
 

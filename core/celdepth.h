@@ -94,11 +94,11 @@ typedef struct
 {
   /* drawing */
   CeldInkMode ink;              /* what is ink */
-  float       ink_threshold;    /* ink at or below this counts as fully inked, [0,1); 0.25 */
+  float       ink_threshold;    /* ink at or below this counts as fully inked, [0,0.99]; 0.25 */
 
   /* scribbles and segmentation */
   CeldMethod     method;
-  float          hardness;      /* 0.05 soft (a majority of paint wins) .. 1 hard (every stroke is obeyed) */
+  float          hardness;      /* 0.01 soft (a majority of paint wins) .. 1 hard (every stroke is obeyed); 0.05 */
   bool           flats;         /* the scribbles are a flat colouring: every colour of it is a region */
   CeldBackground background;
   uint8_t        background_colour[3]; /* for CELD_BACKGROUND_COLOUR: the scribble colour that is background */
@@ -319,7 +319,7 @@ CELD_API void         celd_session_free (CeldSession *session);   /* accepts NUL
 
 CELD_API CeldStatus celd_session_set_settings  (CeldSession *session, const CeldSettings *settings);
 CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const CeldDrawing *drawing);
-/* Layers; NULL removes one.  CELD_BAD_SIZE if the size is not the drawing's. */
+/* Layers; NULL removes one.  CELD_BAD_SIZE if the size is not the drawing's.  A drawing of another size removes all. */
 CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);

@@ -151,8 +151,8 @@ celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
   CeldSpread spread;
   CeldStatus status;
 
-  if (canvas->settings->flats || canvas->settings->hardness >= 1)
-    return CELD_OK; /* every stroke is obeyed */
+  if (celd_canvas_obeys (canvas))
+    return CELD_OK;
   status = celd_spread_new (canvas, &canvas->pieces, run, &spread);
   if (status != CELD_OK)
     return status;

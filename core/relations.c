@@ -234,16 +234,10 @@ read_flags (Reader *r, CeldRelation *flags)
 static CeldStatus
 append (CeldRelations *relations, const PlacedTerm *left, char sign, const PlacedTerm *right)
 {
-  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
-
-  if (!item)
-    return CELD_NO_MEMORY;
-  relations->item      = item;
-  item[relations->n++] = (CeldRelation) {
+  return celd_relation_add (relations, (CeldRelation) {
     .nearer = sign == '<' ? right->term : left->term, .farther = sign == '<' ? left->term : right->term,
     .equal = sign == '=', .source = CELD_SOURCE_TEXT, .line = left->line, .column = left->column,
-  };
-  return CELD_OK;
+  });
 }
 
 /* One chain; its flags count for every relation of it. */

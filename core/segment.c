@@ -262,7 +262,7 @@ weigh_strokes (CeldCanvas *canvas)
 int32_t
 celd_canvas_vote (const CeldCanvas *canvas, uint32_t label)
 {
-  bool all_hard = canvas->settings->flats || canvas->settings->hardness >= 1;
+  bool all_hard = celd_canvas_obeys (canvas);
 
   return all_hard || canvas->palette.item[label - 1].hard ? CELD_HARD : canvas->soft_vote;
 }

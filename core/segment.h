@@ -24,6 +24,13 @@ typedef struct
   CeldPalette         palette;  /* of all labels so far */
 } CeldCanvas;
 
+/* Is every stroke obeyed, wherever it runs? */
+static inline bool
+celd_canvas_obeys (const CeldCanvas *canvas)
+{
+  return canvas->settings->flats || canvas->settings->hardness >= 1;
+}
+
 /* One more label, without seeds so far: *label is its number. */
 CeldStatus celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label);
 

@@ -168,20 +168,20 @@ mark_anchors (int width, int height, const float *level, const CeldMask *anchors
 
 /* The result, kept within the levels: the solver's error must not carry it beyond. */
 static void
-deliver (const float *x, const CeldPlane *levels, CeldPlane *depth)
+deliver (const float *solved, const CeldPlane *levels, CeldPlane *depth)
 {
   float low = INFINITY, high = -INFINITY;
 
   for (int y = 0; y < levels->height; y++)
-    for (int x_ = 0; x_ < levels->width; x_++)
-      if (isfinite (CELD_AT (levels, x_, y)))
+    for (int x = 0; x < levels->width; x++)
+      if (isfinite (CELD_AT (levels, x, y)))
         {
-          low  = fminf (low, CELD_AT (levels, x_, y));
-          high = fmaxf (high, CELD_AT (levels, x_, y));
+          low  = fminf (low, CELD_AT (levels, x, y));
+          high = fmaxf (high, CELD_AT (levels, x, y));
         }
   for (int y = 0; y < depth->height; y++)
-    for (int x_ = 0; x_ < depth->width; x_++, x++)
-      CELD_AT (depth, x_, y) = low <= high ? fminf (fmaxf (*x, low), high) : 0;
+    for (int x = 0; x < depth->width; x++, solved++)
+      CELD_AT (depth, x, y) = low <= high ? fminf (fmaxf (*solved, low), high) : 0;
 }
 
 CeldStatus
