@@ -61,17 +61,18 @@ CELD_API const char *celd_status_text (CeldStatus status);
 typedef struct
 {
   bool (*progress) (void *host, double done);      /* done in [0,1], never falling; false cancels */
-  void (*each) (void *host, int n, void (*body) (void *data, int i), void *data); /* body for 0..n-1, any order, returns when all are done */
+  void (*each) (void *host, int n, void (*body) (void *data, int i), void *data); /* body for 0 .. n-1 in any order; all
+                                                                                  * are done when it returns */
   void *host;
 } CeldRun;
 
-/* ------------------------------------------------------------------ borrowed pictures */
+/* ------------------------------------------------------------------ borrowed pictures; the stride counts pixels */
 
-typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* one float a pixel; stride in elements */
+typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* one float a pixel */
 typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* one label or rank a pixel */
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* one byte a pixel, 0 = no */
-typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A, straight alpha; stride in pixels */
-typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x,y,z a pixel; stride in pixels */
+typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A, straight alpha */
+typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x,y,z a pixel */
 
 typedef struct { int x, y, width, height; } CeldRect;
 
@@ -132,7 +133,7 @@ typedef enum { CELD_FROM_SCRIBBLE, CELD_FROM_ARROW, CELD_FROM_BACKGROUND } CeldO
 /* One label and what is known of it. */
 typedef struct
 {
-  uint8_t    colour[4];         /* R'G'B'A of its scribbles; alpha 0 only for the transparent background that celdepth added */
+  uint8_t    colour[4];         /* R'G'B'A of its scribbles; alpha 0 only for the background that celdepth added */
   CeldOrigin origin;
   bool       background;        /* weakly behind every other label */
   bool       hard;              /* its seeds are obeyed whatever the hardness (seeds of arrows) */
@@ -220,7 +221,7 @@ typedef struct
 CELD_API void celd_order_clear (CeldOrder *order);
 
 /* How well an iterative solve went. */
-typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: estimate, as a share of the range */
+typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
 
 /* ------------------------------------------------------------------ the steps, in the order of the route */
 
@@ -244,8 +245,8 @@ CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPa
 CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
                                          CeldLabels *seeds, CeldPalette *palette);
 
-/* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is appended and
- * *error (may be NULL) says where.  Locale-independent. */
+/* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is added,
+ * and *error (may be NULL) says where.  Locale-independent. */
 CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
 
 /* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
@@ -269,8 +270,8 @@ CELD_API CeldStatus celd_separate (const CeldRun *run, CeldLabels *labels, CeldP
 CELD_API CeldStatus celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPaint *paint);
 CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels, CeldPalette *palette);
 
-/* The scribble, if any, whose label owns most paper along the frame is the background (settings->background), marked in the palette.
- * For label pictures read back by celd_labels_read; ink may be NULL. */
+/* The scribble, if any, whose label owns most paper along the frame is the background (settings->background), marked in
+ * the palette.  For label pictures read back by celd_labels_read; ink may be NULL. */
 CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
                                           CeldPalette *palette);
 
@@ -307,7 +308,7 @@ CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels,
 /* Lambert shading of normals by the light of the settings, in [0,1], linear light. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
-/* ------------------------------------------------------------------ the session: the whole route, kept between edits */
+/* ------------------------------------------------------------------ the session: the route, kept between edits */
 
 /* Holds a drawing, its strokes and relations, and every result made so far.  Set or change anything in any order, then
  * ask: what an edit did not touch is not made again.  One thread at a time.  Pictures given are copied; pictures
@@ -331,19 +332,25 @@ CELD_API CeldStatus celd_session_put_stroke    (CeldSession *session, uint32_t i
                                                 const uint8_t colour[3]);
 CELD_API CeldStatus celd_session_remove_stroke (CeldSession *session, uint32_t id);
 /* Single relations beside the text, by the host's id (not 0): one relation in the grammar of the text. */
-CELD_API CeldStatus celd_session_put_relation    (CeldSession *session, uint32_t id, const char *text, CeldTextError *error);
+CELD_API CeldStatus celd_session_put_relation    (CeldSession *session, uint32_t id, const char *text,
+                                                  CeldTextError *error);
 CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t id);
 
 /* Results; each makes what is missing first.  *changed (may be NULL) is the rectangle that differs from the last time
- * this result was asked for: everything the first time, width 0 when nothing does. */
-CELD_API CeldStatus celd_session_ink     (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
-CELD_API CeldStatus celd_session_labels  (CeldSession *session, const CeldRun *run, CeldLabels *labels, CeldRect *changed);
-CELD_API CeldStatus celd_session_order   (CeldSession *session, const CeldRun *run, const CeldOrder **order);
-CELD_API CeldStatus celd_session_flat    (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed); /* before expansion */
-CELD_API CeldStatus celd_session_levels  (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed); /* expanded */
-CELD_API CeldStatus celd_session_depth   (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
-CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals, CeldRect *changed);
-CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading, CeldRect *changed);
+ * this result was asked for: everything the first time, width 0 when nothing does.  `flat` are levels before expansion,
+ * `levels` expanded ones. */
+CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
+CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels,
+                                         CeldRect *changed);
+CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
+CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
+CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,
+                                         CeldRect *changed);
+CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals,
+                                          CeldRect *changed);
+CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading,
+                                          CeldRect *changed);
 
 /* What is known so far; borrowed, valid until the next call on the session. */
 CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);

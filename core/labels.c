@@ -1,4 +1,4 @@
-/* Label pictures: as colours and back, each region on its own, what is known of each label, and which is the background.
+/* Label pictures: as colours and back, each region on its own, what is known of each label, which is the background.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -411,7 +411,8 @@ done:
 }
 
 CeldStatus
-celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings, CeldPalette *palette)
+celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
+                      CeldPalette *palette)
 {
   uint32_t   label = 0;
   CeldStatus status = CELD_OK;

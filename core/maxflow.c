@@ -1,9 +1,10 @@
 /* Exact minimum cut of a 4-connected grid by augmenting paths between two search trees, after Y. Boykov and
- * V. Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 2004.
+ * V. Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision",
+ * PAMI 2004.
  *
  * One tree grows from the source, one from the sink, along edges with capacity left.  Where they meet, flow is pushed
  * along the path; edges that it fills up make orphans, which look for a new parent in their tree or leave it.
- * What the source tree holds in the end is all that the source still reaches: the smallest source side of a minimum cut.
+ * What the source tree holds in the end is all that the source still reaches: the smallest source side of a least cut.
  *
  * The grid is implicit: neighbours by index, with one column and two rows of nodes without capacity round it, so that
  * no step asks for the border.  40 bytes a node.  Capacities, and terminals by absolute value, are at most 2^30 - 1.

@@ -55,7 +55,9 @@ celd_plane_new (int width, int height, CeldPlane *plane)
 CeldStatus
 celd_labels_new (int width, int height, CeldLabels *labels)
 {
-  *labels = (CeldLabels) { width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, sizeof (uint32_t)) };
+  *labels = (CeldLabels) {
+    width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, sizeof (uint32_t))
+  };
   return labels->data ? CELD_OK : CELD_NO_MEMORY;
 }
 

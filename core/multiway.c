@@ -246,8 +246,9 @@ cut (Solver *s, const Piece *piece)
   int32_t   *terminal = celd_alloc (n, sizeof *terminal);
   uint8_t   *side = celd_alloc (n, 1);
   Piece      first = *piece, others = *piece;
+  double     done = (double) s->decided / (double) s->total;
   CeldPart   part;
-  CeldRun    run = celd_run_part (&part, s->run, (double) s->decided / (double) s->total, (double) s->decided / (double) s->total);
+  CeldRun    run = celd_run_part (&part, s->run, done, done);
   CeldStatus status = CELD_NO_MEMORY;
 
   if (!east || !south || !terminal || !side)

@@ -15,7 +15,7 @@ typedef struct
 {
   const CeldRelations *relations;
   size_t               n_labels, n_links, n_ends;
-  size_t              *first; /* of link i: farther labels from end[first[2i]] on, nearer ones from end[first[2i+1]] on */
+  size_t              *first; /* of link i: farther labels from end[first[2i]], nearer ones from end[first[2i+1]] */
   uint32_t            *end;   /* label - 1 */
   bool                *kept;  /* does link i count? */
 } CeldGraph;

@@ -12,10 +12,10 @@
 /* All allocation in core goes through these two; NULL when count x size overflows or is refused. */
 void *celd_alloc (size_t count, size_t size);                 /* not cleared */
 void *celd_alloc0 (size_t count, size_t size);                /* cleared */
-void *celd_grow (void *items, size_t count, size_t size);     /* like realloc, to `count` items, one more than before; doubles */
+void *celd_grow (void *items, size_t count, size_t size);     /* to `count` items, one more than before; doubles */
 void  celd_free (void *memory);                               /* accepts NULL */
 
-CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* tight stride, not cleared; end with celd_free (data) */
+CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* not cleared; end with celd_free (data) */
 CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* cleared */
 CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
 
@@ -65,7 +65,7 @@ CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 /* ------------------------------------------------------------------ maxflow.c: grid max-flow */
 
 /* Minimum cut of a 4-connected grid, exact.  Knows nothing of pictures: nodes are pixels of the grid, capacities
- * symmetric.  east[i]: between node i and its right neighbour (last column ignored); south[i]: below (last row ignored).
+ * symmetric.  east[i]: between node i and its right neighbour (last column ignored); south[i]: below (last row too).
  * terminal[i] > 0: capacity from the source; < 0: capacity to the sink.  side[i] becomes 1 where the node is reachable
  * from the source in the residual graph, 0 elsewhere.  *flow (may be NULL) is the cut's value. */
 CeldStatus celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
@@ -95,7 +95,8 @@ CeldStatus celd_frame (const CeldPlane *ink, int width, int height, size_t **pix
 
 /* Fills in the area of each label and a pixel of it as far as can be from ink (may be NULL) and other labels; -1,-1 for
  * labels without a pixel. */
-CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run, CeldPalette *palette);
+CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run,
+                                 CeldPalette *palette);
 
 /* The first opaque label of this colour, or of the nearest one that colour management may have made of it (2 of 255 a
  * channel); 0 if there is none. */
@@ -151,11 +152,18 @@ CeldStatus celd_anchor_core (int width, int height, const float *level, const Ce
  * INT32_MAX if there is none.  Tight planes of width x height; their content is undefined after a cancel. */
 CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared);
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
-CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest);
+CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared,
+                         int32_t *nearest);
 
 /* ------------------------------------------------------------------ components.c: connected components */
 
-typedef struct { uint32_t label; int x, y, left, top, right, bottom; size_t area; } CeldComponent; /* label: of its pixels in the input; right, bottom inclusive; (x,y): its first pixel in reading order */
+typedef struct
+{
+  uint32_t label;                    /* of its pixels in the input */
+  int      x, y;                     /* its first pixel in reading order */
+  int      left, top, right, bottom; /* inclusive */
+  size_t   area;
+} CeldComponent;
 
 /* 4- or 8-connected components of equal labels.  Pixels of label `none` (pass UINT32_MAX for no such label) get
  * component 0; others 1 .. n in reading order of their first pixel.  *list has n items, item k-1 is component k;

@@ -58,7 +58,8 @@ report_overruled (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldR
     if (stroke[i].label <= canvas->palette.n && 2 * fate[i + 1].overruled > stroke[i].area &&
         SCRAP * stroke[i].area >= canvas->palette.item[stroke[i].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
-        CELD_PROBLEM_STROKE_OVERRULED, fate[i + 1].x, fate[i + 1].y, stroke[i].label, fate[i + 1].other, CELD_NO_INDEX });
+        CELD_PROBLEM_STROKE_OVERRULED, fate[i + 1].x, fate[i + 1].y, stroke[i].label, fate[i + 1].other,
+        CELD_NO_INDEX });
 
 done:
   celd_free (strokes.data);

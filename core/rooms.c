@@ -1,4 +1,4 @@
-/* The pieces of paper that a drawing's contours enclose, and its rooms: the same with small gaps in the contours closed.
+/* The pieces of paper that a drawing's contours enclose, and its rooms: the same with small gaps in contours closed.
  *
  * Paper farther from ink than one stroke width is open.  Connected open paper takes in the paper within that distance
  * again, and what is left over are bays.  So passages narrower than two stroke widths part these basins.  But not every

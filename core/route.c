@@ -51,15 +51,26 @@ difference (const void *old, const void *new, int width, int height, size_t pixe
           first++;
         while (a[last] == b[last])
           last--;
-        found = rect_union (found, (CeldRect) { (int) (first / pixel), y, (int) (last / pixel - first / pixel) + 1, 1 });
+        first /= pixel;
+        last  /= pixel;
+        found  = rect_union (found, (CeldRect) { (int) first, y, (int) (last - first) + 1, 1 });
       }
   return found;
+}
+
+/* What the host is to be told the next time it asks. */
+static void
+see_changes (CeldSession *s, CeldStage stage, const void *old, const void *new, size_t pixel)
+{
+  CeldRect changed = difference (old, new, s->drawing.luma.width, s->drawing.luma.height, pixel);
+
+  s->unseen[stage] = rect_union (s->unseen[stage], changed);
 }
 
 static void
 replace_plane (CeldSession *s, CeldStage stage, CeldPlane *old, CeldPlane *new)
 {
-  s->unseen[stage] = rect_union (s->unseen[stage], difference (old->data, new->data, new->width, new->height, sizeof (float)));
+  see_changes (s, stage, old->data, new->data, sizeof (float));
   celd_free (old->data);
   *old = *new;
   new->data = NULL;
@@ -238,7 +249,7 @@ make_labels (CeldSession *s, const CeldRun *run)
       celd_problems_clear (&problems);
       return status;
     }
-  s->unseen[STAGE_LABELS] = rect_union (s->unseen[STAGE_LABELS], difference (s->labels.data, labels.data, w, h, sizeof (uint32_t)));
+  see_changes (s, STAGE_LABELS, s->labels.data, labels.data, sizeof (uint32_t));
   celd_free (s->labels.data);
   celd_free (s->painted.data);
   celd_palette_clear (&s->palette);
@@ -409,7 +420,7 @@ make_normals (CeldSession *s, const CeldRun *run)
       celd_free (normals.data);
       return status;
     }
-  s->unseen[STAGE_NORMALS] = rect_union (s->unseen[STAGE_NORMALS], difference (s->normals.data, normals.data, w, h, 3 * sizeof (float)));
+  see_changes (s, STAGE_NORMALS, s->normals.data, normals.data, 3 * sizeof (float));
   celd_free (s->normals.data);
   s->normals = normals;
   return CELD_OK;

@@ -1,4 +1,4 @@
-/* Arrows as strokes: the expert gesture of section 4 ("directly generate scribbles with a newly added depth inequality")
+/* Arrows as strokes: the expert gesture of section 4 ("generate scribbles with a newly added depth inequality")
  * and Figure 2, which has two arrows and nothing else.
  *
  * An end in a room (rooms.c) that nothing reaches makes that room a label.  Where both ends of an inequality end up in
@@ -370,7 +370,7 @@ take_over (CeldCanvas *canvas, const Region *region, const Local *local, bool ne
       }
 }
 
-/* Of all smallest cuts this is the one nearest to the end with more room: a limb reaches up to where the body begins. */
+/* Of all smallest cuts this is the one nearest to the end with more room: a limb reaches to where the body begins. */
 static CeldStatus
 cut_region (CeldCanvas *canvas, const Region *region, bool new_is_source, const CeldRun *run)
 {
@@ -442,7 +442,8 @@ celd_seeds_split (const CeldRelations *relations, const CeldRun *run, CeldCanvas
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
       CeldPart part;
-      CeldRun  one = celd_run_part (&part, run, (double) i / (double) relations->n, (double) (i + 1) / (double) relations->n);
+      double   n = (double) relations->n;
+      CeldRun  one = celd_run_part (&part, run, (double) i / n, (double) (i + 1) / n);
 
       status = split_relation (canvas, &relations->item[i], squared, &region, &one);
     }

@@ -73,7 +73,7 @@ celd_session_free (CeldSession *session)
   celd_free (session);
 }
 
-/* ------------------------------------------------------------------ setting: hosts set everything again at each preview */
+/* ------------------------------------------------------------------ setting: hosts set all again at each preview */
 
 /* Do the rows of two pictures hold the same?  No picture is the same as no picture. */
 static bool
@@ -136,8 +136,8 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
   if (a->arrow_style != b->arrow_style)
     celd_session_forget (session, STAGE_RELATIONS);
   if (a->method != b->method || a->hardness != b->hardness || a->flats != b->flats || a->background != b->background ||
-      memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds || a->same_colour != b->same_colour ||
-      a->ink_threshold != b->ink_threshold)
+      memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
+      a->same_colour != b->same_colour || a->ink_threshold != b->ink_threshold)
     celd_session_forget (session, STAGE_LABELS);
   if (a->encoding != b->encoding || a->near_level != b->near_level || a->far_level != b->far_level)
     celd_session_forget (session, STAGE_ORDER);

@@ -54,10 +54,11 @@ celd_status_text (CeldStatus status)
     case CELD_OK:               return "Done.";
     case CELD_CANCELLED:        return "Cancelled.";
     case CELD_NO_MEMORY:        return "Not enough memory for a picture of this size.";
-    case CELD_BAD_SIZE:         return "The layers must have the size of the drawing, between 1 and 20000 pixels a side.";
+    case CELD_BAD_SIZE:         return "The layers must have the size of the drawing, 1 to 20000 pixels a side.";
     case CELD_BAD_VALUE:        return "A setting is outside its range.";
     case CELD_BAD_RELATION:     return "The relations cannot be read.";
-    case CELD_NOTHING_TO_GO_BY: return "There is nothing to go by: scribble over the parts of the drawing, or draw an arrow from a nearer to a farther part.";
+    case CELD_NOTHING_TO_GO_BY: return "There is nothing to go by: scribble over the parts of the drawing, or draw an "
+                                       "arrow from a nearer to a farther part.";
     }
   return "Unknown status.";
 }
@@ -90,13 +91,15 @@ relation_name (const CeldProblem *problem, const CeldRelations *relations, char 
   else if (r && r->source == CELD_SOURCE_TEXT)
     snprintf (name, size, "The relation in line %d, column %d", r->line, r->column);
   else if (r)
-    snprintf (name, size, "The arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x, r->farther.y);
+    snprintf (name, size, "The arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x,
+              r->farther.y);
   else
     snprintf (name, size, "A relation");
 }
 
 void
-celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations, char *text, size_t size)
+celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations,
+                   char *text, size_t size)
 {
   char label[24], other[24], relation[96];
 
@@ -106,31 +109,46 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
   switch (p->kind)
     {
     case CELD_PROBLEM_STROKE_OVERRULED:
-      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: its pixels went to%s. Paint more of it, close the contour there, or use hard strokes.", label, p->x, p->y, other[0] ? other : " another colour");
+      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: its pixels went to%s. Paint more of it, "
+                "close the contour there, or use hard strokes.",
+                label, p->x, p->y, other[0] ? other : " another colour");
       break;
     case CELD_PROBLEM_REGION_UNREACHED:
-      snprintf (text, size, "No stroke reaches the closed region at (%d, %d); it was given to%s. Put a stroke into it if that is wrong.", p->x, p->y, label[0] ? label : " a neighbour");
+      snprintf (text, size, "No stroke reaches the closed region at (%d, %d); it was given to%s. Put a stroke "
+                "into it if that is wrong.",
+                p->x, p->y, label[0] ? label : " a neighbour");
       break;
     case CELD_PROBLEM_COLOUR_LOST:
-      snprintf (text, size, "The colour%s, painted at (%d, %d), has no region left. Paint more of it, or use hard strokes.", label, p->x, p->y);
+      snprintf (text, size, "The colour%s, painted at (%d, %d), has no region left. Paint more of it, or use "
+                "hard strokes.",
+                label, p->x, p->y);
       break;
     case CELD_PROBLEM_ARROW_UNCLEAR:
-      snprintf (text, size, "The arrow at (%d, %d) does not say which end is nearer, so it was left out. Draw it again with a clearer head, or check the arrow style.", p->x, p->y);
+      snprintf (text, size, "The arrow at (%d, %d) does not say which end is nearer, so it was left out. Draw it "
+                "again with a clearer head, or check the arrow style.",
+                p->x, p->y);
       break;
     case CELD_PROBLEM_OUTSIDE:
       snprintf (text, size, "%s names a point outside the drawing, so it was left out.", relation);
       break;
     case CELD_PROBLEM_UNKNOWN_COLOUR:
-      snprintf (text, size, "%s names a colour that no region has, so it was left out. Use the colour of a scribble.", relation);
+      snprintf (text, size, "%s names a colour that no region has, so it was left out. Use the colour of a "
+                "scribble.",
+                relation);
       break;
     case CELD_PROBLEM_SAME_REGION:
-      snprintf (text, size, "%s has both ends in the region%s, so it was left out. Scribble another colour at one of its ends.", relation, label);
+      snprintf (text, size, "%s has both ends in the region%s, so it was left out. Scribble another colour at "
+                "one of its ends.",
+                relation, label);
       break;
     case CELD_PROBLEM_CONTRADICTION:
-      snprintf (text, size, "%s contradicts the others, so it was left out. Turn it round, or delete another one of the circle.", relation);
+      snprintf (text, size, "%s contradicts the others, so it was left out. Turn it round, or delete another one "
+                "of the circle.",
+                relation);
       break;
     case CELD_PROBLEM_NOT_CONVERGED:
-      snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does not matter.");
+      snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does "
+                "not matter.");
       break;
     }
 }
