@@ -1,7 +1,7 @@
 /* LazyBrush [SDC09b] (section 3.2): every pixel gets the label of a scribble, borders run through ink.
  *
- * The energy is that of multiway.c with V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper costs
- * more than any border inside ink could.  The paper leaves open:
+ * The energy is that of multiway.c with V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper
+ * costs more than any border inside ink could.  The paper leaves open:
  *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
  *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
  *       behind costs nothing, half ink 1/27, and paper grain little.
@@ -372,6 +372,7 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
 {
   CeldCanvas   canvas = { 0 };
   CeldProblems found = { 0 };
+  size_t       before = problems ? problems->n : 0;
   CeldPart     part[3];
   CeldRun      begin = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.05, 0.95);
   CeldRun      end = celd_run_part (&part[2], run, 0.95, 0.95);
@@ -395,7 +396,11 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
   for (size_t i = 0; i < found.n && status == CELD_OK; i++)
     status = celd_problem_add (problems, found.item[i]);
   if (status != CELD_OK)
-    goto done;
+    {
+      if (problems)
+        problems->n = before;
+      goto done;
+    }
   for (int y = 0; y < canvas.height; y++)
     memcpy (&CELD_AT (labels, 0, y), &CELD_AT (&canvas.labels, 0, y), (size_t) canvas.width * sizeof *labels->data);
   celd_palette_clear (palette);

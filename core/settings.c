@@ -55,7 +55,7 @@ celd_status_text (CeldStatus status)
     case CELD_CANCELLED:        return "Cancelled.";
     case CELD_NO_MEMORY:        return "Not enough memory for a picture of this size.";
     case CELD_BAD_SIZE:         return "The layers must have the size of the drawing, 1 to 20000 pixels a side.";
-    case CELD_BAD_VALUE:        return "A setting is outside its range.";
+    case CELD_BAD_VALUE:        return "A setting is outside its range, or the near level is not above the far level.";
     case CELD_BAD_RELATION:     return "The relations cannot be read.";
     case CELD_NOTHING_TO_GO_BY: return "There is nothing to go by: scribble over the parts of the drawing, or draw an "
                                        "arrow from a nearer to a farther part.";
