@@ -17,6 +17,8 @@ celd_alloc (size_t count, size_t size)
 void *
 celd_alloc0 (size_t count, size_t size)
 {
+  if (size && count > SIZE_MAX / size)
+    return NULL;
   return calloc (count ? count : 1, size ? size : 1);
 }
 

@@ -1,0 +1,101 @@
+/* Defaults are legal, every range is kept, and every text for artists says what and where.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+
+static void
+defaults_are_legal (void)
+{
+  CeldSettings s = celd_settings ();
+
+  CHECK (celd_settings_check (&s) == CELD_OK);
+}
+
+/* Each number of the settings, with one value inside and two outside its range. */
+static void
+ranges_are_kept (void)
+{
+  CeldSettings s = celd_settings ();
+  const struct { float *member, inside, below, above; } range[] = {
+    { &s.ink_threshold, 0, -0.01f, 1 },
+    { &s.hardness, 1, 0, 1.01f },
+    { &s.tolerance, 0.1f, 0, 0.2f },
+    { &s.bulge, 4, -0.1f, 5 },
+    { &s.light_azimuth, -360, -361, 361 },
+    { &s.light_elevation, 90, -91, 91 },
+    { &s.ambient, 1, -0.1f, 1.1f },
+  };
+
+  for (size_t i = 0; i < sizeof range / sizeof *range; i++)
+    {
+      float usual = *range[i].member;
+
+      *range[i].member = range[i].inside;
+      CHECK (celd_settings_check (&s) == CELD_OK);
+      *range[i].member = range[i].below;
+      CHECK (celd_settings_check (&s) == CELD_BAD_VALUE);
+      *range[i].member = range[i].above;
+      CHECK (celd_settings_check (&s) == CELD_BAD_VALUE);
+      *range[i].member = NAN;
+      CHECK (celd_settings_check (&s) == CELD_BAD_VALUE);
+      *range[i].member = usual;
+    }
+}
+
+static void
+fixed_levels_need_a_span (void)
+{
+  CeldSettings s = celd_settings ();
+
+  s.near_level = s.far_level = 3;
+  CHECK (celd_settings_check (&s) == CELD_OK); /* not used */
+  s.encoding = CELD_ENCODING_FIXED;
+  CHECK (celd_settings_check (&s) == CELD_BAD_VALUE);
+  s.near_level = 4;
+  CHECK (celd_settings_check (&s) == CELD_OK);
+}
+
+static void
+every_status_has_a_text (void)
+{
+  for (int status = CELD_OK; status <= CELD_NOTHING_TO_GO_BY; status++)
+    for (int other = CELD_OK; other < status; other++)
+      CHECK (strcmp (celd_status_text ((CeldStatus) status), celd_status_text ((CeldStatus) other)));
+}
+
+static void
+problems_say_what_and_where (void)
+{
+  CeldRegion    region[2] = { { .colour = { 255, 0, 16, 255 } }, { .colour = { 0 } } };
+  CeldPalette   palette = { region, 2 };
+  CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
+  CeldRelations relations = { &relation, 1 };
+  CeldProblem   overruled = { CELD_PROBLEM_STROKE_OVERRULED, 12, 34, 1, 2, CELD_NO_INDEX };
+  CeldProblem   outside = { CELD_PROBLEM_OUTSIDE, -1, -1, 0, 0, 0 };
+  char          text[400], small[8] = "xxxxxxx";
+
+  celd_problem_text (&overruled, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "#ff0010") && strstr (text, "(12, 34)") && strstr (text, "the background"));
+  celd_problem_text (&overruled, NULL, NULL, text, sizeof text); /* without names it still says where */
+  CHECK (!strchr (text, '#') && strstr (text, "(12, 34)"));
+  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "line 3, column 9"));
+  celd_problem_text (&outside, &palette, &relations, small, sizeof small);
+  CHECK (strlen (small) == sizeof small - 1); /* cut, and ended */
+  relation.source = CELD_SOURCE_ARROW;
+  relation.nearer.x = 5;
+  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "The arrow from (5, 0)"));
+}
+
+int
+main (void)
+{
+  RUN (defaults_are_legal);
+  RUN (ranges_are_kept);
+  RUN (fixed_levels_need_a_span);
+  RUN (every_status_has_a_text);
+  RUN (problems_say_what_and_where);
+  return DONE;
+}
