@@ -3,7 +3,7 @@
  * Paper farther from ink than one stroke width is open.  Connected open paper takes in the paper within that distance
  * again, and what is left over are bays.  So passages narrower than two stroke widths part these basins.  But not every
  * such passage is a gap: from the widest on, passages join basins again unless both are clearly wider than the passage.
- * Acute corners and narrow corridors stay with their room, and a small region behind a gap stays by itself.
+ * A passage along the frame is none: the page goes on behind the frame.  Acute corners and narrow corridors stay with their room, and a small region behind a gap stays by itself.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -142,10 +142,19 @@ find_bays (Work *work, const CeldRun *run)
 
 /* ------------------------------------------------------------------ joining basins */
 
+static bool
+on_frame (const CeldCanvas *canvas, size_t p)
+{
+  size_t w = (size_t) canvas->width;
+
+  return p < w || p >= canvas->n - w || p % w == 0 || p % w == w - 1;
+}
+
 static CeldStatus
 note_passage (Work *work, size_t p, size_t q)
 {
   uint32_t a = work->canvas->rooms.data[p], b = work->canvas->rooms.data[q];
+  int32_t  squared = work->to_ink[p] < work->to_ink[q] ? work->to_ink[p] : work->to_ink[q];
   Passage *passage;
 
   if (!a || !b || a == b)
@@ -154,7 +163,7 @@ note_passage (Work *work, size_t p, size_t q)
   if (!passage)
     return CELD_NO_MEMORY;
   work->passage = passage;
-  passage[work->n_passages++] = (Passage) { a, b, work->to_ink[p] < work->to_ink[q] ? work->to_ink[p] : work->to_ink[q] };
+  passage[work->n_passages++] = (Passage) { a, b, on_frame (work->canvas, p) && on_frame (work->canvas, q) ? INT32_MAX : squared };
   return CELD_OK;
 }
 
