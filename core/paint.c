@@ -3,9 +3,9 @@
  * A soft stroke may run on through a contour.  The paint behind it says nothing about the region there, but it would
  * outvote the cost of cutting that region at a narrow place.  So a stroke's share of a piece of paper is weighed by the
  * odds that the stroke is meant for the piece: what the stroke leaves there to what it leaves elsewhere, times the
- * paint of its colour there to that of others.  Below one half the share is a stain and does not count.  Where right paint
- * outweighs foreign paint 3:1 this finds every stain of a stroke that keeps 2/5 of its paint out of the piece, and
- * a colour alone in its piece, or a stroke within one piece, never is one.
+ * paint of its colour there to that of others.  Below one half the share is a stain and does not count.  Where right
+ * paint outweighs foreign paint 3:1 this finds every stain of a stroke that keeps 2/5 of its paint out of the piece,
+ * and a colour alone in its piece, or a stroke within one piece, never is one.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

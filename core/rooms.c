@@ -3,7 +3,8 @@
  * Paper farther from ink than one stroke width is open.  Connected open paper takes in the paper within that distance
  * again, and what is left over are bays.  So passages narrower than two stroke widths part these basins.  But not every
  * such passage is a gap: from the widest on, passages join basins again unless both are clearly wider than the passage.
- * A passage along the frame is none: the page goes on behind the frame.  Acute corners and narrow corridors stay with their room, and a small region behind a gap stays by itself.
+ * A passage along the frame is none: the page goes on behind the frame.  So acute corners and narrow corridors stay
+ * with their room, and a small region behind a gap stays by itself.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -163,7 +164,9 @@ note_passage (Work *work, size_t p, size_t q)
   if (!passage)
     return CELD_NO_MEMORY;
   work->passage = passage;
-  passage[work->n_passages++] = (Passage) { a, b, on_frame (work->canvas, p) && on_frame (work->canvas, q) ? INT32_MAX : squared };
+  if (on_frame (work->canvas, p) && on_frame (work->canvas, q))
+    squared = INT32_MAX;
+  passage[work->n_passages++] = (Passage) { a, b, squared };
   return CELD_OK;
 }
 

@@ -2,13 +2,14 @@
  * and Figure 2, which has two arrows and nothing else.
  *
  * An end in a room (rooms.c) that nothing reaches makes that room a label.  Where both ends of an inequality end up in
- * one region, it is split between them: the end that is nearer, within the region, to the seeds that the region has keeps
- * its label, the other becomes a new one; only the region is cut again.  Equalities never split, and their ends share
- * one label.
+ * one region, it is split between them: the end that is nearer, within the region, to the seeds that the region has
+ * keeps its label, the other becomes a new one; only the region is cut again.  Equalities never split, and their ends
+ * share one label.
  *
- * A seed of one pixel would collapse: to wrap it is cheaper than any cut across.  So an end is seeded with discs that touch
- * the contours beside it, first where it lies and then where climbing the distance to ink leads, all of them nearer to it
- * than half the way to the other end; a cut between the ends is then cheaper across a gap than round a disc.
+ * A seed of one pixel would collapse: to wrap it is cheaper than any cut across.  So an end is seeded with discs that
+ * touch the contours beside it, first where it lies and then where climbing the distance to ink leads, all of them
+ * nearer to it than half the way to the other end; a cut between the ends is then cheaper across a gap than round a
+ * disc.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

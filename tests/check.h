@@ -19,10 +19,24 @@ static int check_failed, check_passed;
 static const char *check_name = "";
 
 #define CHECK(fact) \
-  do { if (fact) break; check_bad = 1; fprintf (stderr, "%s:%d: %s: %s\n", __FILE__, __LINE__, check_name, #fact); } while (0)
+  do \
+    { \
+      if (fact) \
+        break; \
+      check_bad = 1; \
+      fprintf (stderr, "%s:%d: %s: %s\n", __FILE__, __LINE__, check_name, #fact); \
+    } \
+  while (0)
 #define NEAR(value, wanted, error) \
-  do { double check_v = (double) (value), check_w = (double) (wanted); if (fabs (check_v - check_w) <= (double) (error)) break; check_bad = 1; \
-       fprintf (stderr, "%s:%d: %s: %s is %.9g, not %.9g\n", __FILE__, __LINE__, check_name, #value, check_v, check_w); } while (0)
+  do \
+    { \
+      double check_v = (double) (value), check_w = (double) (wanted); \
+      if (fabs (check_v - check_w) <= (double) (error)) \
+        break; \
+      check_bad = 1; \
+      fprintf (stderr, "%s:%d: %s: %s is %.9g, not %.9g\n", __FILE__, __LINE__, check_name, #value, check_v, check_w); \
+    } \
+  while (0)
 #define RUN(test) \
   do { check_bad = 0; check_name = #test; test (); if (check_bad) check_failed++; else check_passed++; } while (0)
 #define DONE (printf ("%d passed, %d failed\n", check_passed, check_failed), check_failed || !check_passed)
@@ -75,7 +89,8 @@ art_labels (const char *const *rows)
       {
         char c = rows[y][x];
 
-        l.data[y * w + x] = c >= 'A' && c <= 'Z' ? (uint32_t) (c - 'A' + 1) : c >= '0' && c <= '9' ? (uint32_t) (c - '0') : 0;
+        l.data[y * w + x] = c >= 'A' && c <= 'Z' ? (uint32_t) (c - 'A' + 1)
+                          : c >= '0' && c <= '9' ? (uint32_t) (c - '0') : 0;
       }
   return l;
 }

@@ -62,8 +62,8 @@ main (int argc, char **argv)
   const char *word = argc > 1 ? argv[1] : "";
 
 #ifdef __GLIBC__
-  /* Pictures go back to the system when they are freed.  By itself glibc begins to keep large blocks, with holes between
-   * them: 50 bytes a pixel. */
+  /* Pictures go back to the system when they are freed.  By itself glibc begins to keep large blocks, with holes
+   * between them: 50 bytes a pixel. */
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
   /* For file names only: numbers keep their point whatever the language. */
