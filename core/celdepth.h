@@ -255,7 +255,8 @@ CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle st
 
 /* LazyBrush [SDC09b] (section 3.2): every pixel gets a label.  In: seed labels and their palette (both may be empty if
  * arrows make regions).  Out: labels; `palette` is replaced by one that has the regions that arrows made and the
- * background behind those given, with area, x, y filled in; `problems` are appended.  `labels` may alias `seeds`.
+ * background behind those given, with area, x, y filled in; `problems` are appended.  `labels` may alias `seeds`;
+ * `relations` and `problems` may be NULL.
  * CELD_NOTHING_TO_GO_BY if there is neither a seed nor a relation to seed from. */
 CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
                                   const CeldSettings *settings, const CeldRun *run,
@@ -352,7 +353,8 @@ CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *r
 CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading,
                                           CeldRect *changed);
 
-/* What is known so far; borrowed, valid until the next call on the session. */
+/* What is known so far; borrowed, valid until the next call on the session.  The problems are NULL if there is no
+ * memory to gather them. */
 CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);
 CELD_API const CeldRelations *celd_session_relations (const CeldSession *session);
 CELD_API const CeldProblems  *celd_session_problems  (CeldSession *session);
