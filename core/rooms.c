@@ -95,6 +95,16 @@ find_pieces (Work *work, const CeldRun *run)
   return status;
 }
 
+/* The basin of the open paper closest to p; 0 if that is too far away, or behind a thin line. */
+static uint32_t
+open_near (const Work *work, size_t p, int32_t reach)
+{
+  const uint32_t *piece = work->canvas->pieces.data;
+  int32_t         q = work->nearest[p];
+
+  return q >= 0 && work->to_open[p] <= reach / 4 && piece[p] == piece[q] ? work->found.data[q] : 0;
+}
+
 /* Open paper, and the paper close to it. */
 static CeldStatus
 find_open (Work *work, const CeldRun *run)
@@ -116,8 +126,7 @@ find_open (Work *work, const CeldRun *run)
   if (status != CELD_OK)
     return status;
   for (size_t p = 0; p < canvas->n; p++)
-    canvas->rooms.data[p] = is_paper (canvas, p) && work->to_open[p] <= reach / 4 && work->nearest[p] >= 0
-                             ? work->found.data[work->nearest[p]] : 0;
+    canvas->rooms.data[p] = is_paper (canvas, p) ? open_near (work, p, reach) : 0;
   return CELD_OK;
 }
 
