@@ -84,6 +84,42 @@ a_detail_without_a_farther_region_is_taken_whole (void)
   expand (nearer, 2, taken);
 }
 
+/* Where all others had their turn, nobody is left to share the contour with. */
+static void
+nearer_regions_are_nobody (void)
+{
+  static const char *const sheet[] = { "22222222", "########", "########", "333##333", NULL };
+  static const char *const wanted[] = { "22222222", "22222222", "22222222", "33322333", NULL };
+
+  expand (sheet, 2, wanted);
+}
+
+/* The inside of the blot is farther from the region than the line below is thick, but no other region touches it. */
+static void
+a_small_gap_is_filled (void)
+{
+  static const char *const sheet[] = {
+    "222222222222222222222222222222", "222#######22222222222222222222", "222#######22222222222222222222",
+    "222#######222222##############", "222#######222222##############", "222#######222222##############",
+    "222#######222222##############", "222#######222222##############", "222222#222222222##############",
+    "222222#222222222##############", "222222#222222222##############", "##############################",
+    "##############################", "111111111111111111111111111111", "111111111111111111111111111111",
+    "111111111111111111111111111111", NULL
+  };
+  CeldLabels levels = art_labels (sheet);
+  CeldSheet  s = sheet_open (&levels);
+  int        free_pixels = 0;
+
+  CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
+  for (int y = 1; y < 8; y++)
+    for (int x = 3; x < 10; x++)
+      free_pixels += CELD_AT (&levels, x, y) != 2;
+  NEAR (free_pixels, 0, 0);
+  free (levels.data);
+  free (s.depth_in_ink);
+  free (s.box);
+}
+
 static void
 ink_that_is_not_connected_stays_free (void)
 {
@@ -160,6 +196,8 @@ main (void)
   RUN (the_whole_line_goes_to_the_nearer_region);
   RUN (a_line_that_branches_off_stays_free);
   RUN (a_detail_without_a_farther_region_is_taken_whole);
+  RUN (nearer_regions_are_nobody);
+  RUN (a_small_gap_is_filled);
   RUN (ink_that_is_not_connected_stays_free);
   RUN (only_the_region_s_surroundings_matter);
   RUN (a_cancelled_region_takes_nothing);
