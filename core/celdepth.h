@@ -220,6 +220,9 @@ typedef struct
 
 CELD_API void celd_order_clear (CeldOrder *order);
 
+/* One English sentence that names the partners of the relation which a contradiction left out, cut to `size` bytes. */
+CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size);
+
 /* How well an iterative solve went. */
 typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
 

@@ -4,6 +4,7 @@
  */
 #include "private.h"
 
+#include <ctype.h>
 #include <stdio.h>
 
 CeldSettings
@@ -80,21 +81,21 @@ label_name (const CeldPalette *palette, uint32_t label, char name[24])
   return name;
 }
 
-/* "The relation in line 3, column 7" or "The arrow at (x, y)". */
+/* "the relation in line 3, column 7" or "the arrow from (x, y) to (x, y)". */
 static void
-relation_name (const CeldProblem *problem, const CeldRelations *relations, char *name, size_t size)
+relation_name (const CeldRelations *relations, size_t index, char *name, size_t size)
 {
-  const CeldRelation *r = relations && problem->relation < relations->n ? &relations->item[problem->relation] : NULL;
+  const CeldRelation *r = relations && index < relations->n ? &relations->item[index] : NULL;
 
   if (r && r->source == CELD_SOURCE_TEXT && r->id)
-    snprintf (name, size, "Relation %u", (unsigned) r->id);
+    snprintf (name, size, "relation %u", (unsigned) r->id);
   else if (r && r->source == CELD_SOURCE_TEXT)
-    snprintf (name, size, "The relation in line %d, column %d", r->line, r->column);
+    snprintf (name, size, "the relation in line %d, column %d", r->line, r->column);
   else if (r)
-    snprintf (name, size, "The arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x,
+    snprintf (name, size, "the arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x,
               r->farther.y);
   else
-    snprintf (name, size, "A relation");
+    snprintf (name, size, "a relation");
 }
 
 void
@@ -105,7 +106,8 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
 
   label_name (palette, p->label, label);
   label_name (palette, p->other, other);
-  relation_name (p, relations, relation, sizeof relation);
+  relation_name (relations, p->relation, relation, sizeof relation);
+  relation[0] = (char) toupper ((unsigned char) relation[0]);
   switch (p->kind)
     {
     case CELD_PROBLEM_STROKE_OVERRULED:
@@ -150,5 +152,18 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
       snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does "
                 "not matter.");
       break;
+    }
+}
+
+void
+celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size)
+{
+  char   relation[96];
+  size_t used = (size_t) snprintf (text, size, "It goes round in a circle with ");
+
+  for (size_t i = 1; i < cycle->n && used < size; i++)
+    {
+      relation_name (relations, cycle->item[i], relation, sizeof relation);
+      used += (size_t) snprintf (text + used, size - used, "%s%s", relation, i + 1 < cycle->n ? ", " : ".");
     }
 }

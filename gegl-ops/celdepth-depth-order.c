@@ -90,7 +90,7 @@ render (CeldOp *op)
          celd_op_read_relations (op, o->relations, "aux", o->arrow_style) &&
          celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &op->run,
                                       &op->order, &op->problems)) &&
-         celd_op_tell (op, &op->problems, &op->palette, &op->relations) &&
+         celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
          write_levels (op, &s, &labels);
 }
 

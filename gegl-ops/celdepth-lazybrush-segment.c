@@ -66,7 +66,7 @@ render (CeldOp *op)
          celd_op_read_relations (op, o->relations, "aux2", o->arrow_style) &&
          celd_op_try (op, celd_segment (&ink, &labels, &op->relations, &s, &op->run,
                                         &labels, &op->palette, &op->problems)) &&
-         celd_op_tell (op, &op->problems, &op->palette, &op->relations) &&
+         celd_op_tell (op, &op->problems, &op->palette, &op->relations, NULL) &&
          celd_op_write_paint (op, &labels, &op->palette);
 }
 

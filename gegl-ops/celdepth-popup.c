@@ -164,13 +164,17 @@ write_result (CeldOp *op)
 static gboolean
 render (CeldOp *op)
 {
-  CeldSession *session;
+  CeldSession     *session;
+  const CeldOrder *order = NULL;
 
   if (!set_session (op) || !write_result (op))
     return FALSE;
   session = op->operation->session;
+  if (GEGL_PROPERTIES (op->operation)->result != CELD_POPUP_LABELS && /* then the order has been made already */
+      !celd_op_try (op, celd_session_order (session, NULL, &order)))
+    return FALSE;
   return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session),
-                       celd_session_relations (session));
+                       celd_session_relations (session), order);
 }
 
 static void

@@ -110,14 +110,21 @@ celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
 }
 
 gboolean
-celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations)
+celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
+              const CeldOrder *order)
 {
   for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
     {
-      char text[320];
+      const CeldProblem *problem = &problems->item[i];
+      char               text[400];
 
-      celd_problem_text (&problems->item[i], palette, relations, text, sizeof text);
+      celd_problem_text (problem, palette, relations, text, sizeof text);
       add_to_message (op, text);
+      if (problem->kind == CELD_PROBLEM_CONTRADICTION && order && problem->other < order->n_cycles)
+        {
+          celd_cycle_text (&order->cycle[problem->other], relations, text, sizeof text);
+          g_string_append_printf (op->message, " %s", text);
+        }
     }
   if (problems && problems->n > MOST_PROBLEMS)
     g_string_append_printf (op->message, "\nThere are %zu more remarks.", problems->n - MOST_PROBLEMS);
@@ -130,7 +137,7 @@ celd_op_tell_solve (CeldOp *op, const CeldSolve *solve)
   CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };
   CeldProblems problems = { &problem, 1 };
 
-  return solve->converged || celd_op_tell (op, &problems, NULL, NULL);
+  return solve->converged || celd_op_tell (op, &problems, NULL, NULL, NULL);
 }
 
 /* Says the message of this call, unless the last call said the same. */

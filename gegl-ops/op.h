@@ -89,9 +89,10 @@ gboolean celd_op_fail (CeldOp *op, const char *format, ...) G_GNUC_PRINTF (2, 3)
 gboolean celd_op_try (CeldOp *op, CeldStatus status);
 /* As celd_op_try, for steps that read the relations text. */
 gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
-/* Tells the artist; the result is delivered all the same, so always TRUE. */
+/* Tells the artist; the result is delivered all the same, so always TRUE.  `order` has the circles of contradictions;
+ * NULL before there is one. */
 gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
-                       const CeldRelations *relations);
+                       const CeldRelations *relations, const CeldOrder *order);
 
 /* The same for a solve that was less exact than asked for. */
 gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);

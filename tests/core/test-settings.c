@@ -89,6 +89,24 @@ problems_say_what_and_where (void)
   CHECK (strstr (text, "The arrow from (5, 0)"));
 }
 
+static void
+partners_of_a_contradiction (void)
+{
+  CeldRelation  relation[3] = {
+    { .line = 1, .column = 1 }, { .id = 8 }, { .source = CELD_SOURCE_ARROW, .farther = { .y = 7 } }
+  };
+  CeldRelations relations = { relation, 3 };
+  size_t        item[] = { 1, 0, 2 };
+  CeldCycle     cycle = { item, 3 };
+  char          text[200], small[40];
+
+  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  CHECK (strstr (text, "line 1, column 1, the arrow from (0, 0) to (0, 7)."));
+  CHECK (!strstr (text, "relation 8")); /* it is the one that the sentence before is about */
+  celd_cycle_text (&cycle, &relations, small, sizeof small);
+  CHECK (strlen (small) == sizeof small - 1);
+}
+
 int
 main (void)
 {
@@ -97,5 +115,6 @@ main (void)
   RUN (fixed_levels_need_a_span);
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
+  RUN (partners_of_a_contradiction);
   return DONE;
 }
