@@ -150,6 +150,14 @@ expand_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
+expand_levels_step (const CeldRun *run, Results *r)
+{
+  CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), expanded = plane_of (r->pixels);
+
+  return celd_expand_levels (&ink, &levels, run, &expanded);
+}
+
+static CeldStatus
 smooth_step (const CeldRun *run, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), depth = plane_of (r->pixels);
@@ -188,6 +196,7 @@ const Step steps[] = {
   { "background", background_step, &label_palette, false },
   { "order", order_step, NULL, true },
   { "expand", expand_step, NULL, true },
+  { "expand levels", expand_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },
   { "normals", normals_step, NULL, true },
   { "shade", shade_step, NULL, false },
