@@ -233,6 +233,22 @@ celd_op_has (CeldOp *op, const char *pad)
   return gegl_operation_context_get_object (op->context, pad) != NULL && !is_open_picker (op, pad);
 }
 
+/* A layer of another size is taken as it lies, but the artist should know: GIMP loses the offsets of layers. */
+static void
+tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
+{
+  const GeglRectangle *p = &op->picture;
+  char                 text[300];
+
+  if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
+    return;
+  g_snprintf (text, sizeof text,
+              "'%s' has %d x %d pixels at %d, %d, the picture %d x %d at %d, %d: what sticks out is cut off, the rest counts "
+              "as empty. If it looks shifted, give the layer the picture's size.",
+              pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+  add_to_message (op, text);
+}
+
 /* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
 static gboolean
 check_pad (CeldOp *op, const CeldPad *pad)
@@ -256,6 +272,7 @@ check_pad (CeldOp *op, const CeldPad *pad)
     return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
                          "Move it over the picture, or give it the picture's size.",
                          pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+  tell_size (op, pad, r);
   return TRUE;
 }
 

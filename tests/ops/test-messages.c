@@ -77,6 +77,20 @@ layers_elsewhere_are_refused (void)
   g_object_unref (elsewhere);
 }
 
+/* They are used as they lie, and the artist is told. */
+static void
+layers_of_another_size_are_told (void)
+{
+  GeglBuffer *narrow = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH - 1, HEIGHT), babl_format ("R'G'B'A u8"));
+
+  gegl_buffer_copy (scribbles, GEGL_RECTANGLE (0, 0, WIDTH - 1, HEIGHT), GEGL_ABYSS_NONE, narrow, NULL);
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, narrow } }, "RGBA float", result, NULL);
+  CHECK (difference (result, input_light, 4 * PIXELS) > 0.1);
+  CHECK (times_said == 1 && SAYS ("Scribbles") && SAYS ("the picture's size"));
+  g_object_unref (narrow);
+}
+
 /* A dialog of GIMP that has just opened: its pickers are sources without a buffer. */
 static void
 open_pickers_are_no_mistake (void)
@@ -229,6 +243,7 @@ main (int argc, char **argv)
   RUN (nothing_to_go_by_is_said);
   RUN (unreadable_relations_are_located);
   RUN (layers_elsewhere_are_refused);
+  RUN (layers_of_another_size_are_told);
   RUN (open_pickers_are_no_mistake);
   RUN (bad_settings_are_refused);
   RUN (an_endless_input_is_refused);
