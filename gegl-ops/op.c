@@ -13,8 +13,10 @@ G_DEFINE_DYNAMIC_TYPE_EXTENDED (CeldOperation, celd_operation, GEGL_TYPE_OPERATI
 /* ------------------------------------------------------------------ pads and regions */
 
 static void
-create_pad (GeglOperation *operation, const char *name, const char *label, const char *description, GParamFlags flags)
+create_pad (GeglOperation *operation, const char *name, const char *label, const char *description, GParamFlags access,
+            GeglPadType type)
 {
+  GParamFlags flags = (GParamFlags) ((guint) access | (guint) type);
   GParamSpec *pad = g_param_spec_object (name, label, description, GEGL_TYPE_BUFFER, flags);
 
   gegl_operation_create_pad (operation, pad);
@@ -26,8 +28,8 @@ static void
 attach (GeglOperation *operation)
 {
   for (const CeldPad *pad = GET_CLASS (operation)->pads; pad->name; pad++)
-    create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE | GEGL_PARAM_PAD_INPUT);
-  create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE | GEGL_PARAM_PAD_OUTPUT);
+    create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE, GEGL_PARAM_PAD_INPUT);
+  create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE, GEGL_PARAM_PAD_OUTPUT);
 }
 
 /* The whole input, whatever the host asks for: every result depends on every pixel. */
