@@ -78,10 +78,7 @@ class Usage(Test):
 
     def test_interrupt(self):
         """A bar appears on a terminal; an interrupt ends the work, and nothing is left."""
-        try:
-            screen, terminal = pty.openpty()
-        except OSError:
-            self.skipTest('no terminals in this chroot')
+        screen, terminal = pty.openpty()
         noise = np.random.default_rng(1).integers(0, 256, (1800, 1800), dtype=np.uint8)
         Image.fromarray(noise).save(self.path('large.png'))
         strokes = np.zeros((1800, 1800, 4), np.uint8)
