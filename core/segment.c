@@ -1,33 +1,22 @@
 /* LazyBrush [SDC09b] (section 3.2): every pixel gets the label of a scribble, borders run through ink.
  *
- * The energy is that of multiway.c with V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper
- * costs more than any border inside ink could.  The paper leaves open:
- *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
- *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
- *       behind costs nothing, half ink 1/27, and paper grain little.
- *   ink  costs less the deeper it is, so that borders run along the middle of a line, not along its shorter side
- *       (LazyBrush filters the drawing with a LoG to that end); with ragged pencil lines this keeps both sides clean.
+ * The energy is that of multiway.c with the costs of costs.c.  The paper leaves open:
  *   votes  A painted pixel costs hardness K in LazyBrush, so that a stroke closes gaps up to hardness x its area, and
  *       the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean
  *       width of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the
  *       brush and the resolution, and to wrap it costs twice that, so that a majority of paint wins.
- *   frame  A page is often cropped to its drawing.  Edges of paper along the frame cost as if some of the margin were
- *       left, so that the background holds together where a figure nearly touches the frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "costs.h"
 #include "segment.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define UNIT        16             /* cost of an edge inside ink: energies are integers */
-#define DEEP        10             /* an edge deep inside ink costs this much less than one at its rim */
-#define MARGIN      64             /* of half the perimeter: the margin that a cropped page is taken to have had */
 #define MOST_VOTE   (1 << 28)
 #define BRUSH       20.0           /* pixels; at this width votes are hardness K */
-#define INK_STEPS   1024           /* of the table of g */
 
 /* ------------------------------------------------------------------ the canvas */
 
@@ -148,87 +137,40 @@ keep_flats_on_paper (CeldCanvas *canvas)
 
 /* ------------------------------------------------------------------ the energy */
 
-static double
-perimeter (const CeldCanvas *canvas)
-{
-  return 2.0 * (canvas->width + canvas->height);
-}
-
-typedef struct
-{
-  int32_t  by_ink[INK_STEPS + 1]; /* V in steps from ink to paper */
-  int32_t *depth;                 /* of each pixel in ink: squared distance to paper */
-  int32_t  margin;                /* edges of paper along the frame stand for so many */
-} Costs;
-
-static int
-ink_step (float ink)
-{
-  return ink > 0 && ink < 1 ? (int) (ink * INK_STEPS) : ink <= 0 ? 0 : INK_STEPS; /* NaN is paper */
-}
-
-static CeldStatus
-costs_new (const CeldCanvas *canvas, const CeldRun *run, Costs *costs)
-{
-  double     threshold = (double) canvas->settings->ink_threshold;
-  uint8_t   *paper = celd_alloc (canvas->n, 1);
-  CeldStatus status = CELD_NO_MEMORY;
-
-  costs->margin = 1 + (canvas->width + canvas->height) / MARGIN;
-  for (int i = 0; i <= INK_STEPS; i++)
-    {
-      double g = fmax (0, ((double) i / INK_STEPS - threshold) / (1 - threshold));
-
-      costs->by_ink[i] = (int32_t) (UNIT * (1 + perimeter (canvas) * g * g * g));
-    }
-  costs->depth = celd_alloc (canvas->n, sizeof *costs->depth);
-  if (paper && costs->depth)
-    {
-      for (size_t p = 0; p < canvas->n; p++)
-        paper[p] = canvas->pieces.data[p] != 0;
-      status = celd_distance (canvas->width, canvas->height, paper, run, costs->depth);
-    }
-  celd_free (paper);
-  return status;
-}
-
-/* V between the pixel p = (x,y) and its neighbour q at (x + dx, y + dy); 0 beyond the frame. */
-static int32_t
-edge_cost (const CeldCanvas *canvas, const Costs *costs, int x, int y, int dx, int dy)
-{
-  size_t  p = (size_t) y * (size_t) canvas->width + (size_t) x, q = p + (size_t) (dx ? 1 : canvas->width);
-  int     ink, other;
-  int32_t depth;
-  bool    along_frame = dx ? y == 0 || y + 1 == canvas->height : x == 0 || x + 1 == canvas->width;
-
-  if (x + dx >= canvas->width || y + dy >= canvas->height)
-    return 0;
-  ink   = ink_step (CELD_AT (canvas->ink, x, y));
-  other = ink_step (CELD_AT (canvas->ink, x + dx, y + dy));
-  ink   = ink < other ? ink : other;
-  depth = costs->depth[p] < costs->depth[q] ? costs->depth[p] : costs->depth[q];
-  if (along_frame && 2 * ink >= INK_STEPS)
-    return costs->by_ink[ink] * costs->margin;
-  return costs->by_ink[ink] - (depth > 1 ? (int32_t) (DEEP * (1 - 1 / sqrt (depth))) : 0);
-}
-
+/* V of all edges.  Ink is what is no piece of paper. */
 static CeldStatus
 weigh_edges (CeldCanvas *canvas, const CeldRun *run)
 {
-  Costs      costs = { .depth = NULL };
-  size_t     p = 0;
-  CeldStatus status;
+  CeldCosts  costs;
+  size_t     p = 0, w = (size_t) canvas->width;
+  int32_t   *depth = celd_alloc (canvas->n, sizeof *depth);
+  uint8_t   *paper = celd_alloc (canvas->n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
 
-  canvas->east  = celd_alloc (canvas->n, sizeof *canvas->east);
-  canvas->south = celd_alloc (canvas->n, sizeof *canvas->south);
-  status = canvas->east && canvas->south ? costs_new (canvas, run, &costs) : CELD_NO_MEMORY;
+  celd_costs_new (canvas->width, canvas->height, canvas->settings->ink_threshold, &costs);
+  canvas->east  = celd_alloc0 (canvas->n, sizeof *canvas->east);
+  canvas->south = celd_alloc0 (canvas->n, sizeof *canvas->south);
+  if (depth && paper && canvas->east && canvas->south)
+    {
+      for (p = 0; p < canvas->n; p++)
+        paper[p] = canvas->pieces.data[p] != 0;
+      status = celd_distance (canvas->width, canvas->height, paper, run, depth);
+    }
+  p = 0;
   for (int y = 0; y < canvas->height && status == CELD_OK; y++)
     for (int x = 0; x < canvas->width; x++, p++)
       {
-        canvas->east[p]  = edge_cost (canvas, &costs, x, y, 1, 0);
-        canvas->south[p] = edge_cost (canvas, &costs, x, y, 0, 1);
+        float ink = CELD_AT (canvas->ink, x, y);
+
+        if (x + 1 < canvas->width)
+          canvas->east[p] = celd_cost (&costs, ink, CELD_AT (canvas->ink, x + 1, y), depth[p], depth[p + 1],
+                                       y == 0 || y + 1 == canvas->height);
+        if (y + 1 < canvas->height)
+          canvas->south[p] = celd_cost (&costs, ink, CELD_AT (canvas->ink, x, y + 1), depth[p], depth[p + w],
+                                        x == 0 || x + 1 == canvas->width);
       }
-  celd_free (costs.depth);
+  celd_free (depth);
+  celd_free (paper);
   return status;
 }
 
@@ -254,7 +196,8 @@ brush_width (const CeldCanvas *canvas)
 static void
 weigh_strokes (CeldCanvas *canvas)
 {
-  double vote = UNIT * perimeter (canvas) * (double) canvas->settings->hardness * BRUSH / brush_width (canvas);
+  double white = 2.0 * (canvas->width + canvas->height); /* K of costs.c */
+  double vote = CELD_COST_UNIT * white * (double) canvas->settings->hardness * BRUSH / brush_width (canvas);
 
   canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
 }
