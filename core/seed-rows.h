@@ -9,19 +9,19 @@
 
 typedef struct { int x, end; uint32_t label; } CeldSeedRun;       /* pixels x .. end - 1; label > 0 */
 typedef struct { CeldSeedRun *run; size_t n; } CeldSeedRow;       /* from left to right, apart or of other labels */
-typedef struct { int width, height; CeldSeedRow *row; } CeldSeeds;
+typedef struct { int width, height; CeldSeedRow *row; } CeldSeedRows;
 
-CeldStatus celd_seeds_new (int width, int height, CeldSeeds *seeds);      /* without a seed */
-void       celd_seeds_clear (CeldSeeds *seeds);                           /* accepts a zeroed record */
+CeldStatus celd_seed_rows_new (int width, int height, CeldSeedRows *seeds);      /* without a seed */
+void       celd_seed_rows_clear (CeldSeedRows *seeds);                           /* accepts a zeroed record */
 
-CeldStatus celd_seeds_read (const CeldLabels *labels, CeldSeeds *seeds);  /* makes the record */
-CeldStatus celd_seeds_copy (const CeldSeeds *from, CeldSeeds *seeds);     /* makes the record */
-void       celd_seeds_write (const CeldSeeds *seeds, CeldLabels *labels); /* of the same size; 0 elsewhere */
+CeldStatus celd_seed_rows_read (const CeldLabels *labels, CeldSeedRows *seeds);  /* makes the record */
+CeldStatus celd_seed_rows_copy (const CeldSeedRows *from, CeldSeedRows *seeds);     /* makes the record */
+void       celd_seed_rows_write (const CeldSeedRows *seeds, CeldLabels *labels); /* of the same size; 0 elsewhere */
 
 /* The pixels x .. end - 1 of row y, cut to the picture, take a label; label 0 takes them back. */
-CeldStatus celd_seeds_paint (CeldSeeds *seeds, int y, int x, int end, uint32_t label);
+CeldStatus celd_seed_rows_paint (CeldSeedRows *seeds, int y, int x, int end, uint32_t label);
 
 /* The label of a pixel, 0 without a seed. */
-uint32_t celd_seeds_at (const CeldSeeds *seeds, int x, int y);
+uint32_t celd_seed_rows_at (const CeldSeedRows *seeds, int x, int y);
 
 #endif
