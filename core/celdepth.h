@@ -82,7 +82,7 @@ typedef struct { CeldPlane luma, alpha; } CeldDrawing;
 /* ------------------------------------------------------------------ settings; celd_settings () gives the defaults */
 
 typedef enum { CELD_INK_AUTO, CELD_INK_DARK, CELD_INK_LIGHT, CELD_INK_ALPHA } CeldInkMode;
-typedef enum { CELD_METHOD_EXACT } CeldMethod;
+typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT } CeldMethod;
 typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
 typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
 typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
@@ -98,7 +98,9 @@ typedef struct
   float       ink_threshold;    /* ink at or below this counts as fully inked, [0,0.99]; 0.25 */
 
   /* scribbles and segmentation */
-  CeldMethod     method;
+  CeldMethod     method;        /* on the drawing's basins, or exact cuts of all pixels */
+  bool           close_gaps;    /* basins: borders across paper run from line end to line end */
+  bool           keep_necks;    /* basins: a part with strokes of one label alone keeps it, whatever a cut would save */
   float          hardness;      /* 0.01 soft (a majority of paint wins) .. 1 hard (every stroke is obeyed); 0.05 */
   bool           flats;         /* the scribbles are a flat colouring: every colour of it is a region */
   CeldBackground background;
@@ -223,6 +225,13 @@ CELD_API void celd_order_clear (CeldOrder *order);
 /* One English sentence that names the partners of the relation which a contradiction left out, cut to `size` bytes. */
 CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size);
 
+/* A gap in a contour as the segmentation closed it: a line from one line's end to another's, between two labels. */
+typedef struct { double x, y; } CeldPlace;
+typedef struct { CeldPlace *place; size_t n; uint32_t label, other; } CeldClosure;
+typedef struct { CeldClosure *item; size_t n; } CeldClosures;
+
+CELD_API void celd_closures_clear (CeldClosures *closures);
+
 /* How well an iterative solve went. */
 typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
 
@@ -264,6 +273,9 @@ CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle st
 CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
                                   const CeldSettings *settings, const CeldRun *run,
                                   CeldLabels *labels, CeldPalette *palette, CeldProblems *problems);
+
+/* Draws the closures over whatever is in the picture: an opaque line about as wide as `width`, antialiased, in red. */
+CELD_API void celd_closures_paint (const CeldClosures *closures, double width, CeldPaint *paint);
 
 /* Makes each connected region of a label a label of its own, in place (same_colour = separate).  Specks smaller than
  * 16 pixels stay with the largest region of their colour. */
@@ -346,6 +358,8 @@ CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t
 CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
 CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels,
                                          CeldRect *changed);
+/* The gaps that these labels close; none with CELD_METHOD_EXACT. */
+CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosures **closures);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
 CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,

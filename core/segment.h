@@ -1,27 +1,21 @@
-/* What the steps of the segmentation share: the picture that celd_segment works on, and where paint lies on it.
+/* What the steps of the segmentation share: the drawing's basins, the seeds on them, and who has paint where.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #ifndef CELD_SEGMENT_H
 #define CELD_SEGMENT_H
 
-#include "private.h"
+#include "patches.h"
+#include "seed-rows.h"
 
 typedef struct
 {
   const CeldSettings *settings;
   const CeldPlane    *ink;
-  int                 width, height;
-  size_t              n;        /* pixels */
-  int                 stroke;   /* width of the drawing's strokes */
-  CeldLabels          seeds;    /* painted labels, and those that arrows and the frame add; tight */
-  CeldLabels          labels;   /* the result; tight */
-  CeldLabels          pieces;   /* closed pieces of paper from 1; 0 = ink; tight */
-  CeldLabels          rooms;    /* the same, but parted where a contour has a small gap */
-  size_t              n_pieces, n_rooms;
-  int32_t            *east, *south; /* V_pq */
+  const CeldBasins   *basins;
+  CeldSeedRows           seeds;     /* painted ones, and those that arrows and the frame add */
+  CeldPalette         palette;   /* of all labels so far */
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
-  CeldPalette         palette;  /* of all labels so far */
 } CeldCanvas;
 
 /* Is every stroke obeyed, wherever it runs? */
@@ -31,29 +25,40 @@ celd_canvas_obeys (const CeldCanvas *canvas)
   return canvas->settings->flats || canvas->settings->hardness >= 1;
 }
 
+/* ------------------------------------------------------------------ canvas.c */
+
 /* One more label, without seeds so far: *label is its number. */
 CeldStatus celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label);
 
-/* ------------------------------------------------------------------ rooms.c */
+/* What a seed's pixel costs with another label: CELD_HARD where it must be obeyed. */
+int32_t celd_canvas_vote (const CeldCanvas *canvas, uint32_t label);
 
-/* Fills in pieces, rooms and their numbers. */
-CeldStatus celd_rooms (const CeldRun *run, CeldCanvas *canvas);
+/* Fills in soft_vote from the seeds that the artist painted: call it before anything else adds some. */
+void celd_canvas_weigh (CeldCanvas *canvas);
+
+/* In a flat colouring the ink lines may be painted too: takes these seeds back. */
+CeldStatus celd_canvas_keep_paper (CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ paint.c: where strokes lie */
 
-/* What a connected stroke of one label leaves in one piece, or one room. */
-typedef struct { uint32_t piece, label, stroke; size_t pixels; bool stain; } CeldShare;
+/* What a connected stroke of one label leaves on the paper of one part of the drawing. */
+typedef struct { uint32_t part, label, stroke; size_t pixels; bool stain; } CeldShare;
+
+/* A piece of a run of seeds that lies in one basin; ink and paper.  `stroke`: connected strokes from 0. */
+typedef struct { int32_t y, x, end; uint32_t label, basin, stroke; uint32_t paper; } CeldDab;
 
 typedef struct
 {
-  CeldLabels strokes;           /* connected strokes from 1; 0 = no paint */
-  size_t    *total;             /* of stroke k: its pixels on paper, total[k] */
-  CeldShare *share;             /* by piece, label, stroke */
+  CeldDab   *dab;               /* in reading order */
+  size_t     n_dabs;
+  size_t    *total;             /* of stroke k: its pixels on paper */
+  size_t     n_strokes;
+  CeldShare *share;             /* by part, label, stroke; without part 0 */
   size_t     n;
 } CeldSpread;
 
-/* `pieces` are the canvas' pieces or rooms. */
-CeldStatus celd_spread_new (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, CeldSpread *spread);
+/* part[basin] is the part it belongs to: basins->piece, room or block. */
+CeldStatus celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spread);
 void       celd_spread_clear (CeldSpread *spread);
 
 /* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
@@ -69,18 +74,54 @@ CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
 /* Seeds for each end of a relation that lies in a room which nothing reaches. */
 CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
 
-/* Splits regions in which both ends of an inequality lie. */
-CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
+/* Splits regions of `labels` in which both ends of an inequality lie.  What changes is appended to the patches, and the
+ * new labels' seeds to the canvas. */
+CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
+                             CeldCanvas *canvas, CeldPatches *patches);
 
-/* ------------------------------------------------------------------ segment.c */
+/* ------------------------------------------------------------------ windows.c: conflicts, solved on pixels */
 
-/* The vote of a label, as celd_multiway wants it. */
-int32_t celd_canvas_vote (const CeldCanvas *canvas, uint32_t label);
+/* label[basin] is the answer of the basin graph.  Where a stroke lies in a basin that has another label, the basin is
+ * told apart pixel by pixel, in a window round the strokes, with everything outside as it is.  Hard seeds are always
+ * obeyed; soft ones where that lowers the energy. */
+CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run,
+                               CeldPatches *patches);
+
+/* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
+
+/* `labels` is what basins and windows make.  Where two labels meet on paper, from one line end to another, the border
+ * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides. */
+CeldStatus celd_closures_find (const CeldPlane *ink, const CeldBasins *basins, const uint32_t *label,
+                               const CeldLabels *labels, const CeldPatches *windows, const CeldRun *run,
+                               CeldClosures *closures, CeldPatches *patches);
 
 /* ------------------------------------------------------------------ report.c */
 
-/* `seeds` are those that the artist painted. */
-CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldRun *run,
-                                CeldProblems *problems);
+/* `seeds` are those that the artist painted, `labels` the result. */
+CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels,
+                                const CeldRun *run, CeldProblems *problems);
+
+/* ------------------------------------------------------------------ segmenter.c: one drawing, kept between strokes */
+
+typedef struct CeldSegmenter CeldSegmenter;
+
+CeldSegmenter *celd_segmenter_new (void);                       /* NULL: no memory */
+void           celd_segmenter_free (CeldSegmenter *segmenter);  /* accepts NULL */
+
+/* The drawing: line art that the caller keeps as it is until the next call of this function.  `changed`: where it
+ * differs from the last one of the same size; NULL: everywhere.  `threshold` is settings->ink_threshold. */
+CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
+                                   float threshold, const CeldRun *run);
+
+/* Labels for these seeds.  `palette`: in, that of the seeds; out, with the regions that arrows made and the background
+ * behind them.  `labels` is tight, the caller's, and as this function left it after the last call for this drawing
+ * (anything the first time); *changed is where it differs from that.  Problems are appended.  The result does not
+ * depend on earlier calls. */
+CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
+                                 const CeldSettings *settings, const CeldRun *run, CeldPalette *palette,
+                                 CeldProblems *problems, CeldLabels *labels, CeldRect *changed);
+
+/* The gaps that the last solve closed; borrowed. */
+const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);
 
 #endif

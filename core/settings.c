@@ -12,6 +12,8 @@ celd_settings (void)
 {
   return (CeldSettings) {
     .ink_threshold   = 0.25f,
+    .close_gaps      = true,
+    .keep_necks      = true,
     .hardness        = 0.05f,
     .near_level      = 1,
     .tolerance       = 1e-4f,

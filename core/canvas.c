@@ -1,0 +1,104 @@
+/* The canvas of a segmentation: its labels, and what their paint weighs.
+ *
+ * A painted pixel costs hardness K in LazyBrush [SDC09b], so that a stroke closes gaps up to hardness x its area, and
+ * the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean width
+ * of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the brush and the
+ * resolution, and to wrap it costs twice that, so that a majority of paint wins.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment.h"
+
+#include <math.h>
+
+#define MOST_VOTE (1 << 28)
+#define BRUSH     20.0          /* pixels; at this width votes are hardness K */
+
+CeldStatus
+celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label)
+{
+  CeldRegion *item = celd_grow (canvas->palette.item, canvas->palette.n + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  canvas->palette.item = item;
+  item[canvas->palette.n++] = region;
+  *label = (uint32_t) canvas->palette.n;
+  return CELD_OK;
+}
+
+int32_t
+celd_canvas_vote (const CeldCanvas *canvas, uint32_t label)
+{
+  bool all_hard = celd_canvas_obeys (canvas);
+
+  return all_hard || canvas->palette.item[label - 1].hard ? CELD_HARD : canvas->soft_vote;
+}
+
+/* Pixels of row `below` that have another label in row `above`, and pixels where `above` has paint and `below` none. */
+static size_t
+count_changes (const CeldSeedRow *above, const CeldSeedRow *below, int width)
+{
+  size_t changes = 0, i = 0, j = 0;
+
+  for (int x = 0, next; x < width; x = next)
+    {
+      uint32_t a = 0, b = 0;
+
+      while (i < above->n && above->run[i].end <= x)
+        i++;
+      while (j < below->n && below->run[j].end <= x)
+        j++;
+      next = width;
+      if (i < above->n)
+        {
+          bool in = above->run[i].x <= x;
+
+          a    = in ? above->run[i].label : 0;
+          next = in ? above->run[i].end : above->run[i].x;
+        }
+      if (j < below->n)
+        {
+          bool in = below->run[j].x <= x;
+          int  end = in ? below->run[j].end : below->run[j].x;
+
+          b    = in ? below->run[j].label : 0;
+          next = end < next ? end : next;
+        }
+      if (a != b)
+        changes += (size_t) (next - x);
+    }
+  return changes;
+}
+
+/* Mean width of the artist's strokes: twice their area over the length of their outline. */
+static double
+brush_width (const CeldSeedRows *seeds)
+{
+  size_t area = 0, outline = 0;
+
+  for (int y = 0; y < seeds->height; y++)
+    {
+      const CeldSeedRow *row = &seeds->row[y];
+
+      for (size_t i = 0; i < row->n; i++)
+        {
+          bool joined = i > 0 && row->run[i - 1].end == row->run[i].x;
+
+          area    += (size_t) (row->run[i].end - row->run[i].x);
+          outline += (row->run[i].x > 0 && !joined) + (size_t) (row->run[i].end < seeds->width);
+        }
+      if (y > 0)
+        outline += count_changes (&seeds->row[y - 1], row, seeds->width);
+    }
+  return outline ? fmax (1, 2.0 * (double) area / (double) outline) : BRUSH;
+}
+
+void
+celd_canvas_weigh (CeldCanvas *canvas)
+{
+  double hardness = (double) canvas->settings->hardness;
+  double vote = CELD_COST_UNIT * canvas->basins->costs.white * hardness * BRUSH / brush_width (&canvas->seeds);
+
+  canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
+}
