@@ -10,6 +10,7 @@
 #include "segment.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #define MOST_VOTE (1 << 28)
 #define BRUSH     20.0          /* pixels; at this width votes are hardness K */
@@ -101,4 +102,41 @@ celd_canvas_weigh (CeldCanvas *canvas)
   double vote = CELD_COST_UNIT * canvas->basins->costs.white * hardness * BRUSH / brush_width (&canvas->seeds);
 
   canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
+}
+
+/* ------------------------------------------------------------------ the order of labels */
+
+typedef struct { uint32_t label; size_t seeds; } Turn;
+
+static int
+compare_turns (const void *a, const void *b)
+{
+  const Turn *p = a, *q = b;
+
+  if (p->seeds != q->seeds)
+    return p->seeds > q->seeds ? -1 : 1;
+  return p->label < q->label ? -1 : 1;
+}
+
+CeldStatus
+celd_canvas_order (const CeldCanvas *canvas, uint32_t *order)
+{
+  Turn *turn = celd_alloc0 (canvas->palette.n, sizeof *turn);
+
+  if (!turn)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    turn[k].label = (uint32_t) k + 1;
+  for (int y = 0; y < canvas->seeds.height; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+
+        turn[run->label - 1].seeds += (size_t) (run->end - run->x);
+      }
+  qsort (turn, canvas->palette.n, sizeof *turn, compare_turns);
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    order[k] = turn[k].label;
+  celd_free (turn);
+  return CELD_OK;
 }

@@ -36,6 +36,9 @@ int32_t celd_canvas_vote (const CeldCanvas *canvas, uint32_t label);
 /* Fills in soft_vote from the seeds that the artist painted: call it before anything else adds some. */
 void celd_canvas_weigh (CeldCanvas *canvas);
 
+/* Labels by falling paint: most of the picture is decided first, and later cuts are small. */
+CeldStatus celd_canvas_order (const CeldCanvas *canvas, uint32_t *order);
+
 /* In a flat colouring the ink lines may be painted too: takes these seeds back. */
 CeldStatus celd_canvas_keep_paper (CeldCanvas *canvas);
 
@@ -78,6 +81,14 @@ CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run,
  * new labels' seeds to the canvas. */
 CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
+
+/* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
+
+/* Of every pixel; `labels` is tight. */
+CeldStatus celd_exact_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels);
+
+/* Of every basin. */
+CeldStatus celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label);
 
 /* ------------------------------------------------------------------ windows.c: conflicts, solved on pixels */
 

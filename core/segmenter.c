@@ -1,2 +1,329 @@
+/* The segmentation of one drawing, kept between strokes: the basin graph is built once, every stroke is answered on it,
+ * and only pixels whose label changes are painted.
+ *
+ * An answer depends on the drawing and the seeds alone; what is remembered of the last one is only what is painted.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "painting.h"
 #include "segment.h"
-void celd_segmenter_free (CeldSegmenter *segmenter) { (void) segmenter; }
+
+struct CeldSegmenter
+{
+  CeldPlane    ink;             /* borrowed */
+  CeldBasins   basins;
+  float        threshold;       /* that the basins were made with */
+  CeldPainting painting;
+  CeldClosures closures;
+};
+
+/* ------------------------------------------------------------------ the object */
+
+CeldSegmenter *
+celd_segmenter_new (void)
+{
+  return celd_alloc0 (1, sizeof (CeldSegmenter));
+}
+
+void
+celd_segmenter_free (CeldSegmenter *segmenter)
+{
+  if (!segmenter)
+    return;
+  celd_basins_clear (&segmenter->basins);
+  celd_painting_clear (&segmenter->painting);
+  celd_closures_clear (&segmenter->closures);
+  celd_free (segmenter);
+}
+
+const CeldClosures *
+celd_segmenter_closures (const CeldSegmenter *segmenter)
+{
+  return &segmenter->closures;
+}
+
+CeldStatus
+celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed, float threshold,
+                        const CeldRun *run)
+{
+  CeldSegmenter *s = segmenter;
+  bool           renew = changed && s->basins.width == ink->width && s->basins.height == ink->height;
+  CeldBasins     basins = { 0 };
+  CeldStatus     status;
+
+  if (renew && s->threshold == threshold)
+    status = celd_basins_renew (ink, changed, run, &s->basins);
+  else
+    {
+      status = celd_basins_new (ink, threshold, run, &basins);
+      if (status == CELD_OK)
+        {
+          celd_basins_clear (&s->basins);
+          s->basins    = basins;
+          s->threshold = threshold;
+        }
+    }
+  if (status == CELD_OK)
+    status = celd_painting_forget (&s->painting, &s->basins);
+  if (status == CELD_OK)
+    s->ink = *ink;
+  return status;
+}
+
+/* ------------------------------------------------------------------ the seeds */
+
+/* The seeds that the palette knows, and its labels without what an earlier answer said of them. */
+static CeldStatus
+canvas_new (const CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *palette, const CeldSettings *settings,
+            CeldCanvas *canvas)
+{
+  CeldStatus status;
+
+  *canvas = (CeldCanvas) { .settings = settings, .ink = &s->ink, .basins = &s->basins };
+  status = celd_seed_rows_copy (seeds, &canvas->seeds);
+  for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
+    {
+      CeldRegion region = palette->item[k];
+      uint32_t   label;
+
+      region.seeds      = 0;
+      region.background = false;
+      status = celd_canvas_add (canvas, region, &label);
+    }
+  for (int y = 0; y < seeds->height && status == CELD_OK; y++)
+    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
+      {
+        const CeldSeedRun *run = &seeds->row[y].run[i];
+
+        if (run->label <= palette->n)
+          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
+        else
+          status = celd_seed_rows_paint (&canvas->seeds, y, run->x, run->end, 0);
+      }
+  return status;
+}
+
+static void
+canvas_clear (CeldCanvas *canvas)
+{
+  celd_seed_rows_clear (&canvas->seeds);
+  celd_palette_clear (&canvas->palette);
+}
+
+static bool
+has_seeds (const CeldSeedRows *seeds)
+{
+  for (int y = 0; y < seeds->height; y++)
+    if (seeds->row[y].n)
+      return true;
+  return false;
+}
+
+/* What arrows, the background and common sense make of the artist's seeds. */
+static CeldStatus
+prepare_seeds (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
+{
+  CeldStatus status;
+
+  celd_canvas_weigh (canvas); /* before anything else adds seeds */
+  status = relations ? celd_seeds_plant (relations, run, canvas) : CELD_OK;
+  if (status == CELD_OK && !has_seeds (&canvas->seeds))
+    status = CELD_NOTHING_TO_GO_BY;
+  if (status == CELD_OK && canvas->settings->flats)
+    status = celd_canvas_keep_paper (canvas);
+  if (status == CELD_OK)
+    status = celd_stains_remove (run, canvas);
+  if (status == CELD_OK)
+    status = celd_background_seed (run, canvas);
+  return status;
+}
+
+static void
+count_arrow_seeds (CeldCanvas *canvas)
+{
+  for (int y = 0; y < canvas->seeds.height; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+
+        if (canvas->palette.item[run->label - 1].origin == CELD_FROM_ARROW)
+          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
+      }
+}
+
+/* ------------------------------------------------------------------ an answer on basins */
+
+static CeldStatus
+split (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas, CeldLabels *labels)
+{
+  CeldPatches patches = { 0 };
+  CeldStatus  status = celd_seeds_split (relations, run, labels, canvas, &patches);
+
+  if (status == CELD_OK)
+    status = celd_painting_add (&s->painting, &patches, labels);
+  celd_patches_clear (&patches);
+  return status;
+}
+
+/* Closes gaps between labels as they are painted: a basin is called what its maximum is. */
+static CeldStatus
+close_gaps (CeldSegmenter *s, const CeldRun *run, CeldLabels *labels)
+{
+  uint32_t    *label = celd_alloc (s->basins.n, sizeof *label);
+  CeldPatches  patches = { 0 };
+  CeldClosures closures = { 0 };
+  CeldStatus   status = label ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; k < s->basins.n && status == CELD_OK; k++)
+    label[k] = CELD_AT (labels, s->basins.basin[k].x, s->basins.basin[k].y);
+  if (status == CELD_OK)
+    status = celd_closures_find (&s->ink, &s->basins, label, labels, &s->painting.patches, run, &closures, &patches);
+  if (status == CELD_OK)
+    status = celd_painting_add (&s->painting, &patches, labels);
+  celd_free (label);
+  celd_patches_clear (&patches);
+  if (status != CELD_OK)
+    {
+      celd_closures_clear (&closures);
+      return status;
+    }
+  celd_closures_clear (&s->closures);
+  s->closures = closures;
+  return CELD_OK;
+}
+
+/* From here on the picture changes: the basins' labels, over them windows, split regions and closed gaps. */
+static CeldStatus
+repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const CeldRelations *relations,
+         const CeldRun *run, CeldCanvas *canvas, CeldLabels *labels)
+{
+  CeldPainting old;
+  CeldStatus   status;
+
+  celd_painting_begin (&s->painting, &s->basins, label, labels, &old);
+  status = celd_painting_add (&s->painting, windows, labels);
+  if (status == CELD_OK && relations)
+    status = split (s, relations, run, canvas, labels);
+  celd_closures_clear (&s->closures);
+  if (status == CELD_OK && canvas->settings->close_gaps)
+    status = close_gaps (s, run, labels);
+  if (status == CELD_OK)
+    status = celd_painting_end (&s->painting, &s->basins, &old, labels);
+  celd_painting_clear (&old);
+  if (status != CELD_OK)
+    s->painting.changed = (CeldRect) { 0, 0, labels->width, labels->height };
+  return status;
+}
+
+static CeldStatus
+solve_on_basins (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas,
+                 CeldLabels *labels)
+{
+  CeldPart    part[3];
+  CeldRun     graph = celd_run_part (&part[0], run, 0, 0.4), pixels = celd_run_part (&part[1], run, 0.4, 0.9);
+  CeldRun     rest = celd_run_part (&part[2], run, 0.9, 0.9);
+  uint32_t   *label = celd_alloc (s->basins.n, sizeof *label);
+  CeldPatches windows = { 0 };
+  CeldStatus  status = label ? celd_graph_solve (canvas, &graph, label) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = celd_windows_solve (canvas, label, &pixels, &windows);
+  if (status == CELD_OK)
+    {
+      status = repaint (s, label, &windows, relations, &rest, canvas, labels);
+      label  = NULL;
+    }
+  if (status == CELD_OK)
+    status = celd_painting_measure (&s->painting, &s->basins, labels, &canvas->palette);
+  celd_patches_clear (&windows);
+  celd_free (label);
+  return status;
+}
+
+/* ------------------------------------------------------------------ an answer on pixels */
+
+static CeldStatus
+solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas,
+                 CeldLabels *labels)
+{
+  CeldPart    part[3];
+  CeldRun     cuts = celd_run_part (&part[0], run, 0, 0.8), splits = celd_run_part (&part[1], run, 0.8, 1);
+  CeldRun     rest = celd_run_part (&part[2], run, 1, 1);
+  CeldPatches patches = { 0 };
+  CeldLabels  exact;
+  CeldStatus  status = celd_labels_new (labels->width, labels->height, &exact);
+
+  if (status == CELD_OK)
+    status = celd_exact_solve (canvas, &cuts, &exact);
+  if (status == CELD_OK && relations)
+    status = celd_seeds_split (relations, &splits, &exact, canvas, &patches);
+  for (size_t i = 0; i < patches.n; i++)
+    for (int x = patches.item[i].x; x < patches.item[i].end; x++)
+      CELD_AT (&exact, x, patches.item[i].y) = patches.item[i].label;
+  if (status == CELD_OK)
+    status = celd_palette_measure (&exact, &s->ink, &rest, &canvas->palette);
+  if (status == CELD_OK)
+    status = celd_painting_replace (&s->painting, &s->basins, &exact, labels);
+  if (status == CELD_OK)
+    celd_closures_clear (&s->closures);
+  celd_patches_clear (&patches);
+  celd_free (exact.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static CeldStatus
+solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relations, const CeldRun *run,
+       CeldCanvas *canvas, CeldLabels *labels, CeldProblems *problems)
+{
+  CeldPart   part[2];
+  CeldRun    brief = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.1, 0.95);
+  bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
+  CeldStatus status = prepare_seeds (arrows ? relations : NULL, &brief, canvas);
+
+  if (status == CELD_OK && canvas->settings->method == CELD_METHOD_EXACT)
+    status = solve_on_pixels (s, arrows ? relations : NULL, &solving, canvas, labels);
+  else if (status == CELD_OK)
+    status = solve_on_basins (s, arrows ? relations : NULL, &solving, canvas, labels);
+  if (status == CELD_OK)
+    {
+      count_arrow_seeds (canvas);
+      status = celd_segment_report (canvas, seeds, labels, &brief, problems);
+    }
+  return status;
+}
+
+CeldStatus
+celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
+                      const CeldSettings *settings, const CeldRun *run, CeldPalette *palette, CeldProblems *problems,
+                      CeldLabels *labels, CeldRect *changed)
+{
+  CeldCanvas   canvas = { 0 };
+  CeldProblems found = { 0 };
+  size_t       before = problems ? problems->n : 0;
+  CeldStatus   status = celd_settings_check (settings);
+
+  if (status == CELD_OK)
+    status = canvas_new (segmenter, seeds, palette, settings, &canvas);
+  if (status == CELD_OK)
+    status = solve (segmenter, seeds, relations, run, &canvas, labels, &found);
+  for (size_t i = 0; i < found.n && status == CELD_OK; i++)
+    status = celd_problem_add (problems, found.item[i]);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status == CELD_OK)
+    {
+      CeldPalette old = *palette;
+
+      *palette       = canvas.palette;
+      canvas.palette = old;
+      *changed       = segmenter->painting.changed;
+      segmenter->painting.changed = (CeldRect) { 0 };
+    }
+  else if (problems)
+    problems->n = before;
+  celd_problems_clear (&found);
+  canvas_clear (&canvas);
+  return status;
+}
