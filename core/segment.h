@@ -101,10 +101,11 @@ CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, 
 /* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
 
 /* `labels` is what basins and windows make.  Where two labels meet on paper, from one line end to another, the border
- * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides. */
-CeldStatus celd_closures_find (const CeldPlane *ink, const CeldBasins *basins, const uint32_t *label,
-                               const CeldLabels *labels, const CeldPatches *windows, const CeldRun *run,
-                               CeldClosures *closures, CeldPatches *patches);
+ * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides, both appended.  No
+ * seed of another label changes sides. */
+CeldStatus celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels,
+                               const CeldPatches *windows, const CeldRun *run, CeldClosures *closures,
+                               CeldPatches *patches);
 
 /* ------------------------------------------------------------------ report.c */
 

@@ -167,7 +167,7 @@ split (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, Cel
 
 /* Closes gaps between labels as they are painted: a basin is called what its maximum is. */
 static CeldStatus
-close_gaps (CeldSegmenter *s, const CeldRun *run, CeldLabels *labels)
+close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
 {
   uint32_t    *label = celd_alloc (s->basins.n, sizeof *label);
   CeldPatches  patches = { 0 };
@@ -177,7 +177,7 @@ close_gaps (CeldSegmenter *s, const CeldRun *run, CeldLabels *labels)
   for (size_t k = 0; k < s->basins.n && status == CELD_OK; k++)
     label[k] = CELD_AT (labels, s->basins.basin[k].x, s->basins.basin[k].y);
   if (status == CELD_OK)
-    status = celd_closures_find (&s->ink, &s->basins, label, labels, &s->painting.patches, run, &closures, &patches);
+    status = celd_closures_find (canvas, label, labels, &s->painting.patches, run, &closures, &patches);
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
   celd_free (label);
@@ -206,7 +206,7 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
     status = split (s, relations, run, canvas, labels);
   celd_closures_clear (&s->closures);
   if (status == CELD_OK && canvas->settings->close_gaps)
-    status = close_gaps (s, run, labels);
+    status = close_gaps (s, canvas, run, labels);
   if (status == CELD_OK)
     status = celd_painting_end (&s->painting, &s->basins, &old, labels);
   celd_painting_clear (&old);
