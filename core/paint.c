@@ -1,4 +1,7 @@
-/* Where the strokes of an artist lie: how much of each falls on which piece of paper, and what of it is a stain.
+/* Where the strokes of an artist lie: how much of each falls on which part of the drawing, and what of it is a stain.
+ *
+ * Runs of seeds are cut where basins meet; that makes dabs, and their number and the painted pixels are what all of
+ * this costs, whatever the size of the picture.
  *
  * A soft stroke may run on through a contour.  The paint behind it says nothing about the region there, but it would
  * outvote the cost of cutting that region at a narrow place.  So a stroke's share of a piece of paper is weighed by the
@@ -15,95 +18,251 @@
 
 #define LEAST_ODDS 0.5
 
+/* ------------------------------------------------------------------ connected strokes */
+
+/* The first run of the stroke so far that run k belongs to; parents stand before their children. */
+static uint32_t
+find_first (uint32_t *parent, uint32_t k)
+{
+  while (parent[k] != k)
+    k = parent[k] = parent[parent[k]];
+  return k;
+}
+
+static void
+join (uint32_t *parent, uint32_t a, uint32_t b)
+{
+  a = find_first (parent, a);
+  b = find_first (parent, b);
+  if (a < b)
+    parent[b] = a;
+  else
+    parent[a] = b;
+}
+
+/* Joins the runs of two rows, numbered from `first_above` and `first_below`, that touch, be it by a corner. */
+static void
+join_rows (const CeldSeedRow *above, uint32_t first_above, const CeldSeedRow *below, uint32_t first_below,
+           uint32_t *parent)
+{
+  size_t start = 0;
+
+  for (size_t j = 0; j < below->n; j++)
+    {
+      const CeldSeedRun *run = &below->run[j];
+
+      while (start < above->n && above->run[start].end < run->x)
+        start++;
+      for (size_t i = start; i < above->n && above->run[i].x <= run->end; i++)
+        if (above->run[i].label == run->label)
+          join (parent, first_above + (uint32_t) i, first_below + (uint32_t) j);
+    }
+}
+
+/* stroke[k]: the connected stroke that the k-th run in reading order belongs to, from 0 in reading order too. */
+static CeldStatus
+find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
+{
+  size_t    n = 0, strokes = 0;
+  uint32_t *parent, above = 0, below = 0;
+
+  for (int y = 0; y < seeds->height; y++)
+    n += seeds->row[y].n;
+  *stroke = parent = celd_alloc (n, sizeof *parent);
+  if (!parent)
+    return CELD_NO_MEMORY;
+  for (uint32_t k = 0; k < n; k++)
+    parent[k] = k;
+  for (int y = 1; y < seeds->height; y++)
+    {
+      above  = below;
+      below += (uint32_t) seeds->row[y - 1].n;
+      join_rows (&seeds->row[y - 1], above, &seeds->row[y], below, parent);
+    }
+  for (uint32_t k = 0; k < n; k++)
+    parent[k] = parent[k] == k ? (uint32_t) strokes++ : parent[parent[k]]; /* a parent has its number already */
+  *n_strokes = strokes;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ dabs */
+
+static uint32_t
+count_paper (const CeldPlane *ink, int y, int x, int end)
+{
+  const float *row = &CELD_AT (ink, 0, y);
+  uint32_t     n = 0;
+
+  for (; x < end; x++)
+    n += celd_is_paper (row[x]);
+  return n;
+}
+
+/* The last of the row's runs of basins that begins at x or before. */
+static size_t
+basin_run (const CeldBasins *basins, int y, int x)
+{
+  size_t low = basins->row[y], high = basins->row[y + 1];
+
+  while (high - low > 1)
+    {
+      size_t middle = (low + high) / 2;
+
+      if (basins->run[middle].x <= x)
+        low = middle;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+static CeldStatus
+cut_run (const CeldCanvas *canvas, int y, CeldSeedRun run, uint32_t stroke, CeldSpread *spread)
+{
+  const CeldBasins *basins = canvas->basins;
+
+  for (size_t k = basin_run (basins, y, run.x); run.x < run.end; k++)
+    {
+      int      next = k + 1 < basins->row[y + 1] ? basins->run[k + 1].x : basins->width;
+      int      end = next < run.end ? next : run.end;
+      CeldDab *dab = celd_grow (spread->dab, spread->n_dabs + 1, sizeof *dab);
+
+      if (!dab)
+        return CELD_NO_MEMORY;
+      spread->dab = dab;
+      dab[spread->n_dabs++] = (CeldDab) {
+        y, run.x, end, run.label, basins->run[k].basin, stroke, count_paper (canvas->ink, y, run.x, end)
+      };
+      run.x = end;
+    }
+  return CELD_OK;
+}
+
+static CeldStatus
+gather_dabs (const CeldCanvas *canvas, CeldSpread *spread)
+{
+  const CeldSeedRows *seeds = &canvas->seeds;
+  uint32_t           *stroke = NULL;
+  size_t              k = 0;
+  CeldStatus          status = find_strokes (seeds, &stroke, &spread->n_strokes);
+
+  for (int y = 0; y < seeds->height && status == CELD_OK; y++)
+    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
+      status = cut_run (canvas, y, seeds->row[y].run[i], stroke[k++], spread);
+  celd_free (stroke);
+  return status;
+}
+
+/* ------------------------------------------------------------------ shares */
+
 static int
 compare_shares (const void *a, const void *b)
 {
   const CeldShare *p = a, *q = b;
 
-  if (p->piece != q->piece)
-    return p->piece < q->piece ? -1 : 1;
+  if (p->part != q->part)
+    return p->part < q->part ? -1 : 1;
   if (p->label != q->label)
     return p->label < q->label ? -1 : 1;
   return p->stroke < q->stroke ? -1 : p->stroke > q->stroke;
 }
 
-/* Paint on paper as runs of pixels of one stroke and piece. */
-static CeldStatus
-gather_runs (const CeldCanvas *canvas, const CeldLabels *pieces, CeldSpread *spread)
+/* sorted[from[k]] to sorted[from[k + 1] - 1]: the dabs with paper in part k, for k up to n_parts. */
+static void
+sort_dabs (const CeldSpread *spread, const uint32_t *part, uint32_t n_parts, size_t *from, size_t *sorted)
 {
-  uint32_t piece = 0, stroke = 0;
+  for (size_t i = 0; i < spread->n_dabs; i++)
+    from[part[spread->dab[i].basin]] += spread->dab[i].paper > 0;
+  for (uint32_t k = 1; k <= n_parts + 1; k++)
+    from[k] += from[k - 1];
+  for (size_t i = spread->n_dabs; i-- > 0;)
+    if (spread->dab[i].paper)
+      sorted[--from[part[spread->dab[i].basin]]] = i;
+}
 
-  for (size_t p = 0; p < canvas->n; p++)
+/* Adds up the dabs of one part by stroke.  in_part[stroke] is all 0, before and after. */
+static CeldStatus
+add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldSpread *spread)
+{
+  size_t first = spread->n;
+
+  for (size_t i = 0; i < n; i++)
     {
-      CeldShare *share;
+      const CeldDab *dab = &spread->dab[sorted[i]];
 
-      if (!canvas->seeds.data[p] || !pieces->data[p])
-        continue;
-      spread->total[spread->strokes.data[p]]++;
-      if (spread->n && pieces->data[p] == piece && spread->strokes.data[p] == stroke)
+      if (!in_part[dab->stroke])
         {
-          spread->share[spread->n - 1].pixels++;
-          continue;
+          CeldShare *share = celd_grow (spread->share, spread->n + 1, sizeof *share);
+
+          if (!share)
+            return CELD_NO_MEMORY;
+          spread->share = share;
+          share[spread->n++] = (CeldShare) { part, dab->label, dab->stroke, 0, false };
         }
-      share = celd_grow (spread->share, spread->n + 1, sizeof *share);
-      if (!share)
-        return CELD_NO_MEMORY;
-      piece  = pieces->data[p];
-      stroke = spread->strokes.data[p];
-      spread->share = share;
-      share[spread->n++] = (CeldShare) { piece, canvas->seeds.data[p], stroke, 1, false };
+      in_part[dab->stroke] += dab->paper;
     }
+  for (size_t i = first; i < spread->n; i++)
+    {
+      spread->share[i].pixels = in_part[spread->share[i].stroke];
+      in_part[spread->share[i].stroke] = 0;
+    }
+  if (spread->n > first + 1)
+    qsort (spread->share + first, spread->n - first, sizeof *spread->share, compare_shares);
   return CELD_OK;
 }
 
-/* Adds up the runs of the same stroke and piece. */
-static void
-add_up (CeldSpread *spread)
+static CeldStatus
+gather_shares (const CeldBasins *basins, const uint32_t *part, CeldSpread *spread)
 {
-  size_t n = 0;
+  uint32_t   n_parts = 0;
+  size_t    *sorted = celd_alloc (spread->n_dabs, sizeof *sorted), *from = NULL, *in_part = NULL;
+  CeldStatus status = CELD_NO_MEMORY;
 
-  if (spread->n)
-    qsort (spread->share, spread->n, sizeof *spread->share, compare_shares);
-  for (size_t i = 0; i < spread->n; i++)
-    if (n && !compare_shares (&spread->share[n - 1], &spread->share[i]))
-      spread->share[n - 1].pixels += spread->share[i].pixels;
-    else
-      spread->share[n++] = spread->share[i];
-  spread->n = n;
+  for (size_t k = 0; k < basins->n; k++)
+    n_parts = part[k] > n_parts ? part[k] : n_parts;
+  from    = celd_alloc0 ((size_t) n_parts + 2, sizeof *from);
+  in_part = celd_alloc0 (spread->n_strokes, sizeof *in_part);
+  if (sorted && from && in_part)
+    {
+      status = CELD_OK;
+      sort_dabs (spread, part, n_parts, from, sorted);
+    }
+  for (uint32_t k = 1; k <= n_parts && status == CELD_OK; k++)
+    status = add_part (k, sorted + from[k], from[k + 1] - from[k], in_part, spread);
+  celd_free (sorted);
+  celd_free (from);
+  celd_free (in_part);
+  return status;
 }
 
 void
 celd_spread_clear (CeldSpread *spread)
 {
-  celd_free (spread->strokes.data);
+  celd_free (spread->dab);
   celd_free (spread->total);
   celd_free (spread->share);
   *spread = (CeldSpread) { 0 };
 }
 
 CeldStatus
-celd_spread_new (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, CeldSpread *spread)
+celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spread)
 {
-  CeldComponent *stroke = NULL;
-  size_t         n = 0;
-  CeldStatus     status;
+  CeldSpread made = { 0 };
+  CeldStatus status = gather_dabs (canvas, &made);
 
-  *spread = (CeldSpread) { 0 };
-  status = celd_labels_new (canvas->width, canvas->height, &spread->strokes);
-  if (status == CELD_OK)
-    status = celd_components (&canvas->seeds, 0, true, run, &spread->strokes, &stroke, &n);
   if (status == CELD_OK)
     {
-      spread->total = celd_alloc0 (n + 1, sizeof *spread->total);
-      status = spread->total ? gather_runs (canvas, pieces, spread) : CELD_NO_MEMORY;
+      made.total = celd_alloc0 (made.n_strokes, sizeof *made.total);
+      status = made.total ? gather_shares (canvas->basins, part, &made) : CELD_NO_MEMORY;
     }
-  celd_free (stroke);
   if (status != CELD_OK)
     {
-      celd_spread_clear (spread);
+      celd_spread_clear (&made);
       return status;
     }
-  add_up (spread);
+  for (size_t i = 0; i < made.n_dabs; i++)
+    made.total[made.dab[i].stroke] += made.dab[i].paper;
+  *spread = made;
   return CELD_OK;
 }
 
@@ -134,37 +293,60 @@ judge_piece (CeldSpread *spread, size_t first, size_t last)
 }
 
 static bool
-is_stain (const CeldCanvas *canvas, const CeldSpread *spread, size_t p)
+is_stain (const CeldSpread *spread, uint32_t piece, const CeldDab *dab)
 {
-  CeldShare        key = { canvas->pieces.data[p], canvas->seeds.data[p], spread->strokes.data[p], 0, false };
-  const CeldShare *share;
+  CeldShare        key = { piece, dab->label, dab->stroke, 0, false };
+  const CeldShare *share = bsearch (&key, spread->share, spread->n, sizeof key, compare_shares);
 
-  if (!key.piece || !key.label)
-    return false;
-  share = bsearch (&key, spread->share, spread->n, sizeof key, compare_shares);
   return share && share->stain;
+}
+
+/* Takes back the seeds on the paper of a dab. */
+static CeldStatus
+wash (CeldCanvas *canvas, const CeldDab *dab)
+{
+  const float *ink = &CELD_AT (canvas->ink, 0, dab->y);
+  CeldStatus   status = CELD_OK;
+
+  for (int x = dab->x, end; x < dab->end && status == CELD_OK; x = end)
+    {
+      bool paper = celd_is_paper (ink[x]);
+
+      for (end = x + 1; end < dab->end && celd_is_paper (ink[end]) == paper; end++)
+        ;
+      if (paper)
+        status = celd_seed_rows_paint (&canvas->seeds, dab->y, x, end, 0);
+    }
+  return status;
 }
 
 CeldStatus
 celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
 {
-  CeldSpread spread;
-  CeldStatus status;
+  const uint32_t *piece = canvas->basins->piece;
+  CeldSpread      spread = { 0 };
+  bool           *stained;
+  CeldStatus      status;
 
   if (celd_canvas_obeys (canvas))
     return CELD_OK;
-  status = celd_spread_new (canvas, &canvas->pieces, run, &spread);
+  status = celd_spread_new (canvas, piece, &spread);
   if (status != CELD_OK)
     return status;
   for (size_t i = 0, j; i < spread.n; i = j)
     {
-      for (j = i; j < spread.n && spread.share[j].piece == spread.share[i].piece; j++)
+      for (j = i; j < spread.n && spread.share[j].part == spread.share[i].part; j++)
         ;
       judge_piece (&spread, i, j);
     }
-  for (size_t p = 0; p < canvas->n; p++)
-    if (is_stain (canvas, &spread, p))
-      canvas->seeds.data[p] = 0;
+  stained = celd_alloc0 (spread.n_strokes, sizeof *stained); /* most strokes leave none: no need to look at their dabs */
+  status  = stained ? CELD_OK : CELD_NO_MEMORY;
+  for (size_t i = 0; i < spread.n && status == CELD_OK; i++)
+    stained[spread.share[i].stroke] |= spread.share[i].stain;
+  for (size_t i = 0; i < spread.n_dabs && status == CELD_OK; i++)
+    if (stained[spread.dab[i].stroke] && is_stain (&spread, piece[spread.dab[i].basin], &spread.dab[i]))
+      status = wash (canvas, &spread.dab[i]);
+  celd_free (stained);
   celd_spread_clear (&spread);
-  return CELD_OK;
+  return status == CELD_OK ? celd_step (run, 1) : status;
 }

@@ -8,42 +8,116 @@
 #include "check.h"
 #include "segment.h"
 
-typedef struct { CeldPlane ink; CeldSettings settings; CeldCanvas canvas; } Sketch;
+typedef struct { CeldPlane ink; CeldSettings settings; CeldBasins basins; CeldCanvas canvas; } Sketch;
 
-/* `paper`: '#' is ink, a digit the piece of paper, and the room too.  `painted`: 'A' is a seed of label 1 and so on, of
- * n labels with one opaque colour each.  Strokes of the drawing are one pixel wide.  The sketch must not move. */
+/* The basin of each pixel: of digit d it is d - 1, of '0' the last; ink goes with what stands left of it in its row, or
+ * else with the first to the right, or else with basin 0. */
+static inline uint32_t
+sketch_basin (const char *row, int x, uint32_t solid)
+{
+  int at = x;
+
+  while (at > 0 && row[at] == '#')
+    at--;
+  while (row[at] == '#')
+    at++;
+  return row[at] == '0' ? solid : row[at] ? (uint32_t) (row[at] - '1') : 0;
+}
+
+/* One basin a digit; without their borders. */
+static inline void
+sketch_basins (const char *const *paper, const CeldPlane *ink, float threshold, CeldBasins *b)
+{
+  int      w = ink->width, h = ink->height;
+  size_t   n_pixels = (size_t) w * (size_t) h, n_runs = 0;
+  uint32_t digits = 0, solid = 0;
+  int32_t *squared = malloc (n_pixels * sizeof *squared);
+  uint8_t *inked = malloc (n_pixels);
+
+  for (int y = 0; y < h; y++)
+    for (int x = 0; x < w; x++)
+      {
+        solid |= paper[y][x] == '0';
+        digits = paper[y][x] > '0' && (uint32_t) (paper[y][x] - '0') > digits ? (uint32_t) (paper[y][x] - '0') : digits;
+        inked[y * w + x] = ink->data[y * w + x] < 0.5f;
+      }
+  if (!digits && !solid)
+    solid = 1;
+  CHECK (celd_distance (w, h, inked, NULL, squared) == CELD_OK);
+  *b = (CeldBasins) { .width = w, .height = h, .stroke = 1, .n = digits + solid,
+                      .n_blocks = digits + solid, .n_rooms = digits, .n_pieces = digits };
+  celd_costs_new (w, h, threshold, &b->costs);
+  b->basin = calloc (b->n, sizeof *b->basin);
+  b->block = calloc (b->n, sizeof *b->block);
+  b->room  = calloc (b->n, sizeof *b->room);
+  b->piece = calloc (b->n, sizeof *b->piece);
+  b->row   = calloc ((size_t) h + 1, sizeof *b->row);
+  b->run   = calloc (n_pixels, sizeof *b->run);
+  for (uint32_t k = 0; k < b->n; k++)
+    {
+      b->block[k] = k + 1;
+      b->room[k]  = b->piece[k] = k < digits ? k + 1 : 0;
+      b->basin[k] = (CeldBasin) { .squared = -1, .solid = k >= digits };
+    }
+  for (int y = 0; y < h; y++)
+    {
+      b->row[y] = n_runs;
+      for (int x = 0; x < w; x++)
+        {
+          uint32_t   k = sketch_basin (paper[y], x, digits);
+          CeldBasin *basin = &b->basin[k];
+          bool       own = basin->solid == (inked[y * w + x] != 0);
+
+          basin->area++;
+          if (own && squared[y * w + x] > basin->squared)
+            {
+              basin->squared = squared[y * w + x];
+              basin->x = x;
+              basin->y = y;
+            }
+          if (!x || b->run[n_runs - 1].basin != k)
+            b->run[n_runs++] = (CeldBasinRun) { x, k };
+        }
+    }
+  b->row[h] = n_runs;
+  free (squared);
+  free (inked);
+}
+
+/* `paper`: '#' is ink; a digit is paper and tells its basin, block, room and piece; '0' is ink too, of a solid basin.
+ * `painted`: 'A' is a seed of label 1 and so on, of n labels with one opaque colour each.  Strokes of the drawing are
+ * one pixel wide.  The sketch must not move. */
 static inline void
 sketch_open (Sketch *s, const char *const *paper, const char *const *painted, size_t n)
 {
-  CeldLabels rooms = art_labels (paper);
-  int        w = rooms.width, h = rooms.height;
+  CeldLabels seeds = art_labels (painted);
   uint32_t   label;
 
   *s = (Sketch) { .ink = art_plane (paper), .settings = celd_settings () };
-  s->canvas = (CeldCanvas) {
-    .settings = &s->settings, .ink = &s->ink, .width = w, .height = h, .n = (size_t) w * (size_t) h, .stroke = 1,
-    .seeds = art_labels (painted), .labels = art_labels (painted), .pieces = art_labels (paper), .rooms = rooms,
-  };
+  for (int p = 0; p < s->ink.width * s->ink.height; p++)
+    s->ink.data[p] = s->ink.data[p] > 0;
+  sketch_basins (paper, &s->ink, s->settings.ink_threshold, &s->basins);
+  s->canvas = (CeldCanvas) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
+  CHECK (celd_seed_rows_read (&seeds, &s->canvas.seeds) == CELD_OK);
   for (size_t k = 0; k < n; k++)
     celd_canvas_add (&s->canvas, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
-  for (size_t p = 0; p < s->canvas.n; p++)
-    {
-      s->ink.data[p] = rooms.data[p] > 0;
-      if (rooms.data[p] > s->canvas.n_rooms)
-        s->canvas.n_rooms = s->canvas.n_pieces = rooms.data[p];
-      if (s->canvas.seeds.data[p])
-        s->canvas.palette.item[s->canvas.seeds.data[p] - 1].seeds++;
-    }
+  for (int p = 0; p < seeds.width * seeds.height; p++)
+    if (seeds.data[p])
+      s->canvas.palette.item[seeds.data[p] - 1].seeds++;
+  free (seeds.data);
 }
 
 static inline void
 sketch_close (Sketch *s)
 {
   free (s->ink.data);
-  free (s->canvas.seeds.data);
-  free (s->canvas.labels.data);
-  free (s->canvas.pieces.data);
-  free (s->canvas.rooms.data);
+  free (s->basins.basin);
+  free (s->basins.block);
+  free (s->basins.room);
+  free (s->basins.piece);
+  free (s->basins.row);
+  free (s->basins.run);
+  celd_seed_rows_clear (&s->canvas.seeds);
   celd_palette_clear (&s->canvas.palette);
 }
 
@@ -58,6 +132,19 @@ differing (const CeldLabels *labels, const char *const *art)
     for (int x = 0; x < wanted.width; x++)
       n += CELD_AT (labels, x, y) != CELD_AT (&wanted, x, y);
   free (wanted.data);
+  return n;
+}
+
+/* The same of seeds. */
+static inline int
+seeds_differing (const CeldSeedRows *seeds, const char *const *art)
+{
+  CeldLabels labels = art_labels (art);
+  int        n;
+
+  celd_seed_rows_write (seeds, &labels);
+  n = differing (&labels, art);
+  free (labels.data);
   return n;
 }
 

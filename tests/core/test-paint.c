@@ -9,7 +9,7 @@ check_share (const CeldSpread *spread, size_t i, CeldShare wanted)
 {
   const CeldShare *share = &spread->share[i];
 
-  CHECK (share->piece == wanted.piece && share->label == wanted.label && share->stroke == wanted.stroke);
+  CHECK (share->part == wanted.part && share->label == wanted.label && share->stroke == wanted.stroke);
   NEAR (share->pixels, wanted.pixels, 0);
 }
 
@@ -23,17 +23,21 @@ shares_of_strokes (void)
   Sketch     s;
 
   sketch_open (&s, paper, painted, 2);
-  CHECK (celd_spread_new (&s.canvas, &s.canvas.pieces, NULL, &spread) == CELD_OK);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
   NEAR (spread.n, 4, 0);
   if (spread.n == 4)
     {
-      check_share (&spread, 0, (CeldShare) { 1, 1, 1, 4, false });
-      check_share (&spread, 1, (CeldShare) { 1, 2, 3, 1, false });
-      check_share (&spread, 2, (CeldShare) { 2, 1, 1, 5, false });
-      check_share (&spread, 3, (CeldShare) { 2, 2, 2, 2, false });
-      NEAR (spread.total[1], 9, 0);
-      NEAR (spread.total[2], 2, 0);
-      NEAR (spread.total[3], 1, 0);
+      check_share (&spread, 0, (CeldShare) { 1, 1, 0, 4, false });
+      check_share (&spread, 1, (CeldShare) { 1, 2, 2, 1, false });
+      check_share (&spread, 2, (CeldShare) { 2, 1, 0, 5, false });
+      check_share (&spread, 3, (CeldShare) { 2, 2, 1, 2, false });
+    }
+  NEAR (spread.n_strokes, 3, 0);
+  if (spread.n_strokes == 3)
+    {
+      NEAR (spread.total[0], 9, 0);
+      NEAR (spread.total[1], 2, 0);
+      NEAR (spread.total[2], 1, 0);
     }
   celd_spread_clear (&spread);
   sketch_close (&s);
@@ -47,12 +51,192 @@ pixels_that_touch_by_a_corner_are_one_stroke (void)
   Sketch     s;
 
   sketch_open (&s, paper, painted, 1);
-  CHECK (celd_spread_new (&s.canvas, &s.canvas.pieces, NULL, &spread) == CELD_OK);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
   NEAR (spread.n, 1, 0);
   NEAR (spread.n ? spread.share[0].pixels : 0, 3, 0);
   celd_spread_clear (&spread);
   sketch_close (&s);
 }
+
+/* Where basins meet a run of seeds is cut; a solid area is a part of its own, without a share. */
+static void
+runs_are_cut_where_basins_meet (void)
+{
+  static const char *const paper[] = { "11#2233#", "#0000#33", NULL };
+  static const char *const painted[] = { ".AAAAAAB", "BBBB..B.", NULL };
+  static const CeldDab     wanted[] = {
+    { 0, 1, 3, 1, 0, 0, 1 }, { 0, 3, 5, 1, 1, 0, 2 }, { 0, 5, 7, 1, 2, 0, 2 }, { 0, 7, 8, 2, 2, 1, 0 },
+    { 1, 0, 4, 2, 3, 2, 0 }, { 1, 6, 7, 2, 2, 1, 1 },
+  };
+  CeldSpread spread;
+  Sketch     s;
+
+  sketch_open (&s, paper, painted, 2);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+  NEAR (spread.n_dabs, 6, 0);
+  for (size_t i = 0; i < 6 && spread.n_dabs == 6; i++)
+    CHECK (!memcmp (&spread.dab[i], &wanted[i], sizeof *wanted));
+  NEAR (spread.n, 4, 0);
+  NEAR (spread.n_strokes == 3 ? spread.total[2] : 1, 0, 0);
+  celd_spread_clear (&spread);
+  sketch_close (&s);
+}
+
+/* ------------------------------------------------------------------ the same by pixels */
+
+enum { W = 23, H = 17 };
+
+/* Connected strokes by flooding, numbered from 1 in reading order; returns how many. */
+static uint32_t
+flood (const CeldLabels *painted, uint32_t stroke[W * H])
+{
+  uint32_t n = 0;
+
+  memset (stroke, 0, W * H * sizeof *stroke);
+  for (int p = 0; p < W * H; p++)
+    {
+      bool grew = painted->data[p] && !stroke[p];
+
+      if (grew)
+        stroke[p] = ++n;
+      while (grew)
+        {
+          grew = false;
+          for (int q = 0; q < W * H; q++)
+            for (int v = q / W - 1; v <= q / W + 1 && stroke[q] == n; v++)
+              for (int u = q % W - 1; u <= q % W + 1; u++)
+                if (u >= 0 && v >= 0 && u < W && v < H && !stroke[v * W + u] &&
+                    painted->data[v * W + u] == painted->data[q])
+                  {
+                    stroke[v * W + u] = n;
+                    grew = true;
+                  }
+        }
+    }
+  return n;
+}
+
+/* Is pixel p a stain?  By the definition, pixel by pixel. */
+static bool
+slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t stroke[W * H], int p)
+{
+  double here = 0, elsewhere = 0, mine = 0, others = 0;
+
+  if (!painted->data[p] || !piece->data[p])
+    return false;
+  for (int q = 0; q < W * H; q++)
+    if (painted->data[q] && piece->data[q] == piece->data[p])
+      {
+        here   += stroke[q] == stroke[p];
+        mine   += painted->data[q] == painted->data[p];
+        others += painted->data[q] != painted->data[p];
+      }
+    else
+      elsewhere += piece->data[q] && stroke[q] == stroke[p];
+  return here * mine < 0.5 * elsewhere * others;
+}
+
+/* Pieces in columns and rows between lines, and boxes of paint over them. */
+static void
+random_sketch (uint32_t *state, char paper[H][W + 1], char painted[H][W + 1])
+{
+  int column = 3 + (int) check_random (state, W - 6), row = 3 + (int) check_random (state, H - 6);
+
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        paper[y][x] = x == column || y == row || !check_random (state, 30) ? '#'
+                    : (char) ('1' + (x > column) + 2 * (y > row));
+        painted[y][x] = '.';
+      }
+  for (int k = 0; k < 9; k++)
+    {
+      int left = (int) check_random (state, W), top = (int) check_random (state, H);
+      int w = 1 + (int) check_random (state, 9), h = 1 + (int) check_random (state, 5);
+
+      for (int y = top; y < top + h && y < H; y++)
+        for (int x = left; x < left + w && x < W; x++)
+          painted[y][x] = (char) ('A' + k % 3);
+    }
+}
+
+static void
+dabs_shares_and_stains_are_those_of_the_pixels (void)
+{
+  uint32_t state = 5, stroke[W * H];
+  int      stains = 0;
+
+  for (int round = 0; round < 200; round++)
+    {
+      char        paper[H][W + 1] = { { 0 } }, painted[H][W + 1] = { { 0 } };
+      const char *paper_rows[H + 1] = { NULL }, *painted_rows[H + 1] = { NULL };
+      CeldLabels  piece, paint;
+      CeldSpread  spread;
+      Sketch      s;
+      uint32_t    n;
+      size_t      pixels = 0, dabbed = 0, paper_pixels = 0;
+      int         wrong = 0;
+
+      random_sketch (&state, paper, painted);
+      for (int y = 0; y < H; y++)
+        {
+          paper_rows[y] = paper[y];
+          painted_rows[y] = painted[y];
+        }
+      piece = art_labels (paper_rows);
+      paint = art_labels (painted_rows);
+      n = flood (&paint, stroke);
+      sketch_open (&s, paper_rows, painted_rows, 3);
+      CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+      NEAR (spread.n_strokes, n, 0);
+      for (size_t i = 0; i < spread.n_dabs; i++)
+        {
+          const CeldDab *d = &spread.dab[i];
+          uint32_t       on_paper = 0;
+
+          for (int x = d->x; x < d->end; x++)
+            {
+              wrong += paint.data[d->y * W + x] != d->label || stroke[d->y * W + x] != d->stroke + 1;
+              wrong += sketch_basin (paper[d->y], x, 4) != d->basin;
+              on_paper += piece.data[d->y * W + x] > 0;
+            }
+          wrong += on_paper != d->paper || d->x >= d->end;
+          wrong += i && (d[-1].y > d->y || (d[-1].y == d->y && d[-1].end > d->x));
+          dabbed += (size_t) (d->end - d->x);
+        }
+      for (size_t i = 0; i < spread.n; i++)
+        {
+          size_t share = 0;
+
+          for (int p = 0; p < W * H; p++)
+            share += piece.data[p] == spread.share[i].part && stroke[p] == spread.share[i].stroke + 1;
+          wrong += !share || share != spread.share[i].pixels;
+          pixels += share;
+        }
+      for (int p = 0; p < W * H; p++)
+        {
+          paper_pixels += paint.data[p] && piece.data[p];
+          dabbed -= paint.data[p] > 0;
+        }
+      wrong += dabbed != 0 || pixels != paper_pixels;
+      celd_spread_clear (&spread);
+      CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
+      for (int p = 0; p < W * H; p++)
+        {
+          bool stain = slow_stain (&paint, &piece, stroke, p);
+
+          wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != (stain ? 0 : paint.data[p]);
+          stains += stain;
+        }
+      NEAR (wrong, 0, 0);
+      sketch_close (&s);
+      free (piece.data);
+      free (paint.data);
+    }
+  CHECK (stains > 500);
+}
+
+/* ------------------------------------------------------------------ stains */
 
 /* The seeds that are left of the painted ones. */
 static void
@@ -63,7 +247,7 @@ check_left (const char *const *paper, const char *const *painted, float hardness
   sketch_open (&s, paper, painted, 2);
   s.settings.hardness = hardness;
   CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
-  NEAR (differing (&s.canvas.seeds, left), 0, 0);
+  NEAR (seeds_differing (&s.canvas.seeds, left), 0, 0);
   sketch_close (&s);
 }
 
@@ -107,6 +291,8 @@ main (void)
 {
   RUN (shares_of_strokes);
   RUN (pixels_that_touch_by_a_corner_are_one_stroke);
+  RUN (runs_are_cut_where_basins_meet);
+  RUN (dabs_shares_and_stains_are_those_of_the_pixels);
   RUN (paint_behind_a_contour_is_a_stain);
   RUN (at_home_or_alone_paint_is_none);
   RUN (the_odds_of_a_stain);
