@@ -5,6 +5,8 @@
  * squared distance at x is the lower envelope of the parabolas (x - i)^2 + g(i)^2, found with integers alone.
  * The vertical pass streams along rows.  An inside pixel hides everything behind it from the rest of its row, so
  * each gap between inside pixels has an envelope of its own, and inside pixels cost next to nothing.
+ * The signed transform of ink does the same for paper and ink at once: column distances are positive on paper and
+ * negative in ink, and a stretch of paper within a row ends at ink, a stretch of ink at paper.
  *
  * Squares stay below 2 * CELD_MAX_SIDE^2 = 8e8 and are exact in int32_t.  O(pixels) time; three rows of workspace
  * a job.
@@ -12,6 +14,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "private.h"
+
+#include <stdlib.h>
 
 #define NONE (1 << 20)   /* a column distance from here on means that the column has no inside pixel */
 #define STRIP 256        /* columns a job of the vertical pass */
@@ -157,19 +161,114 @@ measure_rows (void *data, int job)
     measure_row (t, y, t->column + (size_t) job * (size_t) t->width, t->envelope + (size_t) job * (size_t) t->width);
 }
 
-/* All n jobs of a pass, which is the part [from,to] of the run. */
+/* All n jobs of a pass, which is the part [from,to] of the run; *first is the first one of each round of jobs. */
 static CeldStatus
-run_jobs (Transform *t, int n, void (*body) (void *data, int job), const CeldRun *run, double from, double to)
+run_jobs (int n, void (*body) (void *data, int job), void *data, int *first, const CeldRun *run, double from, double to)
 {
   CeldStatus status = CELD_OK;
 
-  for (t->first = 0; t->first < n && !status; t->first += JOBS)
+  for (*first = 0; *first < n && !status; *first += JOBS)
     {
-      celd_each (run, n - t->first < JOBS ? n - t->first : JOBS, body, t);
-      status = celd_step (run, from + (to - from) * (t->first + JOBS < n ? (double) (t->first + JOBS) / n : 1));
+      celd_each (run, n - *first < JOBS ? n - *first : JOBS, body, data);
+      status = celd_step (run, from + (to - from) * (*first + JOBS < n ? (double) (*first + JOBS) / n : 1));
     }
   return status;
 }
+
+/* ------------------------------------------------------------------ paper and ink at once */
+
+typedef struct
+{
+  const CeldPlane *ink;
+  int32_t         *squared;   /* signed column distances, then signed squares */
+  int32_t         *column;    /* for each job the column distances of a row, without signs */
+  Arc             *envelope;
+  int              first;
+} Signed;
+
+/* The signed column distance of a pixel, as far as the neighbour that leads to `next` tells. */
+static inline int32_t
+step_on (bool paper, int32_t next)
+{
+  return paper ? (next > 0 ? next + 1 : 1) : (next < 0 ? next - 1 : -1);
+}
+
+/* As measure_columns. */
+static void
+measure_signed_columns (void *data, int job)
+{
+  const Signed *t = data;
+  int           w = t->ink->width, left = (t->first + job) * STRIP, right = left + STRIP < w ? left + STRIP : w;
+
+  for (int y = 0; y < t->ink->height; y++)
+    {
+      const float *ink = &CELD_AT (t->ink, 0, y);
+      int32_t     *g = t->squared + (size_t) y * (size_t) w;
+
+      if (y == 0)
+        for (int x = left; x < right; x++)
+          g[x] = celd_is_paper (ink[x]) ? NONE : -NONE;
+      else
+        for (int x = left; x < right; x++)
+          g[x] = step_on (celd_is_paper (ink[x]), g[x - w]);
+    }
+  for (int y = t->ink->height - 2; y >= 0; y--)
+    {
+      int32_t *g = t->squared + (size_t) y * (size_t) w;
+
+      for (int x = left; x < right; x++)
+        {
+          int32_t next = step_on (g[x] > 0, g[x + w]);
+
+          g[x] = abs (next) < abs (g[x]) ? next : g[x];
+        }
+    }
+}
+
+/* The columns left .. end - 1 of a row, which are all paper or all ink. */
+static void
+measure_stretch (int32_t *row, int w, int left, int end, int32_t *g, Arc *arc)
+{
+  int from = left ? left - 1 : left, to = end < w ? end : w - 1, sign = row[left] > 0 ? 1 : -1, n;
+
+  g[from] = g[to] = 0;
+  for (int x = left; x < end; x++)
+    g[x] = sign * row[x];
+  n = find_envelope (g, from, to, arc);
+  for (int x = left; n == 0 && x < end; x++)
+    row[x] = sign * INT32_MAX;
+  for (int k = 0; k < n; k++)
+    {
+      int site = arc[k].site, begin = arc[k].from > left ? arc[k].from : left;
+      int stop = k + 1 < n && arc[k + 1].from < end ? arc[k + 1].from : end;
+
+      for (int x = begin; x < stop; x++)
+        row[x] = sign * parabola (g, site, x);
+    }
+}
+
+static void
+measure_signed_rows (void *data, int job)
+{
+  const Signed *t = data;
+  int           w = t->ink->width, h = t->ink->height;
+  int           top = (t->first + job) * BAND, bottom = top + BAND < h ? top + BAND : h;
+
+  for (int y = top; y < bottom; y++)
+    {
+      int32_t *row = t->squared + (size_t) y * (size_t) w;
+
+      for (int left = 0, end; left < w; left = end)
+        {
+          for (end = left + 1; end < w && (row[end] > 0) == (row[left] > 0); end++)
+            ;
+          measure_stretch (row, w, left, end, t->column + (size_t) job * (size_t) w,
+                           t->envelope + (size_t) job * (size_t) w);
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ the transforms */
 
 static CeldStatus
 transform (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest)
@@ -183,9 +282,9 @@ transform (int width, int height, const uint8_t *inside, const CeldRun *run, int
   t.envelope = celd_alloc ((size_t) width * JOBS, sizeof *t.envelope);
   if (!t.column || !t.envelope)
     goto done;
-  status = run_jobs (&t, (width + STRIP - 1) / STRIP, measure_columns, run, 0, 0.4);
+  status = run_jobs ((width + STRIP - 1) / STRIP, measure_columns, &t, &t.first, run, 0, 0.4);
   if (!status)
-    status = run_jobs (&t, (height + BAND - 1) / BAND, measure_rows, run, 0.4, 1);
+    status = run_jobs ((height + BAND - 1) / BAND, measure_rows, &t, &t.first, run, 0.4, 1);
 done:
   celd_free (t.column);
   celd_free (t.envelope);
@@ -202,4 +301,25 @@ CeldStatus
 celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest)
 {
   return transform (width, height, inside, run, squared, nearest);
+}
+
+CeldStatus
+celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared)
+{
+  Signed     t = { .ink = ink, .squared = squared };
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!CELD_SAME_SIZE (ink, ink))
+    return CELD_BAD_SIZE;
+  t.column = celd_alloc ((size_t) ink->width * JOBS, sizeof *t.column);
+  t.envelope = celd_alloc ((size_t) ink->width * JOBS, sizeof *t.envelope);
+  if (!t.column || !t.envelope)
+    goto done;
+  status = run_jobs ((ink->width + STRIP - 1) / STRIP, measure_signed_columns, &t, &t.first, run, 0, 0.4);
+  if (!status)
+    status = run_jobs ((ink->height + BAND - 1) / BAND, measure_signed_rows, &t, &t.first, run, 0.4, 1);
+done:
+  celd_free (t.column);
+  celd_free (t.envelope);
+  return status;
 }

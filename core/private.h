@@ -154,6 +154,9 @@ CeldStatus celd_distance (int width, int height, const uint8_t *inside, const Ce
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
 CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared,
                          int32_t *nearest);
+/* Of paper the squared distance to the nearest ink, of ink minus that to the nearest paper: one tight plane of the size
+ * of the ink, which decides by celd_is_paper.  INT32_MAX and -INT32_MAX where there is none. */
+CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared);
 
 /* ------------------------------------------------------------------ components.c: connected components */
 

@@ -71,6 +71,40 @@ random_masks (void)
       }
 }
 
+/* Paper and ink at once are the two plain transforms, in a view of a wider plane. */
+static void
+signed_distances (void)
+{
+  static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 17, 23 }, { 300, 3 }, { 3, 300 }, { 64, 40 } };
+  static float     value[67 * 300];
+  static uint8_t   paper[64 * 64], inked[64 * 64];
+  static int32_t   squared[64 * 64], to_ink[64 * 64], to_paper[64 * 64];
+  uint32_t         state = 2;
+
+  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+    for (uint32_t rarity = 0; rarity <= 1000; rarity = 3 * rarity + 1) /* from all ink to nearly all paper */
+      {
+        int       w = size[k][0], h = size[k][1], wrong = 0;
+        CeldPlane ink = { w, h, (size_t) w + 3, value };
+
+        for (int y = 0; y < h; y++)
+          for (int x = 0; x < w; x++)
+            {
+              bool is_ink = rarity < 1000 && (rarity == 0 || check_random (&state, rarity) == 0);
+
+              CELD_AT (&ink, x, y) = is_ink ? 0.49f : x & 1 ? 0.5f : NAN;
+              inked[y * w + x] = is_ink;
+              paper[y * w + x] = !is_ink;
+            }
+        CHECK (celd_signed_distance (&ink, NULL, squared) == CELD_OK);
+        CHECK (celd_distance (w, h, inked, NULL, to_ink) == CELD_OK);
+        CHECK (celd_distance (w, h, paper, NULL, to_paper) == CELD_OK);
+        for (int p = 0; p < w * h; p++)
+          wrong += squared[p] != (paper[p] ? to_ink[p] : -to_paper[p]);
+        CHECK (wrong == 0);
+      }
+}
+
 static void
 empty_and_full (void)
 {
@@ -129,22 +163,29 @@ static void
 jobs_in_any_order_and_cancel (void)
 {
   static uint8_t inside[600 * 70];
+  static float   value[600 * 70];
   static int32_t squared[600 * 70], other[600 * 70];
+  CeldPlane      ink = { 600, 70, 600, value };
   CeldRun        backwards = { NULL, run_backwards, NULL }, stop = { stop_at_once, NULL, NULL };
   uint32_t       state = 5;
 
   for (int p = 0; p < 600 * 70; p++)
-    inside[p] = check_random (&state, 50) == 0;
+    value[p] = inside[p] = check_random (&state, 50) == 0;
   CHECK (celd_distance (600, 70, inside, NULL, squared) == CELD_OK);
   CHECK (celd_distance (600, 70, inside, &backwards, other) == CELD_OK);
   CHECK (memcmp (squared, other, sizeof squared) == 0);
   CHECK (celd_distance (600, 70, inside, &stop, other) == CELD_CANCELLED);
+  CHECK (celd_signed_distance (&ink, NULL, squared) == CELD_OK);
+  CHECK (celd_signed_distance (&ink, &backwards, other) == CELD_OK);
+  CHECK (memcmp (squared, other, sizeof squared) == 0);
+  CHECK (celd_signed_distance (&ink, &stop, other) == CELD_CANCELLED);
 }
 
 int
 main (void)
 {
   RUN (random_masks);
+  RUN (signed_distances);
   RUN (empty_and_full);
   RUN (longest_side);
   RUN (bad_sizes);
