@@ -1,4 +1,4 @@
-/* The canvas of a segmentation: its labels, and what their paint weighs.
+/* The canvas of a segmentation: its labels, what their paint weighs, and which paint counts.
  *
  * A painted pixel costs hardness K in LazyBrush [SDC09b], so that a stroke closes gaps up to hardness x its area, and
  * the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean width
@@ -139,4 +139,87 @@ celd_canvas_order (const CeldCanvas *canvas, uint32_t *order)
     order[k] = turn[k].label;
   celd_free (turn);
   return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ flat colourings */
+
+/* The paint of a label: its pixels, those on paper, and its runs. */
+typedef struct { size_t pixels, paper, runs; } Paint;
+
+/* Where the pixels from x on that are all paper, or all ink, end. */
+static int
+end_of_ground (const float *ink, int x, int end)
+{
+  bool paper = celd_is_paper (ink[x]);
+
+  while (x < end && celd_is_paper (ink[x]) == paper)
+    x++;
+  return x;
+}
+
+static void
+measure_paint (const CeldCanvas *canvas, Paint *paint)
+{
+  for (int y = 0; y < canvas->seeds.height; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+        const float       *ink = &CELD_AT (canvas->ink, 0, y);
+        Paint             *of = &paint[run->label];
+
+        of->pixels += (size_t) (run->end - run->x);
+        of->runs++;
+        for (int x = run->x; x < run->end; x++)
+          of->paper += celd_is_paper (ink[x]);
+      }
+}
+
+/* Hardly any of it is on paper, and it is wider than strokes are. */
+static bool
+is_dark_area (const Paint *paint, int stroke)
+{
+  return 20 * paint->paper < paint->pixels && paint->pixels > 3 * (size_t) stroke * paint->runs;
+}
+
+/* Adds to `kept` what counts of a run; runs come in reading order. */
+static CeldStatus
+keep_run (const CeldCanvas *canvas, const Paint *paint, int y, CeldSeedRun run, CeldSeedRows *kept)
+{
+  const float *ink = &CELD_AT (canvas->ink, 0, y);
+  CeldStatus   status = CELD_OK;
+
+  if (is_dark_area (&paint[run.label], canvas->basins->stroke))
+    return celd_seed_rows_paint (kept, y, run.x, run.end, run.label);
+  for (int x = run.x, end; x < run.end && status == CELD_OK; x = end)
+    {
+      end = end_of_ground (ink, x, run.end);
+      if (celd_is_paper (ink[x]))
+        status = celd_seed_rows_paint (kept, y, x, end, run.label);
+    }
+  return status;
+}
+
+/* On ink, paint says nothing, unless it is a whole dark area. */
+CeldStatus
+celd_canvas_keep_paper (CeldCanvas *canvas)
+{
+  CeldSeedRows kept = { 0 };
+  Paint       *paint = celd_alloc0 (canvas->palette.n + 1, sizeof *paint);
+  CeldStatus   status = paint ? celd_seed_rows_new (canvas->seeds.width, canvas->seeds.height, &kept) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    measure_paint (canvas, paint);
+  for (int y = 0; y < kept.height && status == CELD_OK; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n && status == CELD_OK; i++)
+      status = keep_run (canvas, paint, y, canvas->seeds.row[y].run[i], &kept);
+  if (status == CELD_OK)
+    {
+      CeldSeedRows all = canvas->seeds;
+
+      canvas->seeds = kept;
+      kept          = all;
+    }
+  celd_seed_rows_clear (&kept);
+  celd_free (paint);
+  return status;
 }
