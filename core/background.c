@@ -1,8 +1,8 @@
 /* Which label is the background, and what of the paper along the frame it gets.
  *
- * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room (rooms.c) holds
- * that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that nobody holds are seeded
- * for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for a transparent label of
+ * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room (basin-unions.c)
+ * holds that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that nobody holds are
+ * seeded for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for a transparent label of
  * their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the background.)
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -14,66 +14,96 @@
 typedef struct
 {
   size_t   *pixel;     /* paper along the frame */
-  uint32_t *holder;    /* the label that holds each of these; 0 = nobody */
+  uint32_t *basin;     /* of each of these */
+  uint32_t *holder;    /* the label that holds it; 0 = nobody */
   size_t    n;
   size_t   *held;      /* of label l: frame pixels, held[l]; held[0]: nobody's */
 } Frame;
 
-/* holder[k]: the label with most paint in piece or room k, 0 if there is none.  With soft strokes only those count that
- * leave at least half of their paint there. */
 static CeldStatus
-find_holders (const CeldCanvas *canvas, const CeldLabels *pieces, const CeldRun *run, uint32_t *holder)
+frame_new (const CeldCanvas *canvas, Frame *frame)
 {
-  bool       all_count = celd_canvas_obeys (canvas);
-  CeldSpread spread;
-  CeldStatus status = celd_spread_new (canvas, pieces, run, &spread);
+  int        w = canvas->ink->width, h = canvas->ink->height;
+  CeldStatus status = celd_frame (canvas->ink, w, h, canvas->basins->stroke, &frame->pixel, &frame->n);
 
-  for (size_t i = 0; i < spread.n;)
+  if (status != CELD_OK)
+    return status;
+  frame->basin  = celd_alloc (frame->n, sizeof *frame->basin);
+  frame->holder = celd_alloc (frame->n, sizeof *frame->holder);
+  frame->held   = celd_alloc0 (canvas->palette.n + 1, sizeof *frame->held);
+  if (!frame->basin || !frame->holder || !frame->held)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < frame->n; i++)
+    frame->basin[i] = celd_basin_at (canvas->basins, (int) (frame->pixel[i] % (size_t) w),
+                                     (int) (frame->pixel[i] / (size_t) w));
+  return CELD_OK;
+}
+
+static void
+frame_clear (Frame *frame)
+{
+  celd_free (frame->pixel);
+  celd_free (frame->basin);
+  celd_free (frame->holder);
+  celd_free (frame->held);
+}
+
+/* ------------------------------------------------------------------ who holds the frame */
+
+/* holder[k]: the label with most paint in part k, 0 if there is none.  With soft strokes only those count that leave at
+ * least half of their paint there. */
+static void
+find_holders (const CeldSpread *spread, bool all_count, uint32_t *holder)
+{
+  for (size_t i = 0; i < spread->n;)
     {
-      uint32_t piece = spread.share[i].piece;
+      uint32_t part = spread->share[i].part;
       size_t   most = 0;
 
-      while (i < spread.n && spread.share[i].piece == piece)
+      while (i < spread->n && spread->share[i].part == part)
         {
-          uint32_t label = spread.share[i].label;
+          uint32_t label = spread->share[i].label;
           size_t   paint = 0;
 
-          for (; i < spread.n && spread.share[i].piece == piece && spread.share[i].label == label; i++)
-            if (all_count || 2 * spread.share[i].pixels >= spread.total[spread.share[i].stroke])
-              paint += spread.share[i].pixels;
+          for (; i < spread->n && spread->share[i].part == part && spread->share[i].label == label; i++)
+            if (all_count || 2 * spread->share[i].pixels >= spread->total[spread->share[i].stroke])
+              paint += spread->share[i].pixels;
           if (paint > most)
             {
-              most          = paint;
-              holder[piece] = label;
+              most         = paint;
+              holder[part] = label;
             }
         }
     }
-  celd_spread_clear (&spread);
-  return status;
 }
 
 /* Who holds each pixel of the frame: who holds its room; behind a small gap in a contour, where its room is not most of
- * the frame, also who holds its piece. */
+ * the frame, also who holds its piece.  Leaves the spread by pieces. */
 static CeldStatus
-hold_frame (const CeldCanvas *canvas, const CeldRun *run, Frame *frame)
+hold_frame (const CeldCanvas *canvas, CeldSpread *spread, Frame *frame)
 {
-  uint32_t  *of_piece = celd_alloc0 (canvas->n_pieces + 1, sizeof *of_piece);
-  uint32_t  *of_room = celd_alloc0 (canvas->n_rooms + 1, sizeof *of_room);
-  size_t    *along = celd_alloc0 (canvas->n_rooms + 1, sizeof *along);
-  CeldStatus status = of_piece && of_room && along ? CELD_OK : CELD_NO_MEMORY;
+  const CeldBasins *b = canvas->basins;
+  bool              all_count = celd_canvas_obeys (canvas);
+  uint32_t         *of_piece = celd_alloc0 (b->n_pieces + 1, sizeof *of_piece);
+  uint32_t         *of_room = celd_alloc0 (b->n_rooms + 1, sizeof *of_room);
+  size_t           *along = celd_alloc0 (b->n_rooms + 1, sizeof *along);
+  CeldStatus        status = of_piece && of_room && along ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = find_holders (canvas, &canvas->pieces, run, of_piece);
+    {
+      find_holders (spread, all_count, of_room);
+      status = celd_spread_share (b, b->piece, spread);
+    }
   if (status == CELD_OK)
-    status = find_holders (canvas, &canvas->rooms, run, of_room);
+    find_holders (spread, all_count, of_piece);
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
-    along[canvas->rooms.data[frame->pixel[i]]]++;
+    along[b->room[frame->basin[i]]]++;
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     {
-      uint32_t room = canvas->rooms.data[frame->pixel[i]];
+      uint32_t room = b->room[frame->basin[i]];
 
       frame->holder[i] = of_room[room] || MAIN_SHARE * along[room] >= frame->n
-                         ? of_room[room] : of_piece[canvas->pieces.data[frame->pixel[i]]];
+                         ? of_room[room] : of_piece[b->piece[frame->basin[i]]];
       frame->held[frame->holder[i]]++;
     }
   celd_free (of_piece);
@@ -81,6 +111,8 @@ hold_frame (const CeldCanvas *canvas, const CeldRun *run, Frame *frame)
   celd_free (along);
   return status;
 }
+
+/* ------------------------------------------------------------------ what it gets */
 
 /* Label 0 if the frame is nobody's. */
 static uint32_t
@@ -115,49 +147,57 @@ choose (CeldCanvas *canvas, const Frame *frame, uint32_t *label)
 
 /* Rooms along the frame that nobody holds get the background's seeds there, and lose the stains in them. */
 static CeldStatus
-seed (CeldCanvas *canvas, const Frame *frame, uint32_t label)
+seed (CeldCanvas *canvas, const CeldSpread *spread, const Frame *frame, uint32_t label)
 {
-  bool *along = celd_alloc0 (canvas->n_rooms + 1, sizeof *along);
+  size_t          w = (size_t) canvas->ink->width;
+  const uint32_t *room = canvas->basins->room;
+  bool           *nobodys = celd_alloc0 (canvas->basins->n_rooms + 1, sizeof *nobodys);
+  CeldStatus      status = nobodys ? CELD_OK : CELD_NO_MEMORY;
 
-  if (!along)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < frame->n; i++)
+  for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     if (!frame->holder[i])
-      along[canvas->rooms.data[frame->pixel[i]]] = true;
-  for (size_t p = 0; p < canvas->n; p++)
-    if (along[canvas->rooms.data[p]])
-      canvas->seeds.data[p] = 0;
-  for (size_t i = 0; i < frame->n; i++)
-    if (!frame->holder[i])
-      canvas->seeds.data[frame->pixel[i]] = label;
-  celd_free (along);
-  return CELD_OK;
+      nobodys[room[frame->basin[i]]] = true;
+  for (size_t i = 0; i < spread->n_dabs && status == CELD_OK; i++)
+    if (nobodys[room[spread->dab[i].basin]])
+      status = celd_dab_remove (canvas, &spread->dab[i]);
+  for (size_t i = 0, next; i < frame->n && status == CELD_OK; i = next)
+    {
+      size_t p = frame->pixel[i];
+
+      next = i + 1;
+      if (frame->holder[i])
+        continue;
+      while (next < frame->n && !frame->holder[next] && frame->pixel[next] == p + next - i && (p + next - i) % w)
+        next++;
+      status = celd_seed_rows_paint (&canvas->seeds, (int) (p / w), (int) (p % w), (int) (p % w + next - i), label);
+    }
+  celd_free (nobodys);
+  return status;
 }
 
 CeldStatus
 celd_background_seed (const CeldRun *run, CeldCanvas *canvas)
 {
   Frame      frame = { 0 };
+  CeldSpread spread = { 0 };
   uint32_t   label = 0;
   CeldStatus status;
 
   if (canvas->settings->background == CELD_BACKGROUND_NONE)
     return CELD_OK;
-  status = celd_frame (canvas->ink, canvas->width, canvas->height, &frame.pixel, &frame.n);
-  if (status != CELD_OK)
-    return status;
-  frame.holder = celd_alloc (frame.n, sizeof *frame.holder);
-  frame.held   = celd_alloc0 (canvas->palette.n + 1, sizeof *frame.held);
-  status = frame.holder && frame.held ? hold_frame (canvas, run, &frame) : CELD_NO_MEMORY;
+  status = frame_new (canvas, &frame);
+  if (status == CELD_OK)
+    status = celd_spread_new (canvas, canvas->basins->room, &spread);
+  if (status == CELD_OK)
+    status = hold_frame (canvas, &spread, &frame);
   if (status == CELD_OK)
     status = choose (canvas, &frame, &label);
   if (status == CELD_OK && label)
     {
       canvas->palette.item[label - 1].background = true;
-      status = seed (canvas, &frame, label);
+      status = seed (canvas, &spread, &frame, label);
     }
-  celd_free (frame.pixel);
-  celd_free (frame.holder);
-  celd_free (frame.held);
-  return status;
+  celd_spread_clear (&spread);
+  frame_clear (&frame);
+  return status == CELD_OK ? celd_step (run, 1) : status;
 }

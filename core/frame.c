@@ -44,7 +44,7 @@ look_inwards (const CeldPlane *ink, int width, int height, int reach, size_t *pi
 }
 
 CeldStatus
-celd_frame (const CeldPlane *ink, int width, int height, size_t **pixel, size_t *n)
+celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n)
 {
   size_t all = 2 * ((size_t) width + (size_t) height);
 
@@ -53,6 +53,6 @@ celd_frame (const CeldPlane *ink, int width, int height, size_t **pixel, size_t 
     return CELD_NO_MEMORY;
   *n = look_inwards (ink, width, height, 0, *pixel);
   if (ink && *n < all / 10)
-    *n = look_inwards (ink, width, height, 4 * celd_stroke_width (ink) + 2, *pixel);
+    *n = look_inwards (ink, width, height, 4 * (stroke ? stroke : celd_stroke_width (ink)) + 2, *pixel);
   return CELD_OK;
 }

@@ -389,7 +389,7 @@ static CeldStatus
 frame_label (const CeldLabels *labels, const CeldPlane *ink, size_t n_labels, uint32_t *label)
 {
   size_t    *pixel = NULL, n = 0, most = 0, *count = celd_alloc0 (n_labels + 1, sizeof *count);
-  CeldStatus status = count ? celd_frame (ink, labels->width, labels->height, &pixel, &n) : CELD_NO_MEMORY;
+  CeldStatus status = count ? celd_frame (ink, labels->width, labels->height, 0, &pixel, &n) : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;

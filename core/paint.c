@@ -211,8 +211,8 @@ add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldSp
   return CELD_OK;
 }
 
-static CeldStatus
-gather_shares (const CeldBasins *basins, const uint32_t *part, CeldSpread *spread)
+CeldStatus
+celd_spread_share (const CeldBasins *basins, const uint32_t *part, CeldSpread *spread)
 {
   uint32_t   n_parts = 0;
   size_t    *sorted = celd_alloc (spread->n_dabs, sizeof *sorted), *from = NULL, *in_part = NULL;
@@ -222,6 +222,7 @@ gather_shares (const CeldBasins *basins, const uint32_t *part, CeldSpread *sprea
     n_parts = part[k] > n_parts ? part[k] : n_parts;
   from    = celd_alloc0 ((size_t) n_parts + 2, sizeof *from);
   in_part = celd_alloc0 (spread->n_strokes, sizeof *in_part);
+  spread->n = 0;
   if (sorted && from && in_part)
     {
       status = CELD_OK;
@@ -253,7 +254,7 @@ celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spr
   if (status == CELD_OK)
     {
       made.total = celd_alloc0 (made.n_strokes, sizeof *made.total);
-      status = made.total ? gather_shares (canvas->basins, part, &made) : CELD_NO_MEMORY;
+      status = made.total ? celd_spread_share (canvas->basins, part, &made) : CELD_NO_MEMORY;
     }
   if (status != CELD_OK)
     {
@@ -301,9 +302,8 @@ is_stain (const CeldSpread *spread, uint32_t piece, const CeldDab *dab)
   return share && share->stain;
 }
 
-/* Takes back the seeds on the paper of a dab. */
-static CeldStatus
-wash (CeldCanvas *canvas, const CeldDab *dab)
+CeldStatus
+celd_dab_remove (CeldCanvas *canvas, const CeldDab *dab)
 {
   const float *ink = &CELD_AT (canvas->ink, 0, dab->y);
   CeldStatus   status = CELD_OK;
@@ -339,13 +339,13 @@ celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
         ;
       judge_piece (&spread, i, j);
     }
-  stained = celd_alloc0 (spread.n_strokes, sizeof *stained); /* most strokes leave none: no need to look at their dabs */
+  stained = celd_alloc0 (spread.n_strokes, sizeof *stained); /* most strokes leave none: no need to look at dabs */
   status  = stained ? CELD_OK : CELD_NO_MEMORY;
   for (size_t i = 0; i < spread.n && status == CELD_OK; i++)
     stained[spread.share[i].stroke] |= spread.share[i].stain;
   for (size_t i = 0; i < spread.n_dabs && status == CELD_OK; i++)
     if (stained[spread.dab[i].stroke] && is_stain (&spread, piece[spread.dab[i].basin], &spread.dab[i]))
-      status = wash (canvas, &spread.dab[i]);
+      status = celd_dab_remove (canvas, &spread.dab[i]);
   celd_free (stained);
   celd_spread_clear (&spread);
   return status == CELD_OK ? celd_step (run, 1) : status;

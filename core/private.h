@@ -88,8 +88,8 @@ int celd_stroke_width (const CeldPlane *ink);
 bool celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y);
 
 /* frame.c: the paper pixels along the frame, as y * width + x (ink NULL: all outermost pixels); corners may come twice.
- * End with celd_free. */
-CeldStatus celd_frame (const CeldPlane *ink, int width, int height, size_t **pixel, size_t *n);
+ * `stroke` is the width of the drawing's strokes; 0: it is measured if need be.  End with celd_free. */
+CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n);
 
 /* ------------------------------------------------------------------ labels.c */
 

@@ -64,6 +64,12 @@ typedef struct
 CeldStatus celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spread);
 void       celd_spread_clear (CeldSpread *spread);
 
+/* Makes the shares anew, by other parts. */
+CeldStatus celd_spread_share (const CeldBasins *basins, const uint32_t *part, CeldSpread *spread);
+
+/* Takes back the seeds of a dab that lie on paper. */
+CeldStatus celd_dab_remove (CeldCanvas *canvas, const CeldDab *dab);
+
 /* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
 CeldStatus celd_stains_remove (const CeldRun *run, CeldCanvas *canvas);
 
