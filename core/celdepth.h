@@ -202,6 +202,9 @@ typedef struct { CeldProblem *item; size_t n; } CeldProblems;
 
 CELD_API void celd_problems_clear (CeldProblems *problems);
 
+/* Marks the places of problems over whatever is in the picture: a red ring round each, with a dot at the place. */
+CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *paint);
+
 /* One English sentence, cut to `size` bytes with its final 0, saying what, where and what to do.
  * palette and relations may be NULL: then without colours and line numbers. */
 CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
@@ -360,6 +363,9 @@ CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *ru
                                          CeldRect *changed);
 /* The gaps that these labels close; none with CELD_METHOD_EXACT. */
 CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosures **closures);
+/* The same as red lines about as wide as the drawing's, on a transparent picture: a layer of virtual contours, in which
+ * the artist may erase what was closed wrongly. */
+CELD_API CeldStatus celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint *paint);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
 CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,

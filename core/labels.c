@@ -114,9 +114,8 @@ number_regions (const CeldComponent *component, size_t n, CeldPalette *palette, 
   return CELD_OK;
 }
 
-/* A copy whose capacity celd_grow can tell. */
-static CeldStatus
-copy_palette (const CeldPalette *palette, CeldPalette *copy)
+CeldStatus
+celd_palette_copy (const CeldPalette *palette, CeldPalette *copy)
 {
   *copy = (CeldPalette) { 0 };
   for (size_t k = 0; k < palette->n; k++)
@@ -152,7 +151,7 @@ celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette)
   if (status == CELD_OK)
     status = celd_components (labels, 0, false, &first, &regions, &component, &n);
   if (status == CELD_OK)
-    status = copy_palette (palette, &made);
+    status = celd_palette_copy (palette, &made);
   if (status != CELD_OK)
     goto done;
   status = CELD_NO_MEMORY;

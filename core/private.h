@@ -98,6 +98,9 @@ CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, 
 CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run,
                                  CeldPalette *palette);
 
+/* A copy that celd_grow can make larger; makes the record. */
+CeldStatus celd_palette_copy (const CeldPalette *palette, CeldPalette *copy);
+
 /* The first opaque label of this colour, or of the nearest one that colour management may have made of it (2 of 255 a
  * channel); 0 if there is none. */
 uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3]);

@@ -1,17 +1,26 @@
-/* The inside of a CeldSession, shared by session.c (what the host sets) and route.c (what is made from it).
+/* The inside of a CeldSession.
+ *
+ *   session.c         the object, and what the host asks for
+ *   session-input.c   what the host sets
+ *   strokes.c         single strokes over the scribbles layer
+ *   route.c           which stages there are, and what is made from the labels
+ *   route-labels.c    the stages up to the labels
+ *   changes.c         where two results differ
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #ifndef CELD_SESSION_H
 #define CELD_SESSION_H
 
-#include "private.h"
+#include "segment.h"
 
 /* What can be made, each from earlier ones only. */
 typedef enum
 {
   STAGE_RELATIONS, /* the text's, the arrows layer's and the single ones, in one list */
   STAGE_INK,       /* for segmentation and for depth */
+  STAGE_SCRIBBLES, /* the layer's seeds */
+  STAGE_SEEDS,     /* the same under the single strokes */
   STAGE_LABELS,
   STAGE_ORDER,
   STAGE_FLAT,
@@ -22,8 +31,11 @@ typedef enum
   N_STAGES
 } CeldStage;
 
+/* Pixels x .. end - 1 of row y, counted from the stroke's place. */
+typedef struct { int y, x, end; } CeldSpan;
+
 /* A stroke of the host's over the scribbles layer. */
-typedef struct { uint32_t id; int x, y; CeldMask mask; uint8_t colour[3]; } CeldStroke;
+typedef struct { uint32_t id; int x, y; uint8_t colour[3]; CeldSpan *span; size_t n; } CeldStroke;
 
 struct CeldSession
 {
@@ -36,20 +48,25 @@ struct CeldSession
   CeldRelations text, single;                  /* as set; painted ones are read in STAGE_RELATIONS */
 
   /* what was made of it; valid[s] says whether stage s still holds */
-  bool          valid[N_STAGES];
-  CeldRect      unseen[N_STAGES];              /* what the host has not asked for since it changed */
-  CeldProblems  problems[N_STAGES];
-  CeldRelations relations;
-  CeldPlane     ink, depth_ink;                /* depth_ink.data NULL: the same as ink */
-  CeldMask      painted;                       /* where the scribbles count as paint */
-  size_t        n_painted;
-  CeldLabels    labels;
-  CeldPalette   palette;
-  CeldOrder     order;
-  CeldPlane     flat, levels, depth, shading;
-  CeldVectors   normals;
+  bool           valid[N_STAGES];
+  CeldRect       unseen[N_STAGES];             /* what the host has not asked for since it changed */
+  CeldProblems   problems[N_STAGES];
+  CeldRelations  relations;
+  CeldPlane      ink, depth_ink;               /* depth_ink.data NULL: the same as ink */
+  CeldSeedRows   layer_seeds, seeds;
+  CeldPalette    layer_palette, seed_palette;
+  CeldSegmenter *segmenter;                    /* NULL: none yet */
+  CeldPlane      known_ink;                    /* what the segmenter has: a view of ink, or owned if that is newer;
+                                                * data NULL: nothing that can be relied on */
+  float          known_threshold;
+  CeldLabels     solved;                       /* the segmenter's */
+  CeldLabels     separated;                    /* the same with each region on its own; data NULL: not asked for */
+  CeldPalette    palette;
+  CeldOrder      order;
+  CeldPlane      flat, levels, depth, shading;
+  CeldVectors    normals;
 
-  CeldProblems  all_problems;                  /* gathered for celd_session_problems */
+  CeldProblems   all_problems;                 /* gathered for celd_session_problems */
 };
 
 /* Forgets a stage and all that is made from it. */
@@ -57,5 +74,40 @@ void celd_session_forget (CeldSession *session, CeldStage stage);
 
 /* Makes what `stage` needs and does not hold, and the stage itself. */
 CeldStatus celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run);
+
+/* Everything made: for a drawing of another size, and at the end. */
+void celd_session_clear_results (CeldSession *session);
+
+/* The labels as the host sees them. */
+const CeldLabels *celd_session_current_labels (const CeldSession *session);
+
+/* ------------------------------------------------------------------ strokes.c */
+
+void celd_strokes_clear (CeldStroke *stroke, size_t n);
+
+/* Paints the strokes over the seeds and extends their palette, which must have grown item by item.  Both are undefined
+ * after a failure, but can be cleared. */
+CeldStatus celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRows *seeds, CeldPalette *palette);
+
+/* ------------------------------------------------------------------ route-labels.c */
+
+CeldStatus celd_make_relations (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_ink       (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_scribbles (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_seeds     (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
+
+/* ------------------------------------------------------------------ changes.c */
+
+CeldRect celd_rect_union (CeldRect a, CeldRect b);
+
+/* Where two tight pictures of so many bytes a pixel differ; everywhere if there is no old one. */
+CeldRect celd_difference (const void *old, const void *new, int width, int height, size_t pixel);
+
+/* What the host is to be told the next time it asks. */
+void celd_session_see (CeldSession *session, CeldStage stage, CeldRect changed);
+
+/* The same for a plane, which takes the place of the old one. */
+void celd_session_replace (CeldSession *session, CeldStage stage, CeldPlane *old, CeldPlane *new);
 
 #endif

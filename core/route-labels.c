@@ -1,0 +1,279 @@
+/* The stages of a session up to the labels.
+ *
+ * What is slow happens once a drawing: the segmenter keeps its basins.  What happens once a layer: reading scribbles.
+ * A single stroke costs the runs of seeds, and what the segmenter repaints.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "session.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ relations */
+
+static CeldStatus
+append_relations (CeldRelations *to, const CeldRelations *from)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < from->n && status == CELD_OK; i++)
+    status = celd_relation_add (to, from->item[i]);
+  return status;
+}
+
+CeldStatus
+celd_make_relations (CeldSession *s, const CeldRun *run)
+{
+  CeldRelations all = { 0 };
+  CeldProblems  problems = { 0 };
+  CeldStatus    status = append_relations (&all, &s->text);
+
+  if (status == CELD_OK && s->arrows.data)
+    status = celd_arrows_read (&s->arrows, s->settings.arrow_style, run, &all, &problems);
+  if (status == CELD_OK)
+    status = append_relations (&all, &s->single);
+  if (status == CELD_OK)
+    {
+      celd_relations_clear (&s->relations);
+      celd_problems_clear (&s->problems[STAGE_RELATIONS]);
+      s->relations = all;
+      s->problems[STAGE_RELATIONS] = problems;
+      return CELD_OK;
+    }
+  celd_relations_clear (&all);
+  celd_problems_clear (&problems);
+  return status;
+}
+
+/* ------------------------------------------------------------------ ink */
+
+/* Ink for one purpose: the contours are baked into a copy of the drawing first. */
+static CeldStatus
+make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldRun *run, CeldPlane *ink)
+{
+  const CeldDrawing *drawing = &s->drawing;
+  int                w = drawing->luma.width, h = drawing->luma.height;
+  CeldPart           part[2];
+  CeldRun            bake = celd_run_part (&part[0], run, 0, 0.3);
+  CeldRun            rest = celd_run_part (&part[1], run, s->contours.data ? 0.3 : 0, 1);
+  CeldDrawing        baked = { 0 };
+  CeldStatus         status = celd_plane_new (w, h, ink);
+
+  if (status == CELD_OK && s->contours.data)
+    {
+      status = celd_plane_new (w, h, &baked.luma);
+      if (status == CELD_OK && drawing->alpha.data)
+        status = celd_plane_new (w, h, &baked.alpha);
+      if (status == CELD_OK)
+        status = celd_contours_bake (drawing, &s->contours, purpose, s->settings.ink, &bake, &baked);
+      drawing = &baked;
+    }
+  if (status == CELD_OK)
+    status = celd_ink (drawing, s->settings.ink, &rest, ink);
+  celd_free (baked.luma.data);
+  celd_free (baked.alpha.data);
+  return status;
+}
+
+/* The old ink stays with the segmenter until that has had the new one; ink that is as it was makes no work at all. */
+static void
+take_ink (CeldSession *s, CeldPlane *ink)
+{
+  CeldRect changed = celd_difference (s->ink.data, ink->data, ink->width, ink->height, sizeof (float));
+
+  if (!changed.width)
+    return;
+  celd_session_see (s, STAGE_INK, changed);
+  if (s->ink.data != s->known_ink.data)
+    celd_free (s->ink.data);
+  s->ink = *ink;
+  ink->data = NULL;
+}
+
+CeldStatus
+celd_make_ink (CeldSession *s, const CeldRun *run)
+{
+  CeldPart   part;
+  CeldRun    first = celd_run_part (&part, run, 0, s->contours.data ? 0.5 : 1);
+  CeldPlane  ink = { 0 }, depth_ink = { 0 };
+  CeldStatus status = make_ink_for (s, CELD_FOR_SEGMENTATION, &first, &ink);
+
+  if (status == CELD_OK && s->contours.data)
+    {
+      CeldRun second = celd_run_part (&part, run, 0.5, 1);
+
+      status = make_ink_for (s, CELD_FOR_DEPTH, &second, &depth_ink);
+    }
+  if (status == CELD_OK)
+    {
+      take_ink (s, &ink);
+      celd_free (s->depth_ink.data);
+      s->depth_ink = depth_ink;
+      depth_ink.data = NULL;
+    }
+  celd_free (ink.data);
+  celd_free (depth_ink.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ seeds */
+
+CeldStatus
+celd_make_scribbles (CeldSession *s, const CeldRun *run)
+{
+  int          w = s->drawing.luma.width, h = s->drawing.luma.height;
+  CeldLabels   labels = { 0 };
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status;
+
+  if (s->scribbles.data)
+    {
+      status = celd_labels_new (w, h, &labels);
+      if (status == CELD_OK)
+        status = celd_scribbles_read (&s->scribbles, &s->settings, run, &labels, &palette);
+      if (status == CELD_OK)
+        status = celd_seed_rows_read (&labels, &seeds);
+    }
+  else
+    status = celd_seed_rows_new (w, h, &seeds);
+  celd_free (labels.data);
+  if (status != CELD_OK)
+    {
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->layer_seeds);
+  celd_palette_clear (&s->layer_palette);
+  s->layer_seeds   = seeds;
+  s->layer_palette = palette;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_seeds (CeldSession *s, const CeldRun *run)
+{
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status = celd_seed_rows_copy (&s->layer_seeds, &seeds);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->layer_palette, &palette);
+  if (status == CELD_OK && s->n_strokes)
+    status = celd_strokes_compose (s->stroke, s->n_strokes, &seeds, &palette);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status != CELD_OK)
+    {
+      celd_seed_rows_clear (&seeds);
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->seeds);
+  celd_palette_clear (&s->seed_palette);
+  s->seeds        = seeds;
+  s->seed_palette = palette;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ labels */
+
+/* Tells the segmenter where the ink differs from what it knows.  What it knows after a failure, nobody knows. */
+static CeldStatus
+tell_ink (CeldSession *s, const CeldRun *run)
+{
+  float      threshold = s->settings.ink_threshold;
+  bool       renew = s->known_ink.data && s->known_threshold == threshold;
+  CeldRect   changed = { 0 };
+  CeldStatus status;
+
+  if (renew && s->known_ink.data == s->ink.data)
+    return CELD_OK;
+  if (renew)
+    changed = celd_difference (s->known_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
+  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, threshold, run);
+  if (s->known_ink.data != s->ink.data)
+    celd_free (s->known_ink.data);
+  s->known_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
+  s->known_threshold = threshold;
+  return status;
+}
+
+static CeldStatus
+prepare_segmenter (CeldSession *s, const CeldRun *run)
+{
+  if (!s->segmenter)
+    s->segmenter = celd_segmenter_new ();
+  if (!s->segmenter)
+    return CELD_NO_MEMORY;
+  if (!s->solved.data)
+    {
+      CeldStatus status = celd_labels_new (s->ink.width, s->ink.height, &s->solved);
+
+      if (status != CELD_OK)
+        return status;
+    }
+  return tell_ink (s, run);
+}
+
+/* The labels of the segmenter with each region on its own. */
+static CeldStatus
+separate (const CeldSession *s, const CeldRun *run, CeldPalette *palette, CeldLabels *labels)
+{
+  CeldStatus status = celd_labels_new (s->solved.width, s->solved.height, labels);
+
+  if (status != CELD_OK)
+    return status;
+  memcpy (labels->data, s->solved.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
+  return celd_separate (run, labels, palette);
+}
+
+const CeldLabels *
+celd_session_current_labels (const CeldSession *session)
+{
+  return session->separated.data ? &session->separated : &session->solved;
+}
+
+/* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
+ * compared. */
+CeldStatus
+celd_make_labels (CeldSession *s, const CeldRun *run)
+{
+  bool         apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
+  CeldPart     part[3];
+  CeldRun      tell = celd_run_part (&part[0], run, 0, 0.5), solve = celd_run_part (&part[1], run, 0.5, 0.9);
+  CeldRun      last = celd_run_part (&part[2], run, 0.9, 1);
+  CeldLabels   separated = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldProblems problems = { 0 };
+  CeldRect     changed = { 0 };
+  CeldStatus   status = prepare_segmenter (s, &tell);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->seed_palette, &palette);
+  if (status == CELD_OK)
+    status = celd_segmenter_solve (s->segmenter, &s->seeds, &s->relations, &s->settings, &solve, &palette, &problems,
+                                   &s->solved, &changed);
+  if (status == CELD_OK && !s->separated.data)
+    celd_session_see (s, STAGE_LABELS, changed);
+  if (status == CELD_OK && apart)
+    status = separate (s, &last, &palette, &separated);
+  if (status != CELD_OK)
+    {
+      celd_free (separated.data);
+      celd_palette_clear (&palette);
+      celd_problems_clear (&problems);
+      return status;
+    }
+  if (apart || s->separated.data)
+    celd_session_see (s, STAGE_LABELS,
+                      celd_difference (celd_session_current_labels (s)->data, apart ? separated.data : s->solved.data,
+                                       s->solved.width, s->solved.height, sizeof (uint32_t)));
+  celd_free (s->separated.data);
+  celd_palette_clear (&s->palette);
+  celd_problems_clear (&s->problems[STAGE_LABELS]);
+  s->separated = separated;
+  s->palette   = palette;
+  s->problems[STAGE_LABELS] = problems;
+  return CELD_OK;
+}

@@ -1,0 +1,258 @@
+/* What the host sets in a session.  Hosts set everything again at each preview: what is as it was changes nothing.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "session.h"
+
+#include <string.h>
+
+/* Do the rows of two pictures hold the same?  No picture is the same as no picture. */
+static bool
+same_rows (const void *a, size_t a_stride, const void *b, size_t b_stride, int height, size_t row)
+{
+  const uint8_t *p = a, *q = b;
+
+  for (int y = 0; p && q && y < height; y++, p += a_stride, q += b_stride)
+    if (memcmp (p, q, row))
+      return false;
+  return !p == !q;
+}
+
+static bool
+same_plane (const CeldPlane *a, const CeldPlane *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, a->stride * sizeof (float), b->data, b->stride * sizeof (float), a->height,
+                    (size_t) a->width * sizeof (float));
+}
+
+static bool
+same_paint (const CeldPaint *a, const CeldPaint *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, 4 * a->stride, b->data, 4 * b->stride, a->height, 4 * (size_t) a->width);
+}
+
+static bool
+same_term (const CeldTerm *a, const CeldTerm *b)
+{
+  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
+}
+
+static bool
+same_relations (const CeldRelations *a, const CeldRelations *b)
+{
+  for (size_t i = 0; i < a->n && a->n == b->n; i++)
+    {
+      const CeldRelation *p = &a->item[i], *q = &b->item[i];
+
+      if (!same_term (&p->nearer, &q->nearer) || !same_term (&p->farther, &q->farther) || p->equal != q->equal ||
+          p->crack != q->crack || p->anchor != q->anchor || p->weight != q->weight || p->gap != q->gap ||
+          p->line != q->line || p->column != q->column)
+        return false;
+    }
+  return a->n == b->n;
+}
+
+/* Each stage that reads a setting forgets its result; what is made from it goes with it. */
+CeldStatus
+celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
+{
+  const CeldSettings *a = &session->settings, *b = settings;
+  bool                threshold = a->ink_threshold != b->ink_threshold, tolerance = a->tolerance != b->tolerance;
+  bool                encoding = a->encoding != b->encoding || a->near_level != b->near_level ||
+                                 a->far_level != b->far_level;
+  CeldStatus          status = celd_settings_check (settings);
+
+  if (status != CELD_OK)
+    return status;
+  if (a->arrow_style != b->arrow_style)
+    celd_session_forget (session, STAGE_RELATIONS);
+  if (a->ink != b->ink)
+    celd_session_forget (session, STAGE_INK);
+  if (a->flats != b->flats)
+    celd_session_forget (session, STAGE_SCRIBBLES);
+  if (a->method != b->method || a->close_gaps != b->close_gaps || a->keep_necks != b->keep_necks ||
+      a->hardness != b->hardness || a->background != b->background ||
+      memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
+      a->same_colour != b->same_colour || threshold)
+    celd_session_forget (session, STAGE_LABELS);
+  if (encoding)
+    {
+      celd_session_forget (session, STAGE_FLAT);
+      celd_session_forget (session, STAGE_LEVELS);
+    }
+  if (a->anchors != b->anchors || tolerance || threshold)
+    celd_session_forget (session, STAGE_DEPTH);
+  if (a->bulge != b->bulge || tolerance || threshold)
+    celd_session_forget (session, STAGE_NORMALS);
+  if (a->light_azimuth != b->light_azimuth || a->light_elevation != b->light_elevation || a->ambient != b->ambient)
+    celd_session_forget (session, STAGE_SHADING);
+  session->settings = *settings;
+  return CELD_OK;
+}
+
+static CeldStatus
+copy_plane (const CeldPlane *from, CeldPlane *to)
+{
+  CeldStatus status = celd_plane_new (from->width, from->height, to);
+
+  for (int y = 0; status == CELD_OK && y < from->height; y++)
+    memcpy (&CELD_AT (to, 0, y), &CELD_AT (from, 0, y), (size_t) from->width * sizeof (float));
+  return status;
+}
+
+/* The layers have the drawing's size, so they go when another size comes. */
+static void
+clear_layers (CeldSession *s)
+{
+  celd_free (s->scribbles.data);
+  celd_free (s->arrows.data);
+  celd_free (s->contours.data);
+  s->scribbles = s->arrows = s->contours = (CeldPaint) { 0 };
+}
+
+CeldStatus
+celd_session_set_drawing (CeldSession *session, const CeldDrawing *drawing)
+{
+  const CeldPlane *luma = &drawing->luma, *alpha = &drawing->alpha, *old = &session->drawing.luma;
+  CeldDrawing      copy = { 0 };
+  CeldStatus       status;
+
+  if (!CELD_SAME_SIZE (luma, luma) || (alpha->data && !CELD_SAME_SIZE (luma, alpha)))
+    return CELD_BAD_SIZE;
+  if (same_plane (luma, old) && same_plane (alpha, &session->drawing.alpha))
+    return CELD_OK;
+  status = copy_plane (luma, &copy.luma);
+  if (status == CELD_OK && alpha->data)
+    status = copy_plane (alpha, &copy.alpha);
+  if (status != CELD_OK)
+    {
+      celd_free (copy.luma.data);
+      return status;
+    }
+  if (old->width != luma->width || old->height != luma->height)
+    {
+      celd_session_clear_results (session);
+      clear_layers (session);
+    }
+  celd_free (session->drawing.luma.data);
+  celd_free (session->drawing.alpha.data);
+  session->drawing = copy;
+  celd_session_forget (session, STAGE_INK);
+  return CELD_OK;
+}
+
+static CeldStatus
+set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage first_touched)
+{
+  CeldPaint copy = { 0 };
+
+  if (from)
+    {
+      size_t row = 4 * (size_t) from->width;
+
+      if (!CELD_SAME_SIZE (&s->drawing.luma, from))
+        return CELD_BAD_SIZE;
+      if (same_paint (from, layer))
+        return CELD_OK;
+      copy = (CeldPaint) { from->width, from->height, (size_t) from->width, celd_alloc ((size_t) from->height, row) };
+      if (!copy.data)
+        return CELD_NO_MEMORY;
+      for (int y = 0; y < from->height; y++)
+        memcpy (CELD_RGBA (&copy, 0, y), CELD_RGBA (from, 0, y), row);
+    }
+  else if (!layer->data)
+    return CELD_OK;
+  celd_free (layer->data);
+  *layer = copy;
+  celd_session_forget (s, first_touched);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles)
+{
+  return set_layer (session, scribbles, &session->scribbles, STAGE_SCRIBBLES);
+}
+
+CeldStatus
+celd_session_set_arrows (CeldSession *session, const CeldPaint *arrows)
+{
+  return set_layer (session, arrows, &session->arrows, STAGE_RELATIONS);
+}
+
+CeldStatus
+celd_session_set_contours (CeldSession *session, const CeldPaint *contours)
+{
+  return set_layer (session, contours, &session->contours, STAGE_INK);
+}
+
+CeldStatus
+celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error)
+{
+  CeldRelations relations = { 0 };
+  CeldStatus    status = celd_relations_parse (text ? text : "", &relations, error);
+
+  if (status != CELD_OK || same_relations (&relations, &session->text))
+    {
+      celd_relations_clear (&relations);
+      return status;
+    }
+  celd_relations_clear (&session->text);
+  session->text = relations;
+  celd_session_forget (session, STAGE_RELATIONS);
+  return CELD_OK;
+}
+
+/* Without the relations of one id; how many there were. */
+static size_t
+drop_relations (CeldRelations *relations, uint32_t id)
+{
+  size_t kept = 0, n = relations->n;
+
+  for (size_t i = 0; i < n; i++)
+    if (relations->item[i].id != id)
+      relations->item[kept++] = relations->item[i];
+  relations->n = kept;
+  return n - kept;
+}
+
+CeldStatus
+celd_session_put_relation (CeldSession *session, uint32_t id, const char *text, CeldTextError *error)
+{
+  CeldRelations all = { 0 };
+  CeldStatus    status = CELD_OK;
+
+  if (!id || !text)
+    return CELD_BAD_VALUE;
+  for (size_t i = 0; i < session->single.n && status == CELD_OK; i++)
+    if (session->single.item[i].id != id)
+      status = celd_relation_add (&all, session->single.item[i]);
+  if (status == CELD_OK)
+    {
+      size_t others = all.n;
+
+      status = celd_relations_parse (text, &all, error);
+      for (size_t i = others; i < all.n; i++)
+        all.item[i].id = id;
+    }
+  if (status != CELD_OK)
+    {
+      celd_relations_clear (&all);
+      return status;
+    }
+  celd_relations_clear (&session->single);
+  session->single = all;
+  celd_session_forget (session, STAGE_RELATIONS);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_session_remove_relation (CeldSession *session, uint32_t id)
+{
+  if (!drop_relations (&session->single, id))
+    return CELD_BAD_VALUE;
+  celd_session_forget (session, STAGE_RELATIONS);
+  return CELD_OK;
+}
