@@ -7,6 +7,8 @@
 
 #include "private.h"
 
+/* The sum of all costs of a problem, terminals included, is at most 2^60: nothing overflows then. */
+
 typedef struct { uint32_t a, b; int64_t cost; } CeldLink;           /* of different labels on the nodes a and b; > 0 */
 typedef struct { uint32_t node, label; int64_t cost; } CeldVote;    /* of another label than this on the node; > 0 */
 
