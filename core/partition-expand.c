@@ -1,0 +1,212 @@
+/* Alpha-expansion: Y. Boykov, O. Veksler and R. Zabih, "Fast Approximate Energy Minimization via Graph Cuts", PAMI
+ * 2001.  The best set of nodes that can take the label alpha at once is a minimum cut: the source side takes it.  This
+ * is repeated with all labels in turn until none of them lowers the energy.
+ *
+ * A link of cost w costs, by who keeps its label (k) and who takes alpha (t), in units of half the cost, so that all
+ * capacities are symmetric:
+ *   same label now:             kk 0, tk = kt 2w, tt 0:    capacity 2w both ways;
+ *   different labels:           kk = tk = kt 2w, tt 0:     capacity w both ways, and w for each of the two that keeps;
+ *   the other is alpha already: k 2w, t 0:                 2w for keeping.
+ * A vote v costs 2v for taking alpha if it is for the label that the node has, and for keeping if it is for alpha.
+ *
+ * Only the last rule and the votes for alpha depend on alpha.  Without them the network is that of a label that has
+ * neither nodes nor votes; its pseudo-flow is kept from one expansion to the next, so that only what borders on alpha
+ * and what votes for it is new.  Nodes that are alpha stand for the source: all they have left flows to the neighbours,
+ * and they are closed.  What was put on top for the votes is taken away in the end; a node that lacks it then is where
+ * the same expansion finds it again.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "partition-graph.h"
+
+typedef struct
+{
+  CeldPartitionGraph *graph;
+  int64_t *held;            /* of each node: the votes for the label that it has */
+  int64_t *wanted;          /* the votes for alpha, while it expands; else 0 */
+} Expansion;
+
+/* ------------------------------------------------------------------ the network without alpha */
+
+/* Nothing flows yet. */
+static void
+lay_out (Expansion *e)
+{
+  CeldPartitionGraph *graph = e->graph;
+
+  for (size_t i = 0; i < graph->of_rank[graph->n_ranks]; i++)
+    if (graph->ballot[i].rank == graph->rank[graph->ballot[i].node])
+      e->held[graph->ballot[i].node] = graph->ballot[i].cost;
+  for (uint32_t p = 0; p < graph->n; p++)
+    {
+      CeldFlowNode *node = &graph->network.node[p];
+
+      node->excess = -2 * e->held[p];
+      for (uint32_t a = node->arc; a < node[1].arc; a++)
+        {
+          CeldArc *arc = &graph->network.arc[a];
+          bool     same = graph->rank[arc->to] == graph->rank[p];
+
+          arc->left = arc->back = same ? 2 * graph->cost[a] : graph->cost[a];
+          node->excess += same ? 0 : graph->cost[a];
+        }
+    }
+}
+
+static void
+move (CeldNetwork *network, uint32_t p, CeldArc *arc, int64_t amount)
+{
+  CeldArc *sister = &network->arc[arc->sister];
+
+  arc->left    -= amount;
+  sister->back -= amount;
+  arc->back    += amount;
+  sister->left += amount;
+  network->node[p].excess       -= amount;
+  network->node[arc->to].excess += amount;
+}
+
+/* Adds to the capacity of a link, and takes from what keeping costs its two nodes, after an end of it has changed. */
+static void
+widen (CeldNetwork *network, uint32_t p, CeldArc *arc, int64_t cost)
+{
+  CeldArc *sister = &network->arc[arc->sister];
+
+  arc->left    += cost;
+  sister->back += cost;
+  arc->back    += cost;
+  sister->left += cost;
+  network->node[p].excess       -= cost;
+  network->node[arc->to].excess -= cost;
+}
+
+/* Gives p the label alpha in the network.  Where a link gets narrower than what flows there, less flows. */
+static void
+take (Expansion *e, uint32_t p, uint32_t alpha)
+{
+  CeldPartitionGraph *graph = e->graph;
+  CeldNetwork        *network = &graph->network;
+  CeldFlowNode       *node = &network->node[p];
+
+  for (uint32_t a = node->arc; a < node[1].arc; a++)
+    {
+      CeldArc *arc = &network->arc[a];
+      int64_t  cost = graph->cost[a];
+
+      if (graph->rank[arc->to] == alpha)
+        widen (network, p, arc, cost);
+      else if (graph->rank[arc->to] == graph->rank[p])
+        {
+          if (arc->left < cost)
+            move (network, p, arc, arc->left - cost);
+          else if (arc->back < cost)
+            move (network, p, arc, cost - arc->back);
+          widen (network, p, arc, -cost);
+        }
+    }
+  node->excess  += 2 * (e->held[p] - e->wanted[p]);
+  e->held[p]     = e->wanted[p];
+  graph->rank[p] = alpha;
+}
+
+/* ------------------------------------------------------------------ one expansion */
+
+/* The nodes that are alpha already are the source. */
+static void
+close_alpha (Expansion *e, uint32_t alpha)
+{
+  CeldNetwork *network = &e->graph->network;
+
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    {
+      CeldFlowNode *node = &network->node[p];
+
+      if (e->graph->rank[p] != alpha)
+        continue;
+      node->level = CELD_FLOW_CLOSED;
+      for (uint32_t a = node->arc; a < node[1].arc; a++)
+        if (network->arc[a].left && e->graph->rank[network->arc[a].to] != alpha)
+          move (network, p, &network->arc[a], network->arc[a].left);
+    }
+}
+
+/* Puts (sign = 1) or takes away (-1) what the votes for alpha add. */
+static void
+vote (Expansion *e, uint32_t alpha, int sign)
+{
+  CeldPartitionGraph *graph = e->graph;
+
+  for (size_t i = graph->of_rank[alpha]; i < graph->of_rank[alpha + 1]; i++)
+    {
+      const CeldBallot *ballot = &graph->ballot[graph->by_rank[i]];
+
+      if (graph->rank[ballot->node] == alpha)
+        continue;
+      graph->network.node[ballot->node].excess += 2 * sign * ballot->cost;
+      e->wanted[ballot->node] = ballot->cost;
+    }
+}
+
+static void
+forget_votes (Expansion *e, uint32_t alpha)
+{
+  for (size_t i = e->graph->of_rank[alpha]; i < e->graph->of_rank[alpha + 1]; i++)
+    e->wanted[e->graph->ballot[e->graph->by_rank[i]].node] = 0;
+}
+
+/* *changed: did any node take the label? */
+static CeldStatus
+expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
+{
+  CeldNetwork *network = &e->graph->network;
+  CeldStatus   status;
+
+  close_alpha (e, alpha);
+  vote (e, alpha, 1);
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (network->node[p].excess > 0 && network->node[p].level != CELD_FLOW_CLOSED)
+      celd_network_root (network, p);
+  status = celd_network_drain (network, run);
+  if (status != CELD_OK)
+    return status;
+  vote (e, alpha, -1);
+  for (size_t i = 0; i < network->n_reached; i++)
+    take (e, network->reached[i], alpha);
+  forget_votes (e, alpha);
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    network->node[p].level = 0;
+  *changed = network->n_reached;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
+{
+  Expansion  e = { .graph = graph };
+  uint32_t   alpha = 0;
+  size_t     settled = 0; /* labels in a row that could not expand */
+  CeldStatus status = CELD_NO_MEMORY;
+
+  e.held   = celd_alloc0 (graph->n, sizeof *e.held);
+  e.wanted = celd_alloc0 (graph->n, sizeof *e.wanted);
+  if (!e.held || !e.wanted)
+    goto done;
+  lay_out (&e);
+  status = celd_step (run, 0); /* how often all labels have to be tried cannot be told */
+  while (status == CELD_OK && settled < graph->n_ranks)
+    {
+      bool changed = false;
+
+      status = expand (&e, alpha, run, &changed);
+      if (status == CELD_OK)
+        status = celd_step (run, 0);
+      settled = changed ? 1 : settled + 1; /* twice in a row is of no use */
+      if (++alpha == graph->n_ranks)
+        alpha = 0;
+    }
+
+done:
+  celd_free (e.held);
+  celd_free (e.wanted);
+  return status;
+}
