@@ -1,9 +1,10 @@
 /* Which label is the background, and what of the paper along the frame it gets.
  *
- * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room (basin-unions.c)
- * holds that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that nobody holds are
- * seeded for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for a transparent label of
- * their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the background.)
+ * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room
+ * (basin-unions.c) holds that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that
+ * nobody holds are seeded for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for
+ * a transparent label of their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the
+ * background.)
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,5 +1,8 @@
 /* What the artist should know of a segmentation: strokes overruled, regions that no stroke reaches, colours lost.
  *
+ * All of it is told from the seeds and the basins; of the picture only painted pixels are looked at, and some of each
+ * region that may not be reached.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment.h"
@@ -9,82 +12,91 @@
 #define SCRAP          8    /* nor 1/8 of a colour's paint, which another stroke has cut off */
 
 /* How a connected stroke fared.  `other` is the label that most of its overruled pixels have, found by majority vote:
- * `lead` is how far it leads. */
-typedef struct { size_t overruled, lead; uint32_t other; int x, y; } Fate;
+ * `lead` is how far it leads.  (x,y): the middle of the longest row of overruled pixels. */
+typedef struct { uint32_t label, other; size_t area, overruled, lead; int longest, x, y; } Fate;
 
 /* ------------------------------------------------------------------ strokes */
 
+/* Pixels x .. end - 1 of row y, painted by a stroke, all have the label `other`. */
 static void
-follow_strokes (const CeldCanvas *canvas, const CeldLabels *strokes, const CeldLabels *seeds, Fate *fate)
+overrule (Fate *fate, uint32_t other, int y, int x, int end)
 {
-  for (int y = 0; y < canvas->height; y++)
-    for (int x = 0; x < canvas->width; x++)
-      {
-        uint32_t stroke = CELD_AT (strokes, x, y), l = CELD_AT (&canvas->labels, x, y);
-        Fate    *f = &fate[stroke];
+  size_t n = (size_t) (end - x);
 
-        if (!stroke || l == CELD_AT (seeds, x, y))
-          continue;
-        if (!f->overruled++)
-          {
-            f->x = x;
-            f->y = y;
-          }
-        if (!f->lead)
-          f->other = l;
-        f->lead = l == f->other ? f->lead + 1 : f->lead - 1;
-      }
+  fate->overruled += n;
+  if (fate->other == other)
+    fate->lead += n;
+  else if (fate->lead >= n)
+    fate->lead -= n;
+  else
+    {
+      fate->lead  = n - fate->lead;
+      fate->other = other;
+    }
+  if (end - x > fate->longest)
+    {
+      fate->longest = end - x;
+      fate->x       = x + (end - x) / 2;
+      fate->y       = y;
+    }
+}
+
+static void
+follow_strokes (const CeldSpread *spread, const CeldLabels *labels, Fate *fate)
+{
+  for (size_t i = 0; i < spread->n_dabs; i++)
+    {
+      const CeldDab  *dab = &spread->dab[i];
+      const uint32_t *label = &CELD_AT (labels, 0, dab->y);
+      Fate           *f = &fate[dab->stroke];
+
+      f->label = dab->label;
+      f->area += (size_t) (dab->end - dab->x);
+      for (int x = dab->x, end; x < dab->end; x = end)
+        {
+          for (end = x + 1; end < dab->end && label[end] == label[x]; end++)
+            ;
+          if (label[x] != dab->label)
+            overrule (f, label[x], dab->y, x, end);
+        }
+    }
 }
 
 static CeldStatus
-report_overruled (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldRun *run, CeldProblems *problems)
+report_overruled (const CeldCanvas *canvas, const CeldSpread *spread, const CeldLabels *labels, CeldProblems *problems)
 {
-  CeldLabels     strokes = { 0 };
-  CeldComponent *stroke = NULL;
-  Fate          *fate = NULL;
-  size_t         n = 0;
-  CeldStatus     status = celd_labels_new (canvas->width, canvas->height, &strokes);
+  Fate      *fate = celd_alloc0 (spread->n_strokes, sizeof *fate);
+  CeldStatus status = fate ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = celd_components (seeds, 0, true, run, &strokes, &stroke, &n);
-  if (status != CELD_OK)
-    goto done;
-  fate   = celd_alloc0 (n + 1, sizeof *fate);
-  status = fate ? CELD_OK : CELD_NO_MEMORY;
-  if (status != CELD_OK)
-    goto done;
-  follow_strokes (canvas, &strokes, seeds, fate);
-  for (size_t i = 0; i < n && status == CELD_OK; i++)
-    if (stroke[i].label <= canvas->palette.n && 2 * fate[i + 1].overruled > stroke[i].area &&
-        SCRAP * stroke[i].area >= canvas->palette.item[stroke[i].label - 1].seeds)
+    follow_strokes (spread, labels, fate);
+  for (size_t k = 0; k < spread->n_strokes && status == CELD_OK; k++)
+    if (fate[k].label <= canvas->palette.n && 2 * fate[k].overruled > fate[k].area &&
+        SCRAP * fate[k].area >= canvas->palette.item[fate[k].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
-        CELD_PROBLEM_STROKE_OVERRULED, fate[i + 1].x, fate[i + 1].y, stroke[i].label, fate[i + 1].other,
-        CELD_NO_INDEX });
-
-done:
-  celd_free (strokes.data);
-  celd_free (stroke);
+        CELD_PROBLEM_STROKE_OVERRULED, fate[k].x, fate[k].y, fate[k].label, fate[k].other, CELD_NO_INDEX });
   celd_free (fate);
   return status;
 }
 
 static CeldStatus
-report_lost (const CeldCanvas *canvas, const CeldLabels *seeds, CeldProblems *problems)
+report_lost (const CeldCanvas *canvas, const CeldSeedRows *seeds, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
   bool      *told = celd_alloc0 (canvas->palette.n + 1, sizeof *told);
 
   if (!told)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < canvas->height; y++)
-    for (int x = 0; x < canvas->width && status == CELD_OK; x++)
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
       {
-        uint32_t l = CELD_AT (seeds, x, y);
+        uint32_t l = seeds->row[y].run[i].label;
 
-        if (l < 1 || l > canvas->palette.n || canvas->palette.item[l - 1].area || told[l])
+        if (l > canvas->palette.n || canvas->palette.item[l - 1].area || told[l])
           continue;
         told[l] = true;
-        status  = celd_problem_add (problems, (CeldProblem) { CELD_PROBLEM_COLOUR_LOST, x, y, l, 0, CELD_NO_INDEX });
+        status  = celd_problem_add (problems, (CeldProblem) {
+          CELD_PROBLEM_COLOUR_LOST, seeds->row[y].run[i].x, y, l, 0, CELD_NO_INDEX });
       }
   celd_free (told);
   return status;
@@ -92,63 +104,110 @@ report_lost (const CeldCanvas *canvas, const CeldLabels *seeds, CeldProblems *pr
 
 /* ------------------------------------------------------------------ regions */
 
-/* Numbers pieces of a sensible size without a seed from 1, others 0; returns how many.  Pieces, not rooms: a stroke
- * reaches through a gap. */
-static size_t
-number_unreached (const CeldCanvas *canvas, size_t *area, uint32_t *number)
-{
-  size_t side = (size_t) (SMALLEST_WIDTH * canvas->stroke), n = 0;
+/* A closed piece of paper that may be worth a word.  `area`: of its basins, with ink; 0 if it is not.  `missing`: the
+ * paper that is yet to be found to make it so.  `basin`: the roomiest, from 1. */
+typedef struct { size_t area, missing, basin; } Piece;
 
-  for (size_t p = 0; p < canvas->n; p++)
-    area[canvas->pieces.data[p]]++;
-  for (size_t p = 0; p < canvas->n; p++)
-    if (canvas->seeds.data[p])
-      area[canvas->pieces.data[p]] = 0;
-  for (size_t k = 1; k <= canvas->n_pieces; k++)
-    if (area[k] >= side * side && area[k] > canvas->n / SMALLEST_SHARE)
-      number[k] = (uint32_t) ++n;
+static void
+gather_pieces (const CeldBasins *b, Piece *piece)
+{
+  for (size_t k = 0; k < b->n; k++)
+    {
+      Piece *p = &piece[b->piece[k]];
+
+      p->area += b->basin[k].area;
+      if (!p->basin || b->basin[k].squared > b->basin[p->basin - 1].squared)
+        p->basin = k + 1;
+    }
+}
+
+/* Keeps pieces of a sensible size without a seed on them; returns how many.  Pieces, not rooms: a stroke reaches
+ * through a gap. */
+static size_t
+choose_pieces (const CeldBasins *b, const CeldSpread *spread, Piece *piece)
+{
+  size_t side = (size_t) (SMALLEST_WIDTH * b->stroke), n = 0;
+  size_t least = (size_t) b->width * (size_t) b->height / SMALLEST_SHARE + 1;
+
+  least = least > side * side ? least : side * side;
+  piece[0].area = 0;
+  for (size_t i = 0; i < spread->n; i++)
+    piece[spread->share[i].part].area = 0;
+  for (size_t k = 1; k <= b->n_pieces; k++)
+    if (piece[k].area >= least)
+      {
+        piece[k].missing = least;
+        n++;
+      }
+    else
+      piece[k].area = 0;
   return n;
 }
 
-static CeldStatus
-report_unreached (const CeldCanvas *canvas, const CeldRun *run, CeldProblems *problems)
+/* Looks for the paper of `n` pieces until it is enough. */
+static void
+find_paper (const CeldCanvas *canvas, size_t n, Piece *piece)
 {
-  size_t     *area = celd_alloc0 (canvas->n_pieces + 1, sizeof *area);
-  uint32_t   *number = celd_alloc0 (canvas->n_pieces + 1, sizeof *number);
-  CeldLabels  numbers = { 0 };
-  CeldPalette place = { 0 };
-  CeldStatus  status = area && number ? CELD_OK : CELD_NO_MEMORY;
+  const CeldBasins *b = canvas->basins;
 
-  if (status != CELD_OK || !(place.n = number_unreached (canvas, area, number)))
-    goto done;
-  place.item = celd_alloc0 (place.n, sizeof *place.item);
-  status = place.item ? celd_labels_new (canvas->width, canvas->height, &numbers) : CELD_NO_MEMORY;
-  if (status != CELD_OK)
-    goto done;
-  for (size_t p = 0; p < canvas->n; p++)
-    numbers.data[p] = number[canvas->pieces.data[p]];
-  status = celd_palette_measure (&numbers, NULL, run, &place);
-  for (size_t k = 0; k < place.n && status == CELD_OK; k++)
-    status = celd_problem_add (problems, (CeldProblem) {
-      CELD_PROBLEM_REGION_UNREACHED, place.item[k].x, place.item[k].y,
-      CELD_AT (&canvas->labels, place.item[k].x, place.item[k].y), 0, CELD_NO_INDEX });
+  for (int y = 0; y < b->height && n; y++)
+    for (size_t i = b->row[y]; i < b->row[y + 1] && n; i++)
+      {
+        int    end = i + 1 < b->row[y + 1] ? b->run[i + 1].x : b->width;
+        Piece *p = &piece[b->piece[b->run[i].basin]];
 
-done:
-  celd_free (area);
-  celd_free (number);
-  celd_free (numbers.data);
-  celd_free (place.item);
+        if (!p->missing)
+          continue;
+        for (int x = b->run[i].x; x < end && p->missing; x++)
+          p->missing -= celd_is_paper (CELD_AT (canvas->ink, x, y));
+        n -= !p->missing;
+      }
+}
+
+static CeldStatus
+report_unreached (const CeldCanvas *canvas, const CeldLabels *labels, CeldProblems *problems)
+{
+  const CeldBasins *b = canvas->basins;
+  CeldSpread        spread = { 0 };
+  Piece            *piece = celd_alloc0 (b->n_pieces + 1, sizeof *piece);
+  CeldStatus        status = piece ? celd_spread_new (canvas, b->piece, &spread) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      gather_pieces (b, piece);
+      find_paper (canvas, choose_pieces (b, &spread, piece), piece);
+    }
+  for (size_t k = 1; k <= b->n_pieces && status == CELD_OK; k++)
+    if (piece[k].area && !piece[k].missing)
+      {
+        const CeldBasin *basin = &b->basin[piece[k].basin - 1];
+
+        status = celd_problem_add (problems, (CeldProblem) {
+          CELD_PROBLEM_REGION_UNREACHED, basin->x, basin->y, CELD_AT (labels, basin->x, basin->y), 0, CELD_NO_INDEX });
+      }
+  celd_spread_clear (&spread);
+  celd_free (piece);
   return status;
 }
 
 CeldStatus
-celd_segment_report (const CeldCanvas *canvas, const CeldLabels *seeds, const CeldRun *run, CeldProblems *problems)
+celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels, const CeldRun *run,
+                     CeldProblems *problems)
 {
-  CeldStatus status = canvas->settings->flats ? CELD_OK : report_overruled (canvas, seeds, run, problems);
+  bool       all = !canvas->settings->flats;
+  CeldCanvas painted = *canvas;
+  CeldSpread spread = { 0 };
+  CeldStatus status = CELD_OK;
 
+  painted.seeds = *seeds;
+  if (all)
+    status = celd_spread_new (&painted, canvas->basins->piece, &spread);
+  if (all && status == CELD_OK)
+    status = report_overruled (canvas, &spread, labels, problems);
   if (status == CELD_OK)
     status = report_lost (canvas, seeds, problems);
-  if (status == CELD_OK && !canvas->settings->flats)
-    status = report_unreached (canvas, run, problems);
-  return status;
+  if (all && status == CELD_OK)
+    status = report_unreached (canvas, labels, problems);
+  celd_spread_clear (&spread);
+  return status == CELD_OK ? celd_step (run, 1) : status;
 }

@@ -113,8 +113,8 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
   switch (p->kind)
     {
     case CELD_PROBLEM_STROKE_OVERRULED:
-      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: its pixels went to%s. Paint more of it, "
-                "close the contour there, or use hard strokes.",
+      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: most of it went to%s. Paint more of it there, "
+                "close the contour between the two, or use hard strokes.",
                 label, p->x, p->y, other[0] ? other : " another colour");
       break;
     case CELD_PROBLEM_REGION_UNREACHED:
