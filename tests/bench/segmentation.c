@@ -1,0 +1,402 @@
+/* Measures the segmentation of one drawing: line art, basins, first labels, further strokes, exact cuts, Boost's cuts.
+ *
+ *   bench-segmentation DRAWING SCRIBBLES TRUTH RUNS STROKES EXACT-STROKES BOOST [PREFIX]
+ *
+ * Prints one JSON object.  DRAWING has the size that is measured; SCRIBBLES and TRUTH are enlarged to it.  TRUTH has
+ * the colours that are right, and no alpha where nobody knows.  Times are medians of RUNS, in seconds of the processor's
+ * time.  BOOST 1: the problem that the exact method solved is solved again with Boost.  PREFIX: labels are kept in
+ * files.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "bench.h"
+#include "basins.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_RUNS 99
+
+void
+must (CeldStatus status)
+{
+  if (status == CELD_OK)
+    return;
+  fprintf (stderr, "%s\n", celd_status_text (status));
+  exit (1);
+}
+
+/* ------------------------------------------------------------------ figures */
+
+static int
+compare (const void *a, const void *b)
+{
+  double p = *(const double *) a, q = *(const double *) b;
+
+  return p < q ? -1 : p > q;
+}
+
+static double
+median (double *value, int n)
+{
+  qsort (value, (size_t) n, sizeof *value, compare);
+  return n % 2 ? value[n / 2] : (value[n / 2 - 1] + value[n / 2]) / 2;
+}
+
+static void
+print_number (const char *name, double value)
+{
+  printf (",\n  \"%s\": %.9g", name, value);
+}
+
+static void
+print_memory (const char *name, const Case *c, Memory before, Memory after)
+{
+  char   text[80];
+  double labels = 4;            /* bytes a pixel of the result */
+
+  snprintf (text, sizeof text, "%s kept", name);
+  print_number (text, ((double) after.live - (double) before.live) / (double) c->n - labels);
+  snprintf (text, sizeof text, "%s peak", name);
+  print_number (text, ((double) after.peak - (double) before.live) / (double) c->n - labels);
+}
+
+/* ------------------------------------------------------------------ sessions */
+
+static CeldSession *
+open_session (const Case *c, const CeldSettings *settings)
+{
+  CeldSession *session = celd_session_new ();
+  CeldPlane    ink;
+
+  if (!session)
+    must (CELD_NO_MEMORY);
+  must (celd_session_set_settings (session, settings));
+  must (celd_session_set_drawing (session, &c->drawing));
+  must (celd_session_set_scribbles (session, &c->scribbles));
+  must (celd_session_ink (session, NULL, &ink, NULL));
+  return session;
+}
+
+static double
+time_labels (CeldSession *session)
+{
+  CeldLabels labels;
+  CeldRect   changed;
+  double     start = seconds ();
+
+  must (celd_session_labels (session, NULL, &labels, &changed));
+  return seconds () - start;
+}
+
+static Answer
+answer_of (const Case *c, CeldSession *session)
+{
+  const CeldPalette *palette;
+  CeldLabels         labels;
+  Answer             answer = { malloc (c->n * sizeof *answer.label), { 0 } };
+
+  must (celd_session_labels (session, NULL, &labels, NULL));
+  palette             = celd_session_palette (session);
+  answer.palette.n    = palette->n;
+  answer.palette.item = malloc (palette->n * sizeof *palette->item);
+  if (!answer.label || !answer.palette.item)
+    must (CELD_NO_MEMORY);
+  memcpy (answer.label, labels.data, c->n * sizeof *answer.label);
+  memcpy (answer.palette.item, palette->item, palette->n * sizeof *palette->item);
+  return answer;
+}
+
+/* ------------------------------------------------------------------ line art and basins */
+
+static void
+measure_ink (const Case *c)
+{
+  double time[MOST_RUNS];
+
+  for (int i = 0; i < c->runs; i++)
+    {
+      CeldSession *session = celd_session_new ();
+      CeldPlane    ink;
+      double       start;
+
+      must (celd_session_set_drawing (session, &c->drawing));
+      start = seconds ();
+      must (celd_session_ink (session, NULL, &ink, NULL));
+      time[i] = seconds () - start;
+      celd_session_free (session);
+    }
+  print_number ("ink", median (time, c->runs));
+}
+
+static void
+measure_basins (const Case *c, const CeldPlane *ink)
+{
+  double time[MOST_RUNS];
+
+  for (int i = 0; i < c->runs; i++)
+    {
+      CeldBasins basins = { 0 };
+      Memory     before = memory_now (), after;
+      double     start = seconds ();
+
+      memory_mark ();
+      must (celd_basins_new (ink, celd_settings ().ink_threshold, NULL, &basins));
+      time[i] = seconds () - start;
+      after = memory_now ();
+      if (i == 0)
+        {
+          print_number ("basins", (double) basins.n);
+          print_number ("borders", (double) basins.n_borders);
+          print_number ("blocks", (double) basins.n_blocks);
+          print_number ("stroke width", basins.stroke);
+          print_number ("basins kept", (double) (after.live - before.live) / (double) c->n);
+          print_number ("basins peak", (double) (after.peak - before.live) / (double) c->n);
+        }
+      celd_basins_clear (&basins);
+    }
+  print_number ("build", median (time, c->runs));
+}
+
+/* Puts and removes strokes, one by one. */
+static void
+measure_strokes (const Case *c, const char *method, int n, CeldSession *session)
+{
+  Answer before = answer_of (c, session), after;
+  double *time = calloc ((size_t) n, sizeof *time), *removed = calloc ((size_t) n, sizeof *removed);
+  double  width = brush_width (&c->scribbles), worst = -1, parts[N_PARTS] = { 0 };
+  Stroke  slowest = { 0 };
+  size_t  peak = 0;
+  char    text[80];
+
+  for (int i = 0; i < n; i++)
+    {
+      Stroke s = random_stroke (c->width, c->height, &before.palette, width);
+      Memory at = memory_now ();
+      double start = seconds ();
+
+      memory_mark ();
+      parts_reset ();
+      must (celd_session_put_stroke (session, 1000, s.x, s.y, &s.mask, s.colour));
+      time_labels (session);
+      time[i] = seconds () - start;
+      if (memory_now ().peak - at.live > peak)
+        peak = memory_now ().peak - at.live;
+      if (time[i] > worst)
+        {
+          worst   = time[i];
+          slowest = s;
+          memcpy (parts, part_seconds, sizeof parts);
+        }
+      start = seconds ();
+      must (celd_session_remove_stroke (session, 1000));
+      time_labels (session);
+      removed[i] = seconds () - start;
+      celd_free (s.mask.data);
+    }
+  after = answer_of (c, session);
+  if (memcmp (before.label, after.label, c->n * sizeof *before.label))
+    fprintf (stderr, "warning: %s: strokes that were put and removed left a mark\n", method);
+  snprintf (text, sizeof text, "%s stroke", method);
+  print_number (text, median (time, n));
+  snprintf (text, sizeof text, "%s stroke removed", method);
+  print_number (text, median (removed, n));
+  printf (",\n  \"%s worst stroke\": { \"seconds\": %.9g, \"x\": %d, \"y\": %d, \"length\": %.0f", method, worst,
+          slowest.x, slowest.y, slowest.length);
+  for (int i = 0; i < N_PARTS; i++)
+    printf (", \"%s\": %.9g", part_name[i], parts[i]);
+  printf (" }");
+  snprintf (text, sizeof text, "%s stroke peak", method);
+  print_number (text, (double) peak / (double) c->n);
+  answer_clear (&before);
+  answer_clear (&after);
+  free (time);
+  free (removed);
+}
+
+/* ------------------------------------------------------------------ the two methods */
+
+/* First labels of a drawing without anything but its line art, and memory; the last session. */
+static CeldSession *
+measure_first (const Case *c, const char *method, const CeldSettings *settings, int runs)
+{
+  double       time[MOST_RUNS];
+  char         text[80];
+  CeldSession *session = NULL;
+
+  for (int i = 0; i < runs; i++)
+    {
+      Memory before;
+
+      celd_session_free (session);
+      session = open_session (c, settings);
+      before  = memory_now ();
+      memory_mark ();
+      time[i] = time_labels (session);
+      if (i == 0)
+        print_memory (method, c, before, memory_now ());
+    }
+  snprintf (text, sizeof text, "%s first", method);
+  print_number (text, median (time, runs));
+  return session;
+}
+
+/* All scribbles again for a drawing whose basins are there. */
+static void
+measure_again (const Case *c, CeldSession *session)
+{
+  CeldPaint  empty = { c->width, c->height, (size_t) c->width, calloc (4, c->n) };
+  CeldLabels labels;
+  double     time[MOST_RUNS], parts[N_PARTS][MOST_RUNS];
+
+  if (!empty.data)
+    must (CELD_NO_MEMORY);
+  for (int i = 0; i < c->runs; i++)
+    {
+      must (celd_session_set_scribbles (session, &empty));
+      (void) celd_session_labels (session, NULL, &labels, NULL);
+      must (celd_session_set_scribbles (session, &c->scribbles));
+      parts_reset ();
+      time[i] = time_labels (session);
+      for (int k = 0; k < N_PARTS; k++)
+        parts[k][i] = part_seconds[k];
+    }
+  print_number ("engine again", median (time, c->runs));
+  for (int k = 0; k < N_PARTS; k++)
+    {
+      char text[80];
+
+      snprintf (text, sizeof text, "engine again, %s", part_name[k]);
+      print_number (text, median (parts[k], c->runs));
+    }
+  free (empty.data);
+}
+
+/* The problem that the exact method solved, with Boost. */
+static void
+measure_boost (const Case *c, const Costs *costs, const Answer *exact)
+{
+  CeldMultiway m = { problem.width, problem.height, problem.east, problem.south, problem.seed, problem.vote,
+                     problem.order, problem.n_labels };
+  uint32_t    *label = calloc (c->n, sizeof *label);
+  Memory       before = memory_now ();
+  double       start = seconds ();
+  size_t       disobeyed;
+
+  if (!label)
+    must (CELD_NO_MEMORY);
+  use_boost = true;
+  memory_mark ();
+  must (celd_multiway (&m, NULL, label));
+  print_number ("boost first", seconds () - start);
+  print_number ("boost peak", (double) (memory_now ().peak - before.live) / (double) c->n);
+  use_boost = false;
+  if (energy_of (costs, &problem, label, &disobeyed) != energy_of (costs, &problem, exact->label, &disobeyed))
+    fprintf (stderr, "warning: Boost finds another energy than the exact method\n");
+  if (memcmp (label, exact->label, c->n * sizeof *label))
+    fprintf (stderr, "warning: Boost finds other labels than the exact method\n");
+  free (label);
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+/* Soft and hard strokes with what raises the energy by design turned off, and soft strokes with all of it. */
+static void
+measure_methods (const Case *c, const CeldPlane *ink)
+{
+  CeldSettings wanted = celd_settings (), soft = wanted, hard, exactly;
+  Costs        costs = costs_of (ink, wanted.ink_threshold);
+  CeldSession *session = measure_first (c, "engine", &wanted, c->runs);
+  Answer       engine, plain, exact;
+
+  measure_again (c, session);
+  if (c->strokes)
+    measure_strokes (c, "engine", c->strokes, session);
+  engine = answer_of (c, session);
+  answer_keep (c, "default", &engine);
+
+  soft.close_gaps = soft.keep_necks = false;
+  must (celd_session_set_settings (session, &soft));
+  plain = answer_of (c, session);
+  celd_session_free (session);
+  exactly = soft;
+  exactly.method = CELD_METHOD_EXACT;
+  keep_problem = true;
+  session = measure_first (c, "exact", &exactly, 1);
+  keep_problem = false;
+  exact = answer_of (c, session);
+  compare_costs (&costs);
+  if (c->exact_strokes)
+    measure_strokes (c, "exact", c->exact_strokes, session);
+  celd_session_free (session);
+  if (c->boost)
+    measure_boost (c, &costs, &exact);
+  compare_print (c, "soft", ink, &costs, &plain, &exact);
+  compare_print (c, "default", ink, &costs, &engine, &exact);
+  answer_keep (c, "soft", &plain);
+  answer_keep (c, "exact", &exact);
+  answer_clear (&engine);
+  answer_clear (&plain);
+  answer_clear (&exact);
+
+  hard = soft;
+  hard.hardness = 1;
+  session = open_session (c, &hard);
+  plain = answer_of (c, session);
+  hard.method = CELD_METHOD_EXACT;
+  keep_problem = true;
+  must (celd_session_set_settings (session, &hard));
+  exact = answer_of (c, session);
+  keep_problem = false;
+  celd_session_free (session);
+  compare_print (c, "hard", ink, &costs, &plain, &exact);
+  answer_keep (c, "hard", &plain);
+  answer_keep (c, "exact-hard", &exact);
+  answer_clear (&plain);
+  answer_clear (&exact);
+  problem_clear ();
+  free (costs.east);
+  free (costs.south);
+}
+
+int
+main (int argc, char **argv)
+{
+  Case         c = { 0 };
+  CeldSettings settings = celd_settings ();
+  CeldSession *session;
+  CeldPlane    ink;
+
+  if (argc < 8)
+    {
+      fprintf (stderr, "usage: %s DRAWING SCRIBBLES TRUTH RUNS STROKES EXACT-STROKES BOOST [PREFIX]\n", argv[0]);
+      return 2;
+    }
+  c.drawing.luma  = read_grey (argv[1]);
+  c.width         = c.drawing.luma.width;
+  c.height        = c.drawing.luma.height;
+  c.n             = (size_t) c.width * (size_t) c.height;
+  c.scribbles     = read_colours (argv[2], c.width, c.height);
+  c.truth         = read_colours (argv[3], c.width, c.height);
+  c.runs          = atoi (argv[4]) < 1 ? 1 : atoi (argv[4]) > MOST_RUNS ? MOST_RUNS : atoi (argv[4]);
+  c.strokes       = atoi (argv[5]);
+  c.exact_strokes = atoi (argv[6]);
+  c.boost         = atoi (argv[7]) > 0;
+  c.prefix        = argv[8];
+
+  printf ("{ \"width\": %d, \"height\": %d", c.width, c.height);
+  print_number ("brush", brush_width (&c.scribbles));
+  measure_ink (&c);
+  session = open_session (&c, &settings);
+  must (celd_session_ink (session, NULL, &ink, NULL));
+  measure_basins (&c, &ink);
+  measure_methods (&c, &ink);
+  printf (" }\n");
+  celd_session_free (session);
+  celd_free (c.drawing.luma.data);
+  free (c.scribbles.data);
+  free (c.truth.data);
+  return 0;
+}

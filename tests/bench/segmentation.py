@@ -1,0 +1,217 @@
+#!/usr/bin/python3
+"""Measures the segmentation of drawings with ground truth on one core; tests/bench/segmentation builds and calls it.
+
+Prints tables, and writes them to results/ under the version and the processor's name.  README.md says what the figures
+are.
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import argparse
+import json
+import math
+import os
+import platform
+import re
+import subprocess
+import sys
+
+import numpy as np
+from PIL import Image
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+CASES = os.path.join(HERE, '..', 'cases')
+CLEAN = ['frog', 'bee', 'monkey', 'house', 'caterpillar']
+VARIANTS = [f'{name}-{kind}' for kind in ('gappy', 'wide', 'pencil') for name in ('bee', 'monkey', 'caterpillar')]
+BOOST = ['frog', 'monkey-gappy', 'caterpillar-pencil']
+NO_SHAPE = 255  # in truth.png
+
+
+# ------------------------------------------------------------------ pages: what the program reads
+
+def write_pam(path, pixels):
+    height, width = pixels.shape[:2]
+    depth = pixels.shape[2] if pixels.ndim == 3 else 1
+    with open(path + '.new', 'wb') as f:
+        f.write(f'P7\nWIDTH {width}\nHEIGHT {height}\nDEPTH {depth}\nMAXVAL 255\nENDHDR\n'.encode())
+        f.write(np.ascontiguousarray(pixels, np.uint8).tobytes())
+    os.replace(path + '.new', path)
+
+
+def enlarged(picture, megapixels):
+    scale = math.sqrt(1e6 * megapixels / (picture.width * picture.height))
+    return picture.resize([round(scale * side) for side in picture.size], Image.LANCZOS)
+
+
+def true_colours(case):
+    """The colour that every pixel should have; transparent where nobody knows."""
+    shape = np.array(Image.open(os.path.join(case, 'truth.png')))
+    with open(os.path.join(case, 'truth.json')) as f:
+        facts = json.load(f)
+    table = np.zeros((NO_SHAPE + 1, 4), np.uint8)
+    for i in facts['shapes']:
+        table[i] = [*facts['colours'][str(i)], 255]
+    return table[shape]
+
+
+def make_page(name, megapixels, folder):
+    """Files of a case: the drawing enlarged, scribbles and truth as they are."""
+    case = os.path.join(CASES, name)
+    pages = {
+        os.path.join(folder, f'{name}-{megapixels:g}.pam'):
+            lambda: np.array(enlarged(Image.open(os.path.join(case, 'drawing.png')).convert('L'), megapixels)),
+        os.path.join(folder, f'{name}-scribbles.pam'):
+            lambda: np.array(Image.open(os.path.join(case, 'scribbles.png')).convert('RGBA')),
+        os.path.join(folder, f'{name}-truth.pam'): lambda: true_colours(case)}
+    for path, make in pages.items():
+        if not os.path.exists(path):
+            write_pam(path, make())
+    return list(pages)
+
+
+# ------------------------------------------------------------------ runs
+
+def pin():
+    os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
+def measure(name, megapixels, options):
+    """The program's figures, by name."""
+    pages = os.path.join(options.build, 'pages')
+    os.makedirs(pages, exist_ok=True)
+    program = os.path.join(options.build, 'tests', 'bench', 'bench-segmentation')
+    numbers = options.runs, options.strokes, options.exact_strokes, int(name in options.boost_cases)
+    command = [program, *make_page(name, megapixels, pages), *map(str, numbers)]
+    if options.keep:
+        os.makedirs(options.keep, exist_ok=True)
+        command.append(os.path.join(options.keep, f'{name}-{megapixels:g}-'))
+    run = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin)
+    if run.returncode:
+        sys.exit(f'{" ".join(command)}: exit status {run.returncode}')
+    return {'case': name, 'megapixels': megapixels, **json.loads(run.stdout)}
+
+
+# ------------------------------------------------------------------ tables
+
+def milliseconds(*keys):
+    return lambda r: sum(1000 * r[key] for key in keys) if all(key in r for key in keys) else None
+
+
+def times(slow, fast):
+    return lambda r: r[slow] / r[fast] if slow in r and r.get(fast) else None
+
+
+def of(settings, figure, factor=1):
+    return lambda r: factor * r[settings][figure]
+
+
+def share(settings, figure):
+    """Of the disputed pixels, in percent."""
+    return lambda r: 100 * r[settings][figure] / r[settings]['disputed'] if r[settings]['disputed'] else None
+
+
+TABLES = [
+    ('Times in milliseconds', [
+        ('ink', '.0f', milliseconds('ink')),
+        ('build', '.1f', milliseconds('build')),
+        ('build/MP', '.1f', lambda r: 1000 * r['build'] / r['megapixels']),
+        ('first', '.1f', milliseconds('engine first')),
+        ('again', '.2f', milliseconds('engine again')),
+        ('cuts', '.2f', milliseconds('engine again, partition')),
+        ('stroke', '.2f', milliseconds('engine stroke')),
+        ('worst', '.1f', lambda r: 1000 * r['engine worst stroke']['seconds'] if 'engine worst stroke' in r else None),
+        ('removed', '.2f', milliseconds('engine stroke removed')),
+        ('exact', '.0f', milliseconds('exact first')),
+        ('+stroke', '.0f', milliseconds('exact stroke')),
+        ('boost', '.0f', milliseconds('boost first')),
+        ('x first', '.0f', times('boost first', 'engine first')),
+        ('x stroke', '.0f', times('boost first', 'engine stroke'))]),
+    ('Bytes a pixel beyond input and output', [
+        ('kept', '.2f', lambda r: r['engine kept']),
+        ('peak', '.2f', lambda r: r['engine peak']),
+        ('stroke', '.2f', lambda r: r.get('engine stroke peak')),
+        ('exact', '.1f', lambda r: r['exact peak']),
+        ('boost', '.0f', lambda r: r.get('boost peak'))]),
+    ('Energy as a multiple of exact cuts, white pixels that agree with them (%)', [
+        ('E soft', '.4f', of('soft', 'ratio')),
+        ('E hard', '.4f', of('hard', 'ratio')),
+        ('disobeyed', '.0f', of('hard', 'disobeyed')),
+        ('soft', '.3f', of('soft', 'agreement', 100)),
+        ('hard', '.3f', of('hard', 'agreement', 100)),
+        ('default', '.3f', of('default', 'agreement', 100))]),
+    ('Scored pixels that are right (%), and who is right of those that differ (%)', [
+        ('exact', '.3f', of('soft', 'exact segment', 100)),
+        ('soft', '.3f', of('soft', 'segment', 100)),
+        ('differ', '.0f', of('soft', 'disputed')),
+        ('soft', '.0f', share('soft', 'engine right')),
+        ('exact', '.0f', share('soft', 'exact right')),
+        ('default', '.3f', of('default', 'segment', 100)),
+        ('differ', '.0f', of('default', 'disputed')),
+        ('default', '.0f', share('default', 'engine right')),
+        ('exact', '.0f', share('default', 'exact right'))]),
+]
+
+
+def row(name, cells):
+    return f'{name:24}' + ''.join(f'{cell:>10}' for cell in cells)
+
+
+def table(title, columns, results):
+    yield title
+    yield row('', [name for name, _, _ in columns])
+    for size in sorted({r['megapixels'] for r in results}):
+        for r in results:
+            if r['megapixels'] == size:
+                values = [(value(r), form) for _, form, value in columns]
+                yield row(f'{r["case"]}, {size:g} MP', ['-' if v is None else format(v, form) for v, form in values])
+    yield ''
+
+
+def processor():
+    with open('/proc/cpuinfo') as f:
+        names = [line.split(':', 1)[1].strip() for line in f if line.startswith('model name')]
+    return names[0] if names else platform.machine()
+
+
+def version():
+    with open(os.path.join(HERE, '..', '..', 'meson.build')) as f:
+        return re.search(r"version: '([^']+)'", f.read()).group(1)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    names = lambda text: [name for name in text.split(',') if name]
+    parser.add_argument('--build', default='build-bench', metavar='DIR', help=argparse.SUPPRESS)
+    parser.add_argument('--cases', type=names, default=CLEAN + VARIANTS, metavar='NAME,...', help='of tests/cases')
+    parser.add_argument('--boost-cases', type=names, default=BOOST, metavar='NAME,...',
+                        help=f'those that Boost solves too ({",".join(BOOST)})')
+    parser.add_argument('--sizes', type=lambda text: [float(s) for s in text.split(',')], default=[1, 4, 8.3],
+                        metavar='MP,...', help='megapixels (1,4,8.3)')
+    parser.add_argument('--runs', type=int, default=5, metavar='N', help='of ink, build and first labels (5)')
+    parser.add_argument('--strokes', type=int, default=50, metavar='N', help='random strokes (50)')
+    parser.add_argument('--exact-strokes', type=int, default=1, metavar='N', help='the same with exact cuts (1)')
+    parser.add_argument('--keep', metavar='DIR', help='keeps the labels of every method, as PAM')
+    parser.add_argument('--json', action='store_true', help='prints all figures in JSON instead, and writes no file')
+    parser.add_argument('--no-save', action='store_true', help='writes no file')
+    options = parser.parse_args()
+
+    results = []
+    for size in options.sizes:
+        for name in options.cases:
+            print(f'{name}, {size:g} MP', file=sys.stderr)
+            results.append(measure(name, size, options))
+    if options.json:
+        print(json.dumps(results, indent=1))
+        return
+    lines = [f'celdepth {version()}, one core of {processor()}; '
+             f'medians of {options.runs} runs and of {options.strokes} strokes', '']
+    for title, columns in TABLES:
+        lines += table(title, columns, results)
+    print('\n'.join(lines))
+    if not options.no_save:
+        file = re.sub(r'[^A-Za-z0-9.]+', '-', f'segmentation-{version()}-{processor()}') + '.txt'
+        with open(os.path.join(HERE, 'results', file), 'w') as f:
+            f.write('\n'.join(lines[:-1]) + '\n')
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,196 @@
+/* Time, memory, and what happens within core: the program is linked with --wrap, so that the functions below stand
+ * before those of the C library and of core.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "bench.h"
+#include "painting.h"
+#include "partition.h"
+#include "segment.h"
+
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+double
+seconds (void)
+{
+  struct timespec t;
+
+  clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
+}
+
+/* ------------------------------------------------------------------ memory */
+
+void *__real_malloc (size_t size);
+void *__real_calloc (size_t count, size_t size);
+void *__real_realloc (void *memory, size_t size);
+void  __real_free (void *memory);
+void *__wrap_malloc (size_t size);
+void *__wrap_calloc (size_t count, size_t size);
+void *__wrap_realloc (void *memory, size_t size);
+void  __wrap_free (void *memory);
+
+static Memory memory;
+
+static void *
+taken (void *block)
+{
+  memory.live += malloc_usable_size (block);
+  if (memory.live > memory.peak)
+    memory.peak = memory.live;
+  return block;
+}
+
+void *
+__wrap_malloc (size_t size)
+{
+  return taken (__real_malloc (size));
+}
+
+void *
+__wrap_calloc (size_t count, size_t size)
+{
+  return taken (__real_calloc (count, size));
+}
+
+void *
+__wrap_realloc (void *block, size_t size)
+{
+  size_t before = malloc_usable_size (block);
+  void  *grown = __real_realloc (block, size);
+
+  if (grown)
+    memory.live -= before;
+  return grown ? taken (grown) : NULL;
+}
+
+void
+__wrap_free (void *block)
+{
+  memory.live -= malloc_usable_size (block);
+  __real_free (block);
+}
+
+void
+memory_mark (void)
+{
+  memory.peak = memory.live;
+}
+
+Memory
+memory_now (void)
+{
+  return memory;
+}
+
+/* ------------------------------------------------------------------ the exact cuts */
+
+CeldStatus __real_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label);
+CeldStatus __wrap_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label);
+CeldStatus __real_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south,
+                                const int32_t *terminal, const CeldRun *run, uint8_t *side, int64_t *flow);
+CeldStatus __wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south,
+                                const int32_t *terminal, const CeldRun *run, uint8_t *side, int64_t *flow);
+
+bool    keep_problem, use_boost;
+Problem problem;
+
+void
+problem_clear (void)
+{
+  free (problem.east);
+  free (problem.south);
+  free (problem.vote);
+  free (problem.seed);
+  free (problem.order);
+  problem = (Problem) { 0 };
+}
+
+static void *
+copy (const void *from, size_t count, size_t size)
+{
+  void *to = malloc (count * size);
+
+  if (!to)
+    abort ();
+  return memcpy (to, from, count * size);
+}
+
+CeldStatus
+__wrap_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label)
+{
+  size_t n = (size_t) m->width * (size_t) m->height;
+
+  if (keep_problem)
+    {
+      problem_clear ();
+      problem = (Problem) {
+        m->width, m->height, copy (m->east, n, sizeof *m->east), copy (m->south, n, sizeof *m->south),
+        copy (m->vote, m->n_labels, sizeof *m->vote), copy (m->seed, n, sizeof *m->seed),
+        copy (m->order, m->n_labels, sizeof *m->order), m->n_labels
+      };
+    }
+  return __real_celd_multiway (m, run, label);
+}
+
+CeldStatus
+__wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
+                     const CeldRun *run, uint8_t *side, int64_t *flow)
+{
+  return use_boost ? boost_maxflow (width, height, east, south, terminal, side, flow)
+                   : __real_celd_maxflow (width, height, east, south, terminal, run, side, flow);
+}
+
+/* ------------------------------------------------------------------ steps of the engine */
+
+const char *const part_name[N_PARTS] = {
+  "stains", "background", "graph", "partition", "windows", "closures", "painting", "report"
+};
+double part_seconds[N_PARTS];
+
+void
+parts_reset (void)
+{
+  memset (part_seconds, 0, sizeof part_seconds);
+}
+
+#define STEP(part, name, parameters, arguments) \
+  CeldStatus __real_##name parameters; \
+  CeldStatus __wrap_##name parameters; \
+  CeldStatus \
+  __wrap_##name parameters \
+  { \
+    double     start = seconds (); \
+    CeldStatus status = __real_##name arguments; \
+ \
+    part_seconds[part] += seconds () - start; \
+    return status; \
+  }
+
+STEP (PART_STAINS, celd_stains_remove, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
+STEP (PART_BACKGROUND, celd_background_seed, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
+STEP (PART_GRAPH, celd_graph_solve, (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label),
+      (canvas, run, label))
+STEP (PART_PARTITION, celd_partition,
+      (const CeldPartition *m, const CeldRun *run, uint32_t *label, int64_t *energy, int64_t *greedy),
+      (m, run, label, energy, greedy))
+STEP (PART_WINDOWS, celd_windows_solve,
+      (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run, CeldPatches *patches),
+      (canvas, label, run, patches))
+STEP (PART_CLOSURES, celd_closures_find,
+      (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
+       const CeldRun *run, CeldClosures *closures, CeldPatches *patches),
+      (canvas, label, labels, windows, run, closures, patches))
+STEP (PART_PAINTING, celd_painting_end,
+      (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, const CeldLabels *labels),
+      (painting, basins, old, labels))
+STEP (PART_PAINTING, celd_painting_measure,
+      (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette),
+      (painting, basins, labels, palette))
+STEP (PART_REPORT, celd_segment_report,
+      (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels, const CeldRun *run,
+       CeldProblems *problems),
+      (canvas, seeds, labels, run, problems))
