@@ -6,6 +6,9 @@
 
 #ifdef GEGL_PROPERTIES
 
+property_enum (result, "Result", CeldSegmentResult, celd_segment_result, CELD_SEGMENT_LABELS)
+    description ("The regions, or what the artist may want to see of how they came about")
+
 CELD_PROPERTY_INK
 CELD_PROPERTY_INK_THRESHOLD
 CELD_PROPERTY_METHOD
@@ -45,12 +48,47 @@ settings (GeglProperties *o)
   s.ink           = o->ink;
   s.ink_threshold = (float) o->ink_threshold;
   s.method        = o->method;
+  s.close_gaps    = o->close_gaps;
+  s.keep_necks    = o->keep_necks;
   s.hardness      = (float) o->hardness;
   s.flats         = o->flats;
   s.background    = o->background;
   s.seeds         = o->seeds;
+  s.arrow_style   = o->arrow_style;
   celd_op_get_colour (o->background_colour, s.background_colour);
   return s;
+}
+
+/* A layer for the artist: over the drawing it shows what was closed, and it can be given back as virtual contours. */
+static gboolean
+write_closures (CeldOp *op)
+{
+  CeldPaint paint;
+
+  return celd_op_new_paint (op, &paint) &&
+         celd_op_try (op, celd_session_paint_closures (op->operation->session, &op->run, &paint)) &&
+         celd_op_write (op, paint.data);
+}
+
+static gboolean
+write_problems (CeldOp *op)
+{
+  CeldLabels labels;
+
+  return celd_op_try (op, celd_session_labels (op->operation->session, &op->run, &labels, NULL)) &&
+         celd_op_write_problems (op);
+}
+
+static gboolean
+write_result (CeldOp *op)
+{
+  switch (GEGL_PROPERTIES (op->operation)->result)
+    {
+    case CELD_SEGMENT_LABELS:   return celd_op_write_labels (op);
+    case CELD_SEGMENT_CLOSURES: return write_closures (op);
+    case CELD_SEGMENT_PROBLEMS: return write_problems (op);
+    }
+  return FALSE;
 }
 
 static gboolean
@@ -58,16 +96,10 @@ render (CeldOp *op)
 {
   GeglProperties *o = GEGL_PROPERTIES (op->operation);
   CeldSettings    s = settings (o);
-  CeldPlane       ink;
-  CeldLabels      labels;
 
-  return celd_op_read_ink (op, "input", o->ink, &ink) &&
-         celd_op_read_scribbles (op, "aux", &s, &labels) &&
-         celd_op_read_relations (op, o->relations, "aux2", o->arrow_style) &&
-         celd_op_try (op, celd_segment (&ink, &labels, &op->relations, &s, &op->run,
-                                        &labels, &op->palette, &op->problems)) &&
-         celd_op_tell (op, &op->problems, &op->palette, &op->relations, NULL) &&
-         celd_op_write_paint (op, &labels, &op->palette);
+  return celd_op_set_session (op, &s, o->relations) &&
+         write_result (op) &&
+         celd_op_tell_session (op, NULL);
 }
 
 static void

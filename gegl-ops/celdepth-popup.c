@@ -54,6 +54,7 @@ prepare (GeglOperation *operation)
   static const char *const formats[] = {
     [CELD_POPUP_LABELS] = "R'G'B'A u8", [CELD_POPUP_ORDER]   = "Y float",   [CELD_POPUP_LEVELS]  = "Y float",
     [CELD_POPUP_DEPTH]  = "Y float",    [CELD_POPUP_NORMALS] = "RGB float", [CELD_POPUP_SHADING] = "Y float",
+    [CELD_POPUP_PROBLEMS] = "R'G'B'A u8",
   };
 
   gegl_operation_set_format (operation, "output", babl_format (formats[GEGL_PROPERTIES (operation)->result]));
@@ -66,6 +67,8 @@ settings (GeglProperties *o)
     .ink             = o->ink,
     .ink_threshold   = (float) o->ink_threshold,
     .method          = o->method,
+    .close_gaps      = o->close_gaps,
+    .keep_necks      = o->keep_necks,
     .hardness        = (float) o->hardness,
     .flats           = o->flats,
     .background      = o->background,
@@ -88,53 +91,12 @@ settings (GeglProperties *o)
 }
 
 static gboolean
-set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session, const CeldPaint *layer))
-{
-  CeldPaint paint;
-
-  if (!celd_op_has (op, pad))
-    return celd_op_try (op, set (op->operation->session, NULL));
-  return celd_op_read_paint (op, pad, &paint) &&
-         celd_op_try (op, set (op->operation->session, &paint));
-}
-
-/* Everything that the host gives, to the session, which finds out what that changes. */
-static gboolean
-set_session (CeldOp *op)
-{
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldSettings    s = settings (o);
-  CeldSession    *session = celd_op_session (op);
-  CeldTextError   error = { 0 };
-  CeldDrawing     drawing;
-
-  return session &&
-         celd_op_try (op, celd_session_set_settings (session, &s)) &&
-         celd_op_read_drawing (op, "input", &drawing) &&
-         celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
-         set_layer (op, "aux", celd_session_set_scribbles) &&
-         set_layer (op, "aux2", celd_session_set_arrows) &&
-         set_layer (op, "aux3", celd_session_set_contours) &&
-         celd_op_try_text (op, celd_session_set_relations (session, o->relations, &error), &error);
-}
-
-static gboolean
 write_plane (CeldOp *op, CeldStatus (*ask) (CeldSession *, const CeldRun *, CeldPlane *, CeldRect *))
 {
   CeldPlane plane;
 
   return celd_op_try (op, ask (op->operation->session, &op->run, &plane, NULL)) &&
          celd_op_write (op, plane.data);
-}
-
-static gboolean
-write_labels (CeldOp *op)
-{
-  CeldSession *session = op->operation->session;
-  CeldLabels   labels;
-
-  return celd_op_try (op, celd_session_labels (session, &op->run, &labels, NULL)) &&
-         celd_op_write_paint (op, &labels, celd_session_palette (session));
 }
 
 static gboolean
@@ -146,17 +108,28 @@ write_normals (CeldOp *op)
          celd_op_write_normals (op, &normals, GEGL_PROPERTIES (op->operation)->directx);
 }
 
+/* Those of the order too, where contradictions are found. */
+static gboolean
+write_problems (CeldOp *op)
+{
+  const CeldOrder *order;
+
+  return celd_op_try (op, celd_session_order (op->operation->session, &op->run, &order)) &&
+         celd_op_write_problems (op);
+}
+
 static gboolean
 write_result (CeldOp *op)
 {
   switch (GEGL_PROPERTIES (op->operation)->result)
     {
-    case CELD_POPUP_LABELS:  return write_labels (op);
-    case CELD_POPUP_ORDER:   return write_plane (op, celd_session_flat);
-    case CELD_POPUP_LEVELS:  return write_plane (op, celd_session_levels);
-    case CELD_POPUP_DEPTH:   return write_plane (op, celd_session_depth);
-    case CELD_POPUP_NORMALS: return write_normals (op);
-    case CELD_POPUP_SHADING: return write_plane (op, celd_session_shading);
+    case CELD_POPUP_LABELS:   return celd_op_write_labels (op);
+    case CELD_POPUP_ORDER:    return write_plane (op, celd_session_flat);
+    case CELD_POPUP_LEVELS:   return write_plane (op, celd_session_levels);
+    case CELD_POPUP_DEPTH:    return write_plane (op, celd_session_depth);
+    case CELD_POPUP_NORMALS:  return write_normals (op);
+    case CELD_POPUP_SHADING:  return write_plane (op, celd_session_shading);
+    case CELD_POPUP_PROBLEMS: return write_problems (op);
     }
   return FALSE;
 }
@@ -164,17 +137,18 @@ write_result (CeldOp *op)
 static gboolean
 render (CeldOp *op)
 {
-  CeldSession     *session;
+  GeglProperties  *o = GEGL_PROPERTIES (op->operation);
+  CeldSettings     s = settings (o);
   const CeldOrder *order = NULL;
 
-  if (!set_session (op) || !write_result (op))
+  if (!celd_op_set_session (op, &s, o->relations) ||
+      !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
+      !write_result (op))
     return FALSE;
-  session = op->operation->session;
-  if (GEGL_PROPERTIES (op->operation)->result != CELD_POPUP_LABELS && /* then the order has been made already */
-      !celd_op_try (op, celd_session_order (session, NULL, &order)))
+  if (o->result != CELD_POPUP_LABELS && /* then the order has been made already */
+      !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
-  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session),
-                       celd_session_relations (session), order);
+  return celd_op_tell_session (op, order);
 }
 
 static void

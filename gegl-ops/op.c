@@ -201,16 +201,6 @@ celd_op_alloc (CeldOp *op, gsize size)
   return memory;
 }
 
-CeldSession *
-celd_op_session (CeldOp *op)
-{
-  if (!op->operation->session)
-    op->operation->session = celd_session_new ();
-  if (!op->operation->session)
-    celd_op_try (op, CELD_NO_MEMORY);
-  return op->operation->session;
-}
-
 /* ------------------------------------------------------------------ the frame round render */
 
 /* A layer picker in which nothing is chosen yet: GIMP connects a source without a buffer. */

@@ -47,7 +47,7 @@ typedef struct
   GRecMutex     busy;              /* over the members below, and over render */
   gboolean      rendering;
   char         *said;              /* the last message; NULL if all was well */
-  CeldSession  *session;           /* of operations that keep the route between calls; made by celd_op_session */
+  CeldSession  *session;           /* of operations that keep the route between calls; made by celd_op_set_session */
 } CeldOperation;
 
 typedef struct
@@ -100,9 +100,6 @@ gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);
 /* Does something come in on this pad? */
 gboolean celd_op_has (CeldOp *op, const char *pad);
 
-/* The session of this operation, from now on its own; NULL: no memory (and said so). */
-CeldSession *celd_op_session (CeldOp *op);
-
 /* Memory that lasts as long as the call; NULL: no memory (and said so). */
 gpointer celd_op_alloc (CeldOp *op, gsize size);
 
@@ -136,5 +133,20 @@ gboolean celd_op_write_drawing (CeldOp *op, const CeldDrawing *drawing);
 gboolean celd_op_write_paint   (CeldOp *op, const CeldLabels *labels, const CeldPalette *palette);
 gboolean celd_op_write_lit     (CeldOp *op, const char *pad, const CeldPlane *light);             /* art under light */
 gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean directx); /* 0.5 + 0.5 n */
+
+/* ------------------------------------------------------------------ session.c */
+
+/* Settings, drawing (input), scribbles (aux), arrows (aux2) and relations, to the session of this operation, which from
+ * now on it has. */
+gboolean celd_op_set_session (CeldOp *op, const CeldSettings *settings, const char *relations);
+
+/* A further layer, from a pad that may be missing. */
+gboolean celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session,
+                                                                          const CeldPaint *layer));
+/* What the session knows to tell. */
+gboolean celd_op_tell_session (CeldOp *op, const CeldOrder *order);
+
+gboolean celd_op_write_labels   (CeldOp *op);                    /* the session's labels as colours */
+gboolean celd_op_write_problems (CeldOp *op);                    /* marks over the input, of the stages made so far */
 
 #endif

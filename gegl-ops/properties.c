@@ -23,6 +23,7 @@ ENUM_TYPE (celd_ink_mode_get_type, "CeldInkMode",
            { CELD_INK_ALPHA, "What is opaque", "alpha" })
 
 ENUM_TYPE (celd_method_get_type, "CeldMethod",
+           { CELD_METHOD_BASINS, "Basins", "basins" },
            { CELD_METHOD_EXACT, "Exact", "exact" })
 
 ENUM_TYPE (celd_background_get_type, "CeldBackground",
@@ -64,10 +65,16 @@ ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
            { CELD_LUMO_SHADING, "Shading", "shading" },
            { CELD_LUMO_NORMALS, "Normals", "normals" })
 
+ENUM_TYPE (celd_segment_result_get_type, "CeldSegmentResult",
+           { CELD_SEGMENT_LABELS, "Labels: the regions as flat colours", "labels" },
+           { CELD_SEGMENT_CLOSURES, "Closures: the gaps that were closed, as red contours", "closures" },
+           { CELD_SEGMENT_PROBLEMS, "Problems: marks over the drawing where something should be looked at", "problems" })
+
 ENUM_TYPE (celd_popup_result_get_type, "CeldPopupResult",
            { CELD_POPUP_LABELS, "Labels: the regions as flat colours", "labels" },
            { CELD_POPUP_ORDER, "Order: the level of each region", "order" },
            { CELD_POPUP_LEVELS, "Levels: ink given to its owner", "levels" },
            { CELD_POPUP_DEPTH, "Depth: smooth", "depth" },
            { CELD_POPUP_NORMALS, "Normals", "normals" },
-           { CELD_POPUP_SHADING, "Shading", "shading" })
+           { CELD_POPUP_SHADING, "Shading", "shading" },
+           { CELD_POPUP_PROBLEMS, "Problems: marks over the drawing where something should be looked at", "problems" })

@@ -21,13 +21,16 @@ GType celd_encoding_get_type    (void);
 GType celd_purpose_get_type     (void);
 
 typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
+typedef enum { CELD_SEGMENT_LABELS, CELD_SEGMENT_CLOSURES, CELD_SEGMENT_PROBLEMS } CeldSegmentResult;
 typedef enum
 {
-  CELD_POPUP_LABELS, CELD_POPUP_ORDER, CELD_POPUP_LEVELS, CELD_POPUP_DEPTH, CELD_POPUP_NORMALS, CELD_POPUP_SHADING
+  CELD_POPUP_LABELS, CELD_POPUP_ORDER, CELD_POPUP_LEVELS, CELD_POPUP_DEPTH, CELD_POPUP_NORMALS, CELD_POPUP_SHADING,
+  CELD_POPUP_PROBLEMS
 } CeldPopupResult;
 
-GType celd_lumo_result_get_type  (void);
-GType celd_popup_result_get_type (void);
+GType celd_lumo_result_get_type    (void);
+GType celd_segment_result_get_type (void);
+GType celd_popup_result_get_type   (void);
 
 /* ------------------------------------------------------------------ the drawing */
 
@@ -48,8 +51,15 @@ GType celd_popup_result_get_type (void);
 /* ------------------------------------------------------------------ scribbles and regions */
 
 #define CELD_PROPERTY_METHOD \
-  property_enum (method, "Method", CeldMethod, celd_method, CELD_METHOD_EXACT) \
-    description ("How regions are found")
+  property_enum (method, "Method", CeldMethod, celd_method, CELD_METHOD_BASINS) \
+    description ("How regions are found: on the basins of the drawing, at the speed of the brush, or by exact cuts " \
+                 "of all its pixels, which takes a second or more") \
+  property_boolean (close_gaps, "Close gaps", TRUE) \
+    description ("Borders across paper run from line end to line end, as a person would draw them") \
+    ui_meta ("visible", "method {basins}") \
+  property_boolean (keep_necks, "Keep necks", TRUE) \
+    description ("A part with strokes of one colour keeps it, however narrow its neck; without, the shorter border wins") \
+    ui_meta ("visible", "method {basins}")
 
 #define CELD_PROPERTY_HARDNESS \
   property_double (hardness, "Hardness", 0.05) \

@@ -201,6 +201,39 @@ popup_is_the_steps_of_core (void)
   SAME (stored_normals (false), 3);
 }
 
+/* The other engine, and the basins without their two extras, reach core as they are set. */
+static void
+method_is_that_of_core (void)
+{
+  static const struct { CeldMethod method; gboolean gaps, necks; } cases[] = {
+    { CELD_METHOD_EXACT, TRUE, TRUE }, { CELD_METHOD_BASINS, FALSE, TRUE }, { CELD_METHOD_BASINS, TRUE, FALSE },
+  };
+  static uint32_t data[PIXELS];
+  static uint8_t  wanted[4 * PIXELS];
+  CeldLabels      seeds = { WIDTH, HEIGHT, WIDTH, data };
+  CeldPaint       paint = { WIDTH, HEIGHT, WIDTH, wanted };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
+    {
+      CeldSettings settings = celd_settings ();
+      CeldPalette  made = { 0 };
+
+      settings.method     = cases[i].method;
+      settings.close_gaps = cases[i].gaps;
+      settings.keep_necks = cases[i].necks;
+      CHECK (celd_scribbles_read (&scribbles_paint, &settings, NULL, &seeds, &made) == CELD_OK);
+      CHECK (celd_segment (&ink, &seeds, &relations, &settings, NULL, &seeds, &made, NULL) == CELD_OK);
+      CHECK (celd_labels_paint (&seeds, &made, &paint) == CELD_OK);
+      operate ("celdepth:lazybrush-segment", (Pads) { { drawing, scribbles, arrows } }, "R'G'B'A float", result,
+               "method", cases[i].method, "close-gaps", cases[i].gaps, "keep-necks", cases[i].necks, NULL);
+      SAME (as_floats (wanted, 4 * PIXELS), 4);
+      operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows } }, "R'G'B'A float", result, "result", 0,
+               "method", cases[i].method, "close-gaps", cases[i].gaps, "keep-necks", cases[i].necks, NULL);
+      SAME (as_floats (wanted, 4 * PIXELS), 4);
+      celd_palette_clear (&made);
+    }
+}
+
 /* ------------------------------------------------------------------ graphs */
 
 /* One node, asked again and again with other properties, as a preview does. */
@@ -320,6 +353,7 @@ main (int argc, char **argv)
   RUN (depth_is_that_of_core);
   RUN (light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
+  RUN (method_is_that_of_core);
   RUN (popup_follows_its_properties);
   RUN (chain_agrees_with_popup);
   RUN (every_depth_of_colour_gives_the_same);

@@ -9,7 +9,8 @@
 static const struct { const char *name; const char *pads; const char *properties; } operations[] = {
   { "celdepth:virtual-contours", "aux input", "result ink" },
   { "celdepth:lazybrush-segment", "aux2 aux input",
-    "ink ink-threshold method hardness flats background background-colour seeds relations arrow-style" },
+    "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
+    "arrow-style" },
   { "celdepth:depth-order", "aux2 aux input",
     "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
@@ -17,8 +18,9 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",
-    "result ink ink-threshold method hardness flats background background-colour seeds same-colour relations "
-    "arrow-style encoding near-level far-level anchors tolerance bulge light-azimuth light-elevation ambient directx" },
+    "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
+    "same-colour relations arrow-style encoding near-level far-level anchors tolerance bulge light-azimuth "
+    "light-elevation ambient directx" },
 };
 
 static bool
@@ -99,16 +101,22 @@ choices (const char *operation, const char *property)
 static void
 choices_have_the_nicks_of_the_contract (void)
 {
-  static const struct { const char *property, *nicks; } cases[] = {
-    { "result", "labels order levels depth normals shading" }, { "ink", "auto dark light alpha" },
-    { "background", "auto none colour" }, { "seeds", "auto scribbles" }, { "same-colour", "one separate" },
-    { "arrow-style", "head dot fade taper" }, { "encoding", "normalized rank fixed" },
-    { "anchors", "scribbles arrows both core" },
+  static const struct { const char *operation, *property, *nicks; } cases[] = {
+    { "celdepth:popup", "result", "labels order levels depth normals shading problems" },
+    { "celdepth:lazybrush-segment", "result", "labels closures problems" },
+    { "celdepth:popup", "ink", "auto dark light alpha" },
+    { "celdepth:popup", "method", "basins exact" },
+    { "celdepth:popup", "background", "auto none colour" },
+    { "celdepth:popup", "seeds", "auto scribbles" },
+    { "celdepth:popup", "same-colour", "one separate" },
+    { "celdepth:popup", "arrow-style", "head dot fade taper" },
+    { "celdepth:popup", "encoding", "normalized rank fixed" },
+    { "celdepth:popup", "anchors", "scribbles arrows both core" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
     {
-      const GEnumClass *klass = choices ("celdepth:popup", cases[i].property);
+      const GEnumClass *klass = choices (cases[i].operation, cases[i].property);
       GString          *list = g_string_new (NULL);
 
       for (guint k = 0; klass && k < klass->n_values; k++)
@@ -116,6 +124,34 @@ choices_have_the_nicks_of_the_contract (void)
       CHECK (!strcmp (list->str, cases[i].nicks));
       g_string_free (list, TRUE);
     }
+}
+
+/* An operation that is not told otherwise does what core does. */
+static void
+defaults_are_those_of_core (void)
+{
+  CeldSettings s = celd_settings ();
+  GeglNode    *graph = gegl_node_new (), *node = gegl_node_new_child (graph, "operation", "celdepth:popup", NULL);
+  gint         ink = -1, method = -1, background = -1, seeds = -1, same = -1, style = -1, encoding = -1, anchors = -1;
+  gboolean     gaps = -1, necks = -1, flats = -1;
+  gdouble      threshold = -1, hardness = -1, tolerance = -1, bulge = -1, azimuth = -1, elevation = -1, ambient = -1;
+
+  gegl_node_get (node, "ink", &ink, "method", &method, "background", &background, "seeds", &seeds, "same-colour", &same,
+                 "arrow-style", &style, "encoding", &encoding, "anchors", &anchors, "close-gaps", &gaps, "keep-necks",
+                 &necks, "flats", &flats, "ink-threshold", &threshold, "hardness", &hardness, "tolerance", &tolerance,
+                 "bulge", &bulge, "light-azimuth", &azimuth, "light-elevation", &elevation, "ambient", &ambient, NULL);
+  CHECK (ink == (gint) s.ink && method == (gint) s.method && background == (gint) s.background);
+  CHECK (seeds == (gint) s.seeds && same == (gint) s.same_colour && style == (gint) s.arrow_style);
+  CHECK (encoding == (gint) s.encoding && anchors == (gint) s.anchors);
+  CHECK (gaps == s.close_gaps && necks == s.keep_necks && flats == s.flats);
+  NEAR (threshold, s.ink_threshold, 1e-7);
+  NEAR (hardness, s.hardness, 1e-7);
+  NEAR (tolerance, s.tolerance, 1e-7);
+  NEAR (bulge, s.bulge, 1e-7);
+  NEAR (azimuth, s.light_azimuth, 1e-7);
+  NEAR (elevation, s.light_elevation, 1e-7);
+  NEAR (ambient, s.ambient, 1e-7);
+  g_object_unref (graph);
 }
 
 int
@@ -126,6 +162,7 @@ main (int argc, char **argv)
   RUN (pads_are_those_of_the_contract);
   RUN (properties_are_complete);
   RUN (choices_have_the_nicks_of_the_contract);
+  RUN (defaults_are_those_of_core);
   gegl_exit ();
   return DONE;
 }

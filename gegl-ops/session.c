@@ -1,0 +1,76 @@
+/* What operations share that keep a session: the built basins of the drawing among all else stay between calls.
+ *
+ * The session is a member of the operation, made at the first call, used under the operation's lock, and freed with it.
+ * Every call hands over everything anew; the session finds out what that changes.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op.h"
+
+static CeldSession *
+get_session (CeldOp *op)
+{
+  if (!op->operation->session)
+    op->operation->session = celd_session_new ();
+  if (!op->operation->session)
+    celd_op_try (op, CELD_NO_MEMORY);
+  return op->operation->session;
+}
+
+gboolean
+celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session, const CeldPaint *layer))
+{
+  CeldPaint paint;
+
+  if (!celd_op_has (op, pad))
+    return celd_op_try (op, set (op->operation->session, NULL));
+  return celd_op_read_paint (op, pad, &paint) &&
+         celd_op_try (op, set (op->operation->session, &paint));
+}
+
+gboolean
+celd_op_set_session (CeldOp *op, const CeldSettings *settings, const char *relations)
+{
+  CeldSession  *session = get_session (op);
+  CeldTextError error = { 0 };
+  CeldDrawing   drawing;
+
+  return session &&
+         celd_op_try (op, celd_session_set_settings (session, settings)) &&
+         celd_op_read_drawing (op, "input", &drawing) &&
+         celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
+         celd_op_set_layer (op, "aux", celd_session_set_scribbles) &&
+         celd_op_set_layer (op, "aux2", celd_session_set_arrows) &&
+         celd_op_try_text (op, celd_session_set_relations (session, relations, &error), &error);
+}
+
+gboolean
+celd_op_tell_session (CeldOp *op, const CeldOrder *order)
+{
+  CeldSession *session = op->operation->session;
+
+  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session),
+                       celd_session_relations (session), order);
+}
+
+gboolean
+celd_op_write_labels (CeldOp *op)
+{
+  CeldSession *session = op->operation->session;
+  CeldLabels   labels;
+
+  return celd_op_try (op, celd_session_labels (session, &op->run, &labels, NULL)) &&
+         celd_op_write_paint (op, &labels, celd_session_palette (session));
+}
+
+gboolean
+celd_op_write_problems (CeldOp *op)
+{
+  const CeldProblems *problems = celd_session_problems (op->operation->session);
+  CeldPaint           paint;
+
+  if (!celd_op_try (op, problems ? CELD_OK : CELD_NO_MEMORY) || !celd_op_read_paint (op, "input", &paint))
+    return FALSE;
+  celd_problems_paint (problems, &paint);
+  return celd_op_write (op, paint.data);
+}
