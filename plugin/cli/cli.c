@@ -19,7 +19,9 @@ static const CliCommand commands[] = {
     "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
     cli_popup },
   { "segment", CLI_SEGMENT, "DRAWING|LAYERED", "Gives every pixel of a drawing to one of the scribbles.",
-    "  celdepth segment bee.png --scribbles strokes.png --labels flat.png", cli_segment },
+    "  celdepth segment bee.png --scribbles strokes.png --labels flat.png\n"
+    "  celdepth segment bee.png --scribbles strokes.png --closures closures.png\n"
+    "  celdepth segment bee.png --scribbles strokes.png --contours closures.png --labels flat.png", cli_segment },
   { "order", CLI_ORDER, "LABELS", "Orders regions by depth; contours still belong to whoever segmentation gave them.",
     "  celdepth order flat.png --arrows arrows.png --drawing bee.png --levels flat-levels.npy\n"
     "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' --levels flat-levels.npy", cli_order },

@@ -33,7 +33,7 @@ typedef struct
   char        *input;
   char        *drawing, *scribbles, *contours, *arrows, *anchors;
   char        *relations, *relations_file;
-  char        *labels, *order, *levels, *depth, *normals, *shading, *report;
+  char        *labels, *closures, *order, *levels, *depth, *normals, *shading, *report;
   bool         quiet, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -102,6 +102,7 @@ bool cli_is_device     (const char *path); /* neither a file nor a folder: a ter
 bool cli_can_write     (const char *path);
 bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
 bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPalette *palette);
+bool cli_write_closures (const char *path, const CeldPaint *closures);
 bool cli_write_normals (const char *path, const CeldVectors *normals);
 bool cli_write_shading (const char *path, const CeldPlane *shading);
 
@@ -143,6 +144,7 @@ typedef struct
   const CeldRelations *relations;
   const CeldOrder     *order;
   const CeldProblems  *problems;
+  const CeldClosures  *closures;
   const CeldSettings  *settings;
   const GArray        *timings;
 } CliReport;

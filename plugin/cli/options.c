@@ -43,8 +43,9 @@ static const FileOption files[] = {
   { "relations", MADE_OF_LABELS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", MADE_OF_LABELS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
-  { "labels", MADE_OF_LABELS, CLI_SEGMENT, OUTPUT, MEMBER (labels), "OUT",
-    "write regions in the colours of their scribbles" },
+  { "labels", MADE_OF_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
+  { "closures", MADE_OF_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
+    "write the gaps that were closed, as red contours on a transparent layer" },
   { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT", "write levels before contours are given to their owners" },
   { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
     "write levels" },
@@ -62,7 +63,7 @@ file_name (CliOptions *options, const FileOption *file)
 
 /* ------------------------------------------------------------------ settings */
 
-typedef enum { CHOICE, NUMBER, SWITCH, COLOUR } SettingKind;
+typedef enum { CHOICE, NUMBER, SWITCH, TRUTH, COLOUR } SettingKind; /* a switch is on when it is there */
 
 typedef struct
 {
@@ -70,7 +71,7 @@ typedef struct
   int         steps;
   SettingKind kind;
   size_t      offset;      /* in CeldSettings */
-  const char *value;       /* of a choice: its words in the order of the enumeration */
+  const char *value;       /* of a choice: its words in the order of the enumeration; of a truth: no|yes */
   const char *help;
 } SettingOption;
 
@@ -81,7 +82,12 @@ static const SettingOption settings[] = {
   { "ink", WITH_INK, CHOICE, MEMBER (ink), "auto|dark|light|alpha", "what is ink" },
   { "ink-threshold", MADE_OF_LABELS | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
     "ink at or below this is full ink; 0.25" },
-  { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "exact", "how regions are found" },
+  { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "basins|exact",
+    "find regions at the speed of the brush, or by slow exact cuts" },
+  { "close-gaps", MADE_OF_LABELS, TRUTH, MEMBER (close_gaps), "no|yes",
+    "borders across paper run from line end to line end; yes" },
+  { "keep-necks", MADE_OF_LABELS, TRUTH, MEMBER (keep_necks), "no|yes",
+    "parts with strokes of one colour keep it behind narrow necks; yes" },
   { "hardness", MADE_OF_LABELS, NUMBER, MEMBER (hardness), "0.01-1",
     "1 obeys every stroke, less lets the majority win; 0.05" },
   { "flats", MADE_OF_LABELS, SWITCH, MEMBER (flats), NULL, "the scribbles are a flat colouring" },
@@ -162,6 +168,10 @@ set_setting (const SettingOption *setting, const char *value, CeldSettings *to)
     case SWITCH:
       *(bool *) place = true;
       return true;
+    case TRUTH:
+      word = find_word (setting->value, value);
+      *(bool *) place = word == 1;
+      return word >= 0;
     case COLOUR:
       return set_colour (to, value);
     }
@@ -277,7 +287,7 @@ check_files (const CliCommand *command, CliOptions *options)
         }
     }
   return outputs || cli_error ("Nothing to write: name at least one output, such as --%s.",
-                               command->step == CLI_SHADE ? "shading" : "depth");
+                               command->step == CLI_SHADE ? "shading" : command->step == CLI_SEGMENT ? "labels" : "depth");
 }
 
 bool

@@ -7,10 +7,11 @@
 /* Views of what the session made; data NULL where it was not asked for. */
 typedef struct
 {
-  CeldLabels       labels;
-  const CeldOrder *order;
-  CeldPlane        flat, levels, depth, shading;
-  CeldVectors      normals;
+  CeldLabels          labels;
+  const CeldClosures *closures;
+  const CeldOrder    *order;
+  CeldPlane           flat, levels, depth, shading;
+  CeldVectors         normals;
 } Results;
 
 /* Hands the input over to the session. */
@@ -47,6 +48,8 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
   cli_run_stage (run, "labels");
   if (status == CELD_OK)
     status = celd_session_labels (session, &run->run, &results->labels, NULL);
+  if (status == CELD_OK)
+    status = celd_session_closures (session, &run->run, &results->closures);
   if (status != CELD_OK || !whole_route)
     return status;
   cli_run_stage (run, "order");
@@ -71,12 +74,25 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
 }
 
 static bool
+write_closures (CeldSession *session, const char *path, const Results *results)
+{
+  int       w = results->labels.width, h = results->labels.height;
+  CeldPaint paint = { w, h, (size_t) w, g_try_new (uint8_t, 4 * (gsize) w * (gsize) h) };
+  bool      good = cli_check (paint.data ? celd_session_paint_closures (session, NULL, &paint) : CELD_NO_MEMORY) &&
+                   cli_write_closures (path, &paint);
+
+  g_free (paint.data);
+  return good;
+}
+
+static bool
 write_results (CeldSession *session, const CliOptions *options, const Results *results)
 {
   bool  ranks = options->settings.encoding == CELD_ENCODING_RANK && results->order && results->order->levels > 1;
   float nearest = ranks ? (float) (results->order->levels - 1) : 1;
 
   return (!options->labels  || cli_write_labels (options->labels, &results->labels, celd_session_palette (session))) &&
+         (!options->closures || write_closures (session, options->closures, results)) &&
          (!options->order   || cli_write_depth (options->order, &results->flat, nearest)) &&
          (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
          (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
@@ -96,6 +112,7 @@ write_report (CeldSession *session, const char *command, const CliOptions *optio
     .relations = celd_session_relations (session),
     .order     = results->order,
     .problems  = celd_session_problems (session),
+    .closures  = results->closures,
     .settings  = &options->settings,
     .timings   = run->timings,
   });

@@ -151,7 +151,40 @@ add_cycle (JsonBuilder *json, const CeldCycle *cycle)
   json_builder_end_array (json);
 }
 
-/* ------------------------------------------------------------------ problems, cost */
+/* ------------------------------------------------------------------ closures, problems, cost */
+
+static void
+add_closure (JsonBuilder *json, const CeldClosure *closure)
+{
+  json_builder_begin_object (json);
+  begin_list (json, "labels");
+  json_builder_add_int_value (json, closure->label);
+  json_builder_add_int_value (json, closure->other);
+  json_builder_end_array (json);
+  begin_list (json, "line");
+  for (size_t i = 0; i < closure->n; i++)
+    {
+      json_builder_begin_array (json);
+      json_builder_add_double_value (json, closure->place[i].x);
+      json_builder_add_double_value (json, closure->place[i].y);
+      json_builder_end_array (json);
+    }
+  json_builder_end_array (json);
+  json_builder_end_object (json);
+}
+
+/* How the regions were found. */
+static void
+add_segmentation (JsonBuilder *json, const CliReport *report)
+{
+  static const char *methods[] = { "basins", "exact" };
+
+  add_text (json, "method", methods[report->settings->method]);
+  begin_list (json, "closures");
+  for (size_t i = 0; i < report->closures->n; i++)
+    add_closure (json, &report->closures->item[i]);
+  json_builder_end_array (json);
+}
 
 static void
 add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *problem)
@@ -223,6 +256,8 @@ make_text (const CliReport *report)
   for (size_t i = 0; i < report->palette->n; i++)
     add_label (json, report, i);
   json_builder_end_array (json);
+  if (report->closures)
+    add_segmentation (json, report);
   add_relations (json, report);
   if (report->order)
     add_order (json, report);

@@ -7,8 +7,9 @@ import json
 import unittest
 
 import numpy as np
+from PIL import ImageDraw
 
-from pictures import BLUE, GREEN, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, png_chunks
+from pictures import BLUE, GREEN, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, png_chunks
 
 ENDINGS = ('png', 'exr', 'tif', 'npy')
 
@@ -102,16 +103,67 @@ class Formats(Test):
         np.testing.assert_allclose(self.picture('shading.png') / 65535, encoded, atol=2e-5)
         self.assertIn('sRGB', png_chunks(self.path('shading.png'))[0])
 
+    def open_box(self):
+        """A gap of ten pixels in the left side of box A."""
+        page = drawing()
+        ImageDraw.Draw(page).rectangle([8, 20, 14, 29], fill=255)
+        page.save(self.path('drawing.png'))
+
+    def report(self):
+        with open(self.path('report.json'), encoding='utf-8') as file:
+            return json.load(file)
+
+    def test_closures(self):
+        """A red line over the gap on a transparent layer, and the same line in numbers in the report."""
+        self.open_box()
+        values = self.make('closures', '--report', 'report.json')
+        self.assertEqual(values.shape, (HEIGHT, WIDTH, 4))
+        layer = self.picture('closures.png')
+        np.testing.assert_allclose(values, layer / 255, atol=1e-6)
+        painted = layer[:, :, 3] > 0
+        rows, columns = np.nonzero(painted)
+        self.assertTrue(set(range(21, 29)) <= set(rows))
+        self.assertTrue(min(rows) >= 14 and max(rows) <= 35 and min(columns) >= 6 and max(columns) <= 16)
+        self.assertGreater(layer[painted][:, 0].min(), 200)
+        self.assertLess(layer[painted][:, 1:3].max(), 60)
+        report = self.report()
+        self.assertEqual(report['method'], 'basins')
+        closure, = report['closures']
+        colours = {report['labels'][k - 1]['colour'] for k in closure['labels']}
+        self.assertEqual(colours, {'#ff0000', '#00a000'})
+        ends = sorted((closure['line'][0], closure['line'][-1]), key=lambda place: place[1])
+        for (x, y), (wanted_x, wanted_y) in zip(ends, ((11.5, 20), (11.5, 30))):
+            self.assertAlmostEqual(x, wanted_x, delta=3)
+            self.assertAlmostEqual(y, wanted_y, delta=3)
+
+    def test_closures_come_back(self):
+        """Accepted as virtual contours they leave nothing to close, and the regions as they are."""
+        self.open_box()
+        self.popup('--closures', 'closures.png', '--labels', 'a.png')
+        self.popup('--contours', 'closures.png', '--labels', 'b.png', '--report', 'report.json')
+        self.assertEqual(self.report()['closures'], [])
+        self.assertLess((self.picture('a.png') != self.picture('b.png')).any(2).sum(), 20)
+
+    def test_no_closures(self):
+        self.open_box()
+        for words in (('--method', 'exact'), ('--close-gaps', 'no')):
+            with self.subTest(words):
+                self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--closures', 'c.png',
+                              '--report', 'report.json', *words)
+                self.assertEqual(self.picture('c.png').max(), 0)
+                self.assertEqual(self.report()['closures'], [])
+                self.assertEqual(self.report()['method'], 'exact' if 'exact' in words else 'basins')
+
     def test_steps_equal_the_route(self):
         """segment, order, expand, smooth, shade one after the other, by way of files."""
         self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',
                    '--depth', 'a-depth.npy', '--normals', 'a-normals.npy', '--shading', 'a-shading.npy')
-        drawing = ('--drawing', 'drawing.png')
+        page = ('--drawing', 'drawing.png')
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'b.png')
-        self.celdepth('order', 'b.png', *drawing, '--relations', RELATIONS, '--levels', 'b-order.npy')
-        self.celdepth('expand', 'b-order.npy', *drawing, '--levels', 'b-levels.npy')
-        self.celdepth('smooth', 'b-levels.npy', *drawing, '--anchors', 'scribbles.png', '--depth', 'b-depth.npy')
-        self.celdepth('shade', 'b-levels.npy', *drawing, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
+        self.celdepth('order', 'b.png', *page, '--relations', RELATIONS, '--levels', 'b-order.npy')
+        self.celdepth('expand', 'b-order.npy', *page, '--levels', 'b-levels.npy')
+        self.celdepth('smooth', 'b-levels.npy', *page, '--anchors', 'scribbles.png', '--depth', 'b-depth.npy')
+        self.celdepth('shade', 'b-levels.npy', *page, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
         np.testing.assert_array_equal(self.picture('a.png'), self.picture('b.png'))
         for name in ('order', 'levels', 'depth', 'normals', 'shading'):
             a, b = (np.load(self.path(f'{run}-{name}.npy')) for run in 'ab')

@@ -39,6 +39,7 @@ class Usage(Test):
                 self.wrong(step, 'a.png', '--nonsense', naming='--nonsense')
         self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='More than one')
         self.wrong('popup', 'a.png', naming='Nothing to write')
+        self.wrong('segment', 'a.png', naming='such as --labels')
         self.wrong('expand', 'a.npy', '--levels', 'b.npy', naming='--drawing is missing')
         self.wrong('smooth', 'a.npy', '--drawing', 'a.png', naming='--depth is missing')
         self.wrong('segment', 'a.png', '--labels', 'b.png', '--bulge', '1', naming='--bulge')
@@ -47,6 +48,7 @@ class Usage(Test):
         for option, value in (('--hardness', '7'), ('--hardness', '0,5'), ('--hardness', 'nan'), ('--hardness', ''),
                               ('--ink', 'Dark'), ('--ink', 'dark|light'), ('--encoding', 'rank '),
                               ('--tolerance', '0'), ('--bulge', '1x'),
+                              ('--method', 'pixels'), ('--close-gaps', '1'), ('--keep-necks', ''),
                               ('--background-colour', '#12345'), ('--background-colour', '#1234567')):
             with self.subTest(option=option, value=value):
                 self.wrong('popup', 'a.png', '--depth', 'b.png', option, value, naming=f"{option} cannot be '{value}'")
