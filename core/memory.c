@@ -127,3 +127,12 @@ celd_order_clear (CeldOrder *order)
   celd_free (order->level);
   *order = (CeldOrder) { 0 };
 }
+
+void
+celd_closures_clear (CeldClosures *closures)
+{
+  for (size_t i = 0; i < closures->n; i++)
+    celd_free (closures->item[i].place);
+  celd_free (closures->item);
+  *closures = (CeldClosures) { 0 };
+}

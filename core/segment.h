@@ -107,8 +107,8 @@ CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, 
 /* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
 
 /* `labels` is what basins and windows make.  Where two labels meet on paper, from one line end to another, the border
- * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides, both appended.  No
- * seed of another label changes sides. */
+ * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides.  No seed gets another
+ * label by this.  Makes both records. */
 CeldStatus celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels,
                                const CeldPatches *windows, const CeldRun *run, CeldClosures *closures,
                                CeldPatches *patches);
