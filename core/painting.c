@@ -329,6 +329,31 @@ place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
     }
 }
 
+/* Labels whose every maximum is under a patch: their first pixel. */
+static void
+place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette)
+{
+  size_t missing = 0;
+
+  for (size_t k = 0; k < palette->n; k++)
+    missing += palette->item[k].area && palette->item[k].x < 0;
+  for (int y = 0; y < basins->height && missing; y++)
+    for (size_t i = basins->row[y]; i < basins->row[y + 1] && missing; i++)
+      {
+        uint32_t    label = painting->label[basins->run[i].basin];
+        CeldRegion *region = &palette->item[label - 1];
+        int         x = basins->run[i].x, end = run_end (basins, y, i);
+
+        while (region->x < 0 && x < end && CELD_AT (labels, x, y) != label)
+          x++;
+        if (region->x >= 0 || x == end)
+          continue;
+        region->x = x;
+        region->y = y;
+        missing--;
+      }
+}
+
 CeldStatus
 celd_painting_measure (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels,
                        CeldPalette *palette)
@@ -357,6 +382,7 @@ celd_painting_measure (const CeldPainting *painting, const CeldBasins *basins, c
     }
   place_basins (basins, labels, place, palette);
   place_patches (&painting->patches, place, palette);
+  place_rest (painting, basins, labels, palette);
 
 done:
   celd_free (row);
