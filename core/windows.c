@@ -278,12 +278,15 @@ celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldR
 {
   CeldWindows windows = { 0 };
   Solver      s = { .canvas = canvas, .label = label, .run = run };
+  size_t      before = patches->n;
   CeldStatus  status = celd_windows_find (canvas, label, run, &windows);
 
   if (status == CELD_OK && windows.n)
     status = solve_windows (&s, &windows);
   for (size_t i = 0; i < s.patches.n && status == CELD_OK; i++)
     status = celd_patch_add (patches, s.patches.item[i]);
+  if (status != CELD_OK)
+    patches->n = before;
   celd_patches_clear (&s.patches);
   celd_windows_clear (&windows);
   return status;

@@ -245,20 +245,24 @@ static void
 hard_stroke_through_a_contour (void)
 {
   static const char *const ink[] = {
-    "#############", "#.....#.....#", "#.....#.....#", "#.....#.....#", "#.....#.....#", "#.....#.....#",
-    "#.....#.....#", "#############", NULL
+    "###################", "#.....#...........#", "#.....#...........#", "#.....#...........#",
+    "#.....#...........#", "#.....#...........#", "#.....#...........#", "#.....#...........#",
+    "#.....#...........#", "#.....#...........#", "###################", NULL
   };
   static const char *const basins[] = {
-    "aaaaaaabbbbbb", "aaaaaaabbbbbb", "aaaaaaabbbbbb", "aaaaaaabbbbbb", "aaaaaaabbbbbb", "aaaaaaabbbbbb",
-    "aaaaaaabbbbbb", "aaaaaaabbbbbb", NULL
+    "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb",
+    "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb",
+    "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", "aaaaaaabbbbbbbbbbbb", NULL
   };
   static const char *const painted[] = {
-    ".............", ".............", ".............", ".AAAAAAAA....", "..........B..", "..........B..",
-    ".............", ".............", NULL
+    "...................", "...................", "...................", "...................",
+    ".AAAAAAAA..........", "...................", "...........BBBBB...", "...........BBBBB...",
+    "...................", "...................", "...................", NULL
   };
   static const char *const wanted[] = {
-    "AAAAAAABBBBBB", "AAAAAAABBBBBB", "AAAAAAABBBBBB", "AAAAAAAAABBBB", "AAAAAAABBBBBB", "AAAAAAABBBBBB",
-    "AAAAAAABBBBBB", "AAAAAAABBBBBB", NULL
+    "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB",
+    "AAAAAAAAABBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB",
+    "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", NULL
   };
   Scene s;
 
