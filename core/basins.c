@@ -28,6 +28,8 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, Celd
     status = celd_basins_touch (ink, squared, &touching, &found);
   if (status == CELD_OK)
     status = celd_basins_unite (&found);
+  if (status == CELD_OK)
+    status = celd_paper_new (ink, run, &found.paper);
   celd_free (squared);
   if (status == CELD_OK)
     *basins = found;
@@ -43,6 +45,7 @@ celd_basins_clear (CeldBasins *basins)
   celd_free (basins->border);
   celd_free (basins->row);
   celd_free (basins->run);
+  celd_free (basins->paper);
   celd_free (basins->block);
   celd_free (basins->room);
   celd_free (basins->piece);

@@ -46,6 +46,7 @@ typedef struct
   CeldBorder   *border;         /* by a, then b */
   size_t       *row;            /* height + 1 */
   CeldBasinRun *run;
+  uint8_t      *paper;          /* which pixels are paper: ask celd_paper_count */
   /* Coarser and coarser unions of basins, by basin, from 1: */
   uint32_t     *block;          /* basins that no narrow place parts, however wide; solid ones among themselves */
   uint32_t     *room;           /* blocks that no gap in a contour parts; 0 for solid ones */
@@ -61,6 +62,12 @@ CeldStatus celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun
 CeldStatus celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, CeldBasins *basins);
 
 void celd_basins_clear (CeldBasins *basins);
+
+/* paper-bits.c: how many of the pixels x .. end - 1 of row y are paper.  What it needs to know of the drawing is made
+ * by celd_paper_new, and again inside `changed` by celd_paper_renew. */
+uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
+CeldStatus celd_paper_new (const CeldPlane *ink, const CeldRun *run, uint8_t **bits);
+void       celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, uint8_t *bits);
 
 /* The basin of a pixel. */
 uint32_t celd_basin_at (const CeldBasins *basins, int x, int y);

@@ -87,17 +87,6 @@ find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
 
 /* ------------------------------------------------------------------ dabs */
 
-static uint32_t
-count_paper (const CeldPlane *ink, int y, int x, int end)
-{
-  const float *row = &CELD_AT (ink, 0, y);
-  uint32_t     n = 0;
-
-  for (; x < end; x++)
-    n += celd_is_paper (row[x]);
-  return n;
-}
-
 /* The last of the row's runs of basins that begins at x or before. */
 static size_t
 basin_run (const CeldBasins *basins, int y, int x)
@@ -131,7 +120,7 @@ cut_run (const CeldCanvas *canvas, int y, CeldSeedRun run, uint32_t stroke, Celd
         return CELD_NO_MEMORY;
       spread->dab = dab;
       dab[spread->n_dabs++] = (CeldDab) {
-        y, run.x, end, run.label, basins->run[k].basin, stroke, count_paper (canvas->ink, y, run.x, end)
+        y, run.x, end, run.label, basins->run[k].basin, stroke, celd_paper_count (basins, y, run.x, end)
       };
       run.x = end;
     }

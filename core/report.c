@@ -1,7 +1,6 @@
 /* What the artist should know of a segmentation: strokes overruled, regions that no stroke reaches, colours lost.
  *
- * All of it is told from the seeds and the basins; of the picture only painted pixels are looked at, and some of each
- * region that may not be reached.
+ * All of it is told from the seeds, the basins and what was painted over them, without a look at most of the pixels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -42,34 +41,51 @@ overrule (Fate *fate, uint32_t other, int y, int x, int end)
 }
 
 static void
-follow_strokes (const CeldSpread *spread, const CeldLabels *labels, Fate *fate)
+follow_pixels (const CeldDab *dab, const CeldLabels *labels, Fate *fate)
 {
+  const uint32_t *label = &CELD_AT (labels, 0, dab->y);
+
+  for (int x = dab->x, end; x < dab->end; x = end)
+    {
+      for (end = x + 1; end < dab->end && label[end] == label[x]; end++)
+        ;
+      if (label[x] != dab->label)
+        overrule (fate, label[x], dab->y, x, end);
+    }
+}
+
+/* Where no patch lies over it, a dab has the label of its basin. */
+static void
+follow_strokes (const CeldSpread *spread, const CeldPainting *painting, const CeldLabels *labels, Fate *fate)
+{
+  const CeldPatch *patch = painting->patches.item, *last = patch ? patch + painting->patches.n : NULL;
+
   for (size_t i = 0; i < spread->n_dabs; i++)
     {
-      const CeldDab  *dab = &spread->dab[i];
-      const uint32_t *label = &CELD_AT (labels, 0, dab->y);
-      Fate           *f = &fate[dab->stroke];
+      const CeldDab *dab = &spread->dab[i];
+      Fate          *f = &fate[dab->stroke];
+      uint32_t       label = painting->label[dab->basin];
 
+      while (patch < last && (patch->y < dab->y || (patch->y == dab->y && patch->end <= dab->x)))
+        patch++;
       f->label = dab->label;
       f->area += (size_t) (dab->end - dab->x);
-      for (int x = dab->x, end; x < dab->end; x = end)
-        {
-          for (end = x + 1; end < dab->end && label[end] == label[x]; end++)
-            ;
-          if (label[x] != dab->label)
-            overrule (f, label[x], dab->y, x, end);
-        }
+      if (!label || (patch < last && patch->y == dab->y && patch->x < dab->end))
+        follow_pixels (dab, labels, f);
+      else if (label != dab->label)
+        overrule (f, label, dab->y, dab->x, dab->end);
     }
 }
 
 static CeldStatus
-report_overruled (const CeldCanvas *canvas, const CeldSpread *spread, const CeldLabels *labels, CeldProblems *problems)
+report_overruled (const CeldCanvas *canvas, const CeldSpread *spread, const CeldPainting *painting,
+                  const CeldLabels *labels, CeldProblems *problems)
 {
   Fate      *fate = celd_alloc0 (spread->n_strokes, sizeof *fate);
   CeldStatus status = fate ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    follow_strokes (spread, labels, fate);
+    follow_strokes (spread, painting, labels, fate);
   for (size_t k = 0; k < spread->n_strokes && status == CELD_OK; k++)
     if (fate[k].label <= canvas->palette.n && 2 * fate[k].overruled > fate[k].area &&
         SCRAP * fate[k].area >= canvas->palette.item[fate[k].label - 1].seeds)
@@ -146,20 +162,19 @@ choose_pieces (const CeldBasins *b, const CeldSpread *spread, Piece *piece)
 
 /* Looks for the paper of `n` pieces until it is enough. */
 static void
-find_paper (const CeldCanvas *canvas, size_t n, Piece *piece)
+find_paper (const CeldBasins *b, size_t n, Piece *piece)
 {
-  const CeldBasins *b = canvas->basins;
-
   for (int y = 0; y < b->height && n; y++)
     for (size_t i = b->row[y]; i < b->row[y + 1] && n; i++)
       {
         int    end = i + 1 < b->row[y + 1] ? b->run[i + 1].x : b->width;
         Piece *p = &piece[b->piece[b->run[i].basin]];
+        size_t paper;
 
         if (!p->missing)
           continue;
-        for (int x = b->run[i].x; x < end && p->missing; x++)
-          p->missing -= celd_is_paper (CELD_AT (canvas->ink, x, y));
+        paper = celd_paper_count (b, y, b->run[i].x, end);
+        p->missing -= paper < p->missing ? paper : p->missing;
         n -= !p->missing;
       }
 }
@@ -175,7 +190,7 @@ report_unreached (const CeldCanvas *canvas, const CeldLabels *labels, CeldProble
   if (status == CELD_OK)
     {
       gather_pieces (b, piece);
-      find_paper (canvas, choose_pieces (b, &spread, piece), piece);
+      find_paper (b, choose_pieces (b, &spread, piece), piece);
     }
   for (size_t k = 1; k <= b->n_pieces && status == CELD_OK; k++)
     if (piece[k].area && !piece[k].missing)
@@ -191,8 +206,8 @@ report_unreached (const CeldCanvas *canvas, const CeldLabels *labels, CeldProble
 }
 
 CeldStatus
-celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels, const CeldRun *run,
-                     CeldProblems *problems)
+celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting,
+                     const CeldLabels *labels, const CeldRun *run, CeldProblems *problems)
 {
   bool       all = !canvas->settings->flats;
   CeldCanvas painted = *canvas;
@@ -203,7 +218,7 @@ celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const 
   if (all)
     status = celd_spread_new (&painted, canvas->basins->piece, &spread);
   if (all && status == CELD_OK)
-    status = report_overruled (canvas, &spread, labels, problems);
+    status = report_overruled (canvas, &spread, painting, labels, problems);
   if (status == CELD_OK)
     status = report_lost (canvas, seeds, problems);
   if (all && status == CELD_OK)

@@ -5,7 +5,7 @@
 #ifndef CELD_SEGMENT_H
 #define CELD_SEGMENT_H
 
-#include "patches.h"
+#include "painting.h"
 #include "seed-rows.h"
 
 typedef struct
@@ -115,9 +115,9 @@ CeldStatus celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, 
 
 /* ------------------------------------------------------------------ report.c */
 
-/* `seeds` are those that the artist painted, `labels` the result. */
-CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels,
-                                const CeldRun *run, CeldProblems *problems);
+/* `seeds` are those that the artist painted, `labels` the result, `painting` what is known of it. */
+CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting,
+                                const CeldLabels *labels, const CeldRun *run, CeldProblems *problems);
 
 /* ------------------------------------------------------------------ segmenter.c: one drawing, kept between strokes */
 

@@ -289,7 +289,7 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
   if (status == CELD_OK)
     {
       count_arrow_seeds (canvas);
-      status = celd_segment_report (canvas, seeds, labels, &brief, problems);
+      status = celd_segment_report (canvas, seeds, &s->painting, labels, &brief, problems);
     }
   return status;
 }

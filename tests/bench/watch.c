@@ -191,6 +191,6 @@ STEP (PART_PAINTING, celd_painting_measure,
       (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette),
       (painting, basins, labels, palette))
 STEP (PART_REPORT, celd_segment_report,
-      (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldLabels *labels, const CeldRun *run,
-       CeldProblems *problems),
-      (canvas, seeds, labels, run, problems))
+      (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting, const CeldLabels *labels,
+       const CeldRun *run, CeldProblems *problems),
+      (canvas, seeds, painting, labels, run, problems))

@@ -53,6 +53,7 @@ sketch_basins (const char *const *paper, const CeldPlane *ink, float threshold, 
   b->piece = calloc (b->n, sizeof *b->piece);
   b->row   = calloc ((size_t) h + 1, sizeof *b->row);
   b->run   = calloc (n_pixels, sizeof *b->run);
+  CHECK (celd_paper_new (ink, NULL, &b->paper) == CELD_OK);
   for (uint32_t k = 0; k < b->n; k++)
     {
       b->block[k] = k + 1;
@@ -117,6 +118,7 @@ sketch_close (Sketch *s)
   free (s->basins.piece);
   free (s->basins.row);
   free (s->basins.run);
+  free (s->basins.paper);
   celd_seed_rows_clear (&s->canvas.seeds);
   celd_palette_clear (&s->canvas.palette);
 }

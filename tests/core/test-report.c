@@ -4,8 +4,25 @@
  */
 #include "canvas.h"
 
+/* The labels as basins that have the label of their maximum, and patches where that is not all of it. */
+static void
+paint (const CeldBasins *b, const CeldLabels *labels, CeldPainting *painting)
+{
+  *painting = (CeldPainting) { .label = calloc (b->n, sizeof *painting->label) };
+  for (size_t k = 0; k < b->n; k++)
+    painting->label[k] = CELD_AT (labels, b->basin[k].x, b->basin[k].y);
+  for (int y = 0; y < b->height; y++)
+    for (int x = 0; x < b->width; x++)
+      {
+        uint32_t l = CELD_AT (labels, x, y);
+
+        if (l != painting->label[celd_basin_at (b, x, y)])
+          CHECK (celd_patch_add (&painting->patches, (CeldPatch) { y, x, x + 1, l }) == CELD_OK);
+      }
+}
+
 /* A canvas whose labels are `labels`, with their areas counted, and what is reported of it. */
-typedef struct { Sketch sketch; CeldLabels labels; CeldProblems problems; } Case;
+typedef struct { Sketch sketch; CeldLabels labels; CeldPainting painting; CeldProblems problems; } Case;
 
 static void
 report (Case *c, const char *const *paper, const char *const *painted, const char *const *labels, size_t n, bool flats)
@@ -19,7 +36,8 @@ report (Case *c, const char *const *paper, const char *const *painted, const cha
   for (int p = 0; p < c->labels.width * c->labels.height; p++)
     if (c->labels.data[p])
       canvas->palette.item[c->labels.data[p] - 1].area++;
-  CHECK (celd_segment_report (canvas, &canvas->seeds, &c->labels, NULL, &c->problems) == CELD_OK);
+  paint (&c->sketch.basins, &c->labels, &c->painting);
+  CHECK (celd_segment_report (canvas, &canvas->seeds, &c->painting, &c->labels, NULL, &c->problems) == CELD_OK);
 }
 
 static void
@@ -27,6 +45,7 @@ case_close (Case *c)
 {
   celd_problems_clear (&c->problems);
   free (c->labels.data);
+  celd_painting_clear (&c->painting);
   sketch_close (&c->sketch);
 }
 
@@ -121,15 +140,119 @@ unknown_labels_are_passed_over (void)
 {
   static const char *const painted[] = { "AAAA....", "........", "........", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
-  Case c;
+  CeldCanvas *canvas;
+  Case        c;
 
   report (&c, paper, painted, labels, 1, false);
-  CHECK (celd_seed_rows_paint (&c.sketch.canvas.seeds, 2, 4, 5, 7) == CELD_OK);
-  CHECK (celd_seed_rows_paint (&c.sketch.canvas.seeds, 2, 5, 6, UINT32_MAX) == CELD_OK);
-  CHECK (celd_segment_report (&c.sketch.canvas, &c.sketch.canvas.seeds, &c.labels, NULL, &c.problems) == CELD_OK);
-  CHECK (celd_segment_report (&c.sketch.canvas, &c.sketch.canvas.seeds, &c.labels, NULL, NULL) == CELD_OK);
+  canvas = &c.sketch.canvas;
+  CHECK (celd_seed_rows_paint (&canvas->seeds, 2, 4, 5, 7) == CELD_OK);
+  CHECK (celd_seed_rows_paint (&canvas->seeds, 2, 5, 6, UINT32_MAX) == CELD_OK);
+  CHECK (celd_segment_report (canvas, &canvas->seeds, &c.painting, &c.labels, NULL, &c.problems) == CELD_OK);
+  CHECK (celd_segment_report (canvas, &canvas->seeds, &c.painting, &c.labels, NULL, NULL) == CELD_OK);
   NEAR (c.problems.n, 0, 0);
   case_close (&c);
+}
+
+/* ------------------------------------------------------------------ the same by pixels */
+
+enum { W = 17, H = 11 };
+
+/* Random paint and labels, blurred so that there is something in common; basins in stripes. */
+static void
+random_case (uint32_t *state, char paper_row[H][W + 1], char painted[H][W + 1], char labels[H][W + 1])
+{
+  memset (paper_row, 0, H * (W + 1));
+  memset (painted, 0, H * (W + 1));
+  memset (labels, 0, H * (W + 1));
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        paper_row[y][x] = (char) ('1' + x / 5);
+        painted[y][x] = x && check_random (state, 3) ? painted[y][x - 1] : (char) ('A' + check_random (state, 4));
+        labels[y][x]  = y && check_random (state, 4) ? labels[y - 1][x] : (char) ('A' + check_random (state, 3));
+      }
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      if (painted[y][x] == 'D')
+        painted[y][x] = '.';
+}
+
+/* Gathers the stroke round pixel p: how many of its pixels are there, and how many of these have another label. */
+static void
+gather (const CeldSeedRows *seeds, const CeldLabels *labels, int p, bool seen[W * H], int *area, int *overruled)
+{
+  uint32_t l = celd_seed_rows_at (seeds, p % W, p / W);
+
+  if (seen[p])
+    return;
+  seen[p] = true;
+  *area      += 1;
+  *overruled += labels->data[p] != l;
+  for (int v = p / W - 1; v <= p / W + 1; v++)
+    for (int u = p % W - 1; u <= p % W + 1; u++)
+      if (u >= 0 && v >= 0 && u < W && v < H && celd_seed_rows_at (seeds, u, v) == l)
+        gather (seeds, labels, v * W + u, seen, area, overruled);
+}
+
+/* An exact answer has no basins with a label: the pixels alone must tell the same. */
+static void
+check_without_basins (Case *c)
+{
+  CeldProblems again = { 0 };
+  CeldCanvas  *canvas = &c->sketch.canvas;
+  CeldPainting none = { .label = calloc (c->sketch.basins.n, sizeof *none.label) };
+
+  CHECK (celd_segment_report (canvas, &canvas->seeds, &none, &c->labels, NULL, &again) == CELD_OK);
+  NEAR (again.n, c->problems.n, 0);
+  for (size_t i = 0; i < again.n && again.n == c->problems.n; i++)
+    CHECK (again.item[i].kind == c->problems.item[i].kind && again.item[i].label == c->problems.item[i].label);
+  celd_problems_clear (&again);
+  free (none.label);
+}
+
+static void
+overruled_strokes_are_those_of_the_pixels (void)
+{
+  uint32_t state = 8;
+  size_t   told = 0;
+
+  for (int round = 0; round < 200; round++)
+    {
+      char        row[3][H][W + 1];
+      const char *art[3][H + 1] = { { NULL } };
+      bool        seen[W * H] = { false };
+      size_t      n = 0, lost = 0;
+      Case        c;
+
+      random_case (&state, row[0], row[1], row[2]);
+      for (int k = 0; k < 3; k++)
+        for (int y = 0; y < H; y++)
+          art[k][y] = row[k][y];
+      report (&c, art[0], art[1], art[2], 3, false);
+      while (lost < c.problems.n && c.problems.item[lost].kind == CELD_PROBLEM_STROKE_OVERRULED)
+        lost++;
+      for (int p = 0; p < W * H; p++)
+        {
+          const CeldProblem *problem = n < lost ? &c.problems.item[n] : NULL;
+          uint32_t           l = celd_seed_rows_at (&c.sketch.canvas.seeds, p % W, p / W);
+          int                area = 0, overruled = 0;
+
+          if (!l || seen[p])
+            continue;
+          gather (&c.sketch.canvas.seeds, &c.labels, p, seen, &area, &overruled);
+          if (2 * overruled <= area || 8 * (size_t) area < c.sketch.canvas.palette.item[l - 1].seeds)
+            continue;
+          CHECK (problem && problem->label == l && problem->other && problem->other != l &&
+                 seen[problem->y * W + problem->x] && CELD_AT (&c.labels, problem->x, problem->y) != l &&
+                 celd_seed_rows_at (&c.sketch.canvas.seeds, problem->x, problem->y) == l);
+          n++;
+        }
+      NEAR (lost, n, 0);
+      told += n;
+      check_without_basins (&c);
+      case_close (&c);
+    }
+  CHECK (told > 100);
 }
 
 int
@@ -140,5 +263,6 @@ main (void)
   RUN (a_lost_colour_is_told_once);
   RUN (closed_regions_without_a_stroke_are_unreached);
   RUN (unknown_labels_are_passed_over);
+  RUN (overruled_strokes_are_those_of_the_pixels);
   return DONE;
 }
