@@ -14,6 +14,8 @@ typedef struct
   CeldStatus    status;
 } Case;
 
+static CeldMethod method; /* of all that follows */
+
 /* Scribbles 'A', 'B', ... may stand on paper in the drawing itself. */
 static Case
 segment (const char *const *drawing, const char *relations, CeldSettings settings)
@@ -21,6 +23,7 @@ segment (const char *const *drawing, const char *relations, CeldSettings setting
   Case     c = { .ink = art_plane (drawing), .seeds = art_labels (drawing), .labels = art_labels (drawing) };
   uint32_t n = 0;
 
+  settings.method = method;
   for (int i = 0; i < c.ink.width * c.ink.height; i++)
     n = c.seeds.data[i] > n ? c.seeds.data[i] : n;
   c.palette = (CeldPalette) { calloc (n ? n : 1, sizeof (CeldRegion)), n };
@@ -219,13 +222,16 @@ close_ends (void)
 int
 main (void)
 {
-  RUN (ends_make_regions);
-  RUN (equal_ends_make_one_region);
-  RUN (ends_on_ink_and_outside);
-  RUN (scribbled_regions_stay);
-  RUN (colours_differ);
-  RUN (figure_2_of_the_paper);
-  RUN (scribbled_regions_are_split);
-  RUN (close_ends);
+  for (method = CELD_METHOD_BASINS; method <= CELD_METHOD_EXACT; method++)
+    {
+      RUN (ends_make_regions);
+      RUN (equal_ends_make_one_region);
+      RUN (ends_on_ink_and_outside);
+      RUN (scribbled_regions_stay);
+      RUN (colours_differ);
+      RUN (figure_2_of_the_paper);
+      RUN (scribbled_regions_are_split);
+      RUN (close_ends);
+    }
   return DONE;
 }

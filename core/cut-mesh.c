@@ -1,0 +1,282 @@
+/* The graph that a region is cut on.
+ *
+ * A node is the connected paper of one basin in a square, or its connected ink; so what a thin line or a narrow place
+ * parts is two nodes, however coarse the squares are.  Links are the exact sums of V between their pixels.  In the
+ * 4-neighbour metric a staircase costs what the straight line costs, so coarse squares lose little of a cut's value.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cut.h"
+
+#include <string.h>
+
+#define NO_KIND UINT32_MAX
+#define FINE    4        /* pixels; in squares up to here ink costs less the deeper it is */
+#define DEPTH   4        /* pixels; deeper ink counts as this deep */
+#define RECENT  4        /* links back in which the same pair is looked for */
+
+CeldStatus
+celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit)
+{
+  const CeldCut *cut = mesh->cut;
+  CeldStatus     status = CELD_OK;
+
+  for (int t = 0; t < mesh->columns * mesh->rows; t++)
+    {
+      int left = cut->left + t % mesh->columns * CELD_TILE, right = left + CELD_TILE, size = mesh->size[t];
+      int top = cut->top + t / mesh->columns * CELD_TILE, bottom = top + CELD_TILE;
+
+      right  = right > cut->right ? cut->right + 1 : right;
+      bottom = bottom > cut->bottom ? cut->bottom + 1 : bottom;
+      for (int y = top; y < bottom && mesh->open[t]; y += size)
+        for (int x = left; x < right && status == CELD_OK; x += size)
+          status = visit (mesh, x, y, x + size < right ? x + size : right, y + size < bottom ? y + size : bottom, size);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ nodes */
+
+/* What a square has: pixels inside, others, ink inside. */
+typedef struct { bool inside, outside, ink; } Contents;
+
+static Contents
+look (const CeldMesh *mesh, int x, int y, int right, int bottom)
+{
+  unsigned inside = 0, outside = 0, ink = 0;
+
+  for (int v = y; v < bottom; v++)
+    {
+      const uint8_t *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, v);
+      const float   *value = &CELD_AT (mesh->cut->canvas->ink, x, v);
+
+      for (int u = 0; u < right - x; u++)
+        {
+          inside  |= mark[u] == CELD_INSIDE;
+          outside |= mark[u] != CELD_INSIDE;
+          ink     |= value[u] < 0.5f;
+        }
+    }
+  return (Contents) { inside, outside, ink };
+}
+
+static CeldStatus
+add_node (CeldMesh *mesh, CeldCutNode node)
+{
+  CeldCutNode *grown = celd_grow (mesh->node, mesh->n + 1, sizeof *grown);
+
+  if (!grown)
+    return CELD_NO_MEMORY;
+  mesh->node = grown;
+  mesh->node[mesh->n++] = node;
+  return CELD_OK;
+}
+
+/* The kind of each pixel inside: pixels of one node are of one kind. */
+static void
+tell_kinds (CeldMesh *mesh, int x, int y, int right, int bottom)
+{
+  const CeldBasins *basins = mesh->cut->canvas->basins;
+  uint32_t         *kind = mesh->kind;
+
+  for (int v = y; v < bottom; v++)
+    {
+      size_t k = celd_basin_run (basins, x, v);
+
+      for (int u = x; u < right; u++)
+        {
+          if (u == celd_basin_run_end (basins, k, v))
+            k++;
+          *kind++ = mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] != CELD_INSIDE ? NO_KIND
+                  : 2 * basins->run[k].basin + celd_is_paper (CELD_AT (mesh->cut->canvas->ink, u, v));
+        }
+    }
+}
+
+/* Gives the pixels that join pixel i of a square `width` wide, of the same kind, the number of the last node. */
+static void
+flood (CeldMesh *mesh, int x, int y, int width, int height, int i)
+{
+  uint32_t *kind = mesh->kind, same = kind[i];
+  int       n = 0;
+
+#define TAKE(j) (kind[j] = NO_KIND, mesh->stack[n++] = (uint16_t) (j))
+  TAKE (i);
+  while (n)
+    {
+      int j = mesh->stack[--n], u = j % width, v = j / width;
+
+      mesh->cut->node[celd_cut_pixel (mesh->cut, x + u, y + v)] = (uint32_t) mesh->n - 1;
+      if (u > 0 && kind[j - 1] == same)
+        TAKE (j - 1);
+      if (u + 1 < width && kind[j + 1] == same)
+        TAKE (j + 1);
+      if (v > 0 && kind[j - width] == same)
+        TAKE (j - width);
+      if (v + 1 < height && kind[j + width] == same)
+        TAKE (j + width);
+    }
+#undef TAKE
+}
+
+static CeldStatus
+number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
+{
+  Contents    has = look (mesh, x, y, right, bottom);
+  CeldCutNode node = { .x = x, .y = y, .size = size, .whole = !has.outside && !has.ink, .ink = has.ink };
+  CeldStatus  status = CELD_OK;
+
+  if (!has.inside)
+    return CELD_OK;
+  if (node.whole || size == 1)
+    {
+      status = add_node (mesh, node);
+      for (int v = y; v < bottom; v++)
+        for (int u = x; u < right; u++)
+          mesh->cut->node[celd_cut_pixel (mesh->cut, u, v)] = (uint32_t) mesh->n - 1;
+      return status;
+    }
+  tell_kinds (mesh, x, y, right, bottom);
+  for (int i = 0; i < (right - x) * (bottom - y) && status == CELD_OK; i++)
+    {
+      if (mesh->kind[i] == NO_KIND)
+        continue;
+      node.ink = mesh->kind[i] % 2 == 0;
+      status   = add_node (mesh, node);
+      if (status == CELD_OK)
+        flood (mesh, x, y, right - x, bottom - y, i);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ links */
+
+/* The squared distance from ink at (x,y) to paper. */
+static int32_t
+depth (const CeldPlane *ink, int x, int y)
+{
+  int32_t least = DEPTH * DEPTH;
+
+  for (int v = -DEPTH + 1; v < DEPTH; v++)
+    for (int u = -DEPTH + 1; u < DEPTH; u++)
+      if (u * u + v * v < least && x + u >= 0 && y + v >= 0 && x + u < ink->width && y + v < ink->height &&
+          celd_is_paper (CELD_AT (ink, x + u, y + v)))
+        least = u * u + v * v;
+  return least;
+}
+
+static int32_t
+cost_between (const CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+{
+  const CeldPlane *ink = mesh->cut->canvas->ink;
+  const CeldCosts *costs = &mesh->cut->canvas->basins->costs;
+  float            a = CELD_AT (ink, x, y), b = CELD_AT (ink, u, v);
+  bool             along = x == u ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
+
+  if (a >= 1 && b >= 1 && !along)
+    return costs->by_ink[CELD_INK_STEPS];
+  fine = fine && !celd_is_paper (a) && !celd_is_paper (b);
+  return celd_cost (costs, a, b, fine ? depth (ink, x, y) : 0, fine ? depth (ink, u, v) : 0, along);
+}
+
+static CeldStatus
+add_link (CeldMesh *mesh, uint32_t a, uint32_t b, int32_t cost)
+{
+  CeldLink *grown;
+
+  for (size_t i = mesh->n_links; i > 0 && i + RECENT > mesh->n_links; i--)
+    if (mesh->link[i - 1].a == a && mesh->link[i - 1].b == b)
+      {
+        mesh->link[i - 1].cost += cost;
+        return CELD_OK;
+      }
+  grown = celd_grow (mesh->link, mesh->n_links + 1, sizeof *grown);
+  if (!grown)
+    return CELD_NO_MEMORY;
+  mesh->link = grown;
+  mesh->link[mesh->n_links++] = (CeldLink) { a, b, cost };
+  return CELD_OK;
+}
+
+/* The pixel (x,y) inside and its neighbour (u,v).  Pairs of two inside come up twice, once from each. */
+static CeldStatus
+touch (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+{
+  const CeldCut *cut = mesh->cut;
+  size_t         p = celd_cut_pixel (mesh->cut, x, y), q;
+  uint32_t       k = cut->node[p];
+
+  if (u < 0 || v < 0 || u >= cut->canvas->ink->width || v >= cut->canvas->ink->height)
+    return CELD_OK;
+  q = celd_cut_pixel (mesh->cut, u, v);
+  if (cut->mark[q] == CELD_INSIDE)
+    return q < p || cut->node[q] == k ? CELD_OK
+         : add_link (mesh, k, cut->node[q], cost_between (mesh, x, y, u, v, fine));
+  if (cut->mark[q] == CELD_NEAR_FIRST)
+    mesh->node[k].pull += cost_between (mesh, x, y, u, v, fine);
+  if (cut->mark[q] == CELD_NEAR_SECOND)
+    mesh->node[k].pull -= cost_between (mesh, x, y, u, v, fine);
+  return CELD_OK;
+}
+
+static CeldStatus
+link_around (CeldMesh *mesh, int x, int y, int right, int bottom, bool fine)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int u = x; u < right && status == CELD_OK; u++)
+    status = touch (mesh, u, y, u, y - 1, fine);
+  for (int u = x; u < right && status == CELD_OK; u++)
+    status = touch (mesh, u, bottom - 1, u, bottom, fine);
+  for (int v = y; v < bottom && status == CELD_OK; v++)
+    status = touch (mesh, x, v, x - 1, v, fine);
+  for (int v = y; v < bottom && status == CELD_OK; v++)
+    status = touch (mesh, right - 1, v, right, v, fine);
+  return status;
+}
+
+static CeldStatus
+link_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
+{
+  size_t     p = celd_cut_pixel (mesh->cut, x, y);
+  bool       fine = size <= FINE;
+  CeldStatus status = CELD_OK;
+
+  if (mesh->cut->mark[p] == CELD_INSIDE && mesh->node[mesh->cut->node[p]].whole)
+    return link_around (mesh, x, y, right, bottom, fine);
+  for (int v = y; v < bottom; v++)
+    for (int u = x; u < right && status == CELD_OK; u++)
+      if (mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] == CELD_INSIDE)
+        status = link_around (mesh, u, v, u + 1, v + 1, fine);
+  return status;
+}
+
+CeldStatus
+celd_mesh_build (CeldMesh *mesh)
+{
+  CeldStatus status;
+
+  mesh->n = mesh->n_links = 0;
+  status = celd_mesh_squares (mesh, number_square);
+  return status == CELD_OK ? celd_mesh_squares (mesh, link_square) : status;
+}
+
+/* ------------------------------------------------------------------ seeds */
+
+void
+celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept)
+{
+  CeldCut *cut = mesh->cut;
+
+  for (int y = cut->top; y <= cut->bottom; y++)
+    for (size_t i = 0; i < cut->canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &cut->canvas->seeds.row[y].run[i];
+
+        if (run->label != cut->label)
+          continue;
+        for (int x = run->x < cut->left ? cut->left : run->x; x < run->end && x <= cut->right; x++)
+          if (cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE)
+            visit (mesh, &mesh->node[cut->node[celd_cut_pixel (cut, x, y)]], x, y, kept);
+      }
+}

@@ -1,0 +1,68 @@
+/* The graph that a region is cut on: squares of pixels, coarse where the cut is not, single pixels where it is.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_CUT_H
+#define CELD_CUT_H
+
+#include "partition.h"
+#include "seeds.h"
+
+#define CELD_TILE 64 /* pixels; squares are at most as large */
+
+/* Connected pixels of a square: paper of one basin, or ink of one. */
+typedef struct
+{
+  int     x, y, size;           /* the square */
+  bool    whole;                /* all of it, and nothing but paper */
+  bool    ink;
+  bool    lost;                 /* does not join the ends */
+  bool    pulled[2];            /* to an end, whatever it costs */
+  bool    seeded;               /* by the region's label, for one at (seed_x, seed_y) */
+  int     seed_x, seed_y;
+  int64_t pull;                 /* to the first end (> 0) or the second (< 0) */
+  uint8_t side;                 /* CELD_NEAR_FIRST ... */
+  bool    cut;                  /* the cut runs along it */
+} CeldCutNode;
+
+typedef struct
+{
+  CeldCut     *cut;
+  int          columns, rows;   /* of tiles, from the corner of the region's box */
+  uint8_t     *size;            /* of the squares in each tile: a power of two */
+  bool        *open;            /* does the tile have pixels inside? */
+  uint32_t    *kind;            /* scratch for one square: basin and paper or ink */
+  uint16_t    *stack;
+  CeldCutNode *node;
+  size_t       n;
+  CeldLink    *link;            /* a pair of nodes may come more than once */
+  size_t       n_links;
+} CeldMesh;
+
+/* Where the pixel (x,y) is in a tight plane. */
+static inline size_t
+celd_cut_pixel (const CeldCut *cut, int x, int y)
+{
+  return (size_t) y * (size_t) cut->canvas->basins->width + (size_t) x;
+}
+
+/* ------------------------------------------------------------------ cut-mesh.c */
+
+/* Makes nodes of all pixels inside, square by square, and the links among them; pixels that have an end already pull
+ * their neighbours to it. */
+CeldStatus celd_mesh_build (CeldMesh *mesh);
+
+/* Calls `visit` for the first pixel of each square of the open tiles; the rest up to *right and *bottom, exclusive. */
+typedef CeldStatus (*CeldSquareVisit) (CeldMesh *mesh, int x, int y, int right, int bottom, int size);
+CeldStatus celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit);
+
+/* Calls `visit` for the pixels inside that are seeds of the region. */
+typedef void (*CeldSeedVisit) (CeldMesh *mesh, CeldCutNode *node, int x, int y, int kept);
+void celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept);
+
+/* ------------------------------------------------------------------ cut-ways.c */
+
+/* *kept as in celd_cut; nodes that do not join the first end are lost. */
+CeldStatus celd_mesh_kept (CeldMesh *mesh, int *kept);
+
+#endif

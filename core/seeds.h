@@ -1,0 +1,83 @@
+/* What planting and splitting share: where a relation's ends lie, and the discs that stand for them.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_SEEDS_H
+#define CELD_SEEDS_H
+
+#include "segment.h"
+
+/* The basin run that holds the pixel (x,y). */
+static inline size_t
+celd_basin_run (const CeldBasins *basins, int x, int y)
+{
+  size_t low = basins->row[y], high = basins->row[y + 1];
+
+  while (high - low > 1)
+    {
+      size_t middle = (low + high) / 2;
+
+      if (basins->run[middle].x <= x)
+        low = middle;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+/* Where that run ends: the x behind its last pixel. */
+static inline int
+celd_basin_run_end (const CeldBasins *basins, size_t run, int y)
+{
+  return run + 1 < basins->row[y + 1] ? basins->run[run + 1].x : basins->width;
+}
+
+/* An end of a relation on the drawing: the paper nearest to its point. */
+typedef struct { bool there; int x, y; } CeldEnd;
+
+typedef struct { int x, y; double radius; } CeldDisc;
+
+/* The discs of an end: round the end itself and on the summit above it, with the squared distance to ink there, which
+ * is how much room the end has. */
+typedef struct { CeldDisc disc[2]; int32_t room; } CeldDiscs;
+
+#define CELD_REACH 0.45 /* of the way between both ends, for the discs of each where nothing else parts them */
+
+/* ------------------------------------------------------------------ discs.c */
+
+CeldEnd celd_end_find (const CeldCanvas *canvas, const CeldTerm *term);
+
+double celd_ends_apart (CeldEnd a, CeldEnd b);
+
+/* No disc reaches farther than `reach` from the end; INFINITY for no limit. */
+CeldDiscs celd_discs_find (const CeldCanvas *canvas, CeldEnd end, double reach);
+
+/* The pixels *x .. *end - 1 of a disc in row y, not cut to the picture; false if there are none. */
+bool celd_disc_row (const CeldDisc *disc, int y, int *x, int *end);
+
+/* ------------------------------------------------------------------ hues.c */
+
+/* One more label, of a colour that is far from all others. */
+CeldStatus celd_hue_add (CeldCanvas *canvas, uint32_t *label);
+
+/* ------------------------------------------------------------------ cut.c: a region, cut between two points of it */
+
+/* Of each pixel of the picture.  Before the cut: outside the region, or inside; after it, which end has it. */
+enum { CELD_OUTSIDE, CELD_INSIDE, CELD_NEAR_FIRST, CELD_NEAR_SECOND };
+
+typedef struct
+{
+  const CeldCanvas *canvas;
+  uint32_t          label;             /* of the region: whose seeds pull */
+  int               left, top, right, bottom; /* box round the region, inclusive */
+  CeldEnd           end[2];
+  CeldDiscs         discs[2];          /* they belong to their ends whatever it costs */
+  uint8_t          *mark;              /* tight plane of the picture's size */
+  uint32_t         *node;              /* the same: work space */
+} CeldCut;
+
+/* Cuts the region between its ends.  *kept is the end that is nearer, within the region, to the seeds of its label; -1
+ * if the region does not join the ends: then nothing is cut. */
+CeldStatus celd_cut (CeldCut *cut, const CeldRun *run, int *kept);
+
+#endif
