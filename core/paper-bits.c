@@ -8,6 +8,8 @@
  */
 #include "basins.h"
 
+#define PACK 64 /* bytes at a time */
+
 /* The byte of pixels 8 column .. 8 column + 7 of row y. */
 static inline size_t
 byte_of (int width, int column, int y)
@@ -17,26 +19,46 @@ byte_of (int width, int column, int y)
 
 typedef struct { const CeldPlane *ink; uint8_t *bits; CeldRect rect; } Work;
 
+/* Bytes of 0 or 1 for n pixels, and 0 up to the next multiple of 8. */
+static void
+find_paper (const float *restrict ink, int n, uint8_t *restrict paper)
+{
+  for (int i = 0; i < n; i++)
+    paper[i] = celd_is_paper (ink[i]);
+  for (int i = n; i & 7; i++)
+    paper[i] = 0;
+}
+
+/* Eight such bytes as bits of one: a product moves them side by side. */
+static uint8_t
+pack (const uint8_t *paper)
+{
+  uint64_t b = paper[0] | (uint64_t) paper[1] << 8 | (uint64_t) paper[2] << 16 | (uint64_t) paper[3] << 24 |
+               (uint64_t) paper[4] << 32 | (uint64_t) paper[5] << 40 | (uint64_t) paper[6] << 48 |
+               (uint64_t) paper[7] << 56;
+
+  return (uint8_t) (b * 0x0102040810204080 >> 56);
+}
+
 /* Rows come in bands of 8, so that jobs share no line of the cache. */
 static void
 read_band (void *data, int band)
 {
   const Work *work = data;
-  int         top = work->rect.y & ~7, bottom = work->rect.y + work->rect.height, w = work->ink->width;
+  int         w = work->ink->width, first = work->rect.x >> 3, end = (work->rect.x + work->rect.width + 7) >> 3;
+  int         top = (work->rect.y & ~7) + 8 * band, bottom = work->rect.y + work->rect.height;
+  uint8_t     paper[8 * PACK];
 
-  for (int y = top + 8 * band; y < top + 8 * band + 8 && y < bottom; y++)
-    for (int column = work->rect.x >> 3; 8 * column < work->rect.x + work->rect.width; column++)
+  for (int y = top; y < top + 8 && y < bottom; y++)
+    for (int column = first; column < end; column += PACK)
       {
-        const float *ink = &CELD_AT (work->ink, 8 * column, y);
-        unsigned     byte = 0;
+        int      columns = end - column < PACK ? end - column : PACK;
+        int      pixels = w - 8 * column < 8 * columns ? w - 8 * column : 8 * columns;
+        uint8_t *bits = work->bits + byte_of (w, column, y);
 
-        if (8 * column + 8 <= w)
-          for (int i = 0; i < 8; i++)
-            byte |= (unsigned) celd_is_paper (ink[i]) << i;
-        else
-          for (int i = 0; i < w - 8 * column; i++)
-            byte |= (unsigned) celd_is_paper (ink[i]) << i;
-        work->bits[byte_of (w, column, y)] = (uint8_t) byte;
+        find_paper (&CELD_AT (work->ink, 8 * column, y), pixels, paper);
+        for (int k = 0; k < columns; k++)
+          bits[8 * k] = pack (paper + 8 * k);
       }
 }
 

@@ -28,7 +28,7 @@ random_sketch (uint32_t *state, char paper[H][W + 1], char painted[H][W + 1])
           if (inked)
             paper[y][x] = '#';
           else
-            painted[y][x] = (char) ('A' + check_random (state, 20) % 4 * (k % 2) + k % 2);
+            painted[y][x] = (char) (k % 2 ? 'B' + check_random (state, 4) : 'A');
     }
 }
 
