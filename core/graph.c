@@ -14,6 +14,7 @@
 #include "segment.h"
 
 #define SHARED UINT32_MAX       /* a block in which several labels have paint */
+#define GAP    8                /* to close a gap in a contour costs so much less than to cut a neck */
 
 typedef struct
 {
@@ -176,15 +177,17 @@ fix_holders (Graph *g)
 static CeldStatus
 gather_votes (Graph *g)
 {
+  const CeldBasins *basins = g->canvas->basins;
+
   for (size_t i = 0; i < g->spread.n_dabs; i++)
     {
       const CeldDab *dab = &g->spread.dab[i];
       int32_t        vote = celd_canvas_vote (g->canvas, dab->label);
       uint32_t       node = g->node[dab->basin];
-      int64_t        cost = (int64_t) vote * (dab->end - dab->x);
+      int64_t        cost = (int64_t) vote * (int64_t) telling_paint (basins, dab);
       CeldVote      *votes;
 
-      if (vote == CELD_HARD)
+      if (vote == CELD_HARD || !cost)
         continue;
       if (g->n_votes && g->vote[g->n_votes - 1].node == node && g->vote[g->n_votes - 1].label == dab->label)
         {
@@ -198,6 +201,15 @@ gather_votes (Graph *g)
       votes[g->n_votes++] = (CeldVote) { node, dab->label, cost };
     }
   return CELD_OK;
+}
+
+/* What it costs to part two basins. */
+static int64_t
+border_cost (const CeldCanvas *canvas, const CeldBorder *border)
+{
+  bool gap = canvas->settings->close_gaps && border->passes && celd_is_gap (canvas->ink, canvas->basins, border);
+
+  return gap ? border->cost / GAP + 1 : border->cost;
 }
 
 /* Borders between nodes, those of the same two nodes summed up. */
@@ -244,7 +256,7 @@ gather_links (Graph *g)
               found[other] = g->n_links;
               g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
             }
-          g->link[found[other]].cost += b->cost;
+          g->link[found[other]].cost += border_cost (g->canvas, b);
         }
     }
 

@@ -88,6 +88,11 @@ CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run,
 CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
 
+/* ------------------------------------------------------------------ gaps.c */
+
+/* Is the narrow place between two basins a gap in a contour, where a line ends and points across? */
+bool celd_is_gap (const CeldPlane *ink, const CeldBasins *basins, const CeldBorder *border);
+
 /* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
 
 /* Of every pixel; `labels` is tight. */
