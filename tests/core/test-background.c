@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "canvas.h"
+#include "random-sketch.h"
 
 /* Seeds after celd_background_seed; returns the number of the background's label, 0 if none is marked. */
 static uint32_t
@@ -141,6 +141,132 @@ behind_a_gap_the_piece_counts (void)
   sketch_close (&s);
 }
 
+/* ------------------------------------------------------------------ the same by pixels */
+
+/* What the slow version knows of each pixel. */
+typedef struct { CeldLabels painted, room; uint32_t stroke[W * H], piece[W * H]; bool all_count; } Pixels;
+
+static uint32_t
+slow_holder (const Pixels *s, const uint32_t part[W * H], uint32_t which)
+{
+  int      most = 0;
+  uint32_t holder = 0;
+
+  for (uint32_t l = 1; l <= 3; l++)
+    {
+      int paint = 0;
+
+      for (int p = 0; p < W * H; p++)
+        {
+          int here = 0, total = 0;
+
+          if (part[p] != which || s->painted.data[p] != l)
+            continue;
+          for (int q = 0; q < W * H; q++)
+            if (s->stroke[q] == s->stroke[p] && s->room.data[q])
+              {
+                total++;
+                here += part[q] == which;
+              }
+          paint += s->all_count || 2 * here >= total;
+        }
+      if (paint > most)
+        {
+          most   = paint;
+          holder = l;
+        }
+    }
+  return holder;
+}
+
+/* Leaves the wanted seeds in s->painted; returns the background's label. */
+static uint32_t
+slow_background (Pixels *s, const CeldPlane *ink)
+{
+  size_t  *frame, n;
+  uint32_t holder[4 * (W + H)], of_room[5], of_piece[5], label = 0;
+  int      along[5] = { 0 }, held[5] = { 0 };
+  bool     lost[5] = { false };
+
+  CHECK (celd_frame (ink, W, H, 1, &frame, &n) == CELD_OK);
+  for (uint32_t k = 1; k <= 4; k++)
+    {
+      of_room[k]  = slow_holder (s, s->room.data, k);
+      of_piece[k] = slow_holder (s, s->piece, k);
+    }
+  for (size_t i = 0; i < n; i++)
+    along[s->room.data[frame[i]]]++;
+  for (size_t i = 0; i < n; i++)
+    {
+      uint32_t room = s->room.data[frame[i]];
+
+      holder[i] = of_room[room] || 4 * along[room] >= (int) n ? of_room[room] : of_piece[s->piece[frame[i]]];
+      held[holder[i]]++;
+    }
+  for (uint32_t l = 1; l <= 3; l++)
+    if (held[l] > (label ? held[label] : 0))
+      label = l;
+  if (label && 4 * held[label] < (int) n && held[0] > held[label])
+    label = 0;
+  if (!label && held[0])
+    label = 4;
+  for (size_t i = 0; i < n; i++)
+    lost[s->room.data[frame[i]]] |= !holder[i];
+  for (int p = 0; p < W * H; p++)
+    if (s->room.data[p] && lost[s->room.data[p]])
+      s->painted.data[p] = 0;
+  for (size_t i = 0; i < n; i++)
+    if (!holder[i])
+      s->painted.data[frame[i]] = label;
+  celd_free (frame);
+  return label;
+}
+
+static void
+seeds_are_those_of_the_pixels (void)
+{
+  uint32_t state = 4;
+  int      own = 0;
+
+  for (int round = 0; round < 300; round++)
+    {
+      char        paper[H][W + 1] = { { 0 } }, painted[H][W + 1] = { { 0 } };
+      const char *paper_rows[H + 1] = { NULL }, *painted_rows[H + 1] = { NULL };
+      uint32_t    label, joined = check_random (&state, 3);
+      Pixels      pixels;
+      Sketch      s;
+      int         wrong = 0;
+
+      random_sketch (&state, 1 + (int) check_random (&state, 4), paper, painted);
+      for (int y = 0; y < H; y++)
+        {
+          paper_rows[y]   = paper[y];
+          painted_rows[y] = painted[y];
+        }
+      sketch_open (&s, paper_rows, painted_rows, 3);
+      s.settings.hardness = round % 4 ? 0.05f : 1;
+      pixels = (Pixels) { .painted = art_labels (painted_rows), .room = art_labels (paper_rows),
+                          .all_count = round % 4 == 0 };
+      flood (&pixels.painted, pixels.stroke);
+      if (joined) /* a room behind a gap */
+        s.basins.piece[joined] = 1;
+      for (int p = 0; p < W * H; p++)
+        pixels.piece[p] = pixels.room.data[p] == joined + 1 ? 1 : pixels.room.data[p];
+      label = slow_background (&pixels, &s.ink);
+      CHECK (celd_background_seed (NULL, &s.canvas) == CELD_OK);
+      for (int p = 0; p < W * H; p++)
+        wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != pixels.painted.data[p];
+      NEAR (wrong, 0, 0);
+      CHECK (s.canvas.palette.n == (label == 4 ? 4 : 3));
+      CHECK (!label || s.canvas.palette.item[label - 1].background);
+      own += label == 4;
+      sketch_close (&s);
+      free (pixels.painted.data);
+      free (pixels.room.data);
+    }
+  CHECK (own > 20 && own < 280);
+}
+
 int
 main (void)
 {
@@ -151,5 +277,6 @@ main (void)
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (behind_a_gap_the_piece_counts);
+  RUN (seeds_are_those_of_the_pixels);
   return DONE;
 }

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "canvas.h"
+#include "random-sketch.h"
 
 static void
 check_share (const CeldSpread *spread, size_t i, CeldShare wanted)
@@ -84,38 +84,6 @@ runs_are_cut_where_basins_meet (void)
 
 /* ------------------------------------------------------------------ the same by pixels */
 
-enum { W = 23, H = 17 };
-
-/* Connected strokes by flooding, numbered from 1 in reading order; returns how many. */
-static uint32_t
-flood (const CeldLabels *painted, uint32_t stroke[W * H])
-{
-  uint32_t n = 0;
-
-  memset (stroke, 0, W * H * sizeof *stroke);
-  for (int p = 0; p < W * H; p++)
-    {
-      bool grew = painted->data[p] && !stroke[p];
-
-      if (grew)
-        stroke[p] = ++n;
-      while (grew)
-        {
-          grew = false;
-          for (int q = 0; q < W * H; q++)
-            for (int v = q / W - 1; v <= q / W + 1 && stroke[q] == n; v++)
-              for (int u = q % W - 1; u <= q % W + 1; u++)
-                if (u >= 0 && v >= 0 && u < W && v < H && !stroke[v * W + u] &&
-                    painted->data[v * W + u] == painted->data[q])
-                  {
-                    stroke[v * W + u] = n;
-                    grew = true;
-                  }
-        }
-    }
-  return n;
-}
-
 /* Is pixel p a stain?  By the definition, pixel by pixel. */
 static bool
 slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t stroke[W * H], int p)
@@ -136,30 +104,6 @@ slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t s
   return here * mine < 0.5 * elsewhere * others;
 }
 
-/* Pieces in columns and rows between lines, and boxes of paint over them. */
-static void
-random_sketch (uint32_t *state, char paper[H][W + 1], char painted[H][W + 1])
-{
-  int column = 3 + (int) check_random (state, W - 6), row = 3 + (int) check_random (state, H - 6);
-
-  for (int y = 0; y < H; y++)
-    for (int x = 0; x < W; x++)
-      {
-        paper[y][x] = x == column || y == row || !check_random (state, 30) ? '#'
-                    : (char) ('1' + (x > column) + 2 * (y > row));
-        painted[y][x] = '.';
-      }
-  for (int k = 0; k < 9; k++)
-    {
-      int left = (int) check_random (state, W), top = (int) check_random (state, H);
-      int w = 1 + (int) check_random (state, 9), h = 1 + (int) check_random (state, 5);
-
-      for (int y = top; y < top + h && y < H; y++)
-        for (int x = left; x < left + w && x < W; x++)
-          painted[y][x] = (char) ('A' + k % 3);
-    }
-}
-
 static void
 dabs_shares_and_stains_are_those_of_the_pixels (void)
 {
@@ -177,7 +121,7 @@ dabs_shares_and_stains_are_those_of_the_pixels (void)
       size_t      pixels = 0, dabbed = 0, paper_pixels = 0;
       int         wrong = 0;
 
-      random_sketch (&state, paper, painted);
+      random_sketch (&state, 9, paper, painted);
       for (int y = 0; y < H; y++)
         {
           paper_rows[y] = paper[y];
