@@ -13,7 +13,7 @@
 #define NO_KIND UINT32_MAX
 #define FINE    4        /* pixels; in squares up to here ink costs less the deeper it is */
 #define DEPTH   4        /* pixels; deeper ink counts as this deep */
-#define RECENT  4        /* links back in which the same pair is looked for */
+#define COARSE_DEPTH 4   /* squared; what ink counts as in larger ones, so that cuts like the middle of lines */
 
 CeldStatus
 celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit)
@@ -141,8 +141,9 @@ number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
     {
       if (mesh->kind[i] == NO_KIND)
         continue;
-      node.ink = mesh->kind[i] % 2 == 0;
-      status   = add_node (mesh, node);
+      node.ink   = mesh->kind[i] % 2 == 0;
+      node.basin = mesh->kind[i] / 2;
+      status     = add_node (mesh, node);
       if (status == CELD_OK)
         flood (mesh, x, y, right - x, bottom - y, i);
     }
@@ -175,43 +176,54 @@ cost_between (const CeldMesh *mesh, int x, int y, int u, int v, bool fine)
 
   if (a >= 1 && b >= 1 && !along)
     return costs->by_ink[CELD_INK_STEPS];
-  fine = fine && !celd_is_paper (a) && !celd_is_paper (b);
-  return celd_cost (costs, a, b, fine ? depth (ink, x, y) : 0, fine ? depth (ink, u, v) : 0, along);
+  if (celd_is_paper (a) || celd_is_paper (b))
+    return celd_cost (costs, a, b, 0, 0, along);
+  return fine ? celd_cost (costs, a, b, depth (ink, x, y), depth (ink, u, v), along)
+              : celd_cost (costs, a, b, COARSE_DEPTH, COARSE_DEPTH, along);
+}
+
+/* Does it take looking closer to tell where the cut runs between two nodes? */
+static bool
+is_loose (const CeldCutNode *a, const CeldCutNode *b)
+{
+  return a->whole || b->whole || (!a->ink && !b->ink) || a->basin == b->basin;
 }
 
 static CeldStatus
 add_link (CeldMesh *mesh, uint32_t a, uint32_t b, int32_t cost)
 {
+  uint32_t *recent = &mesh->recent[(a * 31u + b) % CELD_RECENT];
   CeldLink *grown;
+  bool     *loose;
 
-  for (size_t i = mesh->n_links; i > 0 && i + RECENT > mesh->n_links; i--)
-    if (mesh->link[i - 1].a == a && mesh->link[i - 1].b == b)
-      {
-        mesh->link[i - 1].cost += cost;
-        return CELD_OK;
-      }
+  if (*recent < mesh->n_links && mesh->link[*recent].a == a && mesh->link[*recent].b == b)
+    {
+      mesh->link[*recent].cost += cost;
+      return CELD_OK;
+    }
   grown = celd_grow (mesh->link, mesh->n_links + 1, sizeof *grown);
-  if (!grown)
+  mesh->link = grown ? grown : mesh->link;
+  loose = celd_grow (mesh->loose, mesh->n_links + 1, sizeof *loose);
+  mesh->loose = loose ? loose : mesh->loose;
+  if (!grown || !loose)
     return CELD_NO_MEMORY;
-  mesh->link = grown;
-  mesh->link[mesh->n_links++] = (CeldLink) { a, b, cost };
+  grown[mesh->n_links] = (CeldLink) { a, b, cost };
+  loose[mesh->n_links] = is_loose (&mesh->node[a], &mesh->node[b]);
+  *recent = (uint32_t) mesh->n_links++;
   return CELD_OK;
 }
 
-/* The pixel (x,y) inside and its neighbour (u,v).  Pairs of two inside come up twice, once from each. */
+/* The pixel (x,y) inside and its neighbour (u,v), of another node or not inside.  Pairs of two inside come up twice,
+ * once from each. */
 static CeldStatus
 touch (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
 {
   const CeldCut *cut = mesh->cut;
-  size_t         p = celd_cut_pixel (mesh->cut, x, y), q;
+  size_t         p = celd_cut_pixel (cut, x, y), q = celd_cut_pixel (cut, u, v);
   uint32_t       k = cut->node[p];
 
-  if (u < 0 || v < 0 || u >= cut->canvas->ink->width || v >= cut->canvas->ink->height)
-    return CELD_OK;
-  q = celd_cut_pixel (mesh->cut, u, v);
-  if (cut->mark[q] == CELD_INSIDE)
-    return q < p || cut->node[q] == k ? CELD_OK
-         : add_link (mesh, k, cut->node[q], cost_between (mesh, x, y, u, v, fine));
+  if (cut->mark[q] == CELD_INSIDE && q > p && cut->node[q] != k)
+    return add_link (mesh, k, cut->node[q], cost_between (mesh, x, y, u, v, fine));
   if (cut->mark[q] == CELD_NEAR_FIRST)
     mesh->node[k].pull += cost_between (mesh, x, y, u, v, fine);
   if (cut->mark[q] == CELD_NEAR_SECOND)
@@ -219,19 +231,62 @@ touch (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
   return CELD_OK;
 }
 
+/* The pixels x .. right - 1 of row y, with the row above (step -1) or below (1). */
 static CeldStatus
-link_around (CeldMesh *mesh, int x, int y, int right, int bottom, bool fine)
+link_rows (CeldMesh *mesh, int x, int right, int y, int step, bool fine)
+{
+  const CeldCut *cut = mesh->cut;
+  const size_t   p = celd_cut_pixel (cut, 0, y);
+  CeldStatus     status = CELD_OK;
+
+  if (y + step < 0 || y + step >= cut->canvas->ink->height)
+    return CELD_OK;
+  for (int u = x; u < right && status == CELD_OK; u++)
+    if (cut->mark[p + (size_t) u] == CELD_INSIDE)
+      status = touch (mesh, u, y, u, y + step, fine);
+  return status;
+}
+
+/* The pixels y .. bottom - 1 of column x, with the column to the left (step -1) or right (1). */
+static CeldStatus
+link_columns (CeldMesh *mesh, int y, int bottom, int x, int step, bool fine)
+{
+  const CeldCut *cut = mesh->cut;
+  CeldStatus     status = CELD_OK;
+
+  if (x + step < 0 || x + step >= cut->canvas->ink->width)
+    return CELD_OK;
+  for (int v = y; v < bottom && status == CELD_OK; v++)
+    if (cut->mark[celd_cut_pixel (cut, x, v)] == CELD_INSIDE)
+      status = touch (mesh, x, v, x + step, v, fine);
+  return status;
+}
+
+/* Two neighbours in a square, the one of lower index first. */
+static CeldStatus
+link_pair (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+{
+  const CeldCut *cut = mesh->cut;
+  size_t         p = celd_cut_pixel (cut, x, y), q = celd_cut_pixel (cut, u, v);
+
+  if (cut->mark[p] == CELD_INSIDE)
+    return cut->mark[q] == CELD_INSIDE && cut->node[p] == cut->node[q] ? CELD_OK : touch (mesh, x, y, u, v, fine);
+  return cut->mark[q] == CELD_INSIDE ? touch (mesh, u, v, x, y, fine) : CELD_OK;
+}
+
+static CeldStatus
+link_within (CeldMesh *mesh, int x, int y, int right, int bottom, bool fine)
 {
   CeldStatus status = CELD_OK;
 
-  for (int u = x; u < right && status == CELD_OK; u++)
-    status = touch (mesh, u, y, u, y - 1, fine);
-  for (int u = x; u < right && status == CELD_OK; u++)
-    status = touch (mesh, u, bottom - 1, u, bottom, fine);
-  for (int v = y; v < bottom && status == CELD_OK; v++)
-    status = touch (mesh, x, v, x - 1, v, fine);
-  for (int v = y; v < bottom && status == CELD_OK; v++)
-    status = touch (mesh, right - 1, v, right, v, fine);
+  for (int v = y; v < bottom; v++)
+    for (int u = x; u < right && status == CELD_OK; u++)
+      {
+        if (u + 1 < right)
+          status = link_pair (mesh, u, v, u + 1, v, fine);
+        if (v + 1 < bottom && status == CELD_OK)
+          status = link_pair (mesh, u, v, u, v + 1, fine);
+      }
   return status;
 }
 
@@ -242,12 +297,16 @@ link_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
   bool       fine = size <= FINE;
   CeldStatus status = CELD_OK;
 
-  if (mesh->cut->mark[p] == CELD_INSIDE && mesh->node[mesh->cut->node[p]].whole)
-    return link_around (mesh, x, y, right, bottom, fine);
-  for (int v = y; v < bottom; v++)
-    for (int u = x; u < right && status == CELD_OK; u++)
-      if (mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] == CELD_INSIDE)
-        status = link_around (mesh, u, v, u + 1, v + 1, fine);
+  if (mesh->cut->mark[p] != CELD_INSIDE || !mesh->node[mesh->cut->node[p]].whole)
+    status = link_within (mesh, x, y, right, bottom, fine);
+  if (status == CELD_OK)
+    status = link_rows (mesh, x, right, y, -1, fine);
+  if (status == CELD_OK)
+    status = link_rows (mesh, x, right, bottom - 1, 1, fine);
+  if (status == CELD_OK)
+    status = link_columns (mesh, y, bottom, x, -1, fine);
+  if (status == CELD_OK)
+    status = link_columns (mesh, y, bottom, right - 1, 1, fine);
   return status;
 }
 

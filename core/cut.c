@@ -32,11 +32,12 @@ mesh_new (CeldCut *cut, CeldMesh *mesh)
     .rows    = (cut->bottom - cut->top) / CELD_TILE + 1,
     .kind    = celd_alloc (CELD_TILE * CELD_TILE, sizeof *mesh->kind),
     .stack   = celd_alloc (CELD_TILE * CELD_TILE, sizeof *mesh->stack),
+    .recent  = celd_alloc0 (CELD_RECENT, sizeof *mesh->recent),
   };
   n = (size_t) mesh->columns * (size_t) mesh->rows;
   mesh->size = celd_alloc (n, 1);
   mesh->open = celd_alloc (n, 1);
-  return mesh->kind && mesh->stack && mesh->size && mesh->open ? CELD_OK : CELD_NO_MEMORY;
+  return mesh->kind && mesh->stack && mesh->recent && mesh->size && mesh->open ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
@@ -48,6 +49,8 @@ mesh_clear (CeldMesh *mesh)
   celd_free (mesh->stack);
   celd_free (mesh->node);
   celd_free (mesh->link);
+  celd_free (mesh->loose);
+  celd_free (mesh->recent);
 }
 
 /* How far the interval from `a` to `b` is from one that starts at x and is a tile long. */
@@ -209,7 +212,8 @@ is_torn (const CeldCutNode *node)
   return (node->pulled[0] && node->side == CELD_NEAR_SECOND) || (node->pulled[1] && node->side == CELD_NEAR_FIRST);
 }
 
-/* Opens a band along the cut where its squares are larger than pixels; false if they are not, anywhere. */
+/* Opens a band along the cut where its squares are larger than pixels; false if they are not, anywhere.  In ink that
+ * parts two basins the cut is in the middle of the line already. */
 static bool
 refine (CeldMesh *mesh)
 {
@@ -222,7 +226,7 @@ refine (CeldMesh *mesh)
     {
       CeldCutNode *a = &mesh->node[mesh->link[i].a], *b = &mesh->node[mesh->link[i].b];
 
-      if (a->side != b->side && (a->size > 1 || b->size > 1))
+      if (mesh->loose[i] && a->side != b->side && (a->size > 1 || b->size > 1))
         a->cut = b->cut = true;
     }
   for (size_t k = 0; k < mesh->n; k++)

@@ -8,14 +8,16 @@
 #include "partition.h"
 #include "seeds.h"
 
-#define CELD_TILE 64 /* pixels; squares are at most as large */
+#define CELD_TILE   64   /* pixels; squares are at most as large */
+#define CELD_RECENT 4096 /* links that are found again by their pair; a power of two */
 
-/* Connected pixels of a square: paper of one basin, or ink of one. */
+/* Connected pixels of a square: paper of one basin, or ink of one; or all of it, where there is nothing but paper. */
 typedef struct
 {
   int     x, y, size;           /* the square */
   bool    whole;                /* all of it, and nothing but paper */
   bool    ink;
+  uint32_t basin;               /* of a node that is not whole */
   bool    lost;                 /* does not join the ends */
   bool    pulled[2];            /* to an end, whatever it costs */
   bool    seeded;               /* by the region's label, for one at (seed_x, seed_y) */
@@ -36,7 +38,9 @@ typedef struct
   CeldCutNode *node;
   size_t       n;
   CeldLink    *link;            /* a pair of nodes may come more than once */
+  bool        *loose;           /* of each link: does it cross paper, or lie in one basin? */
   size_t       n_links;
+  uint32_t    *recent;          /* links by pair, as far as there is room */
 } CeldMesh;
 
 /* Where the pixel (x,y) is in a tight plane. */

@@ -149,10 +149,10 @@ climb_to_summit (const Search *search, CeldDisc disc)
 }
 
 CeldDiscs
-celd_discs_find (const CeldCanvas *canvas, CeldEnd end, double reach)
+celd_discs_find (const CeldCanvas *canvas, CeldEnd end, double reach, double widest)
 {
   const CeldBasin *basin = &canvas->basins->basin[celd_basin_at (canvas->basins, end.x, end.y)];
-  Search           search = { canvas, end, reach, fmax (1, shorter_side (canvas) / WIDEST) };
+  Search           search = { canvas, end, reach, fmin (widest, fmax (1, shorter_side (canvas) / WIDEST)) };
   CeldDiscs        discs = { .disc = { disc_at (&search, end.x, end.y, fmin (search.widest, ROUND)) } };
   CeldDisc         summit = discs.disc[0];
 

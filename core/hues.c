@@ -57,20 +57,22 @@ distance_to_labels (const CeldPalette *palette, const uint8_t colour[4])
 static void
 new_colour (const CeldPalette *palette, uint8_t colour[4])
 {
-  int distance[HUES];
+  int distance[HUES], n = 0;
 
-  for (int i = 0; i < HUES; i++)
-    {
-      colour_of (i, colour);
-      distance[i] = distance_to_labels (palette, colour);
-    }
   for (int least = FAR; ; least = least * 2 / 3)
     for (int i = 0; i < HUES; i++)
-      if (distance[i] >= least)
-        {
-          colour_of (i, colour);
-          return;
-        }
+      {
+        if (i == n)
+          {
+            colour_of (i, colour);
+            distance[n++] = distance_to_labels (palette, colour);
+          }
+        if (distance[i] >= least)
+          {
+            colour_of (i, colour);
+            return;
+          }
+      }
 }
 
 CeldStatus

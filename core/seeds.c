@@ -11,6 +11,8 @@
 
 #include <math.h>
 
+#define ON_BASINS 12 /* pixels: the radius of discs where no cut could run round one, as it would take in its basin */
+
 /* ------------------------------------------------------------------ what seeds reach */
 
 static bool
@@ -92,6 +94,7 @@ plant_relation (const CeldRelation *relation, bool *reached, CeldCanvas *canvas)
 {
   CeldEnd    end[2] = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) };
   uint32_t   room[2] = { room_of (canvas->basins, end[0]), room_of (canvas->basins, end[1]) }, label = 0;
+  double     widest = canvas->settings->method == CELD_METHOD_EXACT ? INFINITY : ON_BASINS;
   double     reach = room[0] == room[1] ? CELD_REACH * celd_ends_apart (end[0], end[1]) : INFINITY;
   CeldStatus status = CELD_OK;
 
@@ -103,7 +106,7 @@ plant_relation (const CeldRelation *relation, bool *reached, CeldCanvas *canvas)
         continue;
       if (!label || !relation->equal)
         status = celd_hue_add (canvas, &label);
-      discs = celd_discs_find (canvas, end[i], reach);
+      discs = celd_discs_find (canvas, end[i], reach, widest);
       for (int k = 0; k < 2 && status == CELD_OK; k++)
         status = plant_disc (canvas, &discs.disc[k], room[i], label);
       reached[room[i]] = true;

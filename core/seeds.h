@@ -49,8 +49,8 @@ CeldEnd celd_end_find (const CeldCanvas *canvas, const CeldTerm *term);
 
 double celd_ends_apart (CeldEnd a, CeldEnd b);
 
-/* No disc reaches farther than `reach` from the end; INFINITY for no limit. */
-CeldDiscs celd_discs_find (const CeldCanvas *canvas, CeldEnd end, double reach);
+/* No disc reaches farther than `reach` from the end, or has a larger radius than `widest`; INFINITY for no limit. */
+CeldDiscs celd_discs_find (const CeldCanvas *canvas, CeldEnd end, double reach, double widest);
 
 /* The pixels *x .. *end - 1 of a disc in row y, not cut to the picture; false if there are none. */
 bool celd_disc_row (const CeldDisc *disc, int y, int *x, int *end);

@@ -8,6 +8,7 @@
  */
 #include "seeds.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct { int left, top, right, bottom; } Box; /* inclusive */
@@ -275,7 +276,7 @@ split_region (Split *split, CeldCut *cut, const CeldRun *run)
       for (int y = cut->top; y <= cut->bottom; y++)
         mark_row (split, cut, y);
       for (int i = 0; i < 2; i++)
-        cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach);
+        cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
       status = celd_cut (cut, run, &kept);
       if (status == CELD_OK && kept >= 0)
         status = take_over (split, cut, kept);
