@@ -41,6 +41,8 @@ Memory memory_now (void);
 /* Steps within core whose time is taken. */
 typedef enum
 {
+  PART_READ,      /* scribbles as painted -> seeds */
+  PART_BUILD,     /* basins */
   PART_STAINS,
   PART_BACKGROUND,
   PART_GRAPH,

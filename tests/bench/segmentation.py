@@ -112,6 +112,7 @@ def share(settings, figure):
 TABLES = [
     ('Times in milliseconds', [
         ('ink', '.0f', milliseconds('ink')),
+        ('read', '.0f', milliseconds('engine read')),
         ('build', '.1f', milliseconds('build')),
         ('build/MP', '.1f', lambda r: 1000 * r['build'] / r['megapixels']),
         ('first', '.1f', milliseconds('engine first')),

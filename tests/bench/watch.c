@@ -147,7 +147,7 @@ __wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *
 /* ------------------------------------------------------------------ steps of the engine */
 
 const char *const part_name[N_PARTS] = {
-  "stains", "background", "graph", "partition", "windows", "closures", "painting", "report"
+  "read", "build", "stains", "background", "graph", "partition", "windows", "closures", "painting", "report"
 };
 double part_seconds[N_PARTS];
 
@@ -170,6 +170,12 @@ parts_reset (void)
     return status; \
   }
 
+STEP (PART_READ, celd_scribbles_read,
+      (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+       CeldPalette *palette),
+      (scribbles, settings, run, seeds, palette))
+STEP (PART_BUILD, celd_basins_new,
+      (const CeldPlane *ink, float threshold, const CeldRun *run, CeldBasins *basins), (ink, threshold, run, basins))
 STEP (PART_STAINS, celd_stains_remove, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
 STEP (PART_BACKGROUND, celd_background_seed, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
 STEP (PART_GRAPH, celd_graph_solve, (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label),
