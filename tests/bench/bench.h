@@ -27,8 +27,6 @@ typedef struct
 /* Labels and what they are about. */
 typedef struct { uint32_t *label; CeldPalette palette; } Answer;
 
-void must (CeldStatus status);            /* ends the program if something failed */
-
 /* ------------------------------------------------------------------ watch.c: time, memory, calls within core */
 
 double seconds (void);                    /* of processor time that the process has had */
@@ -72,6 +70,15 @@ extern Problem problem;
 void problem_clear (void);
 
 extern bool    use_boost;                 /* celd_maxflow is Boost's */
+
+/* ------------------------------------------------------------------ figures.c */
+
+void   must (CeldStatus status);          /* ends the program if something failed */
+double median (double *value, int n);     /* sorts them */
+
+/* Members of the JSON object that is printed.  Memory: bytes a pixel beyond the labels, kept and at most. */
+void print_number (const char *name, double value);
+void print_memory (const char *method, const Case *c, Memory before, Memory after);
 
 /* ------------------------------------------------------------------ boost-cut.cc */
 

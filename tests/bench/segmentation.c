@@ -4,8 +4,8 @@
  *
  * Prints one JSON object.  DRAWING has the size that is measured; SCRIBBLES and TRUTH are enlarged to it.  TRUTH has
  * the colours that are right, and no alpha where nobody knows.  Times are medians of RUNS, in seconds of processor
- * time.  BOOST 1: the problem that the exact method solved is solved again with Boost.  PREFIX: labels are kept in
- * files.
+ * time.  EXACT-STROKES -1: without exact cuts.  BOOST 1: the problem that the exact method solved is solved again with
+ * Boost.  PREFIX: labels are kept in files.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,50 +18,6 @@
 #include <string.h>
 
 #define MOST_RUNS 99
-
-void
-must (CeldStatus status)
-{
-  if (status == CELD_OK)
-    return;
-  fprintf (stderr, "%s\n", celd_status_text (status));
-  exit (1);
-}
-
-/* ------------------------------------------------------------------ figures */
-
-static int
-compare (const void *a, const void *b)
-{
-  double p = *(const double *) a, q = *(const double *) b;
-
-  return p < q ? -1 : p > q;
-}
-
-static double
-median (double *value, int n)
-{
-  qsort (value, (size_t) n, sizeof *value, compare);
-  return n % 2 ? value[n / 2] : (value[n / 2 - 1] + value[n / 2]) / 2;
-}
-
-static void
-print_number (const char *name, double value)
-{
-  printf (",\n  \"%s\": %.9g", name, value);
-}
-
-static void
-print_memory (const char *name, const Case *c, Memory before, Memory after)
-{
-  char   text[80];
-  double labels = 4;            /* bytes a pixel of the result */
-
-  snprintf (text, sizeof text, "%s kept", name);
-  print_number (text, ((double) after.live - (double) before.live) / (double) c->n - labels);
-  snprintf (text, sizeof text, "%s peak", name);
-  print_number (text, ((double) after.peak - (double) before.live) / (double) c->n - labels);
-}
 
 /* ------------------------------------------------------------------ sessions */
 
@@ -308,55 +264,78 @@ measure_boost (const Case *c, const Costs *costs, const Answer *exact)
 
 /* ------------------------------------------------------------------ the whole */
 
-/* Soft and hard strokes with what raises the energy by design turned off, and soft strokes with all of it. */
-static void
-measure_methods (const Case *c, const CeldPlane *ink)
+/* The engine with all settings as they come: times, and its labels. */
+static Answer
+measure_engine (const Case *c)
 {
-  CeldSettings wanted = celd_settings (), soft = wanted, hard, exactly;
-  Costs        costs = costs_of (ink, wanted.ink_threshold);
-  CeldSession *session = measure_first (c, "engine", &wanted, c->runs);
-  Answer       engine, plain, exact;
+  CeldSettings settings = celd_settings ();
+  CeldSession *session = measure_first (c, "engine", &settings, c->runs);
+  Answer       answer;
 
   measure_again (c, session);
   if (c->strokes)
     measure_strokes (c, "engine", c->strokes, session);
-  engine = answer_of (c, session);
-  answer_keep (c, "default", &engine);
-
-  soft.close_gaps = soft.keep_necks = false;
-  must (celd_session_set_settings (session, &soft));
-  plain = answer_of (c, session);
+  answer = answer_of (c, session);
   celd_session_free (session);
-  exactly = soft;
-  exactly.method = CELD_METHOD_EXACT;
+  answer_keep (c, "default", &answer);
+  return answer;
+}
+
+static Answer
+solve (const Case *c, const CeldSettings *settings)
+{
+  CeldSession *session = open_session (c, settings);
+  Answer       answer = answer_of (c, session);
+
+  celd_session_free (session);
+  return answer;
+}
+
+/* Exact cuts with soft strokes: times, and labels.  Keeps the problem. */
+static Answer
+measure_exact (const Case *c, const CeldSettings *settings, const Costs *costs)
+{
+  CeldSession *session;
+  Answer       answer;
+
   keep_problem = true;
-  session = measure_first (c, "exact", &exactly, 1);
+  session = measure_first (c, "exact", settings, 1);
   keep_problem = false;
-  exact = answer_of (c, session);
-  compare_costs (&costs);
+  answer = answer_of (c, session);
+  compare_costs (costs);
   if (c->exact_strokes)
     measure_strokes (c, "exact", c->exact_strokes, session);
   celd_session_free (session);
   if (c->boost)
-    measure_boost (c, &costs, &exact);
+    measure_boost (c, costs, &answer);
+  answer_keep (c, "exact", &answer);
+  return answer;
+}
+
+/* Soft and hard strokes with what raises the energy by design turned off, and soft strokes with all of it. */
+static void
+compare_methods (const Case *c, const CeldPlane *ink, const Answer *engine)
+{
+  CeldSettings settings = celd_settings ();
+  Costs        costs = costs_of (ink, settings.ink_threshold);
+  Answer       plain, exact;
+
+  settings.close_gaps = settings.keep_necks = false;
+  plain = solve (c, &settings);
+  settings.method = CELD_METHOD_EXACT;
+  exact = measure_exact (c, &settings, &costs);
   compare_print (c, "soft", ink, &costs, &plain, &exact);
-  compare_print (c, "default", ink, &costs, &engine, &exact);
+  compare_print (c, "default", ink, &costs, engine, &exact);
   answer_keep (c, "soft", &plain);
-  answer_keep (c, "exact", &exact);
-  answer_clear (&engine);
   answer_clear (&plain);
   answer_clear (&exact);
 
-  hard = soft;
-  hard.hardness = 1;
-  session = open_session (c, &hard);
-  plain = answer_of (c, session);
-  hard.method = CELD_METHOD_EXACT;
+  settings.hardness = 1;
   keep_problem = true;
-  must (celd_session_set_settings (session, &hard));
-  exact = answer_of (c, session);
+  exact = solve (c, &settings);
   keep_problem = false;
-  celd_session_free (session);
+  settings.method = CELD_METHOD_BASINS;
+  plain = solve (c, &settings);
   compare_print (c, "hard", ink, &costs, &plain, &exact);
   answer_keep (c, "hard", &plain);
   answer_keep (c, "exact-hard", &exact);
@@ -374,6 +353,7 @@ main (int argc, char **argv)
   CeldSettings settings = celd_settings ();
   CeldSession *session;
   CeldPlane    ink;
+  Answer       engine;
 
   if (argc < 8)
     {
@@ -398,7 +378,10 @@ main (int argc, char **argv)
   session = open_session (&c, &settings);
   must (celd_session_ink (session, NULL, &ink, NULL));
   measure_basins (&c, &ink);
-  measure_methods (&c, &ink);
+  engine = measure_engine (&c);
+  if (c.exact_strokes >= 0)
+    compare_methods (&c, &ink, &engine);
+  answer_clear (&engine);
   printf (" }\n");
   celd_session_free (session);
   celd_free (c.drawing.luma.data);

@@ -101,12 +101,15 @@ def times(slow, fast):
 
 
 def of(settings, figure, factor=1):
-    return lambda r: factor * r[settings][figure]
+    return lambda r: factor * r[settings][figure] if settings in r else None
 
 
 def share(settings, figure):
     """Of the disputed pixels, in percent."""
-    return lambda r: 100 * r[settings][figure] / r[settings]['disputed'] if r[settings]['disputed'] else None
+    def percentage(r):
+        disputed = r.get(settings, {}).get('disputed')
+        return 100 * r[settings][figure] / disputed if disputed else None
+    return percentage
 
 
 TABLES = [
@@ -130,7 +133,7 @@ TABLES = [
         ('kept', '.2f', lambda r: r['engine kept']),
         ('peak', '.2f', lambda r: r['engine peak']),
         ('stroke', '.2f', lambda r: r.get('engine stroke peak')),
-        ('exact', '.1f', lambda r: r['exact peak']),
+        ('exact', '.1f', lambda r: r.get('exact peak')),
         ('boost', '.0f', lambda r: r.get('boost peak'))]),
     ('Energy as a multiple of exact cuts, white pixels that agree with them (%)', [
         ('E soft', '.4f', of('soft', 'ratio')),
@@ -189,7 +192,8 @@ def main():
                         metavar='MP,...', help='megapixels (1,4,8.3)')
     parser.add_argument('--runs', type=int, default=5, metavar='N', help='of ink, build and first labels (5)')
     parser.add_argument('--strokes', type=int, default=50, metavar='N', help='random strokes (50)')
-    parser.add_argument('--exact-strokes', type=int, default=1, metavar='N', help='the same with exact cuts (1)')
+    parser.add_argument('--exact-strokes', type=int, default=1, metavar='N',
+                        help='the same with exact cuts (1); -1: the engine alone')
     parser.add_argument('--keep', metavar='DIR', help='keeps the labels of every method, as PAM')
     parser.add_argument('--json', action='store_true', help='prints all figures in JSON instead, and writes no file')
     parser.add_argument('--no-save', action='store_true', help='writes no file')
