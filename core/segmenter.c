@@ -277,10 +277,11 @@ static CeldStatus
 solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relations, const CeldRun *run,
        CeldCanvas *canvas, CeldLabels *labels, CeldProblems *problems)
 {
-  CeldPart   part[2];
-  CeldRun    brief = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.1, 0.95);
+  CeldPart   part[3];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.1, 0.95);
+  CeldRun    last = celd_run_part (&part[2], run, 0.95, 0.95);
   bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
-  CeldStatus status = prepare_seeds (arrows ? relations : NULL, &brief, canvas);
+  CeldStatus status = prepare_seeds (arrows ? relations : NULL, &first, canvas);
 
   if (status == CELD_OK && canvas->settings->method == CELD_METHOD_EXACT)
     status = solve_on_pixels (s, arrows ? relations : NULL, &solving, canvas, labels);
@@ -289,7 +290,7 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
   if (status == CELD_OK)
     {
       count_arrow_seeds (canvas);
-      status = celd_segment_report (canvas, seeds, &s->painting, labels, &brief, problems);
+      status = celd_segment_report (canvas, seeds, &s->painting, labels, &last, problems);
     }
   return status;
 }
