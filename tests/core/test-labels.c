@@ -184,7 +184,7 @@ frame_pixels (const char *const *rows)
   size_t   *pixel = NULL, n = 0;
   int       bad = 0;
 
-  CHECK (celd_frame (&ink, ink.width, ink.height, &pixel, &n) == CELD_OK);
+  CHECK (celd_frame (&ink, ink.width, ink.height, 0, &pixel, &n) == CELD_OK);
   for (size_t i = 0; i < n; i++)
     bad += !celd_is_paper (ink.data[pixel[i]]);
   CHECK (!bad);
