@@ -357,7 +357,7 @@ CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t
 
 /* Results; each makes what is missing first.  *changed (may be NULL) is the rectangle that differs from the last time
  * this result was asked for: everything the first time, width 0 when nothing does.  `flat` are levels before expansion,
- * `levels` expanded ones. */
+ * `levels` expanded ones.  Where labels stay, their colours in the palette may still have changed. */
 CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
 CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels,
                                          CeldRect *changed);

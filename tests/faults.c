@@ -208,14 +208,46 @@ every_report_cancels (void)
 
 /* ------------------------------------------------------------------ the session */
 
+/* A stroke, and the drawing with another line. */
+static CeldStatus
+put_stroke (CeldSession *s)
+{
+  uint8_t  on[8] = { 1, 1, 0, 1, 1, 1, 0, 1 };
+  CeldMask mask = { 4, 2, 4, on };
+
+  return celd_session_put_stroke (s, 3, 36, 30, &mask, (const uint8_t[3]) { 200, 200, 0 });
+}
+
+static CeldStatus
+draw_line (CeldSession *s)
+{
+  static Pixels page;
+  CeldDrawing   drawing = drawing_of (&page);
+
+  page = drawing_pixels;
+  for (int y = 19; y < 39; y++)
+    page.plane[y * W + 47] = page.plane[y * W + 48] = 0;
+  return celd_session_set_drawing (s, &drawing);
+}
+
+static CeldStatus
+set_apart (CeldSession *s)
+{
+  CeldSettings settings = celd_settings ();
+
+  settings.same_colour = CELD_SAME_COLOUR_SEPARATE;
+  settings.hardness    = 1;
+  return celd_session_set_settings (s, &settings);
+}
+
 /* The i-th call of a host; false when there are no more. */
 static bool
 call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus *status)
 {
   CeldDrawing drawing = drawing_of (&drawing_pixels);
   CeldPaint   scribbles = paint_of (&scribble_pixels), arrows = paint_of (&arrow_pixels);
-  CeldPaint   contours = paint_of (&contour_pixels);
-  CeldLabels  labels;
+  CeldPaint   contours = paint_of (&contour_pixels), closures = paint_of (out);
+  CeldLabels  labels = { 0 };
   CeldPlane   plane = { 0 };
   CeldVectors vectors = { 0 };
   CeldRect    changed;
@@ -234,6 +266,14 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
     case 9: *status = celd_session_depth (s, run, &plane, &changed); break;
     case 10: *status = celd_session_normals (s, run, &vectors, &changed); break;
     case 11: *status = celd_session_shading (s, run, &plane, &changed); break;
+    case 12: *status = put_stroke (s); break;
+    case 13: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 14: *status = draw_line (s); break;
+    case 15: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 16: *status = set_apart (s); break;
+    case 17: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 18: *status = celd_session_remove_stroke (s, 3); break;
+    case 19: *status = celd_session_paint_closures (s, run, &closures); break;
     default: return false;
     }
   if (!*status && vectors.data)
@@ -242,6 +282,8 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
     memcpy (out->plane, plane.data, sizeof out->plane);
   if (!*status && i == 11)
     memcpy (out->alpha, plane.data, sizeof out->alpha);
+  for (int p = 0; !*status && labels.data && p < W * H; p++)
+    out->labels[p] = 31 * out->labels[p] + labels.data[p];
   return true;
 }
 

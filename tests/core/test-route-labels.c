@@ -481,6 +481,37 @@ the_segmenter_hears_of_new_ink_alone (void)
   celd_session_free (s);
 }
 
+/* A stroke that changes one region says so, and one that changes nothing too. */
+static void
+a_stroke_changes_its_region_alone (void)
+{
+  State        state;
+  CeldSession *s = finished (&state);
+  uint8_t      on[24];
+  CeldMask     mask = { 8, 3, 8, on };
+  CeldLabels   labels;
+  CeldRect     changed;
+
+  memset (on, 1, sizeof on);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  CHECK (celd_session_put_stroke (s, 1, 26, 24, &mask, colours[0]) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_session_put_stroke (s, 2, 20, 16, &mask, colours[2]) == CELD_OK); /* over the layer's only red */
+  CHECK (celd_session_put_stroke (s, 1, 26, 24, &mask, colours[2]) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK);
+  CHECK (celd_session_palette (s)->n == 2 && celd_palette_find (celd_session_palette (s), colours[2]) == 2);
+  CHECK (celd_session_put_stroke (s, 1, 26, 24, &mask, colours[3]) == CELD_OK);
+  CHECK (celd_session_put_stroke (s, 2, 20, 16, &mask, colours[3]) == CELD_OK); /* the same number, another colour */
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_palette_find (celd_session_palette (s), colours[3]) == 2);
+  CHECK (celd_session_put_stroke (s, 1, 26, 24, &mask, colours[1]) == CELD_OK);
+  CHECK (celd_session_put_stroke (s, 2, 20, 16, &mask, colours[1]) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, &changed) == CELD_OK && celd_session_palette (s)->n == 1);
+  CHECK (changed.x >= 13 && changed.y >= 9 && changed.x + changed.width <= 41 && changed.y + changed.height <= 31);
+  CHECK (changed.width >= 22 && changed.height >= 16);
+  celd_session_free (s);
+}
+
 /* The rectangle of the labels is not lost when the closures are asked for first. */
 static void
 closures_leave_the_labels_to_be_seen (void)
@@ -516,6 +547,7 @@ main (void)
   RUN (a_setting_redoes_what_reads_it);
   RUN (layers_redo_what_is_made_of_them);
   RUN (the_segmenter_hears_of_new_ink_alone);
+  RUN (a_stroke_changes_its_region_alone);
   RUN (closures_leave_the_labels_to_be_seen);
   return DONE;
 }
