@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROOM_STROKES 4          /* round the foreign paint: so many widths of the drawing's strokes, */
-#define ROOM_LEAST   8          /* so many pixels, and half the longer side */
+#define ROOM 8                  /* pixels round the foreign paint, besides a stroke's width and half the longer side */
 
 /* A run of paint in a basin of another label. */
 typedef struct { int32_t y, x, end; uint32_t label, basin; size_t clump; } Run;
@@ -30,9 +29,8 @@ typedef struct
 
 /* ------------------------------------------------------------------ foreign paint */
 
-/* The last run of basins in row y that begins at or before x. */
-static size_t
-basin_run_at (const CeldBasins *basins, int y, int x)
+size_t
+celd_basin_run_at (const CeldBasins *basins, int y, int x)
 {
   size_t low = basins->row[y], high = basins->row[y + 1];
 
@@ -66,7 +64,7 @@ compare_seeds (Places *places, int y, const CeldSeedRun *seeds)
 {
   const CeldBasins *basins = places->canvas->basins;
   CeldStatus        status = CELD_OK;
-  size_t            i = basin_run_at (basins, y, seeds->x);
+  size_t            i = celd_basin_run_at (basins, y, seeds->x);
 
   for (int x = seeds->x, end; x < seeds->end && status == CELD_OK; x = end, i++)
     {
@@ -190,7 +188,7 @@ static void
 make_room (const CeldBasins *basins, CeldWindow *box)
 {
   int w = box->right - box->left, h = box->bottom - box->top;
-  int room = ROOM_LEAST + ROOM_STROKES * basins->stroke + (w > h ? w : h) / 2;
+  int room = ROOM + basins->stroke + (w > h ? w : h) / 2;
 
   box->left   = box->left > room ? box->left - room : 0;
   box->top    = box->top > room ? box->top - room : 0;

@@ -19,20 +19,28 @@ CeldStatus celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, c
                               CeldWindows *windows);
 void       celd_windows_clear (CeldWindows *windows);        /* accepts a zeroed record */
 
+/* The last run of basins in row y that begins at or before x. */
+size_t celd_basin_run_at (const CeldBasins *basins, int y, int x);
+
 /* ------------------------------------------------------------------ window-cells.c */
 
-/* What a pixel or a block is part of: a node, or a fixed label; a block can also be of several parts. */
+/* What a pixel or a block is part of: a node, or a fixed label.  A block can also be of several parts, or as the
+ * coarser cells have it. */
 #define CELD_CELL_FIXED UINT32_C (0x80000000) /* and the label */
 #define CELD_CELL_MIXED UINT32_C (0x40000000) /* and the number of its detail */
+#define CELD_CELL_ABOVE UINT32_C (0x3fffffff)
 
-typedef struct
+typedef struct CeldCells CeldCells;
+
+struct CeldCells
 {
   const CeldCanvas *canvas;
+  const CeldCells  *coarse;        /* that these ones are finer than; NULL: none */
   CeldWindow        window;
-  int               size;          /* of a square block, in pixels; the last ones of rows and columns may be cut off */
+  int               shift;         /* square blocks of 1 << shift pixels a side; the last ones may be cut off */
   int               columns, rows; /* of blocks */
   uint32_t         *block;
-  uint32_t         *detail;        /* of each mixed block size x size pixels */
+  uint32_t         *detail;        /* of each mixed block its pixels, as if no block was cut off */
   size_t            n_details;
   size_t            n;             /* nodes */
   uint32_t         *present;       /* of node k: the label that its pixels have now */
@@ -40,30 +48,47 @@ typedef struct
   CeldLink         *link;
   CeldVote         *vote;
   size_t            n_links, n_votes;
-} CeldCells;
+};
 
 /* Contracts the window to a graph: pixels of the basins with free[basin] == id become nodes, others count with the
- * label of their basin.  Blocks with fine[block] (NULL: none) are not contracted. */
+ * label of their basin. */
 CeldStatus celd_cells_new (const CeldCanvas *canvas, const uint32_t *label, const uint32_t *free, uint32_t id,
-                           const CeldWindow *window, int size, const uint8_t *fine, CeldCells *cells);
-void       celd_cells_clear (CeldCells *cells);              /* accepts a zeroed record */
+                           const CeldWindow *window, int shift, CeldCells *cells);
+
+/* The blocks with fine[block] of cells that have got their labels, contracted less; everything else is fixed. */
+CeldStatus celd_cells_refine (const CeldCells *coarse, const uint8_t *fine, CeldCells *cells);
+
+void celd_cells_clear (CeldCells *cells);                    /* accepts a zeroed record */
+
+/* The label of a part. */
+static inline uint32_t
+celd_cell_label (const CeldCells *cells, uint32_t part)
+{
+  return part & CELD_CELL_FIXED ? part & ~CELD_CELL_FIXED : cells->label[part];
+}
 
 /* The part of pixel (x,y) of the picture, inside the window. */
 static inline uint32_t
 celd_cell_at (const CeldCells *cells, int x, int y)
 {
-  int      i = (x - cells->window.left) / cells->size, j = (y - cells->window.top) / cells->size;
-  uint32_t block = cells->block[(size_t) j * (size_t) cells->columns + (size_t) i];
-  size_t   size = (size_t) cells->size;
+  int      i = x - cells->window.left, j = y - cells->window.top, mask = (1 << cells->shift) - 1;
+  size_t   k = (size_t) (j >> cells->shift) * (size_t) cells->columns + (size_t) (i >> cells->shift);
+  uint32_t block = cells->block[k];
 
+  if (block == CELD_CELL_ABOVE)
+    return CELD_CELL_FIXED | celd_cell_label (cells->coarse, celd_cell_at (cells->coarse, x, y));
   if (block & CELD_CELL_FIXED || !(block & CELD_CELL_MIXED))
     return block;
-  i = (x - cells->window.left) % cells->size;
-  j = (y - cells->window.top) % cells->size;
-  return cells->detail[(block & ~CELD_CELL_MIXED) * size * size + (size_t) j * size + (size_t) i];
+  return cells->detail[((size_t) (block & ~CELD_CELL_MIXED) << 2 * cells->shift)
+                       + ((size_t) (j & mask) << cells->shift) + (size_t) (i & mask)];
 }
 
-/* The cost of a border between (x,y) and the pixel to the right, or below. */
-int32_t celd_cells_cost (const CeldCanvas *canvas, int x, int y, bool south);
+/* ------------------------------------------------------------------ window-links.c */
+
+/* A vote for a label, or one that is added to the last. */
+CeldStatus celd_cells_vote (CeldCells *cells, uint32_t node, uint32_t label, int64_t cost);
+
+/* Fills in the links between nodes, and what is fixed as votes. */
+CeldStatus celd_cells_link (CeldCells *cells);
 
 #endif

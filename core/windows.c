@@ -13,7 +13,7 @@
 
 #define PIXELS  4096            /* a window of so many is solved on pixels */
 #define BLOCKS  4096            /* larger ones on about so many blocks, */
-#define LARGEST 32              /* of at most so many pixels a side */
+#define LARGEST 5               /* of at most 1 << so many pixels a side */
 
 typedef struct
 {
@@ -24,44 +24,87 @@ typedef struct
   uint32_t         *order;      /* all labels, as they are told apart */
   uint32_t         *local;      /* of each label, from 1: its place among those of this window, 0 if it is not there */
   uint32_t         *global;     /* the other way round, from 0 */
+  int64_t          *votes;      /* of each label, from 1: the sum of its votes in this window */
   CeldPatches       patches;
 } Solver;
 
 /* ------------------------------------------------------------------ cutting a graph */
 
-/* Numbers the labels that a graph knows from 1, in their order; returns how many there are. */
+/* Numbers the labels that matter to a graph from 1, in their order; returns how many there are.  A label that no node
+ * has, and whose votes together pay for no edge of paper, gets no paper. */
 static size_t
 number_labels (Solver *s, const CeldCells *cells)
 {
-  size_t n = 0;
+  int64_t paper = s->canvas->basins->costs.by_ink[CELD_INK_STEPS];
+  size_t  n_labels = s->canvas->palette.n, n = 0;
 
-  memset (s->local, 0, (s->canvas->palette.n + 1) * sizeof *s->local);
-  for (size_t k = 0; k < cells->n; k++)
-    s->local[cells->present[k]] = 1;
+  memset (s->votes, 0, (n_labels + 1) * sizeof *s->votes);
   for (size_t i = 0; i < cells->n_votes; i++)
-    s->local[cells->vote[i].label] = 1;
-  for (size_t i = 0; i < s->canvas->palette.n; i++)
-    if (s->local[s->order[i]])
-      {
-        s->global[n] = s->order[i];
-        s->local[s->order[i]] = (uint32_t) ++n;
-      }
+    s->votes[cells->vote[i].label] += cells->vote[i].cost;
+  for (size_t k = 0; k < cells->n; k++)
+    s->votes[cells->present[k]] = paper;
+  for (size_t i = 0; i < n_labels; i++)
+    {
+      uint32_t label = s->order[i];
+
+      s->local[label] = 0;
+      if (s->votes[label] < paper)
+        continue;
+      s->global[n]    = label;
+      s->local[label] = (uint32_t) ++n;
+    }
   return n;
 }
 
-/* Labels of the graph's nodes, no worse than the present ones; *energy is theirs. */
+/* Votes for the labels of this graph, by their local numbers; others are lost whatever happens. */
+static void
+number_votes (const Solver *s, CeldCells *cells)
+{
+  size_t n = 0;
+
+  for (size_t i = 0; i < cells->n_votes; i++)
+    {
+      CeldVote vote = cells->vote[i];
+
+      vote.label = s->local[vote.label];
+      if (vote.label)
+        cells->vote[n++] = vote;
+    }
+  cells->n_votes = n;
+}
+
+/* With two labels one cut is all there is to do. */
 static CeldStatus
-cut (Solver *s, CeldCells *cells, int64_t *energy)
+cut_in_two (const CeldPartition *problem, const CeldRun *run, uint32_t *label)
+{
+  int64_t   *terminal = celd_alloc0 (problem->n, sizeof *terminal);
+  uint8_t   *side = celd_alloc (problem->n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!terminal || !side)
+    goto done;
+  for (size_t i = 0; i < problem->n_votes; i++)
+    terminal[problem->vote[i].node] += problem->vote[i].label == 1 ? problem->vote[i].cost : -problem->vote[i].cost;
+  status = celd_flow (problem->n, problem->link, problem->n_links, terminal, run, side, NULL);
+  for (size_t k = 0; k < problem->n && status == CELD_OK; k++)
+    label[k] = side[k] ? 1 : 2;
+
+done:
+  celd_free (terminal);
+  celd_free (side);
+  return status;
+}
+
+/* The labels of the graph's nodes: their present ones, unless others cost less.  *better: do they? */
+static CeldStatus
+cut (Solver *s, CeldCells *cells, bool *better)
 {
   size_t        n_labels = number_labels (s, cells);
   uint32_t     *order = celd_alloc (n_labels, sizeof *order), *present = celd_alloc (cells->n, sizeof *present);
   CeldPart      part;
   CeldRun       run = celd_run_part (&part, s->run, 0, 0);
-  CeldPartition problem = {
-    cells->n, cells->link, cells->n_links, cells->vote, cells->n_votes, NULL, order, n_labels
-  };
+  CeldPartition problem;
   CeldStatus    status = CELD_NO_MEMORY;
-  int64_t       before;
 
   if (!order || !present)
     goto done;
@@ -69,15 +112,17 @@ cut (Solver *s, CeldCells *cells, int64_t *energy)
     order[k] = (uint32_t) k + 1;
   for (size_t k = 0; k < cells->n; k++)
     present[k] = s->local[cells->present[k]];
-  for (size_t i = 0; i < cells->n_votes; i++)
-    cells->vote[i].label = s->local[cells->vote[i].label];
-  status = celd_partition (&problem, &run, cells->label, energy, NULL);
+  number_votes (s, cells);
+  problem = (CeldPartition) {
+    cells->n, cells->link, cells->n_links, cells->vote, cells->n_votes, NULL, order, n_labels
+  };
+  status = n_labels == 2 ? cut_in_two (&problem, &run, cells->label)
+                         : celd_partition (&problem, &run, cells->label, NULL, NULL);
   if (status != CELD_OK)
     goto done;
-  before = celd_partition_energy (&problem, present);
+  *better = celd_partition_energy (&problem, cells->label) < celd_partition_energy (&problem, present);
   for (size_t k = 0; k < cells->n; k++)
-    cells->label[k] = *energy < before ? s->global[cells->label[k] - 1] : cells->present[k];
-  *energy = *energy < before ? *energy : before;
+    cells->label[k] = *better ? s->global[cells->label[k] - 1] : cells->present[k];
 
 done:
   celd_free (order);
@@ -85,163 +130,163 @@ done:
   return status;
 }
 
-/* ------------------------------------------------------------------ where pixels are wanted */
+/* ------------------------------------------------------------------ where a closer look is wanted */
 
-/* Does the new border run across paper between (x,y) and the pixel to the right, or below? */
+/* Marks the nodes on both sides of a new border, where it runs across paper.  Returns whether there are any. */
 static bool
-is_crossed (const CeldCells *cells, int x, int y, bool south)
+mark_nodes (const CeldCells *cells, uint8_t *crossed)
 {
-  uint32_t a = celd_cell_at (cells, x, y), b = celd_cell_at (cells, x + !south, y + south);
+  int64_t paper = cells->canvas->basins->costs.by_ink[CELD_INK_STEPS];
+  bool    any = false;
 
-  if (a == b || (a | b) & CELD_CELL_FIXED || cells->label[a] == cells->label[b])
-    return false;
-  return celd_is_paper (CELD_AT (cells->canvas->ink, x, y))
-         && celd_is_paper (CELD_AT (cells->canvas->ink, x + !south, y + south));
-}
+  for (size_t i = 0; i < cells->n_links; i++)
+    {
+      const CeldLink *link = &cells->link[i];
 
-static bool
-is_block_crossed (const CeldCells *cells, int column, int row)
-{
-  int left = cells->window.left + column * cells->size, top = cells->window.top + row * cells->size;
-
-  for (int y = top; y < top + cells->size && y <= cells->window.bottom; y++)
-    for (int x = left; x < left + cells->size && x <= cells->window.right; x++)
-      if ((x < cells->window.right && is_crossed (cells, x, y, false))
-          || (y < cells->window.bottom && is_crossed (cells, x, y, true)))
-        return true;
-  return false;
-}
-
-/* Are all pixels of the block fixed, or one node that keeps its label, as those of its neighbours are? */
-static bool
-is_quiet (const CeldCells *cells, int column, int row)
-{
-  for (int j = row; j <= row + 1 && j < cells->rows; j++)
-    for (int i = column; i <= column + 1 && i < cells->columns; i++)
-      {
-        uint32_t block = cells->block[(size_t) j * (size_t) cells->columns + (size_t) i];
-
-        if (block & CELD_CELL_FIXED)
-          continue;
-        if (block & CELD_CELL_MIXED || cells->label[block] != cells->present[block])
-          return false;
-      }
-  return true;
-}
-
-/* fine[block]: blocks that a new border crosses on paper, and those round them.  Returns whether there are any. */
-static bool
-mark_fine (const CeldCells *cells, uint8_t *fine)
-{
-  bool any = false;
-
-  memset (fine, 0, (size_t) cells->columns * (size_t) cells->rows);
-  for (int row = 0; row < cells->rows; row++)
-    for (int column = 0; column < cells->columns; column++)
-      {
-        if (is_quiet (cells, column, row) || !is_block_crossed (cells, column, row))
-          continue;
-        any = true;
-        for (int j = row - 1; j <= row + 1; j++)
-          for (int i = column - 1; i <= column + 1; i++)
-            if (j >= 0 && j < cells->rows && i >= 0 && i < cells->columns)
-              fine[(size_t) j * (size_t) cells->columns + (size_t) i] = 1;
-      }
+      if (cells->label[link->a] == cells->label[link->b] || link->cost < paper)
+        continue;
+      crossed[link->a] = crossed[link->b] = 1;
+      any = true;
+    }
   return any;
+}
+
+/* fine[block]: does it hold a marked node? */
+static void
+mark_blocks (const CeldCells *cells, const uint8_t *crossed, uint8_t *fine)
+{
+  size_t area = (size_t) 1 << 2 * cells->shift;
+
+  for (size_t k = 0; k < (size_t) cells->columns * (size_t) cells->rows; k++)
+    {
+      uint32_t        block = cells->block[k];
+      int             column = (int) (k % (size_t) cells->columns), row = (int) (k / (size_t) cells->columns);
+      int             w = cells->window.right + 1 - cells->window.left - (column << cells->shift);
+      int             h = cells->window.bottom + 1 - cells->window.top - (row << cells->shift);
+      const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
+
+      fine[k] = 0;
+      if (block & CELD_CELL_FIXED)
+        continue;
+      if (!(block & CELD_CELL_MIXED))
+        {
+          fine[k] = crossed[block];
+          continue;
+        }
+      for (int y = 0; y < h && y < 1 << cells->shift; y++)
+        for (int x = 0; x < w && x < 1 << cells->shift; x++)
+          {
+            uint32_t part = detail[(y << cells->shift) + x];
+
+            fine[k] |= !(part & CELD_CELL_FIXED) && crossed[part];
+          }
+    }
+}
+
+/* Looks again at the blocks along new borders.  *finer is left empty where that is no better. */
+static CeldStatus
+refine (Solver *s, const CeldCells *cells, CeldCells *finer)
+{
+  uint8_t   *crossed = celd_alloc0 (cells->n, 1);
+  uint8_t   *fine = celd_alloc ((size_t) cells->columns * (size_t) cells->rows, 1);
+  bool       better = false;
+  CeldStatus status = crossed && fine ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK && mark_nodes (cells, crossed))
+    {
+      mark_blocks (cells, crossed, fine);
+      status = celd_cells_refine (cells, fine, finer);
+      if (status == CELD_OK)
+        status = cut (s, finer, &better);
+    }
+  if (!better)
+    celd_cells_clear (finer);
+  celd_free (crossed);
+  celd_free (fine);
+  return status;
 }
 
 /* ------------------------------------------------------------------ one window */
 
-/* The label of a part. */
-static uint32_t
-label_of (const CeldCells *cells, uint32_t part)
+/* Does no pixel of the block have another label than its basin? */
+static bool
+is_quiet (const CeldCells *cells, size_t k)
 {
-  return part & CELD_CELL_FIXED ? part & ~CELD_CELL_FIXED : cells->label[part];
+  uint32_t block = cells->block[k];
+
+  if (block == CELD_CELL_ABOVE)
+    return is_quiet (cells->coarse, k);
+  if (block & CELD_CELL_FIXED)
+    return true;
+  return !(block & CELD_CELL_MIXED) && cells->label[block] == cells->present[block];
 }
 
-/* Pixels whose label is not that of their basin. */
+/* Pixels x .. end - 1 of row y whose label is not that of their basin. */
+static CeldStatus
+add_patch (Solver *s, const CeldCells *cells, int y, int x, int end)
+{
+  const CeldBasins *basins = s->canvas->basins;
+  size_t            i = celd_basin_run_at (basins, y, x);
+  CeldStatus        status = CELD_OK;
+
+  for (; x < end && status == CELD_OK; x++)
+    {
+      uint32_t label = celd_cell_label (cells, celd_cell_at (cells, x, y));
+
+      i += i + 1 < basins->row[y + 1] && basins->run[i + 1].x == x;
+      if (label != s->label[basins->run[i].basin])
+        status = celd_patch_add (&s->patches, (CeldPatch) { y, x, x + 1, label });
+    }
+  return status;
+}
+
 static CeldStatus
 add_patches (Solver *s, const CeldCells *cells)
 {
-  const CeldBasins *basins = s->canvas->basins;
+  const CeldWindow *window = &cells->window;
   CeldStatus        status = CELD_OK;
 
-  for (int y = cells->window.top; y <= cells->window.bottom; y++)
-    {
-      size_t i = basins->row[y];
+  for (int y = window->top; y <= window->bottom; y++)
+    for (int column = 0; column < cells->columns && status == CELD_OK; column++)
+      {
+        int x = window->left + (column << cells->shift), end = x + (1 << cells->shift);
 
-      while (i + 1 < basins->row[y + 1] && basins->run[i + 1].x <= cells->window.left)
-        i++;
-      for (int x = cells->window.left; x <= cells->window.right && status == CELD_OK; x++)
-        {
-          uint32_t label = label_of (cells, celd_cell_at (cells, x, y));
-
-          i += i + 1 < basins->row[y + 1] && basins->run[i + 1].x == x;
-          if (label != s->label[basins->run[i].basin])
-            status = celd_patch_add (&s->patches, (CeldPatch) { y, x, x + 1, label });
-        }
-    }
+        if (!is_quiet (cells, (size_t) ((y - window->top) >> cells->shift) * (size_t) cells->columns + (size_t) column))
+          status = add_patch (s, cells, y, x, end <= window->right ? end : window->right + 1);
+      }
   return status;
 }
 
 static int
-block_size (const CeldWindow *window)
+block_shift (const CeldWindow *window)
 {
   int64_t area = (int64_t) (window->right - window->left + 1) * (window->bottom - window->top + 1);
-  int     size = 4;
+  int     shift = 2;
 
   if (area <= PIXELS)
-    return 1;
-  while (area / (size * size) > BLOCKS && size < LARGEST)
-    size *= 2;
-  return size;
-}
-
-/* A second look with the blocks along new borders opened: *cells are replaced by those of the lower energy. */
-static CeldStatus
-refine (Solver *s, uint32_t id, int64_t energy, CeldCells *cells)
-{
-  uint8_t   *fine = celd_alloc ((size_t) cells->columns * (size_t) cells->rows, 1);
-  CeldCells  finer = { .canvas = NULL };
-  int64_t    lower = energy;
-  CeldStatus status = fine ? CELD_OK : CELD_NO_MEMORY;
-
-  if (status == CELD_OK && mark_fine (cells, fine))
-    {
-      status = celd_cells_new (s->canvas, s->label, s->free, id, &cells->window, cells->size, fine, &finer);
-      if (status == CELD_OK)
-        status = cut (s, &finer, &lower);
-    }
-  if (status == CELD_OK && lower < energy)
-    {
-      CeldCells swap = *cells;
-
-      *cells = finer;
-      finer  = swap;
-    }
-  celd_cells_clear (&finer);
-  celd_free (fine);
-  return status;
+    return 0;
+  while (area >> 2 * shift > BLOCKS && shift < LARGEST)
+    shift++;
+  return shift;
 }
 
 static CeldStatus
 solve_window (Solver *s, uint32_t id, const CeldWindow *window, const uint32_t *basin)
 {
-  CeldCells  cells = { .canvas = NULL };
-  int64_t    energy;
+  CeldCells  cells = { .canvas = NULL }, finer = { .canvas = NULL };
+  bool       better = false;
   CeldStatus status;
 
   for (size_t k = 0; k < window->n; k++)
     s->free[basin[window->first + k]] = id;
-  status = celd_cells_new (s->canvas, s->label, s->free, id, window, block_size (window), NULL, &cells);
+  status = celd_cells_new (s->canvas, s->label, s->free, id, window, block_shift (window), &cells);
   if (status == CELD_OK && cells.n)
-    {
-      status = cut (s, &cells, &energy);
-      if (status == CELD_OK && cells.size > 1)
-        status = refine (s, id, energy, &cells);
-    }
+    status = cut (s, &cells, &better);
+  if (status == CELD_OK && better && cells.shift)
+    status = refine (s, &cells, &finer);
   if (status == CELD_OK)
-    status = add_patches (s, &cells);
+    status = add_patches (s, finer.block ? &finer : &cells);
+  celd_cells_clear (&finer);
   celd_cells_clear (&cells);
   return status;
 }
@@ -258,7 +303,8 @@ solve_windows (Solver *s, const CeldWindows *windows)
   s->order  = celd_alloc (n_labels, sizeof *s->order);
   s->local  = celd_alloc (n_labels + 1, sizeof *s->local);
   s->global = celd_alloc (n_labels, sizeof *s->global);
-  if (s->free && s->order && s->local && s->global)
+  s->votes  = celd_alloc (n_labels + 1, sizeof *s->votes);
+  if (s->free && s->order && s->local && s->global && s->votes)
     status = celd_canvas_order (s->canvas, s->order);
   for (size_t k = 0; k < windows->n && status == CELD_OK; k++)
     {
@@ -270,6 +316,7 @@ solve_windows (Solver *s, const CeldWindows *windows)
   celd_free (s->order);
   celd_free (s->local);
   celd_free (s->global);
+  celd_free (s->votes);
   return status;
 }
 
