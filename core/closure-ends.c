@@ -5,7 +5,9 @@
  * than wide, as even in width as a line is, and if the border lands near one end of it: on the side of a line ink goes
  * on both ways.  Where four stroke widths are too much, as in a hook or near a fork, two may do.
  *
- * Cost: the pixels of ink within the reach.
+ * Of thick strokes only every second, third ... pixel both ways is looked at.
+ *
+ * Cost: some hundred pixels of ink.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,21 +18,29 @@
 
 #define REACH         4         /* stroke widths */
 #define LEAST_REACH   8         /* pixels; shorter ends say nothing about directions */
-#define MOST_REACH    96
+#define FINE          8         /* pixels across a stroke are enough */
 #define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
 #define DETOUR        2.0       /* a line goes on to another's side if that is at most so many times the shortest way */
-#define MOST_UNEVEN   0.4       /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
+#define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
+#define MOST_ASLANT   1.5         /* widths between a tip and where the border lands */
+#define CUT_OFF       0.15        /* of the length */
 
 CeldStatus
 celd_line_end_new (int stroke, CeldLineEnd *end)
 {
-  int    reach = REACH * stroke;
+  int    step = stroke / FINE > 1 ? stroke / FINE : 1, reach = REACH * stroke / step;
   size_t n;
 
-  reach = reach < LEAST_REACH ? LEAST_REACH : reach > MOST_REACH ? MOST_REACH : reach;
+  reach = reach < LEAST_REACH ? LEAST_REACH : reach;
   n     = (size_t) (2 * reach + 1) * (size_t) (2 * reach + 1);
-  *end  = (CeldLineEnd) { .reach = reach, .mine = celd_alloc0 (n, 1), .pixel = celd_alloc (n, sizeof *end->pixel) };
-  if (end->mine && end->pixel)
+  *end  = (CeldLineEnd) {
+    .step  = step,
+    .reach = reach,
+    .mine  = celd_alloc0 (n, 1),
+    .pixel = celd_alloc (n, sizeof *end->pixel),
+    .from  = celd_alloc (n, sizeof *end->from),
+  };
+  if (end->mine && end->pixel && end->from)
     return CELD_OK;
   celd_line_end_clear (end);
   return CELD_NO_MEMORY;
@@ -41,49 +51,71 @@ celd_line_end_clear (CeldLineEnd *end)
 {
   celd_free (end->mine);
   celd_free (end->pixel);
+  celd_free (end->from);
   *end = (CeldLineEnd) { 0 };
 }
 
 /* ------------------------------------------------------------------ connected ink */
 
-/* The pixel's place in the square; NULL outside. */
-static uint8_t *
-place_of (const CeldLineEnd *end, int x, int y)
+/* How many steps from the middle, which is pixel 0, a pixel is; rounded. */
+static int
+steps (const CeldLineEnd *end, int pixel)
 {
-  int u = x - end->middle.x + end->reach, v = y - end->middle.y + end->reach, side = 2 * end->reach + 1;
+  int from = pixel + end->step / 2;
 
+  return from < 0 ? -((end->step - 1 - from) / end->step) : from / end->step;
+}
+
+/* The place of (u,v) in the square; NULL outside. */
+static uint8_t *
+place_of (const CeldLineEnd *end, int u, int v)
+{
+  int side = 2 * end->reach + 1;
+
+  u += end->reach;
+  v += end->reach;
   return u < 0 || v < 0 || u >= side || v >= side ? NULL : &end->mine[v * side + u];
 }
 
 bool
 celd_line_end_has (const CeldLineEnd *end, int x, int y)
 {
-  const uint8_t *place = place_of (end, x, y);
+  int u = steps (end, x - end->middle.x), v = steps (end, y - end->middle.y), around = end->step > 1;
 
-  return place && *place;
+  for (int dv = -around; dv <= around && end->n; dv++)
+    for (int du = -around; du <= around; du++)
+      {
+        const uint8_t *place = place_of (end, u + du, v + dv);
+
+        if (place && *place)
+          return true;
+      }
+  return false;
 }
 
 static void
 forget (CeldLineEnd *end)
 {
   for (size_t i = 0; i < end->n; i++)
-    *place_of (end, end->pixel[i].x, end->pixel[i].y) = 0;
+    *place_of (end, (end->pixel[i].x - end->middle.x) / end->step, (end->pixel[i].y - end->middle.y) / end->step) = 0;
   end->n = 0;
 }
 
 static void
-take (const CeldPlane *ink, int x, int y, CeldLineEnd *end)
+take (const CeldPlane *ink, int u, int v, size_t from, CeldLineEnd *end)
 {
-  uint8_t *place = place_of (end, x, y);
+  uint8_t *place = place_of (end, u, v);
+  int      x = end->middle.x + u * end->step, y = end->middle.y + v * end->step;
 
   if (!place || *place || x < 0 || y < 0 || x >= ink->width || y >= ink->height || celd_is_paper (CELD_AT (ink, x, y)))
     return;
   *place = 1;
+  end->from[end->n]    = (uint32_t) from;
   end->pixel[end->n++] = (CeldCorner) { x, y };
 }
 
-/* Steps to 4 and to 8 neighbours in turn: distances grow nearly alike in all directions.  Returns how many of the
- * pixels are within half the reach. */
+/* Goes to 4 and to 8 neighbours in turn: distances grow nearly alike in all directions.  Returns how many of the pixels
+ * are within half the reach. */
 static size_t
 gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 {
@@ -91,19 +123,19 @@ gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 
   forget (end);
   end->middle = pixel;
-  take (ink, pixel.x, pixel.y, end);
+  take (ink, 0, 0, 0, end);
   for (int distance = 1; distance <= end->reach; distance++)
     {
       size_t to = end->n;
 
       for (; from < to; from++)
         {
-          CeldCorner p = end->pixel[from];
+          int u = (end->pixel[from].x - pixel.x) / end->step, v = (end->pixel[from].y - pixel.y) / end->step;
 
-          for (int dy = -1; dy <= 1; dy++)
-            for (int dx = -1; dx <= 1; dx++)
-              if (!(distance & 1) || !dx || !dy)
-                take (ink, p.x + dx, p.y + dy, end);
+          for (int dv = -1; dv <= 1; dv++)
+            for (int du = -1; du <= 1; du++)
+              if (!(distance & 1) || !du || !dv)
+                take (ink, u + du, v + dv, from, end);
         }
       if (2 * distance <= end->reach)
         near = end->n;
@@ -164,38 +196,57 @@ find_axis (const CeldLineEnd *end, size_t n, Line *line)
   line->along_y = -line->along_y;
 }
 
-/* Least squares in the frame of the principal axis, where sums of u, v and u v vanish. */
+/* The pixels at the far side, where the reach cuts the line off aslant, say nothing about its middle. */
+static bool
+counts (const Line *line, double u)
+{
+  return u >= line->least + CUT_OFF * (line->most - line->least);
+}
+
+/* Least squares over all pixels that count: the normal equations of a parabola by Cramer's rule. */
 static void
 fit_middle (const CeldLineEnd *end, size_t n, Line *line)
 {
-  double count = (double) n, u2 = 0, u3 = 0, u4 = 0, u2v = 0, square = 0, divisor;
+  double s[5] = { 0 }, t[3] = { 0 }, d, square = 0;
 
   line->least = line->most = 0;
   for (size_t i = 0; i < n; i++)
     {
-      double x = end->pixel[i].x + 0.5, y = end->pixel[i].y + 0.5;
-      double u = along (line, x, y), v = across (line, x, y);
+      double u = along (line, end->pixel[i].x + 0.5, end->pixel[i].y + 0.5);
 
-      line->least = u < line->least ? u : line->least;
-      line->most  = u > line->most ? u : line->most;
-      u2  += u * u;
-      u3  += u * u * u;
-      u4  += u * u * u * u;
-      u2v += u * u * v;
+      line->least = fmin (line->least, u);
+      line->most  = fmax (line->most, u);
     }
-  divisor = u2 > 0 ? u4 - u2 * u2 / count - u3 * u3 / u2 : 0;
-  line->c = divisor > 0 ? u2v / divisor : 0;
-  line->b = u2 > 0 ? -line->c * u3 / u2 : 0;
-  line->a = -line->c * u2 / count;
-  line->width = count / (line->most - line->least + 1);
+  for (size_t i = 0; i < n; i++)
+    {
+      double x = end->pixel[i].x + 0.5, y = end->pixel[i].y + 0.5;
+      double u = along (line, x, y), v = across (line, x, y), power = 1;
+
+      for (int k = 0; k < 5 && counts (line, u); k++, power *= u)
+        {
+          s[k] += power;
+          t[k < 3 ? k : 0] += k < 3 ? power * v : 0;
+        }
+    }
+  d = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[2] * s[3]) + s[2] * (s[1] * s[3] - s[2] * s[2]);
+  if (fabs (d) > 1e-6)
+    {
+      line->a = (t[0] * (s[2] * s[4] - s[3] * s[3]) - t[1] * (s[1] * s[4] - s[2] * s[3]) +
+                 t[2] * (s[1] * s[3] - s[2] * s[2])) / d;
+      line->b = (t[1] * (s[0] * s[4] - s[2] * s[2]) - t[0] * (s[1] * s[4] - s[2] * s[3]) -
+                 t[2] * (s[0] * s[3] - s[1] * s[2])) / d;
+      line->c = (t[0] * (s[1] * s[3] - s[2] * s[2]) - t[1] * (s[0] * s[3] - s[1] * s[2]) +
+                 t[2] * (s[0] * s[2] - s[1] * s[1])) / d;
+    }
+  line->width = (double) n * end->step * end->step / (line->most - line->least + end->step);
   for (size_t i = 0; i < n; i++)
     {
       double x = end->pixel[i].x + 0.5, y = end->pixel[i].y + 0.5, u = along (line, x, y);
       double off = across (line, x, y) - middle (line, u);
 
-      square += off * off;
+      square += counts (line, u) ? off * off : 0;
     }
-  line->uneven = sqrt (square / count);
+  line->uneven = sqrt (square / s[0]);
 }
 
 static bool
@@ -203,8 +254,9 @@ is_line_end (const CeldLineEnd *end, const Line *line)
 {
   double landing = along (line, end->middle.x + 0.5, end->middle.y + 0.5);
 
-  return line->most - line->least + 1 >= LEAST_LENGTH * line->width && line->most - landing <= line->width + 1.5 &&
-         line->uneven <= MOST_UNEVEN * line->width + 0.3;
+  return line->most - line->least + end->step >= LEAST_LENGTH * line->width &&
+         line->most - landing <= MOST_ASLANT * line->width + 1.5 * end->step &&
+         line->uneven <= MOST_UNEVEN * line->width + 0.3 * end->step;
 }
 
 static CeldPlace
@@ -216,47 +268,62 @@ place_on (const Line *line, double u)
                        line->y + u * line->along_y + v * line->along_x };
 }
 
-/* Where the middle of the line comes out of the ink. */
-static void
-find_tip (size_t n, const Line *line, CeldLineEnd *end)
+static bool
+is_mine (const CeldPlane *ink, const CeldLineEnd *end, CeldPlace place)
 {
-  double tip = line->least, slope, length;
+  int x = (int) floor (place.x), y = (int) floor (place.y);
 
-  for (size_t i = 0; i < n; i++)
-    {
-      double x = end->pixel[i].x + 0.5, y = end->pixel[i].y + 0.5, u = along (line, x, y);
-
-      if (u > tip && fabs (across (line, x, y) - middle (line, u)) <= line->width / 4 + 0.5)
-        tip = u;
-    }
-  tip   += 0.5;
-  slope  = line->b + 2 * line->c * tip;
-  length = sqrt (1 + slope * slope);
-  end->width  = line->width;
-  end->at     = place_on (line, tip);
-  end->inside = place_on (line, tip - (line->width > 2 ? line->width / 2 : 1));
-  end->dx     = (line->along_x - slope * line->along_y) / length;
-  end->dy     = (line->along_y + slope * line->along_x) / length;
+  return x >= 0 && y >= 0 && x < ink->width && y < ink->height && !celd_is_paper (CELD_AT (ink, x, y)) &&
+         celd_line_end_has (end, x, y);
 }
 
+/* Where the middle of the line comes out of the ink; a line that was rubbed out may end hollow. */
+static void
+find_tip (const CeldPlane *ink, const Line *line, CeldLineEnd *end)
+{
+  double u = line->most + end->step, back = fmax (line->width / 2, 1);
+
+  do
+    {
+      u      -= 0.25;
+      end->at = place_on (line, u);
+    }
+  while (u > line->least && !is_mine (ink, end, end->at));
+  end->inside = place_on (line, u - back);
+  end->width  = line->width;
+}
+
+static void
+find_direction (const Line *line, CeldLineEnd *end)
+{
+  double slope = line->b + 2 * line->c * along (line, end->at.x, end->at.y), length = sqrt (1 + slope * slope);
+
+  end->dx = (line->along_x - slope * line->along_y) / length;
+  end->dy = (line->along_y + slope * line->along_x) / length;
+}
+
+/* What is near says best where the tip is, and what is farther away, where the line is heading. */
 void
 celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 {
-  size_t near = gather (ink, pixel, end), size[2] = { end->n, near };
+  size_t near = gather (ink, pixel, end), size[2] = { near, end->n };
 
   end->tip    = false;
   end->width  = 0;
   end->at     = end->inside = (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
   end->dx     = end->dy = 0;
-  for (int i = 0; i < 2 && !end->tip; i++)
+  for (int i = 0; i < 2; i++)
     {
       Line line = { 0 };
 
       find_axis (end, size[i], &line);
       fit_middle (end, size[i], &line);
-      end->tip = is_line_end (end, &line);
-      if (end->tip)
-        find_tip (size[i], &line, end);
+      if (!is_line_end (end, &line))
+        continue;
+      if (!end->tip)
+        find_tip (ink, &line, end);
+      find_direction (&line, end);
+      end->tip = true;
     }
 }
 
@@ -271,40 +338,49 @@ celd_line_end_none (CeldCorner corner, CeldLineEnd *end)
 
 /* ------------------------------------------------------------------ the side of a line */
 
-/* Puts the end on the edge of an ink pixel. */
-static void
-put_on (CeldPlace pixel, CeldPlace from, CeldLineEnd *end)
+size_t
+celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place)
 {
-  double dx = from.x - pixel.x, dy = from.y - pixel.y, length = fmax (sqrt (dx * dx + dy * dy), 0.5);
-
-  end->inside = pixel;
-  end->at     = (CeldPlace) { pixel.x + 0.5 * dx / length, pixel.y + 0.5 * dy / length };
-}
-
-void
-celd_line_end_face (const CeldLineEnd *from, CeldLineEnd *end)
-{
-  CeldPlace place = from->at, nearest = end->inside;
-  double    least = INFINITY;
+  double least = INFINITY;
+  size_t nearest = 0;
 
   for (size_t i = 0; i < end->n; i++)
     {
-      CeldPlace pixel = { end->pixel[i].x + 0.5, end->pixel[i].y + 0.5 };
-      double    dx = pixel.x - place.x, dy = pixel.y - place.y;
+      double dx = end->pixel[i].x + 0.5 - place.x, dy = end->pixel[i].y + 0.5 - place.y;
 
       if (dx * dx + dy * dy >= least)
         continue;
       least   = dx * dx + dy * dy;
-      nearest = pixel;
+      nearest = i;
     }
-  for (double t = 0; from->tip && t <= DETOUR * sqrt (least); t += 0.5)
-    {
-      CeldPlace pixel = { floor (place.x + t * from->dx) + 0.5, floor (place.y + t * from->dy) + 0.5 };
+  return nearest;
+}
 
-      if (!celd_line_end_has (end, (int) pixel.x, (int) pixel.y))
+/* Puts the end where the way from a place in a direction of length 1 first meets its ink; false if that is farther. */
+static bool
+meet (const CeldPlane *ink, CeldPlace from, double dx, double dy, double farthest, CeldLineEnd *end)
+{
+  for (double t = 0; t <= farthest; t += 0.25)
+    {
+      CeldPlace place = { from.x + t * dx, from.y + t * dy };
+
+      if (!is_mine (ink, end, place))
         continue;
-      nearest = pixel;
-      break;
+      end->at     = place;
+      end->inside = (CeldPlace) { place.x + dx, place.y + dy };
+      return true;
     }
-  put_on (nearest, place, end);
+  return false;
+}
+
+void
+celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end)
+{
+  CeldCorner pixel = end->pixel[celd_line_end_nearest (end, from->at)];
+  double     x = pixel.x + 0.5 - from->at.x, y = pixel.y + 0.5 - from->at.y, length = sqrt (x * x + y * y);
+
+  if (from->tip && meet (ink, from->at, from->dx, from->dy, DETOUR * length, end))
+    return;
+  if (length > 0)
+    meet (ink, from->at, x / length, y / length, length, end);
 }

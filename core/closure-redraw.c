@@ -12,7 +12,7 @@
 
 #include <stdlib.h>
 
-#define TIP 1.5 /* pixels: ink so near to its ends may lie under the new border */
+#define TIP 1.5 /* pixels, and half a line: ink of its own so near to its ends may lie under the new border */
 
 /* ------------------------------------------------------------------ is the way free? */
 
@@ -47,13 +47,26 @@ distance_to_chain (const CeldRedrawing *r, const CeldChain *chain, CeldPlace pla
   return sqrt (least);
 }
 
+static double
+length_of (const CeldWay *way)
+{
+  return celd_distance_between (way->place[0], way->place[way->n - 1]);
+}
+
+static double
+line_width (const CeldRedrawing *r)
+{
+  return fmax (r->end[0].width, r->end[1].width);
+}
+
 /* May the new border run here?  On paper of the two labels; over ink only where it begins and ends. */
 static bool
 may_run (const CeldRedrawing *r, const CeldChain *chain, const CeldWay *way, CeldPlace place)
 {
   int      x = (int) floor (place.x), y = (int) floor (place.y);
-  bool     at_end = celd_distance_between (place, way->place[2]) <= TIP ||
-                    celd_distance_between (place, way->place[way->n - 3]) <= TIP;
+  double   tip = TIP + line_width (r) / 2;
+  bool     at_end = celd_distance_between (place, way->place[0]) <= tip ||
+                    celd_distance_between (place, way->place[way->n - 1]) <= tip;
   float    ink;
   uint32_t label;
 
@@ -62,19 +75,18 @@ may_run (const CeldRedrawing *r, const CeldChain *chain, const CeldWay *way, Cel
   ink   = CELD_AT (r->canvas->ink, x, y);
   label = CELD_AT (r->labels, x, y);
   if (!celd_is_paper (ink))
-    return at_end;
+    return at_end && (celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y));
   return (label == chain->left || label == chain->right) && (!(ink < CELD_FAINT) || near_ink (r, x, y));
 }
 
 static bool
 is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldWay *way)
 {
-  double most = way->length / 2 + way->width + 1;
+  double most = length_of (way) / 2 + line_width (r) + 1;
 
   for (size_t i = 0; i + 1 < way->n; i++)
     {
       CeldPlace p = way->place[i], q = way->place[i + 1];
-      bool      in_ink = i < 2 || i + 3 >= way->n;
       int       steps = (int) ceil (2 * celd_distance_between (p, q));
 
       for (int k = 0; k < steps; k++)
@@ -82,9 +94,7 @@ is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldWay *way)
           double    t = (k + 0.5) / steps;
           CeldPlace place = { p.x + t * (q.x - p.x), p.y + t * (q.y - p.y) };
 
-          if (in_ink ? !near_ink (r, (int) floor (place.x), (int) floor (place.y)) : !may_run (r, chain, way, place))
-            return false;
-          if (!in_ink && k % 4 == 0 && distance_to_chain (r, chain, place) > most)
+          if (!may_run (r, chain, way, place) || (k % 4 == 0 && distance_to_chain (r, chain, place) > most))
             return false;
         }
     }
@@ -121,6 +131,32 @@ compare_crossings (const void *a, const void *b)
   return p->x < q->x ? -1 : p->x > q->x;
 }
 
+static CeldPlace
+centre (CeldCorner pixel)
+{
+  return (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
+}
+
+/* From the last corner of the old border to the new one, through the ink that both end at; or the way back. */
+static CeldStatus
+add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace to, bool back)
+{
+  CeldPlace  place[2] = { to, end->inside };
+  CeldStatus status = add_crossings (r, place[!back], place[back]);
+
+  for (size_t i = celd_line_end_nearest (end, end->inside); status == CELD_OK; i = end->from[i])
+    {
+      place[0] = place[1];
+      place[1] = centre (end->pixel[i]);
+      status   = add_crossings (r, place[!back], place[back]);
+      if (!i)
+        break;
+    }
+  place[0] = place[1];
+  place[1] = (CeldPlace) { corner.x, corner.y };
+  return status == CELD_OK ? add_crossings (r, place[!back], place[back]) : status;
+}
+
 /* The outline: the old border, and the new one backwards. */
 static CeldStatus
 outline (CeldRedrawing *r, const CeldChain *chain, const CeldWay *way)
@@ -132,8 +168,12 @@ outline (CeldRedrawing *r, const CeldChain *chain, const CeldWay *way)
   for (size_t i = 0; i + 1 < chain->n && status == CELD_OK; i++)
     status = add_crossings (r, (CeldPlace) { corner[i].x, corner[i].y },
                             (CeldPlace) { corner[i + 1].x, corner[i + 1].y });
+  if (status == CELD_OK && !way->straight && r->end[1].n)
+    status = add_ink (r, &r->end[1], corner[chain->n - 1], way->place[way->n - 1], false);
   for (size_t i = way->n - 1; i > 0 && status == CELD_OK; i--)
     status = add_crossings (r, way->place[i], way->place[i - 1]);
+  if (status == CELD_OK && !way->straight && r->end[0].n)
+    status = add_ink (r, &r->end[0], corner[0], way->place[0], true);
   if (r->n_crossings)
     qsort (r->crossing, r->n_crossings, sizeof *r->crossing, compare_crossings);
   return status;
@@ -191,7 +231,7 @@ flip (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, boo
 static CeldStatus
 flip_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldWay *way, bool *may)
 {
-  double     most = way->length * (way->length / 2 + way->width) + 4, area = 0;
+  double     length = length_of (way), most = length * (length / 2 + line_width (r)) + 4, area = 0;
   int        winding = 0;
   CeldStatus status = CELD_OK;
 

@@ -59,28 +59,13 @@ find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
     else
       celd_line_end_none (corner[k ? chain->n - 1 : 0], &r->end[k]);
   if (b->n && !b->tip)
-    celd_line_end_face (a, b);
+    celd_line_end_face (r->canvas->ink, a, b);
   if (a->n && !a->tip)
-    celd_line_end_face (b, a);
+    celd_line_end_face (r->canvas->ink, b, a);
   if (b->n && !b->tip && !a->tip)
-    celd_line_end_face (a, b); /* once more: the narrowest place between two sides */
+    celd_line_end_face (r->canvas->ink, a, b); /* once more: the narrowest place between two sides */
   if (!a->n || !b->n)
     a->tip = b->tip = false;   /* nothing says with which direction a border meets the frame */
-}
-
-static void
-make_way (const CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner, const CeldPlace *curve, size_t n,
-          CeldWay *way)
-{
-  way->n        = n + 4;
-  way->width    = fmax (r->end[0].width, r->end[1].width);
-  way->length   = celd_distance_between (curve[0], curve[n - 1]);
-  way->place[0] = (CeldPlace) { corner[0].x, corner[0].y };
-  way->place[1] = r->end[0].inside;
-  for (size_t i = 0; i < n; i++)
-    way->place[i + 2] = curve[i];
-  way->place[n + 2] = r->end[1].inside;
-  way->place[n + 3] = (CeldPlace) { corner[chain->n - 1].x, corner[chain->n - 1].y };
 }
 
 /* Does the border cross white paper, rather than follow a faint line? */
@@ -104,33 +89,33 @@ static CeldStatus
 close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
 {
   const CeldCorner *corner = &r->chains->corner[chain->first];
-  CeldPlace         curve[CELD_CURVE_PLACES];
-  CeldWay           way;
+  CeldWay           way = { .n = 0 };
   bool              done = false;
-  size_t            n;
   CeldStatus        status = CELD_OK;
 
   if (chain->end[0] == CELD_CHAIN_LOOP || !is_white (r->canvas->ink, chain, corner))
     return CELD_OK;
   find_ends (r, chain, corner);
-  n = celd_curve_draw (&r->end[0], &r->end[1], curve);
+  way.n = celd_curve_draw (&r->end[0], &r->end[1], way.place);
   for (int attempt = 0; attempt < 3 && !done && status == CELD_OK; attempt++)
     {
-      if (attempt == 1)
-        curve[1] = curve[n - 1];
-      for (int k = 0; k < 2 && attempt == 2; k++)
+      if (attempt)
+        {
+          way.place[1] = way.place[way.n - 1];
+          way.n        = 2;
+          way.straight = attempt == 2;
+        }
+      for (int k = 0; k < 2 && way.straight; k++)
         {
           CeldCorner end = corner[k ? chain->n - 1 : 0];
 
-          curve[k] = r->end[k].inside = (CeldPlace) { end.x, end.y };
+          way.place[k] = (CeldPlace) { end.x, end.y };
         }
-      n = attempt ? 2 : n;
-      make_way (r, chain, corner, curve, n, &way);
       status = celd_redraw (r, chain, &way, &done);
     }
   if (status != CELD_OK)
     return status;
-  return done ? add_closure (chain, curve, n, closures) : add_old (chain, corner, closures);
+  return done ? add_closure (chain, way.place, way.n, closures) : add_old (chain, corner, closures);
 }
 
 CeldStatus

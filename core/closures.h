@@ -51,10 +51,12 @@ void       celd_chains_clear (CeldChains *chains);              /* accepts a zer
 /* The ink that a chain ends at, a few strokes around, and the line end that it may be. */
 typedef struct
 {
-  int         reach;            /* as far as it is looked at, in pixels */
+  int         step;             /* pixels between those that are looked at */
+  int         reach;            /* so many steps each way */
   CeldCorner  middle;           /* the pixel that was landed on */
   uint8_t    *mine;             /* square of side 2 reach + 1 round it: connected ink */
   CeldCorner *pixel;            /* the same as a list, nearest first */
+  uint32_t   *from;             /* of pixel k: which of them it was reached from; of the first: itself */
   size_t      n;
 
   bool        tip;              /* a line ends here; then: */
@@ -69,14 +71,17 @@ void       celd_line_end_clear (CeldLineEnd *end);              /* accepts a zer
 
 void celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end);
 
-/* Is this pixel one of the connected ink? */
+/* The pixel of connected ink that is nearest to a place; there is one. */
+size_t celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place);
+
+/* Is this pixel, which is ink, connected? */
 bool celd_line_end_has (const CeldLineEnd *end, int x, int y);
 
 /* A border that ends at this corner, without ink. */
 void celd_line_end_none (CeldCorner corner, CeldLineEnd *end);
 
 /* Puts the end, which is not a tip, where a line coming from the other end reaches its ink, or the nearest ink. */
-void celd_line_end_face (const CeldLineEnd *from, CeldLineEnd *end);
+void celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end);
 
 /* ------------------------------------------------------------------ closure-curves.c */
 
@@ -88,8 +93,8 @@ size_t celd_curve_draw (const CeldLineEnd *from, const CeldLineEnd *to, CeldPlac
 
 /* ------------------------------------------------------------------ closure-redraw.c */
 
-/* A new border: a corner at the old one's first end, a place in the ink there, the curve, and the same at its last. */
-typedef struct { CeldPlace place[CELD_CURVE_PLACES + 4]; size_t n; double length, width; } CeldWay;
+/* A new border from end to end; or, if `straight`, from the first corner of the old one to the last. */
+typedef struct { CeldPlace place[CELD_CURVE_PLACES]; size_t n; bool straight; } CeldWay;
 
 /* Where an edge of an outline crosses the centres of row y; down is positive. */
 typedef struct { int32_t y, sign; double x; } CeldCrossing;
