@@ -18,7 +18,7 @@
 
 #define REACH         4         /* stroke widths */
 #define LEAST_REACH   8         /* pixels; shorter ends say nothing about directions */
-#define FINE          8         /* pixels across a stroke are enough */
+#define FINE          7         /* pixels across a stroke are enough */
 #define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
 #define DETOUR        2.0       /* a line goes on to another's side if that is at most so many times the shortest way */
 #define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
