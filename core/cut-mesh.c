@@ -325,7 +325,7 @@ celd_mesh_build (CeldMesh *mesh)
 void
 celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept)
 {
-  CeldCut *cut = mesh->cut;
+  const CeldCut *cut = mesh->cut;
 
   for (int y = cut->top; y <= cut->bottom; y++)
     for (size_t i = 0; i < cut->canvas->seeds.row[y].n; i++)
@@ -336,6 +336,6 @@ celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept)
           continue;
         for (int x = run->x < cut->left ? cut->left : run->x; x < run->end && x <= cut->right; x++)
           if (cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE)
-            visit (mesh, &mesh->node[cut->node[celd_cut_pixel (cut, x, y)]], x, y, kept);
+            visit (mesh, cut->node[celd_cut_pixel (cut, x, y)], x, y, kept);
       }
 }

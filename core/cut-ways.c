@@ -8,14 +8,14 @@
 
 #define INK_STEP 8 /* times as long as a step on paper */
 
-/* The links by node: those of node k are other[first[k]] to other[first[k + 1] - 1]. */
-typedef struct { size_t *first; uint32_t *other, *queue; double *way; bool *queued; } Ways;
+/* The links by node: those of node k are link[first[k]] to link[first[k + 1] - 1]. */
+typedef struct { size_t *first, *link; uint32_t *queue; double *way; bool *queued; } Ways;
 
 static void
 ways_clear (Ways *ways)
 {
   celd_free (ways->first);
-  celd_free (ways->other);
+  celd_free (ways->link);
   celd_free (ways->queue);
   celd_free (ways->way);
   celd_free (ways->queued);
@@ -25,11 +25,11 @@ static CeldStatus
 ways_new (const CeldMesh *mesh, Ways *ways)
 {
   *ways = (Ways) {
-    celd_alloc0 (mesh->n + 2, sizeof *ways->first), celd_alloc (2 * mesh->n_links, sizeof *ways->other),
+    celd_alloc0 (mesh->n + 2, sizeof *ways->first), celd_alloc (2 * mesh->n_links, sizeof *ways->link),
     celd_alloc (mesh->n, sizeof *ways->queue), celd_alloc (mesh->n, sizeof *ways->way),
     celd_alloc0 (mesh->n, sizeof *ways->queued)
   };
-  if (!ways->first || !ways->other || !ways->queue || !ways->way || !ways->queued)
+  if (!ways->first || !ways->link || !ways->queue || !ways->way || !ways->queued)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < mesh->n_links; i++)
     {
@@ -40,10 +40,17 @@ ways_new (const CeldMesh *mesh, Ways *ways)
     ways->first[k] += ways->first[k - 1];
   for (size_t i = 0; i < mesh->n_links; i++)
     {
-      ways->other[ways->first[mesh->link[i].a + 1]++] = mesh->link[i].b;
-      ways->other[ways->first[mesh->link[i].b + 1]++] = mesh->link[i].a;
+      ways->link[ways->first[mesh->link[i].a + 1]++] = i;
+      ways->link[ways->first[mesh->link[i].b + 1]++] = i;
     }
   return CELD_OK;
+}
+
+/* The node at the other end of a link. */
+static uint32_t
+other_of (const CeldMesh *mesh, size_t link, uint32_t k)
+{
+  return mesh->link[link].a == k ? mesh->link[link].b : mesh->link[link].a;
 }
 
 /* What does not join the first end is lost. */
@@ -54,35 +61,27 @@ lose_others (CeldMesh *mesh, Ways *ways)
 
   for (size_t k = 0; k < mesh->n; k++)
     mesh->node[k].lost = true;
-  ways->queue[n] = mesh->cut->node[celd_cut_pixel (mesh->cut, mesh->cut->end[0].x, mesh->cut->end[0].y)];
-  mesh->node[ways->queue[n++]].lost = false;
+  ways->queue[n++] = mesh->at_end[0];
+  mesh->node[mesh->at_end[0]].lost = false;
   for (size_t i = 0; i < n; i++)
     for (size_t j = ways->first[ways->queue[i]]; j < ways->first[ways->queue[i] + 1]; j++)
-      if (mesh->node[ways->other[j]].lost)
-        {
-          mesh->node[ways->other[j]].lost = false;
-          ways->queue[n++] = ways->other[j];
-        }
-}
+      {
+        uint32_t other = other_of (mesh, ways->link[j], ways->queue[i]);
 
-static void
-note_seed (CeldMesh *mesh, CeldCutNode *node, int x, int y, int kept)
-{
-  (void) mesh, (void) kept;
-  if (node->seeded)
-    return;
-  node->seeded = true;
-  node->seed_x = x;
-  node->seed_y = y;
+        if (mesh->node[other].lost)
+          ways->queue[n++] = other;
+        mesh->node[other].lost = false;
+      }
 }
 
 static double
-step_between (const CeldCutNode *a, const CeldCutNode *b)
+step_between (const CeldMesh *mesh, size_t link)
 {
-  double x = (a->seeded ? a->seed_x : a->x + a->size / 2) - (b->seeded ? b->seed_x : b->x + b->size / 2);
-  double y = (a->seeded ? a->seed_y : a->y + a->size / 2) - (b->seeded ? b->seed_y : b->y + b->size / 2);
+  const CeldCutNode *a = &mesh->node[mesh->link[link].a], *b = &mesh->node[mesh->link[link].b];
+  double             x = (a->seeded ? a->seed_x : a->x + a->size / 2) - (b->seeded ? b->seed_x : b->x + b->size / 2);
+  double             y = (a->seeded ? a->seed_y : a->y + a->size / 2) - (b->seeded ? b->seed_y : b->y + b->size / 2);
 
-  return hypot (x, y) * (a->ink || b->ink ? INK_STEP : 1);
+  return hypot (x, y) * (a->ink || b->ink || !mesh->loose[link] ? INK_STEP : 1);
 }
 
 /* The shortest way from each node to a seed: nodes wait in a ring until no way gets shorter. */
@@ -105,8 +104,8 @@ find_ways (const CeldMesh *mesh, Ways *ways)
       ways->queued[k] = false;
       for (size_t j = ways->first[k]; j < ways->first[k + 1]; j++)
         {
-          uint32_t other = ways->other[j];
-          double   way = ways->way[k] + step_between (&mesh->node[k], &mesh->node[other]);
+          uint32_t other = other_of (mesh, ways->link[j], k);
+          double   way = ways->way[k] + step_between (mesh, ways->link[j]);
 
           if (way >= ways->way[other] - 1e-9)
             continue;
@@ -118,32 +117,53 @@ find_ways (const CeldMesh *mesh, Ways *ways)
     }
 }
 
-/* How far an end is from the region's seeds. */
+/* How far end i is from the region's seeds. */
 static double
-way_from (const CeldMesh *mesh, const Ways *ways, CeldEnd end)
+way_from (const CeldMesh *mesh, const Ways *ways, int i)
 {
-  uint32_t           k = mesh->cut->node[celd_cut_pixel (mesh->cut, end.x, end.y)];
-  const CeldCutNode *node = &mesh->node[k];
+  CeldEnd            end = mesh->cut->end[i];
+  const CeldCutNode *node = &mesh->node[mesh->at_end[i]];
 
-  if (celd_seed_rows_at (&mesh->cut->canvas->seeds, end.x, end.y) == mesh->cut->label)
-    return 0;
-  return node->seeded ? fmax (0.5, hypot (end.x - node->seed_x, end.y - node->seed_y)) : ways->way[k];
+  return node->seeded ? hypot (end.x - node->seed_x, end.y - node->seed_y) : ways->way[mesh->at_end[i]];
+}
+
+void
+celd_mesh_note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y)
+{
+  CeldCutNode *node = &mesh->node[k];
+
+  for (int i = 0; i < 2; i++)
+    {
+      CeldEnd at = mesh->cut->end[i];
+      int     near = at.x < x ? x : at.x >= end ? end - 1 : at.x;
+
+      if (k == mesh->at_end[i] &&
+          (!node->seeded || hypot (near - at.x, y - at.y) < hypot (node->seed_x - at.x, node->seed_y - at.y)))
+        {
+          node->seeded = true;
+          node->seed_x = near;
+          node->seed_y = y;
+        }
+    }
+  if (!node->seeded)
+    {
+      node->seeded = true;
+      node->seed_x = x;
+      node->seed_y = y;
+    }
 }
 
 CeldStatus
 celd_mesh_kept (CeldMesh *mesh, int *kept)
 {
-  const CeldCut *cut = mesh->cut;
-  Ways           ways;
-  CeldStatus     status = ways_new (mesh, &ways);
+  Ways       ways;
+  CeldStatus status = ways_new (mesh, &ways);
 
   if (status == CELD_OK)
     {
       lose_others (mesh, &ways);
-      celd_mesh_seeds (mesh, note_seed, 0);
       find_ways (mesh, &ways);
-      *kept = mesh->node[cut->node[celd_cut_pixel (cut, cut->end[1].x, cut->end[1].y)]].lost ? -1
-            : way_from (mesh, &ways, cut->end[0]) < way_from (mesh, &ways, cut->end[1]) ? 0 : 1;
+      *kept = mesh->node[mesh->at_end[1]].lost ? -1 : way_from (mesh, &ways, 0) < way_from (mesh, &ways, 1) ? 0 : 1;
     }
   ways_clear (&ways);
   return status;

@@ -22,7 +22,7 @@
 /* ------------------------------------------------------------------ squares */
 
 static CeldStatus
-mesh_new (CeldCut *cut, CeldMesh *mesh)
+mesh_new (const CeldCut *cut, CeldMesh *mesh)
 {
   size_t n;
 
@@ -40,8 +40,8 @@ mesh_new (CeldCut *cut, CeldMesh *mesh)
   return mesh->kind && mesh->stack && mesh->recent && mesh->size && mesh->open ? CELD_OK : CELD_NO_MEMORY;
 }
 
-static void
-mesh_clear (CeldMesh *mesh)
+void
+celd_mesh_clear (CeldMesh *mesh)
 {
   celd_free (mesh->size);
   celd_free (mesh->open);
@@ -105,8 +105,8 @@ next_x (const CeldCutNode *node, int x)
 static void
 pull_disc (CeldMesh *mesh, const CeldDisc *disc, int i)
 {
-  CeldCut *cut = mesh->cut;
-  int      r = (int) disc->radius, x, end;
+  const CeldCut *cut = mesh->cut;
+  int            r = (int) disc->radius, x, end;
 
   for (int y = disc->y - r < cut->top ? cut->top : disc->y - r; y <= disc->y + r && y <= cut->bottom; y++)
     if (celd_disc_row (disc, y, &x, &end))
@@ -122,9 +122,17 @@ pull_disc (CeldMesh *mesh, const CeldDisc *disc, int i)
 }
 
 static void
-pull_seed (CeldMesh *mesh, CeldCutNode *node, int x, int y, int kept)
+note_seed (CeldMesh *mesh, uint32_t k, int x, int y, int kept)
+{
+  (void) kept;
+  celd_mesh_note_seeds (mesh, k, x, x + 1, y);
+}
+
+static void
+pull_seed (CeldMesh *mesh, uint32_t k, int x, int y, int kept)
 {
   const CeldCut *cut = mesh->cut;
+  CeldCutNode   *node = &mesh->node[k];
   int32_t        vote = celd_canvas_vote (cut->canvas, cut->label);
 
   if (node->pulled[1 - kept] && in_disc (&cut->discs[1 - kept], x, y))
@@ -141,7 +149,7 @@ pull_seed (CeldMesh *mesh, CeldCutNode *node, int x, int y, int kept)
 static CeldStatus
 tell_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
 {
-  CeldCut *cut = mesh->cut;
+  const CeldCut *cut = mesh->cut;
 
   (void) size;
   for (int v = y; v < bottom; v++)
@@ -158,8 +166,8 @@ tell_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
   return CELD_OK;
 }
 
-static CeldStatus
-solve (CeldMesh *mesh, int kept, const CeldRun *run)
+CeldStatus
+celd_mesh_solve (CeldMesh *mesh, int kept, const CeldRun *run)
 {
   const CeldCut *cut = mesh->cut;
   int            source = cut->discs[1 - kept].room > cut->discs[kept].room ? 1 - kept : kept;
@@ -181,16 +189,16 @@ solve (CeldMesh *mesh, int kept, const CeldRun *run)
                        : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
   celd_free (pull);
   celd_free (side);
-  return status == CELD_OK ? celd_mesh_squares (mesh, tell_square) : status;
+  return status;
 }
 
 /* Takes back what is told of a node's square and those around it. */
 static void
 open_around (CeldMesh *mesh, const CeldCutNode *node)
 {
-  CeldCut *cut = mesh->cut;
-  int      left = node->x - node->size, right = node->x + 2 * node->size;
-  int      top = node->y - node->size, bottom = node->y + 2 * node->size;
+  const CeldCut *cut = mesh->cut;
+  int            left = node->x - node->size, right = node->x + 2 * node->size;
+  int            top = node->y - node->size, bottom = node->y + 2 * node->size;
 
   left   = left < cut->left ? cut->left : left;
   top    = top < cut->top ? cut->top : top;
@@ -253,24 +261,26 @@ celd_cut (CeldCut *cut, const CeldRun *run, int *kept)
     goto done;
   set_sizes (&mesh);
   status = celd_mesh_build (&mesh);
-  if (status == CELD_OK)
-    status = celd_mesh_kept (&mesh, kept);
-  if (status != CELD_OK || *kept < 0)
+  if (status != CELD_OK)
     goto done;
-  for (;;)
+  for (int i = 0; i < 2; i++)
+    mesh.at_end[i] = cut->node[celd_cut_pixel (cut, cut->end[i].x, cut->end[i].y)];
+  celd_mesh_seeds (&mesh, note_seed, 0);
+  status = celd_mesh_kept (&mesh, kept);
+  while (status == CELD_OK && *kept >= 0)
     {
       for (int k = 0; k < 4; k++)
         pull_disc (&mesh, &cut->discs[k / 2].disc[k % 2], k / 2);
       celd_mesh_seeds (&mesh, pull_seed, *kept);
-      status = solve (&mesh, *kept, run);
+      status = celd_mesh_solve (&mesh, *kept, run);
+      if (status == CELD_OK)
+        status = celd_mesh_squares (&mesh, tell_square);
       if (status != CELD_OK || !refine (&mesh))
         break;
       status = celd_mesh_build (&mesh);
-      if (status != CELD_OK)
-        break;
     }
 
 done:
-  mesh_clear (&mesh);
+  celd_mesh_clear (&mesh);
   return status;
 }

@@ -29,7 +29,8 @@ typedef struct
 
 typedef struct
 {
-  CeldCut     *cut;
+  const CeldCut *cut;
+  uint32_t     at_end[2];       /* nodes of the ends */
   int          columns, rows;   /* of tiles, from the corner of the region's box */
   uint8_t     *size;            /* of the squares in each tile: a power of two */
   bool        *open;            /* does the tile have pixels inside? */
@@ -61,12 +62,22 @@ typedef CeldStatus (*CeldSquareVisit) (CeldMesh *mesh, int x, int y, int right, 
 CeldStatus celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit);
 
 /* Calls `visit` for the pixels inside that are seeds of the region. */
-typedef void (*CeldSeedVisit) (CeldMesh *mesh, CeldCutNode *node, int x, int y, int kept);
+typedef void (*CeldSeedVisit) (CeldMesh *mesh, uint32_t k, int x, int y, int kept);
 void celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept);
 
 /* ------------------------------------------------------------------ cut-ways.c */
 
-/* *kept as in celd_cut; nodes that do not join the first end are lost. */
+/* The region's seeds x .. end - 1 in row y lie in a node. */
+void celd_mesh_note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y);
+
+/* *kept as in celd_cut, from the seeds that nodes note; nodes that do not join the first end are lost. */
 CeldStatus celd_mesh_kept (CeldMesh *mesh, int *kept);
+
+/* ------------------------------------------------------------------ cut.c */
+
+void celd_mesh_clear (CeldMesh *mesh);                        /* accepts a zeroed record */
+
+/* Tells the side of each node by the smallest cut. */
+CeldStatus celd_mesh_solve (CeldMesh *mesh, int kept, const CeldRun *run);
 
 #endif

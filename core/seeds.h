@@ -60,7 +60,7 @@ bool celd_disc_row (const CeldDisc *disc, int y, int *x, int *end);
 /* One more label, of a colour that is far from all others. */
 CeldStatus celd_hue_add (CeldCanvas *canvas, uint32_t *label);
 
-/* ------------------------------------------------------------------ cut.c: a region, cut between two points of it */
+/* ------------------------------------------------------------------ cuts of a region between two points of it */
 
 /* Of each pixel of the picture.  Before the cut: outside the region, or inside; after it, which end has it. */
 enum { CELD_OUTSIDE, CELD_INSIDE, CELD_NEAR_FIRST, CELD_NEAR_SECOND };
@@ -72,12 +72,19 @@ typedef struct
   int               left, top, right, bottom; /* box round the region, inclusive */
   CeldEnd           end[2];
   CeldDiscs         discs[2];          /* they belong to their ends whatever it costs */
+  uint32_t         *basin;             /* the region's basins */
+  size_t            n;
+  uint32_t         *at;                /* of basin k: basin[at[k] - 1] == k, or 0 */
   uint8_t          *mark;              /* tight plane of the picture's size */
   uint32_t         *node;              /* the same: work space */
 } CeldCut;
 
-/* Cuts the region between its ends.  *kept is the end that is nearer, within the region, to the seeds of its label; -1
- * if the region does not join the ends: then nothing is cut. */
+/* Cuts the region between its ends, pixel by pixel.  *kept is the end that is nearer, within the region, to the seeds
+ * of its label; -1 if the region does not join the ends: then nothing is cut. */
 CeldStatus celd_cut (CeldCut *cut, const CeldRun *run, int *kept);
+
+/* The same between whole basins, where a narrow place parts the ends' blocks: side[i] becomes CELD_NEAR_FIRST or
+ * CELD_NEAR_SECOND for basin[i]. */
+CeldStatus celd_cut_basins (const CeldCut *cut, const CeldRun *run, uint8_t *side, int *kept);
 
 #endif

@@ -21,9 +21,8 @@ typedef struct
   size_t           *first;     /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
   uint32_t         *border;
   Box              *box;       /* of each basin */
-  bool             *member;    /* of the region at hand, by basin */
-  uint32_t         *basin;     /* the same as a list */
-  size_t            n;
+  uint32_t         *basin, *at; /* the region at hand, as CeldCut has it */
+  uint8_t          *side;      /* of its basins, after a cut between basins */
   uint8_t          *mark;      /* of each pixel, for celd_cut; CELD_OUTSIDE between two cuts */
   uint32_t         *node;
 } Split;
@@ -47,12 +46,13 @@ split_new (Split *split)
   split->first  = celd_alloc0 (basins->n + 2, sizeof *split->first);
   split->border = celd_alloc (2 * basins->n_borders, sizeof *split->border);
   split->box    = celd_alloc (basins->n, sizeof *split->box);
-  split->member = celd_alloc0 (basins->n, sizeof *split->member);
   split->basin  = celd_alloc (basins->n, sizeof *split->basin);
+  split->at     = celd_alloc0 (basins->n, sizeof *split->at);
+  split->side   = celd_alloc (basins->n, 1);
   split->mark   = celd_alloc0 (n_pixels, 1);
   split->node   = celd_alloc (n_pixels, sizeof *split->node);
-  return split->first && split->border && split->box && split->member && split->basin && split->mark && split->node
-         ? CELD_OK : CELD_NO_MEMORY;
+  return split->first && split->border && split->box && split->basin && split->at && split->side && split->mark &&
+         split->node ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
@@ -62,8 +62,9 @@ split_clear (Split *split)
   celd_free (split->first);
   celd_free (split->border);
   celd_free (split->box);
-  celd_free (split->member);
   celd_free (split->basin);
+  celd_free (split->at);
+  celd_free (split->side);
   celd_free (split->mark);
   celd_free (split->node);
 }
@@ -133,10 +134,10 @@ join (Split *split, uint32_t k, CeldCut *cut)
 {
   const Box *box = &split->box[k];
 
-  if (split->member[k])
+  if (cut->at[k])
     return;
-  split->member[k] = true;
-  split->basin[split->n++] = k;
+  cut->basin[cut->n++] = k;
+  cut->at[k]  = (uint32_t) cut->n;
   cut->left   = box->left < cut->left ? box->left : cut->left;
   cut->right  = box->right > cut->right ? box->right : cut->right;
   cut->top    = box->top < cut->top ? box->top : cut->top;
@@ -149,45 +150,47 @@ find_region (Split *split, CeldCut *cut)
 {
   const CeldBasins *basins = split->canvas->basins;
 
-  split->n  = 0;
   cut->left = cut->right = cut->end[0].x;
   cut->top  = cut->bottom = cut->end[0].y;
   join (split, celd_basin_at (basins, cut->end[0].x, cut->end[0].y), cut);
-  for (size_t i = 0; i < split->n; i++)
-    for (size_t j = split->first[split->basin[i]]; j < split->first[split->basin[i] + 1]; j++)
+  for (size_t i = 0; i < cut->n; i++)
+    for (size_t j = split->first[cut->basin[i]]; j < split->first[cut->basin[i] + 1]; j++)
       {
         const CeldBorder *border = &basins->border[split->border[j]];
 
         if (goes_on (split, border, cut->label))
-          join (split, border->a == split->basin[i] ? border->b : border->a, cut);
+          join (split, border->a == cut->basin[i] ? border->b : border->a, cut);
       }
-  return split->member[celd_basin_at (basins, cut->end[1].x, cut->end[1].y)];
+  return cut->at[celd_basin_at (basins, cut->end[1].x, cut->end[1].y)] != 0;
 }
 
-/* Marks the pixels of the label in row y of the region's basins. */
+/* Marks the pixels of the label in row y of the region's basins: as inside, or as on the side of their basin. */
 static void
-mark_row (const Split *split, const CeldCut *cut, int y)
+mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
 {
   const CeldBasins  *basins = split->canvas->basins;
   const CeldSeedRow *taken = &split->taken.row[y];
   const uint32_t    *label = &CELD_AT (split->labels, 0, y);
-  uint8_t           *mark = split->mark + (size_t) y * (size_t) basins->width;
+  uint8_t           *mark = cut->mark + (size_t) y * (size_t) basins->width;
   size_t             k = celd_basin_run (basins, cut->left, y), t = 0;
 
   for (int x = cut->left, end; x <= cut->right; x = end, k++)
     {
+      uint32_t at = cut->at[basins->run[k].basin];
+      uint8_t  value = !at ? CELD_OUTSIDE : side ? side[at - 1] : CELD_INSIDE;
+
       end = celd_basin_run_end (basins, k, y);
       end = end > cut->right ? cut->right + 1 : end;
-      if (!split->member[basins->run[k].basin])
+      if (!at)
         continue;
       for (int u = x; u < end; u++)
-        mark[u] = label[u] == cut->label ? CELD_INSIDE : CELD_OUTSIDE;
+        mark[u] = label[u] == cut->label ? value : CELD_OUTSIDE;
       for (; t < taken->n && taken->run[t].x < end; t++)
         {
           int from = taken->run[t].x > x ? taken->run[t].x : x, to = taken->run[t].end < end ? taken->run[t].end : end;
 
           if (from < to)
-            memset (mark + from, taken->run[t].label == cut->label ? CELD_INSIDE : CELD_OUTSIDE, (size_t) (to - from));
+            memset (mark + from, taken->run[t].label == cut->label ? value : CELD_OUTSIDE, (size_t) (to - from));
           if (taken->run[t].end > end)
             break; /* goes on in the next basin */
         }
@@ -197,8 +200,8 @@ mark_row (const Split *split, const CeldCut *cut, int y)
 static void
 leave_region (Split *split, const CeldCut *cut)
 {
-  for (size_t i = 0; i < split->n; i++)
-    split->member[split->basin[i]] = false;
+  for (size_t i = 0; i < cut->n; i++)
+    cut->at[cut->basin[i]] = 0;
   for (int y = cut->top; y <= cut->bottom; y++)
     memset (split->mark + (size_t) y * (size_t) split->labels->width + (size_t) cut->left, CELD_OUTSIDE,
             (size_t) (cut->right - cut->left + 1));
@@ -206,9 +209,9 @@ leave_region (Split *split, const CeldCut *cut)
 
 /* ------------------------------------------------------------------ taking over */
 
-/* Discs are seeds from now on, as far as the region goes. */
+/* The pixels of a disc that its side of the cut holds are seeds from now on. */
 static CeldStatus
-seed_disc (Split *split, const CeldDisc *disc, uint32_t label)
+seed_disc (Split *split, const CeldDisc *disc, uint8_t side, uint32_t label)
 {
   int        w = split->labels->width, r = (int) disc->radius, top = disc->y - r, bottom = disc->y + r, x, end;
   CeldStatus status = CELD_OK;
@@ -220,7 +223,7 @@ seed_disc (Split *split, const CeldDisc *disc, uint32_t label)
         {
           const uint8_t *mark = split->mark + (size_t) y * (size_t) w;
 
-          for (next = x; next < end && next < w && mark[next] != CELD_OUTSIDE; next++)
+          for (next = x; next < end && next < w && mark[next] == side; next++)
             ;
           status = celd_seed_rows_paint (&split->canvas->seeds, y, x, next, label);
         }
@@ -229,9 +232,8 @@ seed_disc (Split *split, const CeldDisc *disc, uint32_t label)
 
 /* The new label takes its end's side of the cut. */
 static CeldStatus
-take_side (Split *split, const CeldCut *cut, int new, uint32_t label)
+take_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
 {
-  uint8_t    side = new == 0 ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
   CeldStatus status = CELD_OK;
 
   for (int y = cut->top; y <= cut->bottom; y++)
@@ -253,15 +255,31 @@ take_side (Split *split, const CeldCut *cut, int new, uint32_t label)
 static CeldStatus
 take_over (Split *split, const CeldCut *cut, int kept)
 {
-  uint32_t   label[2] = { cut->label, cut->label };
-  CeldStatus status = celd_hue_add (split->canvas, &label[1 - kept]);
+  const uint8_t side[2] = { CELD_NEAR_FIRST, CELD_NEAR_SECOND };
+  uint32_t      label[2] = { cut->label, cut->label };
+  CeldStatus    status = celd_hue_add (split->canvas, &label[1 - kept]);
 
   if (status == CELD_OK)
-    status = take_side (split, cut, 1 - kept, label[1 - kept]);
+    status = take_side (split, cut, side[1 - kept], label[1 - kept]);
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 2 && status == CELD_OK; k++)
-      status = seed_disc (split, &cut->discs[i].disc[k], label[i]);
+      status = seed_disc (split, &cut->discs[i].disc[k], side[i], label[i]);
   return status;
+}
+
+/* A narrow place between the ends is where two basins meet; else the cut is looked for pixel by pixel. */
+static CeldStatus
+cut_region (Split *split, CeldCut *cut, const CeldRun *run, int *kept)
+{
+  const CeldBasins *basins = split->canvas->basins;
+  uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
+  uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
+  bool              narrow = basins->block[first] != basins->block[second];
+  CeldStatus        status = narrow ? celd_cut_basins (cut, run, split->side, kept) : CELD_OK;
+
+  for (int y = cut->top; y <= cut->bottom && status == CELD_OK && (!narrow || *kept >= 0); y++)
+    mark_row (split, cut, narrow ? split->side : NULL, y);
+  return narrow || status != CELD_OK ? status : celd_cut (cut, run, kept);
 }
 
 static CeldStatus
@@ -273,11 +291,9 @@ split_region (Split *split, CeldCut *cut, const CeldRun *run)
 
   if (find_region (split, cut))
     {
-      for (int y = cut->top; y <= cut->bottom; y++)
-        mark_row (split, cut, y);
       for (int i = 0; i < 2; i++)
         cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
-      status = celd_cut (cut, run, &kept);
+      status = cut_region (split, cut, run, &kept);
       if (status == CELD_OK && kept >= 0)
         status = take_over (split, cut, kept);
     }
@@ -306,8 +322,10 @@ split_relation (Split *split, const CeldRelation *relation, const CeldRun *run)
       list_borders (split);
       find_boxes (split);
     }
-  cut.mark = split->mark;
-  cut.node = split->node;
+  cut.basin = split->basin;
+  cut.at    = split->at;
+  cut.mark  = split->mark;
+  cut.node  = split->node;
   return split_region (split, &cut, run);
 }
 
