@@ -6,8 +6,9 @@
  * on both sides, which thus never leads across.
  *
  * Bands of rows: each pixel is led up to a maximum or to the first pixel outside its band, by sweeps down and up the
- * band.  Then the outermost rows of all bands are led to their maxima, and with them everything else, as runs.
- * O(pixels) time; one number a pixel, and some rows a job, of workspace.
+ * band.  Beside each other, pixels mostly lead to the same place or to places beside each other, and are kept as such
+ * stretches.  Then the outermost rows of all bands are led to their maxima, and with them everything else, as runs.
+ * O(pixels) time; a band and half a byte a pixel of workspace.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,35 +17,49 @@
 #include <string.h>
 
 #define BAND    32          /* rows a job */
-#define JOBS    16          /* jobs between two reports of progress */
-#define SWEEPS  4           /* down and up; what is left then is followed pixel by pixel */
+#define JOBS    8           /* jobs at once, with threads */
 #define UNKNOWN UINT32_MAX
-#define NUMBER  (1u << 31)  /* the rest is a basin, not a pixel */
+#define MAXIMUM (1u << 31)  /* the rest is twice the number of a maximum in its band; else it is a place in `edge` */
 
-/* Where a pixel leads: not at all, three steps up, three down, two sideways. */
-enum { STAY, NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, EAST = 0x80, WEST };
+/* Where a pixel leads: three steps up, three down, and from STAY on those that stay in their row. */
+enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST };
+
+/* Pixels of a row, up to the next stretch: all lead to the same, or each to the place after the last one's. */
+typedef struct { int32_t x; bool moves; uint32_t lead; } Stretch;
 
 /* What a band finds. */
 typedef struct
 {
   uint32_t     *maximum;    /* pixels in reading order */
   size_t        n;
+  size_t        first;      /* basin of its first maximum */
+  Stretch      *stretch;
+  size_t        row[BAND + 1];
   CeldBasinRun *run;
   size_t        n_runs;
   bool          failed;     /* no memory */
 } Band;
+
+/* What a job works with. */
+typedef struct
+{
+  int32_t  *relief;         /* 3 rows with a pixel more at both ends */
+  uint32_t *lead;           /* of the band and a row above and below it, likewise */
+  uint8_t  *step;
+  uint8_t  *begins;         /* a row */
+} Desk;
 
 typedef struct
 {
   int            width, height;
   const int32_t *squared;
   int32_t        core;      /* of ink that is deeper the relief rises again */
-  uint32_t      *lead;      /* of each pixel: a pixel on its way up, or NUMBER | its basin */
-  uint8_t       *step;      /* BAND rows a job */
-  int32_t       *relief;    /* 3 rows a job, each with a pixel more at both ends */
-  uint32_t      *outside;   /* a row a job, likewise */
+  uint32_t      *edge;      /* the first and the last row of each band: where they lead, then their basins */
+  uint32_t      *until;     /* of a place in edge: the next one that has another basin, or is another row's */
+  Desk           desk[JOBS];
+  int            n_desks;
   Band          *band;
-  size_t         n_bands;
+  int            n_bands;
   int            first;     /* the first band of this round of jobs */
   CeldBasins    *basins;
 } Ascent;
@@ -64,7 +79,7 @@ band_end (const Ascent *a, int band)
 /* ------------------------------------------------------------------ steps */
 
 /* Row y of the relief, with low ground on both sides; all low outside the picture. */
-static void
+CELD_CLONES static void
 raise_row (const Ascent *a, int y, int32_t *restrict relief)
 {
   const int32_t *squared = a->squared + (ptrdiff_t) y * a->width;
@@ -78,7 +93,7 @@ raise_row (const Ascent *a, int y, int32_t *restrict relief)
 }
 
 /* The steps of a row; the rows of the relief start one pixel to the left. */
-static void
+CELD_CLONES static void
 find_steps (int width, const int32_t *restrict above, const int32_t *restrict here, const int32_t *restrict below,
             uint8_t *restrict step)
 {
@@ -105,18 +120,10 @@ find_steps (int width, const int32_t *restrict above, const int32_t *restrict he
 
 /* ------------------------------------------------------------------ leads within a band */
 
-/* Maxima lead to themselves. */
-static void
-start_row (int width, uint32_t pixel, const uint8_t *restrict step, uint32_t *restrict lead)
-{
-  for (int x = 0; x < width; x++)
-    lead[x] = step[x] == STAY ? pixel + (uint32_t) x : UNKNOWN;
-}
-
 /* Takes over what is known in the row that the steps from first, first + 1, first + 2 (to the left, straight, to the
  * right) lead to. */
-static void
-take_over (int width, const uint8_t *restrict step, int first, const uint32_t *next, uint32_t *restrict lead)
+CELD_CLONES static void
+take_over (int width, const uint8_t *restrict step, int first, const uint32_t *restrict next, uint32_t *restrict lead)
 {
   for (int x = 0; x < width; x++)
     {
@@ -129,53 +136,43 @@ take_over (int width, const uint8_t *restrict step, int first, const uint32_t *n
     }
 }
 
+/* The first byte from x on that has its top bit set. */
+static inline int
+next_marked (int width, const uint8_t *byte, int x)
+{
+  uint64_t eight;
+
+  for (; x + 8 <= width; x += 8)
+    {
+      memcpy (&eight, byte + x, sizeof eight);
+      if (eight & 0x8080808080808080)
+        break;
+    }
+  while (x < width && byte[x] < 0x80)
+    x++;
+  return x;
+}
+
+/* Takes over what is known beside a pixel. */
 static void
 go_sideways (int width, const uint8_t *step, uint32_t *lead)
 {
-  for (int x = 1; x < width; x++)
-    if (step[x] == WEST)
-      lead[x] = lead[x - 1];
-  for (int x = width - 2; x >= 0; x--)
-    if (step[x] == EAST)
-      lead[x] = lead[x + 1];
-}
-
-/* The row outside a band: there every pixel leads to itself, as far as the band is concerned. */
-static const uint32_t *
-outside_row (const Ascent *a, int job, int y)
-{
-  uint32_t *row = a->outside + (size_t) job * (size_t) (a->width + 2) + 1;
-
-  for (int x = 0; x < a->width; x++)
-    row[x] = (uint32_t) (y * a->width + x);
-  return row;
-}
-
-static void
-sweep (const Ascent *a, int job, const uint8_t *steps, int top, int end)
-{
-  int w = a->width;
-
-  for (int y = top; y < end; y++)
+  for (int x = next_marked (width, step, 0), end; x < width; x = next_marked (width, step, end))
     {
-      const uint8_t *step = steps + (size_t) (y - top) * (size_t) w;
-      uint32_t      *lead = a->lead + (size_t) y * (size_t) w;
+      for (end = x + 1; end < width && step[end] == step[x]; end++)
+        ;
+      if (step[x] != STAY && lead[x] == UNKNOWN)
+        {
+          uint32_t to = lead[step[x] == EAST ? end : x - 1];
 
-      take_over (w, step, NORTH_WEST, y > top ? lead - w : outside_row (a, job, y - 1), lead);
-      go_sideways (w, step, lead);
-    }
-  for (int y = end - 1; y >= top; y--)
-    {
-      const uint8_t *step = steps + (size_t) (y - top) * (size_t) w;
-      uint32_t      *lead = a->lead + (size_t) y * (size_t) w;
-
-      take_over (w, step, SOUTH_WEST, y + 1 < end ? lead + w : outside_row (a, job, y + 1), lead);
-      go_sideways (w, step, lead);
+          for (int u = x; u < end; u++)
+            lead[u] = to;
+        }
     }
 }
 
 static inline ptrdiff_t
-step_offset (uint8_t step, ptrdiff_t w)
+step_offset (uint8_t step, ptrdiff_t row_size)
 {
   switch (step)
     {
@@ -184,66 +181,141 @@ step_offset (uint8_t step, ptrdiff_t w)
     case WEST:
       return -1;
     default:
-      return step < SOUTH_WEST ? step - NORTH - w : step - SOUTH + w;
+      return step < SOUTH_WEST ? step - NORTH - row_size : step - SOUTH + row_size;
     }
 }
 
-/* Follows the steps of a pixel whose lead is unknown, and tells all pixels on the way. */
+/* Follows the steps from a pixel whose lead is unknown, and tells all pixels on the way. */
 static void
-follow (const Ascent *a, const uint8_t *steps, size_t first, size_t end, size_t p)
+follow (int width, const uint8_t *step, uint32_t *lead)
 {
-  size_t   w = (size_t) a->width, q = p;
-  uint32_t to;
+  uint32_t      *p = lead, to;
+  const uint8_t *s = step;
 
-  while (q >= first && q < end && a->lead[q] == UNKNOWN)
-    q = (size_t) ((ptrdiff_t) q + step_offset (steps[q - first], (ptrdiff_t) w));
-  to = q >= first && q < end ? a->lead[q] : (uint32_t) q;
-  for (q = p; q >= first && q < end && a->lead[q] == UNKNOWN;)
+  while (*p == UNKNOWN)
     {
-      a->lead[q] = to;
-      q = (size_t) ((ptrdiff_t) q + step_offset (steps[q - first], (ptrdiff_t) w));
+      p += step_offset (*s, width + 2);
+      s += step_offset (*s, width);
     }
+  to = *p;
+  for (p = lead, s = step; *p == UNKNOWN;)
+    {
+      *p = to;
+      p += step_offset (*s, width + 2);
+      s += step_offset (*s, width);
+    }
+}
+
+/* Leads n rows to maxima, or to the rows above and below them, whose leads are known. */
+static void
+lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
+{
+  size_t row_size = (size_t) width + 2, w = (size_t) width;
+
+  for (int sweep = 0; sweep < 3; sweep++)
+    for (int i = 0; i < n; i++)
+      {
+        bool      down = sweep != 1;
+        int       y = down ? i : n - 1 - i;
+        uint32_t *row = lead + (size_t) y * row_size;
+
+        take_over (width, step + (size_t) y * w, down ? NORTH_WEST : SOUTH_WEST, down ? row - row_size : row + row_size,
+                   row);
+        go_sideways (width, step + (size_t) y * w, row);
+      }
+  for (int y = 0; y < n; y++)
+    for (int x = 0; x < width; x++)
+      if (lead[(size_t) y * row_size + (size_t) x] == UNKNOWN)
+        follow (width, step + (size_t) y * w + x, lead + (size_t) y * row_size + x);
+}
+
+/* ------------------------------------------------------------------ a band */
+
+/* Maxima lead to themselves; what else does is not known. */
+static bool
+start_row (const Ascent *a, int y, const uint8_t *step, Band *band, uint32_t *lead)
+{
+  memset (lead, 0xff, (size_t) a->width * sizeof *lead);
+  for (int x = next_marked (a->width, step, 0); x < a->width; x = next_marked (a->width, step, x + 1))
+    if (step[x] == STAY)
+      {
+        uint32_t *maximum = celd_grow (band->maximum, band->n + 1, sizeof *maximum);
+
+        if (!maximum)
+          return false;
+        band->maximum = maximum;
+        lead[x] = MAXIMUM | (uint32_t) (2 * band->n);
+        maximum[band->n++] = (uint32_t) (y * a->width + x);
+      }
+  return true;
+}
+
+/* Marks where stretches begin. */
+CELD_CLONES static void
+mark_stretches (int width, const uint32_t *restrict lead, uint8_t *restrict begins)
+{
+  begins[0] = 0x80;
+  if (width > 1)
+    begins[1] = lead[1] - lead[0] > 1 ? 0x80 : 0;
+  for (int x = 2; x < width; x++)
+    {
+      uint32_t step = lead[x] - lead[x - 1], last = lead[x - 1] - lead[x - 2];
+
+      begins[x] = (step > 1) | ((last < 2) & (step != last)) ? 0x80 : 0;
+    }
+}
+
+static bool
+note_stretches (int width, const uint32_t *lead, uint8_t *begins, Band *band, int row)
+{
+  size_t n = band->row[row];
+
+  mark_stretches (width, lead, begins);
+  for (int x = 0; x < width; x = next_marked (width, begins, x + 1))
+    {
+      Stretch *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
+
+      if (!stretch)
+        return false;
+      band->stretch = stretch;
+      stretch[n++] = (Stretch) { x, x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x], lead[x] };
+    }
+  band->row[row + 1] = n;
+  return true;
 }
 
 static void
 lead_band (void *data, int job)
 {
   const Ascent *a = data;
-  int           w = a->width, band = a->first + job, top = band_top (band), end = band_end (a, band);
-  size_t        row_size = (size_t) w + 2, first = (size_t) top * (size_t) w, last = (size_t) end * (size_t) w;
-  int32_t      *relief = a->relief + (size_t) job * 3 * row_size;
-  uint8_t      *steps = a->step + (size_t) job * BAND * (size_t) w;
-  Band         *found = &a->band[band];
+  const Desk   *desk = &a->desk[job];
+  int           w = a->width, at = a->first + job, top = band_top (at), n = band_end (a, at) - top;
+  size_t        row_size = (size_t) w + 2;
+  uint32_t     *lead = desk->lead + row_size + 1, place = (uint32_t) (2 * at * w);
+  Band         *band = &a->band[at];
 
-  raise_row (a, top - 1, relief);
-  raise_row (a, top, relief + row_size);
-  for (int y = top; y < end; y++)
+  raise_row (a, top - 1, desk->relief);
+  raise_row (a, top, desk->relief + row_size);
+  for (int i = 0; i < n && !band->failed; i++)
     {
-      size_t   i = (size_t) (y - top);
-      uint8_t *step = steps + i * (size_t) w;
+      uint8_t *step = desk->step + (size_t) i * (size_t) w;
 
-      raise_row (a, y + 1, relief + (i + 2) % 3 * row_size);
-      find_steps (w, relief + i % 3 * row_size, relief + (i + 1) % 3 * row_size, relief + (i + 2) % 3 * row_size, step);
-      start_row (w, (uint32_t) (y * w), step, a->lead + (size_t) y * (size_t) w);
-      for (int x = 0; x < w; x++)
-        if (step[x] == STAY)
-          {
-            uint32_t *maximum = celd_grow (found->maximum, found->n + 1, sizeof *maximum);
-
-            if (!maximum)
-              {
-                found->failed = true;
-                return;
-              }
-            found->maximum = maximum;
-            maximum[found->n++] = (uint32_t) (y * w + x);
-          }
+      raise_row (a, top + i + 1, desk->relief + (size_t) (i + 2) % 3 * row_size);
+      find_steps (w, desk->relief + (size_t) i % 3 * row_size, desk->relief + (size_t) (i + 1) % 3 * row_size,
+                  desk->relief + (size_t) (i + 2) % 3 * row_size, step);
+      band->failed = !start_row (a, top + i, step, band, lead + (size_t) i * row_size);
     }
-  for (int i = 0; i < SWEEPS; i++)
-    sweep (a, job, steps, top, end);
-  for (size_t p = first; p < last; p++)
-    if (a->lead[p] == UNKNOWN)
-      follow (a, steps, first, last, p);
+  for (int x = 0; x < w; x++)
+    {
+      desk->lead[x + 1] = place - (uint32_t) w + (uint32_t) x;
+      lead[(size_t) n * row_size + (size_t) x] = place + 2 * (uint32_t) w + (uint32_t) x;
+    }
+  if (!band->failed)
+    lead_rows (w, n, desk->step, lead);
+  for (int i = 0; i < n && !band->failed; i++)
+    band->failed = !note_stretches (w, lead + (size_t) i * row_size, desk->begins, band, i);
+  memcpy (a->edge + place, lead, (size_t) w * sizeof *lead);
+  memcpy (a->edge + place + w, lead + (size_t) (n - 1) * row_size, (size_t) w * sizeof *lead);
 }
 
 /* ------------------------------------------------------------------ basins */
@@ -253,21 +325,24 @@ static CeldStatus
 make_basins (const Ascent *a)
 {
   CeldBasins *basins = a->basins;
+  size_t      n = 0;
 
-  basins->n = 0;
-  for (size_t i = 0; i < a->n_bands; i++)
-    basins->n += a->band[i].n;
-  basins->basin = celd_alloc (basins->n, sizeof *basins->basin);
+  for (int i = 0; i < a->n_bands; i++)
+    {
+      a->band[i].first = n;
+      n += a->band[i].n;
+    }
+  basins->n = n;
+  basins->basin = celd_alloc (n, sizeof *basins->basin);
   if (!basins->basin)
     return CELD_NO_MEMORY;
-  for (size_t i = 0, k = 0; i < a->n_bands; i++)
-    for (size_t j = 0; j < a->band[i].n; j++, k++)
+  for (int i = 0; i < a->n_bands; i++)
+    for (size_t j = 0; j < a->band[i].n; j++)
       {
         uint32_t p = a->band[i].maximum[j];
         int32_t  squared = a->squared[p];
 
-        a->lead[p] = NUMBER | (uint32_t) k;
-        basins->basin[k] = (CeldBasin) {
+        basins->basin[a->band[i].first + j] = (CeldBasin) {
           .x = (int32_t) (p % (uint32_t) a->width), .y = (int32_t) (p / (uint32_t) a->width),
           .squared = squared > 0 ? squared : -squared, .solid = squared < 0,
         };
@@ -275,25 +350,48 @@ make_basins (const Ascent *a)
   return CELD_OK;
 }
 
-/* Leads the pixels of an outermost row of a band to their basins. */
+/* Leads the outermost rows of all bands to their basins. */
 static void
-lead_row (const Ascent *a, int y)
+lead_edges (const Ascent *a)
 {
-  uint32_t *lead = a->lead;
+  uint32_t *edge = a->edge, w = (uint32_t) a->width, n = 2 * w * (uint32_t) a->n_bands;
 
-  for (uint32_t p = (uint32_t) (y * a->width); p < (uint32_t) ((y + 1) * a->width); p++)
+  for (uint32_t p = 0; p < n; p++)
+    if (edge[p] & MAXIMUM)
+      edge[p] = MAXIMUM | (uint32_t) (a->band[p / (2 * w)].first + (edge[p] & ~MAXIMUM) / 2);
+  for (uint32_t p = 0; p < n; p++)
     {
-      uint32_t to = p;
+      uint32_t to = edge[p];
 
-      while (!(lead[to] & NUMBER))
-        to = lead[to];
-      to = lead[to];
-      for (uint32_t q = p, next; !(lead[q] & NUMBER); q = next)
+      while (!(to & MAXIMUM))
+        to = edge[to];
+      for (uint32_t q = p, next; !(edge[q] & MAXIMUM); q = next)
         {
-          next = lead[q];
-          lead[q] = to;
+          next = edge[q];
+          edge[q] = to;
         }
     }
+  for (uint32_t p = n; p-- > 0;)
+    {
+      edge[p] &= ~MAXIMUM;
+      a->until[p] = (p + 1) % w && edge[p + 1] == edge[p] ? a->until[p + 1] : p + 1;
+    }
+}
+
+/* From x on pixels of the row belong to a basin. */
+static bool
+add_run (Band *band, size_t row, int x, uint32_t basin)
+{
+  CeldBasinRun *run;
+
+  if (band->n_runs > row && band->run[band->n_runs - 1].basin == basin)
+    return true;
+  run = celd_grow (band->run, band->n_runs + 1, sizeof *run);
+  if (!run)
+    return false;
+  band->run = run;
+  run[band->n_runs++] = (CeldBasinRun) { x, basin };
+  return true;
 }
 
 /* The runs of a band: basins->row gets their places within the band. */
@@ -301,37 +399,33 @@ static void
 find_runs (void *data, int job)
 {
   const Ascent *a = data;
-  int           band = a->first + job;
-  Band         *found = &a->band[band];
+  int           at = a->first + job, top = band_top (at), n = band_end (a, at) - top;
+  Band         *band = &a->band[at];
+  bool          good = true;
 
-  for (int y = band_top (band); y < band_end (a, band); y++)
+  for (int i = 0; i < n; i++)
     {
-      const uint32_t *lead = a->lead + (size_t) y * (size_t) a->width;
-      uint32_t        last = 0, basin = UNKNOWN;
+      size_t row = a->basins->row[top + i] = band->n_runs;
 
-      a->basins->row[y] = found->n_runs;
-      for (int x = 0; x < a->width; x++)
+      for (size_t k = band->row[i]; k < band->row[i + 1] && good; k++)
         {
-          uint32_t      to = lead[x];
-          CeldBasinRun *run;
+          Stretch  s = band->stretch[k];
+          int      end = k + 1 < band->row[i + 1] ? band->stretch[k + 1].x : a->width;
+          uint32_t to = s.lead;
 
-          if (to == last && x > 0)
-            continue;
-          last = to;
-          to = (to & NUMBER ? to : a->lead[to]) & ~NUMBER;
-          if (to == basin)
-            continue;
-          basin = to;
-          run = celd_grow (found->run, found->n_runs + 1, sizeof *run);
-          if (!run)
-            {
-              found->failed = true;
-              return;
-            }
-          found->run = run;
-          run[found->n_runs++] = (CeldBasinRun) { x, basin };
+          if (to & MAXIMUM)
+            good = add_run (band, row, s.x, (uint32_t) (band->first + (to & ~MAXIMUM) / 2));
+          else if (!s.moves)
+            good = add_run (band, row, s.x, a->edge[to]);
+          else
+            for (; s.x < end && good; to = a->until[to])
+              {
+                good = add_run (band, row, s.x, a->edge[to]);
+                s.x += (int32_t) (a->until[to] - to);
+              }
         }
     }
+  band->failed = !good;
 }
 
 /* One list of runs of those of the bands. */
@@ -341,13 +435,13 @@ gather_runs (const Ascent *a)
   CeldBasins *basins = a->basins;
   size_t      n = 0;
 
-  for (size_t i = 0; i < a->n_bands; i++)
+  for (int i = 0; i < a->n_bands; i++)
     n += a->band[i].n_runs;
   basins->run = celd_alloc (n, sizeof *basins->run);
   if (!basins->run)
     return CELD_NO_MEMORY;
   n = 0;
-  for (int i = 0; i < (int) a->n_bands; i++)
+  for (int i = 0; i < a->n_bands; i++)
     {
       memcpy (basins->run + n, a->band[i].run, a->band[i].n_runs * sizeof *basins->run);
       for (int y = band_top (i); y < band_end (a, i); y++)
@@ -367,62 +461,85 @@ gather_runs (const Ascent *a)
 static CeldStatus
 run_bands (Ascent *a, void (*body) (void *data, int job), const CeldRun *run, double from, double to)
 {
-  int        n = (int) a->n_bands;
+  int        n = a->n_bands, at_once = a->n_desks;
   CeldStatus status = CELD_OK;
 
-  for (a->first = 0; a->first < n && status == CELD_OK; a->first += JOBS)
+  for (a->first = 0; a->first < n && status == CELD_OK; a->first += at_once)
     {
-      celd_each (run, n - a->first < JOBS ? n - a->first : JOBS, body, a);
-      status = celd_step (run, from + (to - from) * (a->first + JOBS < n ? (double) (a->first + JOBS) / n : 1));
+      celd_each (run, n - a->first < at_once ? n - a->first : at_once, body, a);
+      status = celd_step (run, from + (to - from) * (a->first + at_once < n ? (double) (a->first + at_once) / n : 1));
     }
   for (int i = 0; i < n && status == CELD_OK; i++)
     status = a->band[i].failed ? CELD_NO_MEMORY : CELD_OK;
   return status;
 }
 
+static CeldStatus
+ascent_new (const int32_t *squared, const CeldRun *run, CeldBasins *basins, Ascent *a)
+{
+  size_t w = (size_t) basins->width, h = (size_t) basins->height, n_bands = (h + BAND - 1) / BAND;
+  bool   good;
+
+  *a = (Ascent) {
+    .width = basins->width, .height = basins->height, .squared = squared, .core = celd_stroke_core (basins->stroke),
+    .edge    = celd_alloc (n_bands * w, 2 * sizeof *a->edge),
+    .until   = celd_alloc (n_bands * w, 2 * sizeof *a->until),
+    .band    = celd_alloc0 (n_bands, sizeof *a->band),
+    .n_bands = (int) n_bands, .n_desks = run && run->each ? JOBS : 1, .basins = basins,
+  };
+  basins->row = celd_alloc (h + 1, sizeof *basins->row);
+  good = a->edge && a->until && a->band && basins->row;
+  for (int i = 0; i < a->n_desks; i++)
+    {
+      a->desk[i] = (Desk) {
+        .relief = celd_alloc (w + 2, 3 * sizeof *a->desk->relief),
+        .lead   = celd_alloc0 (w + 2, (BAND + 2) * sizeof *a->desk->lead),
+        .step   = celd_alloc (w, BAND * sizeof *a->desk->step),
+        .begins = celd_alloc (w, sizeof *a->desk->begins),
+      };
+      good = good && a->desk[i].relief && a->desk[i].lead && a->desk[i].step && a->desk[i].begins;
+    }
+  return good ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+ascent_clear (Ascent *a)
+{
+  for (int i = 0; i < a->n_desks; i++)
+    {
+      celd_free (a->desk[i].relief);
+      celd_free (a->desk[i].lead);
+      celd_free (a->desk[i].step);
+      celd_free (a->desk[i].begins);
+    }
+  for (int i = 0; a->band && i < a->n_bands; i++)
+    {
+      celd_free (a->band[i].maximum);
+      celd_free (a->band[i].stretch);
+      celd_free (a->band[i].run);
+    }
+  celd_free (a->band);
+  celd_free (a->edge);
+  celd_free (a->until);
+}
+
 CeldStatus
 celd_basins_ascend (const int32_t *squared, const CeldRun *run, CeldBasins *basins)
 {
-  size_t     w = (size_t) basins->width, h = (size_t) basins->height;
-  uint32_t  *lead = celd_alloc (w * h + 2, sizeof *lead); /* the sweeps look a pixel beyond both ends */
-  Ascent     a = {
-    .width = basins->width, .height = basins->height, .squared = squared, .core = celd_stroke_core (basins->stroke),
-    .step    = celd_alloc (w * BAND * JOBS, sizeof *a.step),
-    .relief  = celd_alloc ((w + 2) * 3 * JOBS, sizeof *a.relief),
-    .outside = celd_alloc0 ((w + 2) * JOBS, sizeof *a.outside),
-    .n_bands = (h + BAND - 1) / BAND, .basins = basins,
-  };
-  CeldStatus status = CELD_NO_MEMORY;
+  Ascent     a;
+  CeldStatus status = ascent_new (squared, run, basins, &a);
 
-  a.band = celd_alloc0 (a.n_bands, sizeof *a.band);
-  basins->row = celd_alloc (h + 1, sizeof *basins->row);
-  if (!lead || !a.step || !a.relief || !a.outside || !a.band || !basins->row)
-    goto done;
-  lead[0] = lead[w * h + 1] = UNKNOWN;
-  a.lead = lead + 1;
-  status = run_bands (&a, lead_band, run, 0, 0.6);
+  if (status == CELD_OK)
+    status = run_bands (&a, lead_band, run, 0, 0.8);
   if (status == CELD_OK)
     status = make_basins (&a);
-  for (int i = 0; i < (int) a.n_bands && status == CELD_OK; i++)
-    {
-      lead_row (&a, band_top (i));
-      lead_row (&a, band_end (&a, i) - 1);
-    }
   if (status == CELD_OK)
-    status = run_bands (&a, find_runs, run, 0.6, 1);
+    {
+      lead_edges (&a);
+      status = run_bands (&a, find_runs, run, 0.8, 1);
+    }
   if (status == CELD_OK)
     status = gather_runs (&a);
-
-done:
-  for (size_t i = 0; a.band && i < a.n_bands; i++)
-    {
-      celd_free (a.band[i].maximum);
-      celd_free (a.band[i].run);
-    }
-  celd_free (a.band);
-  celd_free (a.outside);
-  celd_free (a.relief);
-  celd_free (a.step);
-  celd_free (lead);
+  ascent_clear (&a);
   return status;
 }

@@ -38,6 +38,26 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
   ((a)->data && (b)->data && (a)->width == (b)->width && (a)->height == (b)->height && \
    (a)->width > 0 && (a)->height > 0 && (a)->width <= CELD_MAX_SIDE && (a)->height <= CELD_MAX_SIDE)
 
+/* ------------------------------------------------------------------ vectors */
+
+/* Before a plain loop over pixels: compiled for wider vectors too, and chosen when the library is loaded.  The resolver
+ * runs before sanitizers are ready. */
+#if defined __has_feature
+#if __has_feature (address_sanitizer) || __has_feature (undefined_behavior_sanitizer) || __has_feature (thread_sanitizer)
+#define CELD_CLONES
+#endif
+#endif
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+#define CELD_CLONES
+#endif
+#ifndef CELD_CLONES
+#if defined __x86_64__ && defined __ELF__ && defined __GNUC__
+#define CELD_CLONES __attribute__ ((target_clones ("avx2", "default")))
+#else
+#define CELD_CLONES
+#endif
+#endif
+
 /* ------------------------------------------------------------------ progress and threads (run.c) */
 
 /* The part [from,to] of a longer run, as a run of its own: `part` must outlive it.  With from = to it reports no
