@@ -17,6 +17,60 @@ stroke_widths (void)
   free (a.data), free (b.data);
 }
 
+/* The median of all runs, counted pixel by pixel. */
+static int
+count_all (const CeldPlane *ink)
+{
+  static size_t runs[257];
+  size_t        all = 0, below = 0;
+  int           width = 0;
+
+  memset (runs, 0, sizeof runs);
+  for (int along = 0; along < 2; along++)
+    for (int i = 0; i < (along ? ink->height : ink->width); i++)
+      for (int j = 0, run = 0, n = along ? ink->width : ink->height; j <= n; j++)
+        if (j < n && !celd_is_paper (along ? CELD_AT (ink, j, i) : CELD_AT (ink, i, j)))
+          run++;
+        else if (run)
+          {
+            runs[run < 256 ? run : 256]++;
+            all++;
+            run = 0;
+          }
+  while (width < 256 && 2 * below < all)
+    below += runs[++width];
+  return width;
+}
+
+/* From one long run to many short ones; pictures wider than what is gone through at once. */
+static void
+random_drawings (void)
+{
+  static const int size[][2] = { { 1, 1 }, { 1, 400 }, { 400, 1 }, { 30, 20 }, { 13, 300 }, { 9000, 3 }, { 4096, 2 },
+                                 { 4097, 4 } };
+  uint32_t state = 3;
+
+  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+    for (int round = 0; round < 12; round++)
+      {
+        int       w = size[k][0], h = size[k][1];
+        CeldPlane ink = { w, h, (size_t) w + 1, malloc (((size_t) w + 1) * (size_t) h * sizeof (float)) };
+
+        for (int y = 0; y < h; y++)
+          for (int x = 0, left = 0, inked = 0; x <= w; x++, left--)
+            {
+              if (left <= 0)
+                {
+                  inked = !inked || round == 0;
+                  left = 1 + (int) check_random (&state, 1u << round);
+                }
+              CELD_AT (&ink, x, y) = inked ? 0.3f : x & 1 ? NAN : 1;
+            }
+        NEAR (celd_stroke_width (&ink), count_all (&ink), 0);
+        free (ink.data);
+      }
+}
+
 static void
 the_nearest_paper (void)
 {
@@ -47,6 +101,7 @@ int
 main (void)
 {
   RUN (stroke_widths);
+  RUN (random_drawings);
   RUN (the_nearest_paper);
   return DONE;
 }
