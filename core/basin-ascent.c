@@ -14,8 +14,6 @@
  */
 #include "basin-steps.h"
 
-#include <string.h>
-
 #define BAND    32          /* rows a job */
 #define JOBS    8           /* jobs at once, with threads */
 #define UNKNOWN UINT32_MAX
@@ -136,28 +134,11 @@ take_over (int width, const uint8_t *restrict step, int first, const uint32_t *r
     }
 }
 
-/* The first byte from x on that has its top bit set. */
-static inline int
-next_marked (int width, const uint8_t *byte, int x)
-{
-  uint64_t eight;
-
-  for (; x + 8 <= width; x += 8)
-    {
-      memcpy (&eight, byte + x, sizeof eight);
-      if (eight & 0x8080808080808080)
-        break;
-    }
-  while (x < width && byte[x] < 0x80)
-    x++;
-  return x;
-}
-
 /* Takes over what is known beside a pixel. */
 static void
 go_sideways (int width, const uint8_t *step, uint32_t *lead)
 {
-  for (int x = next_marked (width, step, 0), end; x < width; x = next_marked (width, step, end))
+  for (int x = celd_next_marked (width, step, 0), end; x < width; x = celd_next_marked (width, step, end))
     {
       for (end = x + 1; end < width && step[end] == step[x]; end++)
         ;
@@ -236,7 +217,7 @@ static bool
 start_row (const Ascent *a, int y, const uint8_t *step, Band *band, uint32_t *lead)
 {
   memset (lead, 0xff, (size_t) a->width * sizeof *lead);
-  for (int x = next_marked (a->width, step, 0); x < a->width; x = next_marked (a->width, step, x + 1))
+  for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
     if (step[x] == STAY)
       {
         uint32_t *maximum = celd_grow (band->maximum, band->n + 1, sizeof *maximum);
@@ -271,7 +252,7 @@ note_stretches (int width, const uint32_t *lead, uint8_t *begins, Band *band, in
   size_t n = band->row[row];
 
   mark_stretches (width, lead, begins);
-  for (int x = 0; x < width; x = next_marked (width, begins, x + 1))
+  for (int x = 0; x < width; x = celd_next_marked (width, begins, x + 1))
     {
       Stretch *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
 

@@ -7,6 +7,8 @@
 
 #include "celdepth.h"
 
+#include <string.h>
+
 /* ------------------------------------------------------------------ memory.c */
 
 /* All allocation in core goes through these two; NULL when count x size overflows or is refused. */
@@ -57,6 +59,23 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 #define CELD_CLONES
 #endif
 #endif
+
+/* The first of the bytes x .. n - 1 that has its top bit set; n if none has. */
+static inline int
+celd_next_marked (int n, const uint8_t *byte, int x)
+{
+  uint64_t eight;
+
+  for (; x + 8 <= n; x += 8)
+    {
+      memcpy (&eight, byte + x, sizeof eight);
+      if (eight & 0x8080808080808080)
+        break;
+    }
+  while (x < n && byte[x] < 0x80)
+    x++;
+  return x;
+}
 
 /* ------------------------------------------------------------------ progress and threads (run.c) */
 
