@@ -187,6 +187,16 @@ follow (int width, const uint8_t *step, uint32_t *lead)
     }
 }
 
+CELD_CLONES static bool
+has_unknown (int width, const uint32_t *lead)
+{
+  uint32_t most = 0;
+
+  for (int x = 0; x < width; x++)
+    most = lead[x] > most ? lead[x] : most;
+  return most == UNKNOWN;
+}
+
 /* Leads n rows to maxima, or to the rows above and below them, whose leads are known. */
 static void
 lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
@@ -205,9 +215,10 @@ lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
         go_sideways (width, step + (size_t) y * w, row);
       }
   for (int y = 0; y < n; y++)
-    for (int x = 0; x < width; x++)
-      if (lead[(size_t) y * row_size + (size_t) x] == UNKNOWN)
-        follow (width, step + (size_t) y * w + x, lead + (size_t) y * row_size + x);
+    if (has_unknown (width, lead + (size_t) y * row_size))
+      for (int x = 0; x < width; x++)
+        if (lead[(size_t) y * row_size + (size_t) x] == UNKNOWN)
+          follow (width, step + (size_t) y * w + x, lead + (size_t) y * row_size + x);
 }
 
 /* ------------------------------------------------------------------ a band */

@@ -9,7 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS 256 /* between two reports of progress */
+#define ROWS   256 /* between two reports of progress */
+#define RECENT 512
+
+typedef struct { uint32_t a, b; size_t border; } Slot; /* a = b: empty */
 
 typedef struct
 {
@@ -18,26 +21,27 @@ typedef struct
   const CeldBasins *basins;
   CeldBorder       *border;
   size_t            n;
-  size_t           *slot;     /* open hash by the two basins: index into border + 1, 0 for none */
+  Slot             *slot;     /* open hash by the two basins */
   size_t            n_slots;  /* a power of two, more than twice n */
+  Slot              recent[RECENT]; /* the same, as far as the last rows touch it: small enough to stay at hand */
 } Borders;
 
-static size_t
+static Slot *
 find_slot (const Borders *b, uint32_t first, uint32_t second)
 {
   uint64_t key = ((uint64_t) first << 32 | second) * 0x9e3779b97f4a7c15u;
-  size_t   i = (size_t) (key >> 32) & (b->n_slots - 1);
+  size_t   i = (size_t) (key ^ key >> 32) & (b->n_slots - 1);
 
-  while (b->slot[i] && (b->border[b->slot[i] - 1].a != first || b->border[b->slot[i] - 1].b != second))
+  while (b->slot[i].a != b->slot[i].b && (b->slot[i].a != first || b->slot[i].b != second))
     i = (i + 1) & (b->n_slots - 1);
-  return i;
+  return &b->slot[i];
 }
 
 static bool
 grow_slots (Borders *b)
 {
-  size_t  n_slots = b->n_slots ? 2 * b->n_slots : 1024;
-  size_t *slot = celd_alloc0 (n_slots, sizeof *slot);
+  size_t n_slots = b->n_slots ? 2 * b->n_slots : 1024;
+  Slot  *slot = celd_alloc0 (n_slots, sizeof *slot);
 
   if (!slot)
     return false;
@@ -45,7 +49,7 @@ grow_slots (Borders *b)
   b->slot = slot;
   b->n_slots = n_slots;
   for (size_t i = 0; i < b->n; i++)
-    slot[find_slot (b, b->border[i].a, b->border[i].b)] = i + 1;
+    *find_slot (b, b->border[i].a, b->border[i].b) = (Slot) { b->border[i].a, b->border[i].b, i };
   return true;
 }
 
@@ -54,21 +58,27 @@ static CeldBorder *
 find_border (Borders *b, uint32_t first, uint32_t second)
 {
   uint32_t    least = first < second ? first : second, most = first < second ? second : first;
+  Slot       *slot, *recent = &b->recent[(most ^ least * 37) % RECENT];
   CeldBorder *border;
-  size_t      i;
 
+  if (recent->a == least && recent->b == most)
+    return &b->border[recent->border];
   if (2 * (b->n + 1) >= b->n_slots && !grow_slots (b))
     return NULL;
-  i = find_slot (b, least, most);
-  if (b->slot[i])
-    return &b->border[b->slot[i] - 1];
+  slot = find_slot (b, least, most);
+  if (slot->a != slot->b)
+    {
+      *recent = *slot;
+      return &b->border[slot->border];
+    }
   border = celd_grow (b->border, b->n + 1, sizeof *border);
   if (!border)
     return NULL;
+  *slot = *recent = (Slot) { least, most, b->n };
   b->border = border;
-  b->slot[i] = ++b->n;
-  border[b->n - 1] = (CeldBorder) { .a = least, .b = most, .saddle = -1 };
-  return &border[b->n - 1];
+  border += b->n++;
+  *border = (CeldBorder) { .a = least, .b = most, .saddle = -1 };
+  return border;
 }
 
 static bool
@@ -103,6 +113,20 @@ add_pair (const Borders *b, CeldBorder *border, int x, int y, bool south)
   border->x = x;
   border->y = y;
   border->south = south;
+}
+
+/* What the borders of a row will read. */
+static void
+fetch_row (const Borders *b, int y)
+{
+  const CeldBasins *basins = b->basins;
+  const int32_t    *squared = b->squared + (size_t) y * (size_t) basins->width;
+
+  for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
+    {
+      CELD_PREFETCH (squared + basins->run[i].x);
+      CELD_PREFETCH (&CELD_AT (b->ink, basins->run[i].x, y));
+    }
 }
 
 static CeldStatus
@@ -159,6 +183,8 @@ celd_basins_touch (const CeldPlane *ink, const int32_t *squared, const CeldRun *
 
   for (int y = 0; y < basins->height && status == CELD_OK; y++)
     {
+      if (y + 2 < basins->height)
+        fetch_row (&b, y + 2);
       status = add_row (&b, y);
       if (status == CELD_OK && y % ROWS == 0)
         status = celd_step (run, (double) y / basins->height);

@@ -60,6 +60,13 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 #endif
 #endif
 
+/* Fetches what will be read soon. */
+#if defined __GNUC__
+#define CELD_PREFETCH(address) __builtin_prefetch (address)
+#else
+#define CELD_PREFETCH(address) ((void) (address))
+#endif
+
 /* The first of the bytes x .. n - 1 that has its top bit set; n if none has. */
 static inline int
 celd_next_marked (int n, const uint8_t *byte, int x)
@@ -69,8 +76,14 @@ celd_next_marked (int n, const uint8_t *byte, int x)
   for (; x + 8 <= n; x += 8)
     {
       memcpy (&eight, byte + x, sizeof eight);
-      if (eight & 0x8080808080808080)
-        break;
+      eight &= 0x8080808080808080;
+      if (!eight)
+        continue;
+#if defined __GNUC__ && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+      return x + __builtin_ctzll (eight) / 8;
+#else
+      break;
+#endif
     }
   while (x < n && byte[x] < 0x80)
     x++;
