@@ -103,6 +103,18 @@ segment_step (const CeldRun *run, Results *r)
   return celd_segment (&ink, &seeds, &relations, &settings, run, &labels, &r->palette, &r->problems);
 }
 
+/* The same paint as a flat colouring. */
+static CeldStatus
+flats_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    ink = plane_of (&ink_pixels);
+  CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+  CeldSettings flats = settings;
+
+  flats.flats = true;
+  return celd_segment (&ink, &seeds, &relations, &flats, run, &labels, &r->palette, &r->problems);
+}
+
 static CeldStatus
 separate_step (const CeldRun *run, Results *r)
 {
@@ -191,6 +203,7 @@ const Step steps[] = {
   { "relations", relations_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
+  { "flats", flats_step, &seed_palette, true },
   { "separate", separate_step, &label_palette, true },
   { "labels", labels_step, NULL, false },
   { "background", background_step, &label_palette, false },
