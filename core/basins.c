@@ -4,37 +4,62 @@
  */
 #include "basin-steps.h"
 
+/* Everything but the costs. */
+static CeldStatus
+build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
+{
+  CeldPart   parts[3];
+  CeldRun    measuring = celd_run_part (&parts[0], run, 0, 0.4), ascending = celd_run_part (&parts[1], run, 0.4, 0.9);
+  CeldRun    touching = celd_run_part (&parts[2], run, 0.9, 1);
+  int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
+  CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = celd_basins_ascend (squared, &ascending, basins);
+  if (status == CELD_OK)
+    status = celd_basins_touch (ink, squared, &touching, basins);
+  if (status == CELD_OK)
+    status = celd_basins_unite (basins);
+  celd_free (squared);
+  return status;
+}
+
 CeldStatus
 celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, CeldBasins *basins)
 {
   CeldBasins found = { .width = ink->width, .height = ink->height };
-  CeldPart   parts[3];
-  CeldRun    measuring = celd_run_part (&parts[0], run, 0, 0.4), ascending = celd_run_part (&parts[1], run, 0.4, 0.9);
-  CeldRun    touching = celd_run_part (&parts[2], run, 0.9, 1);
-  int32_t   *squared;
   CeldStatus status;
 
   if (!CELD_SAME_SIZE (ink, ink))
     return CELD_BAD_SIZE;
-  squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
-  if (!squared)
-    return CELD_NO_MEMORY;
   found.stroke = celd_stroke_width (ink);
   celd_costs_new (ink->width, ink->height, threshold, &found.costs);
-  status = celd_signed_distance (ink, &measuring, squared);
-  if (status == CELD_OK)
-    status = celd_basins_ascend (squared, &ascending, &found);
-  if (status == CELD_OK)
-    status = celd_basins_touch (ink, squared, &touching, &found);
-  if (status == CELD_OK)
-    status = celd_basins_unite (&found);
-  if (status == CELD_OK)
-    status = celd_paper_new (ink, run, &found.paper);
-  celd_free (squared);
+  status = build (ink, run, &found);
   if (status == CELD_OK)
     *basins = found;
   else
     celd_basins_clear (&found);
+  return status;
+}
+
+CeldStatus
+celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, CeldBasins *basins)
+{
+  CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (ink, ink) || ink->width != basins->width || ink->height != basins->height)
+    return CELD_BAD_SIZE;
+  (void) changed;
+  found.stroke = celd_stroke_width (ink);
+  status = build (ink, run, &found);
+  if (status != CELD_OK)
+    celd_basins_clear (&found);
+  else
+    {
+      celd_basins_clear (basins);
+      *basins = found;
+    }
   return status;
 }
 
