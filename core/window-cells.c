@@ -28,6 +28,7 @@ typedef struct
   uint32_t        *paint;        /* and the label of soft paint on them, 0 if there is none */
   uint32_t        *change;       /* of the columns of pixels in it: not 0 where states differ */
   bool            *painted;      /* by block of the row */
+  bool            *hard;         /* the same, with hard paint */
   uint32_t        *parent;       /* of the pixels of a block: another one of its piece, itself for the first */
 } Builder;
 
@@ -35,6 +36,7 @@ void
 celd_cells_clear (CeldCells *cells)
 {
   celd_free (cells->block);
+  celd_free (cells->hard);
   celd_free (cells->detail);
   celd_free (cells->present);
   celd_free (cells->label);
@@ -117,7 +119,10 @@ read_paint (const Builder *b, int y, uint32_t *state, uint32_t *paint)
         else
           paint[k] = l;
       for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift; k++)
-        b->painted[k] = true;
+        {
+          b->painted[k] = true;
+          b->hard[k] = b->hard[k] || hard;
+        }
     }
 }
 
@@ -199,6 +204,7 @@ split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block
   cells->detail = detail;
   *block = CELD_CELL_MIXED | (uint32_t) cells->n_details;
   detail += cells->n_details++ * area;
+  memset (detail, 0xff, area * sizeof *detail); /* fixed, where the block is cut off */
   join_pixels (b, first, w, h, square);
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w && status == CELD_OK; x++)
@@ -269,6 +275,7 @@ make_row (Builder *b, int row, int top, int h)
   size_t     stride = (size_t) window_width (cells);
   CeldStatus status = CELD_OK;
 
+  b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
   memset (b->painted, 0, (size_t) cells->columns * sizeof *b->painted);
   for (int y = 0; y < h; y++)
     {
@@ -314,6 +321,7 @@ make_fine_row (Builder *b, int row, int top, int h)
     block[k] = CELD_CELL_ABOVE;
   if (!memchr (fine, 1, (size_t) cells->columns))
     return CELD_OK;
+  b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
   for (int y = 0; y < h; y++)
     {
       uint32_t *state = b->state + (size_t) y * (size_t) w;
@@ -360,13 +368,14 @@ build (Builder *b)
   cells->columns = (window->right - window->left + size) >> cells->shift;
   cells->rows    = (window->bottom - window->top + size) >> cells->shift;
   cells->block   = celd_alloc ((size_t) cells->columns * (size_t) cells->rows, sizeof *cells->block);
+  cells->hard    = celd_alloc0 ((size_t) cells->columns * (size_t) cells->rows, sizeof *cells->hard);
   b->dark        = end_of_dark (&cells->canvas->basins->costs);
   b->state       = celd_alloc (w << cells->shift, sizeof *b->state);
   b->paint       = celd_alloc (w << cells->shift, sizeof *b->paint);
   b->change      = celd_alloc (w, sizeof *b->change);
   b->painted     = celd_alloc ((size_t) cells->columns, sizeof *b->painted);
   b->parent      = celd_alloc ((size_t) 1 << 2 * cells->shift, sizeof *b->parent);
-  if (cells->block && b->state && b->paint && b->change && b->painted && b->parent)
+  if (cells->block && cells->hard && b->state && b->paint && b->change && b->painted && b->parent)
     status = CELD_OK;
   for (int row = 0; row < cells->rows && status == CELD_OK; row++)
     {

@@ -160,9 +160,6 @@ mark_blocks (const CeldCells *cells, const uint8_t *crossed, uint8_t *fine)
   for (size_t k = 0; k < (size_t) cells->columns * (size_t) cells->rows; k++)
     {
       uint32_t        block = cells->block[k];
-      int             column = (int) (k % (size_t) cells->columns), row = (int) (k / (size_t) cells->columns);
-      int             w = cells->window.right + 1 - cells->window.left - (column << cells->shift);
-      int             h = cells->window.bottom + 1 - cells->window.top - (row << cells->shift);
       const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
 
       fine[k] = 0;
@@ -173,13 +170,8 @@ mark_blocks (const CeldCells *cells, const uint8_t *crossed, uint8_t *fine)
           fine[k] = crossed[block];
           continue;
         }
-      for (int y = 0; y < h && y < 1 << cells->shift; y++)
-        for (int x = 0; x < w && x < 1 << cells->shift; x++)
-          {
-            uint32_t part = detail[(y << cells->shift) + x];
-
-            fine[k] |= !(part & CELD_CELL_FIXED) && crossed[part];
-          }
+      for (size_t i = 0; i < area; i++)
+        fine[k] |= !(detail[i] & CELD_CELL_FIXED) && crossed[detail[i]];
     }
 }
 
@@ -208,17 +200,26 @@ refine (Solver *s, const CeldCells *cells, CeldCells *finer)
 
 /* ------------------------------------------------------------------ one window */
 
-/* Does no pixel of the block have another label than its basin? */
+/* Could a pixel of the block have another label than its basin? */
 static bool
-is_quiet (const CeldCells *cells, size_t k)
+is_changed (const CeldCells *cells, size_t k)
 {
-  uint32_t block = cells->block[k];
+  uint32_t        block = cells->block[k];
+  size_t          area = (size_t) 1 << 2 * cells->shift;
+  const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
 
   if (block == CELD_CELL_ABOVE)
-    return is_quiet (cells->coarse, k);
+    return is_changed (cells->coarse, k);
   if (block & CELD_CELL_FIXED)
+    return false;
+  if (!(block & CELD_CELL_MIXED))
+    return cells->label[block] != cells->present[block];
+  if (cells->hard[k] || cells->coarse)
     return true;
-  return !(block & CELD_CELL_MIXED) && cells->label[block] == cells->present[block];
+  for (size_t i = 0; i < area; i++)
+    if (!(detail[i] & CELD_CELL_FIXED) && cells->label[detail[i]] != cells->present[detail[i]])
+      return true;
+  return false;
 }
 
 /* Pixels x .. end - 1 of row y whose label is not that of their basin. */
@@ -244,16 +245,21 @@ static CeldStatus
 add_patches (Solver *s, const CeldCells *cells)
 {
   const CeldWindow *window = &cells->window;
-  CeldStatus        status = CELD_OK;
+  size_t            n = (size_t) cells->columns * (size_t) cells->rows;
+  bool             *changed = celd_alloc (n, sizeof *changed);
+  CeldStatus        status = changed ? CELD_OK : CELD_NO_MEMORY;
 
+  for (size_t k = 0; k < n && status == CELD_OK; k++)
+    changed[k] = is_changed (cells, k);
   for (int y = window->top; y <= window->bottom; y++)
     for (int column = 0; column < cells->columns && status == CELD_OK; column++)
       {
         int x = window->left + (column << cells->shift), end = x + (1 << cells->shift);
 
-        if (!is_quiet (cells, (size_t) ((y - window->top) >> cells->shift) * (size_t) cells->columns + (size_t) column))
+        if (changed[(size_t) ((y - window->top) >> cells->shift) * (size_t) cells->columns + (size_t) column])
           status = add_patch (s, cells, y, x, end <= window->right ? end : window->right + 1);
       }
+  celd_free (changed);
   return status;
 }
 
@@ -270,16 +276,45 @@ block_shift (const CeldWindow *window)
   return shift;
 }
 
+/* Cuts the window to the pixels of its basins, and those round them. */
+static CeldWindow
+trim (const Solver *s, uint32_t id, const CeldWindow *window)
+{
+  const CeldBasins *basins = s->canvas->basins;
+  CeldWindow        inner = { window->right, window->bottom, window->left, window->top, window->first, window->n };
+
+  for (int y = window->top; y <= window->bottom; y++)
+    for (size_t i = celd_basin_run_at (basins, y, window->left);
+         i < basins->row[y + 1] && basins->run[i].x <= window->right; i++)
+      {
+        int x = basins->run[i].x, end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
+
+        if (s->free[basins->run[i].basin] != id)
+          continue;
+        inner.left   = x - 1 < inner.left ? x - 1 : inner.left;
+        inner.right  = end > inner.right ? end : inner.right;
+        inner.top    = y - 1 < inner.top ? y - 1 : inner.top;
+        inner.bottom = y + 1;
+      }
+  inner.left   = inner.left > window->left ? inner.left : window->left;
+  inner.top    = inner.top > window->top ? inner.top : window->top;
+  inner.right  = inner.right < window->right ? inner.right : window->right;
+  inner.bottom = inner.bottom < window->bottom ? inner.bottom : window->bottom;
+  return inner;
+}
+
 static CeldStatus
-solve_window (Solver *s, uint32_t id, const CeldWindow *window, const uint32_t *basin)
+solve_window (Solver *s, uint32_t id, const CeldWindow *place, const uint32_t *basin)
 {
   CeldCells  cells = { .canvas = NULL }, finer = { .canvas = NULL };
+  CeldWindow window;
   bool       better = false;
   CeldStatus status;
 
-  for (size_t k = 0; k < window->n; k++)
-    s->free[basin[window->first + k]] = id;
-  status = celd_cells_new (s->canvas, s->label, s->free, id, window, block_shift (window), &cells);
+  for (size_t k = 0; k < place->n; k++)
+    s->free[basin[place->first + k]] = id;
+  window = trim (s, id, place);
+  status = celd_cells_new (s->canvas, s->label, s->free, id, &window, block_shift (&window), &cells);
   if (status == CELD_OK && cells.n)
     status = cut (s, &cells, &better);
   if (status == CELD_OK && better && cells.shift)
