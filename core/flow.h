@@ -11,46 +11,50 @@
 
 #include "partition.h"
 
-#define CELD_FLOW_CLOSED UINT32_MAX /* level of a node that no search enters */
+/* The trees of a search, and where a node can be besides: no search enters a closed one, from which its arcs must have
+ * nothing left. */
+enum { CELD_SOURCE, CELD_SINK, CELD_NO_TREE, CELD_CLOSED };
 
-/* `back` is what the arc in the other direction has left: nodes[to].arc[sister].left. */
-typedef struct { int64_t left, back; uint32_t to, sister; } CeldArc;
+/* left[CELD_SOURCE]: what may still flow from the node of the arc to `to`; left[CELD_SINK]: from `to` to it, which is
+ * what the sister, the arc in the other direction, has for left[CELD_SOURCE]. */
+typedef struct { int64_t left[2]; uint32_t to, sister; } CeldArc;
 
 typedef struct
 {
-  int64_t  excess;    /* > 0: looks for a way to a node with < 0 */
-  uint32_t arc;       /* its first one; they end where those of the next node begin */
-  uint32_t level;     /* 1 + arcs to the root of its tree; 0: in no tree; CELD_FLOW_CLOSED */
-  uint32_t parent;    /* its arc to the parent, if any */
-  uint32_t current;   /* no arc before this one leads to a possible parent of this level */
-  uint32_t queued;    /* the last level for which it was noted; 0: none in this search */
-  uint32_t next;      /* orphan of this level */
+  int64_t  excess;      /* > 0: looks for a way to a node with < 0 */
+  uint32_t arc;         /* its first one; they end where those of the next node begin */
+  uint32_t parent;      /* its arc to the parent, if any */
+  uint32_t stamp;       /* the augmentation after which `distance` was last found right */
+  uint32_t distance;    /* 1 + arcs to the root, along the parents */
+  uint8_t  tree;
+  bool     waits[2];    /* among the active nodes of this tree, though it may have left it since */
+  bool     seen;        /* was in a tree in this search */
 } CeldFlowNode;
 
+/* A ring with room for every node once. */
+typedef struct { uint32_t *item; size_t first, n, room; } CeldFlowQueue;
+
 typedef struct
 {
-  size_t        n;
-  CeldFlowNode *node;       /* n + 1, the last one only as the end of the arcs */
-  CeldArc      *arc;
-  uint32_t     *reached;    /* after celd_network_drain: nodes that remaining excess can reach, in no order */
-  size_t        n_reached;
-  /* Work space of the search. */
-  uint32_t     *queue[2];   /* nodes of the level that grows and of the one above it */
-  size_t        n_queue[2];
-  uint32_t      depth;      /* the level that grows */
-  uint32_t     *orphan;     /* the first one of each level */
-  uint32_t      lowest, highest;  /* levels with orphans are between these */
+  size_t         n;
+  CeldFlowNode  *node;      /* n + 1, the last one only as the end of the arcs */
+  CeldArc       *arc;
+  uint32_t      *reached;   /* after celd_network_drain: nodes that remaining excess can reach, in no order */
+  size_t         n_reached;
+  CeldFlowQueue  active[2], orphans;
+  uint32_t       augmentations;
 } CeldNetwork;
 
 /* Arcs of both directions for each link, with its cost left in both; no excess. */
 CeldStatus celd_network_new (size_t n, const CeldLink *link, size_t n_links, CeldNetwork *network);
 void       celd_network_clear (CeldNetwork *network); /* accepts a zeroed one */
 
-/* Before celd_network_drain, for each node with excess > 0 that is not closed. */
+/* To begin a search; then a root for each node that has an excess, or lacks something, and is not closed. */
+void celd_network_begin (CeldNetwork *network);
 void celd_network_root (CeldNetwork *network, uint32_t p);
 
-/* Moves excess to nodes that lack some until no way is left.  Nothing is lost if it is cancelled: the state stands for
- * the same cuts. */
+/* Moves excess to nodes that lack some until no way is left, and fills in `reached`.  If it is cancelled the state still
+ * stands for the same cuts. */
 CeldStatus celd_network_drain (CeldNetwork *network, const CeldRun *run);
 
 #endif

@@ -47,7 +47,7 @@ lay_out (Expansion *e)
           CeldArc *arc = &graph->network.arc[a];
           bool     same = graph->rank[arc->to] == graph->rank[p];
 
-          arc->left = arc->back = same ? 2 * graph->cost[a] : graph->cost[a];
+          arc->left[0] = arc->left[1] = same ? 2 * graph->cost[a] : graph->cost[a];
           node->excess += same ? 0 : graph->cost[a];
         }
     }
@@ -58,10 +58,10 @@ move (CeldNetwork *network, uint32_t p, CeldArc *arc, int64_t amount)
 {
   CeldArc *sister = &network->arc[arc->sister];
 
-  arc->left    -= amount;
-  sister->back -= amount;
-  arc->back    += amount;
-  sister->left += amount;
+  arc->left[CELD_SOURCE]    -= amount;
+  arc->left[CELD_SINK]      += amount;
+  sister->left[CELD_SINK]   -= amount;
+  sister->left[CELD_SOURCE] += amount;
   network->node[p].excess       -= amount;
   network->node[arc->to].excess += amount;
 }
@@ -72,10 +72,11 @@ widen (CeldNetwork *network, uint32_t p, CeldArc *arc, int64_t cost)
 {
   CeldArc *sister = &network->arc[arc->sister];
 
-  arc->left    += cost;
-  sister->back += cost;
-  arc->back    += cost;
-  sister->left += cost;
+  for (int t = 0; t < 2; t++)
+    {
+      arc->left[t]    += cost;
+      sister->left[t] += cost;
+    }
   network->node[p].excess       -= cost;
   network->node[arc->to].excess -= cost;
 }
@@ -97,10 +98,10 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
         widen (network, p, arc, cost);
       else if (graph->rank[arc->to] == graph->rank[p])
         {
-          if (arc->left < cost)
-            move (network, p, arc, arc->left - cost);
-          else if (arc->back < cost)
-            move (network, p, arc, cost - arc->back);
+          if (arc->left[CELD_SOURCE] < cost)
+            move (network, p, arc, arc->left[CELD_SOURCE] - cost);
+          else if (arc->left[CELD_SINK] < cost)
+            move (network, p, arc, cost - arc->left[CELD_SINK]);
           widen (network, p, arc, -cost);
         }
     }
@@ -123,10 +124,10 @@ close_alpha (Expansion *e, uint32_t alpha)
 
       if (e->graph->rank[p] != alpha)
         continue;
-      node->level = CELD_FLOW_CLOSED;
+      node->tree = CELD_CLOSED;
       for (uint32_t a = node->arc; a < node[1].arc; a++)
-        if (network->arc[a].left && e->graph->rank[network->arc[a].to] != alpha)
-          move (network, p, &network->arc[a], network->arc[a].left);
+        if (e->graph->rank[network->arc[a].to] != alpha)
+          move (network, p, &network->arc[a], network->arc[a].left[CELD_SOURCE]);
     }
 }
 
@@ -163,8 +164,9 @@ expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
 
   close_alpha (e, alpha);
   vote (e, alpha, 1);
+  celd_network_begin (network);
   for (uint32_t p = 0; p < e->graph->n; p++)
-    if (network->node[p].excess > 0 && network->node[p].level != CELD_FLOW_CLOSED)
+    if (network->node[p].excess && network->node[p].tree != CELD_CLOSED)
       celd_network_root (network, p);
   status = celd_network_drain (network, run);
   if (status != CELD_OK)
@@ -174,7 +176,7 @@ expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
     take (e, network->reached[i], alpha);
   forget_votes (e, alpha);
   for (uint32_t p = 0; p < e->graph->n; p++)
-    network->node[p].level = 0;
+    network->node[p].tree = CELD_NO_TREE;
   *changed = network->n_reached;
   return CELD_OK;
 }

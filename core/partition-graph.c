@@ -176,7 +176,7 @@ celd_partition_graph_new (const CeldPartition *problem, CeldPartitionGraph *grap
   if (status != CELD_OK)
     goto done;
   for (size_t a = 0; a < 2 * draft.n_links; a++)
-    graph->cost[a] = graph->network.arc[a].left;
+    graph->cost[a] = graph->network.arc[a].left[0];
   sort_votes (&draft, graph);
   add_up_votes (&draft, graph);
 

@@ -153,6 +153,7 @@ lay_out (Greedy *g, const Piece *piece)
 {
   CeldNetwork *network = &g->graph->network;
 
+  celd_network_begin (network);
   for (uint32_t i = piece->begin; i < piece->end; i++)
     {
       uint32_t p = g->item[i];
@@ -161,10 +162,10 @@ lay_out (Greedy *g, const Piece *piece)
         {
           CeldArc *arc = &network->arc[a];
 
-          arc->left = arc->back = g->piece[arc->to] == piece->id ? g->graph->cost[a] : 0;
+          arc->left[0] = arc->left[1] = g->piece[arc->to] == piece->id ? g->graph->cost[a] : 0;
         }
       network->node[p].excess = pull (g, piece, p);
-      if (network->node[p].excess > 0)
+      if (network->node[p].excess)
         celd_network_root (network, p);
     }
 }
