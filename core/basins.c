@@ -20,6 +20,8 @@ build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
     status = celd_basins_touch (ink, squared, &touching, basins);
   if (status == CELD_OK)
     status = celd_basins_unite (basins);
+  if (status == CELD_OK)
+    status = celd_paper_new (ink, run, &basins->paper);
   celd_free (squared);
   return status;
 }
