@@ -35,9 +35,22 @@ celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit)
   return status;
 }
 
+uint32_t
+celd_mesh_at (const CeldMesh *mesh, int x, int y)
+{
+  const CeldCut *cut = mesh->cut;
+  int            column = (x - cut->left) / CELD_TILE, row = (y - cut->top) / CELD_TILE;
+  int            within = mesh->size[row * mesh->columns + column] - 1; /* sizes are powers of two */
+  size_t         corner = celd_cut_pixel (cut, x - ((x - cut->left) & within), y - ((y - cut->top) & within));
+
+  if (cut->mark[corner] == CELD_INSIDE && mesh->node[cut->node[corner]].whole)
+    return cut->node[corner];
+  return cut->node[celd_cut_pixel (cut, x, y)];
+}
+
 /* ------------------------------------------------------------------ nodes */
 
-/* What a square has: pixels inside, others, ink inside. */
+/* What a square has: pixels inside, others; ink, if all are inside. */
 typedef struct { bool inside, outside, ink; } Contents;
 
 static Contents
@@ -48,14 +61,22 @@ look (const CeldMesh *mesh, int x, int y, int right, int bottom)
   for (int v = y; v < bottom; v++)
     {
       const uint8_t *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, v);
-      const float   *value = &CELD_AT (mesh->cut->canvas->ink, x, v);
+      uint8_t        marked = 0, unmarked = 0;
 
       for (int u = 0; u < right - x; u++)
         {
-          inside  |= mark[u] == CELD_INSIDE;
-          outside |= mark[u] != CELD_INSIDE;
-          ink     |= value[u] < 0.5f;
+          marked   |= mark[u] == CELD_INSIDE;
+          unmarked |= mark[u] != CELD_INSIDE;
         }
+      inside  |= marked;
+      outside |= unmarked;
+    }
+  for (int v = y; v < bottom && inside && !outside; v++)
+    {
+      const float *value = &CELD_AT (mesh->cut->canvas->ink, x, v);
+
+      for (int u = 0; u < right - x; u++)
+        ink |= value[u] < 0.5f;
     }
   return (Contents) { inside, outside, ink };
 }
@@ -130,11 +151,8 @@ number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
     return CELD_OK;
   if (node.whole || size == 1)
     {
-      status = add_node (mesh, node);
-      for (int v = y; v < bottom; v++)
-        for (int u = x; u < right; u++)
-          mesh->cut->node[celd_cut_pixel (mesh->cut, u, v)] = (uint32_t) mesh->n - 1;
-      return status;
+      mesh->cut->node[celd_cut_pixel (mesh->cut, x, y)] = (uint32_t) mesh->n;
+      return add_node (mesh, node);
     }
   tell_kinds (mesh, x, y, right, bottom);
   for (int i = 0; i < (right - x) * (bottom - y) && status == CELD_OK; i++)
@@ -213,20 +231,23 @@ add_link (CeldMesh *mesh, uint32_t a, uint32_t b, int32_t cost)
   return CELD_OK;
 }
 
-/* The pixel (x,y) inside and its neighbour (u,v), of another node or not inside.  Pairs of two inside come up twice,
- * once from each. */
+/* The pixel (x,y) inside and its neighbour (u,v).  Pairs of two inside come up twice, once from each. */
 static CeldStatus
 touch (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
 {
   const CeldCut *cut = mesh->cut;
-  size_t         p = celd_cut_pixel (cut, x, y), q = celd_cut_pixel (cut, u, v);
-  uint32_t       k = cut->node[p];
+  uint8_t        mark = cut->mark[celd_cut_pixel (cut, u, v)];
+  uint32_t       k, other;
 
-  if (cut->mark[q] == CELD_INSIDE && q > p && cut->node[q] != k)
-    return add_link (mesh, k, cut->node[q], cost_between (mesh, x, y, u, v, fine));
-  if (cut->mark[q] == CELD_NEAR_FIRST)
+  if (mark == CELD_OUTSIDE || (mark == CELD_INSIDE && (u < x || v < y)))
+    return CELD_OK;
+  k     = celd_mesh_at (mesh, x, y);
+  other = mark == CELD_INSIDE ? celd_mesh_at (mesh, u, v) : k;
+  if (other != k)
+    return add_link (mesh, k, other, cost_between (mesh, x, y, u, v, fine));
+  if (mark == CELD_NEAR_FIRST)
     mesh->node[k].pull += cost_between (mesh, x, y, u, v, fine);
-  if (cut->mark[q] == CELD_NEAR_SECOND)
+  if (mark == CELD_NEAR_SECOND)
     mesh->node[k].pull -= cost_between (mesh, x, y, u, v, fine);
   return CELD_OK;
 }
@@ -331,11 +352,18 @@ celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept)
     for (size_t i = 0; i < cut->canvas->seeds.row[y].n; i++)
       {
         const CeldSeedRun *run = &cut->canvas->seeds.row[y].run[i];
+        int                last = run->end <= cut->right ? run->end : cut->right + 1;
 
         if (run->label != cut->label)
           continue;
-        for (int x = run->x < cut->left ? cut->left : run->x; x < run->end && x <= cut->right; x++)
-          if (cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE)
-            visit (mesh, cut->node[celd_cut_pixel (cut, x, y)], x, y, kept);
+        for (int x = run->x < cut->left ? cut->left : run->x, end; x < last; x = end)
+          {
+            bool     inside = cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE;
+            uint32_t k = inside ? celd_mesh_at (mesh, x, y) : 0;
+
+            end = inside ? celd_mesh_next (&mesh->node[k], x, last) : x + 1;
+            if (inside)
+              visit (mesh, k, x, end, y, kept);
+          }
       }
 }

@@ -95,13 +95,6 @@ in_disc (const CeldDiscs *discs, int x, int y)
   return false;
 }
 
-/* Where to look next after the pixel (x,y) of a node: all of a whole square is told at once. */
-static int
-next_x (const CeldCutNode *node, int x)
-{
-  return node->whole ? node->x + node->size : x + 1;
-}
-
 static void
 pull_disc (CeldMesh *mesh, const CeldDisc *disc, int i)
 {
@@ -112,35 +105,35 @@ pull_disc (CeldMesh *mesh, const CeldDisc *disc, int i)
     if (celd_disc_row (disc, y, &x, &end))
       for (x = x < cut->left ? cut->left : x; x < end && x <= cut->right;)
         {
-          size_t       p = celd_cut_pixel (cut, x, y);
-          CeldCutNode *node = cut->mark[p] == CELD_INSIDE ? &mesh->node[cut->node[p]] : NULL;
+          bool         inside = cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE;
+          CeldCutNode *node = inside ? &mesh->node[celd_mesh_at (mesh, x, y)] : NULL;
 
           if (node)
             node->pulled[i] = true;
-          x = node ? next_x (node, x) : x + 1;
+          x = node ? celd_mesh_next (node, x, end) : x + 1;
         }
 }
 
 static void
-note_seed (CeldMesh *mesh, uint32_t k, int x, int y, int kept)
+note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y, int kept)
 {
   (void) kept;
-  celd_mesh_note_seeds (mesh, k, x, x + 1, y);
+  celd_mesh_note_seeds (mesh, k, x, end, y);
 }
 
 static void
-pull_seed (CeldMesh *mesh, uint32_t k, int x, int y, int kept)
+pull_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y, int kept)
 {
   const CeldCut *cut = mesh->cut;
   CeldCutNode   *node = &mesh->node[k];
   int32_t        vote = celd_canvas_vote (cut->canvas, cut->label);
 
-  if (node->pulled[1 - kept] && in_disc (&cut->discs[1 - kept], x, y))
+  if (node->pulled[1 - kept] && in_disc (&cut->discs[1 - kept], x, y) && in_disc (&cut->discs[1 - kept], end - 1, y))
     return;
   if (vote == CELD_HARD)
     node->pulled[kept] = true;
   else
-    node->pull += kept == 0 ? vote : -vote;
+    node->pull += (int64_t) (end - x) * (kept == 0 ? vote : -vote);
 }
 
 /* ------------------------------------------------------------------ one level */
@@ -150,18 +143,19 @@ static CeldStatus
 tell_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
 {
   const CeldCut *cut = mesh->cut;
+  size_t         corner = celd_cut_pixel (cut, x, y);
+  bool           whole = cut->mark[corner] == CELD_INSIDE && mesh->node[cut->node[corner]].whole;
 
   (void) size;
   for (int v = y; v < bottom; v++)
     {
-      uint8_t        *mark = cut->mark + celd_cut_pixel (cut, 0, v);
-      const uint32_t *node = cut->node + celd_cut_pixel (cut, 0, v);
+      uint8_t *mark = cut->mark + celd_cut_pixel (cut, 0, v);
 
-      if (mark[x] == CELD_INSIDE && mesh->node[node[x]].whole)
-        memset (mark + x, mesh->node[node[x]].side, (size_t) (right - x));
+      if (whole)
+        memset (mark + x, mesh->node[cut->node[corner]].side, (size_t) (right - x));
       else
         for (int u = x; u < right; u++)
-          mark[u] = mark[u] == CELD_INSIDE ? mesh->node[node[u]].side : mark[u];
+          mark[u] = mark[u] == CELD_INSIDE ? mesh->node[cut->node[celd_cut_pixel (cut, u, v)]].side : mark[u];
     }
   return CELD_OK;
 }
@@ -264,14 +258,14 @@ celd_cut (CeldCut *cut, const CeldRun *run, int *kept)
   if (status != CELD_OK)
     goto done;
   for (int i = 0; i < 2; i++)
-    mesh.at_end[i] = cut->node[celd_cut_pixel (cut, cut->end[i].x, cut->end[i].y)];
-  celd_mesh_seeds (&mesh, note_seed, 0);
+    mesh.at_end[i] = celd_mesh_at (&mesh, cut->end[i].x, cut->end[i].y);
+  celd_mesh_seeds (&mesh, note_seeds, 0);
   status = celd_mesh_kept (&mesh, kept);
   while (status == CELD_OK && *kept >= 0)
     {
       for (int k = 0; k < 4; k++)
         pull_disc (&mesh, &cut->discs[k / 2].disc[k % 2], k / 2);
-      celd_mesh_seeds (&mesh, pull_seed, *kept);
+      celd_mesh_seeds (&mesh, pull_seeds, *kept);
       status = celd_mesh_solve (&mesh, *kept, run);
       if (status == CELD_OK)
         status = celd_mesh_squares (&mesh, tell_square);

@@ -61,8 +61,20 @@ CeldStatus celd_mesh_build (CeldMesh *mesh);
 typedef CeldStatus (*CeldSquareVisit) (CeldMesh *mesh, int x, int y, int right, int bottom, int size);
 CeldStatus celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit);
 
-/* Calls `visit` for the pixels inside that are seeds of the region. */
-typedef void (*CeldSeedVisit) (CeldMesh *mesh, uint32_t k, int x, int y, int kept);
+/* The node of a pixel inside: the first pixel of a whole square has it for all of them. */
+uint32_t celd_mesh_at (const CeldMesh *mesh, int x, int y);
+
+/* The x up to which a row has this node for sure, at most `end`. */
+static inline int
+celd_mesh_next (const CeldCutNode *node, int x, int end)
+{
+  int next = node->whole ? node->x + node->size : x + 1;
+
+  return next < end ? next : end;
+}
+
+/* Calls `visit` for the pixels inside that are seeds of the region, x .. end - 1 of row y in one node. */
+typedef void (*CeldSeedVisit) (CeldMesh *mesh, uint32_t k, int x, int end, int y, int kept);
 void celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept);
 
 /* ------------------------------------------------------------------ cut-ways.c */
