@@ -219,6 +219,142 @@ close_ends (void)
   case_clear (&c);
 }
 
+/* Two chambers with a narrow place between them, and nothing but an arrow: each is a region up to there. */
+static void
+hourglasses_part_at_the_waist (void)
+{
+  const char *const drawing[] = {
+    "....................................",
+    ".##################################.",
+    ".#................................#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".#................................#.",
+    ".#................................#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".#..............###...............#.",
+    ".##################################.",
+    "....................................", NULL };
+  Case c = segment (drawing, "4,10 > 31,4", celd_settings ());
+
+  CHECK (c.palette.n == 3 && LABEL (4, 10) != LABEL (31, 4));
+  for (int y = 2; y < 13; y++)
+    for (int x = 2; x < 34; x++)
+      if ((x < 16 || x > 18) && drawing[y][x] == '.')
+        CHECK (LABEL (x, y) == LABEL (x < 16 ? 4 : 31, x < 16 ? 10 : 4));
+  case_clear (&c);
+}
+
+/* In a corridor any straight cut across is least: there is one, between the ends. */
+static void
+corridors_are_cut_across (void)
+{
+  const char *const drawing[] = {
+    "##############################################",
+    "#............................................#",
+    "#............................................#",
+    "#............................................#",
+    "#............................................#",
+    "#............................................#",
+    "##############################################", NULL };
+  Case c = segment (drawing, "8,3 > 37,3", celd_settings ());
+  int  first = 1;
+
+  CHECK (c.palette.n >= 2 && LABEL (8, 3) != LABEL (37, 3));
+  while (first < 45 && LABEL (first, 1) == LABEL (8, 3))
+    first++;
+  CHECK (first > 8 && first <= 37);
+  for (int y = 1; y < 6; y++)
+    for (int x = 1; x < 45; x++)
+      CHECK (LABEL (x, y) == LABEL (x < first ? 8 : 37, 3));
+  case_clear (&c);
+}
+
+/* The second relation splits what the first has left. */
+static void
+relations_split_in_turn (void)
+{
+  const char *const drawing[] = {
+    "##############################################",
+    "#..............#..............#..............#",
+    "#..............#..............#..............#",
+    "#..............#..............#..............#",
+    "#............................................#",
+    "#...................AAAAAA...................#",
+    "#............................................#",
+    "#..............#..............#..............#",
+    "#..............#..............#..............#",
+    "#..............#..............#..............#",
+    "##############################################", NULL };
+  Case c = segment (drawing, "23,2 > 4,4; 40,6 > 23,8; 4,8 > 23,2", celd_settings ());
+
+  CHECK (LABEL (23, 5) == 1 && LABEL (17, 2) == 1 && LABEL (28, 8) == 1);
+  CHECK (LABEL (4, 5) != 1 && LABEL (13, 8) == LABEL (4, 5) && LABEL (1, 1) == LABEL (4, 5));
+  CHECK (LABEL (40, 5) != 1 && LABEL (32, 8) == LABEL (40, 5) && LABEL (40, 5) != LABEL (4, 5));
+  case_clear (&c);
+}
+
+/* On paper without a line each end keeps the paper round it. */
+static void
+blank_paper (void)
+{
+  enum { SIDE = 160 };
+  const char *rows[SIDE + 1] = { NULL };
+  char        row[SIDE + 1];
+  Case        c;
+
+  memset (row, '.', SIDE);
+  row[SIDE] = 0;
+  for (int y = 0; y < SIDE; y++)
+    rows[y] = row;
+  c = segment (rows, "40,80 > 120,80", celd_settings ());
+  CHECK (c.status == CELD_OK && c.palette.n == 2);
+  for (int y = 70; y <= 90; y++)
+    for (int x = -10; x <= 10; x++)
+      CHECK (LABEL (40 + x, y) == LABEL (40, 80) && LABEL (120 + x, y) == LABEL (120, 80));
+  CHECK (LABEL (40, 80) != LABEL (120, 80));
+  case_clear (&c);
+}
+
+/* Whatever is asked for at one place, no region holds both ends of an inequality, as long as they are two pixels. */
+static void
+thousands_of_relations (void)
+{
+  enum { SIDE = 48, N = 3000, LONGEST = 24 };
+  const char *rows[SIDE + 1] = { NULL };
+  char        row[SIDE + 1], *text = malloc (N * LONGEST), *end = text;
+  int         place[N][4];
+  uint32_t    random = 3;
+  Case        c;
+  size_t      n;
+
+  CeldComponent *list;
+
+  memset (row, '.', SIDE);
+  row[SIDE] = 0;
+  for (int y = 0; y < SIDE; y++)
+    rows[y] = row;
+  for (int i = 0; i < N; i++)
+    {
+      for (int k = 0; k < 4; k++)
+        place[i][k] = 20 + (int) check_random (&random, 8);
+      end += sprintf (end, "%d,%d>%d,%d;", place[i][0], place[i][1], place[i][2], place[i][3]);
+    }
+  c = segment (rows, text, celd_settings ());
+  CHECK (c.status == CELD_OK && c.palette.n > 10 && c.palette.n <= 65);
+  CHECK (celd_components (&c.labels, 0, false, NULL, &c.labels, &list, &n) == CELD_OK);
+  for (int i = 0; i < N; i++)
+    if (place[i][0] != place[i][2] || place[i][1] != place[i][3])
+      CHECK (LABEL (place[i][0], place[i][1]) != LABEL (place[i][2], place[i][3]));
+  free (list);
+  free (text);
+  case_clear (&c);
+}
+
 int
 main (void)
 {
@@ -232,6 +368,11 @@ main (void)
       RUN (figure_2_of_the_paper);
       RUN (scribbled_regions_are_split);
       RUN (close_ends);
+      RUN (hourglasses_part_at_the_waist);
+      RUN (corridors_are_cut_across);
+      RUN (relations_split_in_turn);
+      RUN (blank_paper);
+      RUN (thousands_of_relations);
     }
   return DONE;
 }
