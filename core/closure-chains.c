@@ -348,6 +348,29 @@ celd_chains_clear (CeldChains *chains)
   *chains = (CeldChains) { 0 };
 }
 
+/* Chains along bridges: the borders of their basins are no passes. */
+static CeldStatus
+trace_bridges (Tracer *t, const CeldBridges *bridges)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < bridges->n_pixels && status == CELD_OK; i++)
+    {
+      int x = bridges->pixel[i].x, y = bridges->pixel[i].y;
+
+      for (int k = 0; k < 4 && status == CELD_OK; k++)
+        {
+          int u = x - (k == 1), v = y - (k == 3), south = k >= 2;
+
+          if (u >= 0 && v >= 0 && u + !south < t->labels->width && v + south < t->labels->height &&
+              CELD_AT (t->labels, u, v) != CELD_AT (t->labels, u + !south, v + south) &&
+              celd_is_paper (CELD_AT (t->ink, u, v)) && celd_is_paper (CELD_AT (t->ink, u + !south, v + south)))
+            status = trace (t, u, v, south);
+        }
+    }
+  return status;
+}
+
 CeldStatus
 celd_chains_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
                   CeldChains *chains)
@@ -367,11 +390,13 @@ celd_chains_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLab
       wanted += border->passes;
       status  = trace (&t, border->x, border->y, border->south);
     }
+  if (status == CELD_OK && canvas->bridges)
+    status = trace_bridges (&t, canvas->bridges);
   if (status == CELD_OK)
     status = trace_patches (&t, windows);
   for (size_t k = 0; k < chains->n; k++)
     found += chains->item[k].n - 1;
-  if (status == CELD_OK && (found != wanted || windows->n))
+  if (status == CELD_OK && (found < wanted || windows->n))
     status = trace_missing (&t, basins, label);
   celd_free (t.known);
   if (status != CELD_OK)

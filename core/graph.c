@@ -14,7 +14,6 @@
 #include "segment.h"
 
 #define SHARED UINT32_MAX       /* a block in which several labels have paint */
-#define GAP    8                /* to close a gap in a contour costs so much less than to cut a neck */
 
 typedef struct
 {
@@ -203,15 +202,6 @@ gather_votes (Graph *g)
   return CELD_OK;
 }
 
-/* What it costs to part two basins. */
-static int64_t
-border_cost (const CeldCanvas *canvas, const CeldBorder *border)
-{
-  bool gap = canvas->settings->close_gaps && border->passes && celd_is_gap (canvas->ink, canvas->basins, border);
-
-  return gap ? border->cost / GAP + 1 : border->cost;
-}
-
 /* Borders between nodes, those of the same two nodes summed up. */
 static CeldStatus
 gather_links (Graph *g)
@@ -256,7 +246,7 @@ gather_links (Graph *g)
               found[other] = g->n_links;
               g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
             }
-          g->link[found[other]].cost += border_cost (g->canvas, b);
+          g->link[found[other]].cost += b->cost;
         }
     }
 

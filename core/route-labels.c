@@ -182,8 +182,8 @@ celd_make_seeds (CeldSession *s, const CeldRun *run)
 static CeldStatus
 tell_ink (CeldSession *s, const CeldRun *run)
 {
-  float      threshold = s->settings.ink_threshold;
-  bool       renew = s->known_ink.data && s->known_threshold == threshold;
+  bool       renew = s->known_ink.data && s->known_threshold == s->settings.ink_threshold &&
+                     s->known_bridged == s->settings.close_gaps;
   CeldRect   changed = { 0 };
   CeldStatus status;
 
@@ -191,11 +191,12 @@ tell_ink (CeldSession *s, const CeldRun *run)
     return CELD_OK;
   if (renew)
     changed = celd_difference (s->known_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
-  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, threshold, run);
+  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, run);
   if (s->known_ink.data != s->ink.data)
     celd_free (s->known_ink.data);
   s->known_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
-  s->known_threshold = threshold;
+  s->known_threshold = s->settings.ink_threshold;
+  s->known_bridged   = s->settings.close_gaps;
   return status;
 }
 

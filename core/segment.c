@@ -26,7 +26,7 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
   if (status != CELD_OK)
     return status;
   segmenter = celd_segmenter_new ();
-  status = segmenter ? celd_segmenter_set_ink (segmenter, ink, NULL, settings->ink_threshold, &build) : CELD_NO_MEMORY;
+  status = segmenter ? celd_segmenter_set_ink (segmenter, ink, NULL, settings, &build) : CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = celd_seed_rows_read (seeds, &rows);
   if (status == CELD_OK)

@@ -5,6 +5,7 @@
 #ifndef CELD_SEGMENT_H
 #define CELD_SEGMENT_H
 
+#include "bridges.h"
 #include "painting.h"
 #include "seed-rows.h"
 
@@ -13,6 +14,7 @@ typedef struct
   const CeldSettings *settings;
   const CeldPlane    *ink;
   const CeldBasins   *basins;
+  const CeldBridges  *bridges;
   CeldSeedRows           seeds;     /* painted ones, and those that arrows and the frame add */
   CeldPalette         palette;   /* of all labels so far */
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
@@ -88,11 +90,6 @@ CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run,
 CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
 
-/* ------------------------------------------------------------------ gaps.c */
-
-/* Is the narrow place between two basins a gap in a contour, where a line ends and points across? */
-bool celd_is_gap (const CeldPlane *ink, const CeldBasins *basins, const CeldBorder *border);
-
 /* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
 
 /* Of every pixel; `labels` is tight. */
@@ -132,9 +129,10 @@ CeldSegmenter *celd_segmenter_new (void);                       /* NULL: no memo
 void           celd_segmenter_free (CeldSegmenter *segmenter);  /* accepts NULL */
 
 /* The drawing: line art that the caller keeps as it is until the next call of this function.  `changed`: where it
- * differs from the last one of the same size; NULL: everywhere.  `threshold` is settings->ink_threshold. */
+ * differs from the last one of the same size; NULL: everywhere.  Of the settings ink_threshold and close_gaps matter:
+ * these must be the same when solving. */
 CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
-                                   float threshold, const CeldRun *run);
+                                   const CeldSettings *settings, const CeldRun *run);
 
 /* Labels for these seeds.  `palette`: in, that of the seeds; out, with the regions that arrows made and the background
  * behind them.  `labels` is tight, the caller's, and as this function left it after the last call for this drawing

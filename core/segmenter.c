@@ -8,11 +8,15 @@
 #include "painting.h"
 #include "segment.h"
 
+#include <string.h>
+
 struct CeldSegmenter
 {
   CeldPlane    ink;             /* borrowed */
+  CeldBridges  bridges;
   CeldBasins   basins;
-  float        threshold;       /* that the basins were made with */
+  float        threshold;       /* that the basins were made with, */
+  bool         bridged;         /* and whether over bridges */
   CeldPainting painting;
   CeldClosures closures;
 };
@@ -30,6 +34,7 @@ celd_segmenter_free (CeldSegmenter *segmenter)
 {
   if (!segmenter)
     return;
+  celd_bridges_clear (&segmenter->bridges);
   celd_basins_clear (&segmenter->basins);
   celd_painting_clear (&segmenter->painting);
   celd_closures_clear (&segmenter->closures);
@@ -42,31 +47,84 @@ celd_segmenter_closures (const CeldSegmenter *segmenter)
   return &segmenter->closures;
 }
 
+/* Makes the basins of ink on which bridges are drawn; again what has changed, or all of them. */
+static CeldStatus
+make_basins (CeldSegmenter *s, const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldRun *run)
+{
+  CeldBasins basins = { 0 };
+  CeldStatus status;
+
+  if (changed)
+    return celd_basins_renew (ink, changed, run, &s->basins);
+  status = celd_basins_new (ink, threshold, run, &basins);
+  if (status != CELD_OK)
+    return status;
+  celd_basins_clear (&s->basins);
+  s->basins = basins;
+  return CELD_OK;
+}
+
+/* The same for ink without bridges: they are drawn on a copy. */
+static CeldStatus
+make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, float threshold, const CeldRun *run)
+{
+  CeldPart    part[2];
+  CeldRun     find = celd_run_part (&part[0], run, 0, 0.2), make = celd_run_part (&part[1], run, 0.2, 1);
+  CeldBridges bridges = { 0 };
+  CeldPlane   copy = { 0 };
+  CeldStatus  status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &bridges);
+
+  if (status == CELD_OK && changed)
+    status = celd_bridges_compare (&s->bridges, &bridges, changed);
+  if (status == CELD_OK && bridges.n)
+    status = celd_plane_new (ink->width, ink->height, &copy);
+  for (int y = 0; y < ink->height && copy.data; y++)
+    memcpy (&CELD_AT (&copy, 0, y), &CELD_AT (ink, 0, y), (size_t) ink->width * sizeof *copy.data);
+  if (status == CELD_OK && bridges.n)
+    celd_bridges_draw (&bridges, &copy);
+  if (status == CELD_OK)
+    status = make_basins (s, bridges.n ? &copy : ink, changed, threshold, &make);
+  if (status == CELD_OK)
+    status = celd_bridges_join (&bridges, ink, &s->basins);
+  celd_free (copy.data);
+  if (status != CELD_OK)
+    {
+      celd_bridges_clear (&bridges);
+      return status;
+    }
+  celd_bridges_clear (&s->bridges);
+  s->bridges = bridges;
+  return CELD_OK;
+}
+
 CeldStatus
-celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed, float threshold,
-                        const CeldRun *run)
+celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
+                        const CeldSettings *settings, const CeldRun *run)
 {
   CeldSegmenter *s = segmenter;
-  bool           renew = changed && s->basins.width == ink->width && s->basins.height == ink->height;
-  CeldBasins     basins = { 0 };
+  float          threshold = settings->ink_threshold;
+  bool           same_size = s->basins.width == ink->width && s->basins.height == ink->height;
+  bool           renew = changed && same_size && s->threshold == threshold && s->bridged == settings->close_gaps;
+  CeldRect       rect = changed ? *changed : (CeldRect) { 0 };
   CeldStatus     status;
 
-  if (renew && s->threshold == threshold)
-    status = celd_basins_renew (ink, changed, run, &s->basins);
+  if (settings->close_gaps)
+    status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, run);
   else
     {
-      status = celd_basins_new (ink, threshold, run, &basins);
-      if (status == CELD_OK)
-        {
-          celd_basins_clear (&s->basins);
-          s->basins    = basins;
-          s->threshold = threshold;
-        }
+      celd_bridges_clear (&s->bridges);
+      status = make_basins (s, ink, renew ? &rect : NULL, threshold, run);
     }
   if (status == CELD_OK)
     status = celd_painting_forget (&s->painting, &s->basins);
   if (status == CELD_OK)
-    s->ink = *ink;
+    {
+      s->ink       = *ink;
+      s->threshold = threshold;
+      s->bridged   = settings->close_gaps;
+    }
+  else
+    s->basins.width = 0; /* what is left is of no drawing: the next one starts anew */
   return status;
 }
 
@@ -79,7 +137,8 @@ canvas_new (const CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette
 {
   CeldStatus status;
 
-  *canvas = (CeldCanvas) { .settings = settings, .ink = &s->ink, .basins = &s->basins };
+  *canvas = (CeldCanvas) { .settings = settings, .ink = &s->ink, .basins = &s->basins,
+                           .bridges = &s->bridges };
   status = celd_seed_rows_copy (seeds, &canvas->seeds);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
     {

@@ -59,6 +59,7 @@ struct CeldSession
   CeldPlane      known_ink;                    /* what the segmenter has: a view of ink, or owned if that is newer;
                                                 * data NULL: nothing that can be relied on */
   float          known_threshold;
+  bool           known_bridged;   /* and whether gaps were bridged */
   CeldLabels     solved;                       /* the segmenter's */
   CeldLabels     separated;                    /* the same with each region on its own; data NULL: not asked for */
   CeldPalette    palette;

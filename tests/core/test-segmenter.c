@@ -96,7 +96,7 @@ solve_anew (const Page *page, const CeldRelations *relations, const CeldSettings
   Page           fresh = { .ink = page->ink, .seeds = page->seeds };
 
   CHECK (celd_labels_new (WIDTH, HEIGHT, &fresh.labels) == CELD_OK);
-  CHECK (celd_segmenter_set_ink (segmenter, &page->ink, NULL, settings->ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page->ink, NULL, settings, NULL) == CELD_OK);
   solve (segmenter, &fresh, relations, settings);
   celd_segmenter_free (segmenter);
   return fresh;
@@ -141,7 +141,7 @@ edit_strokes (CeldSettings settings, uint32_t seed)
   Page           page;
 
   page_open (&page, seed);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   paint_stroke (&page, 1);
   solve (segmenter, &page, NULL, &settings);
   CHECK (page.changed.x == 0 && page.changed.y == 0 && page.changed.width == WIDTH && page.changed.height == HEIGHT);
@@ -186,7 +186,7 @@ methods_may_take_turns (void)
   Page           page;
 
   page_open (&page, 3);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   for (uint32_t k = 1; k <= LABELS; k++)
     paint_stroke (&page, k);
   for (int i = 0; i < 6; i++)
@@ -210,7 +210,7 @@ a_drawing_may_change (void)
   Page           page;
 
   page_open (&page, 5);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   for (uint32_t k = 1; k <= LABELS; k++)
     paint_stroke (&page, k);
   solve (segmenter, &page, NULL, &settings);
@@ -223,7 +223,7 @@ a_drawing_may_change (void)
         for (int x = rect.x; x < rect.x + rect.width; x++)
           CELD_AT (&page.ink, x, y) = ink;
       memcpy (before, page.labels.data, sizeof before);
-      CHECK (celd_segmenter_set_ink (segmenter, &page.ink, &rect, settings.ink_threshold, NULL) == CELD_OK);
+      CHECK (celd_segmenter_set_ink (segmenter, &page.ink, &rect, &settings, NULL) == CELD_OK);
       solve (segmenter, &page, NULL, &settings);
       compare (&page, before, NULL, &settings);
     }
@@ -240,7 +240,7 @@ relations_make_and_split_regions (void)
   Page           page;
 
   page_open (&page, 7);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   paint_stroke (&page, 1);
   paint_stroke (&page, 2);
   for (int i = 0; i < 12; i++)
@@ -284,7 +284,7 @@ a_cancelled_answer_loses_nothing (void)
   Page           page;
 
   page_open (&page, 9);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   paint_stroke (&page, 1);
   paint_stroke (&page, 2);
   solve (segmenter, &page, NULL, &settings);
@@ -318,7 +318,7 @@ nothing_to_go_by (void)
   Page           page;
 
   page_open (&page, 11);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, settings.ink_threshold, NULL) == CELD_OK);
+  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
   CHECK (celd_segmenter_solve (segmenter, &page.seeds, NULL, &settings, NULL, &palette, NULL, &page.labels,
                                &page.changed) == CELD_NOTHING_TO_GO_BY);
   settings.hardness = NAN;
