@@ -46,13 +46,13 @@ graph_new (const CeldCanvas *canvas, Graph *g)
   };
   if (!g->holder || !g->node || !g->fixed || !g->label || !g->order || !g->link)
     return CELD_NO_MEMORY;
-  return celd_spread_new (canvas, basins->block, &g->spread);
+  return celd_spread_new (canvas, NULL, &g->spread);
 }
 
 static void
 graph_clear (Graph *g)
 {
-  celd_spread_clear (&g->spread);
+  celd_spread_keep (g->canvas, &g->spread);
   celd_free (g->holder);
   celd_free (g->node);
   celd_free (g->fixed);

@@ -1,7 +1,8 @@
 /* Where the strokes of an artist lie: how much of each falls on which part of the drawing, and what of it is a stain.
  *
- * Runs of seeds are cut where basins meet; that makes dabs, and their number and the painted pixels are what all of
- * this costs, whatever the size of the picture.
+ * Runs of seeds are cut where basins meet; that makes dabs, and their number is what all of this costs, whatever the
+ * size of the picture.  To look for basins and paper under a run takes longest, as it is somewhere else in memory for
+ * each; so what was found for the last answer is taken over.
  *
  * A soft stroke may run on through a contour.  The paint behind it says nothing about the region there, but it would
  * outvote the cost of cutting that region at a narrow place.  So a stroke's share of a piece of paper is weighed by the
@@ -105,39 +106,82 @@ basin_run (const CeldBasins *basins, int y, int x)
   return low;
 }
 
-static CeldStatus
-cut_run (const CeldCanvas *canvas, int y, CeldSeedRun run, uint32_t stroke, CeldSpread *spread)
+/* Dabs of the same drawing, gathered before: the next one in reading order that may be taken over. */
+typedef struct { const CeldDab *dab, *end; } Known;
+
+static const CeldDab *
+take_known (Known *known, int y, int x, int end)
 {
-  const CeldBasins *basins = canvas->basins;
+  while (known->dab < known->end && (known->dab->y < y || (known->dab->y == y && known->dab->x < x)))
+    known->dab++;
+  return known->dab < known->end && known->dab->y == y && known->dab->x == x && known->dab->end <= end
+         ? known->dab : NULL;
+}
 
-  for (size_t k = basin_run (basins, y, run.x); run.x < run.end; k++)
+/* Adds what pixels x .. end - 1 are in one basin; a known dab may end before its basin does. */
+static CeldStatus
+add_dab (CeldDab dab, bool first, CeldSpread *spread)
+{
+  CeldDab *last = spread->n_dabs ? &spread->dab[spread->n_dabs - 1] : NULL;
+
+  if (!first && last->basin == dab.basin)
     {
-      int      next = k + 1 < basins->row[y + 1] ? basins->run[k + 1].x : basins->width;
-      int      end = next < run.end ? next : run.end;
-      CeldDab *dab = celd_grow (spread->dab, spread->n_dabs + 1, sizeof *dab);
-
-      if (!dab)
-        return CELD_NO_MEMORY;
-      spread->dab = dab;
-      dab[spread->n_dabs++] = (CeldDab) {
-        y, run.x, end, run.label, basins->run[k].basin, stroke, celd_paper_count (basins, y, run.x, end)
-      };
-      run.x = end;
+      last->end    = dab.end;
+      last->paper += dab.paper;
+      return CELD_OK;
     }
+  last = celd_grow (spread->dab, spread->n_dabs + 1, sizeof *last);
+  if (!last)
+    return CELD_NO_MEMORY;
+  spread->dab = last;
+  last[spread->n_dabs++] = dab;
   return CELD_OK;
+}
+
+static CeldStatus
+cut_run (const CeldBasins *basins, int y, CeldSeedRun run, uint32_t stroke, Known *known, CeldSpread *spread)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int x = run.x, end; x < run.end && status == CELD_OK; x = end)
+    {
+      const CeldDab *same = take_known (known, y, x, run.end);
+      uint32_t       basin, paper;
+
+      if (same)
+        {
+          end   = same->end;
+          basin = same->basin;
+          paper = same->paper;
+        }
+      else
+        {
+          size_t k = basin_run (basins, y, x);
+
+          end   = k + 1 < basins->row[y + 1] && basins->run[k + 1].x < run.end ? basins->run[k + 1].x : run.end;
+          basin = basins->run[k].basin;
+          paper = celd_paper_count (basins, y, x, end);
+        }
+      status = add_dab ((CeldDab) { y, x, end, run.label, basin, stroke, paper }, x == run.x, spread);
+    }
+  return status;
 }
 
 static CeldStatus
 gather_dabs (const CeldCanvas *canvas, CeldSpread *spread)
 {
   const CeldSeedRows *seeds = &canvas->seeds;
+  const CeldSpread   *kept = canvas->kept;
+  Known               known = { NULL, NULL };
   uint32_t           *stroke = NULL;
   size_t              k = 0;
   CeldStatus          status = find_strokes (seeds, &stroke, &spread->n_strokes);
 
+  if (kept && kept->n_dabs)
+    known = (Known) { kept->dab, kept->dab + kept->n_dabs };
   for (int y = 0; y < seeds->height && status == CELD_OK; y++)
     for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
-      status = cut_run (canvas, y, seeds->row[y].run[i], stroke[k++], spread);
+      status = cut_run (canvas->basins, y, seeds->row[y].run[i], stroke[k++], &known, spread);
   celd_free (stroke);
   return status;
 }
@@ -243,8 +287,10 @@ celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spr
   if (status == CELD_OK)
     {
       made.total = celd_alloc0 (made.n_strokes, sizeof *made.total);
-      status = made.total ? celd_spread_share (canvas->basins, part, &made) : CELD_NO_MEMORY;
+      status = made.total ? CELD_OK : CELD_NO_MEMORY;
     }
+  if (status == CELD_OK && part)
+    status = celd_spread_share (canvas->basins, part, &made);
   if (status != CELD_OK)
     {
       celd_spread_clear (&made);
@@ -254,6 +300,18 @@ celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spr
     made.total[made.dab[i].stroke] += made.dab[i].paper;
   *spread = made;
   return CELD_OK;
+}
+
+void
+celd_spread_keep (const CeldCanvas *canvas, CeldSpread *spread)
+{
+  if (canvas->kept)
+    {
+      celd_spread_clear (canvas->kept);
+      *canvas->kept = *spread;
+      *spread = (CeldSpread) { 0 };
+    }
+  celd_spread_clear (spread);
 }
 
 /* ------------------------------------------------------------------ stains */

@@ -9,15 +9,34 @@
 #include "painting.h"
 #include "seed-rows.h"
 
+/* ------------------------------------------------------------------ records */
+
+/* What a connected stroke of one label leaves on the paper of one part of the drawing. */
+typedef struct { uint32_t part, label, stroke; size_t pixels; bool stain; } CeldShare;
+
+/* A piece of a run of seeds that lies in one basin; ink and paper.  `stroke`: connected strokes from 0. */
+typedef struct { int32_t y, x, end; uint32_t label, basin, stroke; uint32_t paper; } CeldDab;
+
+typedef struct
+{
+  CeldDab   *dab;               /* in reading order */
+  size_t     n_dabs;
+  size_t    *total;             /* of stroke k: its pixels on paper */
+  size_t     n_strokes;
+  CeldShare *share;             /* by part, label, stroke; without part 0 */
+  size_t     n;
+} CeldSpread;
+
 typedef struct
 {
   const CeldSettings *settings;
   const CeldPlane    *ink;
   const CeldBasins   *basins;
   const CeldBridges  *bridges;
-  CeldSeedRows           seeds;     /* painted ones, and those that arrows and the frame add */
+  CeldSeedRows        seeds;     /* painted ones, and those that arrows and the frame add */
   CeldPalette         palette;   /* of all labels so far */
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
+  CeldSpread         *kept;      /* of seeds that the last answer for these basins was made from; NULL: none is kept */
 } CeldCanvas;
 
 /* Is every stroke obeyed, wherever it runs? */
@@ -46,25 +65,12 @@ CeldStatus celd_canvas_keep_paper (CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ paint.c: where strokes lie */
 
-/* What a connected stroke of one label leaves on the paper of one part of the drawing. */
-typedef struct { uint32_t part, label, stroke; size_t pixels; bool stain; } CeldShare;
-
-/* A piece of a run of seeds that lies in one basin; ink and paper.  `stroke`: connected strokes from 0. */
-typedef struct { int32_t y, x, end; uint32_t label, basin, stroke; uint32_t paper; } CeldDab;
-
-typedef struct
-{
-  CeldDab   *dab;               /* in reading order */
-  size_t     n_dabs;
-  size_t    *total;             /* of stroke k: its pixels on paper */
-  size_t     n_strokes;
-  CeldShare *share;             /* by part, label, stroke; without part 0 */
-  size_t     n;
-} CeldSpread;
-
-/* part[basin] is the part it belongs to: basins->piece, room or block. */
+/* part[basin] is the part it belongs to: basins->piece, room or block; NULL: no shares. */
 CeldStatus celd_spread_new (const CeldCanvas *canvas, const uint32_t *part, CeldSpread *spread);
 void       celd_spread_clear (CeldSpread *spread);
+
+/* Ends a spread: the canvas keeps it, if it keeps any. */
+void celd_spread_keep (const CeldCanvas *canvas, CeldSpread *spread);
 
 /* Makes the shares anew, by other parts. */
 CeldStatus celd_spread_share (const CeldBasins *basins, const uint32_t *part, CeldSpread *spread);

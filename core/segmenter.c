@@ -18,6 +18,7 @@ struct CeldSegmenter
   float        threshold;       /* that the basins were made with, */
   bool         bridged;         /* and whether over bridges */
   CeldPainting painting;
+  CeldSpread   spread;          /* of the last answer's seeds */
   CeldClosures closures;
 };
 
@@ -37,6 +38,7 @@ celd_segmenter_free (CeldSegmenter *segmenter)
   celd_bridges_clear (&segmenter->bridges);
   celd_basins_clear (&segmenter->basins);
   celd_painting_clear (&segmenter->painting);
+  celd_spread_clear (&segmenter->spread);
   celd_closures_clear (&segmenter->closures);
   celd_free (segmenter);
 }
@@ -108,6 +110,7 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
   CeldRect       rect = changed ? *changed : (CeldRect) { 0 };
   CeldStatus     status;
 
+  celd_spread_clear (&s->spread);
   if (settings->close_gaps)
     status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, run);
   else
@@ -132,13 +135,14 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
 
 /* The seeds that the palette knows, and its labels without what an earlier answer said of them. */
 static CeldStatus
-canvas_new (const CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *palette, const CeldSettings *settings,
+canvas_new (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *palette, const CeldSettings *settings,
             CeldCanvas *canvas)
 {
   CeldStatus status;
 
-  *canvas = (CeldCanvas) { .settings = settings, .ink = &s->ink, .basins = &s->basins,
-                           .bridges = &s->bridges };
+  *canvas = (CeldCanvas) {
+    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .kept = &s->spread
+  };
   status = celd_seed_rows_copy (seeds, &canvas->seeds);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
     {

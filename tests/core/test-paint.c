@@ -104,6 +104,38 @@ slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t s
   return here * mine < 0.5 * elsewhere * others;
 }
 
+/* With what other seeds on the same drawing left behind, dabs must be the same. */
+static void
+check_kept (Sketch *s, const CeldSpread *wanted, uint32_t *state)
+{
+  CeldCanvas other = s->canvas;
+  CeldSpread kept = { 0 }, spread;
+
+  CHECK (celd_seed_rows_copy (&s->canvas.seeds, &other.seeds) == CELD_OK);
+  other.kept = s->canvas.kept = &kept;
+  for (int round = 0; round < 4; round++)
+    {
+      CHECK (celd_spread_new (&s->canvas, s->basins.piece, &spread) == CELD_OK);
+      CHECK (spread.n_dabs == wanted->n_dabs && spread.n == wanted->n && spread.n_strokes == wanted->n_strokes);
+      CHECK (!memcmp (spread.dab, wanted->dab, wanted->n_dabs * sizeof *wanted->dab));
+      CHECK (!memcmp (spread.total, wanted->total, wanted->n_strokes * sizeof *wanted->total));
+      celd_spread_clear (&spread);
+      for (int k = 0; k < 8; k++)
+        {
+          int x = (int) check_random (state, W), end = x + (int) check_random (state, 9);
+
+          CHECK (celd_seed_rows_paint (&other.seeds, (int) check_random (state, H), x, end, check_random (state, 4))
+                 == CELD_OK);
+        }
+      CHECK (celd_spread_new (&other, NULL, &spread) == CELD_OK && spread.n == 0);
+      celd_spread_keep (&other, &spread);
+      CHECK (!spread.dab && kept.n_dabs);
+    }
+  s->canvas.kept = NULL;
+  celd_spread_clear (&kept);
+  celd_seed_rows_clear (&other.seeds);
+}
+
 static void
 dabs_shares_and_stains_are_those_of_the_pixels (void)
 {
@@ -163,6 +195,7 @@ dabs_shares_and_stains_are_those_of_the_pixels (void)
           dabbed -= paint.data[p] > 0;
         }
       wrong += dabbed != 0 || pixels != paper_pixels;
+      check_kept (&s, &spread, &state);
       celd_spread_clear (&spread);
       CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
       for (int p = 0; p < W * H; p++)
