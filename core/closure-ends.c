@@ -17,9 +17,10 @@
 #include <string.h>
 
 #define REACH         4         /* stroke widths */
-#define LEAST_REACH   8         /* pixels; shorter ends say nothing about directions */
+#define LEAST_REACH   16        /* pixels; shorter ends say nothing about directions */
 #define FINE          7         /* pixels across a stroke are enough */
 #define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
+#define SHORTEST      6         /* pixels: dots and specks point nowhere */
 #define DETOUR        2.0       /* a line goes on to another's side if that is at most so many times the shortest way */
 #define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
 #define MOST_ASLANT   1.5         /* widths between a tip and where the border lands */
@@ -114,12 +115,15 @@ take (const CeldPlane *ink, int u, int v, size_t from, CeldLineEnd *end)
   end->pixel[end->n++] = (CeldCorner) { x, y };
 }
 
-/* Goes to 4 and to 8 neighbours in turn: distances grow nearly alike in all directions.  Returns how many of the pixels
- * are within half the reach. */
-static size_t
-gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
+/* The first n pixels of the list; those from `rim` on are the farthest. */
+typedef struct { size_t rim, n; } Part;
+
+/* Goes to 4 and to 8 neighbours in turn: distances grow nearly alike in all directions.  *near is what is within half
+ * the reach. */
+static void
+gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end, Part *near, Part *far)
 {
-  size_t near = 0, from = 0;
+  size_t from = 0;
 
   forget (end);
   end->middle = pixel;
@@ -137,10 +141,10 @@ gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
               if (!(distance & 1) || !du || !dv)
                 take (ink, u + du, v + dv, from, end);
         }
+      *far = (Part) { to, end->n };
       if (2 * distance <= end->reach)
-        near = end->n;
+        *near = *far;
     }
-  return near;
 }
 
 /* ------------------------------------------------------------------ the line that ends */
@@ -250,11 +254,14 @@ fit_middle (const CeldLineEnd *end, size_t n, Line *line)
 }
 
 static bool
-is_line_end (const CeldLineEnd *end, const Line *line)
+is_line_end (const CeldLineEnd *end, Part part, const Line *line)
 {
   double landing = along (line, end->middle.x + 0.5, end->middle.y + 0.5);
 
-  return line->most - line->least + end->step >= LEAST_LENGTH * line->width &&
+  for (size_t i = part.rim; i < part.n; i++)
+    if (along (line, end->pixel[i].x + 0.5, end->pixel[i].y + 0.5) > landing)
+      return false; /* the ink goes on there */
+  return line->most - line->least + end->step >= fmax (LEAST_LENGTH * line->width, SHORTEST) &&
          line->most - landing <= MOST_ASLANT * line->width + 1.5 * end->step &&
          line->uneven <= MOST_UNEVEN * line->width + 0.3 * end->step;
 }
@@ -306,8 +313,9 @@ find_direction (const Line *line, CeldLineEnd *end)
 void
 celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 {
-  size_t near = gather (ink, pixel, end), size[2] = { near, end->n };
+  Part part[2] = { { 0, 0 }, { 0, 0 } };
 
+  gather (ink, pixel, end, &part[0], &part[1]);
   end->tip    = false;
   end->width  = 0;
   end->at     = end->inside = (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
@@ -316,9 +324,9 @@ celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
     {
       Line line = { 0 };
 
-      find_axis (end, size[i], &line);
-      fit_middle (end, size[i], &line);
-      if (!is_line_end (end, &line))
+      find_axis (end, part[i].n, &line);
+      fit_middle (end, part[i].n, &line);
+      if (!is_line_end (end, part[i], &line))
         continue;
       if (!end->tip)
         find_tip (ink, &line, end);

@@ -215,13 +215,14 @@ flip (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, boo
   *may = !has_seed (r, y, x, end, label) && !is_flipped (r, y, x, end);
   for (; x < end && *may && status == CELD_OK; x++)
     {
-      float ink = CELD_AT (r->canvas->ink, x, y);
+      float    ink = CELD_AT (r->canvas->ink, x, y);
+      uint32_t now = CELD_AT (r->labels, x, y);
 
       if (!celd_is_paper (ink))
         *may = celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y);
-      else if (CELD_AT (r->labels, x, y) != old || (ink < CELD_FAINT && !near_ink (r, x, y)))
-        *may = false;
-      else
+      else if ((now != old && now != label) || ((ink < CELD_FAINT || now != old) && !near_ink (r, x, y)))
+        *may = false; /* the rims of lines may be faint, and of the right label already */
+      else if (now == old)
         status = celd_patch_add (&r->flipped, (CeldPatch) { y, x, x + 1, label });
     }
   return status;

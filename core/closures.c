@@ -10,6 +10,8 @@
  */
 #include "closures.h"
 
+#define SHORTEST 0.75 /* pixels */
+
 static CeldStatus
 add_closure (const CeldChain *chain, const CeldPlace *place, size_t n, CeldClosures *closures)
 {
@@ -115,7 +117,11 @@ close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
     }
   if (status != CELD_OK)
     return status;
-  return done ? add_closure (chain, way.place, way.n, closures) : add_old (chain, corner, closures);
+  if (!done)
+    return add_old (chain, corner, closures);
+  if (celd_distance_between (way.place[0], way.place[way.n - 1]) < SHORTEST)
+    return CELD_OK; /* from a tip to the same tip */
+  return add_closure (chain, way.place, way.n, closures);
 }
 
 CeldStatus
