@@ -24,6 +24,7 @@
 #define DETOUR        2.0       /* a line goes on to another's side if that is at most so many times the shortest way */
 #define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
 #define MOST_ASLANT   1.5         /* widths between a tip and where the border lands */
+#define LAG           0.25        /* of the length: right at its end a parabola is least certain of its direction */
 #define CUT_OFF       0.15        /* of the length */
 
 CeldStatus
@@ -303,7 +304,8 @@ find_tip (const CeldPlane *ink, const Line *line, CeldLineEnd *end)
 static void
 find_direction (const Line *line, CeldLineEnd *end)
 {
-  double slope = line->b + 2 * line->c * along (line, end->at.x, end->at.y), length = sqrt (1 + slope * slope);
+  double u = along (line, end->at.x, end->at.y) - LAG * (line->most - line->least);
+  double slope = line->b + 2 * line->c * u, length = sqrt (1 + slope * slope);
 
   end->dx = (line->along_x - slope * line->along_y) / length;
   end->dy = (line->along_y + slope * line->along_x) / length;

@@ -33,7 +33,8 @@ tips_of_lines (void)
   for (int k = 0; k < 16; k++)
     for (int i = 0; i < 18; i++)
       {
-        double      width = widths[i / 3], a = k * pi / 8 + 0.1, x = cos (a), y = sin (a), side = (i % 3 - 1) * width / 2;
+        double      width = widths[i / 3], side = (i % 3 - 1) * width / 2;
+        double      a = k * pi / 8 + 0.1, x = cos (a), y = sin (a);
         CeldPlace   tip = { 150 + x * width / 2, 150 + y * width / 2 };
         Scene       s;
         CeldLineEnd end;
