@@ -22,6 +22,7 @@ typedef struct
   CeldCells       *cells;
   const uint32_t  *label, *free; /* by basin */
   uint32_t         id;
+  size_t           hint;         /* of celd_basin_run_at */
   const uint8_t   *fine;         /* by block; NULL: blocks are to be coarse */
   float            dark;         /* ink below this is dark */
   uint32_t        *state;        /* of the pixels of a row of blocks: label, kind, CELD_CELL_FIXED */
@@ -55,12 +56,12 @@ window_width (const CeldCells *cells)
 
 /* The rim of the window is as it is, but where the picture ends. */
 static void
-read_basins (const Builder *b, int y, uint32_t *state)
+read_basins (Builder *b, int y, uint32_t *state)
 {
   const CeldWindow *w = &b->cells->window;
   const CeldBasins *basins = b->cells->canvas->basins;
   bool              rim = (y == w->top && y > 0) || (y == w->bottom && y + 1 < basins->height);
-  size_t            i = celd_basin_run_at (basins, y, w->left);
+  size_t            i = celd_basin_run_at (basins, y, w->left, &b->hint);
 
   for (int x = w->left, end; x <= w->right; x = end, i++)
     {
@@ -306,7 +307,7 @@ read_cells (const Builder *b, int y, int x, int end, uint32_t *state)
   read_ink (b, y, x, end, state);
 }
 
-/* A block that was one node becomes 4 x 4, for no part of it is near ink; others are opened to pixels. */
+/* A block that was one node becomes 4 x 4, for no part of it is near ink; others 8 x 8 and what ink is in them. */
 static CeldStatus
 make_fine_row (Builder *b, int row, int top, int h)
 {
@@ -335,9 +336,9 @@ make_fine_row (Builder *b, int row, int top, int h)
     if (fine[k])
       {
         int left = k << cells->shift, right = left + (1 << cells->shift) < w ? left + (1 << cells->shift) : w;
-        int square = coarse[k] & CELD_CELL_MIXED || cells->shift < 2 ? 0 : cells->shift - 2;
+        int square = cells->shift - (coarse[k] & CELD_CELL_MIXED ? 3 : 2);
 
-        status = split_block (b, (size_t) left, right - left, h, square, &block[k]);
+        status = split_block (b, (size_t) left, right - left, h, square > 0 ? square : 0, &block[k]);
       }
   return status;
 }

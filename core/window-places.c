@@ -21,6 +21,7 @@ typedef struct
 {
   const CeldCanvas *canvas;
   const uint32_t   *label;      /* of each basin */
+  size_t            hint;
   Run              *run;        /* in reading order; `clump`: first another run of it, in the end its number */
   size_t            n_runs;
   Clump            *clump;
@@ -30,20 +31,17 @@ typedef struct
 /* ------------------------------------------------------------------ foreign paint */
 
 size_t
-celd_basin_run_at (const CeldBasins *basins, int y, int x)
+celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint)
 {
-  size_t low = basins->row[y], high = basins->row[y + 1];
+  size_t first = basins->row[y], last = basins->row[y + 1] - 1;
+  size_t i = first + *hint < last ? first + *hint : last;
 
-  while (high - low > 1)
-    {
-      size_t middle = low + (high - low) / 2;
-
-      if (basins->run[middle].x <= x)
-        low = middle;
-      else
-        high = middle;
-    }
-  return low;
+  while (basins->run[i].x > x)
+    i--;
+  while (i < last && basins->run[i + 1].x <= x)
+    i++;
+  *hint = i - first;
+  return i;
 }
 
 static CeldStatus
@@ -64,7 +62,7 @@ compare_seeds (Places *places, int y, const CeldSeedRun *seeds)
 {
   const CeldBasins *basins = places->canvas->basins;
   CeldStatus        status = CELD_OK;
-  size_t            i = celd_basin_run_at (basins, y, seeds->x);
+  size_t            i = celd_basin_run_at (basins, y, seeds->x, &places->hint);
 
   for (int x = seeds->x, end; x < seeds->end && status == CELD_OK; x = end, i++)
     {

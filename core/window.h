@@ -19,8 +19,9 @@ CeldStatus celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, c
                               CeldWindows *windows);
 void       celd_windows_clear (CeldWindows *windows);        /* accepts a zeroed record */
 
-/* The last run of basins in row y that begins at or before x. */
-size_t celd_basin_run_at (const CeldBasins *basins, int y, int x);
+/* The last run of basins in row y that begins at or before x.  It is looked for near *hint, 0 at first, which is left at
+ * a good one for what is near in the same row or the next. */
+size_t celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint);
 
 /* ------------------------------------------------------------------ window-cells.c */
 

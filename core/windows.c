@@ -26,6 +26,7 @@ typedef struct
   uint32_t         *global;     /* the other way round, from 0 */
   int64_t          *votes;      /* of each label, from 1: the sum of its votes in this window */
   CeldPatches       patches;
+  size_t            hint;       /* of celd_basin_run_at */
 } Solver;
 
 /* ------------------------------------------------------------------ cutting a graph */
@@ -227,7 +228,7 @@ static CeldStatus
 add_patch (Solver *s, const CeldCells *cells, int y, int x, int end)
 {
   const CeldBasins *basins = s->canvas->basins;
-  size_t            i = celd_basin_run_at (basins, y, x);
+  size_t            i = celd_basin_run_at (basins, y, x, &s->hint);
   CeldStatus        status = CELD_OK;
 
   for (; x < end && status == CELD_OK; x++)
@@ -282,9 +283,10 @@ trim (const Solver *s, uint32_t id, const CeldWindow *window)
 {
   const CeldBasins *basins = s->canvas->basins;
   CeldWindow        inner = { window->right, window->bottom, window->left, window->top, window->first, window->n };
+  size_t            hint = 0;
 
   for (int y = window->top; y <= window->bottom; y++)
-    for (size_t i = celd_basin_run_at (basins, y, window->left);
+    for (size_t i = celd_basin_run_at (basins, y, window->left, &hint);
          i < basins->row[y + 1] && basins->run[i].x <= window->right; i++)
       {
         int x = basins->run[i].x, end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
