@@ -108,11 +108,13 @@ sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
   return length > 0 ? hypot (a.x - b.x, a.y - b.y) / length : 1;
 }
 
+/* Has this end been found, at another scale?  The one on the other side of a narrow gap points the other way. */
 static bool
-is_known (const Search *s, CeldCorner corner)
+is_known (const Search *s, CeldTip end)
 {
   for (size_t i = s->n_tips; i--;)
-    if (hypot (s->tip[i].x - corner.x, s->tip[i].y - corner.y) < SAME * s->stroke + 2)
+    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * s->stroke + 2 &&
+        s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
       return true;
   return false;
 }
@@ -123,9 +125,9 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle)
 {
   double     back = hypot (middle.x - corner.x, middle.y - corner.y);
   CeldCorner inside;
-  CeldTip   *tip;
+  CeldTip    end, *tip;
 
-  if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1 || is_known (s, corner))
+  if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1)
     return CELD_OK;
   inside.x = (int32_t) floor (corner.x + (middle.x - corner.x) / back);
   inside.y = (int32_t) floor (corner.y + (middle.y - corner.y) / back);
@@ -133,13 +135,14 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle)
       !*mask_at (s, inside.x, inside.y))
     return CELD_OK;
   celd_line_end_look (s->ink, inside, &s->end);
-  if (!s->end.tip)
+  end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy };
+  if (!s->end.tip || is_known (s, end))
     return CELD_OK;
   tip = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
   if (!tip)
     return CELD_NO_MEMORY;
   s->tip = tip;
-  tip[s->n_tips++] = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy };
+  tip[s->n_tips++] = end;
   return CELD_OK;
 }
 
