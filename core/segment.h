@@ -112,6 +112,13 @@ CeldStatus celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint3
 CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run,
                                CeldPatches *patches);
 
+/* ------------------------------------------------------------------ settle.c: borders of least energy */
+
+/* Moves the borders between `labels`, which are what basins and windows make, to where they cost less: in lines, and
+ * across gaps.  The pixels that change sides are painted, and appended to the patches, also when this fails. */
+CeldStatus celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels,
+                                CeldPatches *patches);
+
 /* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
 
 /* `labels` is what basins and windows make.  Where two labels meet on paper, from one line end to another, the border

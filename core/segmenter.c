@@ -255,6 +255,19 @@ close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, Celd
   return CELD_OK;
 }
 
+/* Without curves across gaps borders run where the energy is least. */
+static CeldStatus
+settle_borders (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
+{
+  CeldPatches patches = { 0 };
+  CeldStatus  status = celd_borders_settle (canvas, run, labels, &patches);
+
+  if (status == CELD_OK)
+    status = celd_painting_add (&s->painting, &patches, labels);
+  celd_patches_clear (&patches);
+  return status;
+}
+
 /* From here on the picture changes: the basins' labels, over them windows, split regions and closed gaps. */
 static CeldStatus
 repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const CeldRelations *relations,
@@ -270,6 +283,8 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
   celd_closures_clear (&s->closures);
   if (status == CELD_OK && canvas->settings->close_gaps)
     status = close_gaps (s, canvas, run, labels);
+  else if (status == CELD_OK)
+    status = settle_borders (s, canvas, run, labels);
   if (status == CELD_OK)
     status = celd_painting_end (&s->painting, &s->basins, &old, labels);
   celd_painting_clear (&old);
