@@ -17,10 +17,11 @@
 #define BAND    32          /* rows a job */
 #define JOBS    8           /* jobs at once, with threads */
 #define UNKNOWN UINT32_MAX
-#define MAXIMUM (1u << 31)  /* the rest is twice the number of a maximum in its band; else it is a place in `edge` */
+#define MAXIMUM (1u << 31)  /* the rest is twice the number of a maximum in its band, or with CELD_KEPT of an old basin;
+                             * else it is a place in `edge` */
 
-/* Where a pixel leads: three steps up, three down, and from STAY on those that stay in their row. */
-enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST };
+/* Where a pixel leads: three steps up, three down, and from STAY on those that stay in their row.  KEEP: as before. */
+enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST, KEEP };
 
 /* Pixels of a row, up to the next stretch: all lead to the same, or each to the place after the last one's. */
 typedef struct { int32_t x; bool moves; uint32_t lead; } Stretch;
@@ -49,8 +50,8 @@ typedef struct
 
 typedef struct
 {
+  const CeldPlot *plot;
   int            width, height;
-  const int32_t *squared;
   int32_t        core;      /* of ink that is deeper the relief rises again */
   uint32_t      *edge;      /* the first and the last row of each band: where they lead, then their basins */
   uint32_t      *until;     /* of a place in edge: the next one that has another basin, or is another row's */
@@ -80,13 +81,14 @@ band_end (const Ascent *a, int band)
 CELD_CLONES static void
 raise_row (const Ascent *a, int y, int32_t *restrict relief)
 {
-  const int32_t *squared = a->squared + (ptrdiff_t) y * a->width;
+  bool           inside = y >= 0 && y < a->height;
+  const int32_t *squared = a->plot->squared + (inside ? (size_t) y * a->plot->stride : 0);
   int32_t        core = a->core;
 
   relief[0] = relief[a->width + 1] = INT32_MIN;
-  for (int x = 0; x < a->width && (y < 0 || y >= a->height); x++)
+  for (int x = 0; x < a->width && !inside; x++)
     relief[x + 1] = INT32_MIN;
-  for (int x = 0; x < a->width && y >= 0 && y < a->height; x++)
+  for (int x = 0; x < a->width && inside; x++)
     relief[x + 1] = squared[x] < -core ? -squared[x] - 2 * core : squared[x];
 }
 
@@ -223,11 +225,33 @@ lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
 
 /* ------------------------------------------------------------------ a band */
 
+/* Pixels of row y that keep their old basins lead there. */
+static void
+keep_row (const Ascent *a, int y, uint8_t *step, uint32_t *lead)
+{
+  const CeldBasins   *old = a->plot->old;
+  const uint8_t      *anew = a->plot->anew + (size_t) y * (size_t) a->width;
+  int                 left = a->plot->box.x;
+  const CeldBasinRun *run = old->run + old->row[a->plot->box.y + y], *end = old->run + old->row[a->plot->box.y + y + 1];
+
+  for (int x = 0; x < a->width; x++)
+    {
+      while (run + 1 < end && run[1].x <= left + x)
+        run++;
+      if (anew[x])
+        continue;
+      step[x] = KEEP;
+      lead[x] = MAXIMUM | CELD_KEPT | 2 * run->basin;
+    }
+}
+
 /* Maxima lead to themselves; what else does is not known. */
 static bool
-start_row (const Ascent *a, int y, const uint8_t *step, Band *band, uint32_t *lead)
+start_row (const Ascent *a, int y, uint8_t *step, Band *band, uint32_t *lead)
 {
   memset (lead, 0xff, (size_t) a->width * sizeof *lead);
+  if (a->plot->anew)
+    keep_row (a, y, step, lead);
   for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
     if (step[x] == STAY)
       {
@@ -332,14 +356,22 @@ make_basins (const Ascent *a)
     for (size_t j = 0; j < a->band[i].n; j++)
       {
         uint32_t p = a->band[i].maximum[j];
-        int32_t  squared = a->squared[p];
+        uint32_t x = p % (uint32_t) a->width, y = p / (uint32_t) a->width;
+        int32_t  squared = a->plot->squared[y * a->plot->stride + x];
 
         basins->basin[a->band[i].first + j] = (CeldBasin) {
-          .x = (int32_t) (p % (uint32_t) a->width), .y = (int32_t) (p / (uint32_t) a->width),
+          .x = a->plot->box.x + (int32_t) x, .y = a->plot->box.y + (int32_t) y,
           .squared = squared > 0 ? squared : -squared, .solid = squared < 0,
         };
       }
   return CELD_OK;
+}
+
+/* The basin that a lead with MAXIMUM stands for. */
+static inline uint32_t
+basin_of (const Band *band, uint32_t lead)
+{
+  return lead & CELD_KEPT ? CELD_KEPT | (lead & (CELD_KEPT - 1)) / 2 : (uint32_t) band->first + (lead & ~MAXIMUM) / 2;
 }
 
 /* Leads the outermost rows of all bands to their basins. */
@@ -350,7 +382,7 @@ lead_edges (const Ascent *a)
 
   for (uint32_t p = 0; p < n; p++)
     if (edge[p] & MAXIMUM)
-      edge[p] = MAXIMUM | (uint32_t) (a->band[p / (2 * w)].first + (edge[p] & ~MAXIMUM) / 2);
+      edge[p] = MAXIMUM | basin_of (&a->band[p / (2 * w)], edge[p]);
   for (uint32_t p = 0; p < n; p++)
     {
       uint32_t to = edge[p];
@@ -406,7 +438,7 @@ find_runs (void *data, int job)
           uint32_t to = s.lead;
 
           if (to & MAXIMUM)
-            good = add_run (band, row, s.x, (uint32_t) (band->first + (to & ~MAXIMUM) / 2));
+            good = add_run (band, row, s.x, basin_of (band, to));
           else if (!s.moves)
             good = add_run (band, row, s.x, a->edge[to]);
           else
@@ -441,10 +473,6 @@ gather_runs (const Ascent *a)
       n += a->band[i].n_runs;
     }
   basins->row[a->height] = n;
-  for (int y = 0; y < a->height; y++)
-    for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
-      basins->basin[basins->run[i].basin].area +=
-        (uint32_t) ((i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : a->width) - basins->run[i].x);
   return CELD_OK;
 }
 
@@ -467,13 +495,14 @@ run_bands (Ascent *a, void (*body) (void *data, int job), const CeldRun *run, do
 }
 
 static CeldStatus
-ascent_new (const int32_t *squared, const CeldRun *run, CeldBasins *basins, Ascent *a)
+ascent_new (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins, Ascent *a)
 {
-  size_t w = (size_t) basins->width, h = (size_t) basins->height, n_bands = (h + BAND - 1) / BAND;
+  size_t w = (size_t) plot->box.width, h = (size_t) plot->box.height, n_bands = (h + BAND - 1) / BAND;
   bool   good;
 
   *a = (Ascent) {
-    .width = basins->width, .height = basins->height, .squared = squared, .core = celd_stroke_core (basins->stroke),
+    .plot    = plot, .width = plot->box.width, .height = plot->box.height,
+    .core    = plot->stroke > 2 ? plot->stroke * plot->stroke : 4,
     .edge    = celd_alloc (n_bands * w, 2 * sizeof *a->edge),
     .until   = celd_alloc (n_bands * w, 2 * sizeof *a->until),
     .band    = celd_alloc0 (n_bands, sizeof *a->band),
@@ -516,10 +545,10 @@ ascent_clear (Ascent *a)
 }
 
 CeldStatus
-celd_basins_ascend (const int32_t *squared, const CeldRun *run, CeldBasins *basins)
+celd_basins_ascend (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins)
 {
   Ascent     a;
-  CeldStatus status = ascent_new (squared, run, basins, &a);
+  CeldStatus status = ascent_new (plot, run, basins, &a);
 
   if (status == CELD_OK)
     status = run_bands (&a, lead_band, run, 0, 0.8);

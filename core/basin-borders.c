@@ -17,7 +17,7 @@ typedef struct { uint32_t a, b; size_t border; } Slot; /* a = b: empty */
 typedef struct
 {
   const CeldPlane  *ink;
-  const int32_t    *squared;
+  const CeldPlot   *plot;
   const CeldBasins *basins;
   CeldBorder       *border;
   size_t            n;
@@ -87,32 +87,65 @@ is_outermost (const CeldPlane *ink, int x, int y)
   return x == 0 || y == 0 || x == ink->width - 1 || y == ink->height - 1;
 }
 
+/* Does `least` at this pair come before the saddle so far?  Ties go in reading order, east before south. */
+static bool
+comes_first (const CeldBorder *border, int32_t least, int x, int y, bool south)
+{
+  if (least != border->saddle)
+    return least > border->saddle;
+  if (y != border->y)
+    return y < border->y;
+  return x < border->x || (x == border->x && !south && border->south);
+}
+
+void
+celd_border_add (CeldBorder *border, const CeldBorder *more)
+{
+  border->cost += more->cost;
+  border->passes += more->passes;
+  border->frame = border->frame || more->frame;
+  if (!comes_first (border, more->saddle, more->x, more->y, more->south))
+    return;
+  border->saddle = more->saddle;
+  border->x = more->x;
+  border->y = more->y;
+  border->south = more->south;
+}
+
+/* Signed distance of a pixel in the box. */
+static inline const int32_t *
+squared_at (const CeldPlot *plot, int x, int y)
+{
+  return plot->squared + (ptrdiff_t) (y - plot->box.y) * (ptrdiff_t) plot->stride + (x - plot->box.x);
+}
+
 /* Counts in the pair of (x,y) and the pixel below it, or to the right. */
 static void
 add_pair (const Borders *b, CeldBorder *border, int x, int y, bool south)
 {
   const CeldPlane *ink = b->ink;
   int              qx = x + !south, qy = y + south;
-  int32_t          p = b->squared[(size_t) y * (size_t) ink->width + (size_t) x];
-  int32_t          q = b->squared[(size_t) qy * (size_t) ink->width + (size_t) qx], least;
+  int32_t          p = *squared_at (b->plot, x, y), q = *squared_at (b->plot, qx, qy);
   bool             solid = b->basins->basin[border->a].solid && b->basins->basin[border->b].solid;
   bool             passes = p > 0 && q > 0;
   bool             along = south ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
+  CeldBorder       pair = { .passes = passes, .x = x, .y = y, .south = south };
 
-  border->cost += celd_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
-  if (passes)
-    {
-      border->passes++;
-      border->frame = border->frame || (is_outermost (ink, x, y) && is_outermost (ink, qx, qy));
-    }
-  least = passes ? (p < q ? p : q) : solid ? (-p < -q ? -p : -q) : 0;
-  if (least < border->saddle ||
-      (least == border->saddle && (y > border->y || (y == border->y && (x > border->x || (x == border->x && south))))))
-    return;
-  border->saddle = least;
-  border->x = x;
-  border->y = y;
-  border->south = south;
+  pair.cost = celd_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
+  pair.saddle = passes ? (p < q ? p : q) : solid ? (-p < -q ? -p : -q) : 0;
+  pair.frame = passes && is_outermost (ink, x, y) && is_outermost (ink, qx, qy);
+  celd_border_add (border, &pair);
+}
+
+static inline bool
+is_anew (const CeldPlot *plot, int x, int y)
+{
+  int u = x - plot->box.x, v = y - plot->box.y;
+
+  if (!plot->anew)
+    return true;
+  return u >= 0 && v >= 0 && u < plot->box.width && v < plot->box.height &&
+         plot->anew[(size_t) v * (size_t) plot->box.width + (size_t) u];
 }
 
 /* What the borders of a row will read. */
@@ -120,11 +153,10 @@ static void
 fetch_row (const Borders *b, int y)
 {
   const CeldBasins *basins = b->basins;
-  const int32_t    *squared = b->squared + (size_t) y * (size_t) basins->width;
 
   for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
     {
-      CELD_PREFETCH (squared + basins->run[i].x);
+      CELD_PREFETCH (squared_at (b->plot, basins->run[i].x, y));
       CELD_PREFETCH (&CELD_AT (b->ink, basins->run[i].x, y));
     }
 }
@@ -138,8 +170,11 @@ add_row (Borders *b, int y)
 
   for (const CeldBasinRun *r = run + 1; r < end; r++)
     {
-      CeldBorder *border = find_border (b, r[-1].basin, r->basin);
+      CeldBorder *border;
 
+      if (!is_anew (b->plot, r->x - 1, y) && !is_anew (b->plot, r->x, y))
+        continue;
+      border = find_border (b, r[-1].basin, r->basin);
       if (!border)
         return CELD_NO_MEMORY;
       add_pair (b, border, r->x - 1, y, false);
@@ -151,14 +186,15 @@ add_row (Borders *b, int y)
       CeldBorder *border;
 
       next = run_end < stop ? run_end : stop;
-      if (run->basin != below->basin)
-        {
-          border = find_border (b, run->basin, below->basin);
-          if (!border)
-            return CELD_NO_MEMORY;
-          for (; x < next; x++)
+      border = NULL;
+      for (x = run->basin == below->basin ? next : x; x < next; x++)
+        if (is_anew (b->plot, x, y) || is_anew (b->plot, x, y + 1))
+          {
+            border = border ? border : find_border (b, run->basin, below->basin);
+            if (!border)
+              return CELD_NO_MEMORY;
             add_pair (b, border, x, y, true);
-        }
+          }
       run += run_end == next;
       below += stop == next;
     }
@@ -176,18 +212,20 @@ compare (const void *a, const void *b)
 }
 
 CeldStatus
-celd_basins_touch (const CeldPlane *ink, const int32_t *squared, const CeldRun *run, CeldBasins *basins)
+celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldRun *run,
+                   CeldBorder **border, size_t *n)
 {
-  Borders    b = { .ink = ink, .squared = squared, .basins = basins };
+  Borders    b = { .ink = ink, .plot = plot, .basins = basins };
+  int        top = plot->box.y, end = top + plot->box.height;
   CeldStatus status = CELD_OK;
 
-  for (int y = 0; y < basins->height && status == CELD_OK; y++)
+  for (int y = top; y < end && status == CELD_OK; y++)
     {
-      if (y + 2 < basins->height)
+      if (y + 2 < end)
         fetch_row (&b, y + 2);
       status = add_row (&b, y);
       if (status == CELD_OK && y % ROWS == 0)
-        status = celd_step (run, (double) y / basins->height);
+        status = celd_step (run, (double) (y - top) / (end - top));
     }
   celd_free (b.slot);
   if (status != CELD_OK)
@@ -197,7 +235,7 @@ celd_basins_touch (const CeldPlane *ink, const int32_t *squared, const CeldRun *
     }
   if (b.n)
     qsort (b.border, b.n, sizeof *b.border, compare);
-  basins->border = b.border;
-  basins->n_borders = b.n;
+  *border = b.border;
+  *n = b.n;
   return CELD_OK;
 }

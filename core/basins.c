@@ -4,7 +4,16 @@
  */
 #include "basin-steps.h"
 
-/* Everything but the costs. */
+void
+celd_basins_measure (CeldBasins *basins)
+{
+  for (int y = 0; y < basins->height; y++)
+    for (size_t i = basins->row[y], end = basins->row[y + 1]; i < end; i++)
+      basins->basin[basins->run[i].basin].area +=
+        (uint32_t) ((i + 1 < end ? basins->run[i + 1].x : basins->width) - basins->run[i].x);
+}
+
+/* Everything but stroke and costs. */
 static CeldStatus
 build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
 {
@@ -12,12 +21,16 @@ build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
   CeldRun    measuring = celd_run_part (&parts[0], run, 0, 0.4), ascending = celd_run_part (&parts[1], run, 0.4, 0.9);
   CeldRun    touching = celd_run_part (&parts[2], run, 0.9, 1);
   int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
+  CeldPlot   plot = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL, NULL };
   CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = celd_basins_ascend (squared, &ascending, basins);
+    status = celd_basins_ascend (&plot, &ascending, basins);
   if (status == CELD_OK)
-    status = celd_basins_touch (ink, squared, &touching, basins);
+    {
+      celd_basins_measure (basins);
+      status = celd_basins_touch (ink, &plot, basins, &touching, &basins->border, &basins->n_borders);
+    }
   if (status == CELD_OK)
     status = celd_basins_unite (basins);
   if (status == CELD_OK)
@@ -48,20 +61,32 @@ CeldStatus
 celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, CeldBasins *basins)
 {
   CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
+  int        left = changed->x > 0 ? changed->x : 0, right = changed->x + changed->width;
+  int        top = changed->y > 0 ? changed->y : 0, bottom = changed->y + changed->height;
+  CeldRect   inside = { left, top, (right < ink->width ? right : ink->width) - left,
+                        (bottom < ink->height ? bottom : ink->height) - top };
   CeldStatus status;
 
   if (!CELD_SAME_SIZE (ink, ink) || ink->width != basins->width || ink->height != basins->height)
     return CELD_BAD_SIZE;
-  (void) changed;
+  if (inside.width < 1 || inside.height < 1)
+    return CELD_OK;
   found.stroke = celd_stroke_width (ink);
-  status = build (ink, run, &found);
-  if (status != CELD_OK)
-    celd_basins_clear (&found);
-  else
+  status = found.stroke == basins->stroke ? celd_basins_revise (ink, &inside, basins, run, &found) : CELD_OK;
+  if (status == CELD_OK && found.basin)
     {
-      celd_basins_clear (basins);
-      *basins = found;
+      found.paper = basins->paper;
+      basins->paper = NULL;
+      celd_paper_renew (ink, &inside, run, found.paper);
     }
+  else if (status == CELD_OK)
+    status = build (ink, run, &found);
+  if (status == CELD_OK)
+    celd_basins_clear (basins);
+  else
+    celd_basins_clear (&found);
+  if (status == CELD_OK)
+    *basins = found;
   return status;
 }
 
