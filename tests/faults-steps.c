@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
+#include "segment.h"
 
 /* ------------------------------------------------------------------ the scene */
 
@@ -115,6 +116,46 @@ flats_step (const CeldRun *run, Results *r)
   return celd_segment (&ink, &seeds, &relations, &flats, run, &labels, &r->palette, &r->problems);
 }
 
+/* An empty page of one label, and two hard bars of another close to each other: the window is large enough to be cut in
+ * blocks first, and the border between the bars is looked at again. */
+static CeldStatus
+windows_step (const CeldRun *run, Results *r)
+{
+  static float   page[4 * W * H];
+  CeldPlane      ink = { 2 * W, 2 * H, 2 * W, page };
+  CeldSettings   hard = settings;
+  CeldBasins     basins = { 0 };
+  CeldCanvas     canvas = { .settings = &hard, .ink = &ink, .basins = &basins };
+  CeldPatches    patches = { 0 };
+  uint32_t       label[2];
+  CeldStatus     status;
+
+  (void) r;
+  hard.hardness = 1;
+  for (int p = 0; p < 4 * W * H; p++)
+    page[p] = 1;
+  status = celd_basins_new (&ink, settings.ink_threshold, NULL, &basins);
+  if (status == CELD_OK)
+    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+  for (int y = 30; y < 70 && status == CELD_OK; y++)
+    {
+      status = celd_seed_rows_paint (&canvas.seeds, y, 40, 48, 2);
+      if (status == CELD_OK)
+        status = celd_seed_rows_paint (&canvas.seeds, y, 54, 62, 2);
+    }
+  for (int k = 0; k < 2 && status == CELD_OK; k++)
+    status = celd_canvas_add (&canvas, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &label[k]);
+  if (status == CELD_OK && basins.n == 1)
+    status = celd_windows_solve (&canvas, label, run, &patches);
+  if (status == CELD_OK && !patches.n)
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  celd_basins_clear (&basins);
+  celd_seed_rows_clear (&canvas.seeds);
+  celd_palette_clear (&canvas.palette);
+  celd_patches_clear (&patches);
+  return status;
+}
+
 static CeldStatus
 separate_step (const CeldRun *run, Results *r)
 {
@@ -204,6 +245,7 @@ const Step steps[] = {
   { "arrows", arrows_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },
+  { "windows", windows_step, NULL, true },
   { "separate", separate_step, &label_palette, true },
   { "labels", labels_step, NULL, false },
   { "background", background_step, &label_palette, false },
