@@ -21,7 +21,6 @@
 #define FINE          7         /* pixels across a stroke are enough */
 #define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
 #define SHORTEST      6         /* pixels: dots and specks point nowhere */
-#define DETOUR        2.0       /* a line goes on to another's side if that is at most so many times the shortest way */
 #define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
 #define MOST_ASLANT   1.5         /* widths between a tip and where the border lands */
 #define LAG           0.25        /* of the length: right at its end a parabola is least certain of its direction */
@@ -366,31 +365,42 @@ celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place)
   return nearest;
 }
 
-/* Puts the end where the way from a place in a direction of length 1 first meets its ink; false if that is farther. */
-static bool
-meet (const CeldPlane *ink, CeldPlace from, double dx, double dy, double farthest, CeldLineEnd *end)
+/* The ink that a border from the other end should go to.  A way of length l that turns off by the angle a from where a
+ * line is heading counts l (1 + 2 (1 - cos a)): straight on, if the shortest way is not less than half as long. */
+static CeldPlace
+aim (const CeldLineEnd *from, const CeldLineEnd *end)
 {
-  for (double t = 0; t <= farthest; t += 0.25)
-    {
-      CeldPlace place = { from.x + t * dx, from.y + t * dy };
+  double    least = INFINITY;
+  CeldPlace place = end->at;
 
-      if (!is_mine (ink, end, place))
+  for (size_t i = 0; i < end->n; i++)
+    {
+      double x = end->pixel[i].x + 0.5 - from->at.x, y = end->pixel[i].y + 0.5 - from->at.y;
+      double length = sqrt (x * x + y * y), cost = from->tip ? 3 * length - 2 * (x * from->dx + y * from->dy) : length;
+
+      if (cost >= least)
         continue;
-      end->at     = place;
-      end->inside = (CeldPlace) { place.x + dx, place.y + dy };
-      return true;
+      least = cost;
+      place = (CeldPlace) { from->at.x + x, from->at.y + y };
     }
-  return false;
+  return place;
 }
 
 void
 celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end)
 {
-  CeldCorner pixel = end->pixel[celd_line_end_nearest (end, from->at)];
-  double     x = pixel.x + 0.5 - from->at.x, y = pixel.y + 0.5 - from->at.y, length = sqrt (x * x + y * y);
+  CeldPlace place = aim (from, end);
+  double    length = celd_distance_between (from->at, place);
+  double    x = length > 0 ? (place.x - from->at.x) / length : 0, y = length > 0 ? (place.y - from->at.y) / length : 0;
 
-  if (from->tip && meet (ink, from->at, from->dx, from->dy, DETOUR * length, end))
-    return;
-  if (length > 0)
-    meet (ink, from->at, x / length, y / length, length, end);
+  end->at = end->inside = place;
+  for (double t = 0; t < length; t += 0.25) /* the edge of that ink */
+    {
+      place = (CeldPlace) { from->at.x + t * x, from->at.y + t * y };
+      if (!is_mine (ink, end, place))
+        continue;
+      end->at     = place;
+      end->inside = (CeldPlace) { place.x + x, place.y + y };
+      break;
+    }
 }
