@@ -79,7 +79,7 @@ find_holders (const CeldSpread *spread, bool all_count, uint32_t *holder)
 }
 
 /* Who holds each pixel of the frame: who holds its room; behind a small gap in a contour, where its room is not most of
- * the frame, also who holds its piece.  Leaves the spread by pieces. */
+ * the frame, also who holds its piece. */
 static CeldStatus
 hold_frame (const CeldCanvas *canvas, CeldSpread *spread, Frame *frame)
 {
@@ -92,11 +92,14 @@ hold_frame (const CeldCanvas *canvas, CeldSpread *spread, Frame *frame)
 
   if (status == CELD_OK)
     {
+      status = celd_spread_share (b, b->room, spread);
       find_holders (spread, all_count, of_room);
-      status = celd_spread_share (b, b->piece, spread);
     }
   if (status == CELD_OK)
-    find_holders (spread, all_count, of_piece);
+    {
+      status = celd_spread_share (b, b->piece, spread);
+      find_holders (spread, all_count, of_piece);
+    }
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     along[b->room[frame->basin[i]]]++;
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
@@ -180,25 +183,25 @@ CeldStatus
 celd_background_seed (const CeldRun *run, CeldCanvas *canvas)
 {
   Frame      frame = { 0 };
-  CeldSpread spread = { 0 };
+  CeldSpread own = { 0 }, *spread = canvas->painted.dab && !canvas->stained ? &canvas->painted : &own;
   uint32_t   label = 0;
   CeldStatus status;
 
   if (canvas->settings->background == CELD_BACKGROUND_NONE)
     return CELD_OK;
   status = frame_new (canvas, &frame);
+  if (status == CELD_OK && spread == &own)
+    status = celd_spread_new (canvas, NULL, spread);
   if (status == CELD_OK)
-    status = celd_spread_new (canvas, canvas->basins->room, &spread);
-  if (status == CELD_OK)
-    status = hold_frame (canvas, &spread, &frame);
+    status = hold_frame (canvas, spread, &frame);
   if (status == CELD_OK)
     status = choose (canvas, &frame, &label);
   if (status == CELD_OK && label)
     {
       canvas->palette.item[label - 1].background = true;
-      status = seed (canvas, &spread, &frame, label);
+      status = seed (canvas, spread, &frame, label);
     }
-  celd_spread_clear (&spread);
+  celd_spread_clear (&own);
   frame_clear (&frame);
   return status == CELD_OK ? celd_step (run, 1) : status;
 }

@@ -371,29 +371,28 @@ CeldStatus
 celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
 {
   const uint32_t *piece = canvas->basins->piece;
-  CeldSpread      spread = { 0 };
+  CeldSpread     *spread = &canvas->painted;
   bool           *stained;
-  CeldStatus      status;
+  CeldStatus      status = celd_spread_new (canvas, piece, spread);
 
-  if (celd_canvas_obeys (canvas))
-    return CELD_OK;
-  status = celd_spread_new (canvas, piece, &spread);
-  if (status != CELD_OK)
+  if (status != CELD_OK || celd_canvas_obeys (canvas))
     return status;
-  for (size_t i = 0, j; i < spread.n; i = j)
+  for (size_t i = 0, j; i < spread->n; i = j)
     {
-      for (j = i; j < spread.n && spread.share[j].part == spread.share[i].part; j++)
+      for (j = i; j < spread->n && spread->share[j].part == spread->share[i].part; j++)
         ;
-      judge_piece (&spread, i, j);
+      judge_piece (spread, i, j);
     }
-  stained = celd_alloc0 (spread.n_strokes, sizeof *stained); /* most strokes leave none: no need to look at dabs */
+  stained = celd_alloc0 (spread->n_strokes, sizeof *stained); /* most strokes leave none: no need to look at dabs */
   status  = stained ? CELD_OK : CELD_NO_MEMORY;
-  for (size_t i = 0; i < spread.n && status == CELD_OK; i++)
-    stained[spread.share[i].stroke] |= spread.share[i].stain;
-  for (size_t i = 0; i < spread.n_dabs && status == CELD_OK; i++)
-    if (stained[spread.dab[i].stroke] && is_stain (&spread, piece[spread.dab[i].basin], &spread.dab[i]))
-      status = celd_dab_remove (canvas, &spread.dab[i]);
+  for (size_t i = 0; i < spread->n && status == CELD_OK; i++)
+    stained[spread->share[i].stroke] |= spread->share[i].stain;
+  for (size_t i = 0; i < spread->n_dabs && status == CELD_OK; i++)
+    if (stained[spread->dab[i].stroke] && is_stain (spread, piece[spread->dab[i].basin], &spread->dab[i]))
+      {
+        canvas->stained = true;
+        status = celd_dab_remove (canvas, &spread->dab[i]);
+      }
   celd_free (stained);
-  celd_spread_clear (&spread);
   return status == CELD_OK ? celd_step (run, 1) : status;
 }

@@ -77,6 +77,13 @@ follow_strokes (const CeldSpread *spread, const CeldPainting *painting, const Ce
     }
 }
 
+/* Seeds of arrows are nobody's strokes. */
+static bool
+is_painted (const CeldCanvas *canvas, uint32_t label)
+{
+  return label <= canvas->palette.n && canvas->palette.item[label - 1].origin != CELD_FROM_ARROW;
+}
+
 static CeldStatus
 report_overruled (const CeldCanvas *canvas, const CeldSpread *spread, const CeldPainting *painting,
                   const CeldLabels *labels, CeldProblems *problems)
@@ -87,7 +94,7 @@ report_overruled (const CeldCanvas *canvas, const CeldSpread *spread, const Celd
   if (status == CELD_OK)
     follow_strokes (spread, painting, labels, fate);
   for (size_t k = 0; k < spread->n_strokes && status == CELD_OK; k++)
-    if (fate[k].label <= canvas->palette.n && 2 * fate[k].overruled > fate[k].area &&
+    if (is_painted (canvas, fate[k].label) && 2 * fate[k].overruled > fate[k].area &&
         SCRAP * fate[k].area >= canvas->palette.item[fate[k].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
         CELD_PROBLEM_STROKE_OVERRULED, fate[k].x, fate[k].y, fate[k].label, fate[k].other, CELD_NO_INDEX });
@@ -210,19 +217,19 @@ celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const 
                      const CeldLabels *labels, const CeldRun *run, CeldProblems *problems)
 {
   bool       all = !canvas->settings->flats;
-  CeldCanvas painted = *canvas;
-  CeldSpread spread = { 0 };
+  CeldCanvas before = *canvas;
+  CeldSpread own = { 0 };
   CeldStatus status = CELD_OK;
 
-  painted.seeds = *seeds;
-  if (all)
-    status = celd_spread_new (&painted, canvas->basins->piece, &spread);
+  before.seeds = *seeds;
+  if (all && !canvas->painted.dab)
+    status = celd_spread_new (&before, NULL, &own);
   if (all && status == CELD_OK)
-    status = report_overruled (canvas, &spread, painting, labels, problems);
+    status = report_overruled (canvas, own.dab ? &own : &canvas->painted, painting, labels, problems);
   if (status == CELD_OK)
     status = report_lost (canvas, seeds, problems);
   if (all && status == CELD_OK)
     status = report_unreached (canvas, labels, problems);
-  celd_spread_clear (&spread);
+  celd_spread_clear (&own);
   return status == CELD_OK ? celd_step (run, 1) : status;
 }

@@ -36,6 +36,8 @@ typedef struct
   CeldSeedRows        seeds;     /* painted ones, and those that arrows and the frame add */
   CeldPalette         palette;   /* of all labels so far */
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
+  CeldSpread          painted;   /* where seeds lay before stains were taken back; empty before they are looked for */
+  bool                stained;   /* and some have been taken back */
   CeldSpread         *kept;      /* of seeds that the last answer for these basins was made from; NULL: none is kept */
 } CeldCanvas;
 

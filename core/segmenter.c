@@ -170,6 +170,7 @@ static void
 canvas_clear (CeldCanvas *canvas)
 {
   celd_seed_rows_clear (&canvas->seeds);
+  celd_spread_clear (&canvas->painted);
   celd_palette_clear (&canvas->palette);
 }
 

@@ -120,6 +120,7 @@ sketch_close (Sketch *s)
   free (s->basins.run);
   free (s->basins.paper);
   celd_seed_rows_clear (&s->canvas.seeds);
+  celd_spread_clear (&s->canvas.painted);
   celd_palette_clear (&s->canvas.palette);
 }
 
