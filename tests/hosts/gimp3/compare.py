@@ -16,7 +16,7 @@ from PIL import Image
 RESULTS = ['labels', 'order', 'levels', 'depth', 'normals', 'shading']
 WANTED = {name: name for name in RESULTS}
 WANTED.update({'popup-' + name: name for name in RESULTS})
-WANTED.update({name: name for name in ('contours-segmentation', 'contours-depth', 'popup-contours')})
+WANTED.update({name: name for name in ('contours-segmentation', 'contours-depth', 'popup-contours', 'popup-problems')})
 
 
 def encode(linear):
