@@ -309,6 +309,8 @@ grow (CeldNetwork *network, int tree, uint32_t p)
       CeldArc      *arc = &network->arc[a];
       CeldFlowNode *other = &network->node[arc->to];
 
+      if (arc->left[tree] && other->tree == CELD_NO_TREE && other->excess)
+        celd_network_root (network, arc->to);
       while (arc->left[tree] && other->tree == !tree && node->tree == tree)
         {
           augment (network, tree, p, arc);

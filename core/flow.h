@@ -49,7 +49,8 @@ typedef struct
 CeldStatus celd_network_new (size_t n, const CeldLink *link, size_t n_links, CeldNetwork *network);
 void       celd_network_clear (CeldNetwork *network); /* accepts a zeroed one */
 
-/* To begin a search; then a root for each node that has an excess, or lacks something, and is not closed. */
+/* To begin a search; then a root for each node that has an excess and is not closed, and may be for nodes that lack
+ * something, which are found in any case: their tree can grow from the start if all of them are told. */
 void celd_network_begin (CeldNetwork *network);
 void celd_network_root (CeldNetwork *network, uint32_t p);
 

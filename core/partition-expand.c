@@ -22,8 +22,11 @@
 typedef struct
 {
   CeldPartitionGraph *graph;
-  int64_t *held;            /* of each node: the votes for the label that it has */
-  int64_t *wanted;          /* the votes for alpha, while it expands; else 0 */
+  int64_t  *held;           /* of each node: the votes for the label that it has */
+  int64_t  *wanted;         /* the votes for alpha, while it expands; else 0 */
+  uint32_t *loose;          /* nodes with an excess that is there without alpha; at first all that lack something, too */
+  size_t    n_loose;
+  bool     *is_loose;
 } Expansion;
 
 /* ------------------------------------------------------------------ the network without alpha */
@@ -41,7 +44,9 @@ lay_out (Expansion *e)
     {
       CeldFlowNode *node = &graph->network.node[p];
 
-      node->excess = -2 * e->held[p];
+      node->excess   = -2 * e->held[p];
+      e->is_loose[p] = true;
+      e->loose[e->n_loose++] = p;
       for (uint32_t a = node->arc; a < node[1].arc; a++)
         {
           CeldArc *arc = &graph->network.arc[a];
@@ -112,23 +117,42 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
 
 /* ------------------------------------------------------------------ one expansion */
 
+/* Excess is looked for where it comes from, and nodes that lack something only found: what borders on alpha is little. */
+static void
+root (Expansion *e, uint32_t p)
+{
+  const CeldFlowNode *node = &e->graph->network.node[p];
+
+  if (node->excess > 0 && node->tree == CELD_NO_TREE)
+    celd_network_root (&e->graph->network, p);
+}
+
 /* The nodes that are alpha already are the source. */
 static void
 close_alpha (Expansion *e, uint32_t alpha)
 {
-  CeldNetwork *network = &e->graph->network;
+  CeldNetwork    *network = &e->graph->network;
+  const uint32_t *rank = e->graph->rank;
 
   for (uint32_t p = 0; p < e->graph->n; p++)
-    {
-      CeldFlowNode *node = &network->node[p];
+    if (rank[p] == alpha)
+      network->node[p].tree = CELD_CLOSED;
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (rank[p] == alpha)
+      for (uint32_t a = network->node[p].arc; a < network->node[p + 1].arc; a++)
+        if (rank[network->arc[a].to] != alpha)
+          {
+            move (network, p, &network->arc[a], network->arc[a].left[CELD_SOURCE]);
+            root (e, network->arc[a].to);
+          }
+}
 
-      if (e->graph->rank[p] != alpha)
-        continue;
-      node->tree = CELD_CLOSED;
-      for (uint32_t a = node->arc; a < node[1].arc; a++)
-        if (e->graph->rank[network->arc[a].to] != alpha)
-          move (network, p, &network->arc[a], network->arc[a].left[CELD_SOURCE]);
-    }
+static void
+open_alpha (Expansion *e, uint32_t alpha)
+{
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (e->graph->rank[p] == alpha)
+      e->graph->network.node[p].tree = CELD_NO_TREE;
 }
 
 /* Puts (sign = 1) or takes away (-1) what the votes for alpha add. */
@@ -145,6 +169,8 @@ vote (Expansion *e, uint32_t alpha, int sign)
         continue;
       graph->network.node[ballot->node].excess += 2 * sign * ballot->cost;
       e->wanted[ballot->node] = ballot->cost;
+      if (sign > 0)
+        root (e, ballot->node);
     }
 }
 
@@ -155,6 +181,38 @@ forget_votes (Expansion *e, uint32_t alpha)
     e->wanted[e->graph->ballot[e->graph->by_rank[i]].node] = 0;
 }
 
+static void
+add_loose (Expansion *e, uint32_t p)
+{
+  if (e->is_loose[p] || e->graph->network.node[p].excess <= 0)
+    return;
+  e->is_loose[p] = true;
+  e->loose[e->n_loose++] = p;
+}
+
+/* All that can have an excess now: nodes that had it and were closed, nodes that took alpha, and those beside them. */
+static void
+find_loose (Expansion *e)
+{
+  const CeldNetwork *network = &e->graph->network;
+  size_t             n = e->n_loose;
+
+  e->n_loose = 0;
+  for (size_t i = 0; i < n; i++)
+    {
+      e->is_loose[e->loose[i]] = false;
+      add_loose (e, e->loose[i]);
+    }
+  for (size_t i = 0; i < network->n_reached; i++)
+    {
+      const CeldFlowNode *node = &network->node[network->reached[i]];
+
+      add_loose (e, network->reached[i]);
+      for (uint32_t a = node->arc; a < node[1].arc; a++)
+        add_loose (e, network->arc[a].to);
+    }
+}
+
 /* *changed: did any node take the label? */
 static CeldStatus
 expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
@@ -162,21 +220,21 @@ expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
   CeldNetwork *network = &e->graph->network;
   CeldStatus   status;
 
+  celd_network_begin (network);
   close_alpha (e, alpha);
   vote (e, alpha, 1);
-  celd_network_begin (network);
-  for (uint32_t p = 0; p < e->graph->n; p++)
-    if (network->node[p].excess && network->node[p].tree != CELD_CLOSED)
-      celd_network_root (network, p);
+  for (size_t i = 0; i < e->n_loose; i++)
+    if (network->node[e->loose[i]].excess && network->node[e->loose[i]].tree == CELD_NO_TREE)
+      celd_network_root (network, e->loose[i]);
   status = celd_network_drain (network, run);
   if (status != CELD_OK)
     return status;
+  open_alpha (e, alpha);
   vote (e, alpha, -1);
   for (size_t i = 0; i < network->n_reached; i++)
     take (e, network->reached[i], alpha);
   forget_votes (e, alpha);
-  for (uint32_t p = 0; p < e->graph->n; p++)
-    network->node[p].tree = CELD_NO_TREE;
+  find_loose (e);
   *changed = network->n_reached;
   return CELD_OK;
 }
@@ -189,9 +247,11 @@ celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
   size_t     settled = 0; /* labels in a row that could not expand */
   CeldStatus status = CELD_NO_MEMORY;
 
-  e.held   = celd_alloc0 (graph->n, sizeof *e.held);
-  e.wanted = celd_alloc0 (graph->n, sizeof *e.wanted);
-  if (!e.held || !e.wanted)
+  e.held     = celd_alloc0 (graph->n, sizeof *e.held);
+  e.wanted   = celd_alloc0 (graph->n, sizeof *e.wanted);
+  e.loose    = celd_alloc (graph->n, sizeof *e.loose);
+  e.is_loose = celd_alloc (graph->n, sizeof *e.is_loose);
+  if (!e.held || !e.wanted || !e.loose || !e.is_loose)
     goto done;
   lay_out (&e);
   status = celd_step (run, 0); /* how often all labels have to be tried cannot be told */
@@ -210,5 +270,7 @@ celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
 done:
   celd_free (e.held);
   celd_free (e.wanted);
+  celd_free (e.loose);
+  celd_free (e.is_loose);
   return status;
 }

@@ -43,14 +43,15 @@ celd_partition (const CeldPartition *problem, const CeldRun *run, uint32_t *labe
   CeldRun            half[2] = { celd_run_part (&part[0], run, 0, 0.5), celd_run_part (&part[1], run, 0.5, 1) };
   uint32_t          *result = celd_alloc (problem->n, sizeof *result);
   CeldStatus         status = result ? celd_partition_graph_new (problem, &graph) : CELD_NO_MEMORY;
-  int64_t            before = 0, after;
+  int64_t            before, after;
 
   if (status == CELD_OK)
     status = celd_partition_greedy (&graph, &half[0]);
   if (status != CELD_OK)
     goto done;
   before = after = read_labels (problem, &graph, result);
-  status = celd_partition_expand (&graph, &half[1]);
+  if (graph.n_ranks > 2) /* else the cut was the best there is */
+    status = celd_partition_expand (&graph, &half[1]);
   if (status != CELD_OK)
     goto done;
   after = read_labels (problem, &graph, result);
