@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
+#include "partition.h"
 #include "segment.h"
 
 /* ------------------------------------------------------------------ the scene */
@@ -237,6 +238,50 @@ shade_step (const CeldRun *run, Results *r)
   return celd_shade (&normals, &settings, &shading);
 }
 
+/* A grid of 8 x 6 nodes, of which four labels hold the corners and quarrel about the rest. */
+static size_t
+draw_graph (CeldLink *link, CeldVote *vote)
+{
+  size_t n_links = 0;
+
+  for (uint32_t p = 0; p < 48; p++)
+    {
+      vote[p] = (CeldVote) { p, 1 + (p % 8 > 3) + 2 * (p > 23), 1 + p * 5 % 7 + 30 * (p % 7 == 0) };
+      if (p % 5 == 0)
+        vote[p].label = 1 + p % 4;
+      if (p % 8 < 7)
+        link[n_links++] = (CeldLink) { p, p + 1, 2 + p * 7 % 11 };
+      if (p < 40)
+        link[n_links++] = (CeldLink) { p, p + 8, 2 + p * 3 % 13 };
+    }
+  return n_links;
+}
+
+static CeldStatus
+flow_step (const CeldRun *run, Results *r)
+{
+  CeldLink link[96];
+  CeldVote vote[48];
+  size_t   n_links = draw_graph (link, vote);
+  int64_t  terminal[48];
+
+  for (size_t p = 0; p < 48; p++)
+    terminal[p] = vote[p].label == 1 ? vote[p].cost : -vote[p].cost;
+  return celd_flow (48, link, n_links, terminal, run, r->pixels->paint, NULL);
+}
+
+static CeldStatus
+partition_step (const CeldRun *run, Results *r)
+{
+  const uint32_t order[4] = { 3, 1, 4, 2 }, fixed[48] = { [20] = 2, [27] = 2 };
+  CeldLink       link[96];
+  CeldVote       vote[48];
+  size_t         n_links = draw_graph (link, vote);
+  CeldPartition  problem = { 48, link, n_links, vote, 48, fixed, order, 4 };
+
+  return celd_partition (&problem, run, r->pixels->labels, NULL, NULL);
+}
+
 const Step steps[] = {
   { "ink", ink_step, NULL, true },
   { "contours", contours_step, NULL, true },
@@ -255,6 +300,8 @@ const Step steps[] = {
   { "smooth", smooth_step, NULL, true },
   { "normals", normals_step, NULL, true },
   { "shade", shade_step, NULL, false },
+  { "flow", flow_step, NULL, true },
+  { "partition", partition_step, NULL, true },
 };
 
 const size_t n_steps = sizeof steps / sizeof *steps;
