@@ -26,7 +26,8 @@ celd_end_find (const CeldCanvas *canvas, const CeldTerm *term)
     return end;
   end.x     = (int) term->x;
   end.y     = (int) term->y;
-  end.there = celd_paper_near (canvas->ink, basins->stroke, &end.x, &end.y);
+  end.there = celd_is_paper (CELD_AT (canvas->ink, end.x, end.y)) ||
+              celd_paper_near (canvas->ink, basins->stroke, &end.x, &end.y);
   return end;
 }
 
