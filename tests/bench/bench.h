@@ -99,8 +99,9 @@ typedef struct { int x, y; CeldMask mask; uint8_t colour[3]; double length; } St
 /* Mean width of strokes: twice their area over their outline. */
 double brush_width (const CeldPaint *scribbles);
 
-/* 100 to 400 pixels along a slightly bent line from a random place, in a scribble's colour of the palette.  The same
- * ones in every run of the program; end with celd_free (mask.data). */
+/* 100 to 400 pixels along a slightly bent line from a random place, in a scribble's colour of the palette: always the
+ * same ones after random_start.  End with celd_free (mask.data). */
+void   random_start (void);
 Stroke random_stroke (int width, int height, const CeldPalette *palette, double brush);
 
 /* ------------------------------------------------------------------ energy.c */

@@ -17,7 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_RUNS 99
+#define MOST_RUNS  99
+#define MESS       8        /* random strokes that are put among those of the case */
+#define MOST_MESSY 2000000  /* pixels; larger pictures are not tried with them */
 
 /* ------------------------------------------------------------------ sessions */
 
@@ -127,6 +129,7 @@ measure_strokes (const Case *c, const char *method, int n, CeldSession *session)
   size_t  peak = 0;
   char    text[80];
 
+  random_start ();
   for (int i = 0; i < n; i++)
     {
       Stroke s = random_stroke (c->width, c->height, &before.palette, width);
@@ -281,12 +284,28 @@ measure_engine (const Case *c)
   return answer;
 }
 
+/* Labels, after n random strokes. */
 static Answer
-solve (const Case *c, const CeldSettings *settings)
+solve (const Case *c, const CeldSettings *settings, int n)
 {
   CeldSession *session = open_session (c, settings);
+  double       brush = brush_width (&c->scribbles);
   Answer       answer = answer_of (c, session);
 
+  keep_problem = settings->method == CELD_METHOD_EXACT;
+  for (int i = 0; i < n; i++)
+    {
+      Stroke s = random_stroke (c->width, c->height, &answer.palette, brush);
+
+      must (celd_session_put_stroke (session, (uint32_t) i + 1, s.x, s.y, &s.mask, s.colour));
+      celd_free (s.mask.data);
+    }
+  if (n)
+    {
+      answer_clear (&answer);
+      answer = answer_of (c, session);
+    }
+  keep_problem = false;
   celd_session_free (session);
   return answer;
 }
@@ -312,7 +331,30 @@ measure_exact (const Case *c, const CeldSettings *settings, const Costs *costs)
   return answer;
 }
 
-/* Soft and hard strokes with what raises the energy by design turned off, and soft strokes with all of it. */
+/* The engine and exact cuts with the same settings, after n random strokes. */
+static void
+compare_settings (const Case *c, const char *name, CeldSettings settings, int n, const CeldPlane *ink,
+                  const Costs *costs)
+{
+  Answer engine, exact;
+  char   text[80];
+
+  settings.method = CELD_METHOD_BASINS;
+  random_start ();
+  engine = solve (c, &settings, n);
+  settings.method = CELD_METHOD_EXACT;
+  random_start ();
+  exact = solve (c, &settings, n);
+  compare_print (c, name, ink, costs, &engine, &exact);
+  answer_keep (c, name, &engine);
+  snprintf (text, sizeof text, "exact-%s", name);
+  answer_keep (c, text, &exact);
+  answer_clear (&engine);
+  answer_clear (&exact);
+}
+
+/* Soft and hard strokes with what raises the energy by design turned off, also with random strokes among them; and soft
+ * strokes with all of it. */
 static void
 compare_methods (const Case *c, const CeldPlane *ink, const Answer *engine)
 {
@@ -321,7 +363,7 @@ compare_methods (const Case *c, const CeldPlane *ink, const Answer *engine)
   Answer       plain, exact;
 
   settings.close_gaps = settings.keep_necks = false;
-  plain = solve (c, &settings);
+  plain = solve (c, &settings, 0);
   settings.method = CELD_METHOD_EXACT;
   exact = measure_exact (c, &settings, &costs);
   compare_print (c, "soft", ink, &costs, &plain, &exact);
@@ -329,18 +371,12 @@ compare_methods (const Case *c, const CeldPlane *ink, const Answer *engine)
   answer_keep (c, "soft", &plain);
   answer_clear (&plain);
   answer_clear (&exact);
-
+  if (c->n <= MOST_MESSY)
+    compare_settings (c, "messy", settings, MESS, ink, &costs);
   settings.hardness = 1;
-  keep_problem = true;
-  exact = solve (c, &settings);
-  keep_problem = false;
-  settings.method = CELD_METHOD_BASINS;
-  plain = solve (c, &settings);
-  compare_print (c, "hard", ink, &costs, &plain, &exact);
-  answer_keep (c, "hard", &plain);
-  answer_keep (c, "exact-hard", &exact);
-  answer_clear (&plain);
-  answer_clear (&exact);
+  compare_settings (c, "hard", settings, 0, ink, &costs);
+  if (c->n <= MOST_MESSY)
+    compare_settings (c, "messy-hard", settings, MESS, ink, &costs);
   problem_clear ();
   free (costs.east);
   free (costs.south);

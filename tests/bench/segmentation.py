@@ -138,9 +138,14 @@ TABLES = [
     ('Energy as a multiple of exact cuts, white pixels that agree with them (%)', [
         ('E soft', '.4f', of('soft', 'ratio')),
         ('E hard', '.4f', of('hard', 'ratio')),
-        ('disobeyed', '.0f', of('hard', 'disobeyed')),
+        ('E messy', '.4f', of('messy', 'ratio')),
+        ('E m. hard', '.4f', of('messy-hard', 'ratio')),
+        ('disobeyed', '.0f', lambda r: r['hard']['disobeyed'] + r.get('messy-hard', {}).get('disobeyed', 0)
+         if 'hard' in r else None),
         ('soft', '.3f', of('soft', 'agreement', 100)),
         ('hard', '.3f', of('hard', 'agreement', 100)),
+        ('messy', '.3f', of('messy', 'agreement', 100)),
+        ('m. hard', '.3f', of('messy-hard', 'agreement', 100)),
         ('default', '.3f', of('default', 'agreement', 100))]),
     ('Scored pixels that are right (%), and who is right of those that differ (%)', [
         ('exact', '.3f', of('soft', 'exact segment', 100)),
@@ -186,6 +191,7 @@ def main():
     names = lambda text: [name for name in text.split(',') if name]
     parser.add_argument('--build', default='build-bench', metavar='DIR', help=argparse.SUPPRESS)
     parser.add_argument('--cases', type=names, default=CLEAN + VARIANTS, metavar='NAME,...', help='of tests/cases')
+    parser.add_argument('--large-cases', type=names, metavar='NAME,...', help='those above 2 megapixels (all)')
     parser.add_argument('--boost-cases', type=names, default=BOOST, metavar='NAME,...',
                         help=f'those that Boost solves too ({",".join(BOOST)})')
     parser.add_argument('--sizes', type=lambda text: [float(s) for s in text.split(',')], default=[1, 4, 8.3],
@@ -201,7 +207,7 @@ def main():
 
     results = []
     for size in options.sizes:
-        for name in options.cases:
+        for name in options.large_cases or options.cases if size > 2 else options.cases:
             print(f'{name}, {size:g} MP', file=sys.stderr)
             results.append(measure(name, size, options))
     if options.json:

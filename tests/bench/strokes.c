@@ -8,11 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+static uint64_t state; /* of xorshift64* [Vigna 2016] */
+
+void
+random_start (void)
+{
+  state = 0x9e3779b97f4a7c15u;
+}
+
 static uint64_t
 random_bits (void)
 {
-  static uint64_t state = 0x9e3779b97f4a7c15u;   /* xorshift64* [Vigna 2016] */
-
   state ^= state >> 12;
   state ^= state << 25;
   state ^= state >> 27;
