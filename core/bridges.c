@@ -15,10 +15,10 @@
 #define FAINT 0.499f            /* ink of a bridge */
 #define NEAR  6                 /* stroke widths: up to here a line may turn sharply to meet another */
 #define FAR   12                /* from here on it goes on nearly straight */
-#define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 45 and 20 degrees */
-#define TURN      0.71
+#define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
+#define TURN      0.5
 #define TURN_FAR  0.94
-#define BOW       0.5           /* of both cosines: from such a turn on both ends must turn to the same side */
+#define BOW       0.8           /* of both cosines: from such a turn on both ends must turn to the same side */
 
 typedef struct { double cost; uint32_t a, b; } Pair;
 
