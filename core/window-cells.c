@@ -115,10 +115,10 @@ read_paint (const Builder *b, int y, uint32_t *state, uint32_t *paint)
       int      end = (row->run[i].end <= w->right ? row->run[i].end : w->right + 1) - w->left;
 
       for (int k = x; k < end; k++)
-        if (hard)
-          state[k] = CELD_CELL_FIXED | l;
-        else
+        if (!hard)
           paint[k] = l;
+        else if (!(state[k] & CELD_CELL_FIXED)) /* what is not free is another window's */
+          state[k] = CELD_CELL_FIXED | l;
       for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift; k++)
         {
           b->painted[k] = true;

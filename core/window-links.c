@@ -54,9 +54,9 @@ present_label (const CeldCells *cells, uint32_t part)
   return part & CELD_CELL_FIXED ? part & ~CELD_CELL_FIXED : cells->present[part];
 }
 
-/* V between (x,y) of part a and the pixel to the right, or below, of part b.  With blocks, ink is taken to be as deep as
- * can be where the present border runs, and shallow elsewhere: what seems to be an improvement then is one, and nobody
- * needs to know how deep ink is. */
+/* V between (x,y) of part a and the pixel to the right, or below, of part b.  With blocks, ink is taken to be as deep
+ * as can be where the present border runs, and shallow elsewhere: what seems to be an improvement then is one, and
+ * nobody needs to know how deep ink is. */
 static int32_t
 edge_cost (const CeldCells *cells, uint32_t a, uint32_t b, int x, int y, bool south)
 {

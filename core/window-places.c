@@ -1,7 +1,8 @@
 /* Where paint lies in a basin of another label: the places that windows.c looks at pixel by pixel.
  *
  * Runs of such foreign paint that touch are a clump.  A clump's window is its box with room around: an artist's stroke
- * gets no more of a basin than lies near it, or it would have got the basin.  Windows that overlap are one.
+ * gets no more of a basin than lies near it, or it would have got the basin.  Windows that overlap are one, unless only
+ * ink is between their basins.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,6 +27,7 @@ typedef struct
   size_t            n_runs;
   Clump            *clump;
   size_t            n_clumps;
+  uint32_t         *family;     /* of each basin: another one of its family, or itself */
 } Places;
 
 /* ------------------------------------------------------------------ foreign paint */
@@ -152,7 +154,7 @@ number_clumps (Places *places)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < places->n_runs; i++)
     {
-      CeldWindow box = { run[i].x, run[i].y, run[i].end - 1, run[i].y, 0, 0 };
+      CeldWindow box = { run[i].x, run[i].y, run[i].end - 1, run[i].y, 0, 0, 0 };
       bool       root = run[i].clump == i;
 
       run[i].clump = root ? places->n_clumps : run[run[i].clump].clump;
@@ -180,6 +182,60 @@ open_clumps (Places *places)
     }
 }
 
+/* ------------------------------------------------------------------ which belong together */
+
+static uint32_t
+find_family (uint32_t *family, uint32_t basin)
+{
+  while (family[basin] != basin)
+    basin = family[basin] = family[family[basin]];
+  return basin;
+}
+
+static void
+marry (uint32_t *family, uint32_t a, uint32_t b)
+{
+  a = find_family (family, a);
+  b = find_family (family, b);
+  if (a < b)
+    family[b] = a;
+  else
+    family[a] = b;
+}
+
+/* Basins with foreign paint are of a family if paper joins them, or a clump.  Ink between two of them is worth nothing:
+ * they may as well be looked at one by one. */
+static CeldStatus
+find_families (Places *places)
+{
+  const CeldBasins *basins = places->canvas->basins;
+  bool             *foreign = celd_alloc0 (basins->n, sizeof *foreign);
+  uint32_t         *first = celd_alloc (places->n_clumps, sizeof *first); /* a basin of each clump */
+
+  places->family = celd_alloc (basins->n, sizeof *places->family);
+  if (!foreign || !first || !places->family)
+    {
+      celd_free (foreign);
+      celd_free (first);
+      return CELD_NO_MEMORY;
+    }
+  for (size_t k = 0; k < basins->n; k++)
+    places->family[k] = (uint32_t) k;
+  for (size_t i = places->n_runs; i-- > 0;)
+    first[places->run[i].clump] = places->run[i].basin;
+  for (size_t i = 0; i < places->n_runs; i++)
+    {
+      foreign[places->run[i].basin] = true;
+      marry (places->family, first[places->run[i].clump], places->run[i].basin);
+    }
+  for (size_t i = 0; i < basins->n_borders; i++)
+    if (basins->border[i].passes && foreign[basins->border[i].a] && foreign[basins->border[i].b])
+      marry (places->family, basins->border[i].a, basins->border[i].b);
+  celd_free (foreign);
+  celd_free (first);
+  return CELD_OK;
+}
+
 /* ------------------------------------------------------------------ windows */
 
 static void
@@ -201,16 +257,18 @@ overlap (const CeldWindow *a, const CeldWindow *b)
 }
 
 static int
-compare_tops (const void *a, const void *b)
+compare_windows (const void *a, const void *b)
 {
   const CeldWindow *p = a, *q = b;
 
+  if (p->family != q->family)
+    return p->family < q->family ? -1 : 1;
   if (p->top != q->top)
     return p->top < q->top ? -1 : 1;
   return p->left < q->left ? -1 : p->left > q->left;
 }
 
-/* Unites windows that overlap until none do; the united ones are larger and may overlap others. */
+/* Unites windows of a family that overlap until none do; the united ones are larger and may overlap others. */
 static void
 merge (CeldWindows *windows)
 {
@@ -221,12 +279,12 @@ merge (CeldWindows *windows)
       size_t n = 0;
 
       again = false;
-      qsort (item, windows->n, sizeof *item, compare_tops);
+      qsort (item, windows->n, sizeof *item, compare_windows);
       for (size_t i = 0; i < windows->n; i++)
         {
           if (item[i].left > item[i].right)
             continue; /* is part of another one */
-          for (size_t j = i + 1; j < windows->n && item[j].top <= item[i].bottom; j++)
+          for (size_t j = i + 1; j < windows->n && item[j].family == item[i].family && item[j].top <= item[i].bottom; j++)
             if (item[j].left <= item[j].right && overlap (&item[i], &item[j]))
               {
                 widen (&item[i], &item[j]);
@@ -240,68 +298,93 @@ merge (CeldWindows *windows)
     }
 }
 
-/* The window that holds a run; they do not overlap. */
+/* The window of a run's family that holds it; windows->n if there is none.  Windows of a family do not overlap. */
 static size_t
-window_of (const CeldWindows *windows, const Run *run)
+window_of (const Places *places, const CeldWindows *windows, const Run *run)
 {
-  size_t k = 0;
+  uint32_t family = find_family (places->family, run->basin);
+  size_t   low = 0, high = windows->n;
 
-  while (k < windows->n && !(windows->item[k].left <= run->x && run->x <= windows->item[k].right &&
-                             windows->item[k].top <= run->y && run->y <= windows->item[k].bottom))
-    k++;
-  return k;
+  while (low < high)
+    {
+      size_t middle = low + (high - low) / 2;
+
+      if (windows->item[middle].family < family)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+  for (; low < windows->n && windows->item[low].family == family; low++)
+    if (windows->item[low].left <= run->x && run->x <= windows->item[low].right && windows->item[low].top <= run->y
+        && run->y <= windows->item[low].bottom)
+      return low;
+  return windows->n;
 }
 
 /* The basins in which foreign paint lies, by window. */
 static CeldStatus
-list_basins (const Places *places, CeldWindows *windows)
+list_basins (Places *places, CeldWindows *windows)
 {
-  size_t   *of_clump = celd_alloc (places->n_clumps, sizeof *of_clump);
   uint32_t *last = celd_alloc0 (places->canvas->basins->n, sizeof *last); /* by basin: its last window, from 1 */
+  size_t   *begin = celd_alloc0 (windows->n + 1, sizeof *begin);
   size_t    n = 0;
 
   windows->basin = celd_alloc (places->n_runs, sizeof *windows->basin);
-  if (!of_clump || !last || !windows->basin)
+  if (!last || !begin || !windows->basin)
     {
-      celd_free (of_clump);
       celd_free (last);
+      celd_free (begin);
       return CELD_NO_MEMORY;
     }
-  for (size_t i = places->n_runs; i-- > 0;)
-    of_clump[places->run[i].clump] = i;
-  for (size_t c = 0; c < places->n_clumps; c++)
-    of_clump[c] = window_of (windows, &places->run[of_clump[c]]);
+  for (size_t i = 0; i < places->n_runs; i++)
+    {
+      places->run[i].clump = window_of (places, windows, &places->run[i]); /* clumps are of no more use */
+      begin[places->run[i].clump]++;
+    }
   for (size_t k = 0; k < windows->n; k++)
     {
-      windows->item[k].first = n;
-      for (size_t i = 0; i < places->n_runs; i++)
-        {
-          const Run *run = &places->run[i];
+      size_t runs = begin[k];
 
-          if (of_clump[run->clump] != k || last[run->basin] == k + 1)
-            continue;
-          last[run->basin] = (uint32_t) k + 1;
-          windows->basin[n++] = run->basin;
-        }
+      begin[k] = n;
+      n += runs;
+    }
+  for (size_t i = 0; i < places->n_runs; i++)
+    if (places->run[i].clump < windows->n)
+      windows->basin[begin[places->run[i].clump]++] = places->run[i].basin;
+  n = 0;
+  for (size_t k = 0, i = 0; k < windows->n; k++)
+    {
+      windows->item[k].first = n;
+      for (; i < begin[k]; i++)
+        if (last[windows->basin[i]] != k + 1)
+          {
+            last[windows->basin[i]] = (uint32_t) k + 1;
+            windows->basin[n++] = windows->basin[i];
+          }
       windows->item[k].n = n - windows->item[k].first;
     }
-  celd_free (of_clump);
   celd_free (last);
+  celd_free (begin);
   return CELD_OK;
 }
 
 static CeldStatus
-make_windows (const Places *places, CeldWindows *windows)
+make_windows (Places *places, CeldWindows *windows)
 {
   windows->item = celd_alloc (places->n_clumps, sizeof *windows->item);
   if (!windows->item)
     return CELD_NO_MEMORY;
-  for (size_t c = 0; c < places->n_clumps; c++)
-    if (places->clump[c].open)
-      {
-        windows->item[windows->n] = places->clump[c].box;
-        make_room (places->canvas->basins, &windows->item[windows->n++]);
-      }
+  for (size_t i = 0; i < places->n_runs; i++)
+    {
+      Clump *clump = &places->clump[places->run[i].clump];
+
+      if (!clump->open)
+        continue;
+      windows->item[windows->n] = clump->box;
+      windows->item[windows->n].family = find_family (places->family, places->run[i].basin);
+      make_room (places->canvas->basins, &windows->item[windows->n++]);
+      clump->open = false;
+    }
   merge (windows);
   return list_basins (places, windows);
 }
@@ -328,8 +411,10 @@ celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRu
   if (status == CELD_OK && places.n_runs)
     {
       open_clumps (&places);
-      status = make_windows (&places, &found);
+      status = find_families (&places);
     }
+  if (status == CELD_OK && places.n_runs)
+    status = make_windows (&places, &found);
   if (status == CELD_OK)
     status = celd_step (run, 0);
   if (status == CELD_OK)
@@ -338,5 +423,6 @@ celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRu
     celd_windows_clear (&found);
   celd_free (places.run);
   celd_free (places.clump);
+  celd_free (places.family);
   return status;
 }

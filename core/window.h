@@ -11,16 +11,17 @@
 /* ------------------------------------------------------------------ window-places.c */
 
 /* Pixels left .. right, top .. bottom, in which the pixels of these basins get labels anew. */
-typedef struct { int left, top, right, bottom; size_t first, n; } CeldWindow;
+typedef struct { int left, top, right, bottom; uint32_t family; size_t first, n; } CeldWindow;
 typedef struct { CeldWindow *item; size_t n; uint32_t *basin; } CeldWindows; /* basins first .. first + n - 1 */
 
-/* The places where paint lies in basins of another label, and might get pixels of its own.  No two windows overlap. */
+/* The places where paint lies in basins of another label, and might get pixels of its own.  No two windows of a family
+ * of basins overlap; families have no basin in common. */
 CeldStatus celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run,
                               CeldWindows *windows);
 void       celd_windows_clear (CeldWindows *windows);        /* accepts a zeroed record */
 
-/* The last run of basins in row y that begins at or before x.  It is looked for near *hint, 0 at first, which is left at
- * a good one for what is near in the same row or the next. */
+/* The last run of basins in row y that begins at or before x.  It is looked for near *hint, 0 at first, which is left
+ * at a good one for what is near in the same row or the next. */
 size_t celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint);
 
 /* ------------------------------------------------------------------ window-cells.c */

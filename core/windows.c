@@ -282,7 +282,7 @@ static CeldWindow
 trim (const Solver *s, uint32_t id, const CeldWindow *window)
 {
   const CeldBasins *basins = s->canvas->basins;
-  CeldWindow        inner = { window->right, window->bottom, window->left, window->top, window->first, window->n };
+  CeldWindow        inner = { window->right, window->bottom, window->left, window->top, window->family, window->first, window->n };
   size_t            hint = 0;
 
   for (int y = window->top; y <= window->bottom; y++)

@@ -21,6 +21,30 @@ typedef struct
 
 /* ------------------------------------------------------------------ scenes */
 
+/* Borders of basins that touch, with paper on both sides or not: all that windows want to know. */
+static void
+join_basins (const char *const *art, CeldBasins *basins)
+{
+  basins->border = calloc (basins->n * basins->n, sizeof *basins->border);
+  for (uint32_t a = 0; a < basins->n; a++)
+    for (uint32_t b = a + 1; b < basins->n; b++)
+      {
+        CeldBorder border = { .a = a, .b = b };
+
+        for (int y = 0; y < basins->height; y++)
+          for (int x = 0; x < basins->width; x++)
+            for (int south = 0; south < 2; south++)
+              if (x + !south < basins->width && y + south < basins->height)
+                {
+                  uint32_t p = (uint32_t) (art[y][x] - 'a'), q = (uint32_t) (art[y + south][x + !south] - 'a');
+
+                  border.passes += (p == a && q == b) || (p == b && q == a);
+                }
+        if (border.passes)
+          basins->border[basins->n_borders++] = border;
+      }
+}
+
 /* Basins as the art draws them: 'a' is number 0. */
 static void
 draw_basins (const char *const *art, float threshold, CeldBasins *basins)
@@ -45,6 +69,7 @@ draw_basins (const char *const *art, float threshold, CeldBasins *basins)
         }
     }
   basins->row[h] = n;
+  join_basins (art, basins);
 }
 
 /* `labels`: of basin k the letter labels[k]; `painted`: 'A' is paint of label 1 and so on, of n labels. */
@@ -73,6 +98,7 @@ scene_close (Scene *s)
   free (s->ink.data);
   free (s->basins.row);
   free (s->basins.run);
+  free (s->basins.border);
   free (s->label);
   celd_seed_rows_clear (&s->canvas.seeds);
   celd_palette_clear (&s->canvas.palette);
