@@ -157,6 +157,32 @@ windows_step (const CeldRun *run, Results *r)
   return status;
 }
 
+/* A wall of cells is broken in one place: most of the basins are kept. */
+static CeldStatus
+basins_step (const CeldRun *run, Results *r)
+{
+  static float page[16 * W * H];
+  CeldPlane    ink = { 4 * W, 4 * H, 4 * W, page };
+  CeldBasins   basins = { 0 };
+  CeldRect     changed = { 58, 70, 6, 4 };
+  CeldPart     parts[2];
+  CeldRun      building = celd_run_part (&parts[0], run, 0, 0.9), renewing = celd_run_part (&parts[1], run, 0.9, 1);
+  CeldStatus   status;
+
+  (void) r;
+  for (int y = 0; y < 4 * H; y++)
+    for (int x = 0; x < 4 * W; x++)
+      CELD_AT (&ink, x, y) = x % 20 > 2 && y % 20 > 2;
+  status = celd_basins_new (&ink, settings.ink_threshold, &building, &basins);
+  for (int y = 70; y < 74; y++)
+    for (int x = 58; x < 64; x++)
+      CELD_AT (&ink, x, y) = 1;
+  if (status == CELD_OK)
+    status = celd_basins_renew (&ink, &changed, &renewing, &basins);
+  celd_basins_clear (&basins);
+  return status;
+}
+
 static CeldStatus
 separate_step (const CeldRun *run, Results *r)
 {
@@ -288,6 +314,7 @@ const Step steps[] = {
   { "scribbles", scribbles_step, NULL, true },
   { "relations", relations_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
+  { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },
   { "windows", windows_step, NULL, true },
