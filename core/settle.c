@@ -229,6 +229,31 @@ settle_runs (CeldSettling *s)
   return status;
 }
 
+/* ------------------------------------------------------------------ paint */
+
+/* Paint on lines: there a border round a single pixel costs less than the stroke that it disobeys. */
+static CeldStatus
+settle_paint (CeldSettling *s)
+{
+  const CeldSeedRows *seeds = &s->canvas->seeds;
+  CeldStatus          status = CELD_OK;
+
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n; i++)
+      {
+        const CeldSeedRun *run = &seeds->row[y].run[i];
+
+        for (int x = run->x; x < run->end && status == CELD_OK; x++)
+          {
+            uint32_t label = CELD_AT (s->labels, x, y);
+
+            if (label != run->label && cost_of (s, x, y, run->label) < cost_of (s, x, y, label))
+              status = celd_settling_set (s, x, y, run->label);
+          }
+      }
+  return status;
+}
+
 /* ------------------------------------------------------------------ the whole */
 
 static CeldStatus
@@ -293,6 +318,8 @@ celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *l
   };
   CeldStatus   status = s.depth ? measure_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
 
+  if (status == CELD_OK)
+    status = settle_paint (&s);
   if (status == CELD_OK)
     status = settle_runs (&s);
   if (status == CELD_OK)
