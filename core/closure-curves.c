@@ -12,8 +12,8 @@
 
 #include <math.h>
 
-#define DAMPING    0.62         /* of the length of tangents */
-#define WOBBLE     0.14         /* radians: an angle of this size counts half */
+#define DAMPING    0.7         /* of the length of tangents */
+#define WOBBLE     0.28         /* radians: an angle of this size counts half */
 #define TRUSTED    0.7          /* radians off the chord: up to here an angle is followed */
 #define MOST_ANGLE 1.05         /* from here on it is not; 60 degrees */
 #define MOST_S     0.5          /* radians: of two angles that make an S the smaller one may be as large */
