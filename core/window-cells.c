@@ -20,7 +20,7 @@
 typedef struct
 {
   CeldCells       *cells;
-  const uint32_t  *label, *free; /* by basin */
+  const uint32_t  *free;         /* by basin */
   uint32_t         id;
   size_t           hint;         /* of celd_basin_run_at */
   const uint8_t   *fine;         /* by block; NULL: blocks are to be coarse */
@@ -28,6 +28,7 @@ typedef struct
   uint32_t        *state;        /* of the pixels of a row of blocks: label, kind, CELD_CELL_FIXED */
   uint32_t        *paint;        /* and the label of soft paint on them, 0 if there is none */
   uint32_t        *change;       /* of the columns of pixels in it: not 0 where states differ */
+  uint32_t        *common;       /* and the bits that all states have */
   bool            *painted;      /* by block of the row */
   bool            *hard;         /* the same, with hard paint */
   uint32_t        *parent;       /* of the pixels of a block: another one of its piece, itself for the first */
@@ -66,7 +67,7 @@ read_basins (Builder *b, int y, uint32_t *state)
   for (int x = w->left, end; x <= w->right; x = end, i++)
     {
       uint32_t basin = basins->run[i].basin;
-      uint32_t here = b->label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
+      uint32_t here = b->cells->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
 
       end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
       end = end <= w->right ? end : w->right + 1;
@@ -162,32 +163,47 @@ unite (uint32_t *parent, uint32_t a, uint32_t b)
     parent[a] = b;
 }
 
+/* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink end
+ * at squares of 1 << square pixels a side. */
+static inline bool
+is_alike (const Builder *b, size_t first, int square, int x, int y, int i, int j)
+{
+  size_t   stride = (size_t) window_width (b->cells);
+  size_t   p = first + (size_t) y * stride + (size_t) x, q = first + (size_t) j * stride + (size_t) i;
+  uint32_t state = b->state[p];
+
+  return state == b->state[q] && b->paint[p] == b->paint[q]
+         && ((state & KINDS) == 2 * KIND_INK || (x >> square == i >> square && y >> square == j >> square));
+}
+
 /* Joins pixels of a block that are of the same kind: ink in eight directions, so that a slanting line's rim is one.
- * Other than dark ink only inside squares of 1 << square pixels a side. */
+ * What the row above has joined already needs no second time. */
 static void
 join_pixels (const Builder *b, size_t first, int w, int h, int square)
 {
-  static const int step[4][2] = { { -1, 0 }, { 0, -1 }, { -1, -1 }, { 1, -1 } };
-  size_t           stride = (size_t) window_width (b->cells);
+  size_t   stride = (size_t) window_width (b->cells);
+  uint32_t down = UINT32_C (1) << b->cells->shift;
 
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w; x++)
       {
-        size_t   p = first + (size_t) y * stride + (size_t) x;
-        uint32_t k = (uint32_t) ((y << b->cells->shift) + x), kind = b->state[p] & KINDS;
-        int      ways = b->state[p] & CELD_CELL_FIXED ? 0 : kind ? 4 : 2;
+        uint32_t state = b->state[first + (size_t) y * stride + (size_t) x];
+        uint32_t k = ((uint32_t) y << b->cells->shift) + (uint32_t) x;
+        bool     west = x > 0 && is_alike (b, first, square, x, y, x - 1, y);
+        bool     north = y > 0 && is_alike (b, first, square, x, y, x, y - 1);
+        bool     north_west = y > 0 && x > 0 && is_alike (b, first, square, x, y, x - 1, y - 1);
 
-        b->parent[k] = k;
-        for (int d = 0; d < ways; d++)
-          {
-            int    i = x + step[d][0], j = y + step[d][1];
-            size_t q = first + (size_t) j * stride + (size_t) i;
-
-            if (i < 0 || i >= w || j < 0 || b->state[q] != b->state[p] || b->paint[q] != b->paint[p])
-              continue;
-            if (kind == 2 * KIND_INK || (i >> square == x >> square && j >> square == y >> square))
-              unite (b->parent, k, (uint32_t) ((j << b->cells->shift) + i));
-          }
+        b->parent[k] = west ? b->parent[k - 1] : k;
+        if (state & CELD_CELL_FIXED)
+          continue;
+        if (north && !(west && north_west))
+          unite (b->parent, k, k - down);
+        if (!(state & KINDS) || north || y == 0)
+          continue;
+        if (north_west && !west)
+          unite (b->parent, k, k - down - 1);
+        if (x + 1 < w && is_alike (b, first, square, x, y, x + 1, y - 1))
+          unite (b->parent, k, k - down + 1);
       }
 }
 
@@ -228,15 +244,19 @@ split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block
   return status;
 }
 
-/* Are all pixels in `columns` of the row of blocks the same? */
-static bool
-is_uniform (const Builder *b, int left, int columns)
+/* What the pixels of a block have in common, of the columns from `left` to `end` - 1; *uniform: everything? */
+static uint32_t
+common_state (const Builder *b, int left, int end, bool *uniform)
 {
-  uint32_t different = 0;
+  uint32_t different = 0, common = UINT32_MAX;
 
-  for (int i = left; i < left + columns; i++)
-    different |= b->change[i] | (b->state[i] ^ b->state[left]);
-  return !different;
+  for (int i = left; i < end; i++)
+    {
+      different |= b->change[i] | (b->state[i] ^ b->state[left]);
+      common &= b->common[i];
+    }
+  *uniform = !different;
+  return common;
 }
 
 static CeldStatus
@@ -244,29 +264,35 @@ make_block (Builder *b, int column, int h, uint32_t *block)
 {
   CeldCells *cells = b->cells;
   int        left = column << cells->shift, w = window_width (cells) - left;
-  uint32_t   state = b->state[left];
   bool       uniform;
+  uint32_t   common;
 
   w = w < 1 << cells->shift ? w : 1 << cells->shift;
-  uniform = is_uniform (b, left, w) && !b->painted[column];
-  if (!uniform)
-    return split_block (b, (size_t) left, w, h, cells->shift, block);
-  if (!(state & CELD_CELL_FIXED))
-    return add_node (b, state, block);
-  *block = CELD_CELL_FIXED | (state & LABELS);
-  return CELD_OK;
+  common = common_state (b, left, left + w, &uniform);
+  if (common & CELD_CELL_FIXED && !b->hard[column])
+    {
+      *block = uniform ? CELD_CELL_FIXED | (common & LABELS) : CELD_CELL_ABOVE;
+      return CELD_OK;
+    }
+  if (uniform && !b->painted[column])
+    return add_node (b, common, block);
+  return split_block (b, (size_t) left, w, h, cells->shift, block);
 }
 
-/* change[i]: does column i hold several states? */
+/* change[i] and common[i] of the pixels in column i. */
 static void
-find_changes (const Builder *b, int h)
+compare_rows (const Builder *b, int h)
 {
   size_t stride = (size_t) window_width (b->cells);
 
   memset (b->change, 0, stride * sizeof *b->change);
+  memcpy (b->common, b->state, stride * sizeof *b->common);
   for (size_t y = 1; y < (size_t) h; y++)
     for (size_t i = 0; i < stride; i++)
-      b->change[i] |= b->state[i] ^ b->state[y * stride + i];
+      {
+        b->change[i] |= b->state[i] ^ b->state[y * stride + i];
+        b->common[i] &= b->state[y * stride + i];
+      }
 }
 
 static CeldStatus
@@ -284,7 +310,7 @@ make_row (Builder *b, int row, int top, int h)
       read_ink (b, top + y, 0, (int) stride, b->state + (size_t) y * stride);
       read_paint (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
     }
-  find_changes (b, h);
+  compare_rows (b, h);
   for (int column = 0; column < cells->columns && status == CELD_OK; column++)
     status = make_block (b, column, h, &cells->block[(size_t) row * (size_t) cells->columns + (size_t) column]);
   return status;
@@ -374,9 +400,10 @@ build (Builder *b)
   b->state       = celd_alloc (w << cells->shift, sizeof *b->state);
   b->paint       = celd_alloc (w << cells->shift, sizeof *b->paint);
   b->change      = celd_alloc (w, sizeof *b->change);
+  b->common      = celd_alloc (w, sizeof *b->common);
   b->painted     = celd_alloc ((size_t) cells->columns, sizeof *b->painted);
   b->parent      = celd_alloc ((size_t) 1 << 2 * cells->shift, sizeof *b->parent);
-  if (cells->block && cells->hard && b->state && b->paint && b->change && b->painted && b->parent)
+  if (cells->block && cells->hard && b->state && b->paint && b->change && b->common && b->painted && b->parent)
     status = CELD_OK;
   for (int row = 0; row < cells->rows && status == CELD_OK; row++)
     {
@@ -391,6 +418,7 @@ build (Builder *b)
   celd_free (b->state);
   celd_free (b->paint);
   celd_free (b->change);
+  celd_free (b->common);
   celd_free (b->painted);
   celd_free (b->parent);
   return status != CELD_OK || cells->label ? status : CELD_NO_MEMORY;
@@ -410,8 +438,8 @@ CeldStatus
 celd_cells_new (const CeldCanvas *canvas, const uint32_t *label, const uint32_t *free, uint32_t id,
                 const CeldWindow *window, int shift, CeldCells *cells)
 {
-  CeldCells made = { .canvas = canvas, .window = *window, .shift = shift };
-  Builder   b = { .cells = &made, .label = label, .free = free, .id = id };
+  CeldCells made = { .canvas = canvas, .basin_label = label, .window = *window, .shift = shift };
+  Builder   b = { .cells = &made, .free = free, .id = id };
 
   return keep (build (&b), &made, cells);
 }

@@ -130,6 +130,26 @@ is_idle (const CeldCells *cells, uint32_t block, int column, int row)
   return (block & CELD_CELL_FIXED || block == CELD_CELL_ABOVE) && (other & CELD_CELL_FIXED || other == CELD_CELL_ABOVE);
 }
 
+/* The borders inside a block of several parts, which has w x h pixels, the first of them (left,top). */
+static CeldStatus
+link_inside (CeldCells *cells, uint32_t block, int left, int top, int w, int h)
+{
+  size_t     first = (size_t) (block & ~CELD_CELL_MIXED) << 2 * cells->shift, down = (size_t) 1 << cells->shift;
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < h; y++)
+    for (int x = 0; x < w && status == CELD_OK; x++)
+      {
+        const uint32_t *part = cells->detail + first + ((size_t) y << cells->shift) + (size_t) x;
+
+        if (x + 1 < w && part[0] != part[1])
+          status = add_edge (cells, part[0], part[1], left + x, top + y, false);
+        if (status == CELD_OK && y + 1 < h && part[0] != part[down])
+          status = add_edge (cells, part[0], part[down], left + x, top + y, true);
+      }
+  return status;
+}
+
 /* All borders of a block: inside it, to the right and below. */
 static CeldStatus
 link_block (CeldCells *cells, int column, int row)
@@ -137,19 +157,18 @@ link_block (CeldCells *cells, int column, int row)
   int        left = cells->window.left + (column << cells->shift), top = cells->window.top + (row << cells->shift);
   int        right = left + (1 << cells->shift) - 1, bottom = top + (1 << cells->shift) - 1;
   uint32_t   block = block_at (cells, column, row);
-  bool       mixed = !(block & CELD_CELL_FIXED) && block & CELD_CELL_MIXED;
   CeldStatus status = CELD_OK;
 
   right  = right < cells->window.right ? right : cells->window.right;
   bottom = bottom < cells->window.bottom ? bottom : cells->window.bottom;
-  if (!is_idle (cells, block, column + 1, row))
-    for (int y = top; y <= bottom; y++)
-      for (int x = mixed ? left : right; x <= right && x < cells->window.right && status == CELD_OK; x++)
-        status = add_edge (cells, celd_cell_at (cells, x, y), celd_cell_at (cells, x + 1, y), x, y, false);
-  if (!is_idle (cells, block, column, row + 1))
-    for (int y = mixed ? top : bottom; y <= bottom && y < cells->window.bottom; y++)
-      for (int x = left; x <= right && status == CELD_OK; x++)
-        status = add_edge (cells, celd_cell_at (cells, x, y), celd_cell_at (cells, x, y + 1), x, y, true);
+  if (!(block & CELD_CELL_FIXED) && block & CELD_CELL_MIXED)
+    status = link_inside (cells, block, left, top, right - left + 1, bottom - top + 1);
+  if (right < cells->window.right && !is_idle (cells, block, column + 1, row))
+    for (int y = top; y <= bottom && status == CELD_OK; y++)
+      status = add_edge (cells, celd_cell_at (cells, right, y), celd_cell_at (cells, right + 1, y), right, y, false);
+  if (bottom < cells->window.bottom && !is_idle (cells, block, column, row + 1))
+    for (int x = left; x <= right && status == CELD_OK; x++)
+      status = add_edge (cells, celd_cell_at (cells, x, bottom), celd_cell_at (cells, x, bottom + 1), x, bottom, true);
   return status;
 }
 

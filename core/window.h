@@ -26,8 +26,8 @@ size_t celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint);
 
 /* ------------------------------------------------------------------ window-cells.c */
 
-/* What a pixel or a block is part of: a node, or a fixed label.  A block can also be of several parts, or as the
- * coarser cells have it. */
+/* What a pixel or a block is part of: a node, or a fixed label.  A block can also be of several parts, or fixed as the
+ * coarser cells have it, or where there are none as the basins do. */
 #define CELD_CELL_FIXED UINT32_C (0x80000000) /* and the label */
 #define CELD_CELL_MIXED UINT32_C (0x40000000) /* and the number of its detail */
 #define CELD_CELL_ABOVE UINT32_C (0x3fffffff)
@@ -38,6 +38,7 @@ struct CeldCells
 {
   const CeldCanvas *canvas;
   const CeldCells  *coarse;        /* that these ones are finer than; NULL: none */
+  const uint32_t   *basin_label;
   CeldWindow        window;
   int               shift;         /* square blocks of 1 << shift pixels a side; the last ones may be cut off */
   int               columns, rows; /* of blocks */
@@ -79,7 +80,8 @@ celd_cell_at (const CeldCells *cells, int x, int y)
   uint32_t block = cells->block[k];
 
   if (block == CELD_CELL_ABOVE)
-    return CELD_CELL_FIXED | celd_cell_label (cells->coarse, celd_cell_at (cells->coarse, x, y));
+    return CELD_CELL_FIXED | (cells->coarse ? celd_cell_label (cells->coarse, celd_cell_at (cells->coarse, x, y))
+                                            : cells->basin_label[celd_basin_at (cells->canvas->basins, x, y)]);
   if (block & CELD_CELL_FIXED || !(block & CELD_CELL_MIXED))
     return block;
   return cells->detail[((size_t) (block & ~CELD_CELL_MIXED) << 2 * cells->shift)

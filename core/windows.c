@@ -164,7 +164,7 @@ mark_blocks (const CeldCells *cells, const uint8_t *crossed, uint8_t *fine)
       const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
 
       fine[k] = 0;
-      if (block & CELD_CELL_FIXED)
+      if (block & CELD_CELL_FIXED || block == CELD_CELL_ABOVE)
         continue;
       if (!(block & CELD_CELL_MIXED))
         {
@@ -210,7 +210,7 @@ is_changed (const CeldCells *cells, size_t k)
   const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
 
   if (block == CELD_CELL_ABOVE)
-    return is_changed (cells->coarse, k);
+    return cells->coarse && is_changed (cells->coarse, k);
   if (block & CELD_CELL_FIXED)
     return false;
   if (!(block & CELD_CELL_MIXED))
