@@ -422,10 +422,64 @@ strides_aliases_and_nonsense (void)
   free (tight.data), free (ink.data), free (art.data), free (labels.data), free (tight_labels.data);
 }
 
+/* A circle of radius 120, its line 6 wide, with a gap of 60 pixels between the tips, at any angle; a stroke inside and
+ * one outside.  The border in the gap is at most 3 pixels off the chord. */
+static void
+a_gap_is_closed_like_by_hand (void)
+{
+  enum { SIDE = 300 };
+  const double pi = 3.14159265358979, half = asin ((60 + 6) / 2. / 120); /* the tips are round */
+
+  for (int degrees = 0; degrees < 360; degrees += 15)
+    {
+      double       at = degrees * pi / 180, chord = 120 * cos (half), worst = 0;
+      CeldPlane    ink = { SIDE, SIDE, SIDE, malloc (SIDE * SIDE * sizeof (float)) };
+      CeldLabels   labels = { SIDE, SIDE, SIDE, calloc (SIDE * SIDE, sizeof (uint32_t)) };
+      CeldPalette  palette = letters (2);
+      CeldSettings settings = celd_settings ();
+      int          borders = 0;
+
+      for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+          {
+            double dx = x + 0.5 - SIDE / 2, dy = y + 0.5 - SIDE / 2, angle = remainder (atan2 (dy, dx) - at, 2 * pi);
+            double off = fabs (hypot (dx, dy) - 120), tip = fabs (angle) < half ? copysign (half, angle) : angle;
+
+            if (fabs (angle) < half)
+              off = hypot (dx - 120 * cos (at + tip), dy - 120 * sin (at + tip));
+            CELD_AT (&ink, x, y) = (float) fmin (fmax (off - 2.5, 0), 1);
+            if (abs (y - SIDE / 2) < 4 && abs (x - SIDE / 2) < 15)
+              CELD_AT (&labels, x, y) = 1;
+            else if (y < 6)
+              CELD_AT (&labels, x, y) = 2;
+          }
+      CHECK (celd_segment (&ink, &labels, NULL, &settings, NULL, &labels, &palette, NULL) == CELD_OK);
+      for (int y = 0; y < SIDE - 1; y++)
+        for (int x = 0; x < SIDE - 1; x++)
+          for (int south = 0; south < 2; south++)
+            {
+              int u = x + !south, v = y + south;
+
+              if (CELD_AT (&labels, x, y) == CELD_AT (&labels, u, v) || CELD_AT (&ink, x, y) < 0.5f ||
+                  CELD_AT (&ink, u, v) < 0.5f)
+                continue;
+              worst = fmax (worst, fabs (((x + u + 1) * 0.5 - SIDE / 2) * cos (at) + ((y + v + 1) * 0.5 - SIDE / 2) * sin (at)
+                                         - chord));
+              borders++;
+            }
+      CHECK (borders >= 40 && borders <= 120);
+      CHECK (worst <= 3);
+      CHECK (CELD_AT (&labels, SIDE / 2, SIDE / 2 + 60) == 1 && CELD_AT (&labels, 2, SIDE - 3) == 2);
+      celd_palette_clear (&palette);
+      free (ink.data), free (labels.data);
+    }
+}
+
 int
 main (void)
 {
   RUN (closed_regions);
+  RUN (a_gap_is_closed_like_by_hand);
   RUN (a_stroke_closes_gaps_of_its_length);
   RUN (a_majority_of_paint_wins);
   RUN (hard_strokes_are_obeyed);
