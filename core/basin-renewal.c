@@ -1,7 +1,7 @@
 /* The basin graph of a drawing that has changed inside a rectangle R, from the graph before.
  *
  * What a change can reach: a pixel's distance is another one only if R is nearer to it than what lies outside R and
- * ends its paper or ink.  Such pixels, found in a window round R that is doubled until they do not touch its edge, lie
+ * ends its paper or ink.  Such pixels, found in a window round R that is grown until they do not touch its edge, lie
  * in touched basins; with three pixels to spare, so do their neighbours.  No other basin loses a pixel, since neither
  * the relief nor a step is another one there.  The pixels of touched basins are led anew, to maxima among them or into
  * basins that are kept; borders are the old ones between kept basins, and all pairs with a pixel of touched basins.
@@ -14,9 +14,10 @@
 
 #include <math.h>
 
-#define FIRST_MARGIN 32
-#define SPARE        3     /* pixels: more than two diagonal steps */
-#define WORTH        0.6   /* of all pixels: from there on it is as fast to build anew */
+#define SPARE       3      /* pixels: more than two diagonal steps */
+#define FIRST_REACH 0.75   /* of how wide the basins at R are: most changes reach half as far */
+#define LOOKED_AT   0.2    /* of all pixels, in windows; from there on, and */
+#define MADE        0.6    /* from here on, it is as fast to build anew */
 
 typedef struct
 {
@@ -41,10 +42,11 @@ grow_rect (CeldRect r, int margin, int width, int height)
   return (CeldRect) { left, top, right - left, bottom - top };
 }
 
-static bool
-is_large (const CeldPlane *ink, CeldRect r)
+/* The share of the drawing that lies in a rectangle. */
+static double
+share_of (const CeldPlane *ink, CeldRect r)
 {
-  return (double) r.width * r.height > WORTH * ink->width * ink->height;
+  return (double) r.width * r.height / ((double) ink->width * ink->height);
 }
 
 static inline bool
@@ -110,21 +112,38 @@ mark_reached (Renewal *r, CeldRect window, const int32_t *to_ink, const int32_t 
   return true;
 }
 
-/* Marks the basins that the change reaches; *worth becomes false if that is most of the drawing. */
+/* How far to look for what the change reaches, to begin with. */
+static int
+first_margin (const Renewal *r)
+{
+  const CeldBasins *old = r->old;
+  int32_t           widest = 0;
+
+  for (int y = r->changed.y; y < r->changed.y + r->changed.height; y++)
+    for (size_t i = old->row[y]; i < old->row[y + 1]; i++)
+      if (old->run[i].x < r->changed.x + r->changed.width && old->basin[old->run[i].basin].squared > widest &&
+          (i + 1 == old->row[y + 1] || old->run[i + 1].x > r->changed.x))
+        widest = old->basin[old->run[i].basin].squared;
+  return 4 * SPARE + (int) (FIRST_REACH * sqrt (widest));
+}
+
+/* Marks the basins that the change reaches; *worth becomes false if that is much of the drawing. */
 static CeldStatus
 find_touched (Renewal *r, const CeldRun *run, bool *worth)
 {
   CeldStatus status = CELD_OK;
+  double     looked_at = 0;
   bool       found = false;
 
-  for (int margin = FIRST_MARGIN; !found && status == CELD_OK; margin *= 2)
+  for (int margin = first_margin (r); !found && status == CELD_OK; margin += margin / 2)
     {
       CeldRect window = grow_rect (r->changed, margin, r->ink->width, r->ink->height);
       size_t   n = (size_t) window.width * (size_t) window.height;
       float   *copy;
       int32_t *to_ink, *to_paper;
 
-      *worth = !is_large (r->ink, window);
+      looked_at += share_of (r->ink, window);
+      *worth = looked_at < LOOKED_AT;
       if (!*worth)
         return CELD_OK;
       copy = celd_alloc (n, sizeof *copy);
@@ -369,7 +388,7 @@ celd_basins_revise (const CeldPlane *ink, const CeldRect *changed, const CeldBas
   if (status == CELD_OK && worth)
     {
       find_box (&r);
-      worth = !is_large (ink, r.window);
+      worth = share_of (ink, r.window) < MADE;
     }
   if (status == CELD_OK && worth)
     {
