@@ -75,6 +75,7 @@ typedef struct
   uint32_t         *basin;             /* the region's basins */
   size_t            n;
   uint32_t         *at;                /* of basin k: basin[at[k] - 1] == k, or 0 */
+  bool              any;               /* not all of its basins need to be joined */
   uint8_t          *mark;              /* tight plane of the picture's size */
   uint32_t         *node;              /* the same: work space */
 } CeldCut;

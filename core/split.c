@@ -144,15 +144,19 @@ join (Split *split, uint32_t k, CeldCut *cut)
   cut->bottom = box->bottom > cut->bottom ? box->bottom : cut->bottom;
 }
 
-/* Finds the basins of the region round the first end; does it reach the second? */
+/* Finds the basins of the region round the first end; does it reach the second?  Where an earlier cut has left the ends
+ * mere pieces of basins, the region may go on through such pieces: then any basin may belong to it. */
 static bool
 find_region (Split *split, CeldCut *cut)
 {
   const CeldBasins *basins = split->canvas->basins;
+  uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
+  uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
+  bool              whole = basin_has (split, first, cut->label) && basin_has (split, second, cut->label);
 
   cut->left = cut->right = cut->end[0].x;
   cut->top  = cut->bottom = cut->end[0].y;
-  join (split, celd_basin_at (basins, cut->end[0].x, cut->end[0].y), cut);
+  join (split, first, cut);
   for (size_t i = 0; i < cut->n; i++)
     for (size_t j = split->first[cut->basin[i]]; j < split->first[cut->basin[i] + 1]; j++)
       {
@@ -161,7 +165,10 @@ find_region (Split *split, CeldCut *cut)
         if (goes_on (split, border, cut->label))
           join (split, border->a == cut->basin[i] ? border->b : border->a, cut);
       }
-  return cut->at[celd_basin_at (basins, cut->end[1].x, cut->end[1].y)] != 0;
+  cut->any = !whole && !cut->at[second];
+  for (uint32_t k = 0; k < basins->n && cut->any; k++)
+    join (split, k, cut);
+  return cut->at[second] != 0;
 }
 
 /* Marks the pixels of the label in row y of the region's basins: as inside, or as on the side of their basin. */
@@ -274,7 +281,7 @@ cut_region (Split *split, CeldCut *cut, const CeldRun *run, int *kept)
   const CeldBasins *basins = split->canvas->basins;
   uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
   uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
-  bool              narrow = basins->block[first] != basins->block[second];
+  bool              narrow = !cut->any && basins->block[first] != basins->block[second];
   CeldStatus        status = narrow ? celd_cut_basins (cut, run, split->side, kept) : CELD_OK;
 
   for (int y = cut->top; y <= cut->bottom && status == CELD_OK && (!narrow || *kept >= 0); y++)

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "private.h"
+#include "segment.h"
 
 typedef struct
 {
@@ -355,6 +355,122 @@ thousands_of_relations (void)
   case_clear (&c);
 }
 
+/* ------------------------------------------------------------------ random pages */
+
+enum { PAGE = 72, RELATIONS = 12 };
+
+/* Random strokes of ink, and labels that know nothing of them: bands across the page. */
+static void
+random_page (uint32_t *random, CeldPlane *ink, CeldLabels *labels, uint32_t n)
+{
+  for (int p = 0; p < PAGE * PAGE; p++)
+    ink->data[p] = 1;
+  for (int i = (int) check_random (random, 12); i > 0; i--)
+    {
+      int x = (int) check_random (random, PAGE), y = (int) check_random (random, PAGE);
+      int u = (int) check_random (random, 3) - 1, v = (int) check_random (random, 3) - 1;
+
+      for (int k = 0; k < 50; k++, x += u, y += v)
+        for (int j = 0; j < 2; j++)
+          if (x + j >= 0 && x + j < PAGE && y >= 0 && y < PAGE)
+            CELD_AT (ink, x + j, y) = 0;
+    }
+  for (int y = 0; y < PAGE; y++)
+    for (int x = 0; x < PAGE; x++)
+      CELD_AT (labels, x, y) = 1 + (uint32_t) (x + y / 3) / 30 % n;
+}
+
+static void
+add_random_relations (uint32_t *random, CeldRelations *relations)
+{
+  for (int i = 0; i < RELATIONS; i++)
+    {
+      CeldRelation r = { .equal = !check_random (random, 6), .weight = 1, .gap = 1 };
+
+      r.nearer.x  = (int) check_random (random, PAGE + 10) - 5;
+      r.nearer.y  = (int) check_random (random, PAGE + 10) - 5;
+      r.farther.x = r.nearer.x + (int) check_random (random, 41) - 20;
+      r.farther.y = r.nearer.y + (int) check_random (random, 41) - 20;
+      CHECK (celd_relation_add (relations, r) == CELD_OK);
+    }
+}
+
+/* What changes, changes to a new label, no pixel twice; no connected region keeps both ends of an inequality. */
+static void
+check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *labels)
+{
+  static bool    changed[PAGE][PAGE];
+  size_t         before = canvas->palette.n, n;
+  CeldPatches    patches = { 0 };
+  CeldComponent *list = NULL;
+
+  memset (changed, 0, sizeof changed);
+  CHECK (celd_seeds_split (relations, NULL, labels, canvas, &patches) == CELD_OK);
+  for (size_t i = 0; i < patches.n; i++)
+    {
+      CeldPatch patch = patches.item[i];
+
+      CHECK (patch.label > before && patch.label <= canvas->palette.n && patch.x < patch.end);
+      for (int x = patch.x; x < patch.end; x++)
+        {
+          CHECK (!changed[patch.y][x]);
+          changed[patch.y][x] = true;
+          CELD_AT (labels, x, patch.y) = patch.label;
+        }
+    }
+  CHECK (celd_components (labels, 0, false, NULL, labels, &list, &n) == CELD_OK);
+  for (size_t i = 0; i < relations->n; i++)
+    {
+      const CeldTerm *a = &relations->item[i].nearer, *b = &relations->item[i].farther;
+      int             x = (int) a->x, y = (int) a->y, u = (int) b->x, v = (int) b->y;
+
+      if (relations->item[i].equal || x < 0 || y < 0 || x >= PAGE || y >= PAGE || u < 0 || v < 0 || u >= PAGE || v >= PAGE)
+        continue;
+      if ((x != u || y != v) && CELD_AT (canvas->ink, x, y) > 0.5f && CELD_AT (canvas->ink, u, v) > 0.5f)
+        CHECK (CELD_AT (labels, x, y) != CELD_AT (labels, u, v));
+    }
+  celd_patches_clear (&patches);
+  free (list);
+}
+
+/* Two bands of one label are two regions; a basin may lie in two bands. */
+static void
+random_regions_are_split (void)
+{
+  static float    ink_data[PAGE * PAGE];
+  static uint32_t label_data[PAGE * PAGE];
+  uint32_t        random = 11;
+
+  for (int i = 0; i < 150; i++)
+    {
+      CeldPlane     ink = { PAGE, PAGE, PAGE, ink_data };
+      CeldLabels    labels = { PAGE, PAGE, PAGE, label_data };
+      CeldSettings  settings = celd_settings ();
+      CeldBasins    basins = { 0 };
+      CeldRelations relations = { 0 };
+      CeldCanvas    canvas = { .settings = &settings, .ink = &ink, .basins = &basins, .soft_vote = 500 };
+      uint32_t      label, n = 1 + check_random (&random, 3);
+
+      random_page (&random, &ink, &labels, n);
+      add_random_relations (&random, &relations);
+      CHECK (celd_basins_new (&ink, settings.ink_threshold, NULL, &basins) == CELD_OK);
+      CHECK (celd_seed_rows_new (PAGE, PAGE, &canvas.seeds) == CELD_OK);
+      for (uint32_t k = 0; k < n; k++)
+        celd_canvas_add (&canvas, (CeldRegion) { .colour = { (uint8_t) (99 * k), 7, 7, 255 }, .hard = k == 1 }, &label);
+      for (int k = (int) check_random (&random, 9); k > 0; k--)
+        {
+          int x = (int) check_random (&random, PAGE), y = (int) check_random (&random, PAGE);
+
+          celd_seed_rows_paint (&canvas.seeds, y, x, x + 9, CELD_AT (&labels, x, y));
+        }
+      check_split (&canvas, &relations, &labels);
+      celd_basins_clear (&basins);
+      celd_relations_clear (&relations);
+      celd_seed_rows_clear (&canvas.seeds);
+      celd_palette_clear (&canvas.palette);
+    }
+}
+
 int
 main (void)
 {
@@ -374,5 +490,6 @@ main (void)
       RUN (blank_paper);
       RUN (thousands_of_relations);
     }
+  RUN (random_regions_are_split);
   return DONE;
 }
