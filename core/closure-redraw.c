@@ -12,7 +12,8 @@
 
 #include <stdlib.h>
 
-#define TIP 1.5 /* pixels, and half a line: ink of its own so near to its ends may lie under the new border */
+#define SHARP 12  /* pixels of stroke width to one of rim */
+#define TIP   1.5 /* pixels, and half a line: ink of its own so near to its ends may lie under the new border */
 
 /* ------------------------------------------------------------------ is the way free? */
 
@@ -22,12 +23,14 @@ is_inside (const CeldRedrawing *r, int x, int y)
   return x >= 0 && y >= 0 && x < r->labels->width && y < r->labels->height;
 }
 
-/* Is there ink in this pixel or beside it? */
+/* Is there ink so near that this pixel may be on its rim?  Thick lines are seldom as sharp as thin ones. */
 static bool
 near_ink (const CeldRedrawing *r, int x, int y)
 {
-  for (int v = y - 1; v <= y + 1; v++)
-    for (int u = x - 1; u <= x + 1; u++)
+  int reach = 1 + r->canvas->basins->stroke / SHARP;
+
+  for (int v = y - reach; v <= y + reach; v++)
+    for (int u = x - reach; u <= x + reach; u++)
       if (is_inside (r, u, v) && !celd_is_paper (CELD_AT (r->canvas->ink, u, v)))
         return true;
   return false;
