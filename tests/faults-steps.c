@@ -157,6 +157,49 @@ windows_step (const CeldRun *run, Results *r)
   return status;
 }
 
+/* A line with a gap, between basins above it and below. */
+static CeldStatus
+closures_step (const CeldRun *run, Results *r)
+{
+  static float    page[4 * W * H];
+  static uint32_t painted[4 * W * H];
+  CeldPlane       ink = { 2 * W, 2 * H, 2 * W, page };
+  CeldLabels      labels = { 2 * W, 2 * H, 2 * W, painted };
+  CeldBasins      basins = { 0 };
+  CeldCanvas      canvas = { .settings = &settings, .ink = &ink, .basins = &basins };
+  CeldPatches     windows = { 0 }, patches = { 0 };
+  CeldClosures    closures = { 0 };
+  uint32_t        label[64] = { 0 };
+  CeldStatus      status;
+
+  (void) r;
+  for (int y = 0; y < 2 * H; y++)
+    for (int x = 0; x < 2 * W; x++)
+      {
+        int line = H + x / 4 - W / 4;
+
+        CELD_AT (&ink, x, y) = y < line || y > line + 3 || (x > W - 9 && x < W + 9);
+      }
+  status = celd_basins_new (&ink, settings.ink_threshold, NULL, &basins);
+  if (status == CELD_OK)
+    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+  if (status == CELD_OK && basins.n > 64)
+    status = CELD_BAD_VALUE;
+  for (size_t k = 0; k < basins.n && status == CELD_OK; k++)
+    label[k] = basins.basin[k].y < H ? 1 : 2;
+  for (int p = 0; p < 4 * W * H && status == CELD_OK; p++)
+    painted[p] = label[celd_basin_at (&basins, p % (2 * W), p / (2 * W))];
+  if (status == CELD_OK)
+    status = celd_closures_find (&canvas, label, &labels, &windows, run, &closures, &patches);
+  if (status == CELD_OK && (!closures.n || !patches.n))
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  celd_basins_clear (&basins);
+  celd_seed_rows_clear (&canvas.seeds);
+  celd_patches_clear (&patches);
+  celd_closures_clear (&closures);
+  return status;
+}
+
 /* A wall of cells is broken in one place: most of the basins are kept. */
 static CeldStatus
 basins_step (const CeldRun *run, Results *r)
@@ -318,6 +361,7 @@ const Step steps[] = {
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },
   { "windows", windows_step, NULL, true },
+  { "closures", closures_step, NULL, true },
   { "separate", separate_step, &label_palette, true },
   { "labels", labels_step, NULL, false },
   { "background", background_step, &label_palette, false },
