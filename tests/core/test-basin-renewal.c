@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "basin-drawings.h"
+#include "basin-steps.h"
 
 static void
 renewed_is_new (void)
@@ -24,7 +25,7 @@ renewed_is_new (void)
         else
           draw (&state, round, &ink);
         CHECK (celd_basins_new (&ink, THRESHOLD, NULL, &kept) == CELD_OK);
-        for (int k = 0; k < 12; k++)
+        for (int k = 0; k < (w * h > 100000 ? 30 : 12); k++)
           {
             CeldRect changed = edit (&state, &ink);
 
@@ -39,9 +40,31 @@ renewed_is_new (void)
   CHECK (wrong == 0);
 }
 
+/* Pairs of one border that are counted apart: sums, and the place of the widest pass, the first of equal ones. */
+static void
+borders_add_up (void)
+{
+  CeldBorder sum = { .a = 1, .b = 2, .passes = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100 };
+  CeldBorder lower = { .passes = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10 };
+  CeldBorder later = { .saddle = 9, .x = 6, .y = 7, .cost = 1 }, east = { .saddle = 9, .x = 5, .y = 7, .cost = 1 };
+  CeldBorder earlier = { .saddle = 9, .x = 9, .y = 6, .south = true }, wider = { .saddle = 16, .x = 8, .y = 8 };
+
+  celd_border_add (&sum, &lower);
+  celd_border_add (&sum, &later);
+  CHECK (sum.a == 1 && sum.b == 2 && sum.passes == 4 && sum.cost == 111 && sum.frame);
+  CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && sum.south);
+  celd_border_add (&sum, &east);
+  CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && !sum.south && sum.cost == 112);
+  celd_border_add (&sum, &earlier);
+  CHECK (sum.saddle == 9 && sum.x == 9 && sum.y == 6 && sum.south);
+  celd_border_add (&sum, &wider);
+  CHECK (sum.saddle == 16 && sum.x == 8 && sum.y == 8 && !sum.south);
+}
+
 int
 main (void)
 {
   RUN (renewed_is_new);
+  RUN (borders_add_up);
   return DONE;
 }
