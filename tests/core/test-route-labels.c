@@ -54,16 +54,18 @@ paint_box (uint8_t *paint, CeldRect box, const uint8_t colour[3])
       }
 }
 
-/* Frames with gaps, one over the other. */
+/* Frames with gaps, one over the other, some of them in grey ink. */
 static void
 draw_frame (float *luma, CeldRect box, int gap)
 {
+  float grey = box.width % 3 ? 0 : 0.4f;
+
   for (int y = box.y; y < box.y + box.height; y++)
     for (int x = box.x; x < box.x + box.width; x++)
       {
         bool rim = x < box.x + 2 || y < box.y + 2 || x >= box.x + box.width - 2 || y >= box.y + box.height - 2;
 
-        luma[y * W + x] = rim && !(y >= box.y + 4 && y < box.y + 4 + gap && x < box.x + 2) ? 0.f : 1.f;
+        luma[y * W + x] = rim && !(y >= box.y + 4 && y < box.y + 4 + gap && x < box.x + 2) ? grey : 1.f;
       }
 }
 
