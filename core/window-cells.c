@@ -30,7 +30,7 @@ typedef struct
   uint32_t        *change;       /* of the columns of pixels in it: not 0 where states differ */
   uint32_t        *common;       /* and the bits that all states have */
   bool            *painted;      /* by block of the row */
-  bool            *hard;         /* the same, with hard paint */
+  bool            *hard;         /* the same: is there hard paint in it that changes something? */
   uint32_t        *parent;       /* of the pixels of a block: another one of its piece, itself for the first */
 } Builder;
 
@@ -90,6 +90,17 @@ read_ink (const Builder *b, int y, int x, int end, uint32_t *state)
     state[i] += KIND_INK * ((uint32_t) (ink[i] < PAPER) + (uint32_t) (ink[i] < b->dark)) * (1 - (state[i] >> 31));
 }
 
+/* Hard paint on pixel k of a row.  What is not free is another window's. */
+static inline void
+obey (const Builder *b, uint32_t label, int k, uint32_t *state)
+{
+  if (*state & CELD_CELL_FIXED)
+    return;
+  if ((*state & LABELS) != label)
+    b->hard[k >> b->cells->shift] = true;
+  *state = CELD_CELL_FIXED | label;
+}
+
 static void
 read_paint (const Builder *b, int y, uint32_t *state, uint32_t *paint)
 {
@@ -116,15 +127,12 @@ read_paint (const Builder *b, int y, uint32_t *state, uint32_t *paint)
       int      end = (row->run[i].end <= w->right ? row->run[i].end : w->right + 1) - w->left;
 
       for (int k = x; k < end; k++)
-        if (!hard)
+        if (hard)
+          obey (b, l, k, &state[k]);
+        else
           paint[k] = l;
-        else if (!(state[k] & CELD_CELL_FIXED)) /* what is not free is another window's */
-          state[k] = CELD_CELL_FIXED | l;
-      for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift; k++)
-        {
-          b->painted[k] = true;
-          b->hard[k] = b->hard[k] || hard;
-        }
+      for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift && !hard; k++)
+        b->painted[k] = true;
     }
 }
 
@@ -163,8 +171,8 @@ unite (uint32_t *parent, uint32_t a, uint32_t b)
     parent[a] = b;
 }
 
-/* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink end
- * at squares of 1 << square pixels a side. */
+/* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink
+ * end at squares of 1 << square pixels a side. */
 static inline bool
 is_alike (const Builder *b, size_t first, int square, int x, int y, int i, int j)
 {
@@ -274,7 +282,7 @@ make_block (Builder *b, int column, int h, uint32_t *block)
       *block = uniform ? CELD_CELL_FIXED | (common & LABELS) : CELD_CELL_ABOVE;
       return CELD_OK;
     }
-  if (uniform && !b->painted[column])
+  if (uniform && !b->painted[column] && !(common & CELD_CELL_FIXED))
     return add_node (b, common, block);
   return split_block (b, (size_t) left, w, h, cells->shift, block);
 }

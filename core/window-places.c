@@ -268,6 +268,13 @@ compare_windows (const void *a, const void *b)
   return p->left < q->left ? -1 : p->left > q->left;
 }
 
+/* Of windows in this order: could q, or one after it, overlap p? */
+static bool
+may_overlap (const CeldWindow *p, const CeldWindow *q)
+{
+  return q->family == p->family && q->top <= p->bottom;
+}
+
 /* Unites windows of a family that overlap until none do; the united ones are larger and may overlap others. */
 static void
 merge (CeldWindows *windows)
@@ -284,7 +291,7 @@ merge (CeldWindows *windows)
         {
           if (item[i].left > item[i].right)
             continue; /* is part of another one */
-          for (size_t j = i + 1; j < windows->n && item[j].family == item[i].family && item[j].top <= item[i].bottom; j++)
+          for (size_t j = i + 1; j < windows->n && may_overlap (&item[i], &item[j]); j++)
             if (item[j].left <= item[j].right && overlap (&item[i], &item[j]))
               {
                 widen (&item[i], &item[j]);

@@ -43,7 +43,7 @@ struct CeldCells
   int               shift;         /* square blocks of 1 << shift pixels a side; the last ones may be cut off */
   int               columns, rows; /* of blocks */
   uint32_t         *block;
-  bool             *hard;          /* of each block: is there hard paint in it? */
+  bool             *hard;          /* of each block: is there hard paint of another label than the basin's? */
   uint32_t         *detail;        /* of each mixed block its pixels, as if no block was cut off */
   size_t            n_details;
   size_t            n;             /* nodes */

@@ -282,9 +282,13 @@ static CeldWindow
 trim (const Solver *s, uint32_t id, const CeldWindow *window)
 {
   const CeldBasins *basins = s->canvas->basins;
-  CeldWindow        inner = { window->right, window->bottom, window->left, window->top, window->family, window->first, window->n };
+  CeldWindow        inner = *window;
   size_t            hint = 0;
 
+  inner.left   = window->right;
+  inner.top    = window->bottom;
+  inner.right  = window->left;
+  inner.bottom = window->top;
   for (int y = window->top; y <= window->bottom; y++)
     for (size_t i = celd_basin_run_at (basins, y, window->left, &hint);
          i < basins->row[y + 1] && basins->run[i].x <= window->right; i++)
