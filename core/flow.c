@@ -1,5 +1,5 @@
-/* Exact minimum cut of a sparse graph by augmenting paths between two search trees, as in maxflow.c, after Y. Boykov and
- * V. Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision",
+/* Exact minimum cut of a sparse graph by augmenting paths between two search trees, as in maxflow.c, after Y. Boykov
+ * and V. Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision",
  * PAMI 2004.
  *
  * One tree grows from the nodes with excess, the other from those that lack something, along arcs that have something

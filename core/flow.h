@@ -54,8 +54,8 @@ void       celd_network_clear (CeldNetwork *network); /* accepts a zeroed one */
 void celd_network_begin (CeldNetwork *network);
 void celd_network_root (CeldNetwork *network, uint32_t p);
 
-/* Moves excess to nodes that lack some until no way is left, and fills in `reached`.  If it is cancelled the state still
- * stands for the same cuts. */
+/* Moves excess to nodes that lack some until no way is left, and fills in `reached`.  If it is cancelled the state
+ * still stands for the same cuts. */
 CeldStatus celd_network_drain (CeldNetwork *network, const CeldRun *run);
 
 #endif

@@ -24,7 +24,7 @@ typedef struct
   CeldPartitionGraph *graph;
   int64_t  *held;           /* of each node: the votes for the label that it has */
   int64_t  *wanted;         /* the votes for alpha, while it expands; else 0 */
-  uint32_t *loose;          /* nodes with an excess that is there without alpha; at first all that lack something, too */
+  uint32_t *loose;          /* nodes with an excess that is there without alpha; at first all nodes */
   size_t    n_loose;
   bool     *is_loose;
 } Expansion;
@@ -117,7 +117,7 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
 
 /* ------------------------------------------------------------------ one expansion */
 
-/* Excess is looked for where it comes from, and nodes that lack something only found: what borders on alpha is little. */
+/* Where an excess comes from alpha.  Nodes that lack something are left to be found: little borders on alpha. */
 static void
 root (Expansion *e, uint32_t p)
 {
@@ -190,7 +190,8 @@ add_loose (Expansion *e, uint32_t p)
   e->loose[e->n_loose++] = p;
 }
 
-/* All that can have an excess now: nodes that had it and were closed, nodes that took alpha, and those beside them. */
+/* All that can have an excess now: nodes that had it and were closed, and nodes that took alpha.  Those beside them have
+ * none: what flows to them along full links gets less by as much as keeping their label costs more. */
 static void
 find_loose (Expansion *e)
 {
@@ -204,13 +205,7 @@ find_loose (Expansion *e)
       add_loose (e, e->loose[i]);
     }
   for (size_t i = 0; i < network->n_reached; i++)
-    {
-      const CeldFlowNode *node = &network->node[network->reached[i]];
-
-      add_loose (e, network->reached[i]);
-      for (uint32_t a = node->arc; a < node[1].arc; a++)
-        add_loose (e, network->arc[a].to);
-    }
+    add_loose (e, network->reached[i]);
 }
 
 /* *changed: did any node take the label? */

@@ -1,6 +1,6 @@
 /* The labels told apart in turn by exact cuts, as in multiway.c: in each connected piece of undecided nodes the first
- * label that reaches it from all others, and so on with the connected pieces of both sides.  A piece that only one label
- * reaches is that label's without a cut.  Many labels are first told apart in halves.
+ * label that reaches it from all others, and so on with the connected pieces of both sides.  A piece that only one
+ * label reaches is that label's without a cut.  Many labels are first told apart in halves.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

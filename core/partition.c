@@ -1,5 +1,5 @@
 /* Many labels on a small graph: the Potts energy of LazyBrush [SDC09b],
- *   E(c) = sum over links p, q with c_p != c_q of their cost  +  sum over votes on p for another label than c_p of theirs,
+ *   E(c) = sum over links p, q with c_p != c_q of their cost  +  sum over votes on p not for c_p of theirs,
  * on the nodes of a basin graph.  First the labels are told apart in turn (partition-greedy.c), as on pixels, which is
  * exact for two of them; then every label may expand (partition-expand.c), which on so small a graph costs next to
  * nothing.

@@ -27,7 +27,7 @@ typedef struct
 /* label[k] becomes the label of node k: the labels are told apart in turn by exact binary cuts as in celd_multiway,
  * then alpha-expansion lowers the energy until no expansion does.  *energy and *greedy (may be NULL) are the energies
  * after and before expansion: energy <= greedy.  A connected part of the graph that no label reaches gets the first
- * label of the order. */
+ * label of the order.  The order of nodes, links and votes does not matter. */
 CeldStatus celd_partition (const CeldPartition *problem, const CeldRun *run, uint32_t *label, int64_t *energy,
                            int64_t *greedy);
 

@@ -170,7 +170,9 @@ hubs_and_chains (void)
 static void
 source_side_is_the_smallest (void)
 {
-  static Problem p = { 6, 5, { { 0, 1, 9 }, { 2, 1, 4 }, { 2, 3, 7 }, { 3, 4, 4 }, { 5, 4, 9 } }, { 50, 0, 0, 0, 0, -50 } };
+  static Problem p = {
+    6, 5, { { 0, 1, 9 }, { 2, 1, 4 }, { 2, 3, 7 }, { 3, 4, 4 }, { 5, 4, 9 } }, { 50, 0, 0, 0, 0, -50 }
+  };
   uint8_t        side[6];
   int64_t        flow;
 
