@@ -190,8 +190,8 @@ add_loose (Expansion *e, uint32_t p)
   e->loose[e->n_loose++] = p;
 }
 
-/* All that can have an excess now: nodes that had it and were closed, and nodes that took alpha.  Those beside them have
- * none: what flows to them along full links gets less by as much as keeping their label costs more. */
+/* All that can have an excess now: nodes that had it and were closed, and nodes that took alpha.  Those beside them
+ * have none: what flows to them along full links gets less by as much as keeping their label costs more. */
 static void
 find_loose (Expansion *e)
 {
