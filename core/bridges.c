@@ -18,6 +18,7 @@
 #define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
 #define TURN      0.5
 #define TURN_FAR  0.94
+#define OWN       0.5           /* of the cost: a line would rather close itself */
 #define BOW       0.8           /* of both cosines: from such a turn on both ends must turn to the same side */
 
 typedef struct { double cost; uint32_t a, b; } Pair;
@@ -36,7 +37,8 @@ typedef struct
 
 /* ------------------------------------------------------------------ pairs */
 
-/* May two tips be joined?  What it costs: the distance, and more where the lines have to turn. */
+/* May two tips be joined?  What it costs: the distance, more where the lines have to turn, and less where that closes
+ * an outline. */
 static bool
 judge (const Builder *b, const CeldTip *p, const CeldTip *q, double *cost)
 {
@@ -49,7 +51,7 @@ judge (const Builder *b, const CeldTip *p, const CeldTip *q, double *cost)
   least = length <= NEAR * b->stroke ? TURN_NEAR : length <= FAR * b->stroke ? TURN : TURN_FAR;
   if (turn < least || other < least || (turn < BOW && other < BOW && side * other_side < 0))
     return false;
-  *cost = length * (2 - 0.5 * (turn + other));
+  *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN : 1);
   return true;
 }
 

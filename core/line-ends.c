@@ -17,7 +17,8 @@
 #define SHORTEST 6              /* pixels of such an arm, at least */
 #define SCALES   2              /* arms are tried at, each twice as long as the one before */
 #define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
-#define SAME     1.5            /* stroke widths: ends as close as this are one */
+#define CERTAIN  0.42           /* the same of a line that is not seen to be one */
+#define SAME     0.75           /* stroke widths: ends as close as this are one */
 
 #define INKED 1                 /* of a pixel */
 #define SEEN  2                 /* its upper edge has been followed */
@@ -30,6 +31,7 @@ typedef struct
   size_t           stride;
   CeldCorner      *corner;      /* of the outline that is followed */
   size_t           n;
+  uint32_t         outline;     /* its number */
   CeldLineEnd      end;
   CeldTip         *tip;
   size_t           n_tips;
@@ -113,15 +115,16 @@ static bool
 is_known (const Search *s, CeldTip end)
 {
   for (size_t i = s->n_tips; i--;)
-    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * s->stroke + 2 &&
+    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * s->stroke + 1 &&
         s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
       return true;
   return false;
 }
 
-/* Adds the corner if a line ends there. */
+/* Adds the corner if a line ends there.  A tip as sharp as CERTAIN is one even if the line is too short or too bent to
+ * tell its direction. */
 static CeldStatus
-try_corner (Search *s, CeldCorner corner, CeldPlace middle)
+try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
 {
   double     back = hypot (middle.x - corner.x, middle.y - corner.y);
   CeldCorner inside;
@@ -135,8 +138,11 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle)
       !*mask_at (s, inside.x, inside.y))
     return CELD_OK;
   celd_line_end_look (s->ink, inside, &s->end);
-  end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy };
-  if (!s->end.tip || is_known (s, end))
+  if (s->end.tip)
+    end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
+  else
+    end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
+  if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end))
     return CELD_OK;
   tip = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
   if (!tip)
@@ -176,7 +182,7 @@ search_outline (Search *s, size_t arm)
               middle = other;
             }
         }
-      status = try_corner (s, s->corner[best], middle);
+      status = try_corner (s, s->corner[best], middle, least);
     }
   return status;
 }
@@ -187,6 +193,7 @@ search_from (Search *s, int x, int y)
   size_t     arm = (size_t) fmax (SHORTEST, ARM * s->stroke);
   CeldStatus status = follow (s, x, y);
 
+  s->outline++;
   for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= 2)
     status = search_outline (s, arm);
   return status;
