@@ -15,22 +15,44 @@
 #define DEPTH   4        /* pixels; deeper ink counts as this deep */
 #define COARSE_DEPTH 4   /* squared; what ink counts as in larger ones, so that cuts like the middle of lines */
 
+/* The first x in row y from which a square has something inside; `right` if there is none.  Single pixels are told at a
+ * glance, of others the visit finds out. */
+static int
+skip_outside (const CeldMesh *mesh, int x, int y, int right, int size)
+{
+  const uint8_t *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, y);
+  const uint8_t *inside = size > 1 || x >= right ? mark : memchr (mark, CELD_INSIDE, (size_t) (right - x));
+
+  return inside ? x + (int) (inside - mark) : right;
+}
+
+/* The squares of a tile. */
+static CeldStatus
+visit_tile (CeldMesh *mesh, CeldSquareVisit visit, int left, int top, int right, int bottom, int size)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = top; y < bottom; y += size)
+    for (int x = left; (x = skip_outside (mesh, x, y, right, size)) < right && status == CELD_OK; x += size)
+      status = visit (mesh, x, y, x + size < right ? x + size : right, y + size < bottom ? y + size : bottom, size);
+  return status;
+}
+
 CeldStatus
 celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit)
 {
   const CeldCut *cut = mesh->cut;
   CeldStatus     status = CELD_OK;
 
-  for (int t = 0; t < mesh->columns * mesh->rows; t++)
+  for (int t = 0; t < mesh->columns * mesh->rows && status == CELD_OK; t++)
     {
-      int left = cut->left + t % mesh->columns * CELD_TILE, right = left + CELD_TILE, size = mesh->size[t];
+      int left = cut->left + t % mesh->columns * CELD_TILE, right = left + CELD_TILE;
       int top = cut->top + t / mesh->columns * CELD_TILE, bottom = top + CELD_TILE;
 
       right  = right > cut->right ? cut->right + 1 : right;
       bottom = bottom > cut->bottom ? cut->bottom + 1 : bottom;
-      for (int y = top; y < bottom && mesh->open[t]; y += size)
-        for (int x = left; x < right && status == CELD_OK; x += size)
-          status = visit (mesh, x, y, x + size < right ? x + size : right, y + size < bottom ? y + size : bottom, size);
+      if (mesh->open[t])
+        status = visit_tile (mesh, visit, left, top, right, bottom, mesh->size[t]);
     }
   return status;
 }
@@ -283,31 +305,35 @@ link_columns (CeldMesh *mesh, int y, int bottom, int x, int step, bool fine)
   return status;
 }
 
-/* Two neighbours in a square, the one of lower index first. */
+/* Two neighbours in a square that differ, the one of lower index first. */
 static CeldStatus
 link_pair (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
 {
-  const CeldCut *cut = mesh->cut;
-  size_t         p = celd_cut_pixel (cut, x, y), q = celd_cut_pixel (cut, u, v);
-
-  if (cut->mark[p] == CELD_INSIDE)
-    return cut->mark[q] == CELD_INSIDE && cut->node[p] == cut->node[q] ? CELD_OK : touch (mesh, x, y, u, v, fine);
-  return cut->mark[q] == CELD_INSIDE ? touch (mesh, u, v, x, y, fine) : CELD_OK;
+  return mesh->cut->mark[celd_cut_pixel (mesh->cut, x, y)] == CELD_INSIDE ? touch (mesh, x, y, u, v, fine)
+       : mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] == CELD_INSIDE ? touch (mesh, u, v, x, y, fine) : CELD_OK;
 }
 
 static CeldStatus
 link_within (CeldMesh *mesh, int x, int y, int right, int bottom, bool fine)
 {
+  size_t     w = (size_t) mesh->cut->canvas->ink->width;
   CeldStatus status = CELD_OK;
 
   for (int v = y; v < bottom; v++)
-    for (int u = x; u < right && status == CELD_OK; u++)
-      {
-        if (u + 1 < right)
-          status = link_pair (mesh, u, v, u + 1, v, fine);
-        if (v + 1 < bottom && status == CELD_OK)
-          status = link_pair (mesh, u, v, u, v + 1, fine);
-      }
+    {
+      const uint8_t  *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, v);
+      const uint32_t *node = mesh->cut->node + celd_cut_pixel (mesh->cut, x, v);
+
+      for (int u = x; u < right && status == CELD_OK; u++, mark++, node++)
+        {
+          bool inside = *mark == CELD_INSIDE;
+
+          if (u + 1 < right && (mark[0] != mark[1] || (inside && node[0] != node[1])))
+            status = link_pair (mesh, u, v, u + 1, v, fine);
+          if (v + 1 < bottom && (mark[0] != mark[w] || (inside && node[0] != node[w])) && status == CELD_OK)
+            status = link_pair (mesh, u, v, u, v + 1, fine);
+        }
+    }
   return status;
 }
 

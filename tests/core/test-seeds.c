@@ -175,7 +175,7 @@ figure_2_of_the_paper (void)
   case_clear (&c);
 }
 
-/* The end nearer to the region's scribble keeps its label, whichever way the arrow points; an equality splits nothing. */
+/* The end nearer to the region's scribble keeps its label, whichever way the arrow points; equalities split nothing. */
 static void
 scribbled_regions_are_split (void)
 {
@@ -424,7 +424,9 @@ check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *lab
       const CeldTerm *a = &relations->item[i].nearer, *b = &relations->item[i].farther;
       int             x = (int) a->x, y = (int) a->y, u = (int) b->x, v = (int) b->y;
 
-      if (relations->item[i].equal || x < 0 || y < 0 || x >= PAGE || y >= PAGE || u < 0 || v < 0 || u >= PAGE || v >= PAGE)
+      if (relations->item[i].equal || x < 0 || y < 0 || x >= PAGE || y >= PAGE)
+        continue;
+      if (u < 0 || v < 0 || u >= PAGE || v >= PAGE)
         continue;
       if ((x != u || y != v) && CELD_AT (canvas->ink, x, y) > 0.5f && CELD_AT (canvas->ink, u, v) > 0.5f)
         CHECK (CELD_AT (labels, x, y) != CELD_AT (labels, u, v));
