@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#define DAMPING    0.6         /* of the length of tangents */
+#define DAMPING    0.7         /* of the length of tangents */
 #define WOBBLE     0.28         /* radians: an angle of this size counts half */
 #define TRUSTED    0.7          /* radians off the chord: up to here an angle is followed */
 #define MOST_ANGLE 1.05         /* from here on it is not; 60 degrees */

@@ -432,7 +432,7 @@ a_gap_is_closed_like_by_hand (void)
 
   for (int degrees = 0; degrees < 360; degrees += 15)
     {
-      double       at = degrees * pi / 180, chord = 120 * cos (half), worst = 0;
+      double       at = degrees * pi / 180, chord = 120 * cos (asin (30. / 120)), worst = 0;
       CeldPlane    ink = { SIDE, SIDE, SIDE, malloc (SIDE * SIDE * sizeof (float)) };
       CeldLabels   labels = { SIDE, SIDE, SIDE, calloc (SIDE * SIDE, sizeof (uint32_t)) };
       CeldPalette  palette = letters (2);
