@@ -20,8 +20,8 @@ typedef struct
   const CeldBasins *old;      /* what the others keep */
 } CeldPlot;
 
-/* basin-ascent.c: fills in basin, n, row and run of a graph of the size of the box, areas left out.  Pixels that are not
- * made anew belong to CELD_KEPT | their old basin; outside the box nothing may be made anew. */
+/* basin-ascent.c: fills in basin, n, row and run of a graph of the size of the box, areas left out.  Pixels that are
+ * not made anew belong to CELD_KEPT | their old basin; outside the box nothing may be made anew. */
 CeldStatus celd_basins_ascend (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins);
 
 /* basin-borders.c: the borders of the basins that width, height, basin, row and run describe, as far as a pixel of each

@@ -103,6 +103,10 @@ CeldStatus celd_step (const CeldRun *run, double done);
 /* body (data, 0 .. n-1), on the host's threads if it lends any. */
 void celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *data);
 
+/* n jobs in rounds of at most `at_once`, which is the part [from,to] of the run: body (data, i) is job *first + i. */
+CeldStatus celd_rounds (const CeldRun *run, int n, int at_once, void (*body) (void *data, int i), void *data,
+                        int *first, double from, double to);
+
 /* ------------------------------------------------------------------ paper.c: what a drawing was made with */
 
 /* The mode that CELD_INK_AUTO stands for; any other mode itself, but for CELD_INK_ALPHA of an opaque picture. */
@@ -209,8 +213,8 @@ CeldStatus celd_distance (int width, int height, const uint8_t *inside, const Ce
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
 CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared,
                          int32_t *nearest);
-/* Of paper the squared distance to the nearest ink, of ink minus that to the nearest paper: one tight plane of the size
- * of the ink, which decides by celd_is_paper.  INT32_MAX and -INT32_MAX where there is none. */
+/* signed-distance.c: of paper the squared distance to the nearest ink, of ink minus that to the nearest paper.  One tight
+ * plane of the size of the ink, which decides by celd_is_paper; INT32_MAX and -INT32_MAX where there is none. */
 CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared);
 
 /* ------------------------------------------------------------------ components.c: connected components */

@@ -42,3 +42,17 @@ celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *da
     for (int i = 0; i < n; i++)
       body (data, i);
 }
+
+CeldStatus
+celd_rounds (const CeldRun *run, int n, int at_once, void (*body) (void *data, int i), void *data, int *first,
+             double from, double to)
+{
+  CeldStatus status = CELD_OK;
+
+  for (*first = 0; *first < n && status == CELD_OK; *first += at_once)
+    {
+      celd_each (run, n - *first < at_once ? n - *first : at_once, body, data);
+      status = celd_step (run, from + (to - from) * (*first + at_once < n ? (double) (*first + at_once) / n : 1));
+    }
+  return status;
+}

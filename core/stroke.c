@@ -9,7 +9,7 @@
 #define LONGEST_RUN 256  /* pixels; longer runs count as this long */
 #define STRIP       4096
 
-/* Columns that are gone through at once.  Rows run through them from top to bottom, so that the drawing is read once. */
+/* Columns that are gone through at once, row by row, so that the drawing is read once. */
 typedef struct
 {
   const CeldPlane *ink;

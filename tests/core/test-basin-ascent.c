@@ -43,7 +43,9 @@ slow_step (const Slow *s, int p)
   int     to = p, x = p % s->w, y = p / s->w;
   int64_t best = s->relief[p];
 
-  static const int order[8][2] = { { 0, 1 }, { 1, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 } };
+  static const int order[8][2] = {
+    { 0, 1 }, { 1, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 }, { 1, -1 }, { -1, 1 }, { 1, 1 }
+  };
 
   for (int k = 0; k < 8; k++)
     {
