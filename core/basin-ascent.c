@@ -103,9 +103,9 @@ static void
 find_runs (void *data, int job)
 {
   const CeldAscent *a = data;
-  int           at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
+  int               at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
   CeldBand         *band = &a->band[at];
-  bool          good = true;
+  bool              good = true;
 
   for (int i = 0; i < n; i++)
     {

@@ -243,9 +243,9 @@ celd_band_lead (void *data, int job)
 {
   const CeldAscent *a = data;
   const CeldDesk   *desk = &a->desk[job];
-  int           w = a->width, at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
-  size_t        row_size = (size_t) w + 2;
-  uint32_t     *lead = desk->lead + row_size + 1, place = (uint32_t) (2 * at * w);
+  int               w = a->width, at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
+  size_t            row_size = (size_t) w + 2;
+  uint32_t         *lead = desk->lead + row_size + 1, place = (uint32_t) (2 * at * w);
   CeldBand         *band = &a->band[at];
 
   raise_row (a, top - 1, desk->relief);
