@@ -131,10 +131,11 @@ find_hull (const int32_t *row, int w, const uint8_t *keep, int left, int end, Si
   for (int i = 0; i < n; i++)
     {
       int     u = site[i].column;
-      int32_t g = u < left || u >= end ? 0 : row[u], f = u * u + g * g;
+      int32_t g = u < left || u >= end ? 0 : row[u], f;
 
       if (abs (g) >= NONE)
         continue;
+      f = u * u + g * g;
       while (kept > 1 && (int64_t) (site[kept - 1].f - site[kept - 2].f) * (u - site[kept - 1].column) >=
                          (int64_t) (f - site[kept - 1].f) * (site[kept - 1].column - site[kept - 2].column))
         kept--;
