@@ -370,7 +370,7 @@ celd_dab_remove (CeldCanvas *canvas, const CeldDab *dab)
 CeldStatus
 celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
 {
-  const uint32_t *piece = canvas->basins->piece;
+  const uint32_t *piece = canvas->cell ? canvas->cell : canvas->basins->piece;
   CeldSpread     *spread = &canvas->painted;
   bool           *stained;
   CeldStatus      status = celd_spread_new (canvas, piece, spread);

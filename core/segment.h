@@ -33,6 +33,7 @@ typedef struct
   const CeldPlane    *ink;
   const CeldBasins   *basins;
   const CeldBridges  *bridges;
+  const uint32_t     *cell;      /* pieces, parted by bridges too; NULL: the same as pieces */
   CeldSeedRows        seeds;     /* painted ones, and those that arrows and the frame add */
   CeldPalette         palette;   /* of all labels so far */
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */

@@ -14,6 +14,7 @@ struct CeldSegmenter
 {
   CeldPlane    ink;             /* borrowed */
   CeldBridges  bridges;
+  uint32_t    *cell;            /* of each basin: its piece, parted by bridges; NULL without any */
   CeldBasins   basins;
   float        threshold;       /* that the basins were made with, */
   bool         bridged;         /* and whether over bridges */
@@ -36,6 +37,7 @@ celd_segmenter_free (CeldSegmenter *segmenter)
   if (!segmenter)
     return;
   celd_bridges_clear (&segmenter->bridges);
+  celd_free (segmenter->cell);
   celd_basins_clear (&segmenter->basins);
   celd_painting_clear (&segmenter->painting);
   celd_spread_clear (&segmenter->spread);
@@ -66,6 +68,17 @@ make_basins (CeldSegmenter *s, const CeldPlane *ink, const CeldRect *changed, fl
   return CELD_OK;
 }
 
+/* Remembers what the bridges part, before pieces are joined over them. */
+static CeldStatus
+keep_cells (CeldSegmenter *s)
+{
+  s->cell = celd_alloc (s->basins.n, sizeof *s->cell);
+  if (!s->cell)
+    return CELD_NO_MEMORY;
+  memcpy (s->cell, s->basins.piece, s->basins.n * sizeof *s->cell);
+  return CELD_OK;
+}
+
 /* The same for ink without bridges: they are drawn on a copy. */
 static CeldStatus
 make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, float threshold, const CeldRun *run)
@@ -86,6 +99,8 @@ make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, 
     celd_bridges_draw (&bridges, &copy);
   if (status == CELD_OK)
     status = make_basins (s, bridges.n ? &copy : ink, changed, threshold, &make);
+  if (status == CELD_OK && bridges.n)
+    status = keep_cells (s);
   if (status == CELD_OK)
     status = celd_bridges_join (&bridges, ink, &s->basins);
   celd_free (copy.data);
@@ -111,6 +126,8 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
   CeldStatus     status;
 
   celd_spread_clear (&s->spread);
+  celd_free (s->cell);
+  s->cell = NULL;
   if (settings->close_gaps)
     status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, run);
   else
@@ -141,7 +158,7 @@ canvas_new (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *pale
   CeldStatus status;
 
   *canvas = (CeldCanvas) {
-    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .kept = &s->spread
+    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .cell = s->cell, .kept = &s->spread
   };
   status = celd_seed_rows_copy (seeds, &canvas->seeds);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
