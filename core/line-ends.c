@@ -18,7 +18,7 @@
 #define SCALES   2              /* arms are tried at, each twice as long as the one before */
 #define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
 #define CERTAIN  0.42           /* the same of a line that is not seen to be one */
-#define SAME     0.75           /* stroke widths: ends as close as this are one */
+#define SAME     0.75           /* widths of the line: ends as close as this are one */
 
 #define INKED 1                 /* of a pixel */
 #define SEEN  2                 /* its upper edge has been followed */
@@ -112,10 +112,10 @@ sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
 
 /* Has this end been found, at another scale?  The one on the other side of a narrow gap points the other way. */
 static bool
-is_known (const Search *s, CeldTip end)
+is_known (const Search *s, CeldTip end, double width)
 {
   for (size_t i = s->n_tips; i--;)
-    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * s->stroke + 1 &&
+    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * width + 1 &&
         s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
       return true;
   return false;
@@ -126,7 +126,7 @@ is_known (const Search *s, CeldTip end)
 static CeldStatus
 try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
 {
-  double     back = hypot (middle.x - corner.x, middle.y - corner.y);
+  double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* of the line, about */
   CeldCorner inside;
   CeldTip    end, *tip;
 
@@ -142,7 +142,7 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
     end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
   else
     end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
-  if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end))
+  if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end, width))
     return CELD_OK;
   tip = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
   if (!tip)
