@@ -13,9 +13,9 @@
 
 #include <string.h>
 
-#define ARM      2.5            /* stroke widths along the outline to either side */
+#define ARM      1.25           /* stroke widths along the outline to either side */
 #define SHORTEST 6              /* pixels of such an arm, at least */
-#define SCALES   2              /* arms are tried at, each twice as long as the one before */
+#define SCALES   3              /* arms are tried at, each twice as long as the one before */
 #define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
 #define CERTAIN  0.42           /* the same of a line that is not seen to be one */
 #define SAME     0.75           /* widths of the line: ends as close as this are one */
