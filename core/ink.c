@@ -16,10 +16,12 @@
 #include <string.h>
 
 #define BINS 256
+#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
 #define FAINTEST 0.05f        /* least contrast of a stroke; yellow on white has 0.07 */
 #define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
 #define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
 #define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
+#define STRIP 16              /* columns: a strip is a line of the cache wide */
 #define PASSES 14             /* over the picture, of about the same length */
 
 typedef struct
@@ -32,7 +34,7 @@ typedef struct
   CeldPlane      area;          /* contrast without strokes: the grey opening */
   CeldPlane      level;         /* contrast of the dark core of the stroke here; 0 = not known */
   CeldPlane      spare;
-  float         *line;          /* for least_along_rows */
+  float         *lines;         /* for least_along_rows and least_along_columns */
   float          noise;         /* of the paper */
   bool           noisy;         /* by more than rounding */
   float          faintest;      /* least contrast of a stroke */
@@ -65,7 +67,7 @@ most (float a, float b)
 static float
 noise_at (const CeldPlane *contrast, int step)
 {
-  size_t of[BINS] = { 0 }, all = 0, below = 0;
+  size_t of[BANKS][BINS] = { { 0 } }, all = 0, below = 0;
   int    bin = 0;
 
   for (int y = 0; y < contrast->height; y++)
@@ -73,13 +75,15 @@ noise_at (const CeldPlane *contrast, int step)
       {
         const float *c = &CELD_AT (contrast, x, y);
 
-        if (c[-step] < 0.25f && c[0] < 0.25f && c[step] < 0.25f)
-          {
-            of[(int) least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
-            all++;
-          }
+        if (most (most (c[-step], c[0]), c[step]) >= 0.25f)
+          continue;
+        of[x % BANKS][(int) least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
+        all++;
       }
-  while (bin < BINS - 1 && 2 * (below += of[bin]) < all)
+  for (int k = 1; k < BANKS; k++)
+    for (int i = 0; i < BINS; i++)
+      of[0][i] += of[k][i];
+  while (bin < BINS - 1 && 2 * (below += of[0][bin]) < all)
     bin++;
   return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
 }
@@ -116,19 +120,24 @@ smooth (CeldPlane *plane, CeldPlane *spare)
   int width = plane->width, height = plane->height;
 
   for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      {
-        float left = CELD_AT (plane, x > 0 ? x - 1 : 0, y), right = CELD_AT (plane, x < width - 1 ? x + 1 : x, y);
+    {
+      const float *from = &CELD_AT (plane, 0, y);
+      float       *to = &CELD_AT (spare, 0, y);
 
-        CELD_AT (spare, x, y) = 0.25f * (left + right) + 0.5f * CELD_AT (plane, x, y);
-      }
+      to[0] = 0.25f * (from[0] + from[width > 1]) + 0.5f * from[0];
+      for (int x = 1; x < width - 1; x++)
+        to[x] = 0.25f * (from[x - 1] + from[x + 1]) + 0.5f * from[x];
+      to[width - 1] = 0.25f * (from[width > 1 ? width - 2 : 0] + from[width - 1]) + 0.5f * from[width - 1];
+    }
   for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      {
-        float above = CELD_AT (spare, x, y > 0 ? y - 1 : 0), below = CELD_AT (spare, x, y < height - 1 ? y + 1 : y);
+    {
+      const float *above = &CELD_AT (spare, 0, y > 0 ? y - 1 : 0), *below = &CELD_AT (spare, 0, y < height - 1 ? y + 1 : y);
+      const float *from = &CELD_AT (spare, 0, y);
+      float       *to = &CELD_AT (plane, 0, y);
 
-        CELD_AT (plane, x, y) = 0.25f * (above + below) + 0.5f * CELD_AT (spare, x, y);
-      }
+      for (int x = 0; x < width; x++)
+        to[x] = 0.25f * (above[x] + below[x]) + 0.5f * from[x];
+    }
 }
 
 /* ------------------------------------------------------------------ grey morphology with square windows */
@@ -137,7 +146,7 @@ smooth (CeldPlane *plane, CeldPlane *spare)
 static void
 least_along_rows (CeldPlane *plane, int radius, float *line)
 {
-  int n = plane->width + 2 * radius, window = 2 * radius + 1, span = 1;
+  int n = plane->width + 2 * radius, window = 2 * radius + 1, span;
 
   for (int y = 0; y < plane->height; y++)
     {
@@ -154,17 +163,33 @@ least_along_rows (CeldPlane *plane, int radius, float *line)
     }
 }
 
+/* The same along columns, STRIP of them at a time; `lines` has room for STRIP (height + 2 radius). */
 static void
-transpose (const CeldPlane *from, CeldPlane *to)
+least_along_columns (CeldPlane *plane, int radius, float *lines)
 {
-  enum { BLOCK = 32 };
+  int window = 2 * radius + 1, span;
 
-  *to = (CeldPlane) { from->height, from->width, (size_t) from->height, to->data };
-  for (int top = 0; top < from->height; top += BLOCK)
-    for (int left = 0; left < from->width; left += BLOCK)
-      for (int y = top; y < from->height && y < top + BLOCK; y++)
-        for (int x = left; x < from->width && x < left + BLOCK; x++)
-          CELD_AT (to, y, x) = CELD_AT (from, x, y);
+  for (int left = 0; left < plane->width; left += STRIP)
+    {
+      size_t breadth = plane->width - left < STRIP ? (size_t) (plane->width - left) : STRIP;
+      size_t edge = (size_t) radius * breadth, n = (size_t) plane->height * breadth + 2 * edge;
+
+      for (size_t i = 0; i < edge; i++)
+        lines[i] = lines[n - 1 - i] = INFINITY;
+      for (int y = 0; y < plane->height; y++)
+        memcpy (lines + edge + (size_t) y * breadth, &CELD_AT (plane, left, y), breadth * sizeof *lines);
+      for (span = 1; 2 * span <= window; span *= 2)
+        for (size_t i = 0, step = (size_t) span * breadth; i < n - step; i++)
+          lines[i] = least (lines[i], lines[i + step]);
+      for (int y = 0; y < plane->height; y++)
+        {
+          float       *row = &CELD_AT (plane, left, y);
+          const float *first = lines + (size_t) y * breadth, *second = first + (size_t) (window - span) * breadth;
+
+          for (size_t x = 0; x < breadth; x++)
+            row[x] = least (first[x], second[x]);
+        }
+    }
 }
 
 static CeldStatus
@@ -172,13 +197,11 @@ erode (Work *w, CeldPlane *plane, int radius)
 {
   CeldStatus status;
 
-  least_along_rows (plane, radius, w->line);
+  least_along_rows (plane, radius, w->lines);
   status = pass_done (w);
   if (status != CELD_OK)
     return status;
-  transpose (plane, &w->spare);
-  least_along_rows (&w->spare, radius, w->line);
-  transpose (&w->spare, plane);
+  least_along_columns (plane, radius, w->lines);
   return pass_done (w);
 }
 
@@ -238,8 +261,8 @@ start_work (int width, int height, Work *w)
 
   w->pixels = (size_t) width * (size_t) height;
   w->widest = shorter / 32 > 12 ? shorter / 32 : 12;
-  w->line = celd_alloc ((size_t) longer + 2 * (size_t) w->widest, sizeof *w->line);
-  if (!w->line || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
+  w->lines = celd_alloc (STRIP * ((size_t) longer + 2 * (size_t) w->widest), sizeof *w->lines);
+  if (!w->lines || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
       celd_plane_new (width, height, &w->area) != CELD_OK || celd_plane_new (width, height, &w->level) != CELD_OK)
     return CELD_NO_MEMORY;
   return celd_plane_new (width, height, &w->spare);
@@ -252,7 +275,7 @@ end_work (Work *w)
   celd_free (w->area.data);
   celd_free (w->level.data);
   celd_free (w->spare.data);
-  celd_free (w->line);
+  celd_free (w->lines);
 }
 
 /* Reflectance against the paper, as a contrast. */

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #define BINS 256
+#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
 #define DARKEST 1e-3f         /* no paper is darker, so that values can be divided by it */
 
 /* ------------------------------------------------------------------ one value a pixel */
@@ -148,8 +149,8 @@ typedef struct { int side, width, height; float *level, *spare; } Tiles;
 static float
 upper_value (const CeldPlane *value, int left, int top, int side)
 {
-  unsigned of[BINS] = { 0 }, all = 0, above = 0;
-  double   sum[BINS] = { 0 };
+  unsigned of[BANKS][BINS] = { { 0 } }, all = 0, above = 0;
+  double   sum[BANKS][BINS] = { { 0 } };
   int      bin = BINS - 1, fullest;
 
   for (int y = top; y < top + side && y < value->height; y++)
@@ -160,18 +161,24 @@ upper_value (const CeldPlane *value, int left, int top, int side)
 
         if (fabsf (v - CELD_AT (value, x > 0 ? x - 1 : 0, y)) > 0.06f)
           continue;
-        of[i]++;
-        sum[i] += v;
+        of[x % BANKS][i]++;
+        sum[x % BANKS][i] += v;
         all++;
+      }
+  for (int k = 1; k < BANKS; k++)
+    for (int i = 0; i < BINS; i++)
+      {
+        of[0][i] += of[k][i];
+        sum[0][i] += sum[k][i];
       }
   if (!all)
     return 0;
-  for (fullest = bin; 5 * (above += of[bin]) < all; bin--)
-    if (of[bin] > of[fullest])
+  for (fullest = bin; 5 * (above += of[0][bin]) < all; bin--)
+    if (of[0][bin] > of[0][fullest])
       fullest = bin;
-  if (of[bin] > of[fullest])
+  if (of[0][bin] > of[0][fullest])
     fullest = bin;
-  return (float) (sum[fullest] / of[fullest]);
+  return (float) (sum[0][fullest] / of[0][fullest]);
 }
 
 /* Keeps the tiles whose level can be reached from the brightest in small steps, as shadows and vignettes can; sets the
@@ -284,22 +291,34 @@ tile_before (int pixel, int side, int n, float *share)
   return tile;
 }
 
+/* Between the middles of tiles, and beyond those of the outermost; the levels of one row of pixels go to spare. */
 static void
 interpolate_tiles (const Tiles *t, CeldPlane *paper)
 {
+  float inverse = 1 / (float) t->side;
+
   for (int y = 0; y < paper->height; y++)
     {
-      float v;
-      int   j = tile_before (y, t->side, t->height, &v), below = t->height > 1 ? t->width : 0;
+      float        v;
+      const float *l = t->level + tile_before (y, t->side, t->height, &v) * t->width;
+      const float *below = t->height > 1 ? l + t->width : l;
+      float       *level = t->spare, *row = &CELD_AT (paper, 0, y);
 
-      for (int x = 0; x < paper->width; x++)
+      for (int i = 0; i < t->width; i++)
+        level[i] = l[i] + v * (below[i] - l[i]);
+      for (int i = 0, x = 0; x < paper->width; i++)
         {
-          float        u;
-          const float *l = t->level + j * t->width + tile_before (x, t->side, t->width, &u);
-          int          right = t->width > 1;
-          float        upper = l[0] + u * (l[right] - l[0]), lower = l[below] + u * (l[below + right] - l[below]);
+          bool  last = i >= t->width - 2;
+          int   end = last ? paper->width : (2 * i + 3) * t->side / 2;
+          float rise = t->width > 1 ? (level[i + 1] - level[i]) * inverse : 0;
+          float middle = ((float) i + 0.5f) * (float) t->side - 0.5f;
 
-          CELD_AT (paper, x, y) = fmaxf (upper + v * (lower - upper), DARKEST);
+          for (; x < end; x++)
+            {
+              float value = level[i] + ((float) x - middle) * rise;
+
+              row[x] = value > DARKEST ? value : DARKEST;
+            }
         }
     }
 }
