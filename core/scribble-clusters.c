@@ -112,26 +112,52 @@ has_core (const Cluster *k)
   return k->core >= CELD_LEAST_DOT && 8 * (size_t) k->core >= k->pixels;
 }
 
-/* The nearest larger cluster of nearly the same colour; the cluster itself if there is none. */
-static uint32_t
-larger_cluster (const Reading *r, uint32_t k)
+/* Could cluster k be a part of cluster j, larger than it and of nearly its colour? */
+static bool
+may_belong (const Reading *r, uint32_t k, uint32_t j)
 {
-  const Cluster *c = &r->cluster[k];
-  int            least = SATELLITE * SATELLITE + 1;
-  uint32_t       found = k;
+  const Cluster *c = &r->cluster[k], *l = &r->cluster[j];
 
-  for (uint32_t j = 0; j < r->n_clusters && k; j++)
-    {
-      const Cluster *l = &r->cluster[j];
-      int            d = celd_colour_distance (c->channel, l->channel);
+  return k && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)) &&
+         celd_colour_distance (c->channel, l->channel) <= SATELLITE * SATELLITE;
+}
 
-      if (d < least && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)))
-        {
-          least = d;
-          found = j;
-        }
-    }
-  return found;
+typedef struct { uint32_t of, votes, touch; } Parent;
+
+/* One vote of cluster k for j: what most vote for remains. */
+static void
+vote (const Reading *r, Parent *parent, uint32_t k, uint32_t j)
+{
+  if (!may_belong (r, k, j))
+    return;
+  if (!parent[k].votes)
+    parent[k].of = j;
+  parent[k].votes = parent[k].of == j ? parent[k].votes + 1 : parent[k].votes - 1;
+}
+
+/* Lets every two pixels of unlike clusters that touch vote for each other's, or counts those that touch their parent. */
+static void
+visit_touches (const Reading *r, Parent *parent, bool count)
+{
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      for (int i = 0; i < 2; i++)
+        if (x + !i < r->width && y + i < r->height)
+          {
+            size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = i ? p + (size_t) r->width : p + 1;
+            uint32_t a = r->colour[r->id[p]].cluster, b = r->colour[r->id[q]].cluster;
+
+            if (a == b || a == CELD_NO_CLUSTER || b == CELD_NO_CLUSTER)
+              continue;
+            if (count)
+              {
+                parent[a].touch += parent[a].of == b;
+                parent[b].touch += parent[b].of == a;
+                continue;
+              }
+            vote (r, parent, a, b);
+            vote (r, parent, b, a);
+          }
 }
 
 /* Is the cluster the tinge that loss leaves on paper? */
@@ -146,54 +172,46 @@ is_tinge (const Reading *r, const Cluster *c)
 static CeldStatus
 absorb_satellites (Reading *r)
 {
-  uint32_t *parent = celd_alloc (r->n_clusters, sizeof *parent), *touch = celd_alloc0 (r->n_clusters, sizeof *touch);
+  Parent *parent = celd_alloc0 (r->n_clusters, sizeof *parent);
 
-  if (!parent || !touch)
-    {
-      celd_free (touch);
-      celd_free (parent);
-      return CELD_NO_MEMORY;
-    }
+  if (!parent)
+    return CELD_NO_MEMORY;
   for (uint32_t k = 0; k < r->n_clusters; k++)
-    parent[k] = larger_cluster (r, k);
-  for (int y = 0; y < r->height; y++)
-    for (int x = 0; x < r->width; x++)
-      for (int i = 0; i < 2; i++)
-        if (x + !i < r->width && y + i < r->height)
-          {
-            size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = i ? p + (size_t) r->width : p + 1;
-            uint32_t a = r->colour[r->id[p]].cluster, b = r->colour[r->id[q]].cluster;
-
-            if (a == b || a == CELD_NO_CLUSTER || b == CELD_NO_CLUSTER)
-              continue;
-            touch[a] += parent[a] == b;
-            touch[b] += parent[b] == a;
-          }
+    parent[k].of = k;
+  visit_touches (r, parent, false);
+  visit_touches (r, parent, true);
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
       const Cluster *c = &r->cluster[k];
-      bool           touching = touch[k] >= CELD_LEAST_DOT && 10 * (size_t) touch[k] >= c->pixels;
+      bool           touching = parent[k].touch >= CELD_LEAST_DOT && 10 * (size_t) parent[k].touch >= c->pixels;
 
       if (r->lossy && is_tinge (r, c))
-        parent[k] = 0;
+        parent[k].of = 0;
       else if (!touching || (!r->lossy && has_core (c)))
-        parent[k] = k;
+        parent[k].of = k;
     }
   for (size_t i = 1; i < r->n; i++)
-    while (r->colour[i].cluster != CELD_NO_CLUSTER && parent[r->colour[i].cluster] != r->colour[i].cluster)
-      r->colour[i].cluster = parent[r->colour[i].cluster];
-  celd_free (touch);
+    while (r->colour[i].cluster != CELD_NO_CLUSTER && parent[r->colour[i].cluster].of != r->colour[i].cluster)
+      r->colour[i].cluster = parent[r->colour[i].cluster].of;
   celd_free (parent);
   return CELD_OK;
 }
 
-/* Honest enough to be a label?  In a lossy picture a fringe may pass for a pencil line: there it needs an inside. */
+/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside.  In a
+ * lossy picture a fringe may pass for a pencil line: there it needs an inside. */
 static bool
 is_label (const Reading *r, const Cluster *k)
 {
-  if (k->honest < CELD_LEAST_DOT || 3 * (size_t) k->honest < k->pixels)
+  if (k->honest < CELD_LEAST_DOT || (r->lossy && !has_core (k)))
     return false;
-  return !r->lossy || has_core (k);
+  return 3 * (size_t) k->honest >= k->pixels || (2 * (size_t) k->core >= k->honest && has_core (k));
+}
+
+/* Equal to paper: the tail of a soft brush, though it may be nearer to what lies beyond. */
+static bool
+is_paper (const Reading *r, const Colour *c)
+{
+  return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= r->radius * r->radius;
 }
 
 /* The colours with most honest pixels first; each takes in what lies within the radius. */
@@ -219,7 +237,7 @@ celd_scribble_clusters (Reading *r, const CeldRun *run)
     if (nearest_cluster (r, r->colour[candidate[i].id].channel) == CELD_NO_CLUSTER)
       status = celd_scribble_cluster_add (r, candidate[i].id);
   for (size_t i = 1; i < r->n && status == CELD_OK; i++)
-    r->colour[i].cluster = nearest_cluster (r, r->colour[i].channel);
+    r->colour[i].cluster = is_paper (r, &r->colour[i]) ? 0 : nearest_cluster (r, r->colour[i].channel);
   if (status == CELD_OK)
     tally_clusters (r);
   if (status == CELD_OK && r->n_clusters <= MANY)

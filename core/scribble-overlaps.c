@@ -75,19 +75,26 @@ is_overlap (const Reading *r, const Cluster *c, const Cluster *a, const Cluster 
          is_mixture (c->channel, a->channel, b->channel, a->channel);
 }
 
-/* The two labels that label k faces most; 0 where there is none. */
+/* The two labels that label k faces most, and more than all else together; 0 where there are none. */
 static void
 find_partners (const uint32_t *touch, size_t n, size_t k, size_t *first, size_t *second)
 {
+  size_t all = touch[k * n];
+
   *first = *second = 0;
   for (size_t j = 1; j < n; j++)
-    if (touch[k * n + j] >= CELD_LEAST_DOT && (!*first || touch[k * n + j] > touch[k * n + *first]))
-      {
-        *second = *first;
-        *first = j;
-      }
-    else if (touch[k * n + j] >= CELD_LEAST_DOT && (!*second || touch[k * n + j] > touch[k * n + *second]))
-      *second = j;
+    {
+      all += touch[k * n + j];
+      if (touch[k * n + j] >= CELD_LEAST_DOT && (!*first || touch[k * n + j] > touch[k * n + *first]))
+        {
+          *second = *first;
+          *first = j;
+        }
+      else if (touch[k * n + j] >= CELD_LEAST_DOT && (!*second || touch[k * n + j] > touch[k * n + *second]))
+        *second = j;
+    }
+  if (2 * ((size_t) touch[k * n + *first] + touch[k * n + *second]) <= all)
+    *first = *second = 0;
 }
 
 CeldStatus

@@ -58,11 +58,15 @@ in_fringe (const Reading *r, const uint32_t *p, int before, int after, ptrdiff_t
     b++;
   if (a <= before && b <= after && a + b - 1 <= THIN)
     return between (r, p[-a * step], *p, p[b * step]);
-  if (before < RAMP || after < RAMP || !p[-RAMP * step] || !p[RAMP * step] || !p[-2 * step] || !p[2 * step])
+  if (before < 2 || after < 2)
+    return false;
+  before = before < RAMP ? before : RAMP;
+  after = after < RAMP ? after : RAMP;
+  if (!p[-before * step] || !p[after * step] || !p[-2 * step] || !p[2 * step])
     return false;
   return p[-2 * step] != *p && p[2 * step] != *p && between (r, p[-2 * step], *p, p[2 * step]) &&
-         differ (r, p[-RAMP * step], *p) && differ (r, p[RAMP * step], *p) &&
-         between (r, p[-RAMP * step], *p, p[RAMP * step]);
+         differ (r, p[-before * step], *p) && differ (r, p[after * step], *p) &&
+         between (r, p[-before * step], *p, p[after * step]);
 }
 
 static void
@@ -77,7 +81,7 @@ judge_row (void *data, int y)
       const uint32_t *p = r->id + i;
       int             left = x, right = r->width - 1 - x, above = y, below = r->height - 1 - y;
 
-      if (!*p || *p == r->paper)
+      if (!*p || (r->paper && !differ (r, *p, r->paper)))
         r->kind[i] = CORE;
       else if (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width))
         r->kind[i] = FRINGE;
@@ -281,6 +285,39 @@ gather_line (Reading *r, uint32_t i, uint32_t *line, uint32_t *strongest)
   return n;
 }
 
+/* Is the lost line broader than THIN round a pixel?  Then what is strongest there is hardly thinned by paper. */
+static bool
+is_broad (const Reading *r, uint32_t i)
+{
+  int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width), reach = THIN / 2 + 1;
+
+  for (int v = y - reach; v <= y + reach; v++)
+    for (int u = x - reach; u <= x + reach; u++)
+      if (u < 0 || v < 0 || u >= r->width || v >= r->height ||
+          r->label[(size_t) v * (size_t) r->width + (size_t) u] != QUEUED)
+        return false;
+  return true;
+}
+
+/* The strongest colour among the pixels where a gathered line is broad; 0 if it is broad nowhere. */
+static uint32_t
+strongest_of_broad (const Reading *r, const uint32_t *line, size_t n)
+{
+  const int *paper = r->colour[r->paper].channel;
+  uint32_t   strongest = 0;
+
+  for (size_t k = 0; k < n; k++)
+    if (is_broad (r, line[k]))
+      {
+        uint32_t id = r->id[line[k]];
+
+        if (!strongest || celd_colour_distance (r->colour[id].channel, paper) >
+                            celd_colour_distance (r->colour[strongest].channel, paper))
+          strongest = id;
+      }
+  return strongest;
+}
+
 /* The label whose colour, thinned with paper, comes nearest to the colour given; 0 if none is near. */
 static uint32_t
 label_of_tint (const Reading *r, uint32_t id)
@@ -314,6 +351,26 @@ label_of_tint (const Reading *r, uint32_t id)
   return found;
 }
 
+/* The label of nearly this colour; 0 if there is none. */
+static uint32_t
+label_of_colour (const Reading *r, uint32_t id)
+{
+  uint32_t found = 0;
+  int      least = TINT * TINT;
+
+  for (uint32_t k = 1; k < r->n_clusters; k++)
+    {
+      int d = celd_colour_distance (r->cluster[k].channel, r->colour[id].channel);
+
+      if (r->cluster[k].is_label && d < least)
+        {
+          least = d;
+          found = k;
+        }
+    }
+  return found;
+}
+
 static CeldStatus
 rescue_lines (Reading *r)
 {
@@ -328,7 +385,7 @@ rescue_lines (Reading *r)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < r->pixels && status == CELD_OK; i++)
     {
-      uint32_t strongest, k;
+      uint32_t strongest, broad, k;
       size_t   n;
 
       if (!is_lost (r, i))
@@ -336,10 +393,11 @@ rescue_lines (Reading *r)
       n = gather_line (r, (uint32_t) i, line, &strongest);
       if (!strongest || n < CELD_LEAST_DOT)
         continue;
-      k = label_of_tint (r, strongest);
+      broad = strongest_of_broad (r, line, n);
+      k = broad ? label_of_colour (r, broad) : label_of_tint (r, strongest);
       if (!k)
         {
-          status = celd_scribble_cluster_add (r, strongest);
+          status = celd_scribble_cluster_add (r, broad ? broad : strongest);
           k = (uint32_t) r->n_clusters - 1;
           r->cluster[k].is_label = true;
         }

@@ -33,7 +33,7 @@ colours_within_the_radius_are_one (void)
   reading_clear (&r);
 }
 
-/* Four honest pixels, and a third of all; with loss an inside, too. */
+/* Four honest pixels; with loss an inside, too. */
 static void
 a_label_needs_honest_pixels (void)
 {
@@ -54,12 +54,28 @@ a_label_needs_honest_pixels (void)
       CHECK (r.cluster[r.colour[1].cluster].is_label);
       reading_clear (&r);
     }
-  Reading r = reading_new (apart, rgb, 2);
-  r.colour[2].pixels = 13;
-  r.colour[2].honest = 4;
-  cluster (&r, 2);
-  CHECK (!r.cluster[r.colour[2].cluster].is_label);
-  reading_clear (&r);
+}
+
+/* Fringes of other strokes pass through its colour: it needs a third, or an inside that is most of what is honest. */
+static void
+fringes_of_others_do_not_count (void)
+{
+  static const struct { uint32_t honest, core; bool label; } given[] = {
+    { 44, 0, true }, { 43, 0, false }, { 32, 17, true }, { 36, 17, false }, { 16, 15, false },
+  };
+  int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
+
+  for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+    {
+      Reading r = reading_new (apart, rgb, 2);
+
+      r.colour[2].pixels = 132;
+      r.colour[2].honest = given[i].honest;
+      r.colour[2].core = given[i].core;
+      cluster (&r, 2);
+      CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
+      reading_clear (&r);
+    }
 }
 
 /* A rim without an inside is a part of the stroke that it touches, if it has nearly its colour. */
@@ -82,11 +98,42 @@ a_rim_belongs_to_its_stroke (void)
     }
 }
 
+/* C is as near to A's colour as to B's, and nearer to that of D: but B is what it touches. */
+static void
+a_rim_belongs_to_what_it_touches (void)
+{
+  static const char *const art[] = { "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL };
+  int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
+  Reading r = reading_new (art, rgb, 4);
+
+  r.colour[3].core = 0;
+  cluster (&r, 4);
+  CHECK (r.colour[3].cluster == r.colour[2].cluster);
+  reading_clear (&r);
+}
+
+/* Paper is what equals its colour, even where the first step of a soft edge is nearer. */
+static void
+what_equals_paper_is_paper (void)
+{
+  static const char *const art[] = { "AAAAAAAAAA", "AAAAAAAAAA", "CCCCCCCCCC", "BBBBBBBBBB", NULL };
+  int     rgb[3][3] = { { 255, 255, 255 }, { 255, 251, 255 }, { 255, 253, 255 } };
+  Reading r = reading_new (art, rgb, 3);
+
+  r.paper = 1;
+  cluster (&r, 1);
+  CHECK (r.colour[3].cluster == 0);
+  reading_clear (&r);
+}
+
 int
 main (void)
 {
   RUN (colours_within_the_radius_are_one);
   RUN (a_label_needs_honest_pixels);
+  RUN (fringes_of_others_do_not_count);
   RUN (a_rim_belongs_to_its_stroke);
+  RUN (a_rim_belongs_to_what_it_touches);
+  RUN (what_equals_paper_is_paper);
   return DONE;
 }
