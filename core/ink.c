@@ -22,7 +22,7 @@
 #define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
 #define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
 #define STRIP 16              /* columns: a strip is a line of the cache wide */
-#define PASSES 14             /* over the picture, of about the same length */
+#define PASSES 16             /* over the picture, of about the same length */
 
 typedef struct
 {
@@ -293,27 +293,39 @@ measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
   return status == CELD_OK ? pass_done (w) : status;
 }
 
-/* Grain, and blotches up to 16 pixels across, go; strokes stay. */
+/* The largest noise at the scales from step to 16 pixels. */
 static CeldStatus
-quieten (Work *w)
+measure_noise (Work *w, int step)
 {
   CeldStatus status = CELD_OK;
-  float      zero;
 
-  for (int step = 1; step <= 16 && status == CELD_OK; step *= 4)
+  for (w->noise = 0; step <= 16 && status == CELD_OK; step *= 4)
     {
       w->noise = most (w->noise, noise_at (&w->contrast, step));
       status = pass_done (w);
     }
+  return status;
+}
+
+/* Grain, and blotches up to 16 pixels across, go; strokes stay.  The paper's level is that of its light grain, so that
+ * paper has a contrast of about the noise.  What counts from here on is the noise that smoothing leaves: of grain a
+ * quarter, of blotches all. */
+static CeldStatus
+quieten (Work *w)
+{
+  CeldStatus status = measure_noise (w, 1);
+  float      zero;
+
   w->noisy = w->noise > NOISELESS;
   if (status != CELD_OK || !w->noisy)
     return status;
   smooth (&w->contrast, &w->spare);
   smooth (&w->contrast, &w->spare);
   zero = least (2 * w->noise, 0.5f);
-  for (size_t i = 0; i < w->pixels; i++)
+  status = measure_noise (w, 4); /* wider than the filter, for noise that it has smeared has small differences */
+  for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
     w->contrast.data[i] = most (w->contrast.data[i] - zero, 0) / (1 - zero);
-  return pass_done (w);
+  return status == CELD_OK ? pass_done (w) : status;
 }
 
 /* How dark is ink?  In a noisy drawing the darkest is well above the noise, so that empty paper stays empty. */

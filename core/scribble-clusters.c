@@ -197,14 +197,15 @@ absorb_satellites (Reading *r)
   return CELD_OK;
 }
 
-/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside.  In a
- * lossy picture a fringe may pass for a pencil line: there it needs an inside. */
+/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except for
+ * the tails of soft brushes on paper.  In a lossy picture a fringe may pass for a pencil line: there it needs an inside. */
 static bool
 is_label (const Reading *r, const Cluster *k)
 {
   if (k->honest < CELD_LEAST_DOT || (r->lossy && !has_core (k)))
     return false;
-  return 3 * (size_t) k->honest >= k->pixels || (2 * (size_t) k->core >= k->honest && has_core (k));
+  return 3 * (size_t) k->honest >= k->pixels ||
+         (2 * (size_t) k->core >= k->honest && has_core (k) && !is_tinge (r, k));
 }
 
 /* Equal to paper: the tail of a soft brush, though it may be nearer to what lies beyond. */

@@ -157,6 +157,20 @@ pencil_becomes_ink (void)
   CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
 }
 
+/* A line of light blue in a grain of an eighth of its contrast: smoothing quietens that, so no part of it is lost. */
+static void
+pale_lines_in_grain_stay_whole (void)
+{
+  uint32_t seed = 11;
+  float    least;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 0.94f * (1 - 0.23f * coverage (i % SIDE, i / SIDE, 4)) + 0.025f * grain (&seed);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (palest_of_ring () <= 0.2f);
+  CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
+}
+
 /* A stroke of a third of the contrast beside black ones is a contour as they are; a yellow drawing, too. */
 static void
 pale_strokes_are_contours (void)
@@ -272,6 +286,7 @@ main (void)
   RUN (clean_art_with_solid_black_stays);
   RUN (white_stays_white);
   RUN (pencil_becomes_ink);
+  RUN (pale_lines_in_grain_stay_whole);
   RUN (pale_strokes_are_contours);
   RUN (grey_areas_stay_grey);
   RUN (light_is_dark_inverted);

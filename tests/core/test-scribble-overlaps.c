@@ -72,11 +72,26 @@ a_mixture_that_touches_one_stroke_is_a_label (void)
   CHECK (is_label (apart, mixed, true, 255));
 }
 
+/* C only adjoins A and B, and is on paper for the most part: a stroke of its own, whatever its colour. */
+static void
+a_mixture_that_lies_on_paper_is_a_label (void)
+{
+  static const char *const beside[] = {
+    "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB", "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB", "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB",
+    "AAAACCCCCCCCCCCCCCCCCCCCCCCCCCCCBBBB", "AAAACCCCCCCCCCCCCCCCCCCCCCCCCCCCBBBB", "AAAACCCCCCCCCCCCCCCCCCCCCCCCCCCCBBBB",
+    "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB", "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB", "AAAADDDDDDDDDDDDDDDDDDDDDDDDDDDDBBBB", NULL
+  };
+  int mixed[4][3] = { { 255, 128, 128 }, { 128, 128, 255 }, { 192, 64, 128 }, { 255, 255, 255 } };
+
+  CHECK (is_label (beside, mixed, true, 255));
+}
+
 int
 main (void)
 {
   RUN (a_mixture_on_paper_is_no_label);
   RUN (a_mixture_without_paper_is_more_opaque);
   RUN (a_mixture_that_touches_one_stroke_is_a_label);
+  RUN (a_mixture_that_lies_on_paper_is_a_label);
   return DONE;
 }

@@ -258,6 +258,43 @@ flats_and_paper (void)
   CHECK (palette.item[0].colour[0] == 255 && palette.item[0].seeds == WIDTH * HEIGHT - 7200);
 }
 
+/* Very soft brushes on white, one of them along the frame: the pale tails of their edges are no labels. */
+static void
+soft_brushes_on_paper (void)
+{
+  clear_paint (true);
+  for (int k = 0; k < 3; k++)
+    for (int y = 0; y < HEIGHT; y++)
+      for (int x = 0; x < WIDTH; x++)
+        {
+          double away = k == 0 ? abs (x - 27) : k == 1 ? abs (y - 120) : hypot (x - 210, (y - 220) / 2.);
+
+          lay (x, y, k == 0 ? red : k == 1 ? blue : green, fmin (2 * exp (-away * away / 90), 1));
+        }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 3);
+  CHECK (in_palette (red, 2) && in_palette (blue, 2) && in_palette (green, 2));
+}
+
+/* A blurred stroke of a colour that many others pass through where paper thins them: it is broad, so that is its own. */
+static void
+blurred_strokes_on_paper (void)
+{
+  const uint8_t pink[3] = { 255, 105, 115 }, strong[3] = { 255, 15, 15 };
+
+  clear_paint (true);
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 0; x < WIDTH; x++)
+      {
+        double wave = y - 0.3 * x, away = (wave - 60) / 4, far = (fmod (wave, 30) - 15) / 4;
+
+        lay (x, y, strong, x > 20 && x < 380 && wave > 90 ? exp (-far * far) : 0);
+        lay (x, y, pink, x > 20 && x < 80 ? exp (-away * away) : 0);
+      }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+  CHECK (in_palette (strong, 16) && in_palette (pink, 16));
+  CHECK (seed_of[75 * WIDTH + 50] && seed_of[75 * WIDTH + 50] != seed_of[165 * WIDTH + 200]);
+}
+
 static void
 half_transparent_is_the_limit (void)
 {
@@ -300,6 +337,8 @@ main (void)
   RUN (thin_lines_on_paper);
   RUN (lossy_paint);
   RUN (flats_and_paper);
+  RUN (soft_brushes_on_paper);
+  RUN (blurred_strokes_on_paper);
   RUN (half_transparent_is_the_limit);
   RUN (sizes);
   celd_palette_clear (&palette);
