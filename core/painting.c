@@ -28,6 +28,14 @@ celd_painting_forget (CeldPainting *painting, const CeldBasins *basins)
   return CELD_OK;
 }
 
+void
+celd_painting_lose (CeldPainting *painting, const CeldBasins *basins)
+{
+  memset (painting->label, 0, basins->n * sizeof *painting->label);
+  celd_patches_clear (&painting->patches);
+  painting->changed = (CeldRect) { 0, 0, basins->width, basins->height };
+}
+
 /* ------------------------------------------------------------------ runs of pixels */
 
 static void

@@ -19,9 +19,12 @@ void celd_painting_clear (CeldPainting *painting);               /* accepts a ze
 /* Nothing is painted any more, for the basins of a new drawing; `changed` stays. */
 CeldStatus celd_painting_forget (CeldPainting *painting, const CeldBasins *basins);
 
+/* After a failure in the middle of a picture: nobody knows what is painted where, and everything counts as changed. */
+void celd_painting_lose (CeldPainting *painting, const CeldBasins *basins);
+
 /* A new picture in three steps, over the old one in `labels`.  Begin: the basins take their labels, old patches go;
  * `label` is the painting's from now on, and what was painted before is handed over in *old.  Add: patches, one over
- * the other.  End: tidies the patches and notes what differs from *old.  After a failure everything counts as changed. */
+ * the other.  End: tidies the patches and notes what differs from *old.  After a failure the picture is lost. */
 void       celd_painting_begin (CeldPainting *painting, const CeldBasins *basins, uint32_t *label, CeldLabels *labels,
                                 CeldPainting *old);
 CeldStatus celd_painting_add   (CeldPainting *painting, const CeldPatches *patches, CeldLabels *labels);

@@ -118,7 +118,8 @@ CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, 
 /* ------------------------------------------------------------------ settle.c: borders of least energy */
 
 /* Moves the borders between `labels`, which are what basins and windows make, to where they cost less: in lines, and
- * across gaps.  The pixels that change sides are painted, and appended to the patches, also when this fails. */
+ * across gaps.  The pixels that change sides are painted, and appended to the patches; after a failure some are painted
+ * that are in no patch. */
 CeldStatus celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels,
                                 CeldPatches *patches);
 

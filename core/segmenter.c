@@ -307,7 +307,7 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
     status = celd_painting_end (&s->painting, &s->basins, &old, labels);
   celd_painting_clear (&old);
   if (status != CELD_OK)
-    s->painting.changed = (CeldRect) { 0, 0, labels->width, labels->height };
+    celd_painting_lose (&s->painting, &s->basins);
   return status;
 }
 
