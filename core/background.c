@@ -21,10 +21,12 @@ typedef struct
   size_t   *held;      /* of label l: frame pixels, held[l]; held[0]: nobody's */
 } Frame;
 
+/* Without flecks of paper in solid ink, which are in no room. */
 static CeldStatus
 frame_new (const CeldCanvas *canvas, Frame *frame)
 {
   int        w = canvas->ink->width, h = canvas->ink->height;
+  size_t     n = 0;
   CeldStatus status = celd_frame (canvas->ink, w, h, canvas->basins->stroke, &frame->pixel, &frame->n);
 
   if (status != CELD_OK)
@@ -35,8 +37,16 @@ frame_new (const CeldCanvas *canvas, Frame *frame)
   if (!frame->basin || !frame->holder || !frame->held)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
-    frame->basin[i] = celd_basin_at (canvas->basins, (int) (frame->pixel[i] % (size_t) w),
-                                     (int) (frame->pixel[i] / (size_t) w));
+    {
+      size_t   p = frame->pixel[i];
+      uint32_t basin = celd_basin_at (canvas->basins, (int) (p % (size_t) w), (int) (p / (size_t) w));
+
+      if (!canvas->basins->room[basin])
+        continue;
+      frame->pixel[n]   = p;
+      frame->basin[n++] = basin;
+    }
+  frame->n = n;
   return CELD_OK;
 }
 
@@ -149,9 +159,10 @@ choose (CeldCanvas *canvas, const Frame *frame, uint32_t *label)
   return celd_canvas_add (canvas, made, label);
 }
 
-/* Rooms along the frame that nobody holds get the background's seeds there, and lose the stains in them. */
+/* Rooms along the frame that nobody holds get the background's seeds there, and lose the stains in them.  A stroke that
+ * must be obeyed may lie there where a bridge hides the paper: it stays. */
 static CeldStatus
-seed (CeldCanvas *canvas, const CeldSpread *spread, const Frame *frame, uint32_t label)
+seed (CeldCanvas *canvas, const CeldSpread *spread, Frame *frame, uint32_t label)
 {
   size_t          w = (size_t) canvas->ink->width;
   const uint32_t *room = canvas->basins->room;
@@ -161,9 +172,12 @@ seed (CeldCanvas *canvas, const CeldSpread *spread, const Frame *frame, uint32_t
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     if (!frame->holder[i])
       nobodys[room[frame->basin[i]]] = true;
-  for (size_t i = 0; i < spread->n_dabs && status == CELD_OK; i++)
+  for (size_t i = 0; i < spread->n_dabs && status == CELD_OK && !celd_canvas_obeys (canvas); i++)
     if (nobodys[room[spread->dab[i].basin]])
       status = celd_dab_remove (canvas, &spread->dab[i]);
+  for (size_t i = 0; i < frame->n; i++)
+    if (!frame->holder[i])
+      frame->holder[i] = celd_seed_rows_at (&canvas->seeds, (int) (frame->pixel[i] % w), (int) (frame->pixel[i] / w));
   for (size_t i = 0, next; i < frame->n && status == CELD_OK; i = next)
     {
       size_t p = frame->pixel[i];

@@ -141,6 +141,42 @@ behind_a_gap_the_piece_counts (void)
   sketch_close (&s);
 }
 
+/* Two flecks of paper in a solid area that the frame cuts off, one of them painted: they are in no room, so that neither
+ * takes the paint away from the other. */
+static void
+flecks_in_solid_ink_are_left_alone (void)
+{
+  static const char *const solid[] = { "111#000", "111#000", "111#000", "111#000", NULL };
+  static const char *const painted[] = { ".......", ".A..B..", "......B", ".......", NULL };
+  Sketch s;
+
+  sketch_open (&s, solid, painted, 2);
+  s.ink.data[1 * 7 + 4] = s.ink.data[2 * 7 + 6] = s.ink.data[3 * 7 + 6] = 1;
+  celd_free (s.basins.paper);
+  CHECK (celd_paper_new (&s.ink, NULL, &s.basins.paper) == CELD_OK);
+  NEAR (seed (&s, painted), 1, 0);
+  sketch_close (&s);
+}
+
+/* B lies on paper that a bridge hides, in a corner that nobody holds otherwise. */
+static void
+an_obeyed_stroke_under_a_bridge_stays (void)
+{
+  static const char *const corner[] = { "1111#22", "1111#22", "11111##", "1111111", NULL };
+  static const char *const painted[] = { "......B", ".AA....", ".......", ".......", NULL };
+  static const char *const wanted[] = { ".....AB", ".AA...A", ".......", ".......", NULL };
+  Sketch s;
+
+  sketch_open (&s, corner, painted, 2);
+  s.settings.hardness = 1;
+  s.ink.data[6] = 0;
+  celd_free (s.basins.paper);
+  CHECK (celd_paper_new (&s.ink, NULL, &s.basins.paper) == CELD_OK);
+  s.ink.data[6] = 1;
+  NEAR (seed (&s, wanted), 1, 0);
+  sketch_close (&s);
+}
+
 /* ------------------------------------------------------------------ the same by pixels */
 
 /* What the slow version knows of each pixel. */
@@ -284,6 +320,8 @@ main (void)
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (behind_a_gap_the_piece_counts);
+  RUN (flecks_in_solid_ink_are_left_alone);
+  RUN (an_obeyed_stroke_under_a_bridge_stays);
   RUN (seeds_are_those_of_the_pixels);
   return DONE;
 }
