@@ -13,15 +13,6 @@
 #include <stdlib.h>
 
 #define FAINT 0.499f            /* ink of a bridge */
-#define NEAR  6                 /* stroke widths: up to here a line may turn sharply to meet another */
-#define FAR   12                /* from here on it goes on nearly straight */
-#define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
-#define TURN      0.5
-#define TURN_FAR  0.94
-#define OWN       0.5           /* of the cost: a line would rather close itself */
-#define BOW       0.8           /* of both cosines: from such a turn on both ends must turn to the same side */
-
-typedef struct { double cost; uint32_t a, b; } Pair;
 
 typedef struct
 {
@@ -30,64 +21,8 @@ typedef struct
   CeldTip         *tip;
   size_t           n;
   bool            *taken;       /* by tip */
-  Pair            *pair;
-  size_t           n_pairs;
   CeldBridges     *bridges;
 } Builder;
-
-/* ------------------------------------------------------------------ pairs */
-
-/* May two tips be joined?  What it costs: the distance, more where the lines have to turn, and less where that closes
- * an outline. */
-static bool
-judge (const Builder *b, const CeldTip *p, const CeldTip *q, double *cost)
-{
-  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), least;
-  double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
-  double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx;
-
-  if (length < 1)
-    return false;
-  least = length <= NEAR * b->stroke ? TURN_NEAR : length <= FAR * b->stroke ? TURN : TURN_FAR;
-  if (turn < least || other < least || (turn < BOW && other < BOW && side * other_side < 0))
-    return false;
-  *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN : 1);
-  return true;
-}
-
-static int
-compare_pairs (const void *a, const void *b)
-{
-  const Pair *p = a, *q = b;
-
-  if (p->cost != q->cost)
-    return p->cost < q->cost ? -1 : 1;
-  if (p->a != q->a)
-    return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
-
-static CeldStatus
-find_pairs (Builder *b)
-{
-  for (uint32_t i = 0; i < b->n; i++)
-    for (uint32_t j = i + 1; j < b->n; j++)
-      {
-        Pair  pair = { 0, i, j };
-        Pair *grown;
-
-        if (!judge (b, &b->tip[i], &b->tip[j], &pair.cost))
-          continue;
-        grown = celd_grow (b->pair, b->n_pairs + 1, sizeof *grown);
-        if (!grown)
-          return CELD_NO_MEMORY;
-        b->pair = grown;
-        grown[b->n_pairs++] = pair;
-      }
-  if (b->n_pairs)
-    qsort (b->pair, b->n_pairs, sizeof *b->pair, compare_pairs);
-  return CELD_OK;
-}
 
 /* ------------------------------------------------------------------ bridges */
 
@@ -148,7 +83,7 @@ walk (Builder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *br
 }
 
 static CeldStatus
-build (Builder *b, const Pair *pair)
+build (Builder *b, const CeldTipPair *pair)
 {
   CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
   CeldPlace   place[CELD_CURVE_PLACES];
@@ -171,6 +106,25 @@ build (Builder *b, const Pair *pair)
   return CELD_OK;
 }
 
+/* Joins ends, the cheapest pair first. */
+static CeldStatus
+build_all (Builder *b, const CeldRun *run)
+{
+  CeldTipPairs      *pairs = celd_tip_pairs_new (b->tip, b->n, b->stroke);
+  const CeldTipPair *pair = NULL;
+  CeldStatus         status = pairs ? CELD_OK : CELD_NO_MEMORY;
+
+  while (status == CELD_OK)
+    {
+      status = celd_tip_pairs_next (pairs, b->taken, run, &pair);
+      if (status != CELD_OK || !pair)
+        break;
+      status = build (b, pair);
+    }
+  celd_tip_pairs_free (pairs);
+  return status;
+}
+
 void
 celd_bridges_clear (CeldBridges *bridges)
 {
@@ -182,20 +136,18 @@ celd_bridges_clear (CeldBridges *bridges)
 CeldStatus
 celd_bridges_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldBridges *bridges)
 {
+  CeldPart    part[2];
+  CeldRun     ends = celd_run_part (&part[0], run, 0, 0.5), join = celd_run_part (&part[1], run, 0.5, 1);
   CeldBridges found = { 0 };
   Builder     b = { .ink = ink, .stroke = stroke, .bridges = &found };
-  CeldStatus  status = celd_line_ends_find (ink, stroke, run, &b.tip, &b.n);
+  CeldStatus  status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
 
   if (status != CELD_OK)
     return status;
   b.taken = celd_alloc0 (b.n, sizeof *b.taken);
-  status  = b.taken ? find_pairs (&b) : CELD_NO_MEMORY;
-  for (size_t i = 0; i < b.n_pairs && status == CELD_OK; i++)
-    if (!b.taken[b.pair[i].a] && !b.taken[b.pair[i].b])
-      status = build (&b, &b.pair[i]);
+  status  = b.taken ? build_all (&b, &join) : CELD_NO_MEMORY;
   celd_free (b.tip);
   celd_free (b.taken);
-  celd_free (b.pair);
   if (status == CELD_OK)
     *bridges = found;
   else

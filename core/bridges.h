@@ -16,6 +16,21 @@ typedef struct { double x, y, dx, dy; uint32_t outline; } CeldTip;
 /* All ends of lines, in the order of their first pixels; the caller frees them.  `stroke`: celd_stroke_width. */
 CeldStatus celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldTip **tip, size_t *n);
 
+/* ------------------------------------------------------------------ bridge-pairs.c */
+
+/* Two tips by their numbers, a < b, and what it costs to join them. */
+typedef struct { double cost; uint32_t a, b; } CeldTipPair;
+
+typedef struct CeldTipPairs CeldTipPairs;
+
+/* All pairs of tips that may be joined, to be taken one by one; the tips stay the caller's.  NULL: no memory. */
+CeldTipPairs *celd_tip_pairs_new (const CeldTip *tip, size_t n, int stroke);
+void          celd_tip_pairs_free (CeldTipPairs *pairs);         /* accepts NULL */
+
+/* The next pair by cost, then by numbers, of which no tip is taken: what is taken stays so.  Valid until the next call;
+ * NULL: there is none. */
+CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldRun *run, const CeldTipPair **pair);
+
 /* ------------------------------------------------------------------ bridges.c */
 
 /* A pixel of paper that a bridge goes over. */
