@@ -19,6 +19,9 @@
 #define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
 #define CERTAIN  0.42           /* the same of a line that is not seen to be one */
 #define SAME     0.75           /* widths of the line: ends as close as this are one */
+#define CELL     16             /* pixels: side of the cells in which known ends are looked up */
+
+#define NONE UINT32_MAX
 
 #define INKED 1                 /* of a pixel */
 #define SEEN  2                 /* its upper edge has been followed */
@@ -34,7 +37,10 @@ typedef struct
   uint32_t         outline;     /* its number */
   CeldLineEnd      end;
   CeldTip         *tip;
+  uint32_t        *before;      /* of tip k: the one before it in its cell; NONE */
   size_t           n_tips;
+  uint32_t        *latest;      /* by cells: the last tip there; NONE */
+  int              columns, rows;
 } Search;
 
 /* ------------------------------------------------------------------ outlines */
@@ -55,6 +61,20 @@ read_mask (Search *s)
         mask[x] = !celd_is_paper (ink[x]);
     }
   return CELD_OK;
+}
+
+static CeldStatus
+make_cells (Search *s)
+{
+  size_t n;
+
+  s->columns = (s->width + CELL - 1) / CELL;
+  s->rows    = (s->height + CELL - 1) / CELL;
+  n          = (size_t) s->columns * (size_t) s->rows;
+  s->latest  = celd_alloc (n, sizeof *s->latest);
+  for (size_t k = 0; k < n && s->latest; k++)
+    s->latest[k] = NONE;
+  return s->latest ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static uint8_t *
@@ -110,15 +130,54 @@ sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
   return length > 0 ? hypot (a.x - b.x, a.y - b.y) / length : 1;
 }
 
+/* The column or row of cells in which a coordinate is; the nearest one if it is off the picture. */
+static int
+cell_along (double at, int n)
+{
+  return at < CELL ? 0 : at < (double) CELL * n ? (int) (at / CELL) : n - 1;
+}
+
+static uint32_t *
+latest_at (const Search *s, CeldTip tip)
+{
+  size_t row = (size_t) cell_along (tip.y, s->rows), column = (size_t) cell_along (tip.x, s->columns);
+
+  return &s->latest[row * (size_t) s->columns + column];
+}
+
 /* Has this end been found, at another scale?  The one on the other side of a narrow gap points the other way. */
 static bool
 is_known (const Search *s, CeldTip end, double width)
 {
-  for (size_t i = s->n_tips; i--;)
-    if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < SAME * width + 1 &&
-        s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
-      return true;
+  double near = SAME * width + 1;
+  int    right = cell_along (end.x + near, s->columns), bottom = cell_along (end.y + near, s->rows);
+
+  for (int row = cell_along (end.y - near, s->rows); row <= bottom; row++)
+    for (int column = cell_along (end.x - near, s->columns); column <= right; column++)
+      for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NONE; i = s->before[i])
+        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < near &&
+            s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
+          return true;
   return false;
+}
+
+static CeldStatus
+add_tip (Search *s, CeldTip end)
+{
+  uint32_t *latest = latest_at (s, end), *before = celd_grow (s->before, s->n_tips + 1, sizeof *before);
+  CeldTip  *tip;
+
+  if (!before)
+    return CELD_NO_MEMORY;
+  s->before = before;
+  tip       = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
+  if (!tip)
+    return CELD_NO_MEMORY;
+  s->tip            = tip;
+  before[s->n_tips] = *latest;
+  tip[s->n_tips]    = end;
+  *latest           = (uint32_t) s->n_tips++;
+  return CELD_OK;
 }
 
 /* Adds the corner if a line ends there.  A tip as sharp as CERTAIN is one even if the line is too short or too bent to
@@ -128,7 +187,7 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
 {
   double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* of the line, about */
   CeldCorner inside;
-  CeldTip    end, *tip;
+  CeldTip    end;
 
   if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1)
     return CELD_OK;
@@ -144,12 +203,7 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
     end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
   if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end, width))
     return CELD_OK;
-  tip = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
-  if (!tip)
-    return CELD_NO_MEMORY;
-  s->tip = tip;
-  tip[s->n_tips++] = end;
-  return CELD_OK;
+  return add_tip (s, end);
 }
 
 /* Corners of the outline that are sharper than all within an arm's length. */
@@ -208,6 +262,8 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldT
   CeldStatus status = read_mask (&s);
 
   if (status == CELD_OK)
+    status = make_cells (&s);
+  if (status == CELD_OK)
     status = celd_line_end_new (stroke, &s.end);
   for (int y = 0; y < s.height && status == CELD_OK; y++)
     {
@@ -230,6 +286,8 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldT
   celd_line_end_clear (&s.end);
   celd_free (s.mask);
   celd_free (s.corner);
+  celd_free (s.before);
+  celd_free (s.latest);
   if (status != CELD_OK)
     {
       celd_free (s.tip);
