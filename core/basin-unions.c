@@ -9,32 +9,25 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "basin-steps.h"
+#include "unions.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define WIDER 1.25 /* times as wide as a passage, and a pixel more */
 
-/* Basins joined so far: each one's parent, itself for the first of a union; the union's largest squared distance. */
-typedef struct { uint32_t parent; int32_t widest; } Union;
-
-static uint32_t
-first_of (Union *unions, uint32_t k)
-{
-  while (unions[k].parent != k)
-    k = unions[k].parent = unions[unions[k].parent].parent;
-  return k;
-}
+/* Basins joined so far: unions.h, and of each root its union's largest squared distance. */
+typedef struct { uint32_t *parent; int32_t *widest; } Unions;
 
 static void
-join (Union *unions, uint32_t a, uint32_t b)
+join (Unions *unions, uint32_t a, uint32_t b)
 {
-  a = first_of (unions, a);
-  b = first_of (unions, b);
-  if (unions[b].widest > unions[a].widest)
-    unions[a].widest = unions[b].widest;
-  unions[b].widest = unions[a].widest;
-  unions[a > b ? a : b].parent = a < b ? a : b;
+  int32_t *widest = unions->widest;
+
+  a = celd_root (unions->parent, a);
+  b = celd_root (unions->parent, b);
+  widest[a] = widest[b] = widest[a] > widest[b] ? widest[a] : widest[b];
+  celd_join (unions->parent, a, b);
 }
 
 static int32_t
@@ -57,22 +50,23 @@ compare (const void *a, const void *b)
 }
 
 static bool
-parts (Union *unions, const CeldBorder *border)
+parts (Unions *unions, const CeldBorder *border)
 {
-  int32_t a = unions[first_of (unions, border->a)].widest, b = unions[first_of (unions, border->b)].widest;
+  int32_t a = unions->widest[celd_root (unions->parent, border->a)];
+  int32_t b = unions->widest[celd_root (unions->parent, border->b)];
 
   return !border->frame && sqrt (a < b ? a : b) > WIDER * sqrt (border->saddle) + 1;
 }
 
 /* Numbers unions in the order of their first basins; unless `all`, only those of paper. */
 static size_t
-number_unions (const CeldBasins *basins, Union *unions, bool all, uint32_t *number)
+number_unions (const CeldBasins *basins, Unions *unions, bool all, uint32_t *number)
 {
   uint32_t n = 0;
 
   for (uint32_t k = 0; k < basins->n; k++)
     {
-      uint32_t first = first_of (unions, k);
+      uint32_t first = celd_root (unions->parent, k);
 
       number[k] = !all && basins->basin[k].solid ? 0 : first == k ? ++n : number[first];
     }
@@ -100,7 +94,7 @@ find_passages (const CeldBasins *basins, const CeldBorder **passage)
 CeldStatus
 celd_basins_unite (CeldBasins *basins)
 {
-  Union             *unions = celd_alloc (basins->n, sizeof *unions);
+  Unions             unions = { celd_alloc (basins->n, sizeof (uint32_t)), celd_alloc (basins->n, sizeof (int32_t)) };
   const CeldBorder **passage = celd_alloc (basins->n_borders, sizeof *passage);
   int32_t            open = basins->stroke * basins->stroke;
   CeldStatus         status = CELD_NO_MEMORY;
@@ -109,27 +103,29 @@ celd_basins_unite (CeldBasins *basins)
   basins->block = celd_alloc (basins->n, sizeof *basins->block);
   basins->room = celd_alloc (basins->n, sizeof *basins->room);
   basins->piece = celd_alloc (basins->n, sizeof *basins->piece);
-  if (!unions || !passage || !basins->block || !basins->room || !basins->piece)
+  if (!unions.parent || !unions.widest || !passage || !basins->block || !basins->room || !basins->piece)
     goto done;
+  celd_roots (unions.parent, basins->n);
   for (uint32_t k = 0; k < basins->n; k++)
-    unions[k] = (Union) { k, basins->basin[k].squared };
+    unions.widest[k] = basins->basin[k].squared;
   n = find_passages (basins, passage);
   for (size_t i = 0; i < n; i++)
-    if (!parts (unions, passage[i]))
-      join (unions, passage[i]->a, passage[i]->b);
-  basins->n_blocks = number_unions (basins, unions, true, basins->block);
+    if (!parts (&unions, passage[i]))
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_blocks = number_unions (basins, &unions, true, basins->block);
   for (size_t i = 0; i < n; i++)
     if (passage[i]->passes && width_of (passage[i]) > open)
-      join (unions, passage[i]->a, passage[i]->b);
-  basins->n_rooms = number_unions (basins, unions, false, basins->room);
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_rooms = number_unions (basins, &unions, false, basins->room);
   for (size_t i = 0; i < n; i++)
     if (passage[i]->passes)
-      join (unions, passage[i]->a, passage[i]->b);
-  basins->n_pieces = number_unions (basins, unions, false, basins->piece);
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_pieces = number_unions (basins, &unions, false, basins->piece);
   status = CELD_OK;
 
 done:
-  celd_free (unions);
+  celd_free (unions.parent);
+  celd_free (unions.widest);
   celd_free (passage);
   return status;
 }

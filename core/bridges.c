@@ -9,6 +9,7 @@
  */
 #include "bridges.h"
 #include "closures.h"
+#include "unions.h"
 
 #include <stdlib.h>
 
@@ -222,14 +223,6 @@ celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
 
 /* ------------------------------------------------------------------ pieces and rooms */
 
-static uint32_t
-root_of (uint32_t *parent, uint32_t k)
-{
-  while (parent[k] != k)
-    k = parent[k] = parent[parent[k]];
-  return k;
-}
-
 /* Makes one part of those on both sides of bridges longer than `length`. */
 static void
 join (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, const uint32_t *part,
@@ -248,7 +241,7 @@ join (const CeldBridges *bridges, double length, const CeldPlane *ink, const Cel
                 uint32_t other = part[celd_basin_at (basins, x, y)];
 
                 if (mine && other)
-                  parent[root_of (parent, other)] = root_of (parent, mine);
+                  celd_join (parent, mine, other);
               }
       }
 }
@@ -261,7 +254,7 @@ renumber (uint32_t *parent, uint32_t *number, size_t n, uint32_t *part, size_t *
   for (size_t k = 0; k < n; k++)
     if (part[k])
       {
-        uint32_t root = root_of (parent, part[k]);
+        uint32_t root = celd_root (parent, part[k]);
 
         if (!number[root])
           number[root] = (uint32_t) ++*n_parts;
@@ -276,10 +269,9 @@ join_parts (const CeldBridges *bridges, double length, const CeldPlane *ink, con
   uint32_t *parent = celd_alloc (*n_parts + 1, sizeof *parent), *number = celd_alloc0 (*n_parts + 1, sizeof *number);
   bool      enough = parent && number;
 
-  for (uint32_t k = 0; enough && k <= *n_parts; k++)
-    parent[k] = k;
   if (enough)
     {
+      celd_roots (parent, *n_parts + 1);
       join (bridges, length, ink, basins, part, parent);
       renumber (parent, number, basins->n, part, n_parts);
     }

@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "private.h"
+#include "unions.h"
 
 #define ROWS 64 /* rows between two reports of progress */
 
@@ -16,27 +17,6 @@ typedef struct
   uint32_t *parent;  /* of number k: parent[k] <= k; k itself for a root; number 0 is "no component" */
   size_t    n;       /* numbers given so far, with number 0 */
 } Numbers;
-
-static uint32_t
-find_root (Numbers *numbers, uint32_t k)
-{
-  uint32_t *parent = numbers->parent;
-
-  while (parent[k] != k)
-    k = parent[k] = parent[parent[k]];
-  return k;
-}
-
-static void
-unite (Numbers *numbers, uint32_t a, uint32_t b)
-{
-  a = find_root (numbers, a);
-  b = find_root (numbers, b);
-  if (a < b)
-    numbers->parent[b] = a;
-  else
-    numbers->parent[a] = b;
-}
 
 /* A number of its own; 0 if there is no memory.  (The very first number is 0, too.) */
 static uint32_t
@@ -78,9 +58,9 @@ number_row (const CeldLabels *labels, uint32_t none, bool diagonal, int y, const
         return CELD_NO_MEMORY;
       /* What the row above has united already needs no second time. */
       if (west && north && !north_west)
-        unite (numbers, row[x], above[x]);
+        celd_join (numbers->parent, row[x], above[x]);
       if (north_east && !north && (west || north_west))
-        unite (numbers, row[x], above[x + 1]);
+        celd_join (numbers->parent, row[x], above[x + 1]);
     }
   return CELD_OK;
 }

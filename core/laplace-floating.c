@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "laplace.h"
+#include "unions.h"
 
 /* The component of each pixel, by its root. */
 static void
@@ -13,8 +14,7 @@ join_pixels (const CeldLaplace *l, uint32_t *parent)
 {
   size_t w = (size_t) l->width, n = w * (size_t) l->height;
 
-  for (size_t i = 0; i < n; i++)
-    parent[i] = (uint32_t) i;
+  celd_roots (parent, n);
   for (size_t i = 0; i < n; i++)
     {
       if (i % w + 1 < w && l->east[i] > 0)

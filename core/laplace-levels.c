@@ -10,6 +10,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "laplace.h"
+#include "unions.h"
 
 #include <string.h>
 

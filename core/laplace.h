@@ -7,29 +7,6 @@
 
 #include "private.h"
 
-/* ------------------------------------------------------------------ sets of nodes that are joined (union-find) */
-
-/* The representative of node i's set; parent[i] = i to begin with. */
-static inline uint32_t
-celd_root (uint32_t *parent, uint32_t i)
-{
-  while (parent[i] != i)
-    i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/* Joins two sets.  The smaller root stays one, so that a root comes before its members. */
-static inline void
-celd_join (uint32_t *parent, uint32_t i, uint32_t j)
-{
-  i = celd_root (parent, i);
-  j = celd_root (parent, j);
-  if (i < j)
-    parent[j] = i;
-  else
-    parent[i] = j;
-}
-
 /* ------------------------------------------------------------------ laplace-band.c: elimination of a narrow graph */
 
 /* Nodes 0 .. n-1, edges only between i and i+1 .. i+band. */

@@ -12,6 +12,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order.h"
+#include "unions.h"
 
 #include <math.h>
 
@@ -76,11 +77,7 @@ sort_new (const CeldGraph *g, Sort *s)
 static uint32_t
 class_of (Sort *s, uint32_t k)
 {
-  uint32_t *parent = s->parent;
-
-  while (parent[k] != k)
-    k = parent[k] = parent[parent[k]];
-  return k;
+  return celd_root (s->parent, k);
 }
 
 static void
@@ -92,7 +89,7 @@ unite (Sort *s, uint32_t a, uint32_t b)
   b = class_of (s, b);
   if (a == b)
     return;
-  s->parent[a > b ? a : b] = a > b ? b : a;
+  celd_join (s->parent, a, b);
   next       = s->next[a]; /* two rings become one */
   s->next[a] = s->next[b];
   s->next[b] = next;

@@ -14,32 +14,13 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment.h"
+#include "unions.h"
 
 #include <stdlib.h>
 
 #define LEAST_ODDS 0.5
 
 /* ------------------------------------------------------------------ connected strokes */
-
-/* The first run of the stroke so far that run k belongs to; parents stand before their children. */
-static uint32_t
-find_first (uint32_t *parent, uint32_t k)
-{
-  while (parent[k] != k)
-    k = parent[k] = parent[parent[k]];
-  return k;
-}
-
-static void
-join (uint32_t *parent, uint32_t a, uint32_t b)
-{
-  a = find_first (parent, a);
-  b = find_first (parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
 
 /* Joins the runs of two rows, numbered from `first_above` and `first_below`, that touch, be it by a corner. */
 static void
@@ -56,7 +37,7 @@ join_rows (const CeldSeedRow *above, uint32_t first_above, const CeldSeedRow *be
         start++;
       for (size_t i = start; i < above->n && above->run[i].x <= run->end; i++)
         if (above->run[i].label == run->label)
-          join (parent, first_above + (uint32_t) i, first_below + (uint32_t) j);
+          celd_join (parent, first_above + (uint32_t) i, first_below + (uint32_t) j);
     }
 }
 
@@ -72,8 +53,7 @@ find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
   *stroke = parent = celd_alloc (n, sizeof *parent);
   if (!parent)
     return CELD_NO_MEMORY;
-  for (uint32_t k = 0; k < n; k++)
-    parent[k] = k;
+  celd_roots (parent, n);
   for (int y = 1; y < seeds->height; y++)
     {
       above  = below;

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "unions.h"
 #include "window.h"
 
 #include <string.h>
@@ -152,25 +153,6 @@ add_node (Builder *b, uint32_t present, uint32_t *node)
   return CELD_OK;
 }
 
-static uint32_t
-find_root (uint32_t *parent, uint32_t k)
-{
-  while (parent[k] != k)
-    k = parent[k] = parent[parent[k]];
-  return k;
-}
-
-static void
-unite (uint32_t *parent, uint32_t a, uint32_t b)
-{
-  a = find_root (parent, a);
-  b = find_root (parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 /* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink
  * end at squares of 1 << square pixels a side. */
 static inline bool
@@ -205,13 +187,13 @@ join_pixels (const Builder *b, size_t first, int w, int h, int square)
         if (state & CELD_CELL_FIXED)
           continue;
         if (north && !(west && north_west))
-          unite (b->parent, k, k - down);
+          celd_join (b->parent, k, k - down);
         if (!(state & KINDS) || north || y == 0)
           continue;
         if (north_west && !west)
-          unite (b->parent, k, k - down - 1);
+          celd_join (b->parent, k, k - down - 1);
         if (x + 1 < w && is_alike (b, first, square, x, y, x + 1, y - 1))
-          unite (b->parent, k, k - down + 1);
+          celd_join (b->parent, k, k - down + 1);
       }
 }
 
@@ -245,7 +227,7 @@ split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block
         if (b->parent[k] == k)
           status = add_node (b, b->state[p], &detail[k]);
         else
-          detail[k] = detail[find_root (b->parent, k)];
+          detail[k] = detail[celd_root (b->parent, k)];
         if (status == CELD_OK && b->paint[p])
           status = celd_cells_vote (cells, detail[k], b->paint[p], cells->canvas->soft_vote);
       }

@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "unions.h"
 #include "window.h"
 
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 #define ROOM 8                  /* pixels round the foreign paint, besides a stroke's width and half the longer side */
 
 /* A run of paint in a basin of another label. */
-typedef struct { int32_t y, x, end; uint32_t label, basin; size_t clump; } Run;
+typedef struct { int32_t y, x, end; uint32_t label, basin; } Run;
 
 typedef struct { CeldWindow box; bool open; } Clump;
 
@@ -23,8 +24,9 @@ typedef struct
   const CeldCanvas *canvas;
   const uint32_t   *label;      /* of each basin */
   size_t            hint;
-  Run              *run;        /* in reading order; `clump`: first another run of it, in the end its number */
+  Run              *run;        /* in reading order */
   size_t            n_runs;
+  uint32_t         *clump_of;   /* of each run: a set of unions.h, in the end its number */
   Clump            *clump;
   size_t            n_clumps;
   uint32_t         *family;     /* of each basin: another one of its family, or itself */
@@ -54,7 +56,6 @@ add_run (Places *places, Run run)
   if (!runs)
     return CELD_NO_MEMORY;
   places->run = runs;
-  run.clump   = places->n_runs;
   runs[places->n_runs++] = run;
   return CELD_OK;
 }
@@ -73,65 +74,42 @@ compare_seeds (Places *places, int y, const CeldSeedRun *seeds)
       end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
       end = end < seeds->end ? end : seeds->end;
       if (places->label[basin] != seeds->label)
-        status = add_run (places, (Run) { y, x, end, seeds->label, basin, 0 });
+        status = add_run (places, (Run) { y, x, end, seeds->label, basin });
     }
   return status;
-}
-
-/* ------------------------------------------------------------------ clumps */
-
-static size_t
-find_root (Run *run, size_t i)
-{
-  while (run[i].clump != i)
-    i = run[i].clump = run[run[i].clump].clump;
-  return i;
-}
-
-static void
-unite (Run *run, size_t i, size_t j)
-{
-  i = find_root (run, i);
-  j = find_root (run, j);
-  if (i < j)
-    run[j].clump = i;
-  else
-    run[i].clump = j;
-}
-
-/* Joins the runs of row y, from `begin` on, with each other and with those of the row above, `above` .. begin - 1. */
-static void
-join_rows (Places *places, size_t above, size_t begin)
-{
-  Run *run = places->run;
-
-  for (size_t i = begin; i < places->n_runs; i++)
-    {
-      if (i > begin && run[i - 1].end == run[i].x)
-        unite (run, i - 1, i);
-      while (above < begin && run[above].end < run[i].x)
-        above++;
-      for (size_t k = above; k < begin && run[k].x <= run[i].end; k++)
-        unite (run, k, i);
-    }
 }
 
 static CeldStatus
 find_runs (Places *places)
 {
   const CeldSeedRows *seeds = &places->canvas->seeds;
-  size_t              above = 0, begin = 0; /* first runs of this row and the one before */
   CeldStatus          status = CELD_OK;
 
   for (int y = 0; y < seeds->height && status == CELD_OK; y++)
-    {
-      for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
-        status = compare_seeds (places, y, &seeds->row[y].run[i]);
-      join_rows (places, above, begin);
-      above = begin;
-      begin = places->n_runs;
-    }
+    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
+      status = compare_seeds (places, y, &seeds->row[y].run[i]);
   return status;
+}
+
+/* ------------------------------------------------------------------ clumps */
+
+/* Joins runs that touch, in one row or in two, be it by a corner. */
+static void
+join_runs (Places *places)
+{
+  const Run *run = places->run;
+  size_t     above = 0;         /* no run before it touches run i, or one behind that */
+
+  celd_roots (places->clump_of, places->n_runs);
+  for (size_t i = 1; i < places->n_runs; i++)
+    {
+      if (run[i - 1].y == run[i].y && run[i - 1].end == run[i].x)
+        celd_join (places->clump_of, (uint32_t) i - 1, (uint32_t) i);
+      while (run[above].y < run[i].y - 1 || (run[above].y == run[i].y - 1 && run[above].end < run[i].x))
+        above++;
+      for (size_t k = above; run[k].y < run[i].y && run[k].x <= run[i].end; k++)
+        celd_join (places->clump_of, (uint32_t) k, (uint32_t) i);
+    }
 }
 
 static void
@@ -147,20 +125,23 @@ widen (CeldWindow *box, const CeldWindow *other)
 static CeldStatus
 number_clumps (Places *places)
 {
-  Run *run = places->run;
+  const Run *run = places->run;
+  uint32_t  *clump_of;
 
-  places->clump = celd_alloc (places->n_runs, sizeof *places->clump);
-  if (!places->clump)
+  places->clump    = celd_alloc (places->n_runs, sizeof *places->clump);
+  places->clump_of = clump_of = celd_alloc (places->n_runs, sizeof *clump_of);
+  if (!places->clump || !clump_of)
     return CELD_NO_MEMORY;
+  join_runs (places);
   for (size_t i = 0; i < places->n_runs; i++)
     {
       CeldWindow box = { run[i].x, run[i].y, run[i].end - 1, run[i].y, 0, 0, 0 };
-      bool       root = run[i].clump == i;
+      bool       root = clump_of[i] == i;
 
-      run[i].clump = root ? places->n_clumps : run[run[i].clump].clump;
+      clump_of[i] = root ? (uint32_t) places->n_clumps : clump_of[clump_of[i]];
       if (root)
         places->clump[places->n_clumps++] = (Clump) { box, false };
-      widen (&places->clump[run[i].clump].box, &box);
+      widen (&places->clump[clump_of[i]].box, &box);
     }
   return CELD_OK;
 }
@@ -174,7 +155,7 @@ open_clumps (Places *places)
   for (size_t i = 0; i < places->n_runs; i++)
     {
       const Run *run = &places->run[i];
-      bool      *open = &places->clump[run->clump].open;
+      bool      *open = &places->clump[places->clump_of[i]].open;
 
       *open = *open || celd_canvas_vote (places->canvas, run->label) == CELD_HARD;
       for (int x = run->x; x < run->end && !*open; x++)
@@ -183,25 +164,6 @@ open_clumps (Places *places)
 }
 
 /* ------------------------------------------------------------------ which belong together */
-
-static uint32_t
-find_family (uint32_t *family, uint32_t basin)
-{
-  while (family[basin] != basin)
-    basin = family[basin] = family[family[basin]];
-  return basin;
-}
-
-static void
-marry (uint32_t *family, uint32_t a, uint32_t b)
-{
-  a = find_family (family, a);
-  b = find_family (family, b);
-  if (a < b)
-    family[b] = a;
-  else
-    family[a] = b;
-}
 
 /* Basins with foreign paint are of a family if paper joins them, or a clump.  Ink between two of them is worth nothing:
  * they may as well be looked at one by one. */
@@ -219,18 +181,17 @@ find_families (Places *places)
       celd_free (first);
       return CELD_NO_MEMORY;
     }
-  for (size_t k = 0; k < basins->n; k++)
-    places->family[k] = (uint32_t) k;
+  celd_roots (places->family, basins->n);
   for (size_t i = places->n_runs; i-- > 0;)
-    first[places->run[i].clump] = places->run[i].basin;
+    first[places->clump_of[i]] = places->run[i].basin;
   for (size_t i = 0; i < places->n_runs; i++)
     {
       foreign[places->run[i].basin] = true;
-      marry (places->family, first[places->run[i].clump], places->run[i].basin);
+      celd_join (places->family, first[places->clump_of[i]], places->run[i].basin);
     }
   for (size_t i = 0; i < basins->n_borders; i++)
     if (basins->border[i].passes && foreign[basins->border[i].a] && foreign[basins->border[i].b])
-      marry (places->family, basins->border[i].a, basins->border[i].b);
+      celd_join (places->family, basins->border[i].a, basins->border[i].b);
   celd_free (foreign);
   celd_free (first);
   return CELD_OK;
@@ -309,7 +270,7 @@ merge (CeldWindows *windows)
 static size_t
 window_of (const Places *places, const CeldWindows *windows, const Run *run)
 {
-  uint32_t family = find_family (places->family, run->basin);
+  uint32_t family = celd_root (places->family, run->basin);
   size_t   low = 0, high = windows->n;
 
   while (low < high)
@@ -345,8 +306,8 @@ list_basins (Places *places, CeldWindows *windows)
     }
   for (size_t i = 0; i < places->n_runs; i++)
     {
-      places->run[i].clump = window_of (places, windows, &places->run[i]); /* clumps are of no more use */
-      begin[places->run[i].clump]++;
+      places->clump_of[i] = (uint32_t) window_of (places, windows, &places->run[i]); /* clumps are of no more use */
+      begin[places->clump_of[i]]++;
     }
   for (size_t k = 0; k < windows->n; k++)
     {
@@ -356,8 +317,8 @@ list_basins (Places *places, CeldWindows *windows)
       n += runs;
     }
   for (size_t i = 0; i < places->n_runs; i++)
-    if (places->run[i].clump < windows->n)
-      windows->basin[begin[places->run[i].clump]++] = places->run[i].basin;
+    if (places->clump_of[i] < windows->n)
+      windows->basin[begin[places->clump_of[i]]++] = places->run[i].basin;
   n = 0;
   for (size_t k = 0, i = 0; k < windows->n; k++)
     {
@@ -383,12 +344,12 @@ make_windows (Places *places, CeldWindows *windows)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < places->n_runs; i++)
     {
-      Clump *clump = &places->clump[places->run[i].clump];
+      Clump *clump = &places->clump[places->clump_of[i]];
 
       if (!clump->open)
         continue;
       windows->item[windows->n] = clump->box;
-      windows->item[windows->n].family = find_family (places->family, places->run[i].basin);
+      windows->item[windows->n].family = celd_root (places->family, places->run[i].basin);
       make_room (places->canvas->basins, &windows->item[windows->n++]);
       clump->open = false;
     }
@@ -430,6 +391,7 @@ celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRu
     celd_windows_clear (&found);
   celd_free (places.run);
   celd_free (places.clump);
+  celd_free (places.clump_of);
   celd_free (places.family);
   return status;
 }
