@@ -200,11 +200,6 @@ CeldStatus celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float
                            const CeldRun *run, CeldSolve *solve);
 void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
 
-/* ------------------------------------------------------------------ smooth.c */
-
-/* Marks the inner core of each region: what celd_smooth takes for anchors when it is given none.  Tight planes. */
-CeldStatus celd_anchor_core (int width, int height, const float *level, const CeldRun *run, uint8_t *core);
-
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
 /* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;

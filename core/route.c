@@ -107,18 +107,24 @@ make_levels (CeldSession *s, const CeldRun *run)
   return status;
 }
 
-static void
+/* Marks the pixels round an arrow's end; how many. */
+static size_t
 anchor_end (const CeldTerm *end, CeldMask *anchors)
 {
-  int reach = (int) END_RADIUS;
+  int    reach = (int) END_RADIUS;
+  size_t n     = 0;
 
   if (end->by_colour || !(end->x >= 0 && end->y >= 0 && end->x < anchors->width && end->y < anchors->height))
-    return;
+    return 0;
   for (int y = (int) end->y - reach; y <= (int) end->y + reach; y++)
     for (int x = (int) end->x - reach; x <= (int) end->x + reach; x++)
       if (x >= 0 && y >= 0 && x < anchors->width && y < anchors->height &&
           hypot (x + 0.5 - end->x, y + 0.5 - end->y) <= END_RADIUS)
-        CELD_AT (anchors, x, y) = 1;
+        {
+          CELD_AT (anchors, x, y) = 1;
+          n++;
+        }
+  return n;
 }
 
 /* Marks what is painted; how many runs of it there are. */
@@ -137,23 +143,19 @@ anchor_seeds (const CeldSeedRows *seeds, CeldMask *anchors)
   return n;
 }
 
-/* The paper's U_o.  Asked-for scribbles that do not exist leave it to the inner core of each region. */
+/* The paper's U_o; *n is 0 if there is none, as for CELD_ANCHORS_CORE. */
 static CeldStatus
-choose_anchors (const CeldSession *s, const CeldRun *run, CeldMask *anchors)
+choose_anchors (const CeldSession *s, CeldMask *anchors, size_t *n)
 {
   CeldAnchors choice = s->settings.anchors;
   bool        scribbles = choice == CELD_ANCHORS_SCRIBBLES || choice == CELD_ANCHORS_BOTH;
   bool        arrows = choice == CELD_ANCHORS_ARROWS || choice == CELD_ANCHORS_BOTH;
   CeldStatus  status = celd_mask_new (s->levels.width, s->levels.height, anchors);
 
-  if (status == CELD_OK && !(scribbles && anchor_seeds (&s->seeds, anchors)) && !arrows)
-    status = celd_anchor_core (anchors->width, anchors->height, s->levels.data, run, anchors->data);
+  *n = status == CELD_OK && scribbles ? anchor_seeds (&s->seeds, anchors) : 0;
   for (size_t i = 0; status == CELD_OK && i < s->relations.n; i++)
     if (arrows || s->relations.item[i].anchor)
-      {
-        anchor_end (&s->relations.item[i].nearer, anchors);
-        anchor_end (&s->relations.item[i].farther, anchors);
-      }
+      *n += anchor_end (&s->relations.item[i].nearer, anchors) + anchor_end (&s->relations.item[i].farther, anchors);
   return status;
 }
 
@@ -163,14 +165,13 @@ make_depth (CeldSession *s, const CeldRun *run)
   CeldMask   anchors;
   CeldPlane  depth = { 0 };
   CeldSolve  solve = { 0 };
-  CeldPart   part[2];
-  CeldRun    choose = celd_run_part (&part[0], run, 0, 0.1), smooth = celd_run_part (&part[1], run, 0.1, 1);
-  CeldStatus status = choose_anchors (s, &choose, &anchors);
+  size_t     n;
+  CeldStatus status = choose_anchors (s, &anchors, &n);
 
   if (status == CELD_OK)
     status = celd_plane_new (s->levels.width, s->levels.height, &depth);
   if (status == CELD_OK)
-    status = celd_smooth (depth_ink (s), &s->levels, &anchors, &s->settings, &smooth, &depth, &solve);
+    status = celd_smooth (depth_ink (s), &s->levels, n ? &anchors : NULL, &s->settings, run, &depth, &solve);
   if (status == CELD_OK)
     {
       celd_problems_clear (&s->problems[STAGE_DEPTH]);

@@ -82,7 +82,7 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
       celd_session_forget (session, STAGE_FLAT);
       celd_session_forget (session, STAGE_LEVELS);
     }
-  if (a->anchors != b->anchors || tolerance || threshold)
+  if (a->anchors != b->anchors || a->hold_rest != b->hold_rest || tolerance || threshold)
     celd_session_forget (session, STAGE_DEPTH);
   if (a->bulge != b->bulge || tolerance || threshold)
     celd_session_forget (session, STAGE_NORMALS);

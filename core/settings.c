@@ -16,6 +16,7 @@ celd_settings (void)
     .keep_necks      = true,
     .hardness        = 0.05f,
     .near_level      = 1,
+    .hold_rest       = true,
     .tolerance       = 1e-4f,
     .bulge           = 1,
     .light_azimuth   = 135,

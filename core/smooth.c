@@ -1,14 +1,16 @@
 /* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors (the paper's U_o).
  *
  * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
- * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink of the 3x3
- * neighbourhoods of p and q, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are
- * expanded or not, and a gap or a virtual contour gives a smooth transition.
+ * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink around p and q, as far as
+ * half a stroke is wide, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are expanded
+ * or not, a nick that is no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
+ * a smooth transition.
  *
  * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
  * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  Specks
- * are not held: they would stand out as spikes.  What no anchor reaches keeps its level, the mean over its area if it
- * has several.
+ * are not held: they would stand out as spikes.  Beside anchors that are given, the core is for regions that have none:
+ * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor reaches
+ * keeps its level, the mean over its area if it has several.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,17 +19,19 @@
 #include <math.h>
 #include <string.h>
 
+#define MOST_REACH 12 /* pixels: half a stroke at most, for solid areas are none */
 #define SPECK 16 /* regions of fewer pixels have no core, as in celd_separate */
 
 /* ------------------------------------------------------------------ weights of edges */
 
-/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture; NaN reads as paper. */
+/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
+ * paper. */
 static float
-least_ink (const CeldPlane *ink, int x0, int y0, int x1, int y1)
+least_ink (const CeldPlane *ink, int x0, int y0, int x1, int y1, float threshold)
 {
   float least = 1;
 
-  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < ink->height; y++)
+  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < ink->height && least > threshold; y++)
     for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < ink->width; x++)
       if (CELD_AT (ink, x, y) < least)
         least = CELD_AT (ink, x, y);
@@ -40,7 +44,7 @@ weight (const CeldPlane *ink, float level_p, float level_q, int x0, int y0, int 
   if (level_p == level_q)
     return 1;
 
-  float least = least_ink (ink, x0, y0, x1, y1);
+  float least = least_ink (ink, x0, y0, x1, y1, threshold);
 
   return least <= threshold ? 0 : least;
 }
@@ -49,17 +53,20 @@ CeldStatus
 celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
                     float *east, float *south)
 {
-  int    w = ink->width, h = ink->height;
+  int    w = ink->width, h = ink->height, reach = (celd_stroke_width (ink) + 1) / 2;
   size_t i = 0, below = (size_t) w;
 
+  reach = reach < 1 ? 1 : reach > MOST_REACH ? MOST_REACH : reach;
   for (int y = 0; y < h; y++)
     {
       if (y % 64 == 0 && celd_step (run, (double) y / h) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < w; x++, i++)
         {
-          east[i]  = x + 1 < w ? weight (ink, level[i], level[i + 1], x - 1, y - 1, x + 2, y + 1, threshold) : 0;
-          south[i] = y + 1 < h ? weight (ink, level[i], level[i + below], x - 1, y - 1, x + 1, y + 2, threshold) : 0;
+          east[i]  = x + 1 < w ? weight (ink, level[i], level[i + 1], x - reach, y - reach, x + 1 + reach, y + reach,
+                                         threshold) : 0;
+          south[i] = y + 1 < h ? weight (ink, level[i], level[i + below], x - reach, y - reach, x + reach, y + 1 + reach,
+                                         threshold) : 0;
         }
     }
   return CELD_OK;
@@ -119,49 +126,84 @@ mark_borders (const CeldLabels *regions, uint8_t *border)
     }
 }
 
-CeldStatus
-celd_anchor_core (int width, int height, const float *level, const CeldRun *run, uint8_t *core)
+static void
+read_anchors (const CeldMask *anchors, uint8_t *fixed)
 {
-  size_t         n = (size_t) width * (size_t) height, count = 0;
-  CeldLabels     regions;
-  CeldComponent *list    = NULL;
-  int32_t       *squared = celd_alloc (n, sizeof *squared), *deepest = NULL;
-  CeldPart       first, second;
-  CeldRun        finding = celd_run_part (&first, run, 0, 0.5), measuring = celd_run_part (&second, run, 0.5, 1);
-  CeldStatus     status  = celd_labels_new (width, height, &regions);
+  for (int y = 0; y < anchors->height; y++)
+    for (int x = 0; x < anchors->width; x++)
+      *fixed++ = CELD_AT (anchors, x, y) != 0;
+}
 
-  if (status == CELD_OK)
-    status = squared ? celd_depth_regions (width, height, level, &finding, &regions, &list, &count) : CELD_NO_MEMORY;
+/* Which regions have no anchor and are no speck; how many. */
+static size_t
+find_unheld (const CeldLabels *regions, const CeldComponent *list, size_t count, const uint8_t *fixed, uint8_t *unheld)
+{
+  size_t left = 0;
+
+  for (size_t k = 1; k <= count; k++)
+    unheld[k] = list[k - 1].area >= SPECK;
+  for (size_t i = 0; i < (size_t) regions->width * (size_t) regions->height; i++)
+    if (fixed[i])
+      unheld[regions->data[i]] = 0;
+  for (size_t k = 1; k <= count; k++)
+    left += unheld[k];
+  return left;
+}
+
+/* Marks the pixels of these regions that lie at least half as deep inside as their region's deepest pixel. */
+static CeldStatus
+mark_cores (const CeldLabels *regions, size_t count, const uint8_t *unheld, const CeldRun *run, uint8_t *fixed)
+{
+  size_t     n       = (size_t) regions->width * (size_t) regions->height;
+  uint8_t   *border  = celd_alloc (n, sizeof *border);
+  int32_t   *squared = celd_alloc (n, sizeof *squared), *deepest = celd_alloc0 (count + 1, sizeof *deepest);
+  CeldStatus status  = border && squared && deepest ? CELD_OK : CELD_NO_MEMORY;
+
   if (status != CELD_OK)
     goto done;
-  deepest = celd_alloc0 (count + 1, sizeof *deepest);
-  mark_borders (&regions, core);
-  status = deepest ? celd_distance (width, height, core, &measuring, squared) : CELD_NO_MEMORY;
+  mark_borders (regions, border);
+  status = celd_distance (regions->width, regions->height, border, run, squared);
   if (status != CELD_OK)
     goto done;
   for (size_t i = 0; i < n; i++)
-    if (squared[i] > deepest[regions.data[i]])
-      deepest[regions.data[i]] = squared[i];
+    if (squared[i] > deepest[regions->data[i]])
+      deepest[regions->data[i]] = squared[i];
   for (size_t i = 0; i < n; i++)
-    core[i] = squared[i] >= deepest[regions.data[i]] / 4 && list[regions.data[i] - 1].area >= SPECK;
+    if (unheld[regions->data[i]] && squared[i] >= deepest[regions->data[i]] / 4)
+      fixed[i] = 1;
 
 done:
-  celd_free (regions.data);
-  celd_free (list);
+  celd_free (border);
   celd_free (squared);
   celd_free (deepest);
   return status;
 }
 
+/* Marks the core of each region that has nothing marked yet. */
 static CeldStatus
-mark_anchors (int width, int height, const float *level, const CeldMask *anchors, const CeldRun *run, uint8_t *fixed)
+hold_rest (int width, int height, const float *level, const CeldRun *run, uint8_t *fixed)
 {
-  if (!anchors)
-    return celd_anchor_core (width, height, level, run, fixed);
-  for (int y = 0; y < height; y++)
-    for (int x = 0; x < width; x++)
-      *fixed++ = CELD_AT (anchors, x, y) != 0;
-  return CELD_OK;
+  size_t         count = 0;
+  CeldLabels     regions;
+  CeldComponent *list   = NULL;
+  uint8_t       *unheld = NULL;
+  CeldPart       first, second;
+  CeldRun        finding = celd_run_part (&first, run, 0, 0.5), measuring = celd_run_part (&second, run, 0.5, 1);
+  CeldStatus     status  = celd_labels_new (width, height, &regions);
+
+  if (status == CELD_OK)
+    status = celd_depth_regions (width, height, level, &finding, &regions, &list, &count);
+  if (status == CELD_OK)
+    {
+      unheld = celd_alloc0 (count + 1, sizeof *unheld);
+      status = unheld ? CELD_OK : CELD_NO_MEMORY;
+    }
+  if (status == CELD_OK && find_unheld (&regions, list, count, fixed, unheld) > 0)
+    status = mark_cores (&regions, count, unheld, &measuring, fixed);
+  celd_free (regions.data);
+  celd_free (list);
+  celd_free (unheld);
+  return status;
 }
 
 /* ------------------------------------------------------------------ the step */
@@ -198,7 +240,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
   float       *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
   float       *diagonal = celd_alloc0 (n, sizeof *diagonal), *b = celd_alloc0 (n, sizeof *b);
   float       *x = celd_alloc (n, sizeof *x);
-  uint8_t     *fixed = celd_alloc (n, sizeof *fixed);
+  uint8_t     *fixed = celd_alloc0 (n, sizeof *fixed);
   CeldLaplace *laplace = NULL;
   CeldPart     part[4];
   CeldRun      anchoring = celd_run_part (&part[0], run, 0, 0.1), weighing = celd_run_part (&part[1], run, 0.1, 0.15);
@@ -208,7 +250,10 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
   if (status != CELD_OK)
     goto done;
   celd_depth_levels (levels, x);
-  status = mark_anchors (w, h, x, anchors, &anchoring, fixed);
+  if (anchors)
+    read_anchors (anchors, fixed);
+  if (!anchors || settings->hold_rest)
+    status = hold_rest (w, h, x, &anchoring, fixed);
   if (status == CELD_OK)
     status = celd_depth_weights (ink, x, settings->ink_threshold, &weighing, east, south);
   if (status != CELD_OK)

@@ -8,6 +8,7 @@
 
 CELD_PROPERTY_INK
 CELD_PROPERTY_INK_THRESHOLD
+CELD_PROPERTY_HOLD_REST
 CELD_PROPERTY_TOLERANCE
 
 #else
@@ -59,6 +60,7 @@ render (CeldOp *op)
 
   s.ink           = o->ink;
   s.ink_threshold = (float) o->ink_threshold;
+  s.hold_rest     = o->hold_rest;
   s.tolerance     = (float) o->tolerance;
   return celd_op_read_ink (op, "aux", o->ink, &ink) &&
          celd_op_read_plane (op, "input", &levels) &&

@@ -25,6 +25,7 @@ property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIB
     description ("Which pixels keep their level in smooth depth")
     ui_meta ("visible", "result {depth}")
 
+CELD_PROPERTY_HOLD_REST
 CELD_PROPERTY_TOLERANCE
 CELD_PROPERTY_BULGE
 CELD_PROPERTY_LIGHT
@@ -79,6 +80,7 @@ settings (GeglProperties *o)
     .near_level      = (float) o->near_level,
     .far_level       = (float) o->far_level,
     .anchors         = o->anchors,
+    .hold_rest       = o->hold_rest,
     .tolerance       = (float) o->tolerance,
     .bulge           = (float) o->bulge,
     .light_azimuth   = (float) o->light_azimuth,

@@ -117,6 +117,11 @@ GType celd_popup_result_get_type   (void);
 
 /* ------------------------------------------------------------------ smooth depth */
 
+#define CELD_PROPERTY_HOLD_REST \
+  property_boolean (hold_rest, "Hold the rest", TRUE) \
+    description ("Regions without an anchor keep their level in their core; without, they take the depth that flows in " \
+                 "through gaps in their contours")
+
 #define CELD_PROPERTY_TOLERANCE \
   property_double (tolerance, "Tolerance", 1e-4) \
     description ("Largest error of smooth depth, as a share of its range") \

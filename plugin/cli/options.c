@@ -108,6 +108,8 @@ static const SettingOption settings[] = {
     "with fixed encoding, the level that becomes 0" },
   { "anchors", CLI_POPUP, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
     "which pixels keep their level in smooth depth" },
+  { "hold-rest", CLI_POPUP | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
+    "regions without an anchor keep their level in their core; yes" },
   { "tolerance", CLI_POPUP | CLI_SMOOTH, NUMBER, MEMBER (tolerance), "0-0.1", "largest error of smooth depth; 0.0001" },
   { "bulge", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
   { "light-azimuth", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_azimuth), "DEGREES",

@@ -204,6 +204,27 @@ a_gap_gives_a_smooth_monotone_transition (void)
     }
 }
 
+/* A nick that is no wider than the stroke does not open a contour, however finely it was drawn. */
+static void
+a_nick_does_not_leak (void)
+{
+  for (int scale = 1; scale <= 4; scale++)
+    {
+      CeldPlane ink = plane (60 * scale, 40 * scale, 1), levels = plane (60 * scale, 40 * scale, 0);
+
+      for (int y = 0; y < 40 * scale; y++)
+        for (int x = 28 * scale; x < 60 * scale; x++)
+          {
+            if (x < 32 * scale && (y < 18 * scale || y >= 22 * scale))
+              ink.data[y * 60 * scale + x] = 0;
+            levels.data[y * 60 * scale + x] = x < 30 * scale ? 0 : 2;
+          }
+      NEAR (leak (&ink, &levels, NULL), 0, 1e-4);
+      free (ink.data);
+      free (levels.data);
+    }
+}
+
 static void
 anchors_keep_their_level_and_the_rest_is_harmonic (void)
 {
@@ -228,6 +249,28 @@ anchors_keep_their_level_and_the_rest_is_harmonic (void)
   free (anchors.data);
 }
 
+/* A page behind a figure, joined to it by a small gap: its depth is its own, unless it is let float. */
+static void
+the_rest_is_held (void)
+{
+  CeldSettings settings = celd_settings ();
+  CeldMask     anchors = { 200, 120, 200, calloc (200 * 120, 1) };
+  CeldPlane    ink, levels, depth = plane (200, 120, 0);
+
+  gap_picture (8, &ink, &levels);
+  anchors.data[60 * 200 + 190] = 1;
+  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  NEAR (depth.data[60 * 200 + 190], levels.data[60 * 200 + 190], 0);
+  NEAR (depth.data[60 * 200 + 20], levels.data[60 * 200 + 20], 1e-3);
+  settings.hold_rest = false;
+  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  NEAR (depth.data[60 * 200 + 20], levels.data[60 * 200 + 190], 1e-3);
+  free (ink.data);
+  free (levels.data);
+  free (depth.data);
+  free (anchors.data);
+}
+
 static void
 what_no_anchor_reaches_keeps_its_level (void)
 {
@@ -235,6 +278,7 @@ what_no_anchor_reaches_keeps_its_level (void)
   CeldPlane    ink, levels, depth = plane (200, 120, 0);
   CeldMask     none = { 200, 120, 200, calloc (200 * 120, 1) };
 
+  settings.hold_rest = false;
   gap_picture (-1, &ink, &levels); /* closed: two components */
   CHECK (celd_smooth (&ink, &levels, &none, &settings, NULL, &depth, NULL) == CELD_OK);
   NEAR (largest_change (&depth, &levels), 0, 0);
@@ -321,7 +365,9 @@ main (void)
   RUN (a_closed_contour_does_not_leak);
   RUN (a_hard_line_of_one_pixel_does_not_leak);
   RUN (a_gap_gives_a_smooth_monotone_transition);
+  RUN (a_nick_does_not_leak);
   RUN (anchors_keep_their_level_and_the_rest_is_harmonic);
+  RUN (the_rest_is_held);
   RUN (what_no_anchor_reaches_keeps_its_level);
   RUN (a_speck_is_no_spike);
   RUN (pale_ink_cuts_as_far_as_the_threshold);

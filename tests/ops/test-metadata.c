@@ -14,12 +14,12 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:depth-order", "aux2 aux input",
     "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
-  { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold tolerance" },
+  { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-style encoding near-level far-level anchors tolerance bulge light-azimuth "
+    "same-colour relations arrow-style encoding near-level far-level anchors hold-rest tolerance bulge light-azimuth "
     "light-elevation ambient directx" },
 };
 
