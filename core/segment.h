@@ -94,8 +94,9 @@ CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
 /* Seeds for each end of a relation that lies in a room which nothing reaches. */
 CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
 
-/* split.c: splits regions of `labels` in which both ends of an inequality lie.  What changes is appended to the
- * patches, no pixel twice among them, and the discs of both ends to the canvas' seeds. */
+/* split.c: splits regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes: what
+ * is under these keeps its label.  What changes is appended to the patches, no pixel twice among them, and the discs of
+ * both ends to the canvas' seeds. */
 CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
 

@@ -2,7 +2,8 @@
  *
  * The end that is nearer, within the region, to the seeds that the region has keeps its label, the other becomes a new
  * one; only the region is cut again, and by what earlier relations made of it.  A region is basins that touch: of one
- * label where they are widest, or where they touch.  A basin may hold pixels of other labels; these stay as they are.
+ * label where they are widest, or where they touch.  A basin may hold pixels of other labels; these stay as they are,
+ * and so do those under hard strokes of the artist.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,6 +19,7 @@ typedef struct
   CeldCanvas       *canvas;
   const CeldLabels *labels;
   CeldSeedRows      taken;     /* what relations have changed of the labels so far */
+  CeldSeedRows      painted;   /* seeds before any relation added some */
   size_t           *first;     /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
   uint32_t         *border;
   Box              *box;       /* of each basin */
@@ -33,6 +35,20 @@ label_at (const Split *split, int x, int y)
   uint32_t label = celd_seed_rows_at (&split->taken, x, y);
 
   return label ? label : CELD_AT (split->labels, x, y);
+}
+
+/* Are strokes of the label obeyed, whatever arrows say?  A flat colouring has no strokes: arrows split its areas. */
+static bool
+is_hard (const CeldCanvas *canvas, uint32_t label)
+{
+  return !canvas->settings->flats && canvas->palette.item[label - 1].origin == CELD_FROM_SCRIBBLE &&
+         celd_canvas_vote (canvas, label) == CELD_HARD;
+}
+
+static bool
+on_hard_stroke (const Split *split, CeldEnd end, uint32_t label)
+{
+  return is_hard (split->canvas, label) && celd_seed_rows_at (&split->painted, end.x, end.y) == label;
 }
 
 /* ------------------------------------------------------------------ work space, made for the first region */
@@ -52,13 +68,14 @@ split_new (Split *split)
   split->mark   = celd_alloc0 (n_pixels, 1);
   split->node   = celd_alloc (n_pixels, sizeof *split->node);
   return split->first && split->border && split->box && split->basin && split->at && split->side && split->mark &&
-         split->node ? CELD_OK : CELD_NO_MEMORY;
+         split->node ? celd_seed_rows_copy (&split->canvas->seeds, &split->painted) : CELD_NO_MEMORY;
 }
 
 static void
 split_clear (Split *split)
 {
   celd_seed_rows_clear (&split->taken);
+  celd_seed_rows_clear (&split->painted);
   celd_free (split->first);
   celd_free (split->border);
   celd_free (split->box);
@@ -216,6 +233,21 @@ leave_region (Split *split, const CeldCut *cut)
 
 /* ------------------------------------------------------------------ taking over */
 
+/* Under hard strokes the region stays what it was, wherever the cut runs. */
+static void
+obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
+{
+  for (int y = cut->top; y <= cut->bottom; y++)
+    {
+      const CeldSeedRow *row = &split->painted.row[y];
+      uint8_t           *mark = split->mark + (size_t) y * (size_t) split->labels->width;
+
+      for (size_t i = 0; i < row->n; i++)
+        for (int x = row->run[i].x; row->run[i].label == cut->label && x < row->run[i].end; x++)
+          mark[x] = mark[x] == CELD_OUTSIDE ? CELD_OUTSIDE : kept_side;
+    }
+}
+
 /* The pixels of a disc that its side of the cut holds are seeds from now on. */
 static CeldStatus
 seed_disc (Split *split, const CeldDisc *disc, uint8_t side, uint32_t label)
@@ -266,6 +298,8 @@ take_over (Split *split, const CeldCut *cut, int kept)
   uint32_t      label[2] = { cut->label, cut->label };
   CeldStatus    status = celd_hue_add (split->canvas, &label[1 - kept]);
 
+  if (is_hard (split->canvas, cut->label))
+    obey_strokes (split, cut, side[kept]);
   if (status == CELD_OK)
     status = take_side (split, cut, side[1 - kept], label[1 - kept]);
   for (int i = 0; i < 2; i++)
@@ -329,6 +363,8 @@ split_relation (Split *split, const CeldRelation *relation, const CeldRun *run)
       list_borders (split);
       find_boxes (split);
     }
+  if (on_hard_stroke (split, cut.end[0], cut.label) && on_hard_stroke (split, cut.end[1], cut.label))
+    return CELD_OK; /* neither may change */
   cut.basin = split->basin;
   cut.at    = split->at;
   cut.mark  = split->mark;

@@ -395,16 +395,29 @@ add_random_relations (uint32_t *random, CeldRelations *relations)
     }
 }
 
-/* What changes, changes to a new label, no pixel twice; no connected region keeps both ends of an inequality. */
+/* Is a pixel under a hard stroke of its label? */
+static bool
+is_kept (const CeldCanvas *canvas, const CeldLabels *labels, int x, int y)
+{
+  uint32_t label = celd_seed_rows_at (&canvas->seeds, x, y);
+
+  return label && canvas->palette.item[label - 1].hard && CELD_AT (labels, x, y) == label;
+}
+
+/* What changes, changes to a new label, no pixel twice, none under a hard stroke; no connected region keeps both ends
+ * of an inequality, unless hard strokes keep both. */
 static void
 check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *labels)
 {
-  static bool    changed[PAGE][PAGE];
+  static bool    changed[PAGE][PAGE], kept[PAGE][PAGE];
   size_t         before = canvas->palette.n, n;
   CeldPatches    patches = { 0 };
   CeldComponent *list = NULL;
 
   memset (changed, 0, sizeof changed);
+  for (int y = 0; y < PAGE; y++)
+    for (int x = 0; x < PAGE; x++)
+      kept[y][x] = is_kept (canvas, labels, x, y);
   CHECK (celd_seeds_split (relations, NULL, labels, canvas, &patches) == CELD_OK);
   for (size_t i = 0; i < patches.n; i++)
     {
@@ -413,7 +426,7 @@ check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *lab
       CHECK (patch.label > before && patch.label <= canvas->palette.n && patch.x < patch.end);
       for (int x = patch.x; x < patch.end; x++)
         {
-          CHECK (!changed[patch.y][x]);
+          CHECK (!changed[patch.y][x] && !kept[patch.y][x]);
           changed[patch.y][x] = true;
           CELD_AT (labels, x, patch.y) = patch.label;
         }
@@ -427,6 +440,8 @@ check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *lab
       if (relations->item[i].equal || x < 0 || y < 0 || x >= PAGE || y >= PAGE)
         continue;
       if (u < 0 || v < 0 || u >= PAGE || v >= PAGE)
+        continue;
+      if (kept[y][x] && kept[v][u])
         continue;
       if ((x != u || y != v) && CELD_AT (canvas->ink, x, y) > 0.5f && CELD_AT (canvas->ink, u, v) > 0.5f)
         CHECK (CELD_AT (labels, x, y) != CELD_AT (labels, u, v));
