@@ -231,6 +231,29 @@ a_drawing_may_change (void)
   page_close (&page);
 }
 
+/* One pixel wide. */
+static void
+paint_along_frame (Page *page, uint32_t label)
+{
+  int y = (int) check_random (&page->state, HEIGHT);
+
+  for (int v = y; v < y + 4 && v < HEIGHT; v++)
+    CHECK (celd_seed_rows_paint (&page->seeds, v, WIDTH - 1, WIDTH, label) == CELD_OK);
+}
+
+/* Between two places anywhere on the page. */
+static void
+add_random_relation (Page *page, CeldRelations *relations)
+{
+  CeldRelation r = { .weight = 1, .gap = 1 };
+
+  r.nearer.x  = check_random (&page->state, WIDTH);
+  r.nearer.y  = check_random (&page->state, HEIGHT);
+  r.farther.x = check_random (&page->state, WIDTH);
+  r.farther.y = check_random (&page->state, HEIGHT);
+  CHECK (celd_relation_add (relations, r) == CELD_OK);
+}
+
 static void
 relations_make_and_split_regions (void)
 {
@@ -246,13 +269,9 @@ relations_make_and_split_regions (void)
   for (int i = 0; i < 12; i++)
     {
       CeldRelations relations = { 0 };
-      char          text[64];
 
-      snprintf (text, sizeof text, "%u,%u > %u,%u; %u,%u > %u,%u", check_random (&page.state, WIDTH),
-                check_random (&page.state, HEIGHT), check_random (&page.state, WIDTH), check_random (&page.state, HEIGHT),
-                check_random (&page.state, WIDTH), check_random (&page.state, HEIGHT), check_random (&page.state, WIDTH),
-                check_random (&page.state, HEIGHT));
-      CHECK (celd_relations_parse (text, &relations, NULL) == CELD_OK);
+      add_random_relation (&page, &relations);
+      add_random_relation (&page, &relations);
       memcpy (before, page.labels.data, sizeof before);
       solve (segmenter, &page, &relations, &settings);
       compare (&page, before, &relations, &settings);
@@ -260,6 +279,42 @@ relations_make_and_split_regions (void)
     }
   celd_segmenter_free (segmenter);
   page_close (&page);
+}
+
+/* Arrows are obeyed as far as that leaves hard strokes alone, wherever their ends lie; the background leaves them alone
+ * even in a gap between a wall and the frame. */
+static void
+arrows_leave_hard_strokes_alone (void)
+{
+  CeldSettings settings = celd_settings ();
+
+  settings.hardness = 1;
+  for (uint32_t seed = 1; seed <= 80; seed++)
+    {
+      CeldSegmenter *segmenter = celd_segmenter_new ();
+      CeldRelations  relations = { 0 };
+      int            bad = 0;
+      Page           page;
+
+      settings.method     = seed % 2 ? CELD_METHOD_BASINS : CELD_METHOD_EXACT;
+      settings.close_gaps = seed % 3 != 0;
+      page_open (&page, seed);
+      for (uint32_t k = 1; k <= LABELS; k++)
+        paint_stroke (&page, k);
+      paint_along_frame (&page, 1);
+      for (int i = 0; i < 6; i++)
+        add_random_relation (&page, &relations);
+      CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
+      solve (segmenter, &page, &relations, &settings);
+      for (int y = 0; y < HEIGHT; y++)
+        for (size_t i = 0; i < page.seeds.row[y].n; i++)
+          for (int x = page.seeds.row[y].run[i].x; x < page.seeds.row[y].run[i].end; x++)
+            bad += CELD_AT (&page.labels, x, y) != page.seeds.row[y].run[i].label;
+      CHECK (bad == 0);
+      celd_relations_clear (&relations);
+      celd_segmenter_free (segmenter);
+      page_close (&page);
+    }
 }
 
 /* ------------------------------------------------------------------ failures */
@@ -346,6 +401,7 @@ main (void)
   RUN (methods_may_take_turns);
   RUN (a_drawing_may_change);
   RUN (relations_make_and_split_regions);
+  RUN (arrows_leave_hard_strokes_alone);
   RUN (a_cancelled_answer_leaves_nothing_behind);
   RUN (nothing_to_go_by);
   return DONE;
