@@ -3,14 +3,14 @@
  * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
  * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink around p and q, as far as
  * half a stroke is wide, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are expanded
- * or not, a nick that is no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
+ * or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
  * a smooth transition.
  *
  * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
  * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  Specks
- * are not held: they would stand out as spikes.  Beside anchors that are given, the core is for regions that have none:
- * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor reaches
- * keeps its level, the mean over its area if it has several.
+ * are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none: one pixel
+ * of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor reaches keeps its
+ * level, the mean over its area if it has several.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,49 +24,55 @@
 
 /* ------------------------------------------------------------------ weights of edges */
 
+/* Where levels differ. */
+typedef struct { const CeldPlane *ink; float threshold; int reach; } Border;
+
 /* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
  * paper. */
 static float
-least_ink (const CeldPlane *ink, int x0, int y0, int x1, int y1, float threshold)
+least_ink (const Border *b, int x0, int y0, int x1, int y1)
 {
   float least = 1;
 
-  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < ink->height && least > threshold; y++)
-    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < ink->width; x++)
-      if (CELD_AT (ink, x, y) < least)
-        least = CELD_AT (ink, x, y);
+  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < b->ink->height && least > b->threshold; y++)
+    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < b->ink->width; x++)
+      if (CELD_AT (b->ink, x, y) < least)
+        least = CELD_AT (b->ink, x, y);
   return least;
 }
 
+/* v_pq of the pixel (x,y) and the one `right` and `down` of it. */
 static float
-weight (const CeldPlane *ink, float level_p, float level_q, int x0, int y0, int x1, int y1, float threshold)
+weight (const Border *b, const float *level, int x, int y, int right, int down)
 {
-  if (level_p == level_q)
+  size_t i = (size_t) y * (size_t) b->ink->width + (size_t) x, j = i + (right ? 1 : (size_t) b->ink->width);
+
+  if (x + right >= b->ink->width || y + down >= b->ink->height)
+    return 0;
+  if (level[i] == level[j])
     return 1;
 
-  float least = least_ink (ink, x0, y0, x1, y1, threshold);
+  float least = least_ink (b, x - b->reach, y - b->reach, x + right + b->reach, y + down + b->reach);
 
-  return least <= threshold ? 0 : least;
+  return least <= b->threshold ? 0 : least;
 }
 
 CeldStatus
 celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
                     float *east, float *south)
 {
-  int    w = ink->width, h = ink->height, reach = (celd_stroke_width (ink) + 1) / 2;
-  size_t i = 0, below = (size_t) w;
+  Border b = { ink, threshold, (celd_stroke_width (ink) + 1) / 2 };
+  size_t i = 0;
 
-  reach = reach < 1 ? 1 : reach > MOST_REACH ? MOST_REACH : reach;
-  for (int y = 0; y < h; y++)
+  b.reach = b.reach < 1 ? 1 : b.reach > MOST_REACH ? MOST_REACH : b.reach;
+  for (int y = 0; y < ink->height; y++)
     {
-      if (y % 64 == 0 && celd_step (run, (double) y / h) != CELD_OK)
+      if (y % 64 == 0 && celd_step (run, (double) y / ink->height) != CELD_OK)
         return CELD_CANCELLED;
-      for (int x = 0; x < w; x++, i++)
+      for (int x = 0; x < ink->width; x++, i++)
         {
-          east[i]  = x + 1 < w ? weight (ink, level[i], level[i + 1], x - reach, y - reach, x + 1 + reach, y + reach,
-                                         threshold) : 0;
-          south[i] = y + 1 < h ? weight (ink, level[i], level[i + below], x - reach, y - reach, x + reach, y + 1 + reach,
-                                         threshold) : 0;
+          east[i]  = weight (&b, level, x, y, 1, 0);
+          south[i] = weight (&b, level, x, y, 0, 1);
         }
     }
   return CELD_OK;
