@@ -7,10 +7,10 @@
  * a smooth transition.
  *
  * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
- * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)  Specks
- * are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none: one pixel
- * of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor reaches keeps its
- * level, the mean over its area if it has several.
+ * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)
+ * Specks are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none:
+ * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor
+ * reaches keeps its level, the mean over its area if it has several.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
