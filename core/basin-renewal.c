@@ -172,7 +172,7 @@ find_box (Renewal *r)
     for (size_t i = old->row[y]; i < old->row[y + 1]; i++)
       if (r->touched[old->run[i].basin])
         {
-          int end = i + 1 < old->row[y + 1] ? old->run[i + 1].x : old->width;
+          int end = celd_basin_run_end (old, i, y);
 
           left = old->run[i].x < left ? old->run[i].x : left;
           right = end > right ? end : right;

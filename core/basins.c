@@ -103,20 +103,3 @@ celd_basins_clear (CeldBasins *basins)
   celd_free (basins->piece);
   *basins = (CeldBasins) { 0 };
 }
-
-uint32_t
-celd_basin_at (const CeldBasins *basins, int x, int y)
-{
-  const CeldBasinRun *first = basins->run + basins->row[y];
-  size_t              n = basins->row[y + 1] - basins->row[y];
-
-  while (n > 1) /* the run is first .. first + n - 1 */
-    if (first[n / 2].x <= x)
-      {
-        first += n / 2;
-        n -= n / 2;
-      }
-    else
-      n /= 2;
-  return first->basin;
-}

@@ -69,7 +69,36 @@ uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
 CeldStatus celd_paper_new (const CeldPlane *ink, const CeldRun *run, uint8_t **bits);
 void       celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, uint8_t *bits);
 
+/* The basin run that holds the pixel (x,y). */
+static inline size_t
+celd_basin_run (const CeldBasins *basins, int x, int y)
+{
+  size_t low = basins->row[y], high = basins->row[y + 1];
+
+  while (high - low > 1)
+    {
+      size_t middle = (low + high) / 2;
+
+      if (basins->run[middle].x <= x)
+        low = middle;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+/* Where that run ends: the x behind its last pixel. */
+static inline int
+celd_basin_run_end (const CeldBasins *basins, size_t run, int y)
+{
+  return run + 1 < basins->row[y + 1] ? basins->run[run + 1].x : basins->width;
+}
+
 /* The basin of a pixel. */
-uint32_t celd_basin_at (const CeldBasins *basins, int x, int y);
+static inline uint32_t
+celd_basin_at (const CeldBasins *basins, int x, int y)
+{
+  return basins->run[celd_basin_run (basins, x, y)].basin;
+}
 
 #endif

@@ -68,24 +68,6 @@ find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
 
 /* ------------------------------------------------------------------ dabs */
 
-/* The last of the row's runs of basins that begins at x or before. */
-static size_t
-basin_run (const CeldBasins *basins, int y, int x)
-{
-  size_t low = basins->row[y], high = basins->row[y + 1];
-
-  while (high - low > 1)
-    {
-      size_t middle = (low + high) / 2;
-
-      if (basins->run[middle].x <= x)
-        low = middle;
-      else
-        high = middle;
-    }
-  return low;
-}
-
 /* Dabs of the same drawing, gathered before: the next one in reading order that may be taken over. */
 typedef struct { const CeldDab *dab, *end; } Known;
 
@@ -136,9 +118,10 @@ cut_run (const CeldBasins *basins, int y, CeldSeedRun run, uint32_t stroke, Know
         }
       else
         {
-          size_t k = basin_run (basins, y, x);
+          size_t k = celd_basin_run (basins, x, y);
 
-          end   = k + 1 < basins->row[y + 1] && basins->run[k + 1].x < run.end ? basins->run[k + 1].x : run.end;
+          end   = celd_basin_run_end (basins, k, y);
+          end   = end < run.end ? end : run.end;
           basin = basins->run[k].basin;
           paper = celd_paper_count (basins, y, x, end);
         }

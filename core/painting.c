@@ -61,37 +61,13 @@ fill (uint32_t *row, int n, uint32_t label)
     row[i] = label;
 }
 
-/* The run of row y that holds pixel x. */
-static size_t
-run_at (const CeldBasins *basins, int y, int x)
-{
-  size_t low = basins->row[y], high = basins->row[y + 1];
-
-  while (high - low > 1)
-    {
-      size_t middle = low + (high - low) / 2;
-
-      if (basins->run[middle].x <= x)
-        low = middle;
-      else
-        high = middle;
-    }
-  return low;
-}
-
-static int
-run_end (const CeldBasins *basins, int y, size_t i)
-{
-  return i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
-}
-
 /* The labels of the basins in pixels x .. end - 1 of row y. */
 static void
 read_basins (const CeldBasins *basins, const uint32_t *label, int y, int x, int end, uint32_t *row)
 {
-  for (size_t i = run_at (basins, y, x); x < end; i++)
+  for (size_t i = celd_basin_run (basins, x, y); x < end; i++)
     {
-      int stop = run_end (basins, y, i);
+      int stop = celd_basin_run_end (basins, i, y);
 
       stop = stop < end ? stop : end;
       fill (row, stop - x, label[basins->run[i].basin]);
@@ -108,7 +84,7 @@ paint_basins (CeldPainting *painting, const CeldBasins *basins, const uint32_t *
   for (int y = 0; y < basins->height; y++)
     for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
       {
-        int      x = basins->run[i].x, end = run_end (basins, y, i);
+        int      x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
         uint32_t label = painting->label[basins->run[i].basin];
 
         if (label == old[basins->run[i].basin])
@@ -350,7 +326,7 @@ place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLa
       {
         uint32_t    label = painting->label[basins->run[i].basin];
         CeldRegion *region = &palette->item[label - 1];
-        int         x = basins->run[i].x, end = run_end (basins, y, i);
+        int         x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
 
         while (region->x < 0 && x < end && CELD_AT (labels, x, y) != label)
           x++;

@@ -174,7 +174,7 @@ find_paper (const CeldBasins *b, size_t n, Piece *piece)
   for (int y = 0; y < b->height && n; y++)
     for (size_t i = b->row[y]; i < b->row[y + 1] && n; i++)
       {
-        int    end = i + 1 < b->row[y + 1] ? b->run[i + 1].x : b->width;
+        int    end = celd_basin_run_end (b, i, y);
         Piece *p = &piece[b->piece[b->run[i].basin]];
         size_t paper;
 

@@ -7,31 +7,6 @@
 
 #include "segment.h"
 
-/* The basin run that holds the pixel (x,y). */
-static inline size_t
-celd_basin_run (const CeldBasins *basins, int x, int y)
-{
-  size_t low = basins->row[y], high = basins->row[y + 1];
-
-  while (high - low > 1)
-    {
-      size_t middle = (low + high) / 2;
-
-      if (basins->run[middle].x <= x)
-        low = middle;
-      else
-        high = middle;
-    }
-  return low;
-}
-
-/* Where that run ends: the x behind its last pixel. */
-static inline int
-celd_basin_run_end (const CeldBasins *basins, size_t run, int y)
-{
-  return run + 1 < basins->row[y + 1] ? basins->run[run + 1].x : basins->width;
-}
-
 /* An end of a relation on the drawing: the paper nearest to its point. */
 typedef struct { bool there; int x, y; } CeldEnd;
 

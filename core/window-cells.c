@@ -70,7 +70,7 @@ read_basins (Builder *b, int y, uint32_t *state)
       uint32_t basin = basins->run[i].basin;
       uint32_t here = b->cells->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
 
-      end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
+      end = celd_basin_run_end (basins, i, y);
       end = end <= w->right ? end : w->right + 1;
       for (int k = x; k < end; k++)
         state[k - w->left] = here;

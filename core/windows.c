@@ -293,7 +293,7 @@ trim (const Solver *s, uint32_t id, const CeldWindow *window)
     for (size_t i = celd_basin_run_at (basins, y, window->left, &hint);
          i < basins->row[y + 1] && basins->run[i].x <= window->right; i++)
       {
-        int x = basins->run[i].x, end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
+        int x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
 
         if (s->free[basins->run[i].basin] != id)
           continue;
