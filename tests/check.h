@@ -1,4 +1,4 @@
-/* What every test program of core uses: CHECK and NEAR, and pictures written as text art.
+/* What every test program of core uses: CHECK and NEAR, pictures written as text art, and hosts.
  *
  * A test program is a list of functions `static void name (void)` and a main that RUNs them and returns DONE.
  * A failed CHECK says where and goes on, so that one failure does not hide the next.
@@ -101,6 +101,36 @@ check_random (uint32_t *state, uint32_t n)
 {
   *state = *state * 1664525u + 1013904223u;
   return (uint32_t) (((uint64_t) (*state >> 8) * n) >> 24);
+}
+
+/* ------------------------------------------------------------------ hosts */
+
+/* Progress that cancels at once. */
+static inline bool
+check_refuse (void *host, double done)
+{
+  (void) host;
+  (void) done;
+  return false;
+}
+
+/* The same after some steps; `host` is an int, how many. */
+static inline bool
+check_count_down (void *host, double done)
+{
+  int *left = host;
+
+  CHECK (done >= 0 && done <= 1);
+  return (*left)-- > 0;
+}
+
+/* Jobs in another order. */
+static inline void
+check_backwards (void *host, int n, void (*body) (void *data, int i), void *data)
+{
+  (void) host;
+  while (n--)
+    body (data, n);
 }
 
 #endif

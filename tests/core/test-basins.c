@@ -157,33 +157,16 @@ pictures_without_paper_or_without_ink (void)
 
 /* ------------------------------------------------------------------ hosts, and bad input */
 
-static void
-run_backwards (void *host, int n, void (*body) (void *data, int i), void *data)
-{
-  (void) host;
-  while (n--)
-    body (data, n);
-}
-
-static bool
-stop_after (void *host, double done)
-{
-  int *left = host;
-
-  (void) done;
-  return (*left)-- > 0;
-}
-
 /* Jobs in another order make the same; a cancelled call leaves what there was. */
 static void
 threads_and_cancel (void)
 {
   CeldPlane  ink = { 300, 200, 300, malloc (300 * 200 * sizeof (float)) };
-  CeldRun    backwards = { NULL, run_backwards, NULL };
+  CeldRun    backwards = { NULL, check_backwards, NULL };
   CeldBasins serial = { 0 }, other = { 0 };
   uint32_t   state = 5;
   int        left = 0, round = 0;
-  CeldRun    cancel = { stop_after, NULL, &left };
+  CeldRun    cancel = { check_count_down, NULL, &left };
   CeldRect   changed = { 140, 90, 20, 20 };
 
   draw_cells (&state, 25, 2, &ink);

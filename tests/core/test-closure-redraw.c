@@ -125,19 +125,11 @@ islands_and_rims_of_patches (void)
   scene_close (&s);
 }
 
-static bool
-refuse (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
 static void
 cancelled_nothing_is_made (void)
 {
   static const CeldPatches none = { 0 };
-  CeldRun                  run = { .progress = refuse };
+  CeldRun                  run = { .progress = check_refuse };
   Scene                    s;
 
   draw_detour (&s);

@@ -131,20 +131,12 @@ nothing_but_none (void)
   free (list);
 }
 
-static bool
-stop_at_once (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
 static void
 failure_leaves_results_alone (void)
 {
   uint32_t       data[2] = { 1, 2 }, result[2] = { 7, 7 };
   CeldLabels     l = { 2, 1, 2, data }, c = { 2, 1, 2, result }, tall = { 1, 2, 1, result };
-  CeldRun        stop = { stop_at_once, NULL, NULL };
+  CeldRun        stop = { check_refuse, NULL, NULL };
   CeldComponent *list = NULL;
   size_t         n = 5;
 

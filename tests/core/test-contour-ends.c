@@ -130,19 +130,11 @@ a_dab_closes_a_gap_on_both_sides (void)
   free (s);
 }
 
-static bool
-refuse (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
 static void
 nothing_is_joined_when_cancelled_or_without_strokes (void)
 {
   Sheet  *s = sheet_new ();
-  CeldRun run = { .progress = refuse };
+  CeldRun run = { .progress = check_refuse };
 
   draw (s, 0, 20, 0, 20, SIDE - 1);
   CHECK (!join (s, 0, SIDE - 1));

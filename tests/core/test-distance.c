@@ -144,29 +144,13 @@ bad_sizes (void)
 }
 
 static void
-run_backwards (void *host, int n, void (*body) (void *data, int i), void *data)
-{
-  (void) host;
-  while (n--)
-    body (data, n);
-}
-
-static bool
-stop_at_once (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
-static void
 jobs_in_any_order_and_cancel (void)
 {
   static uint8_t inside[600 * 70];
   static float   value[600 * 70];
   static int32_t squared[600 * 70], other[600 * 70];
   CeldPlane      ink = { 600, 70, 600, value };
-  CeldRun        backwards = { NULL, run_backwards, NULL }, stop = { stop_at_once, NULL, NULL };
+  CeldRun        backwards = { NULL, check_backwards, NULL }, stop = { check_refuse, NULL, NULL };
   uint32_t       state = 5;
 
   for (int p = 0; p < 600 * 70; p++)

@@ -167,21 +167,13 @@ only_the_region_s_surroundings_matter (void)
   free (large.data);
 }
 
-static bool
-refuse (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
 static void
 a_cancelled_region_takes_nothing (void)
 {
   static const char *const sheet[] = { "222####111", "222####111", NULL };
   CeldLabels levels = art_labels (sheet);
   CeldSheet  s = sheet_open (&levels);
-  CeldRun    run = { .progress = refuse };
+  CeldRun    run = { .progress = check_refuse };
 
   CHECK (celd_expand_region (&s, 2, &run) == CELD_CANCELLED);
   NEAR (differing (&levels, sheet), 0, 0);

@@ -200,18 +200,11 @@ largest_capacities_do_not_overflow (void)
   CHECK (flow == 2 * (int64_t) most);
 }
 
-static bool
-never (void *host, double done)
-{
-  (void) host;
-  return done < 0;
-}
-
 static void
 cancel_and_bad_sizes_leave_results (void)
 {
   const int32_t capacity[4] = { 5, 5, 5, 5 }, terminal[4] = { 1, 0, 0, -1 };
-  const CeldRun run = { never, NULL, NULL };
+  const CeldRun run = { check_refuse, NULL, NULL };
   uint8_t       side[4] = { 9, 9, 9, 9 };
   int64_t       flow = 77;
 

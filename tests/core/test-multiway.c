@@ -166,22 +166,13 @@ decided_pixels_keep_their_label (void)
   CHECK (label[0] == 1 && label[1] == 1 && label[2] == 7 && label[3] == 2 && label[4] == 2);
 }
 
-static bool
-count_down (void *host, double done)
-{
-  int *left = host;
-
-  (void) done;
-  return (*left)-- > 0;
-}
-
 static void
 cancel_stops (void)
 {
   uint32_t state = 3, label[MOST] = { 0 };
   Problem  p = random_problem (&state, 20, 20, 5, 100);
   int      left = 0;
-  CeldRun  run = { count_down, NULL, &left };
+  CeldRun  run = { check_count_down, NULL, &left };
 
   CHECK (solve (&p, &run, label) == CELD_CANCELLED);
 }

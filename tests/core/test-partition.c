@@ -498,19 +498,12 @@ largest_sum_does_not_overflow (void)
   CHECK (a.energy == 2 * part + 1);
 }
 
-static bool
-never (void *host, double done)
-{
-  (void) host;
-  return done < 0;
-}
-
 static void
 cancel_leaves_results (void)
 {
   static Problem p = { .n = 2, .n_labels = 1, .order = { 1 } };
   CeldPartition  m = view (&p);
-  const CeldRun  run = { never, NULL, NULL };
+  const CeldRun  run = { check_refuse, NULL, NULL };
   uint32_t       label[2] = { 7, 7 };
   int64_t        energy = 5, greedy = 6;
 

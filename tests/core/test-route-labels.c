@@ -317,15 +317,6 @@ edits_make_what_a_fresh_session_makes (void)
 
 /* ------------------------------------------------------------------ cancelled edits */
 
-static bool
-stop_at (void *host, double done)
-{
-  int *left = host;
-
-  CHECK (done >= 0 && done <= 1);
-  return (*left)-- > 0;
-}
-
 /* An edit is cancelled at each of its reports; then another one follows, and all is as if nothing had happened. */
 static void
 cancelled_edits_do_no_harm (void)
@@ -342,7 +333,7 @@ cancelled_edits_do_no_harm (void)
       for (int step = 0; step < 30 && !check_bad; step++)
         {
           int        left = (int) pick (&r, 12);
-          CeldRun    run = { stop_at, NULL, &left };
+          CeldRun    run = { check_count_down, NULL, &left };
           CeldLabels labels;
           CeldRect   changed = { -1, -1, -1, -1 };
           CeldStatus status = celd_session_labels (edited, &run, &labels, &changed);

@@ -349,15 +349,6 @@ tiny_pictures (void)
   case_clear (&c);
 }
 
-static bool
-stop_after (void *host, double done)
-{
-  int *left = host;
-
-  (void) done;
-  return (*left)-- > 0;
-}
-
 static void
 cancel_at_any_time_leaves_results (void)
 {
@@ -366,7 +357,7 @@ cancel_at_any_time_leaves_results (void)
   for (int n = 0; ; n++)
     {
       int          left = n, changed = 0;
-      CeldRun      run = { stop_after, NULL, &left };
+      CeldRun      run = { check_count_down, NULL, &left };
       CeldPlane    ink = art_plane (two_rooms);
       CeldLabels   seeds = art_labels (two_scribbles), labels = art_labels (two_rooms);
       CeldPalette  palette = letters (3);

@@ -319,15 +319,6 @@ arrows_leave_hard_strokes_alone (void)
 
 /* ------------------------------------------------------------------ failures */
 
-static bool
-cancel (void *host, double done)
-{
-  int *left = host;
-
-  (void) done;
-  return (*left)-- > 0;
-}
-
 /* Cancelled at every report of progress in turn: the next answer is as if nothing had been. */
 static void
 cancel_everywhere (CeldSettings settings, uint32_t seed)
@@ -344,7 +335,7 @@ cancel_everywhere (CeldSettings settings, uint32_t seed)
   for (int steps = 0; status == CELD_CANCELLED && steps < 1000; steps++)
     {
       int     left = steps;
-      CeldRun run = { cancel, NULL, &left };
+      CeldRun run = { check_count_down, NULL, &left };
 
       paint_stroke (&page, 1 + check_random (&page.state, LABELS));
       celd_palette_clear (&page.palette);

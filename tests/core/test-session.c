@@ -147,15 +147,6 @@ anchors_keep_their_level (void)
   celd_session_free (s);
 }
 
-static bool
-stop_at (void *host, double done)
-{
-  int *left = host;
-
-  CHECK (done >= 0 && done <= 1);
-  return (*left)-- > 0;
-}
-
 /* A run that would be cancelled at its first step is not even asked when everything set was set before. */
 static void
 setting_the_same_makes_nothing_again (void)
@@ -167,7 +158,7 @@ setting_the_same_makes_nothing_again (void)
   CeldSession   *s = scene ();
   CeldPlane      shading;
   int            left = 0;
-  CeldRun        none = { .progress = stop_at, .host = &left };
+  CeldRun        none = { .progress = check_count_down, .host = &left };
 
   CHECK (celd_session_set_contours (s, &layer) == CELD_OK);
   CHECK (celd_session_shading (s, NULL, &shading, NULL) == CELD_OK);
@@ -222,7 +213,7 @@ cancel_leaves_it_usable (void)
     {
       CeldSession *s = scene ();
       int          left = k;
-      CeldRun      run = { stop_at, NULL, &left };
+      CeldRun      run = { check_count_down, NULL, &left };
       CeldStatus   status = celd_session_depth (s, &run, &depth, NULL);
 
       CHECK (status == CELD_OK || status == CELD_CANCELLED);

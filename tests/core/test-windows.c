@@ -555,14 +555,6 @@ larger_pictures_come_close (void)
 
 /* ------------------------------------------------------------------ hosts */
 
-static bool
-stop (void *host, double done)
-{
-  (void) host;
-  (void) done;
-  return false;
-}
-
 static void
 cancel_leaves_the_patches (void)
 {
@@ -571,7 +563,7 @@ cancel_leaves_the_patches (void)
     "....................", "....................", "..............BBB...", "..............BBB...",
     "....................", NULL
   };
-  CeldRun run = { stop, NULL, NULL };
+  CeldRun run = { check_refuse, NULL, NULL };
   Scene   s;
 
   art_scene (&s, room, one_basin, "A", painted, 2, 1);
