@@ -1,10 +1,11 @@
 /* Which label is the background, and what of the paper along the frame it gets.
  *
  * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room
- * (basin-unions.c) holds that room, where strokes that are at home elsewhere do not count.  Rooms along the frame that
- * nobody holds are seeded for that label; or, if no label holds a quarter of the frame and more of it is nobody's, for
- * a transparent label of their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the
- * background.)
+ * (basin-unions.c) holds that room, where strokes that are at home elsewhere do not count.  A stroke is at home where
+ * it leaves at least half of its paint.  One that is at home nowhere, but leaves half along the frame, runs on over
+ * hatching: it counts in every room there.  Rooms along the frame that nobody holds are seeded for that label; or, if
+ * no label holds a quarter of the frame or runs on over hatching, and more of it is nobody's, for a transparent label
+ * of their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the background.)
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,6 +20,7 @@ typedef struct
   uint32_t *holder;    /* the label that holds it; 0 = nobody */
   size_t    n;
   size_t   *held;      /* of label l: frame pixels, held[l]; held[0]: nobody's */
+  bool     *across;    /* does a stroke of label l run on along the frame, through rooms where it is not at home? */
 } Frame;
 
 /* Without flecks of paper in solid ink, which are in no room. */
@@ -34,7 +36,8 @@ frame_new (const CeldCanvas *canvas, Frame *frame)
   frame->basin  = celd_alloc (frame->n, sizeof *frame->basin);
   frame->holder = celd_alloc (frame->n, sizeof *frame->holder);
   frame->held   = celd_alloc0 (canvas->palette.n + 1, sizeof *frame->held);
-  if (!frame->basin || !frame->holder || !frame->held)
+  frame->across = celd_alloc0 (canvas->palette.n + 1, sizeof *frame->across);
+  if (!frame->basin || !frame->holder || !frame->held || !frame->across)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
     {
@@ -57,15 +60,33 @@ frame_clear (Frame *frame)
   celd_free (frame->basin);
   celd_free (frame->holder);
   celd_free (frame->held);
+  celd_free (frame->across);
 }
 
 /* ------------------------------------------------------------------ who holds the frame */
 
-/* holder[k]: the label with most paint in part k, 0 if there is none.  With soft strokes only those count that leave at
- * least half of their paint there. */
+/* scattered[k]: of stroke k, which is at home nowhere, the paint in parts along the frame; 0 of all others. */
 static void
-find_holders (const CeldSpread *spread, bool all_count, uint32_t *holder)
+find_scattered (const CeldSpread *spread, const size_t *along, size_t *scattered)
 {
+  for (size_t i = 0; i < spread->n; i++)
+    if (along[spread->share[i].part])
+      scattered[spread->share[i].stroke] += spread->share[i].pixels;
+  for (size_t i = 0; i < spread->n; i++)
+    if (2 * spread->share[i].pixels >= spread->total[spread->share[i].stroke])
+      scattered[spread->share[i].stroke] = 0;
+}
+
+/* holder[k]: the label with most paint in part k, 0 if there is none.  Soft strokes count only where they are at home,
+ * and along the frame those that are scattered there.  along[k]: pixels of the frame in part k. */
+static CeldStatus
+find_holders (const CeldSpread *spread, bool all_count, const size_t *along, bool *across, uint32_t *holder)
+{
+  size_t *scattered = celd_alloc0 (spread->n_strokes, sizeof *scattered);
+
+  if (!scattered)
+    return CELD_NO_MEMORY;
+  find_scattered (spread, along, scattered);
   for (size_t i = 0; i < spread->n;)
     {
       uint32_t part = spread->share[i].part;
@@ -77,8 +98,14 @@ find_holders (const CeldSpread *spread, bool all_count, uint32_t *holder)
           size_t   paint = 0;
 
           for (; i < spread->n && spread->share[i].part == part && spread->share[i].label == label; i++)
-            if (all_count || 2 * spread->share[i].pixels >= spread->total[spread->share[i].stroke])
-              paint += spread->share[i].pixels;
+            {
+              const CeldShare *share = &spread->share[i];
+              size_t           total = spread->total[share->stroke];
+              bool             runs_on = along[part] && 2 * scattered[share->stroke] >= total;
+
+              across[label] |= runs_on;
+              paint += all_count || runs_on || 2 * share->pixels >= total ? share->pixels : 0;
+            }
           if (paint > most)
             {
               most         = paint;
@@ -86,6 +113,22 @@ find_holders (const CeldSpread *spread, bool all_count, uint32_t *holder)
             }
         }
     }
+  celd_free (scattered);
+  return CELD_OK;
+}
+
+/* Who holds each part of the drawing. */
+static CeldStatus
+hold_parts (const CeldCanvas *canvas, Frame *frame, const uint32_t *part, CeldSpread *spread, size_t *along,
+            uint32_t *holder)
+{
+  CeldStatus status = celd_spread_share (canvas->basins, part, spread);
+
+  for (size_t i = 0; i < frame->n; i++)
+    along[part[frame->basin[i]]]++;
+  if (status == CELD_OK)
+    status = find_holders (spread, celd_canvas_obeys (canvas), along, frame->across, holder);
+  return status;
 }
 
 /* Who holds each pixel of the frame: who holds its room; behind a small gap in a contour, where its room is not most of
@@ -94,51 +137,53 @@ static CeldStatus
 hold_frame (const CeldCanvas *canvas, CeldSpread *spread, Frame *frame)
 {
   const CeldBasins *b = canvas->basins;
-  bool              all_count = celd_canvas_obeys (canvas);
   uint32_t         *of_piece = celd_alloc0 (b->n_pieces + 1, sizeof *of_piece);
   uint32_t         *of_room = celd_alloc0 (b->n_rooms + 1, sizeof *of_room);
-  size_t           *along = celd_alloc0 (b->n_rooms + 1, sizeof *along);
-  CeldStatus        status = of_piece && of_room && along ? CELD_OK : CELD_NO_MEMORY;
+  size_t           *piece_along = celd_alloc0 (b->n_pieces + 1, sizeof *piece_along);
+  size_t           *room_along = celd_alloc0 (b->n_rooms + 1, sizeof *room_along);
+  CeldStatus        status = of_piece && of_room && piece_along && room_along ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    {
-      status = celd_spread_share (b, b->room, spread);
-      find_holders (spread, all_count, of_room);
-    }
+    status = hold_parts (canvas, frame, b->room, spread, room_along, of_room);
   if (status == CELD_OK)
-    {
-      status = celd_spread_share (b, b->piece, spread);
-      find_holders (spread, all_count, of_piece);
-    }
-  for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
-    along[b->room[frame->basin[i]]]++;
+    status = hold_parts (canvas, frame, b->piece, spread, piece_along, of_piece);
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     {
       uint32_t room = b->room[frame->basin[i]];
 
-      frame->holder[i] = of_room[room] || MAIN_SHARE * along[room] >= frame->n
+      frame->holder[i] = of_room[room] || MAIN_SHARE * room_along[room] >= frame->n
                          ? of_room[room] : of_piece[b->piece[frame->basin[i]]];
       frame->held[frame->holder[i]]++;
     }
   celd_free (of_piece);
   celd_free (of_room);
-  celd_free (along);
+  celd_free (piece_along);
+  celd_free (room_along);
   return status;
 }
 
 /* ------------------------------------------------------------------ what it gets */
 
-/* Label 0 if the frame is nobody's. */
+/* The label that holds most of the frame, or most of those that run on along it; 0 if there is none. */
 static uint32_t
-main_holder (const Frame *frame, size_t n_labels)
+most_held (const Frame *frame, size_t n_labels, bool across)
 {
   uint32_t best = 0;
 
   for (uint32_t l = 1; l <= n_labels; l++)
-    if (frame->held[l] && (!best || frame->held[l] > frame->held[best]))
+    if ((frame->across[l] || !across) && frame->held[l] && (!best || frame->held[l] > frame->held[best]))
       best = l;
+  return best;
+}
+
+/* Label 0 if the frame is nobody's. */
+static uint32_t
+main_holder (const Frame *frame, size_t n_labels)
+{
+  uint32_t best = most_held (frame, n_labels, false);
+
   if (best && MAIN_SHARE * frame->held[best] < frame->n && frame->held[0] > frame->held[best])
-    return 0;
+    return most_held (frame, n_labels, true);
   return best;
 }
 

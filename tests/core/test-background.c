@@ -127,6 +127,27 @@ a_stroke_that_runs_out_does_not_hold_the_frame (void)
   sketch_close (&s);
 }
 
+/* Lines from edge to edge cut the page into strips.  A runs over three of them, and is at home in none. */
+static void
+a_stroke_over_hatching_holds_the_frame (void)
+{
+  static const char *const paper[] = {
+    "1111111#2#3#4#5555555", "1111111#2#3#4#5555555", "1111111#2#3#4#5555555", NULL
+  };
+  static const char *const painted[] = {
+    ".....................", "........AAAAA........", ".....................", NULL
+  };
+  static const char *const wanted[] = {
+    "AAAAAAA.......AAAAAAA", "A.......AAAAA.......A", "AAAAAAA.......AAAAAAA", NULL
+  };
+  Sketch s;
+
+  sketch_open (&s, paper, painted, 1);
+  NEAR (seed (&s, wanted), 1, 0);
+  NEAR (s.canvas.palette.n, 1, 0);
+  sketch_close (&s);
+}
+
 /* A small room behind a gap goes to whom its piece goes, and gets no seeds. */
 static void
 behind_a_gap_the_piece_counts (void)
@@ -141,8 +162,8 @@ behind_a_gap_the_piece_counts (void)
   sketch_close (&s);
 }
 
-/* Two flecks of paper in a solid area that the frame cuts off, one of them painted: they are in no room, so that neither
- * takes the paint away from the other. */
+/* Flecks of paper in a solid area that the frame cuts off, some of them painted: they are in no room, so that none
+ * takes the paint away from another. */
 static void
 flecks_in_solid_ink_are_left_alone (void)
 {
@@ -182,8 +203,28 @@ an_obeyed_stroke_under_a_bridge_stays (void)
 /* What the slow version knows of each pixel. */
 typedef struct { CeldLabels painted, room; uint32_t stroke[W * H], piece[W * H]; bool all_count; } Pixels;
 
+/* Does the stroke of pixel p count in its part?  *across: because it runs on along the frame. */
+static bool
+slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], int p, bool *across)
+{
+  int  in[5] = { 0 }, total = 0, in_frame = 0;
+  bool home = false;
+
+  for (int q = 0; q < W * H; q++)
+    if (s->stroke[q] == s->stroke[p] && s->room.data[q])
+      {
+        total++;
+        in[part[q]]++;
+        in_frame += along[part[q]];
+      }
+  for (int k = 1; k < 5; k++)
+    home |= 2 * in[k] >= total;
+  *across = !home && along[part[p]] && 2 * in_frame >= total;
+  return *across || 2 * in[part[p]] >= total;
+}
+
 static uint32_t
-slow_holder (const Pixels *s, const uint32_t part[W * H], uint32_t which)
+slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], uint32_t which, bool across[5])
 {
   int      most = 0;
   uint32_t holder = 0;
@@ -193,19 +234,13 @@ slow_holder (const Pixels *s, const uint32_t part[W * H], uint32_t which)
       int paint = 0;
 
       for (int p = 0; p < W * H; p++)
-        {
-          int here = 0, total = 0;
+        if (part[p] == which && s->painted.data[p] == l)
+          {
+            bool runs_on;
 
-          if (part[p] != which || s->painted.data[p] != l)
-            continue;
-          for (int q = 0; q < W * H; q++)
-            if (s->stroke[q] == s->stroke[p] && s->room.data[q])
-              {
-                total++;
-                here += part[q] == which;
-              }
-          paint += s->all_count || 2 * here >= total;
-        }
+            paint += slow_at_home (s, part, along, p, &runs_on) || s->all_count;
+            across[l] |= runs_on;
+          }
       if (paint > most)
         {
           most   = paint;
@@ -222,13 +257,15 @@ slow_background (Pixels *s, const CeldPlane *ink)
   size_t  *frame, n;
   uint32_t holder[4 * (W + H)], of_room[5], of_piece[5], label = 0;
   int      along[5] = { 0 }, held[5] = { 0 };
-  bool     lost[5] = { false };
+  bool     lost[5] = { false }, rooms[5] = { false }, pieces[5] = { false }, across[5] = { false };
 
   CHECK (celd_frame (ink, W, H, 1, &frame, &n) == CELD_OK);
+  for (size_t i = 0; i < n; i++)
+    rooms[s->room.data[frame[i]]] = pieces[s->piece[frame[i]]] = true;
   for (uint32_t k = 1; k <= 4; k++)
     {
-      of_room[k]  = slow_holder (s, s->room.data, k);
-      of_piece[k] = slow_holder (s, s->piece, k);
+      of_room[k]  = slow_holder (s, s->room.data, rooms, k, across);
+      of_piece[k] = slow_holder (s, s->piece, pieces, k, across);
     }
   for (size_t i = 0; i < n; i++)
     along[s->room.data[frame[i]]]++;
@@ -243,7 +280,12 @@ slow_background (Pixels *s, const CeldPlane *ink)
     if (held[l] > (label ? held[label] : 0))
       label = l;
   if (label && 4 * held[label] < (int) n && held[0] > held[label])
-    label = 0;
+    {
+      label = 0;
+      for (uint32_t l = 1; l <= 3; l++)
+        if (across[l] && held[l] > (label ? held[label] : 0))
+          label = l;
+    }
   if (!label && held[0])
     label = 4;
   for (size_t i = 0; i < n; i++)
@@ -319,6 +361,7 @@ main (void)
   RUN (a_corner_cut_off_joins_the_background);
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
+  RUN (a_stroke_over_hatching_holds_the_frame);
   RUN (behind_a_gap_the_piece_counts);
   RUN (flecks_in_solid_ink_are_left_alone);
   RUN (an_obeyed_stroke_under_a_bridge_stays);
