@@ -12,13 +12,14 @@
 
 typedef struct
 {
-  CeldPlane    ink;
-  CeldSeedRows seeds;
-  CeldLabels   labels;
-  CeldPalette  palette;
-  CeldProblems problems;
-  CeldRect     changed;
-  uint32_t     state;
+  CeldPlane      ink;
+  CeldSegmenter *segmenter;
+  CeldSeedRows   seeds;
+  CeldLabels     labels;
+  CeldPalette    palette;
+  CeldProblems   problems;
+  CeldRect       changed;
+  uint32_t       state;
 } Page;
 
 static CeldPalette
@@ -36,7 +37,8 @@ static void
 draw_wall (Page *page)
 {
   bool across = check_random (&page->state, 2);
-  int  length = across ? WIDTH : HEIGHT, at = 3 + (int) check_random (&page->state, (uint32_t) (across ? HEIGHT : WIDTH) - 6);
+  int  length = across ? WIDTH : HEIGHT, other = across ? HEIGHT : WIDTH;
+  int  at = 3 + (int) check_random (&page->state, (uint32_t) other - 6);
   int  gap = (int) check_random (&page->state, (uint32_t) length), wide = (int) check_random (&page->state, 6);
 
   for (int i = 0; i < length; i++)
@@ -55,10 +57,11 @@ paint_stroke (Page *page, uint32_t label)
     CHECK (celd_seed_rows_paint (&page->seeds, v, x, x + w < WIDTH ? x + w : WIDTH, label) == CELD_OK);
 }
 
+/* With strokes of so many labels. */
 static void
-page_open (Page *page, uint32_t seed)
+page_open (Page *page, uint32_t seed, uint32_t strokes, const CeldSettings *settings)
 {
-  *page = (Page) { .state = seed };
+  *page = (Page) { .segmenter = celd_segmenter_new (), .state = seed };
   CHECK (celd_plane_new (WIDTH, HEIGHT, &page->ink) == CELD_OK);
   CHECK (celd_labels_new (WIDTH, HEIGHT, &page->labels) == CELD_OK);
   CHECK (celd_seed_rows_new (WIDTH, HEIGHT, &page->seeds) == CELD_OK);
@@ -66,11 +69,15 @@ page_open (Page *page, uint32_t seed)
     page->ink.data[i] = 1;
   for (int i = 0; i < 4; i++)
     draw_wall (page);
+  CHECK (celd_segmenter_set_ink (page->segmenter, &page->ink, NULL, settings, NULL) == CELD_OK);
+  for (uint32_t k = 1; k <= strokes; k++)
+    paint_stroke (page, k);
 }
 
 static void
 page_close (Page *page)
 {
+  celd_segmenter_free (page->segmenter);
   celd_free (page->ink.data);
   celd_free (page->labels.data);
   celd_seed_rows_clear (&page->seeds);
@@ -79,26 +86,25 @@ page_close (Page *page)
 }
 
 static void
-solve (CeldSegmenter *segmenter, Page *page, const CeldRelations *relations, const CeldSettings *settings)
+solve (Page *page, const CeldRelations *relations, const CeldSettings *settings)
 {
   celd_palette_clear (&page->palette);
   celd_problems_clear (&page->problems);
   page->palette = colours ();
-  CHECK (celd_segmenter_solve (segmenter, &page->seeds, relations, settings, NULL, &page->palette, &page->problems,
-                               &page->labels, &page->changed) == CELD_OK);
+  CHECK (celd_segmenter_solve (page->segmenter, &page->seeds, relations, settings, NULL, &page->palette,
+                               &page->problems, &page->labels, &page->changed) == CELD_OK);
 }
 
 /* What a new segmenter makes of the page. */
 static Page
 solve_anew (const Page *page, const CeldRelations *relations, const CeldSettings *settings)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  Page           fresh = { .ink = page->ink, .seeds = page->seeds };
+  Page fresh = { .ink = page->ink, .segmenter = celd_segmenter_new (), .seeds = page->seeds };
 
   CHECK (celd_labels_new (WIDTH, HEIGHT, &fresh.labels) == CELD_OK);
-  CHECK (celd_segmenter_set_ink (segmenter, &page->ink, NULL, settings, NULL) == CELD_OK);
-  solve (segmenter, &fresh, relations, settings);
-  celd_segmenter_free (segmenter);
+  CHECK (celd_segmenter_set_ink (fresh.segmenter, &page->ink, NULL, settings, NULL) == CELD_OK);
+  solve (&fresh, relations, settings);
+  celd_segmenter_free (fresh.segmenter);
   return fresh;
 }
 
@@ -136,25 +142,21 @@ compare (const Page *page, const uint32_t *before, const CeldRelations *relation
 static void
 edit_strokes (CeldSettings settings, uint32_t seed)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  uint32_t       before[WIDTH * HEIGHT];
-  Page           page;
+  uint32_t before[WIDTH * HEIGHT];
+  Page     page;
 
-  page_open (&page, seed);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  paint_stroke (&page, 1);
-  solve (segmenter, &page, NULL, &settings);
+  page_open (&page, seed, 1, &settings);
+  solve (&page, NULL, &settings);
   CHECK (page.changed.x == 0 && page.changed.y == 0 && page.changed.width == WIDTH && page.changed.height == HEIGHT);
   for (int i = 0; i < 12; i++)
     {
       memcpy (before, page.labels.data, sizeof before);
       paint_stroke (&page, check_random (&page.state, LABELS + 1));
-      solve (segmenter, &page, NULL, &settings);
+      solve (&page, NULL, &settings);
       compare (&page, before, NULL, &settings);
-      solve (segmenter, &page, NULL, &settings);
+      solve (&page, NULL, &settings);
       CHECK (page.changed.width == 0);
     }
-  celd_segmenter_free (segmenter);
   page_close (&page);
 }
 
@@ -180,40 +182,31 @@ strokes_are_answered_as_if_alone (void)
 static void
 methods_may_take_turns (void)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  uint32_t       before[WIDTH * HEIGHT];
-  CeldSettings   settings = celd_settings ();
-  Page           page;
+  uint32_t     before[WIDTH * HEIGHT];
+  CeldSettings settings = celd_settings ();
+  Page         page;
 
-  page_open (&page, 3);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  for (uint32_t k = 1; k <= LABELS; k++)
-    paint_stroke (&page, k);
+  page_open (&page, 3, LABELS, &settings);
   for (int i = 0; i < 6; i++)
     {
       memcpy (before, page.labels.data, sizeof before);
       settings.method   = i % 3 == 1 ? CELD_METHOD_EXACT : CELD_METHOD_BASINS;
       settings.hardness = i < 3 ? 0.05f : 1;
-      solve (segmenter, &page, NULL, &settings);
+      solve (&page, NULL, &settings);
       compare (&page, before, NULL, &settings);
     }
-  celd_segmenter_free (segmenter);
   page_close (&page);
 }
 
 static void
 a_drawing_may_change (void)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  uint32_t       before[WIDTH * HEIGHT];
-  CeldSettings   settings = celd_settings ();
-  Page           page;
+  uint32_t     before[WIDTH * HEIGHT];
+  CeldSettings settings = celd_settings ();
+  Page         page;
 
-  page_open (&page, 5);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  for (uint32_t k = 1; k <= LABELS; k++)
-    paint_stroke (&page, k);
-  solve (segmenter, &page, NULL, &settings);
+  page_open (&page, 5, LABELS, &settings);
+  solve (&page, NULL, &settings);
   for (int i = 0; i < 20; i++)
     {
       CeldRect rect = { (int) check_random (&page.state, WIDTH - 9), (int) check_random (&page.state, HEIGHT - 9), 9, 4 };
@@ -223,11 +216,10 @@ a_drawing_may_change (void)
         for (int x = rect.x; x < rect.x + rect.width; x++)
           CELD_AT (&page.ink, x, y) = ink;
       memcpy (before, page.labels.data, sizeof before);
-      CHECK (celd_segmenter_set_ink (segmenter, &page.ink, &rect, &settings, NULL) == CELD_OK);
-      solve (segmenter, &page, NULL, &settings);
+      CHECK (celd_segmenter_set_ink (page.segmenter, &page.ink, &rect, &settings, NULL) == CELD_OK);
+      solve (&page, NULL, &settings);
       compare (&page, before, NULL, &settings);
     }
-  celd_segmenter_free (segmenter);
   page_close (&page);
 }
 
@@ -257,15 +249,11 @@ add_random_relation (Page *page, CeldRelations *relations)
 static void
 relations_make_and_split_regions (void)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  uint32_t       before[WIDTH * HEIGHT];
-  CeldSettings   settings = celd_settings ();
-  Page           page;
+  uint32_t     before[WIDTH * HEIGHT];
+  CeldSettings settings = celd_settings ();
+  Page         page;
 
-  page_open (&page, 7);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  paint_stroke (&page, 1);
-  paint_stroke (&page, 2);
+  page_open (&page, 7, 2, &settings);
   for (int i = 0; i < 12; i++)
     {
       CeldRelations relations = { 0 };
@@ -273,11 +261,10 @@ relations_make_and_split_regions (void)
       add_random_relation (&page, &relations);
       add_random_relation (&page, &relations);
       memcpy (before, page.labels.data, sizeof before);
-      solve (segmenter, &page, &relations, &settings);
+      solve (&page, &relations, &settings);
       compare (&page, before, &relations, &settings);
       celd_relations_clear (&relations);
     }
-  celd_segmenter_free (segmenter);
   page_close (&page);
 }
 
@@ -291,28 +278,23 @@ arrows_leave_hard_strokes_alone (void)
   settings.hardness = 1;
   for (uint32_t seed = 1; seed <= 80; seed++)
     {
-      CeldSegmenter *segmenter = celd_segmenter_new ();
-      CeldRelations  relations = { 0 };
-      int            bad = 0;
-      Page           page;
+      CeldRelations relations = { 0 };
+      int           bad = 0;
+      Page          page;
 
       settings.method     = seed % 2 ? CELD_METHOD_BASINS : CELD_METHOD_EXACT;
       settings.close_gaps = seed % 3 != 0;
-      page_open (&page, seed);
-      for (uint32_t k = 1; k <= LABELS; k++)
-        paint_stroke (&page, k);
+      page_open (&page, seed, LABELS, &settings);
       paint_along_frame (&page, 1);
       for (int i = 0; i < 6; i++)
         add_random_relation (&page, &relations);
-      CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-      solve (segmenter, &page, &relations, &settings);
+      solve (&page, &relations, &settings);
       for (int y = 0; y < HEIGHT; y++)
         for (size_t i = 0; i < page.seeds.row[y].n; i++)
           for (int x = page.seeds.row[y].run[i].x; x < page.seeds.row[y].run[i].end; x++)
             bad += CELD_AT (&page.labels, x, y) != page.seeds.row[y].run[i].label;
       CHECK (bad == 0);
       celd_relations_clear (&relations);
-      celd_segmenter_free (segmenter);
       page_close (&page);
     }
 }
@@ -323,15 +305,11 @@ arrows_leave_hard_strokes_alone (void)
 static void
 cancel_everywhere (CeldSettings settings, uint32_t seed)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  CeldStatus     status = CELD_CANCELLED;
-  Page           page;
+  CeldStatus status = CELD_CANCELLED;
+  Page       page;
 
-  page_open (&page, seed);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  paint_stroke (&page, 1);
-  paint_stroke (&page, 2);
-  solve (segmenter, &page, NULL, &settings);
+  page_open (&page, seed, 2, &settings);
+  solve (&page, NULL, &settings);
   for (int steps = 0; status == CELD_CANCELLED && steps < 1000; steps++)
     {
       int     left = steps;
@@ -340,15 +318,14 @@ cancel_everywhere (CeldSettings settings, uint32_t seed)
       paint_stroke (&page, 1 + check_random (&page.state, LABELS));
       celd_palette_clear (&page.palette);
       page.palette = colours ();
-      status = celd_segmenter_solve (segmenter, &page.seeds, NULL, &settings, &run, &page.palette, NULL, &page.labels,
-                                     &page.changed);
+      status = celd_segmenter_solve (page.segmenter, &page.seeds, NULL, &settings, &run, &page.palette, NULL,
+                                     &page.labels, &page.changed);
       CHECK (status == CELD_OK || status == CELD_CANCELLED);
       paint_stroke (&page, 0);
-      solve (segmenter, &page, NULL, &settings);
+      solve (&page, NULL, &settings);
       compare (&page, NULL, NULL, &settings);
     }
   CHECK (status == CELD_OK);
-  celd_segmenter_free (segmenter);
   page_close (&page);
 }
 
@@ -368,19 +345,16 @@ a_cancelled_answer_leaves_nothing_behind (void)
 static void
 nothing_to_go_by (void)
 {
-  CeldSegmenter *segmenter = celd_segmenter_new ();
-  CeldSettings   settings = celd_settings ();
-  CeldPalette    palette = { 0 };
-  Page           page;
+  CeldSettings settings = celd_settings ();
+  CeldPalette  palette = { 0 };
+  Page         page;
 
-  page_open (&page, 11);
-  CHECK (celd_segmenter_set_ink (segmenter, &page.ink, NULL, &settings, NULL) == CELD_OK);
-  CHECK (celd_segmenter_solve (segmenter, &page.seeds, NULL, &settings, NULL, &palette, NULL, &page.labels,
+  page_open (&page, 11, 0, &settings);
+  CHECK (celd_segmenter_solve (page.segmenter, &page.seeds, NULL, &settings, NULL, &palette, NULL, &page.labels,
                                &page.changed) == CELD_NOTHING_TO_GO_BY);
   settings.hardness = NAN;
-  CHECK (celd_segmenter_solve (segmenter, &page.seeds, NULL, &settings, NULL, &palette, NULL, &page.labels,
+  CHECK (celd_segmenter_solve (page.segmenter, &page.seeds, NULL, &settings, NULL, &palette, NULL, &page.labels,
                                &page.changed) == CELD_BAD_VALUE);
-  celd_segmenter_free (segmenter);
   celd_segmenter_free (NULL);
   page_close (&page);
 }
