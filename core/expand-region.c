@@ -282,7 +282,7 @@ propagate_thickness (Window *w, const CeldRun *run)
         w->south[p] = p + (size_t) w->width < w->pixels && w->contour[p + (size_t) w->width];
       }
   celd_lap_pin (w->width, w->height, w->axis, 1, w->t, w->east, w->south, w->diagonal, w->b);
-  status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, &set_up, &laplace);
+  status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, NULL, &set_up, &laplace);
   if (!status)
     status = celd_lap_solve (laplace, 1, w->b, w->t, THICKNESS_ERROR, &solve, NULL);
   celd_lap_free (laplace);

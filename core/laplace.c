@@ -93,9 +93,42 @@ set_up_band (CeldLaplace *l)
   return CELD_OK;
 }
 
+/* A copy of n items, or of zeros. */
+static void *
+copy (const void *items, size_t n, size_t size)
+{
+  void *result = items ? celd_alloc (n, size) : celd_alloc0 (n, size);
+
+  if (items && result)
+    memcpy (result, items, n * size);
+  return result;
+}
+
+/* The matrix without the fixed pixels. */
+static CeldStatus
+copy_system (const float *east, const float *south, const float *diagonal, const uint8_t *fixed, CeldLaplace *l)
+{
+  size_t n = (size_t) l->width * (size_t) l->height;
+
+  l->east     = copy (east, n, sizeof *l->east);
+  l->south    = copy (south, n, sizeof *l->south);
+  l->diagonal = copy (diagonal, n, sizeof *l->diagonal);
+  if (!l->east || !l->south || !l->diagonal)
+    return CELD_NO_MEMORY;
+  if (!fixed)
+    return CELD_OK;
+  l->fixed      = copy (fixed, n, 1);
+  l->held_east  = copy (east, n, sizeof *l->held_east);
+  l->held_south = copy (south, n, sizeof *l->held_south);
+  if (!l->fixed || !l->held_east || !l->held_south)
+    return CELD_NO_MEMORY;
+  celd_lap_pin (l->width, l->height, fixed, 0, NULL, l->east, l->south, l->diagonal, NULL);
+  return CELD_OK;
+}
+
 CeldStatus
 celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
-                const CeldRun *run, CeldLaplace **laplace)
+                const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace)
 {
   size_t       n = (size_t) width * (size_t) height, band = (size_t) (width < height ? width : height);
   CeldLaplace *l = celd_alloc0 (1, sizeof *l);
@@ -105,20 +138,20 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
     return CELD_NO_MEMORY;
   l->width    = width;
   l->height   = height;
-  l->east     = east;
-  l->south    = south;
-  l->diagonal = diagonal;
   l->direct   = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
   l->inverse  = celd_alloc (n, sizeof *l->inverse);
   l->nothing  = celd_alloc0 ((size_t) width, sizeof *l->nothing);
   status      = l->inverse && l->nothing ? celd_step (run, 0) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = copy_system (east, south, diagonal, fixed, l);
   if (status == CELD_OK)
     {
       celd_pixels_invert (l);
       status = celd_floating_find (l);
     }
   if (status == CELD_OK)
-    status = l->direct ? set_up_band (l) : celd_levels_new (width, height, east, south, diagonal, run, &l->levels);
+    status = l->direct ? set_up_band (l)
+                       : celd_levels_new (width, height, l->east, l->south, l->diagonal, run, &l->levels);
   if (status == CELD_OK)
     *laplace = l;
   else
@@ -133,6 +166,12 @@ celd_lap_free (CeldLaplace *laplace)
     return;
   celd_band_clear (&laplace->band);
   celd_levels_clear (&laplace->levels);
+  celd_free (laplace->east);
+  celd_free (laplace->south);
+  celd_free (laplace->diagonal);
+  celd_free (laplace->fixed);
+  celd_free (laplace->held_east);
+  celd_free (laplace->held_south);
   celd_free (laplace->inverse);
   celd_free (laplace->nothing);
   celd_free (laplace->floating);
@@ -211,7 +250,7 @@ share_done (double first, double error, double tolerance)
 
 /* The rounds of the conjugate gradient, from s->x and s->r. */
 static CeldStatus
-iterate (CeldLaplace *l, double tolerance, const CeldRun *run, CeldSolution *s, CeldSolve *solve)
+iterate (CeldLaplace *l, double tolerance, int most, const CeldRun *run, CeldSolution *s, CeldSolve *solve)
 {
   double alpha[MOST_ROUNDS], beta[MOST_ROUNDS], zr_before = 0, done = 0, first = 0, scale = 0;
 
@@ -230,7 +269,7 @@ iterate (CeldLaplace *l, double tolerance, const CeldRun *run, CeldSolution *s, 
       else if (k > 0)
         solve->error = SAFETY * largest / least_eigenvalue (k, alpha, beta) / scale;
       solve->converged = solve->error <= tolerance;
-      if (solve->converged || !(zr > 0))
+      if (solve->converged || !(zr > 0) || (most && k == most))
         break;
 
       first = k <= 1 ? solve->error : first;
@@ -252,20 +291,79 @@ iterate (CeldLaplace *l, double tolerance, const CeldRun *run, CeldSolution *s, 
   return CELD_OK;
 }
 
+/* What fixed pixels say, as a right-hand side; `b` may be NULL. */
+static void
+fold_fixed (const CeldLaplace *l, const float *b, const float *x, float *folded)
+{
+  size_t w = (size_t) l->width, n = w * (size_t) l->height;
+
+  for (size_t i = 0; i < n; i++)
+    folded[i] = l->fixed && l->fixed[i] ? x[i] : b ? b[i] : 0;
+  for (size_t i = 0; i < n && l->fixed; i++)
+    {
+      if (i % w + 1 < w && !l->fixed[i] != !l->fixed[i + 1])
+        folded[l->fixed[i] ? i + 1 : i] += l->held_east[i] * x[l->fixed[i] ? i : i + 1];
+      if (i + w < n && !l->fixed[i] != !l->fixed[i + w])
+        folded[l->fixed[i] ? i + w : i] += l->held_south[i] * x[l->fixed[i] ? i : i + w];
+    }
+}
+
 static CeldStatus
-solve_one (CeldLaplace *l, const float *b, float *x, double tolerance, const CeldRun *run, double *mean,
+solve_one (CeldLaplace *l, const float *b, float *x, double tolerance, int most, const CeldRun *run, double *mean,
            CeldSolution *s, CeldSolve *solve)
 {
   size_t     n      = (size_t) l->width * (size_t) l->height;
   double    *before = mean, *now = mean + l->n_floating + 1;
   CeldStatus status;
 
-  begin (l, b, x, run, now, s);
+  fold_fixed (l, b, x, s->b);
+  begin (l, s->b, x, run, now, s);
   celd_floating_means (l, s->x, before);
-  status = iterate (l, tolerance, run, s, solve);
+  status = iterate (l, tolerance, most, run, s, solve);
   celd_floating_shift (l, before, now, s->x);
   for (size_t i = 0; i < n; i++)
     x[i] = (float) s->x[i];
+  return status;
+}
+
+/* Solves for the right-hand sides whose values are `stride` items apart and that begin `next` items apart. */
+static CeldStatus
+solve_many (CeldLaplace *l, int nrhs, size_t stride, size_t next, const float *b, float *x, double tolerance, int most,
+            const CeldRun *run, CeldSolve *solve)
+{
+  size_t       n = (size_t) l->width * (size_t) l->height, h = (size_t) l->height;
+  double      *vector = celd_alloc (n, 4 * sizeof *vector), *row = celd_alloc (h, 3 * sizeof *row);
+  double      *mean = celd_alloc ((size_t) l->n_floating + 1, 2 * sizeof *mean);
+  float       *plane = celd_alloc (n, 4 * sizeof *plane), *one_b = plane + 2 * n, *one_x = plane + 3 * n;
+  CeldSolve    worst = { .converged = true };
+  CeldStatus   status = vector && row && mean && plane ? CELD_OK : CELD_NO_MEMORY;
+  CeldSolution s = { vector, vector + n, vector + 2 * n, vector + 3 * n, plane, plane + n, { row, row + h, row + 2 * h } };
+
+  for (int k = 0; k < nrhs && status == CELD_OK; k++)
+    {
+      CeldPart  part;
+      CeldRun   share = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
+      size_t    first = (size_t) k * next;
+      CeldSolve one;
+
+      for (size_t i = 0; i < n; i++)
+        {
+          one_b[i] = b ? b[first + i * stride] : 0;
+          one_x[i] = x[first + i * stride];
+        }
+      status = solve_one (l, one_b, one_x, tolerance, most, &share, mean, &s, &one);
+      for (size_t i = 0; i < n; i++)
+        x[first + i * stride] = one_x[i];
+      worst.converged  = worst.converged && one.converged;
+      worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
+      worst.error      = fmax (worst.error, one.error);
+    }
+  if (solve && status != CELD_NO_MEMORY)
+    *solve = worst;
+  celd_free (vector);
+  celd_free (row);
+  celd_free (mean);
+  celd_free (plane);
   return status;
 }
 
@@ -273,36 +371,14 @@ CeldStatus
 celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
                 const CeldRun *run, CeldSolve *solve)
 {
-  size_t       n = (size_t) laplace->width * (size_t) laplace->height, h = (size_t) laplace->height;
-  double      *vector = celd_alloc (n, 4 * sizeof *vector), *row = celd_alloc (h, 3 * sizeof *row);
-  double      *mean = celd_alloc ((size_t) laplace->n_floating + 1, 2 * sizeof *mean);
-  float       *z = celd_alloc (n, sizeof *z);
-  CeldSolve    worst = { .converged = true };
-  CeldStatus   status = vector && row && mean && z ? CELD_OK : CELD_NO_MEMORY;
-  CeldSolution s;
+  size_t n = (size_t) laplace->width * (size_t) laplace->height;
 
-  if (status != CELD_OK)
-    goto done;
-  s = (CeldSolution) { vector, vector + n, vector + 2 * n, vector + 3 * n, z, { row, row + h, row + 2 * h } };
-  for (int k = 0; k < nrhs && status == CELD_OK; k++)
-    {
-      CeldPart  part;
-      CeldRun   share  = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
-      size_t    offset = (size_t) k * n;
-      CeldSolve one;
+  return solve_many (laplace, nrhs, 1, n, b, x, tolerance, 0, run, solve);
+}
 
-      status = solve_one (laplace, b + offset, x + offset, tolerance, &share, mean, &s, &one);
-      worst.converged  = worst.converged && one.converged;
-      worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
-      worst.error      = fmax (worst.error, one.error);
-    }
-  if (solve)
-    *solve = worst;
-
-done:
-  celd_free (vector);
-  celd_free (row);
-  celd_free (mean);
-  celd_free (z);
-  return status;
+CeldStatus
+celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
+                      const CeldRun *run, CeldSolve *solve)
+{
+  return solve_many (laplace, CELD_LANES, CELD_LANES, 1, b, x, tolerance, most, run, solve);
 }

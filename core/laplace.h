@@ -64,7 +64,9 @@ void       celd_levels_cycle (CeldLevels *levels);
 struct CeldLaplace
 {
   int          width, height;
-  const float *east, *south, *diagonal;   /* borrowed */
+  float       *east, *south, *diagonal;   /* fixed pixels are cut off, with diagonal 1 */
+  uint8_t     *fixed;                     /* or NULL, as the next two: the couplings with fixed pixels */
+  float       *held_east, *held_south;
   float       *inverse;                   /* 1 / whole diagonal; 0 for a floating single pixel */
   float       *nothing;                   /* a row of edges of weight 0, above the first and below the last row */
   uint32_t    *floating;                  /* of each pixel: its floating component from 1, or 0; NULL if none */
@@ -79,7 +81,7 @@ struct CeldLaplace
 typedef struct
 {
   double *x, *r, *p, *q;        /* solution, residual, direction, A p */
-  float  *z;                    /* preconditioned residual */
+  float  *z, *b;                /* preconditioned residual, right-hand side */
   double *row[3];               /* sums and extremes of each row */
 } CeldSolution;
 

@@ -229,7 +229,7 @@ celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings 
   if (status == CELD_OK)
     status = hold_outlines (w, h, level, east, south, &holding, diagonal, b);
   if (status == CELD_OK)
-    status = celd_lap_setup (w, h, east, south, diagonal, &setting_up, &laplace);
+    status = celd_lap_setup (w, h, east, south, diagonal, NULL, &setting_up, &laplace);
   if (status == CELD_OK)
     status = celd_lap_solve (laplace, 2, b, nxy, (double) settings->tolerance, &solving, NULL);
   if (status == CELD_OK)

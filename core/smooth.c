@@ -265,7 +265,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
   if (status != CELD_OK)
     goto done;
   celd_lap_pin (w, h, fixed, 1, x, east, south, diagonal, b);
-  status = celd_lap_setup (w, h, east, south, diagonal, &setting_up, &laplace);
+  status = celd_lap_setup (w, h, east, south, diagonal, NULL, &setting_up, &laplace);
   if (status == CELD_OK)
     status = celd_lap_solve (laplace, 1, b, x, (double) settings->tolerance, &solving, solve);
   if (status == CELD_OK)

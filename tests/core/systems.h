@@ -55,7 +55,7 @@ solve (System *s, double tolerance)
   CeldLaplace *l = NULL;
   CeldSolve    how = { 0 };
 
-  CHECK (celd_lap_setup (s->w, s->h, s->east, s->south, s->diagonal, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_setup (s->w, s->h, s->east, s->south, s->diagonal, NULL, NULL, &l) == CELD_OK);
   if (l)
     CHECK (celd_lap_solve (l, s->nrhs, s->b, s->x, tolerance, NULL, &how) == CELD_OK);
   celd_lap_free (l);

@@ -28,7 +28,7 @@ threads_change_nothing (void)
   CeldLaplace *l = NULL;
 
   solve (&s, 1e-4);
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, NULL, &l) == CELD_OK);
   CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &run, NULL) == CELD_OK);
   CHECK (memcmp (x, s.x, pixels (&s) * sizeof *x) == 0);
   CHECK (!patience.fell);
@@ -46,13 +46,13 @@ a_host_can_cancel (void)
   CeldRun      run = { impatient, NULL, &patience };
   CeldLaplace *l = NULL;
 
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, NULL, &l) == CELD_OK);
   CHECK (celd_lap_solve (l, 1, s.b, s.x, 1e-9, &run, NULL) == CELD_CANCELLED);
   CHECK (isfinite (s.x[0]));
   celd_lap_free (l);
   patience = (Patience) { 1, 0, false };
   l = NULL;
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, &run, &l) == CELD_CANCELLED && !l);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &run, &l) == CELD_CANCELLED && !l);
   system_free (&s);
 }
 

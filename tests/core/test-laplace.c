@@ -215,6 +215,58 @@ several_right_hand_sides_equal_single_ones (void)
   system_free (&s);
 }
 
+/* Harmonic bases: fixed strokes, one lane each, against the same by celd_lap_pin one by one. */
+static void
+lanes_equal_single_solutions (void)
+{
+  static const int size[][2] = { { 30, 20 }, { 150, 130 } };
+
+  for (size_t round = 0; round < 2; round++)
+    {
+      System   s = system_new (size[round][0], size[round][1], 1, 1);
+      size_t   n = pixels (&s);
+      uint8_t *stroke = calloc (n, 1), *fixed = calloc (n, 1);
+      float   *x = calloc (n * CELD_LANES, sizeof *x), *value = calloc (n, sizeof *value);
+      CeldLaplace *l = NULL;
+      CeldSolve    how = { 0 };
+      uint32_t     seed = 5;
+
+      for (size_t i = 0; i < n; i++)
+        {
+          s.east[i]  = check_random (&seed, 5) ? 1 : 1e-3f;
+          s.south[i] = check_random (&seed, 5) ? 1 : 1e-3f;
+          stroke[i]  = check_random (&seed, 40) ? 0 : (uint8_t) (1 + check_random (&seed, 7));
+          fixed[i]   = stroke[i] != 0;
+          if (fixed[i])
+            x[i * CELD_LANES + stroke[i] - 1] = 1;
+        }
+      CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, NULL, &l) == CELD_OK);
+      CHECK (celd_lap_solve_lanes (l, NULL, x, 1e-5, 0, NULL, &how) == CELD_OK && how.converged);
+      celd_lap_free (l);
+      for (size_t k = 0; k < CELD_LANES; k++)
+        {
+          System one = system_new (s.w, s.h, 1, 1);
+          double worst = 0;
+
+          memcpy (one.east, s.east, n * sizeof *s.east);
+          memcpy (one.south, s.south, n * sizeof *s.south);
+          for (size_t i = 0; i < n; i++)
+            value[i] = stroke[i] == k + 1;
+          pin (&one, fixed, value);
+          solve (&one, 1e-6);
+          for (size_t i = 0; i < n; i++)
+            worst = fmax (worst, fabs ((double) x[i * CELD_LANES + k] - (double) one.x[i]));
+          NEAR (worst, 0, 2e-5);
+          system_free (&one);
+        }
+      free (stroke);
+      free (fixed);
+      free (value);
+      free (x);
+      system_free (&s);
+    }
+}
+
 int
 main (void)
 {
@@ -224,5 +276,6 @@ main (void)
   RUN (a_closed_wall_of_one_pixel_keeps_both_sides_apart);
   RUN (a_gap_in_a_wall_lets_depth_through_smoothly);
   RUN (several_right_hand_sides_equal_single_ones);
+  RUN (lanes_equal_single_solutions);
   return DONE;
 }
