@@ -16,9 +16,8 @@ celd_band_new (uint32_t n, uint32_t band, CeldBand *matrix)
     .n = n, .band = band,
     .weight = celd_alloc0 ((size_t) n * band, sizeof (double)),
     .sink   = celd_alloc0 (n, sizeof (double)),
-    .x      = celd_alloc0 (n, sizeof (double)),
   };
-  return matrix->weight && matrix->sink && matrix->x ? CELD_OK : CELD_NO_MEMORY;
+  return matrix->weight && matrix->sink ? CELD_OK : CELD_NO_MEMORY;
 }
 
 void
@@ -26,7 +25,6 @@ celd_band_clear (CeldBand *matrix)
 {
   celd_free (matrix->weight);
   celd_free (matrix->sink);
-  celd_free (matrix->x);
   *matrix = (CeldBand) { 0 };
 }
 
@@ -67,27 +65,40 @@ celd_band_eliminate (CeldBand *matrix)
     }
 }
 
-void
-celd_band_solve (CeldBand *matrix)
+/* The constant `lanes` lets the inner loops be vectors. */
+static inline void
+solve (const CeldBand *matrix, double *x, size_t lanes)
 {
-  double *x = matrix->x;
-
-  for (uint32_t i = 0; i < matrix->n; i++)
+  for (size_t i = 0; i < matrix->n; i++)
     {
-      const double *w = matrix->weight + (size_t) i * matrix->band;
-      uint32_t      m = reach (matrix, i);
+      const double *w = matrix->weight + i * matrix->band;
+      size_t        m = reach (matrix, (uint32_t) i);
 
-      for (uint32_t j = 0; j < m; j++)
-        x[i + 1 + j] += w[j] * x[i];
+      for (size_t j = 0; j < m; j++)
+        for (size_t k = 0; k < lanes; k++)
+          x[(i + 1 + j) * lanes + k] += w[j] * x[i * lanes + k];
     }
-  for (uint32_t i = matrix->n; i-- > 0;)
+  for (size_t i = matrix->n; i-- > 0;)
     {
-      const double *w   = matrix->weight + (size_t) i * matrix->band;
-      uint32_t      m   = reach (matrix, i);
-      double        sum = matrix->sink[i] * x[i];
+      const double *w = matrix->weight + i * matrix->band;
+      size_t        m = reach (matrix, (uint32_t) i);
+      double        sum[CELD_LANES];
 
-      for (uint32_t j = 0; j < m; j++)
-        sum += w[j] * x[i + 1 + j];
-      x[i] = sum;
+      for (size_t k = 0; k < lanes; k++)
+        sum[k] = matrix->sink[i] * x[i * lanes + k];
+      for (size_t j = 0; j < m; j++)
+        for (size_t k = 0; k < lanes; k++)
+          sum[k] += w[j] * x[(i + 1 + j) * lanes + k];
+      for (size_t k = 0; k < lanes; k++)
+        x[i * lanes + k] = sum[k];
     }
+}
+
+CELD_CLONES void
+celd_band_solve (const CeldBand *matrix, int lanes, double *x)
+{
+  if (lanes == 1)
+    solve (matrix, x, 1);
+  else
+    solve (matrix, x, CELD_LANES);
 }

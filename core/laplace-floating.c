@@ -10,29 +10,29 @@
 
 /* The component of each pixel, by its root. */
 static void
-join_pixels (const CeldLaplace *l, uint32_t *parent)
+join_pixels (const CeldWeights *g, uint32_t *parent)
 {
-  size_t w = (size_t) l->width, n = w * (size_t) l->height;
+  size_t w = (size_t) g->width, n = w * (size_t) g->height;
 
   celd_roots (parent, n);
   for (size_t i = 0; i < n; i++)
     {
-      if (i % w + 1 < w && l->east[i] > 0)
+      if (i % w + 1 < w && g->east[i] > 0)
         celd_join (parent, (uint32_t) i, (uint32_t) i + 1);
-      if (i + w < n && l->south[i] > 0)
+      if (i + w < n && g->south[i] > 0)
         celd_join (parent, (uint32_t) i, (uint32_t) (i + w));
     }
 }
 
 /* Numbers the components of several pixels without a diagonal; returns how many there are. */
 static uint32_t
-number_floating (const CeldLaplace *l, uint32_t *parent, uint32_t *number)
+number_floating (const CeldWeights *g, uint32_t *parent, uint32_t *number)
 {
-  size_t   n = (size_t) l->width * (size_t) l->height;
+  size_t   n = (size_t) g->width * (size_t) g->height;
   uint32_t count = 0;
 
   for (size_t i = 0; i < n; i++)
-    if (l->diagonal[i] > 0)
+    if (g->sink[i] > 0)
       number[celd_root (parent, (uint32_t) i)] = CELD_NO_NODE; /* held */
   for (size_t i = 0; i < n; i++) /* a root comes before its members, and is numbered when the first of them comes */
     {
@@ -51,7 +51,7 @@ number_floating (const CeldLaplace *l, uint32_t *parent, uint32_t *number)
 }
 
 CeldStatus
-celd_floating_find (CeldLaplace *l)
+celd_floating_find (const CeldWeights *pixels, CeldLaplace *l)
 {
   size_t     n      = (size_t) l->width * (size_t) l->height;
   uint32_t  *parent = celd_alloc (n, sizeof *parent), *number = celd_alloc0 (n, sizeof *number);
@@ -60,8 +60,8 @@ celd_floating_find (CeldLaplace *l)
 
   if (status == CELD_OK)
     {
-      join_pixels (l, parent);
-      count = number_floating (l, parent, number);
+      join_pixels (pixels, parent);
+      count = number_floating (pixels, parent, number);
     }
   celd_free (parent);
   if (count)
@@ -80,26 +80,29 @@ celd_floating_find (CeldLaplace *l)
 }
 
 void
-celd_floating_means (const CeldLaplace *l, const double *v, double *mean)
+celd_floating_means (const CeldLaplace *l, int lanes, const float *v, double *mean)
 {
-  size_t n = (size_t) l->width * (size_t) l->height;
+  size_t n = (size_t) l->width * (size_t) l->height, many = (size_t) lanes;
 
-  for (uint32_t c = 1; c <= l->n_floating; c++)
-    mean[c] = 0;
+  memset (mean, 0, ((size_t) l->n_floating + 1) * many * sizeof *mean);
   for (size_t i = 0; i < n && l->n_floating; i++)
-    if (l->floating[i])
-      mean[l->floating[i]] += v[i];
-  for (uint32_t c = 1; c <= l->n_floating; c++)
-    mean[c] /= (double) l->floating_size[c];
+    for (size_t k = 0; k < many && l->floating[i]; k++)
+      mean[l->floating[i] * many + k] += (double) v[i * many + k];
+  for (size_t c = 1; c <= l->n_floating; c++)
+    for (size_t k = 0; k < many; k++)
+      mean[c * many + k] /= (double) l->floating_size[c];
 }
 
 void
-celd_floating_shift (const CeldLaplace *l, const double *wanted, double *mean, double *v)
+celd_floating_shift (const CeldLaplace *l, int lanes, const double *plus, const double *minus, float *v)
 {
-  size_t n = (size_t) l->width * (size_t) l->height;
+  size_t n = (size_t) l->width * (size_t) l->height, many = (size_t) lanes;
 
-  celd_floating_means (l, v, mean);
   for (size_t i = 0; i < n && l->n_floating; i++)
-    if (l->floating[i])
-      v[i] += (wanted ? wanted[l->floating[i]] : 0) - mean[l->floating[i]];
+    for (size_t k = 0; k < many && l->floating[i]; k++)
+      {
+        size_t at = l->floating[i] * many + k;
+
+        v[i * many + k] = (float) ((double) v[i * many + k] + plus[at] - minus[at]);
+      }
 }

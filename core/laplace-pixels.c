@@ -1,365 +1,531 @@
 /* Passes of the Laplacian solver over the pixels, a strip of rows at a time, on the host's threads.
  *
- * The cycle relaxes by red-black Gauss-Seidel: red, black, coarse correction, black, red.  Red pixels are those with
- * x + y even.  A black value is made anew from red ones each time, so that only red ones are ever guessed, corrected
- * and restricted.  What a pass sums up it sums row by row, so that the result does not depend on threads.
+ * Black pixels touch red ones alone, so they are eliminated: the conjugate gradient runs over the red half, on the
+ * Schur complement S, and a black value is made from its neighbours whenever it is needed.  The cycle relaxes red,
+ * black, coarse correction, black, red.  What a pass sums up it sums row by row, so that the result does not depend on
+ * threads.
+ *
+ * Vectors are float.  S z is summed over differences from a neighbour, so that flat parts give next to nothing; what
+ * rounding leaves in r all the same goes when r is made anew from x in double.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "laplace.h"
+#include "laplace-rows.h"
 
 #include <math.h>
-#include <string.h>
 
-#define STRIP   32   /* rows in one piece of work; even, so that no cell of 2 x 2 pixels is divided */
+#define STRIP   32   /* rows in one piece of work; a multiple of what cells have, so that none is divided */
 #define STRETCH 1.4f /* of the coarse correction, which is too short where it is constant on aggregates */
+#define SUMS    4    /* kept of a row */
 
-enum { RED, BLACK };
+typedef double Eight __attribute__ ((vector_size (64)));
+typedef double Loose __attribute__ ((vector_size (64), aligned (8), may_alias));
 
-/* What the strips of a pass need. */
 typedef struct
 {
-  const CeldLaplace *laplace;
-  CeldSolution      *s;
-  float             *coarse;    /* vector on the first coarse level */
-  double             factor;
-  int                colour;
+  CeldSolution *s;
+  const CeldLevel *level;
+  float alpha[CELD_LANES], beta[CELD_LANES];
+  bool  deliver;
 } Pass;
 
-/* One row of the grid: its first pixel, the edges up and down, and how far the rows above and below are. */
-typedef struct
-{
-  size_t       first;
-  ptrdiff_t    up, down;        /* 0 at the frame, where the edges have weight 0 */
-  const float *north, *south, *east;
-} Row;
+typedef void Body (void *pass, int strip);
 
-static Row
-row_at (const CeldLaplace *l, int y)
-{
-  size_t width = (size_t) l->width, first = (size_t) y * width;
-  bool   top = y == 0, bottom = y + 1 == l->height;
+#define ROWS(level, strip, y) int y = (strip) * STRIP; y < (level)->height && y < ((strip) + 1) * STRIP; y++
 
-  return (Row) {
-    .first = first,
-    .up    = top ? 0 : -(ptrdiff_t) width,
-    .down  = bottom ? 0 : (ptrdiff_t) width,
-    .north = top ? l->nothing : l->south + first - width,
-    .south = bottom ? l->nothing : l->south + first,
-    .east  = l->east + first,
-  };
-}
+/* ------------------------------------------------------------------ memory */
 
 static int
-first_row (int strip)
+strips (const CeldLaplace *l)
 {
-  return strip * STRIP;
+  return (l->height + STRIP - 1) / STRIP;
 }
 
-static int
-end_row (const CeldLaplace *l, int strip)
+CeldStatus
+celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run, CeldSolution *s)
 {
-  return l->height - strip * STRIP < STRIP ? l->height : (strip + 1) * STRIP;
-}
+  const CeldLevel *level = &laplace->levels.level[0];
+  float          **vector[] = { &s->x, &s->r, &s->p, &s->q, &s->z, &s->t, &s->black };
 
-static void
-each_strip (Pass *pass, const CeldRun *run, void (*body) (void *pass, int strip))
-{
-  celd_each (run, (pass->laplace->height + STRIP - 1) / STRIP, body, pass);
-}
-
-/* ------------------------------------------------------------------ the matrix */
-
-/* Sum over the neighbours of pixel x of the row of weight times v; v is at the row's first pixel. */
-static inline float
-pull (const Row *row, int x, int width, const float *v)
-{
-  float sum = row->north[x] * v[x + row->up] + row->south[x] * v[x + row->down];
-
-  if (x > 0)
-    sum += row->east[x - 1] * v[x - 1];
-  if (x + 1 < width)
-    sum += row->east[x] * v[x + 1];
-  return sum;
-}
-
-/* out = A v in one row; differences first, so that flat parts give exactly nothing. */
-static void
-apply_row (const CeldLaplace *l, int y, const double *v, double *out)
-{
-  Row           row = row_at (l, y);
-  const double *here = v + row.first, *above = here + row.up, *below = here + row.down;
-  const float  *diagonal = l->diagonal + row.first;
-  int           last = l->width - 1;
-
-  out += row.first;
-  for (int x = 0; x <= last; x++)
-    out[x] = (double) diagonal[x] * here[x] + (double) row.north[x] * (here[x] - above[x]) +
-             (double) row.south[x] * (here[x] - below[x]);
-  if (last == 0)
-    return;
-  out[0] += (double) row.east[0] * (here[0] - here[1]);
-  for (int x = 1; x < last; x++)
-    out[x] += (double) row.east[x] * (here[x] - here[x + 1]) + (double) row.east[x - 1] * (here[x] - here[x - 1]);
-  out[last] += (double) row.east[last - 1] * (here[last] - here[last - 1]);
+  *s = (CeldSolution) { .laplace = laplace, .run = run, .lanes = lanes, .b = b, .user = x };
+  for (size_t v = 0; v < sizeof vector / sizeof *vector; v++)
+    if (!(*vector[v] = celd_alloc0 (level->plane, (size_t) lanes * sizeof (float))))
+      return CELD_NO_MEMORY;
+  s->row     = celd_alloc ((size_t) laplace->height, SUMS * CELD_LANES * sizeof *s->row);
+  s->scratch = celd_alloc0 ((size_t) strips (laplace) * 3 * level->stride, (size_t) lanes * sizeof *s->scratch);
+  return s->row && s->scratch ? celd_coarse_new (&laplace->levels, lanes, run, &s->cycle) : CELD_NO_MEMORY;
 }
 
 void
-celd_pixels_invert (CeldLaplace *l)
+celd_solution_free (CeldSolution *s)
 {
-  for (int y = 0; y < l->height; y++)
+  celd_free (s->x);
+  celd_free (s->r);
+  celd_free (s->p);
+  celd_free (s->q);
+  celd_free (s->z);
+  celd_free (s->t);
+  celd_free (s->black);
+  celd_free (s->row);
+  celd_free (s->scratch);
+  celd_coarse_free (&s->cycle);
+}
+
+/* ------------------------------------------------------------------ residual and result, in double */
+
+#define WIDE(v, i) __builtin_convertvector (EIGHT (v, i), Eight)
+#define WIDE_WEIGHT(w, i) __builtin_convertvector (WEIGHT (w, i), Eight)
+
+/* The numbers of the black pixels of row y, from `black`, their right-hand side; nothing outside the picture. */
+CELD_INLINE void
+solve_black_row (const Pass *pass, int y, double *out, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  const float     *x = pass->s->x, *b = pass->s->black, *sink = level->sink + level->plane;
+  size_t           first = (size_t) (y + 1) * level->stride;
+
+  if (y < 0 || y >= level->height)
     {
-      Row row = row_at (l, y);
+      memset (out, 0, level->stride * (size_t) lanes * sizeof *out);
+      return;
+    }
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+      Eight  near = WIDE_WEIGHT (level->near, i), far = WIDE_WEIGHT (level->far, beside);
+      Eight  south = WIDE_WEIGHT (level->south, above), north = WIDE_WEIGHT (level->north, below);
+      Eight  whole = WIDE_WEIGHT (sink, i) + near + far + south + north;
+      Eight  sum = WIDE (b, i) + near * WIDE (x, i) + far * WIDE (x, beside) + south * WIDE (x, above) +
+                  north * WIDE (x, below);
 
-      for (int x = 0; x < l->width; x++)
-        {
-          float west = x > 0 ? row.east[x - 1] : 0, east = x + 1 < l->width ? row.east[x] : 0;
-          float full = l->diagonal[row.first + (size_t) x] + (row.north[x] + west + east + row.south[x]);
-
-          l->inverse[row.first + (size_t) x] = full > 0 ? 1 / full : 0;
-        }
+      for (int k = 0; k < 8; k++)
+        sum[k] = whole[k] > 0 ? sum[k] / whole[k] : 0;
+      *(Loose *) (out + (i - first) * (size_t) lanes) = sum;
     }
 }
 
-static void
-residual_strip (void *data, int strip)
+/* r of row y, in which its right-hand side is, from the black rows round it. */
+CELD_INLINE void
+residual_row (const Pass *pass, int y, const double *above, const double *here, const double *below, int lanes)
 {
-  const Pass *pass  = data;
-  double     *r     = pass->s->r;
-  size_t      width = (size_t) pass->laplace->width;
+  const CeldLevel *level = pass->level;
+  const float     *x = pass->s->x;
+  float           *r = pass->s->r;
+  size_t           first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
 
-  for (int y = first_row (strip); y < end_row (pass->laplace, strip); y++)
+  for (EACH_PLACE (level, y, i))
     {
-      apply_row (pass->laplace, y, pass->s->x, r);
-      for (size_t i = (size_t) y * width; i < (size_t) (y + 1) * width; i++)
-        r[i] = -r[i];
+      size_t at = i - first;
+      Eight  red = WIDE (x, i);
+      Eight  sum = WIDE (r, i) - WIDE_WEIGHT (level->sink, i) * red;
+
+      sum += WIDE_WEIGHT (level->near, i) * (*(const Loose *) (here + at * many) - red);
+      sum += WIDE_WEIGHT (level->far, i) * (*(const Loose *) (here + (at - (y & 1 ? -(size_t) 1 : 1)) * many) - red);
+      sum += WIDE_WEIGHT (level->north, i) * (*(const Loose *) (above + at * many) - red);
+      sum += WIDE_WEIGHT (level->south, i) * (*(const Loose *) (below + at * many) - red);
+      PUT (r, i, __builtin_convertvector (sum, CeldEight));
     }
 }
 
-void
-celd_pixels_residual (const CeldLaplace *l, const CeldRun *run, CeldSolution *s)
+/* The caller's row y. */
+CELD_INLINE void
+deliver_row (const Pass *pass, int y, const double *black, int lanes)
 {
-  Pass pass = { .laplace = l, .s = s };
+  const CeldLevel *level = pass->level;
+  size_t           first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
+  float           *out = pass->s->user + (size_t) y * (size_t) level->width * many;
 
-  each_strip (&pass, run, residual_strip);
+  for (int x = 0; x < level->width; x++)
+    {
+      size_t at = (size_t) x / 2 + 1;
+
+      if ((x + y) & 1 ? level->inverse[level->plane + first + at] > 0 : level->inverse[first + at] > 0)
+        for (size_t k = 0; k < many; k++)
+          out[(size_t) x * many + k] =
+            (x + y) & 1 ? (float) black[at * many + k] : pass->s->x[(first + at) * many + k];
+    }
+}
+
+CELD_INLINE void
+residual (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  size_t           size = level->stride * (size_t) lanes;
+  double          *ring = pass->s->scratch + (size_t) strip * 3 * size;
+  int              from = strip * STRIP, to = from + STRIP < level->height ? from + STRIP : level->height;
+
+  for (int y = from - 1; y <= to; y++)
+    {
+      double *row[3];
+
+      for (int k = 0; k < 3; k++) /* rows y-2, y-1, y */
+        row[k] = ring + (size_t) ((y + 4 + k) % 3) * size;
+      solve_black_row (pass, y, row[2], lanes);
+      if (pass->deliver && y >= from && y < to)
+        deliver_row (pass, y, row[2], lanes);
+      if (!pass->deliver && y > from)
+        residual_row (pass, y - 1, row[0], row[1], row[2], lanes);
+    }
 }
 
 /* ------------------------------------------------------------------ the cycle */
 
-/* Red pixels from z = 0. */
-static void
-guess_strip (void *data, int strip)
+/* black = from the red ones of z */
+CELD_INLINE void
+relax_black (void *data, int strip, int lanes)
 {
-  const Pass        *pass = data;
-  const CeldLaplace *l    = pass->laplace;
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  const float     *z = pass->s->z;
 
-  for (int y = first_row (strip); y < end_row (l, strip); y++)
-    for (int x = y & 1; x < l->width; x += 2)
-      {
-        size_t i = (size_t) y * (size_t) l->width + (size_t) x;
-
-        pass->s->z[i] = l->inverse[i] * (float) pass->s->r[i];
-      }
-}
-
-/* Gauss-Seidel for the pixels of one colour. */
-static void
-relax_strip (void *data, int strip)
-{
-  const Pass        *pass = data;
-  const CeldLaplace *l    = pass->laplace;
-
-  for (int y = first_row (strip); y < end_row (l, strip); y++)
-    {
-      Row           row     = row_at (l, y);
-      float        *z       = pass->s->z + row.first;
-      const double *r       = pass->s->r + row.first;
-      const float  *inverse = l->inverse + row.first;
-
-      for (int x = (y + pass->colour) & 1; x < l->width; x += 2)
-        z[x] = inverse[x] * ((float) r[x] + pull (&row, x, l->width, z));
-    }
+  for (ROWS (level, strip, y))
+    for (EACH_PLACE (level, y, i))
+      PUT (pass->s->black, i, WEIGHT (level->inverse + level->plane, i) * PULL_BLACK (level, y, i, z));
 }
 
 /* After black pixels only red ones have a residual, and that is what their neighbours pull. */
-static void
-restrict_strip (void *data, int strip)
+CELD_INLINE void
+restrict_red (void *data, int strip, int lanes)
 {
-  const Pass        *pass = data;
-  const CeldLaplace *l    = pass->laplace;
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  float           *coarse = pass->s->cycle.vectors[1].b;
 
-  for (int y = first_row (strip); y < end_row (l, strip); y++)
-    {
-      Row             row     = row_at (l, y);
-      const uint32_t *coarser = l->levels.coarser + row.first;
-
-      for (int x = y & 1; x < l->width; x += 2)
-        if (coarser[x] != CELD_NO_NODE)
-          pass->coarse[coarser[x]] += pull (&row, x, l->width, pass->s->z + row.first);
-    }
-}
-
-static void
-correct_strip (void *data, int strip)
-{
-  const Pass        *pass = data;
-  const CeldLaplace *l    = pass->laplace;
-
-  for (int y = first_row (strip); y < end_row (l, strip); y++)
-    for (int x = y & 1; x < l->width; x += 2)
+  for (ROWS (level, strip, y))
+    for (EACH_PLACE (level, y, i))
       {
-        size_t   i    = (size_t) y * (size_t) l->width + (size_t) x;
-        uint32_t node = l->levels.coarser[i];
+        CeldEight pull = PULL_RED (level, y, i, pass->s->black);
 
-        if (node != CELD_NO_NODE)
-          pass->s->z[i] += STRETCH * pass->coarse[node];
+        RESTRICT (level, i, pull, coarse);
       }
 }
 
-void
-celd_pixels_cycle (CeldLaplace *l, const CeldRun *run, CeldSolution *s)
+CELD_INLINE void
+correct (void *data, int strip, int lanes)
 {
-  CeldLevel *coarse = &l->levels.level[0];
-  Pass       pass   = { .laplace = l, .s = s, .coarse = coarse->b, .colour = BLACK };
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  const float     *coarse = pass->s->cycle.vectors[1].x;
 
-  each_strip (&pass, run, guess_strip);
-  each_strip (&pass, run, relax_strip);
-
-  memset (coarse->b, 0, coarse->n * sizeof *coarse->b);
-  each_strip (&pass, run, restrict_strip);
-  celd_levels_cycle (&l->levels);
-  pass.coarse = coarse->x;
-  each_strip (&pass, run, correct_strip);
-
-  each_strip (&pass, run, relax_strip);
-  pass.colour = RED;
-  each_strip (&pass, run, relax_strip);
+  for (ROWS (level, strip, y))
+    for (size_t i = (size_t) (y + 1) * level->stride + 1, end = i + (size_t) level->half; i < end; i++)
+      ADD (pass->s->z, i, STRETCH, coarse, level->coarser[i]);
 }
 
-/* ------------------------------------------------------------------ the conjugate gradient */
-
-static double
-sum_rows (const CeldLaplace *l, const double *row)
+CELD_INLINE void
+relax_red (void *data, int strip, int lanes)
 {
-  double sum = 0;
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
 
-  for (int y = 0; y < l->height; y++)
-    sum += row[y];
-  return sum;
+  for (ROWS (level, strip, y))
+    for (EACH_PLACE (level, y, i))
+      PUT (pass->s->z, i,
+           WEIGHT (level->inverse, i) * (EIGHT (pass->s->r, i) + PULL_RED (level, y, i, pass->s->black)));
 }
 
-static void
-measure_strip (void *data, int strip)
-{
-  const Pass         *pass  = data;
-  const CeldSolution *s     = pass->s;
-  size_t              width = (size_t) pass->laplace->width;
+/* ------------------------------------------------------------------ S z */
 
-  for (int y = first_row (strip); y < end_row (pass->laplace, strip); y++)
+/* black = what black pixels have more than the red one of the same place */
+CELD_INLINE void
+rise_black (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  const float     *z = pass->s->z;
+
+  for (ROWS (level, strip, y))
+    for (EACH_PLACE (level, y, i))
+      {
+        size_t    beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+        CeldEight here = EIGHT (z, i);
+
+        PUT (pass->s->black, i,
+             WEIGHT (level->inverse + level->plane, i) *
+               (WEIGHT (level->far, beside) * (EIGHT (z, beside) - here) +
+                WEIGHT (level->south, above) * (EIGHT (z, above) - here) +
+                WEIGHT (level->north, below) * (EIGHT (z, below) - here) -
+                WEIGHT (level->sink + level->plane, i) * here));
+      }
+}
+
+CELD_INLINE void
+keep_sum (double *sum, CeldEight of, int lanes)
+{
+  if (lanes > 1)
+    for (int k = 0; k < 8; k++)
+      sum[k] = (double) of[k];
+  else
+    sum[0] = (((double) of[0] + (double) of[1]) + ((double) of[2] + (double) of[3])) +
+             (((double) of[4] + (double) of[5]) + ((double) of[6] + (double) of[7]));
+}
+
+CELD_INLINE void
+keep_extreme (double *extreme, const float *of, int lanes)
+{
+  for (int k = 0; k < 8; k++)
+    if (lanes > 1 || k == 0)
+      extreme[k] = (double) of[k];
+    else
+      extreme[0] = fmax (extreme[0], (double) of[k]);
+}
+
+CELD_INLINE void
+apply (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  const float     *z = pass->s->z, *black = pass->s->black;
+
+  for (ROWS (level, strip, y))
     {
-      double zr = 0, zq = 0, largest = 0;
+      CeldEight zr = SPLAT (0), zq = SPLAT (0), zt = SPLAT (0);
+      float     largest[8] = { 0 };
+      double   *sum = pass->s->row + (size_t) y * SUMS * CELD_LANES;
 
-      for (size_t i = (size_t) y * width; i < (size_t) (y + 1) * width; i++)
+      for (EACH_PLACE (level, y, i))
         {
-          double z = (double) s->z[i], size = z < 0 ? -z : z;
+          size_t    beside = i - (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+          CeldEight here = EIGHT (z, i);
+          CeldEight t = WEIGHT (level->sink, i) * here - WEIGHT (level->near, i) * EIGHT (black, i) +
+                        WEIGHT (level->far, i) * ((here - EIGHT (z, beside)) - EIGHT (black, beside)) +
+                        WEIGHT (level->north, i) * ((here - EIGHT (z, above)) - EIGHT (black, above)) +
+                        WEIGHT (level->south, i) * ((here - EIGHT (z, below)) - EIGHT (black, below));
 
-          zr += z * s->r[i];
-          zq += z * s->q[i];
-          largest = size > largest ? size : largest;
+          PUT (pass->s->t, i, t);
+          zr += here * EIGHT (pass->s->r, i);
+          zq += here * EIGHT (pass->s->q, i);
+          zt += here * t;
+          for (int k = 0; k < 8; k++)
+            {
+              float size = here[k] < 0 ? -here[k] : here[k];
+
+              largest[k] = size > largest[k] ? size : largest[k];
+            }
         }
-      s->row[0][y] = zr;
-      s->row[1][y] = zq;
-      s->row[2][y] = largest;
+      keep_sum (sum, zr, lanes);
+      keep_sum (sum + CELD_LANES, zq, lanes);
+      keep_sum (sum + 2 * CELD_LANES, zt, lanes);
+      keep_extreme (sum + 3 * CELD_LANES, largest, lanes);
     }
 }
 
-void
-celd_pixels_measure (const CeldLaplace *l, const CeldRun *run, CeldSolution *s, double *zr, double *zq, double *largest)
+/* ------------------------------------------------------------------ a step of the conjugate gradient */
+
+/* And the first guess of the next z. */
+CELD_INLINE void
+advance (void *data, int strip, int lanes)
 {
-  Pass pass = { .laplace = l, .s = s };
+  const Pass      *pass = data;
+  CeldSolution    *s = pass->s;
+  const CeldLevel *level = pass->level;
+  CeldEight        alpha = lanes == 1 ? SPLAT (pass->alpha[0]) : (CeldEight) *(const CeldLoose *) pass->alpha;
+  CeldEight        beta = lanes == 1 ? SPLAT (pass->beta[0]) : (CeldEight) *(const CeldLoose *) pass->beta;
 
-  each_strip (&pass, run, measure_strip);
-  *zr      = sum_rows (l, s->row[0]);
-  *zq      = sum_rows (l, s->row[1]);
-  *largest = 0;
-  for (int y = 0; y < l->height; y++)
-    *largest = fmax (*largest, s->row[2][y]);
-}
-
-static void
-direction_strip (void *data, int strip)
-{
-  const Pass         *pass = data;
-  const CeldSolution *s    = pass->s;
-  size_t              width = (size_t) pass->laplace->width;
-  size_t              end   = (size_t) end_row (pass->laplace, strip) * width;
-
-  for (size_t i = (size_t) first_row (strip) * width; i < end; i++)
-    s->p[i] = (double) s->z[i] + pass->factor * s->p[i];
-}
-
-static void
-apply_strip (void *data, int strip)
-{
-  const Pass         *pass  = data;
-  const CeldSolution *s     = pass->s;
-  size_t              width = (size_t) pass->laplace->width;
-
-  for (int y = first_row (strip); y < end_row (pass->laplace, strip); y++)
+  for (ROWS (level, strip, y))
     {
-      double pq = 0;
+      float   low[8], high[8];
+      double *sum = s->row + (size_t) y * SUMS * CELD_LANES;
 
-      apply_row (pass->laplace, y, s->p, s->q);
-      for (size_t i = (size_t) y * width; i < (size_t) (y + 1) * width; i++)
-        pq += s->p[i] * s->q[i];
-      s->row[0][y] = pq;
-    }
-}
-
-double
-celd_pixels_turn (const CeldLaplace *l, const CeldRun *run, CeldSolution *s, double beta)
-{
-  Pass pass = { .laplace = l, .s = s, .factor = beta };
-
-  each_strip (&pass, run, direction_strip);
-  each_strip (&pass, run, apply_strip);
-  return sum_rows (l, s->row[0]);
-}
-
-static void
-advance_strip (void *data, int strip)
-{
-  const Pass         *pass  = data;
-  const CeldSolution *s     = pass->s;
-  size_t              width = (size_t) pass->laplace->width;
-
-  for (int y = first_row (strip); y < end_row (pass->laplace, strip); y++)
-    {
-      double low = INFINITY, high = -INFINITY;
-
-      for (size_t i = (size_t) y * width; i < (size_t) (y + 1) * width; i++)
+      for (int k = 0; k < 8; k++)
+        low[k] = high[k] = -INFINITY;
+      for (EACH_PLACE (level, y, i))
         {
-          s->x[i] += pass->factor * s->p[i];
-          s->r[i] -= pass->factor * s->q[i];
-          low  = s->x[i] < low ? s->x[i] : low;
-          high = s->x[i] > high ? s->x[i] : high;
+          CeldEight p = EIGHT (s->z, i) + beta * EIGHT (s->p, i), q = EIGHT (s->t, i) + beta * EIGHT (s->q, i);
+          CeldEight x = EIGHT (s->x, i) + alpha * p, r = EIGHT (s->r, i) - alpha * q;
+          CeldEight inverse = WEIGHT (level->inverse, i);
+
+          PUT (s->p, i, p);
+          PUT (s->q, i, q);
+          PUT (s->x, i, x);
+          PUT (s->r, i, r);
+          PUT (s->z, i, inverse * r);
+          for (int k = 0; k < 8; k++)
+            {
+              bool there = inverse[k] > 0;
+
+              high[k] = there && x[k] > high[k] ? x[k] : high[k];
+              low[k]  = there && -x[k] > low[k] ? -x[k] : low[k];
+            }
         }
-      s->row[0][y] = low;
-      s->row[1][y] = high;
+      keep_extreme (sum, low, lanes);
+      keep_extreme (sum + CELD_LANES, high, lanes);
+    }
+}
+
+/* Red pixels from z = 0. */
+CELD_INLINE void
+guess (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+
+  for (ROWS (level, strip, y))
+    for (EACH_PLACE (level, y, i))
+      PUT (pass->s->z, i, WEIGHT (level->inverse, i) * EIGHT (pass->s->r, i));
+}
+
+/* ------------------------------------------------------------------ the passes */
+
+#define PASS(name) \
+  CELD_CLONES static void name##_single (void *data, int strip) { name (data, strip, 1); } \
+  CELD_CLONES static void name##_lanes (void *data, int strip) { name (data, strip, CELD_LANES); } \
+  static void name##_pass (Pass *p) \
+  { \
+    celd_each (p->s->run, strips (p->s->laplace), p->s->lanes == 1 ? name##_single : name##_lanes, p); \
+  }
+
+PASS (residual)
+PASS (relax_black)
+PASS (restrict_red)
+PASS (correct)
+PASS (relax_red)
+PASS (rise_black)
+PASS (apply)
+PASS (advance)
+PASS (guess)
+
+static Pass
+pass_of (CeldSolution *s)
+{
+  return (Pass) { .s = s, .level = &s->laplace->levels.level[0] };
+}
+
+/* Where the right-hand side of a pixel goes. */
+static float *
+rhs_of (CeldSolution *s, int x, int y)
+{
+  size_t place = celd_level_place (&s->laplace->levels.level[0], x, y), plane = s->laplace->levels.level[0].plane;
+
+  return place < plane ? s->r + place * (size_t) s->lanes : s->black + (place - plane) * (size_t) s->lanes;
+}
+
+/* Right-hand sides: those of red pixels to r, of black ones to `black`. */
+static void
+place_rhs (CeldSolution *s)
+{
+  const CeldLaplace *l = s->laplace;
+  const CeldLevel   *level = &l->levels.level[0];
+  size_t             many = (size_t) s->lanes;
+
+  memset (s->r, 0, level->plane * many * sizeof *s->r);
+  memset (s->black, 0, level->plane * many * sizeof *s->black);
+  for (int y = 0; y < l->height && s->b; y++)
+    for (int x = 0; x < l->width; x++)
+      {
+        size_t       pixel = (size_t) y * (size_t) l->width + (size_t) x;
+        const float *b = s->b + pixel * many;
+        float       *out = rhs_of (s, x, y);
+
+        for (size_t k = 0; k < many && level->inverse[celd_level_place (level, x, y)] > 0; k++)
+          out[k] = s->b_mean ? (float) ((double) b[k] - s->b_mean[l->floating[pixel] * many + k]) : b[k];
+      }
+  for (size_t h = 0; h < l->n_held; h++)
+    {
+      uint32_t w = (uint32_t) l->width, pixel = l->held[h].free;
+      float   *out = rhs_of (s, (int) (pixel % w), (int) (pixel / w));
+
+      for (size_t k = 0; k < many; k++)
+        out[k] += l->held[h].weight * s->user[l->held[h].fixed * many + k];
     }
 }
 
 void
-celd_pixels_advance (const CeldLaplace *l, const CeldRun *run, CeldSolution *s, double alpha, double *low, double *high)
+celd_pixels_refresh (CeldSolution *s)
 {
-  Pass pass = { .laplace = l, .s = s, .factor = alpha };
+  Pass pass = pass_of (s);
 
-  each_strip (&pass, run, advance_strip);
-  *low  = INFINITY;
-  *high = -INFINITY;
+  place_rhs (s);
+  residual_pass (&pass);
+  guess_pass (&pass);
+}
+
+void
+celd_pixels_begin (CeldSolution *s)
+{
+  const CeldLaplace *l = s->laplace;
+  const CeldLevel   *level = &l->levels.level[0];
+  size_t             many = (size_t) s->lanes;
+
   for (int y = 0; y < l->height; y++)
+    for (int x = y & 1; x < l->width; x += 2)
+      {
+        size_t place = celd_level_place (level, x, y);
+
+        for (size_t k = 0; k < many && level->inverse[place] > 0; k++)
+          s->x[place * many + k] = s->user[((size_t) y * (size_t) l->width + (size_t) x) * many + k];
+      }
+  celd_pixels_refresh (s);
+  for (size_t i = 0; i < level->plane; i++) /* what has no edge is done */
+    if (!level->coarser[i])
+      for (size_t k = 0; k < many; k++)
+        {
+          s->x[i * many + k] += s->z[i * many + k];
+          s->r[i * many + k] = s->z[i * many + k] = 0;
+        }
+}
+
+void
+celd_pixels_deliver (CeldSolution *s)
+{
+  Pass pass = pass_of (s);
+
+  place_rhs (s);
+  pass.deliver = true;
+  residual_pass (&pass);
+}
+
+/* Sums, or the largest, of what rows have kept. */
+static void
+gather (const CeldSolution *s, int which, bool largest, double *result)
+{
+  for (int k = 0; k < s->lanes; k++)
     {
-      *low  = fmin (*low, s->row[0][y]);
-      *high = fmax (*high, s->row[1][y]);
+      result[k] = largest ? -INFINITY : 0;
+      for (int y = 0; y < s->laplace->height; y++)
+        {
+          double row = s->row[((size_t) y * SUMS + (size_t) which) * CELD_LANES + (size_t) k];
+
+          result[k] = largest ? fmax (result[k], row) : result[k] + row;
+        }
     }
+}
+
+void
+celd_pixels_precondition (CeldSolution *s, CeldMeasure *m)
+{
+  Pass              pass = pass_of (s);
+  CeldLevelVectors *coarse = &s->cycle.vectors[1];
+
+  relax_black_pass (&pass);
+  memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
+  restrict_red_pass (&pass);
+  celd_coarse_solve (&s->cycle);
+  correct_pass (&pass);
+  relax_black_pass (&pass);
+  relax_red_pass (&pass);
+  rise_black_pass (&pass);
+  apply_pass (&pass);
+  gather (s, 0, false, m->zr);
+  gather (s, 1, false, m->zq);
+  gather (s, 2, false, m->zt);
+  gather (s, 3, true, m->largest);
+}
+
+void
+celd_pixels_advance (CeldSolution *s, const double *alpha, const double *beta, double *low, double *high)
+{
+  Pass pass = pass_of (s);
+
+  for (int k = 0; k < s->lanes; k++)
+    {
+      pass.alpha[k] = (float) alpha[k];
+      pass.beta[k]  = (float) beta[k];
+    }
+  advance_pass (&pass);
+  gather (s, 0, true, low);
+  gather (s, 1, true, high);
+  for (int k = 0; k < s->lanes; k++)
+    low[k] = -low[k];
 }

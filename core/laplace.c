@@ -1,16 +1,15 @@
 /* The one Laplacian solver: flexible conjugate gradients over the pixels, preconditioned by a multigrid cycle.
  *
- * Eq. (3), contour thickness (section 3.3), normals and heights are all  A x = b  with a weighted graph Laplacian.
- * The outer vectors are double and A x is summed over differences, so that weak links (weights down to 1e-6 beside 1)
- * keep their meaning.  The direction follows Polak and Ribiere, because the cycle is not linear.  Narrow or small grids
- * are eliminated directly instead.
+ * Eq. (3), contour thickness (section 3.3), normals, heights and harmonic bases are all  A x = b  with a weighted graph
+ * Laplacian.  The direction follows Polak and Ribiere, because the cycle is not linear.  Narrow or small grids are
+ * eliminated directly instead.  Lanes, solutions on the same weights at once, share all reads of these.
  *
  * When to stop: with weak links a residual of 1e-8 can hide an error of half the range.  The preconditioned residual z
  * is an estimate of the error itself, too small by at most the least eigenvalue of the preconditioned matrix, which
  * the coefficients of the conjugate gradient tell (Lanczos); so the estimate is max|z| over that eigenvalue.
  *
- * Cost: about a dozen rounds whatever the size; memory about 75 bytes a pixel beside the caller's planes.  Sums are
- * taken row by row and then over the rows, so that the result does not depend on threads.
+ * Cost: five to ten rounds whatever the size.  Sums are taken row by row and then over the rows, so that the result does
+ * not depend on threads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,6 +18,7 @@
 #include <math.h>
 
 #define MOST_ROUNDS  200
+#define RENEW        4          /* rounds after which the residual is made anew */
 #define SAFETY       1.5        /* of the estimated error, as the cycle is not quite linear; it was seen 1.4 short */
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
 #define BAND_WORK    (1u << 26) /* ... and in multiplications */
@@ -67,62 +67,79 @@ celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float
 
 /* ------------------------------------------------------------------ set-up */
 
-/* Row by row along the shorter side, every pixel's edges are at most that side long. */
+/* Cuts the edge of weight *w between pixels i and j, of which one is fixed at least, and notes what it couples. */
 static CeldStatus
-set_up_band (CeldLaplace *l)
+hold (CeldLaplace *l, CeldWeights *g, float *w, size_t i, size_t j, const uint8_t *fixed)
 {
-  bool       tall = l->width <= l->height;
-  uint32_t   band = (uint32_t) (tall ? l->width : l->height);
-  CeldStatus status = celd_band_new ((uint32_t) l->width * (uint32_t) l->height, band, &l->band);
+  size_t held = fixed[i] ? i : j, other = fixed[i] ? j : i;
 
-  if (status != CELD_OK)
-    return status;
-  for (int y = 0; y < l->height; y++)
-    for (int x = 0; x < l->width; x++)
-      {
-        size_t  i    = (size_t) y * (size_t) l->width + (size_t) x;
-        size_t  node = tall ? i : (size_t) x * (size_t) l->height + (size_t) y;
-        double *w    = l->band.weight + node * band;
-        double  east = x + 1 < l->width ? (double) l->east[i] : 0, south = y + 1 < l->height ? (double) l->south[i] : 0;
+  if (!fixed[other])
+    {
+      CeldHeld *more = celd_grow (l->held, l->n_held + 1, sizeof *more);
 
-        l->band.sink[node] = (double) l->diagonal[i];
-        w[0]        += tall ? east : south;
-        w[band - 1] += tall ? south : east;
-      }
-  celd_band_eliminate (&l->band);
+      if (!more)
+        return CELD_NO_MEMORY;
+      l->held               = more;
+      l->held[l->n_held++]  = (CeldHeld) { (uint32_t) other, (uint32_t) held, *w };
+      g->sink[other] += *w;
+    }
+  *w = 0;
   return CELD_OK;
 }
 
-/* A copy of n items, or of zeros. */
-static void *
-copy (const void *items, size_t n, size_t size)
+/* The pixels as a graph, without the fixed ones; what is not a positive number is no weight. */
+static CeldStatus
+copy_system (const float *east, const float *south, const float *diagonal, const uint8_t *fixed, CeldLaplace *l,
+             CeldWeights *g)
 {
-  void *result = items ? celd_alloc (n, size) : celd_alloc0 (n, size);
+  size_t     w = (size_t) l->width, n = w * (size_t) l->height;
+  CeldStatus status = CELD_OK;
 
-  if (items && result)
-    memcpy (result, items, n * size);
-  return result;
+  *g = (CeldWeights) { .width = l->width, .height = l->height, .east = celd_alloc (n, sizeof *g->east),
+                     .south = celd_alloc (n, sizeof *g->south), .sink = celd_alloc (n, sizeof *g->sink) };
+  if (!g->east || !g->south || !g->sink)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < n; i++)
+    {
+      g->east[i]  = i % w + 1 < w && east[i] > 0 ? east[i] : 0;
+      g->south[i] = i + w < n && south[i] > 0 ? south[i] : 0;
+      g->sink[i]  = diagonal && diagonal[i] > 0 && !(fixed && fixed[i]) ? diagonal[i] : 0;
+    }
+  for (size_t i = 0; i < n && fixed && status == CELD_OK; i++)
+    {
+      if (g->east[i] > 0 && (fixed[i] || fixed[i + 1]))
+        status = hold (l, g, &g->east[i], i, i + 1, fixed);
+      if (g->south[i] > 0 && (fixed[i] || fixed[i + w]) && status == CELD_OK)
+        status = hold (l, g, &g->south[i], i, i + w, fixed);
+    }
+  return status;
 }
 
-/* The matrix without the fixed pixels. */
+/* Row by row along the shorter side, every pixel's edges are at most that side long. */
 static CeldStatus
-copy_system (const float *east, const float *south, const float *diagonal, const uint8_t *fixed, CeldLaplace *l)
+set_up_band (const CeldWeights *g, CeldLaplace *l)
 {
-  size_t n = (size_t) l->width * (size_t) l->height;
+  bool       tall = l->width <= l->height;
+  size_t     w = (size_t) l->width, n = w * (size_t) l->height;
+  uint32_t   band = (uint32_t) (tall ? l->width : l->height);
+  CeldStatus status = celd_band_new ((uint32_t) n, band, &l->band);
 
-  l->east     = copy (east, n, sizeof *l->east);
-  l->south    = copy (south, n, sizeof *l->south);
-  l->diagonal = copy (diagonal, n, sizeof *l->diagonal);
-  if (!l->east || !l->south || !l->diagonal)
+  if (status != CELD_OK)
+    return status;
+  if (!(l->keep = celd_alloc (n, 1)))
     return CELD_NO_MEMORY;
-  if (!fixed)
-    return CELD_OK;
-  l->fixed      = copy (fixed, n, 1);
-  l->held_east  = copy (east, n, sizeof *l->held_east);
-  l->held_south = copy (south, n, sizeof *l->held_south);
-  if (!l->fixed || !l->held_east || !l->held_south)
-    return CELD_NO_MEMORY;
-  celd_lap_pin (l->width, l->height, fixed, 0, NULL, l->east, l->south, l->diagonal, NULL);
+  for (size_t i = 0; i < n; i++)
+    {
+      size_t  node   = tall ? i : i % w * (size_t) l->height + i / w;
+      double *weight = l->band.weight + node * band;
+
+      l->band.sink[node] = (double) g->sink[i];
+      weight[0]        += (double) (tall ? g->east[i] : g->south[i]);
+      weight[band - 1] += (double) (tall ? g->south[i] : g->east[i]);
+      l->keep[i] = !(g->sink[i] > 0 || g->east[i] > 0 || g->south[i] > 0 || (i % w && g->east[i - 1] > 0) ||
+                     (i >= w && g->south[i - w] > 0));
+    }
+  celd_band_eliminate (&l->band);
   return CELD_OK;
 }
 
@@ -132,26 +149,22 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
 {
   size_t       n = (size_t) width * (size_t) height, band = (size_t) (width < height ? width : height);
   CeldLaplace *l = celd_alloc0 (1, sizeof *l);
+  CeldWeights    graph = { 0 };
   CeldStatus   status;
 
   if (!l)
     return CELD_NO_MEMORY;
-  l->width    = width;
-  l->height   = height;
-  l->direct   = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
-  l->inverse  = celd_alloc (n, sizeof *l->inverse);
-  l->nothing  = celd_alloc0 ((size_t) width, sizeof *l->nothing);
-  status      = l->inverse && l->nothing ? celd_step (run, 0) : CELD_NO_MEMORY;
+  l->width  = width;
+  l->height = height;
+  l->direct = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
+  status    = celd_step (run, 0);
   if (status == CELD_OK)
-    status = copy_system (east, south, diagonal, fixed, l);
+    status = copy_system (east, south, diagonal, fixed, l, &graph);
   if (status == CELD_OK)
-    {
-      celd_pixels_invert (l);
-      status = celd_floating_find (l);
-    }
+    status = celd_floating_find (&graph, l);
   if (status == CELD_OK)
-    status = l->direct ? set_up_band (l)
-                       : celd_levels_new (width, height, l->east, l->south, l->diagonal, run, &l->levels);
+    status = l->direct ? set_up_band (&graph, l) : celd_levels_new (&graph, run, &l->levels);
+  celd_weights_clear (&graph);
   if (status == CELD_OK)
     *laplace = l;
   else
@@ -166,55 +179,52 @@ celd_lap_free (CeldLaplace *laplace)
     return;
   celd_band_clear (&laplace->band);
   celd_levels_clear (&laplace->levels);
-  celd_free (laplace->east);
-  celd_free (laplace->south);
-  celd_free (laplace->diagonal);
-  celd_free (laplace->fixed);
-  celd_free (laplace->held_east);
-  celd_free (laplace->held_south);
-  celd_free (laplace->inverse);
-  celd_free (laplace->nothing);
+  celd_free (laplace->keep);
+  celd_free (laplace->held);
   celd_free (laplace->floating);
   celd_free (laplace->floating_size);
   celd_free (laplace);
 }
 
-/* ------------------------------------------------------------------ one solution */
+/* ------------------------------------------------------------------ direct solutions */
 
-/* x and r from the start; pixels without an edge are solved at once, floating components made solvable. */
-static void
-begin (const CeldLaplace *l, const float *b, const float *start, const CeldRun *run, double *mean, CeldSolution *s)
-{
-  size_t n = (size_t) l->width * (size_t) l->height;
-
-  for (size_t i = 0; i < n; i++)
-    {
-      bool alone = (double) l->inverse[i] * (double) l->diagonal[i] >= 1 - 1e-7;
-
-      s->x[i] = alone ? (double) b[i] / (double) l->diagonal[i] : (double) start[i];
-      s->p[i] = s->q[i] = 0;
-      s->z[i] = 0; /* finite: at the frame a pixel pulls itself with weight 0 */
-    }
-  celd_pixels_residual (l, run, s);
-  for (size_t i = 0; i < n; i++)
-    s->r[i] = l->inverse[i] > 0 ? s->r[i] + (double) b[i] : 0;
-  celd_floating_shift (l, NULL, mean, s->r);
-}
-
-/* z becomes the solution of A z = r. */
-static void
-eliminate (CeldLaplace *l, CeldSolution *s)
+static CeldStatus
+eliminate (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x)
 {
   bool    tall = l->width <= l->height;
-  size_t  w = (size_t) l->width, h = (size_t) l->height;
-  double *x = l->band.x;
+  size_t  w = (size_t) l->width, h = (size_t) l->height, many = (size_t) lanes;
+  double *v = celd_alloc (w * h, many * sizeof *v);
 
+  if (!v)
+    return CELD_NO_MEMORY;
+#define NODE(i) ((size_t) (tall ? (i) : (i) % w * h + (i) / w))
   for (size_t i = 0; i < w * h; i++)
-    x[tall ? i : i % w * h + i / w] = s->r[i];
-  celd_band_solve (&l->band);
+    for (size_t k = 0; k < many; k++)
+      v[NODE (i) * many + k] =
+        (b ? (double) b[i * many + k] : 0) - (b_mean ? b_mean[l->floating[i] * many + k] : 0);
+  for (size_t i = 0; i < l->n_held; i++)
+    for (size_t k = 0; k < many; k++)
+      v[NODE (l->held[i].free) * many + k] += (double) l->held[i].weight * (double) x[l->held[i].fixed * many + k];
+  celd_band_solve (&l->band, lanes, v);
   for (size_t i = 0; i < w * h; i++)
-    s->z[i] = (float) x[tall ? i : i % w * h + i / w];
+    for (size_t k = 0; k < many && !l->keep[i]; k++)
+      x[i * many + k] = (float) v[NODE (i) * many + k];
+#undef NODE
+  celd_free (v);
+  return CELD_OK;
 }
+
+/* ------------------------------------------------------------------ the conjugate gradient */
+
+/* What is known of one lane. */
+typedef struct
+{
+  double alpha[MOST_ROUNDS], beta[MOST_ROUNDS];
+  double pq;                    /* of the last direction */
+  double scale;                 /* range of x */
+  double error;
+  bool   done;
+} Lane;
 
 /* Least eigenvalue of the preconditioned matrix, as far as the rounds so far tell: that of the Lanczos matrix with the
  * diagonal 1/alpha_k + beta_k/alpha_(k-1) and the squares beta_k/alpha_(k-1)^2 beside it. */
@@ -248,122 +258,124 @@ share_done (double first, double error, double tolerance)
   return first > tolerance ? fmin (fmax (log (first / error) / log (first / tolerance), 0), 1) : 0;
 }
 
-/* The rounds of the conjugate gradient, from s->x and s->r. */
-static CeldStatus
-iterate (CeldLaplace *l, double tolerance, int most, const CeldRun *run, CeldSolution *s, CeldSolve *solve)
-{
-  double alpha[MOST_ROUNDS], beta[MOST_ROUNDS], zr_before = 0, done = 0, first = 0, scale = 0;
-
-  *solve = (CeldSolve) { .converged = false, .error = 1 };
-  for (int k = 0; k < MOST_ROUNDS; k++)
-    {
-      double zr, zq, largest, pq, low, high;
-
-      if (l->direct)
-        eliminate (l, s);
-      else
-        celd_pixels_cycle (l, run, s);
-      celd_pixels_measure (l, run, s, &zr, &zq, &largest);
-      if (zr == 0)
-        solve->error = 0;
-      else if (k > 0)
-        solve->error = SAFETY * largest / least_eigenvalue (k, alpha, beta) / scale;
-      solve->converged = solve->error <= tolerance;
-      if (solve->converged || !(zr > 0) || (most && k == most))
-        break;
-
-      first = k <= 1 ? solve->error : first;
-      done  = fmax (done, share_done (first, solve->error, tolerance));
-      if (celd_step (run, done) != CELD_OK)
-        return CELD_CANCELLED;
-
-      beta[k]   = k ? fmax (-alpha[k - 1] * zq / zr_before, 0) : 0;
-      pq        = celd_pixels_turn (l, run, s, beta[k]);
-      zr_before = zr;
-      if (!(pq > 0))
-        break;
-      alpha[k] = zr / pq;
-      celd_pixels_advance (l, run, s, alpha[k], &low, &high);
-      solve->iterations = k + 1;
-      /* Where all is nearly constant, the last digits of float are enough. */
-      scale = fmax (high - low, 1e-6 * fmax (fabs (low), fabs (high)) / tolerance);
-    }
-  return CELD_OK;
-}
-
-/* What fixed pixels say, as a right-hand side; `b` may be NULL. */
+/* Reads what a cycle has told of a lane; alpha and beta of the next step are 0 when it is done. */
 static void
-fold_fixed (const CeldLaplace *l, const float *b, const float *x, float *folded)
+judge (Lane *lane, int round, double tolerance, const CeldMeasure *m, int k, double *alpha, double *beta)
 {
-  size_t w = (size_t) l->width, n = w * (size_t) l->height;
-
-  for (size_t i = 0; i < n; i++)
-    folded[i] = l->fixed && l->fixed[i] ? x[i] : b ? b[i] : 0;
-  for (size_t i = 0; i < n && l->fixed; i++)
+  *alpha = *beta = 0;
+  if (!(m->zr[k] > 0))
     {
-      if (i % w + 1 < w && !l->fixed[i] != !l->fixed[i + 1])
-        folded[l->fixed[i] ? i + 1 : i] += l->held_east[i] * x[l->fixed[i] ? i : i + 1];
-      if (i + w < n && !l->fixed[i] != !l->fixed[i + w])
-        folded[l->fixed[i] ? i + w : i] += l->held_south[i] * x[l->fixed[i] ? i : i + w];
+      lane->error = lane->done ? lane->error : 0;
+      lane->done  = true;
+    }
+  else if (round > 0 && !lane->done)
+    {
+      lane->error = SAFETY * m->largest[k] / least_eigenvalue (round, lane->alpha, lane->beta) / lane->scale;
+      lane->done  = lane->error <= tolerance;
+    }
+  if (lane->done)
+    return;
+  *beta    = round ? fmax (-m->zq[k] / lane->pq, 0) : 0;
+  lane->pq = m->zt[k] + 2 * *beta * m->zq[k] + *beta * *beta * lane->pq;
+  *alpha   = lane->pq > 0 ? m->zr[k] / lane->pq : 0;
+  if (!(*alpha > 0) || !isfinite (*alpha))
+    {
+      *alpha = *beta = 0;
+      lane->done = true;
+      return;
+    }
+  lane->alpha[round] = *alpha;
+  lane->beta[round]  = *beta;
+}
+
+/* The rounds of the conjugate gradient. */
+static CeldStatus
+iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *solve)
+{
+  double done = 0, first = 0;
+
+  most = most && most < MOST_ROUNDS ? most : MOST_ROUNDS;
+  celd_pixels_begin (s);
+  for (int k = 0; k < s->lanes; k++)
+    lane[k] = (Lane) { .error = 1 };
+  for (int round = 0;; round++)
+    {
+      double      alpha[CELD_LANES], beta[CELD_LANES], low[CELD_LANES], high[CELD_LANES];
+      bool        all = true;
+      CeldMeasure m;
+
+      celd_pixels_precondition (s, &m);
+      solve->error = 0;
+      for (int k = 0; k < s->lanes; k++)
+        {
+          judge (&lane[k], round, tolerance, &m, k, &alpha[k], &beta[k]);
+          all          = all && lane[k].done;
+          solve->error = fmax (solve->error, lane[k].error);
+        }
+      solve->converged = solve->error <= tolerance;
+      if (all || round == most)
+        return CELD_OK;
+
+      first = round <= 1 ? solve->error : first;
+      done  = fmax (done, share_done (first, solve->error, tolerance));
+      if (celd_step (s->run, done) != CELD_OK)
+        return CELD_CANCELLED;
+      celd_pixels_advance (s, alpha, beta, low, high);
+      solve->iterations = round + 1;
+      for (int k = 0; k < s->lanes; k++) /* where all is nearly constant, the last digits of float are enough */
+        lane[k].scale = fmax (high[k] - low[k], 1e-6 * fmax (fabs (low[k]), fabs (high[k])) / tolerance);
+      if (round % RENEW == RENEW - 1)
+        celd_pixels_refresh (s);
     }
 }
 
 static CeldStatus
-solve_one (CeldLaplace *l, const float *b, float *x, double tolerance, int most, const CeldRun *run, double *mean,
-           CeldSolution *s, CeldSolve *solve)
+converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x, double tolerance, int most,
+          const CeldRun *run, CeldSolve *solve)
 {
-  size_t     n      = (size_t) l->width * (size_t) l->height;
-  double    *before = mean, *now = mean + l->n_floating + 1;
-  CeldStatus status;
+  CeldSolution s;
+  Lane        *lane   = celd_alloc ((size_t) lanes, sizeof *lane);
+  CeldStatus   status = celd_solution_new (l, lanes, b, x, run, &s);
 
-  fold_fixed (l, b, x, s->b);
-  begin (l, s->b, x, run, now, s);
-  celd_floating_means (l, s->x, before);
-  status = iterate (l, tolerance, most, run, s, solve);
-  celd_floating_shift (l, before, now, s->x);
-  for (size_t i = 0; i < n; i++)
-    x[i] = (float) s->x[i];
+  s.b_mean = b_mean;
+  if (!lane)
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      status = iterate (&s, tolerance, most, lane, solve);
+      celd_pixels_deliver (&s);
+    }
+  celd_solution_free (&s);
+  celd_free (lane);
   return status;
 }
 
-/* Solves for the right-hand sides whose values are `stride` items apart and that begin `next` items apart. */
+/* ------------------------------------------------------------------ solutions */
+
+/* One solution, or CELD_LANES of them. */
 static CeldStatus
-solve_many (CeldLaplace *l, int nrhs, size_t stride, size_t next, const float *b, float *x, double tolerance, int most,
-            const CeldRun *run, CeldSolve *solve)
+solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, int most, const CeldRun *run,
+             CeldSolve *solve)
 {
-  size_t       n = (size_t) l->width * (size_t) l->height, h = (size_t) l->height;
-  double      *vector = celd_alloc (n, 4 * sizeof *vector), *row = celd_alloc (h, 3 * sizeof *row);
-  double      *mean = celd_alloc ((size_t) l->n_floating + 1, 2 * sizeof *mean);
-  float       *plane = celd_alloc (n, 4 * sizeof *plane), *one_b = plane + 2 * n, *one_x = plane + 3 * n;
-  CeldSolve    worst = { .converged = true };
-  CeldStatus   status = vector && row && mean && plane ? CELD_OK : CELD_NO_MEMORY;
-  CeldSolution s = { vector, vector + n, vector + 2 * n, vector + 3 * n, plane, plane + n, { row, row + h, row + 2 * h } };
+  size_t     means = (size_t) l->n_floating + 1;
+  double    *mean  = celd_alloc (3 * means, (size_t) lanes * sizeof *mean);
+  double    *before, *after, *b_mean;
+  CeldStatus status;
 
-  for (int k = 0; k < nrhs && status == CELD_OK; k++)
-    {
-      CeldPart  part;
-      CeldRun   share = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
-      size_t    first = (size_t) k * next;
-      CeldSolve one;
-
-      for (size_t i = 0; i < n; i++)
-        {
-          one_b[i] = b ? b[first + i * stride] : 0;
-          one_x[i] = x[first + i * stride];
-        }
-      status = solve_one (l, one_b, one_x, tolerance, most, &share, mean, &s, &one);
-      for (size_t i = 0; i < n; i++)
-        x[first + i * stride] = one_x[i];
-      worst.converged  = worst.converged && one.converged;
-      worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
-      worst.error      = fmax (worst.error, one.error);
-    }
-  if (solve && status != CELD_NO_MEMORY)
-    *solve = worst;
-  celd_free (vector);
-  celd_free (row);
+  *solve = (CeldSolve) { .converged = true };
+  if (!mean)
+    return CELD_NO_MEMORY;
+  before = mean;
+  after  = mean + means * (size_t) lanes;
+  b_mean = b && l->n_floating ? after + means * (size_t) lanes : NULL;
+  celd_floating_means (l, lanes, x, before);
+  if (b_mean)
+    celd_floating_means (l, lanes, b, b_mean);
+  status = l->direct ? eliminate (l, lanes, b, b_mean, x)
+                     : converge (l, lanes, b, b_mean, x, tolerance, most, run, solve);
+  celd_floating_means (l, lanes, x, after);
+  celd_floating_shift (l, lanes, before, after, x);
   celd_free (mean);
-  celd_free (plane);
   return status;
 }
 
@@ -371,14 +383,35 @@ CeldStatus
 celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
                 const CeldRun *run, CeldSolve *solve)
 {
-  size_t n = (size_t) laplace->width * (size_t) laplace->height;
+  size_t     n = (size_t) laplace->width * (size_t) laplace->height;
+  CeldSolve  worst = { .converged = true };
+  CeldStatus status = CELD_OK;
 
-  return solve_many (laplace, nrhs, 1, n, b, x, tolerance, 0, run, solve);
+  for (int k = 0; k < nrhs && status == CELD_OK; k++)
+    {
+      CeldPart  part;
+      CeldRun   share  = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
+      size_t    offset = (size_t) k * n;
+      CeldSolve one;
+
+      status = solve_lanes (laplace, 1, b ? b + offset : NULL, x + offset, tolerance, 0, &share, &one);
+      worst.converged  = worst.converged && one.converged;
+      worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
+      worst.error      = fmax (worst.error, one.error);
+    }
+  if (solve)
+    *solve = worst;
+  return status;
 }
 
 CeldStatus
 celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
                       const CeldRun *run, CeldSolve *solve)
 {
-  return solve_many (laplace, CELD_LANES, CELD_LANES, 1, b, x, tolerance, most, run, solve);
+  CeldSolve  worst;
+  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, most, run, &worst);
+
+  if (solve)
+    *solve = worst;
+  return status;
 }

@@ -15,97 +15,157 @@ typedef struct
   uint32_t n, band;
   double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; later divided by pivot i */
   double  *sink;                /* diagonal beyond the edge weights; later 1 / pivot, 0 for a floating node */
-  double  *x;                   /* right-hand side in, solution out */
 } CeldBand;
 
 CeldStatus celd_band_new (uint32_t n, uint32_t band, CeldBand *matrix);   /* cleared; fill weight and sink */
 void       celd_band_eliminate (CeldBand *matrix);
-void       celd_band_solve (CeldBand *matrix);
+/* Right-hand sides in, solutions out; `lanes` numbers a node. */
+void       celd_band_solve (const CeldBand *matrix, int lanes, double *x);
 void       celd_band_clear (CeldBand *matrix);                            /* accepts a zeroed one */
 
-/* ------------------------------------------------------------------ laplace-levels.c, -cycle.c: coarse levels */
+/* ------------------------------------------------------------------ laplace-graph.c: aggregation */
 
 #define CELD_NO_NODE UINT32_MAX
 
-/* A graph: nodes 0 .. n-1, node i has the neighbours start[i] .. start[i+1]-1. */
+/* A grid of cells, and nodes beside it.  Node y * width + x is the first one of its cell; what a wall parts from it in
+ * the same cell is an extra node, from width * height.  Edges between first nodes of neighbouring cells are `east` and
+ * `south`; those that an extra node has are listed, k's from start[k] to start[k+1]-1. */
 typedef struct
 {
-  uint32_t  n;
+  int       width, height;
+  uint32_t  n_extra;
+  float    *east, *south;
+  float    *sink;               /* of every node: diagonal beyond the edge weights */
+  uint32_t *cell;               /* of each extra node */
   uint32_t *start, *neighbour;
-  uint32_t *middle;             /* where neighbours > i begin; only in levels that are ready for the cycle */
-  float    *weight;             /* of each neighbour */
-  float    *sink;               /* diagonal beyond the edge weights */
-  float    *inverse;            /* 1 / whole diagonal; 0 for a floating node */
-  uint32_t *coarser;            /* its node on the next level; CELD_NO_NODE for nodes without an edge */
-  uint16_t *cell;               /* x, y of its cell; only during the set-up */
-  float    *b, *x;              /* right-hand side and solution on this level */
-  float    *step, *image, *image2; /* workspace of the cycle */
+  float    *weight;
+} CeldWeights;
+
+/* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge.  *doubled counts
+ * how often cells have been doubled since the pixels. */
+CeldStatus celd_weights_coarsen (const CeldWeights *fine, int *doubled, CeldWeights *coarse, uint32_t **coarser);
+void       celd_weights_clear (CeldWeights *graph);                           /* accepts a zeroed one */
+
+/* ------------------------------------------------------------------ laplace-levels.c: what is solved on */
+
+/* A graph laid out for red-black relaxation: first nodes of cells with x + y even are red.  Red ones come first, row by
+ * row in `stride` places, the first of which and at least the last are empty, and so are the rows above and below; then
+ * black ones alike; then extra ones.  Place j of a row is column 2 j or 2 j + 1.  What is empty has weight 0. */
+typedef struct
+{
+  int       width, height, half; /* half: nodes of one colour in a row */
+  size_t    stride, plane;      /* plane: places of a colour */
+  uint32_t  n, n_extra;         /* n: all places */
+  float    *near, *far, *north, *south; /* edges of the red nodes: to the black one of the same place, beside it, ... */
+  float    *sink;
+  float    *inverse;            /* 1 / whole diagonal; 0 for empty places and floating nodes without an edge */
+  uint32_t *coarser;            /* its place on the next level, 0 for none; NULL on the last; of pixels only red ones */
+  uint32_t *start, *middle, *neighbour; /* edges of extra nodes; from `middle` on those to extra nodes after them */
+  float    *weight;
+  uint32_t  red_links, links;   /* edges between first and extra nodes, by the first node, red ones first */
+  uint32_t *link_first, *link_extra;
+  float    *link_weight;
 } CeldLevel;
 
 #define CELD_MAX_LEVELS 40
 
 typedef struct
 {
-  int       n;                  /* levels below the pixels; 0 if there is nothing to solve */
+  int       n;                  /* levels, the pixels among them; the last one is eliminated */
   CeldLevel level[CELD_MAX_LEVELS];
   CeldBand  bottom;             /* the last level */
-  uint32_t *coarser;            /* of each pixel: its node on level[0] */
+  uint32_t *bottom_node;        /* of each node of `bottom`: its place on the last level */
 } CeldLevels;
 
-CeldStatus celd_levels_new (int width, int height, const float *east, const float *south, const float *diagonal,
-                            const CeldRun *run, CeldLevels *levels);
+/* The place of a cell. */
+static inline uint32_t
+celd_level_place (const CeldLevel *level, int x, int y)
+{
+  return (uint32_t) (((x + y) & 1 ? level->plane : 0) + (size_t) (y + 1) * level->stride + (size_t) (x / 2) + 1);
+}
+
+/* graph: the pixels, without extra nodes; it is used up, and still has to be cleared. */
+CeldStatus celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels);
 void       celd_levels_clear (CeldLevels *levels);                        /* accepts a zeroed one */
 
-/* level[0].x becomes approximately the solution for level[0].b, which is used up. */
-void       celd_levels_cycle (CeldLevels *levels);
+/* ------------------------------------------------------------------ laplace-cycle.c: the coarse levels */
+
+/* The vectors of a level, `lanes` numbers a place. */
+typedef struct { float *b, *x, *step, *image, *image2; double *sum; } CeldLevelVectors;
+
+typedef struct
+{
+  const CeldLevels *levels;
+  const CeldRun    *run;
+  int               lanes;      /* 1 or CELD_LANES */
+  CeldLevelVectors  vectors[CELD_MAX_LEVELS];
+  double           *bottom;     /* right-hand side and solution */
+} CeldCoarse;
+
+CeldStatus celd_coarse_new (const CeldLevels *levels, int lanes, const CeldRun *run, CeldCoarse *cycle);
+void       celd_coarse_free (CeldCoarse *cycle);                            /* accepts a zeroed one */
+/* vectors[1].x becomes approximately the solution for vectors[1].b, which is used up. */
+void       celd_coarse_solve (CeldCoarse *cycle);
 
 /* ------------------------------------------------------------------ laplace.c: the system */
 
+/* The coupling of a free pixel with a fixed one. */
+typedef struct { uint32_t free, fixed; float weight; } CeldHeld;
+
 struct CeldLaplace
 {
-  int          width, height;
-  float       *east, *south, *diagonal;   /* fixed pixels are cut off, with diagonal 1 */
-  uint8_t     *fixed;                     /* or NULL, as the next two: the couplings with fixed pixels */
-  float       *held_east, *held_south;
-  float       *inverse;                   /* 1 / whole diagonal; 0 for a floating single pixel */
-  float       *nothing;                   /* a row of edges of weight 0, above the first and below the last row */
-  uint32_t    *floating;                  /* of each pixel: its floating component from 1, or 0; NULL if none */
-  size_t      *floating_size;             /* pixels of each floating component */
-  uint32_t     n_floating;
-  bool         direct;                    /* by elimination of `band`, without levels */
-  CeldBand     band;
-  CeldLevels   levels;
+  int         width, height;
+  CeldHeld   *held;
+  size_t      n_held;
+  uint32_t   *floating;         /* of each pixel: its floating component from 1, or 0; NULL if none */
+  size_t     *floating_size;    /* pixels of each floating component */
+  uint32_t    n_floating;
+  bool        direct;           /* by elimination of `band`, without levels */
+  CeldBand    band;
+  uint8_t    *keep;             /* of each pixel, if direct: does nothing tell its x? */
+  CeldLevels  levels;
 };
-
-/* The vectors of one solution. */
-typedef struct
-{
-  double *x, *r, *p, *q;        /* solution, residual, direction, A p */
-  float  *z, *b;                /* preconditioned residual, right-hand side */
-  double *row[3];               /* sums and extremes of each row */
-} CeldSolution;
 
 /* ------------------------------------------------------------------ laplace-floating.c: parts that nothing holds */
 
 /* Finds the floating components of more than one pixel. */
-CeldStatus celd_floating_find (CeldLaplace *laplace);
-/* Means of v over each; mean has n_floating + 1 items. */
-void       celd_floating_means (const CeldLaplace *laplace, const double *v, double *mean);
-/* Shifts v in each to the wanted mean (NULL: zero); mean: workspace of n_floating + 1. */
-void       celd_floating_shift (const CeldLaplace *laplace, const double *wanted, double *mean, double *v);
+CeldStatus celd_floating_find (const CeldWeights *pixels, CeldLaplace *laplace);
+/* Means of v over each, of every lane; mean has n_floating + 1 items a lane. */
+void       celd_floating_means (const CeldLaplace *laplace, int lanes, const float *v, double *mean);
+/* v += plus - minus of each pixel's component. */
+void       celd_floating_shift (const CeldLaplace *laplace, int lanes, const double *plus, const double *minus,
+                                float *v);
 
 /* ------------------------------------------------------------------ laplace-pixels.c: passes over the pixels */
 
-void   celd_pixels_invert (CeldLaplace *laplace);                         /* fills inverse */
-void   celd_pixels_residual (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s);  /* r = -A x */
-void   celd_pixels_cycle (CeldLaplace *laplace, const CeldRun *run, CeldSolution *s);           /* z = about A^-1 r */
-/* *zr = z r, *zq = z q, *largest = max |z|. */
-void   celd_pixels_measure (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s,
-                            double *zr, double *zq, double *largest);
-/* p = z + beta p, q = A p; returns p q. */
-double celd_pixels_turn (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s, double beta);
-/* x += alpha p, r -= alpha q; *low and *high are the extremes of x. */
-void   celd_pixels_advance (const CeldLaplace *laplace, const CeldRun *run, CeldSolution *s, double alpha,
-                            double *low, double *high);
+/* A solution on its way: vectors of the red pixels alone, as black ones follow from them. */
+typedef struct
+{
+  const CeldLaplace *laplace;
+  const CeldRun     *run;
+  int                lanes;
+  const float       *b;         /* the caller's, or NULL; and the caller's x */
+  const double      *b_mean;    /* of each floating component, NULL if there is none: to be left out */
+  float             *user;
+  float             *x, *r, *p, *q; /* solution, residual, direction, A p */
+  float             *z, *t;     /* preconditioned residual, A z */
+  float             *black;     /* workspace of the black pixels */
+  double            *row;       /* sums of each row */
+  double            *scratch;   /* rows of each strip */
+  CeldCoarse          cycle;
+} CeldSolution;
+
+/* What is measured of each lane. */
+typedef struct { double zr[CELD_LANES], zq[CELD_LANES], zt[CELD_LANES], largest[CELD_LANES]; } CeldMeasure;
+
+CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run,
+                              CeldSolution *s);
+void       celd_solution_free (CeldSolution *s);                          /* accepts a zeroed one */
+void       celd_pixels_begin (CeldSolution *s);                           /* x from the caller's, r = b - A x */
+void       celd_pixels_refresh (CeldSolution *s);                         /* r = b - A x anew */
+void       celd_pixels_precondition (CeldSolution *s, CeldMeasure *m);    /* z = about A^-1 r, t = A z; r z, q z, t z */
+/* p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q; extremes of x. */
+void       celd_pixels_advance (CeldSolution *s, const double *alpha, const double *beta, double *low, double *high);
+void       celd_pixels_deliver (CeldSolution *s);                         /* the caller's x */
 
 #endif

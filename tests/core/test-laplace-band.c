@@ -35,7 +35,7 @@ random_graphs_agree_with_gauss (void)
 
   for (int round = 0; round < 20; round++)
     {
-      double   a[N][N] = { { 0 } }, b[N];
+      double   a[N][N] = { { 0 } }, b[N], x[N];
       CeldBand matrix;
 
       CHECK (celd_band_new (N, BAND, &matrix) == CELD_OK);
@@ -53,13 +53,13 @@ random_graphs_agree_with_gauss (void)
             }
           matrix.sink[i] = 0.01 + check_random (&seed, 5);
           a[i][i] += matrix.sink[i];
-          matrix.x[i] = b[i] = check_random (&seed, 100) - 50.;
+          x[i] = b[i] = check_random (&seed, 100) - 50.;
         }
       celd_band_eliminate (&matrix);
-      celd_band_solve (&matrix);
+      celd_band_solve (&matrix, 1, x);
       gauss (a, b);
       for (int i = 0; i < N; i++)
-        NEAR (matrix.x[i], b[i], 1e-9);
+        NEAR (x[i], b[i], 1e-9);
       celd_band_clear (&matrix);
     }
 }
@@ -69,20 +69,20 @@ static void
 weights_of_any_range_keep_their_precision (void)
 {
   CeldBand matrix;
-  double   drop = 0;
+  double   drop = 0, x[6] = { 0 };
 
   CHECK (celd_band_new (6, 1, &matrix) == CELD_OK);
   matrix.sink[0] = 1;
   for (int i = 0; i < 5; i++)
     matrix.weight[i] = pow (10, i % 2 ? -6 * i : 6 * i);
-  matrix.x[5] = 1; /* a unit current from the end to the held start */
+  x[5] = 1; /* a unit current from the end to the held start */
   celd_band_eliminate (&matrix);
-  celd_band_solve (&matrix);
-  NEAR (matrix.x[0], 1, 1e-12);
+  celd_band_solve (&matrix, 1, x);
+  NEAR (x[0], 1, 1e-12);
   for (int i = 0; i < 5; i++)
     {
       drop = pow (10, i % 2 ? 6 * i : -6 * i);
-      CHECK (fabs (matrix.x[i + 1] - matrix.x[i] - drop) <= 1e-12 * matrix.x[i + 1]);
+      CHECK (fabs (x[i + 1] - x[i] - drop) <= 1e-12 * x[i + 1]);
     }
   celd_band_clear (&matrix);
 }
@@ -91,22 +91,23 @@ static void
 a_floating_component_is_solved_with_its_last_node_at_zero (void)
 {
   CeldBand matrix;
+  double   x[5] = { 0 };
 
   CHECK (celd_band_new (5, 2, &matrix) == CELD_OK);
   matrix.weight[0 * 2 + 1] = 1; /* 0 - 2 - 4 float, 1 - 3 is held at 3 */
   matrix.weight[2 * 2 + 1] = 0.5;
   matrix.weight[1 * 2 + 1] = 2;
   matrix.sink[3] = 1;
-  matrix.x[0] = 1;
-  matrix.x[4] = -1;
-  matrix.x[1] = 4;
+  x[0] = 1;
+  x[4] = -1;
+  x[1] = 4;
   celd_band_eliminate (&matrix);
-  celd_band_solve (&matrix);
-  NEAR (matrix.x[4], 0, 0);
-  NEAR (matrix.x[2], 2, 1e-12);
-  NEAR (matrix.x[0], 3, 1e-12);
-  NEAR (matrix.x[3], 4, 1e-12);
-  NEAR (matrix.x[1], 6, 1e-12);
+  celd_band_solve (&matrix, 1, x);
+  NEAR (x[4], 0, 0);
+  NEAR (x[2], 2, 1e-12);
+  NEAR (x[0], 3, 1e-12);
+  NEAR (x[3], 4, 1e-12);
+  NEAR (x[1], 6, 1e-12);
   celd_band_clear (&matrix);
 }
 

@@ -1,0 +1,65 @@
+/* Rows of a level's vectors, eight numbers at a time: eight places of one vector, or one place of CELD_LANES vectors.
+ * Every function that uses them is compiled for both, `lanes` being a constant.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_LAPLACE_ROWS_H
+#define CELD_LAPLACE_ROWS_H
+
+#include "laplace.h"
+
+#define CELD_INLINE static inline __attribute__ ((always_inline))
+
+typedef float CeldEight __attribute__ ((vector_size (32)));
+typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias)); /* anywhere in memory */
+
+/* Numbers of a vector from place i on. */
+#define EIGHT(v, i) ((CeldEight) *(const CeldLoose *) ((v) + (size_t) (i) * (size_t) lanes))
+#define PUT(v, i, value) (*(CeldLoose *) ((v) + (size_t) (i) * (size_t) lanes) = (value))
+/* Weights of the same places. */
+#define WEIGHT(w, i) (lanes == 1 ? (CeldEight) *(const CeldLoose *) ((w) + (i)) : SPLAT ((w)[i]))
+#define SPLAT(s) ((CeldEight) { (s), (s), (s), (s), (s), (s), (s), (s) })
+
+/* Places i of row y: for (EACH_PLACE (level, y, i)). */
+#define EACH_PLACE(level, y, i) \
+  size_t i = (size_t) ((y) + 1) * (level)->stride + 1, end_ = i + (size_t) (level)->half; i < end_; \
+  i += 8 / (size_t) lanes
+
+/* What the neighbours of the black places from i on pull, red ones being `red`, in row y. */
+#define PULL_BLACK(level, y, i, red) \
+  (WEIGHT ((level)->near, i) * EIGHT (red, i) + \
+   WEIGHT ((level)->far, (i) + ((y) & 1 ? -(size_t) 1 : 1)) * EIGHT (red, (i) + ((y) & 1 ? -(size_t) 1 : 1)) + \
+   WEIGHT ((level)->south, (i) - (level)->stride) * EIGHT (red, (i) - (level)->stride) + \
+   WEIGHT ((level)->north, (i) + (level)->stride) * EIGHT (red, (i) + (level)->stride))
+
+/* The same for red ones. */
+#define PULL_RED(level, y, i, black) \
+  (WEIGHT ((level)->near, i) * EIGHT (black, i) + \
+   WEIGHT ((level)->far, i) * EIGHT (black, (i) - ((y) & 1 ? -(size_t) 1 : 1)) + \
+   WEIGHT ((level)->north, i) * EIGHT (black, (i) - (level)->stride) + \
+   WEIGHT ((level)->south, i) * EIGHT (black, (i) + (level)->stride))
+
+/* out += w in, every lane of a place. */
+#define ADD(out, i, w, in, j) \
+  do \
+    if (lanes == 1) \
+      (out)[i] += (w) * (in)[j]; \
+    else \
+      PUT (out, i, EIGHT (out, i) + SPLAT (w) * EIGHT (in, j)); \
+  while (0)
+
+/* Adds `pull`, of the places from i on, to where they go on the coarser level. */
+#define RESTRICT(level, i, pull, coarse) \
+  do \
+    if (lanes > 1) \
+      { \
+        if ((level)->coarser[i]) \
+          PUT (coarse, (level)->coarser[i], EIGHT (coarse, (level)->coarser[i]) + (pull)); \
+      } \
+    else \
+      for (size_t k_ = 0; k_ < 8; k_++) \
+        if ((level)->coarser[(i) + k_]) \
+          (coarse)[(level)->coarser[(i) + k_]] += (pull)[k_]; \
+  while (0)
+
+#endif
