@@ -9,8 +9,8 @@
 
 /* ------------------------------------------------------------------ line-ends.c */
 
-/* Where a line ends: the middle of its tip, the direction in which it would go on, of length 1, and which outline of ink
- * it is on. */
+/* Where a line ends: the middle of its tip, the direction in which it would go on, of length 1, and which outline of
+ * ink it is on. */
 typedef struct { double x, y, dx, dy; uint32_t outline; } CeldTip;
 
 /* All ends of lines, in the order of their first pixels; the caller frees them.  `stroke`: celd_stroke_width. */

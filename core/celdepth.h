@@ -313,10 +313,10 @@ CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, 
 CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldRun *run,
                                         CeldPlane *expanded);
 
-/* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core of
- * each region without one, too; an edge is cut where levels differ and the least ink within half a stroke of its two
- * pixels is at or below ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.  A
- * result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
+/* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core
+ * of each region without one, too; an edge is cut where levels differ and the least ink within half a stroke of its two
+ * pixels is at or below ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.
+ * A result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
                                  const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
 

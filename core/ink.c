@@ -131,7 +131,8 @@ smooth (CeldPlane *plane, CeldPlane *spare)
     }
   for (int y = 0; y < height; y++)
     {
-      const float *above = &CELD_AT (spare, 0, y > 0 ? y - 1 : 0), *below = &CELD_AT (spare, 0, y < height - 1 ? y + 1 : y);
+      const float *above = &CELD_AT (spare, 0, y > 0 ? y - 1 : 0);
+      const float *below = &CELD_AT (spare, 0, y < height - 1 ? y + 1 : y);
       const float *from = &CELD_AT (spare, 0, y);
       float       *to = &CELD_AT (plane, 0, y);
 

@@ -1,8 +1,8 @@
 /* The free ends of a drawing's lines.
  *
- * The outline of all ink is followed, ink on the right, diagonal neighbours connected.  At the end of a line the outline
- * turns back: two places a few stroke widths before and behind are close to each other, with ink between.  What is left
- * of such places is looked at as closures look at what they end at (closure-ends.c).
+ * The outline of all ink is followed, ink on the right, diagonal neighbours connected.  At the end of a line the
+ * outline turns back: two places a few stroke widths before and behind are close to each other, with ink between.  What
+ * is left of such places is looked at as closures look at what they end at (closure-ends.c).
  *
  * Cost: one pass over the picture, and the length of the outlines; a byte a pixel for a while.
  *
@@ -83,7 +83,7 @@ mask_at (const Search *s, int x, int y)
   return s->mask + (size_t) (y + 1) * s->stride + (size_t) (x + 1);
 }
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner, the pixels ahead on the left and on the right. */
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner: the pixels ahead, left and right. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };

@@ -224,7 +224,8 @@ compare_new (CeldPainting *painting, const CeldBasins *basins, const CeldPaintin
                                (before->item[j].y == new->y && before->item[j].end <= new->x)))
         j++;
       for (size_t k = j; k < before->n && before->item[k].y == new->y && before->item[k].x < new->end; k++)
-        for (int x = before->item[k].x > new->x ? before->item[k].x : new->x; x < before->item[k].end && x < new->end; x++)
+        for (int x = before->item[k].x > new->x ? before->item[k].x : new->x;
+             x < before->item[k].end && x < new->end; x++)
           row[x - new->x] = before->item[k].label;
       while (from < n && row[from] == new->label)
         from++;

@@ -45,7 +45,8 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 /* Before a plain loop over pixels: compiled for wider vectors too, and chosen when the library is loaded.  The resolver
  * runs before sanitizers are ready. */
 #if defined __has_feature
-#if __has_feature (address_sanitizer) || __has_feature (undefined_behavior_sanitizer) || __has_feature (thread_sanitizer)
+#if __has_feature (address_sanitizer) || __has_feature (undefined_behavior_sanitizer) \
+  || __has_feature (thread_sanitizer)
 #define CELD_CLONES
 #endif
 #endif
@@ -216,8 +217,8 @@ CeldStatus celd_distance (int width, int height, const uint8_t *inside, const Ce
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
 CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared,
                          int32_t *nearest);
-/* signed-distance.c: of paper the squared distance to the nearest ink, of ink minus that to the nearest paper.  One tight
- * plane of the size of the ink, which decides by celd_is_paper; INT32_MAX and -INT32_MAX where there is none. */
+/* signed-distance.c: of paper the squared distance to the nearest ink, of ink minus that to the nearest paper.  One
+ * tight plane of the size of the ink, which decides by celd_is_paper; INT32_MAX and -INT32_MAX where there is none. */
 CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared);
 
 /* ------------------------------------------------------------------ components.c: connected components */

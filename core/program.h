@@ -22,10 +22,10 @@ typedef struct
 } CeldCertificate;
 
 /* Minimises 1/2 u'Ku subject to the inequalities.
- * k: n x n, row by row, a weighted graph Laplacian (weights w_ij = -k_ij; the diagonal is taken to be their sums, and of
- * k_ij and k_ji the mean, so that rounding does no harm).
- * u: n, out.  Least u of each component of K is 0, or as little more as the inequalities between components ask for: the
- * one minimiser that is nowhere larger than another such.
+ * k: n x n, row by row, a weighted graph Laplacian (weights w_ij = -k_ij; the diagonal is taken to be their sums, and
+ * of k_ij and k_ji the mean, so that rounding does no harm).
+ * u: n, out.  Least u of each component of K is 0, or as little more as the inequalities between components ask for:
+ * the one minimiser that is nowhere larger than another such.
  * y: m multipliers >= 0, out, K u = sum of y_i (e_a - e_b); may be NULL.  With `warm` it holds multipliers of a like
  * problem to begin with, 0 for inequalities that this one had not.
  * CELD_BAD_VALUE: the inequalities close a loop (a == b is one), a number is out of range or not finite, K has a

@@ -135,7 +135,7 @@ vote (const Reading *r, Parent *parent, uint32_t k, uint32_t j)
   parent[k].votes = parent[k].of == j ? parent[k].votes + 1 : parent[k].votes - 1;
 }
 
-/* Lets every two pixels of unlike clusters that touch vote for each other's, or counts those that touch their parent. */
+/* Lets every two pixels of unlike clusters that touch vote for each other's, or counts those that touch a parent. */
 static void
 visit_touches (const Reading *r, Parent *parent, bool count)
 {
@@ -197,8 +197,9 @@ absorb_satellites (Reading *r)
   return CELD_OK;
 }
 
-/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except for
- * the tails of soft brushes on paper.  In a lossy picture a fringe may pass for a pencil line: there it needs an inside. */
+/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except
+ * for the tails of soft brushes on paper.  In a lossy picture a fringe may pass for a pencil line: there it needs an
+ * inside. */
 static bool
 is_label (const Reading *r, const Cluster *k)
 {

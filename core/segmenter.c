@@ -158,7 +158,8 @@ canvas_new (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *pale
   CeldStatus status;
 
   *canvas = (CeldCanvas) {
-    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .cell = s->cell, .kept = &s->spread
+    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .cell = s->cell,
+    .kept = &s->spread
   };
   status = celd_seed_rows_copy (seeds, &canvas->seeds);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)

@@ -2,9 +2,9 @@
  *
  * As distance.c, after Meijster, Roerdink and Hesselink 2000: column distances, here positive on paper and negative in
  * ink, then the lower envelope of the parabolas (x - u)^2 + g(u)^2 along each row.  A stretch of paper within a row
- * ends at ink and a stretch of ink at paper, so that each has an envelope of its own.  Since all parabolas are equally wide,
- * the envelope is the lower convex hull of the points (u, u^2 + g(u)^2): most columns are sifted out by comparing each
- * with a few neighbours, many at a time, and the hull of the others is found from left to right (Andrew 1979).
+ * ends at ink and a stretch of ink at paper, so that each has an envelope of its own.  Since all parabolas are equally
+ * wide, the envelope is the lower convex hull of the points (u, u^2 + g(u)^2): most columns are sifted out by comparing
+ * each with a few neighbours, many at a time, and the hull of the others is found from left to right (Andrew 1979).
  *
  * O(pixels) time; some rows a job of workspace.
  *

@@ -127,7 +127,9 @@ find_label (const uint8_t colour[3], CeldPalette *palette, uint32_t *label)
   if (!item)
     return CELD_NO_MEMORY;
   palette->item = item;
-  item[palette->n++] = (CeldRegion) { .colour = { colour[0], colour[1], colour[2], 255 }, .origin = CELD_FROM_SCRIBBLE };
+  item[palette->n++] = (CeldRegion) {
+    .colour = { colour[0], colour[1], colour[2], 255 }, .origin = CELD_FROM_SCRIBBLE
+  };
   *label = (uint32_t) palette->n;
   return CELD_OK;
 }

@@ -235,8 +235,8 @@ tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
   if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
     return;
   g_snprintf (text, sizeof text,
-              "'%s' has %d x %d pixels at %d, %d, the picture %d x %d at %d, %d: what sticks out is cut off, the rest counts "
-              "as empty. If it looks shifted, give the layer the picture's size.",
+              "'%s' has %d x %d pixels at %d, %d, the picture %d x %d at %d, %d: what sticks out is cut off, the rest "
+              "counts as empty. If it looks shifted, give the layer the picture's size.",
               pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
   add_to_message (op, text);
 }

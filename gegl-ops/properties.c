@@ -68,7 +68,8 @@ ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
 ENUM_TYPE (celd_segment_result_get_type, "CeldSegmentResult",
            { CELD_SEGMENT_LABELS, "Labels: the regions as flat colours", "labels" },
            { CELD_SEGMENT_CLOSURES, "Closures: the gaps that were closed, as red contours", "closures" },
-           { CELD_SEGMENT_PROBLEMS, "Problems: marks over the drawing where something should be looked at", "problems" })
+           { CELD_SEGMENT_PROBLEMS, "Problems: marks over the drawing where something should be looked at",
+             "problems" })
 
 ENUM_TYPE (celd_popup_result_get_type, "CeldPopupResult",
            { CELD_POPUP_LABELS, "Labels: the regions as flat colours", "labels" },

@@ -58,7 +58,8 @@ GType celd_popup_result_get_type   (void);
     description ("Borders across paper run from line end to line end, as a person would draw them") \
     ui_meta ("visible", "method {basins}") \
   property_boolean (keep_necks, "Keep necks", TRUE) \
-    description ("A part with strokes of one colour keeps it, however narrow its neck; without, the shorter border wins") \
+    description ("A part with strokes of one colour keeps it, however narrow its neck; without, the shorter border " \
+                 "wins") \
     ui_meta ("visible", "method {basins}")
 
 #define CELD_PROPERTY_HARDNESS \
@@ -119,8 +120,8 @@ GType celd_popup_result_get_type   (void);
 
 #define CELD_PROPERTY_HOLD_REST \
   property_boolean (hold_rest, "Hold the rest", TRUE) \
-    description ("Regions without an anchor keep their level in their core; without, they take the depth that flows in " \
-                 "through gaps in their contours")
+    description ("Regions without an anchor keep their level in their core; without, they take the depth that flows " \
+                 "in through gaps in their contours")
 
 #define CELD_PROPERTY_TOLERANCE \
   property_double (tolerance, "Tolerance", 1e-4) \

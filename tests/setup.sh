@@ -60,7 +60,8 @@ packages_install ()
   # A list of packages that is missing or out of date makes the first try fail.
   # shellcheck disable=SC2086
   as_root apt-get -qy install --no-install-recommends $missing >"$logs/packages.log" 2>&1 ||
-    { as_root apt-get -q update && as_root apt-get -qy install --no-install-recommends $missing; } >"$logs/packages.log" 2>&1 ||
+    { as_root apt-get -q update && as_root apt-get -qy install --no-install-recommends $missing
+    } >"$logs/packages.log" 2>&1 ||
     { tail "$logs/packages.log"; return 1; }
 }
 
@@ -111,7 +112,8 @@ step ()
   step_failed=$2
   [ $status = 0 ] || [ "$step_failed" -gt 0 ] || step_failed=1
   passed=$((passed + $1)) failed=$((failed + step_failed)) skipped=$((skipped + ${3:-0}))
-  printf '%-44s %4d s   %s passed, %s failed, %s skipped.\n' "$name" $(($(date +%s) - begin)) "$1" "$step_failed" "${3:-0}"
+  printf '%-44s %4d s   %s passed, %s failed, %s skipped.\n' \
+    "$name" $(($(date +%s) - begin)) "$1" "$step_failed" "${3:-0}"
   [ "$step_failed" = 0 ] || { sed 's/^/    /' "$log" | tail -n 60; echo "    (all of it: $log)"; }
   [ "${3:-0}" = 0 ] || grep -i skip "$log" | sed 's/^/    /' | head
   [ "$step_failed" = 0 ]
@@ -136,7 +138,9 @@ meson_test ()
   meson test -C "$folder" --no-rebuild --print-errorlogs "$@" >"$folder/meson-test.out"
   status=$?
   cat "$folder/meson-test.out"
-  awk '/^Ok:/ || /^Expected Fail:/ { passed += $NF } /^Fail:/ || /^Unexpected Pass:/ || /^Timeout:/ { failed += $NF } /^Skipped:/ { skipped += $NF }
+  awk '/^Ok:/ || /^Expected Fail:/ { passed += $NF }
+       /^Fail:/ || /^Unexpected Pass:/ || /^Timeout:/ { failed += $NF }
+       /^Skipped:/ { skipped += $NF }
        END { printf "%d passed, %d failed, %d skipped\n", passed, failed, skipped }' "$folder/meson-test.out"
   return $status
 }

@@ -2,9 +2,9 @@
 """Sloppy scribbles for a case: strokes that run on through a contour and stain the paper behind it.
 
 sloppy.py CASE OUT.png
-Every stroke goes on from both of its ends, in the direction in which it ends, until the foreign paper that it stains would
-be more than a third of the right paint in any region: soft scribbles obey the majority of paint, so a segmentation that
-is not disturbed by them exists.
+Every stroke goes on from both of its ends, in the direction in which it ends, until the foreign paper that it stains
+would be more than a third of the right paint in any region: soft scribbles obey the majority of paint, so a
+segmentation that is not disturbed by them exists.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """

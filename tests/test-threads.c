@@ -52,12 +52,15 @@ each (void *host, int n, void (*body) (void *data, int i), void *data)
 
 typedef struct { float luma[WIDTH * HEIGHT]; uint8_t scribbles[4 * WIDTH * HEIGHT]; } Page;
 
-static const double ring[3][3] = { { 80, 80, 55 }, { 140, 70, 50 }, { 115, 125, 45 } }; /* x, y, radius; farthest first */
+/* x, y, radius; farthest first */
+static const double ring[3][3] = { { 80, 80, 55 }, { 140, 70, 50 }, { 115, 125, 45 } };
 
 static void
 draw (Page *page)
 {
-  static const uint8_t colour[4][4] = { { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 0, 255 } };
+  static const uint8_t colour[4][4] = {
+    { 255, 0, 0, 255 }, { 0, 255, 0, 255 }, { 0, 0, 255, 255 }, { 255, 255, 0, 255 }
+  };
 
   memset (page->scribbles, 0, sizeof page->scribbles);
   for (int y = 0; y < HEIGHT; y++)
@@ -83,7 +86,11 @@ draw (Page *page)
 
 /* ------------------------------------------------------------------ the test */
 
-typedef struct { uint32_t labels[WIDTH * HEIGHT]; float levels[WIDTH * HEIGHT], depth[WIDTH * HEIGHT], shading[WIDTH * HEIGHT]; } Results;
+typedef struct
+{
+  uint32_t labels[WIDTH * HEIGHT];
+  float    levels[WIDTH * HEIGHT], depth[WIDTH * HEIGHT], shading[WIDTH * HEIGHT];
+} Results;
 
 static bool
 run_route (Page *page, const CeldRun *run, Results *results)

@@ -289,7 +289,8 @@ check_files (const CliCommand *command, CliOptions *options)
         }
     }
   return outputs || cli_error ("Nothing to write: name at least one output, such as --%s.",
-                               command->step == CLI_SHADE ? "shading" : command->step == CLI_SEGMENT ? "labels" : "depth");
+                               command->step == CLI_SHADE ? "shading"
+                               : command->step == CLI_SEGMENT ? "labels" : "depth");
 }
 
 bool

@@ -26,7 +26,11 @@ page_open (Page *p, const char *const *drawing, const char *const *painted, size
   p->canvas = (CeldCanvas) { .settings = &p->settings, .ink = &p->ink, .basins = &p->basins };
   CHECK (celd_seed_rows_read (&seeds, &p->canvas.seeds) == CELD_OK);
   for (size_t k = 0; k < n; k++)
-    CHECK (celd_canvas_add (&p->canvas, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 0, 255 } }, &label) == CELD_OK);
+    {
+      CeldRegion region = { .colour = { (uint8_t) (40 * k), 0, 0, 255 } };
+
+      CHECK (celd_canvas_add (&p->canvas, region, &label) == CELD_OK);
+    }
   celd_canvas_weigh (&p->canvas);
   p->label = calloc (p->basins.n, sizeof *p->label);
   free (seeds.data);
@@ -175,7 +179,11 @@ closed_rooms_come_out_as_by_exact_cuts (void)
         }
       for (int k = 0; k < 4; k++)
         for (int i = 0; i < 6; i++)
-          painted[k < 2 ? 3 + (int) check_random (&state, 8) : HEIGHT - 4][k & 1 ? WIDTH - 2 - i : 2 + i] = (char) ('A' + k);
+          {
+            int y = k < 2 ? 3 + (int) check_random (&state, 8) : HEIGHT - 4;
+
+            painted[y][k & 1 ? WIDTH - 2 - i : 2 + i] = (char) ('A' + k);
+          }
       page_open (&p, rows, paint, 4);
       CHECK (celd_labels_new (WIDTH, HEIGHT, &exact) == CELD_OK);
       p.settings.keep_necks = round & 1;

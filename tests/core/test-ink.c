@@ -57,7 +57,11 @@ palest_of_ring (void)
   float worst = 0;
 
   for (int i = 0; i < 360; i++)
-    worst = fmaxf (worst, darkest_near ((int) (79.5 + 50 * cos (i * 0.01745329) + 0.5), (int) (79.5 + 50 * sin (i * 0.01745329) + 0.5)));
+    {
+      int x = (int) (79.5 + 50 * cos (i * 0.01745329) + 0.5), y = (int) (79.5 + 50 * sin (i * 0.01745329) + 0.5);
+
+      worst = fmaxf (worst, darkest_near (x, y));
+    }
   return worst;
 }
 

@@ -7,7 +7,9 @@
 static void
 weights_of_rec_709 (void)
 {
-  const float rgba[5][4] = { { 1, 0, 0, 1 }, { 0, 1, 0, 0.5f }, { 0, 0, 1, 0 }, { 1, 1, 1, 1 }, { 0.5f, 0.5f, 0.5f, 1 } };
+  const float rgba[5][4] = {
+    { 1, 0, 0, 1 }, { 0, 1, 0, 0.5f }, { 0, 0, 1, 0 }, { 1, 1, 1, 1 }, { 0.5f, 0.5f, 0.5f, 1 }
+  };
   float       luma[6] = { 0 }, alpha[6] = { 0 }, alone[5];
 
   luma[5] = alpha[5] = -1;

@@ -192,7 +192,8 @@ no_terminal_no_source_side (void)
 static void
 largest_capacities_do_not_overflow (void)
 {
-  const int32_t most = (1 << 30) - 1, capacity[4] = { most, most, most, most }, terminal[4] = { most, most, -most, -most };
+  const int32_t most = (1 << 30) - 1, capacity[4] = { most, most, most, most };
+  const int32_t terminal[4] = { most, most, -most, -most };
   uint8_t       side[4];
   int64_t       flow;
 

@@ -7,7 +7,13 @@
 
 #define MOST 1600
 
-typedef struct { int width, height; int32_t east[MOST], south[MOST], vote[64]; uint32_t seed[MOST], order[64]; size_t n_labels; } Problem;
+typedef struct
+{
+  int      width, height;
+  int32_t  east[MOST], south[MOST], vote[64];
+  uint32_t seed[MOST], order[64];
+  size_t   n_labels;
+} Problem;
 
 static CeldStatus
 solve (const Problem *p, const CeldRun *run, uint32_t *label)

@@ -341,7 +341,8 @@ cancelled_edits_do_no_harm (void)
           CHECK (status == CELD_OK || status == CELD_CANCELLED || status == CELD_NOTHING_TO_GO_BY);
           if (status == CELD_OK)
             for (int y = changed.y; y < changed.y + changed.height; y++)
-              memcpy (seen + y * W + changed.x, &CELD_AT (&labels, changed.x, y), (size_t) changed.width * sizeof *seen);
+              memcpy (seen + y * W + changed.x, &CELD_AT (&labels, changed.x, y),
+                      (size_t) changed.width * sizeof *seen);
           else
             CHECK (changed.width == -1);
           if (pick (&r, 2) && !agree (edited, &state, seen))

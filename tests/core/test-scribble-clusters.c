@@ -102,7 +102,9 @@ a_rim_belongs_to_its_stroke (void)
 static void
 a_rim_belongs_to_what_it_touches (void)
 {
-  static const char *const art[] = { "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL };
+  static const char *const art[] = {
+    "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL
+  };
   int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
   Reading r = reading_new (art, rgb, 4);
 

@@ -126,29 +126,38 @@ tiny_strokes (void)
   CHECK (seed_of[200 * WIDTH + 200] == 0);
 }
 
+/* Colours of which no two are alike. */
+static void
+one_of_200 (int i, uint8_t colour[3])
+{
+  colour[0] = (uint8_t) (40 * (i % 6) + 10);
+  colour[1] = (uint8_t) (40 * (i / 6 % 6) + 10);
+  colour[2] = (uint8_t) (40 * (i / 36) + 10);
+}
+
 static void
 two_hundred_labels (void)
 {
   uint32_t seed = 11;
+  uint8_t  colour[3];
 
   clear_paint (false);
   for (int i = 0; i < 200; i++)
     {
-      uint8_t colour[3] = { (uint8_t) (40 * (i % 6) + 10), (uint8_t) (40 * (i / 6 % 6) + 10), (uint8_t) (40 * (i / 36) + 10) };
-      int     x = i % 20 * 20 + 4 + (int) check_random (&seed, 4), y = i / 20 * 30 + 4 + (int) check_random (&seed, 10);
+      int x = i % 20 * 20 + 4 + (int) check_random (&seed, 4), y = i / 20 * 30 + 4 + (int) check_random (&seed, 10);
 
+      one_of_200 (i, colour);
       stroke (x, y, x + 6, y + 8, 2, 1, colour);
     }
   CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 200);
   for (int i = 0; i < 200; i++)
     {
-      uint8_t colour[3] = { (uint8_t) (40 * (i % 6) + 10), (uint8_t) (40 * (i / 6 % 6) + 10), (uint8_t) (40 * (i / 36) + 10) };
-
+      one_of_200 (i, colour);
       CHECK (in_palette (colour, 0));
     }
 }
 
-/* Soft strokes that cross, on a layer and on opaque paper, make two labels, and the middle of each stroke is its own. */
+/* Soft strokes that cross, on a layer and on opaque paper, make two labels; the middle of each stroke is its own. */
 static void
 soft_overlaps (void)
 {
@@ -166,7 +175,7 @@ soft_overlaps (void)
       }
 }
 
-/* Strokes of two thirds opacity that cross: the flat mixture in the middle is one of the two, on a layer and on paper. */
+/* Strokes of two thirds opacity that cross: the flat mixture in the middle is one of the two, on a layer and paper. */
 static void
 translucent_overlaps (void)
 {
@@ -275,7 +284,7 @@ soft_brushes_on_paper (void)
   CHECK (in_palette (red, 2) && in_palette (blue, 2) && in_palette (green, 2));
 }
 
-/* A blurred stroke of a colour that many others pass through where paper thins them: it is broad, so that is its own. */
+/* A blurred stroke of a colour that many others pass through where paper thins them: being broad, it has it. */
 static void
 blurred_strokes_on_paper (void)
 {

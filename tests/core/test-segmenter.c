@@ -1,5 +1,5 @@
-/* A drawing whose strokes change one by one: every answer is that of a segmenter that never saw the earlier strokes, and
- * the rectangle of changes holds every change.
+/* A drawing whose strokes change one by one: every answer is that of a segmenter that never saw the earlier strokes,
+ * and the rectangle of changes holds every change.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -209,7 +209,8 @@ a_drawing_may_change (void)
   solve (&page, NULL, &settings);
   for (int i = 0; i < 20; i++)
     {
-      CeldRect rect = { (int) check_random (&page.state, WIDTH - 9), (int) check_random (&page.state, HEIGHT - 9), 9, 4 };
+      int      x = (int) check_random (&page.state, WIDTH - 9), y = (int) check_random (&page.state, HEIGHT - 9);
+      CeldRect rect = { x, y, 9, 4 };
       float    ink = (float) check_random (&page.state, 2);
 
       for (int y = rect.y; y < rect.y + rect.height; y++)

@@ -78,7 +78,8 @@ def contours(run):
     r = run()
     a, b, c = r.level(40, 100), r.level(145, 100), r.level(195, 100)
     yield 'order', a > b > c > r.level(10, 190) and r.code == 0
-    yield 'the wrinkle is no border', np.all(r.levels[50:150, 50:70] == a) and largest_step(r.depth[100, 40:80]) < 0.02 * (a - b)
+    yield ('the wrinkle is no border',
+           np.all(r.levels[50:150, 50:70] == a) and largest_step(r.depth[100, 40:80]) < 0.02 * (a - b))
     yield 'the red contour is a step', r.depth[100, 116] - r.depth[100, 124] > 0.9 * (a - b)
     yield 'the blue contour divides the labels', r.colour(150, 100) == figures.B and r.colour(190, 100) == figures.C
     yield 'the blue contour leaves no step', largest_step(r.depth[100, 126:212]) < 0.25 * (b - c)
@@ -102,7 +103,8 @@ def frame(run):
 
 def limbs(run):
     r = run('--same-colour', 'separate')
-    yield 'separate limbs: before and behind the body', r.level(60, 75) > r.level(120, 150) > r.level(190, 105) > r.level(10, 100)
+    yield ('separate limbs: before and behind the body',
+           r.level(60, 75) > r.level(120, 150) > r.level(190, 105) > r.level(10, 100))
     yield 'exit code 0', r.code == 0
     one = run()
     yield 'one colour is one depth', one.level(60, 75) == one.level(190, 105)

@@ -6,8 +6,8 @@
 #   chroot_commit NAME                 the last commit into its /celdepth
 #   chroot_run NAME COMMAND...         runs a command in it
 #
-# Every command gets a mount and process space of its own: nothing stays mounted or running, however it ends.  The mirror
-# and the proxy are those of this machine's own apt.  $CELDEPTH_CHROOT says where the systems are kept.
+# Every command gets a mount and process space of its own: nothing stays mounted or running, however it ends.  The
+# mirror and the proxy are those of this machine's own apt.  $CELDEPTH_CHROOT says where the systems are kept.
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 
@@ -35,7 +35,8 @@ chroot_make ()
     touch "$root/.base"
   fi
   [ $# -eq 0 ] || [ "$(cat "$root/.packages" 2>/dev/null)" = "$*" ] && return 0
-  chroot_run "$name" sh -c 'apt-get -q update && DEBIAN_FRONTEND=noninteractive apt-get -qy install --no-install-recommends "$@"' \
+  chroot_run "$name" sh -c 'apt-get -q update &&
+    DEBIAN_FRONTEND=noninteractive apt-get -qy install --no-install-recommends "$@"' \
     sh "$@" >>"$chroot_home/$name.log" 2>&1 || { tail "$chroot_home/$name.log"; return 1; }
   echo "$*" >"$root/.packages"
 }
@@ -70,6 +71,7 @@ chroot_run ()
   unshare --mount --pid --fork --kill-child --mount-proc="$root/proc" sh -c '
     root=$1
     shift
-    mount --rbind /dev "$root/dev" && mount -t tmpfs -o mode=1777 tmpfs "$root/tmp" && exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 CI="${CI-}" "$@"
+    mount --rbind /dev "$root/dev" && mount -t tmpfs -o mode=1777 tmpfs "$root/tmp" &&
+      exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 CI="${CI-}" "$@"
   ' sh "$root" "$@"
 }

@@ -183,7 +183,8 @@ closures_are_a_layer_of_red_lines (void)
 {
   int inside = 0, outside = 0, pale = 0;
 
-  operate (SEGMENT, (Pads) { { open_drawing, scribbles } }, "R'G'B'A u8", result, "result", CELD_SEGMENT_CLOSURES, NULL);
+  operate (SEGMENT, (Pads) { { open_drawing, scribbles } }, "R'G'B'A u8", result,
+           "result", CELD_SEGMENT_CLOSURES, NULL);
   for (int i = 0; i < PIXELS; i++)
     if (result[4 * i + 3])
       {
@@ -209,7 +210,8 @@ closures_are_virtual_contours (void)
   GeglBuffer *accepted, *closed;
   int         different = 0;
 
-  operate (SEGMENT, (Pads) { { open_drawing, scribbles } }, "R'G'B'A u8", result, "result", CELD_SEGMENT_CLOSURES, NULL);
+  operate (SEGMENT, (Pads) { { open_drawing, scribbles } }, "R'G'B'A u8", result,
+           "result", CELD_SEGMENT_CLOSURES, NULL);
   accepted = page_buffer ("R'G'B'A u8", "R'G'B'A u8", result);
   operate ("celdepth:virtual-contours", (Pads) { { open_drawing, accepted } }, "R'G'B'A u8", result, NULL);
   closed = page_buffer ("R'G'B'A u8", "R'G'B'A u8", result);

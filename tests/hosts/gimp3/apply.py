@@ -1,7 +1,7 @@
 # Applies every operation to the layers of an XCF, with 8 and with 32 bits.  For the Python interpreter of GIMP 3.
 #
-# $CELDEPTH_EXAMPLES: where the drawings are; $CELDEPTH_OUT: gets drawing-BITS.xcf and BITS-RESULT.npy, values as GIMP has them
-# (8 bits: encoded, 0..255; 32 bits: linear floats).
+# $CELDEPTH_EXAMPLES: where the drawings are; $CELDEPTH_OUT: gets drawing-BITS.xcf and BITS-RESULT.npy, values as GIMP
+# has them (8 bits: encoded, 0..255; 32 bits: linear floats).
 #
 # SPDX-License-Identifier: LGPL-3.0-or-later
 import os
