@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "laplace.h"
+#include "unions.h"
 
 #define STRONG      0.5f /* of the strongest link of either end: a strong link */
 #define FEWER       0.6  /* share of nodes that a new level may keep at most */
