@@ -22,14 +22,16 @@ typedef struct
 } CeldCertificate;
 
 /* Minimises 1/2 u'Ku subject to the inequalities.
- * k: n x n, row by row, a weighted graph Laplacian (weights w_ij = -k_ij; the diagonal is taken to be their sums, and
- * of k_ij and k_ji the mean, so that rounding does no harm).
- * u: n, out.  Least u of each component of K is 0, or as little more as the inequalities between components ask for:
- * the one minimiser that is nowhere larger than another such.
+ * k: n x n, row by row, a weighted graph Laplacian (weights w_ij = -k_ij; of k_ij and k_ji the mean counts, and the
+ * diagonal is taken to be their sums, so that rounding does no harm).
+ * u: n, out.  Of several minimisers the least: the least u of each component of K is 0, or as little more as the
+ * inequalities between components ask for.
  * y: m multipliers >= 0, out, K u = sum of y_i (e_a - e_b); may be NULL.  With `warm` it holds multipliers of a like
  * problem to begin with, 0 for inequalities that this one had not.
- * CELD_BAD_VALUE: the inequalities close a loop (a == b is one), a number is out of range or not finite, K has a
- * negative eigenvalue.  u, y and the certificate then stay as they were. */
+ * A host's patience is not asked for: it takes milliseconds for hundreds of nodes.  Should its steps run out, u obeys
+ * the inequalities all the same, and the certificate tells how good it is.
+ * CELD_BAD_VALUE: the inequalities close a loop (a == b is one), a gap is not within 1e-12 .. 1e12 or an entry of K
+ * beyond 1e30 or NaN, K has a negative eigenvalue.  u, y and the certificate then stay as they were. */
 CeldStatus celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequality,
                            double *u, double *y, bool warm, CeldCertificate *certificate);
 

@@ -4,6 +4,7 @@
  */
 #include "faults.h"
 #include "partition.h"
+#include "program.h"
 #include "segment.h"
 
 /* ------------------------------------------------------------------ the scene */
@@ -351,6 +352,22 @@ partition_step (const CeldRun *run, Results *r)
   return celd_partition (&problem, run, r->pixels->labels, NULL, NULL);
 }
 
+/* Two springs in a row, held apart by more than they like, and a loose node in front. */
+static CeldStatus
+quadratic_step (const CeldRun *run, Results *r)
+{
+  const double         k[16] = { 2, -2, 0, 0, -2, 3, -1, 0, 0, -1, 1, 0, 0, 0, 0, 0 };
+  const CeldInequality one[3] = { { 0, 1, 1 }, { 1, 2, 1 }, { 3, 0, 1 } };
+  double               u[4] = { 0 };
+  CeldCertificate      certificate;
+  CeldStatus           status = celd_quadratic (4, k, 3, one, u, NULL, false, &certificate);
+
+  (void) run;
+  for (int i = 0; status == CELD_OK && i < 4; i++)
+    r->pixels->plane[i] = (float) u[i];
+  return status;
+}
+
 const Step steps[] = {
   { "ink", ink_step, NULL, true },
   { "contours", contours_step, NULL, true },
@@ -373,6 +390,7 @@ const Step steps[] = {
   { "shade", shade_step, NULL, false },
   { "flow", flow_step, NULL, true },
   { "partition", partition_step, NULL, true },
+  { "quadratic", quadratic_step, NULL, false },
 };
 
 const size_t n_steps = sizeof steps / sizeof *steps;

@@ -1,0 +1,350 @@
+/* The active inequalities of a quadratic program on a graph Laplacian, as a forest, and what moves when forces pull.
+ *
+ * An active inequality u_a = u_b + gap is a rigid link.  Independent links make a forest, so that which inequalities
+ * depend on each other is read off a graph and never decided by rounding, and the nodes of a tree move as one: with
+ * trees as its nodes, the reduced matrix Z'KZ is a graph Laplacian again.  H = Z (Z'KZ)^-1 Z', with one tree of each
+ * body held, is computed by eliminating tree after tree: weights to what is left only ever grow, by w_ik w_jk / s_k,
+ * and pivots s_k are sums of weights.  Nothing is subtracted, so that H is accurate entry by entry whatever the range
+ * of the weights (Grassmann, Taksar & Heyman 1985 do so with Markov chains).  A link more or less changes H by a matrix
+ * of rank one; that does subtract, and is therefore checked, and H computed anew where digits have been lost.
+ *
+ * Cost: O(n^3) for H, O(n^2) for everything else.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "quadratic.h"
+#include "unions.h"
+
+#include <math.h>
+
+#define AGREE 1e-6 /* relative difference of two ways to compute a curvature: more means that H is worn out */
+
+/* ------------------------------------------------------------------ trees */
+
+/* The links at node i are entry[start[i]] .. before start[i + 1], as places in `active`. */
+static void
+list_links (const CeldForest *f, uint32_t *start, uint32_t *entry)
+{
+  for (size_t i = 0; i <= f->n; i++)
+    start[i] = 0;
+  for (size_t l = 0; l < f->n_active; l++)
+    {
+      start[f->inequality[f->active[l]].a]++;
+      start[f->inequality[f->active[l]].b]++;
+    }
+  for (size_t i = 0; i < f->n; i++)
+    start[i + 1] += start[i];
+  for (size_t l = f->n_active; l-- > 0;)
+    {
+      entry[--start[f->inequality[f->active[l]].a]] = (uint32_t) l;
+      entry[--start[f->inequality[f->active[l]].b]] = (uint32_t) l;
+    }
+}
+
+/* Everything that hangs on `root`, breadth first, behind the `done` nodes that are in order already. */
+static size_t
+walk_tree (CeldForest *f, const uint32_t *start, const uint32_t *entry, uint32_t root, size_t done)
+{
+  size_t at = done;
+
+  f->order[done++] = root;
+  f->link[root] = CELD_NO_LINK;
+  f->parent[root] = root;
+  f->offset[root] = 0;
+  f->tree[root] = (uint32_t) f->n_trees;
+  for (; at < done; at++)
+    {
+      uint32_t i = f->order[at];
+
+      for (uint32_t e = start[i]; e < start[i + 1]; e++)
+        if (entry[e] != f->link[i])
+          {
+            const CeldInequality *link = &f->inequality[f->active[entry[e]]];
+            uint32_t              j    = link->a == i ? link->b : link->a;
+
+            f->order[done++] = j;
+            f->link[j] = entry[e];
+            f->parent[j] = i;
+            f->offset[j] = f->offset[i] + (link->a == j ? link->gap : -link->gap);
+            f->tree[j] = f->tree[i];
+          }
+    }
+  return done;
+}
+
+void
+celd_forest_walk (CeldForest *f)
+{
+  uint32_t *start = f->entry, *entry = f->entry + f->n + 1;
+  size_t    done = 0;
+
+  list_links (f, start, entry);
+  for (size_t i = 0; i < f->n; i++)
+    f->tree[i] = UINT32_MAX;
+  f->n_trees = 0;
+  for (uint32_t i = 0; i < f->n; i++)
+    if (f->tree[i] == UINT32_MAX)
+      {
+        done = walk_tree (f, start, entry, i, done);
+        f->n_trees++;
+      }
+  celd_roots (f->body, f->n_components);
+  for (size_t l = 0; l < f->n_active; l++)
+    celd_join (f->body, f->component[f->inequality[f->active[l]].a], f->component[f->inequality[f->active[l]].b]);
+  for (uint32_t c = 0; c < f->n_components; c++)
+    f->body[c] = celd_root (f->body, c);
+}
+
+/* ------------------------------------------------------------------ H */
+
+/* Numbers the trees from 0: first those that are held, one of each body, the one with the greatest weight.  Returns how
+ * many these are. */
+static size_t
+number_trees (const CeldForest *f, uint32_t *place)
+{
+  uint32_t *held = f->entry + f->n; /* of a body */
+  size_t    n = 0, next;
+
+  for (size_t t = 0; t < f->n_trees; t++)
+    {
+      f->row[t] = 0;
+      place[t] = UINT32_MAX;
+    }
+  for (size_t c = 0; c < f->n_components; c++)
+    held[c] = UINT32_MAX;
+  for (size_t i = 0; i < f->n; i++)
+    for (size_t j = 0; j < f->n; j++)
+      f->row[f->tree[i]] += f->weight[i * f->n + j];
+  for (size_t i = 0; i < f->n; i++)
+    {
+      uint32_t *best = &held[f->body[f->component[i]]];
+
+      if (*best == UINT32_MAX || f->row[f->tree[i]] > f->row[*best])
+        *best = f->tree[i];
+    }
+  for (size_t c = 0; c < f->n_components; c++)
+    if (held[c] != UINT32_MAX)
+      place[held[c]] = (uint32_t) n++;
+  next = n;
+  for (size_t t = 0; t < f->n_trees; t++)
+    if (place[t] == UINT32_MAX)
+      place[t] = (uint32_t) next++;
+  return n;
+}
+
+/* Weights between trees, in the lower triangle of the t x t matrix e. */
+static void
+merge_weights (const CeldForest *f, const uint32_t *place, size_t t, double *e)
+{
+  for (size_t i = 0; i < t * t; i++)
+    e[i] = 0;
+  for (size_t i = 0; i < f->n; i++)
+    for (size_t j = 0; j < i; j++)
+      {
+        size_t p = place[f->tree[i]], q = place[f->tree[j]];
+
+        if (p != q)
+          e[p > q ? p * t + q : q * t + p] += f->weight[i * f->n + j];
+      }
+}
+
+/* Eliminates all trees from the last to number `held`.  Row k then has the shares of its weights, and 1 / their sum on
+ * the diagonal. */
+CELD_CLONES static bool
+eliminate (size_t t, size_t held, double *restrict e, double *restrict share)
+{
+  for (size_t k = t; k-- > held;)
+    {
+      double *row = e + k * t, sum = 0;
+
+      for (size_t l = 0; l < k; l++)
+        sum += row[l];
+      if (!(sum > 0))
+        return false;
+      for (size_t l = 0; l < k; l++)
+        share[l] = row[l] / sum;
+      for (size_t i = 1; i < k; i++)
+        if (row[i] != 0)
+          {
+            double *other = e + i * t, part = share[i];
+
+            for (size_t j = 0; j < i; j++)
+              other[j] += part * row[j];
+          }
+      for (size_t l = 0; l < k; l++)
+        row[l] = share[l];
+      row[k] = 1 / sum;
+    }
+  return true;
+}
+
+/* Takes the trees back in: a unit force on tree k moves tree l by the shares of k of what it moves the others. */
+CELD_CLONES static void
+take_back (size_t t, size_t held, double *restrict e, double *restrict moved)
+{
+  for (size_t i = 0; i < held; i++)
+    for (size_t j = 0; j < held; j++)
+      e[i * t + j] = 0;
+  for (size_t k = held; k < t; k++)
+    {
+      double *row = e + k * t, own = row[k];
+
+      for (size_t l = 0; l < k; l++)
+        moved[l] = 0;
+      for (size_t l = held; l < k; l++)
+        if (row[l] != 0)
+          {
+            const double *other = e + l * t;
+            double        share = row[l];
+
+            for (size_t j = 0; j < k; j++)
+              moved[j] += share * other[j];
+          }
+      for (size_t l = 0; l < k; l++)
+        own += row[l] * moved[l];
+      for (size_t l = 0; l < k; l++)
+        row[l] = e[l * t + k] = moved[l];
+      row[k] = own;
+    }
+}
+
+bool
+celd_forest_set_up (CeldForest *f)
+{
+  uint32_t *place = f->entry;
+  size_t    t = f->n_trees, held = number_trees (f, place);
+
+  merge_weights (f, place, t, f->work);
+  if (!eliminate (t, held, f->work, f->row))
+    return false;
+  take_back (t, held, f->work, f->row);
+  for (size_t i = 0; i < f->n; i++)
+    for (size_t j = 0; j < f->n; j++)
+      f->inverse[i * f->n + j] = f->work[place[f->tree[i]] * t + place[f->tree[j]]];
+  f->fresh = true;
+  return true;
+}
+
+/* ------------------------------------------------------------------ forces and motions */
+
+CELD_CLONES static void
+force_of (size_t n, const double *restrict weight, const double *restrict x, double *restrict image)
+{
+  for (size_t j = 0; j < n; j++)
+    image[j] = 0;
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      image[j] += weight[i * n + j] * (x[j] - x[i]);
+}
+
+CELD_CLONES static void
+motion_of (size_t n, const double *restrict inverse, const double *restrict x, double *restrict image)
+{
+  for (size_t j = 0; j < n; j++)
+    image[j] = 0;
+  for (size_t i = 0; i < n; i++)
+    if (x[i] != 0)
+      for (size_t j = 0; j < n; j++)
+        image[j] += inverse[i * n + j] * x[i];
+}
+
+CELD_CLONES static void
+add_square (size_t n, const double *restrict x, double factor, double *restrict matrix)
+{
+  for (size_t i = 0; i < n; i++)
+    {
+      double part = factor * x[i];
+
+      if (part != 0)
+        for (size_t j = 0; j < n; j++)
+          matrix[i * n + j] += part * x[j];
+    }
+}
+
+void
+celd_forest_force (const CeldForest *f, const double *x, double *image)
+{
+  force_of (f->n, f->weight, x, image);
+}
+
+void
+celd_forest_motion (const CeldForest *f, const double *x, double *image)
+{
+  motion_of (f->n, f->inverse, x, image);
+}
+
+void
+celd_forest_flow (const CeldForest *f, double *force, double *r)
+{
+  for (size_t at = f->n; at-- > 0;)
+    {
+      uint32_t i = f->order[at], l = f->link[i];
+
+      if (l == CELD_NO_LINK)
+        continue;
+      r[l] = f->inequality[f->active[l]].a == i ? force[i] : -force[i];
+      force[f->parent[i]] += force[i];
+    }
+}
+
+/* ------------------------------------------------------------------ one link more, one link less */
+
+void
+celd_forest_add (CeldForest *f, uint32_t p, const double *z, double curvature)
+{
+  f->active[f->n_active++] = p;
+  celd_forest_walk (f);
+  add_square (f->n, z, -1 / curvature, f->inverse);
+  f->fresh = false;
+}
+
+/* 1 for all nodes that hang on the link in this place, else 0. */
+static void
+mark_branch (const CeldForest *f, size_t place, double *mark)
+{
+  for (size_t at = 0; at < f->n; at++)
+    {
+      uint32_t i = f->order[at];
+
+      mark[i] = f->link[i] == place ? 1 : f->link[i] == CELD_NO_LINK ? 0 : mark[f->parent[i]];
+    }
+}
+
+bool
+celd_forest_worn (const CeldForest *f, double curvature, const double *x, const double *force)
+{
+  double energy = 0;
+
+  for (size_t i = 0; i < f->n; i++)
+    energy += x[i] * force[i];
+  return !f->fresh && !(fabs (energy - curvature) <= AGREE * energy);
+}
+
+bool
+celd_forest_drop (CeldForest *f, size_t place, double *way, double *force, double *curvature)
+{
+  const CeldInequality *link = &f->inequality[f->active[place]];
+
+  mark_branch (f, place, f->row);
+  f->active[place] = f->active[--f->n_active];
+  celd_forest_walk (f);
+  *curvature = 0;
+  if (f->body[f->component[link->a]] != f->body[f->component[link->b]])
+    return celd_forest_set_up (f);
+  celd_forest_force (f, f->row, force);
+  celd_forest_motion (f, force, way);
+  for (size_t i = 0; i < f->n; i++)
+    {
+      way[i] = f->row[i] - way[i];
+      *curvature += way[i] * force[i];
+    }
+  celd_forest_force (f, way, force);
+  f->fresh = false;
+  if (!(*curvature > 0) || celd_forest_worn (f, *curvature, way, force))
+    {
+      *curvature = 0;
+      return celd_forest_set_up (f);
+    }
+  add_square (f->n, way, 1 / *curvature, f->inverse);
+  return true;
+}
