@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "laplace.h"
-#include "unions.h"
 
 #define BOTTOM 150 /* nodes that are eliminated directly */
 #define UNIT   8   /* places in a row are a multiple of these, and as many empty ones */
