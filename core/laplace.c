@@ -8,8 +8,8 @@
  * is an estimate of the error itself, too small by at most the least eigenvalue of the preconditioned matrix, which
  * the coefficients of the conjugate gradient tell (Lanczos); so the estimate is max|z| over that eigenvalue.
  *
- * Cost: five to ten rounds whatever the size.  Sums are taken row by row and then over the rows, so that the result does
- * not depend on threads.
+ * Cost: five to ten rounds whatever the size.  Sums are taken row by row and then over the rows, so that the result
+ * does not depend on threads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -192,8 +192,8 @@ typedef struct CeldLaplace CeldLaplace;
 void celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float *value,
                    float *east, float *south, float *diagonal, float *b);
 
-/* Set-up once per weights; nothing is borrowed beyond it.  fixed (may be NULL): pixels whose x is prescribed (Dirichlet),
- * by the x that each solution starts from; there b and diagonal are not looked at.  diagonal may be NULL: 0. */
+/* Set-up once per weights; nothing is borrowed beyond it.  fixed (may be NULL): pixels whose x is prescribed
+ * (Dirichlet), by the x that each solution starts from; there b and diagonal are not read.  diagonal may be NULL: 0. */
 CeldStatus celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
                            const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace);
 /* Solves for nrhs right-hand sides, planes one behind the other.  x: start in, result out (also when cancelled).
