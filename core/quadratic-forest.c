@@ -89,7 +89,7 @@ celd_forest_walk (CeldForest *f)
         f->n_trees++;
       }
   celd_roots (f->body, f->n_components);
-  for (size_t l = 0; l < f->n_active; l++)
+  for (size_t l = 0; f->n_components > 1 && l < f->n_active; l++)
     celd_join (f->body, f->component[f->inequality[f->active[l]].a], f->component[f->inequality[f->active[l]].b]);
   for (uint32_t c = 0; c < f->n_components; c++)
     f->body[c] = celd_root (f->body, c);
@@ -113,8 +113,7 @@ number_trees (const CeldForest *f, uint32_t *place)
   for (size_t c = 0; c < f->n_components; c++)
     held[c] = UINT32_MAX;
   for (size_t i = 0; i < f->n; i++)
-    for (size_t j = 0; j < f->n; j++)
-      f->row[f->tree[i]] += f->weight[i * f->n + j];
+    f->row[f->tree[i]] += f->pull[i];
   for (size_t i = 0; i < f->n; i++)
     {
       uint32_t *best = &held[f->body[f->component[i]]];
@@ -132,20 +131,20 @@ number_trees (const CeldForest *f, uint32_t *place)
   return n;
 }
 
-/* Weights between trees, in the lower triangle of the t x t matrix e. */
+/* Weights between trees, in the t x t matrix e; its diagonal counts nothing. */
 static void
 merge_weights (const CeldForest *f, const uint32_t *place, size_t t, double *e)
 {
   for (size_t i = 0; i < t * t; i++)
     e[i] = 0;
   for (size_t i = 0; i < f->n; i++)
-    for (size_t j = 0; j < i; j++)
-      {
-        size_t p = place[f->tree[i]], q = place[f->tree[j]];
+    {
+      const double *weight = f->weight + i * f->n;
+      double       *row = e + place[i] * t;
 
-        if (p != q)
-          e[p > q ? p * t + q : q * t + p] += f->weight[i * f->n + j];
-      }
+      for (size_t j = 0; j < f->n; j++)
+        row[place[j]] += weight[j];
+    }
 }
 
 /* Eliminates all trees from the last to number `held`.  Row k then has the shares of its weights, and 1 / their sum on
@@ -211,28 +210,46 @@ take_back (size_t t, size_t held, double *restrict e, double *restrict moved)
 bool
 celd_forest_set_up (CeldForest *f)
 {
-  uint32_t *place = f->entry;
-  size_t    t = f->n_trees, held = number_trees (f, place);
+  uint32_t *place = f->entry + 2 * f->n; /* of a node */
+  size_t    t = f->n_trees, held = number_trees (f, f->entry);
 
+  for (size_t i = 0; i < f->n; i++)
+    place[i] = f->entry[f->tree[i]];
   merge_weights (f, place, t, f->work);
   if (!eliminate (t, held, f->work, f->row))
     return false;
   take_back (t, held, f->work, f->row);
   for (size_t i = 0; i < f->n; i++)
-    for (size_t j = 0; j < f->n; j++)
-      f->inverse[i * f->n + j] = f->work[place[f->tree[i]] * t + place[f->tree[j]]];
+    {
+      const double *row = f->work + place[i] * t;
+
+      for (size_t j = 0; j < f->n; j++)
+        f->inverse[i * f->n + j] = row[place[j]];
+    }
   f->fresh = true;
   return true;
 }
 
 /* ------------------------------------------------------------------ forces and motions */
 
+/* image = sum of w_ij (x_i - x_j): four rows at once, for the sake of the image. */
 CELD_CLONES static void
 force_of (size_t n, const double *restrict weight, const double *restrict x, double *restrict image)
 {
+  size_t i = 0;
+
   for (size_t j = 0; j < n; j++)
     image[j] = 0;
-  for (size_t i = 0; i < n; i++)
+  for (; i + 4 <= n; i += 4)
+    {
+      const double *row = weight + i * n;
+      double        x0 = x[i], x1 = x[i + 1], x2 = x[i + 2], x3 = x[i + 3];
+
+      for (size_t j = 0; j < n; j++)
+        image[j] += row[j] * (x[j] - x0) + row[j + n] * (x[j] - x1) +
+                    (row[j + 2 * n] * (x[j] - x2) + row[j + 3 * n] * (x[j] - x3));
+    }
+  for (; i < n; i++)
     for (size_t j = 0; j < n; j++)
       image[j] += weight[i * n + j] * (x[j] - x[i]);
 }
@@ -240,12 +257,21 @@ force_of (size_t n, const double *restrict weight, const double *restrict x, dou
 CELD_CLONES static void
 motion_of (size_t n, const double *restrict inverse, const double *restrict x, double *restrict image)
 {
+  size_t i = 0;
+
   for (size_t j = 0; j < n; j++)
     image[j] = 0;
-  for (size_t i = 0; i < n; i++)
-    if (x[i] != 0)
+  for (; i + 4 <= n; i += 4)
+    {
+      const double *row = inverse + i * n;
+      double        x0 = x[i], x1 = x[i + 1], x2 = x[i + 2], x3 = x[i + 3];
+
       for (size_t j = 0; j < n; j++)
-        image[j] += inverse[i * n + j] * x[i];
+        image[j] += row[j] * x0 + row[j + n] * x1 + (row[j + 2 * n] * x2 + row[j + 3 * n] * x3);
+    }
+  for (; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      image[j] += inverse[i * n + j] * x[i];
 }
 
 CELD_CLONES static void
@@ -298,6 +324,41 @@ celd_forest_add (CeldForest *f, uint32_t p, const double *z, double curvature)
   f->fresh = false;
 }
 
+/* Holds the body of node `end` there.  Motions of that body alone; others have none in its rows. */
+static void
+hold_at (CeldForest *f, uint32_t end)
+{
+  const double *held = f->inverse + end * f->n;
+  uint32_t      body = f->body[f->component[end]];
+
+  memcpy (f->row, held, f->n * sizeof *held);
+  for (size_t i = 0; i < f->n; i++)
+    for (size_t j = 0; j < f->n && f->body[f->component[i]] == body; j++)
+      {
+        double *h = &f->inverse[i * f->n + j];
+
+        *h = f->body[f->component[j]] == body ? *h - f->row[i] - f->row[j] + f->row[end] : 0;
+      }
+}
+
+void
+celd_forest_join (CeldForest *f, uint32_t p)
+{
+  uint32_t a = f->inequality[p].a, b = f->inequality[p].b, body = f->body[f->component[a]];
+
+  hold_at (f, a);
+  memcpy (f->row, f->inverse + b * f->n, f->n * sizeof *f->row);
+  for (size_t i = 0; i < f->n; i++)
+    for (size_t j = 0; j < f->n && f->body[f->component[i]] == body; j++)
+      if (f->body[f->component[j]] == body)
+        f->inverse[i * f->n + j] += f->row[b];
+      else
+        f->inverse[i * f->n + j] = f->inverse[j * f->n + i] = f->row[j];
+  f->active[f->n_active++] = p;
+  celd_forest_walk (f);
+  f->fresh = false;
+}
+
 /* 1 for all nodes that hang on the link in this place, else 0. */
 static void
 mark_branch (const CeldForest *f, size_t place, double *mark)
@@ -329,8 +390,13 @@ celd_forest_drop (CeldForest *f, size_t place, double *way, double *force, doubl
   f->active[place] = f->active[--f->n_active];
   celd_forest_walk (f);
   *curvature = 0;
+  f->fresh = false;
   if (f->body[f->component[link->a]] != f->body[f->component[link->b]])
-    return celd_forest_set_up (f);
+    {
+      hold_at (f, link->a);
+      hold_at (f, link->b);
+      return true;
+    }
   celd_forest_force (f, f->row, force);
   celd_forest_motion (f, force, way);
   for (size_t i = 0; i < f->n; i++)
@@ -339,7 +405,6 @@ celd_forest_drop (CeldForest *f, size_t place, double *way, double *force, doubl
       *curvature += way[i] * force[i];
     }
   celd_forest_force (f, way, force);
-  f->fresh = false;
   if (!(*curvature > 0) || celd_forest_worn (f, *curvature, way, force))
     {
       *curvature = 0;

@@ -125,17 +125,16 @@ read_matrix (Program *q, const double *k)
   celd_roots (f->body, n);
   for (size_t i = 0; i < n; i++)
     {
-      double sum = 0;
-
+      f->pull[i] = 0;
       for (size_t j = 0; j < n; j++)
         {
           if (fabs (f->weight[i * n + j]) <= TINY_WEIGHT * largest)
             f->weight[i * n + j] = 0;
           else if (j < i)
             celd_join (f->body, (uint32_t) i, (uint32_t) j);
-          sum += f->weight[i * n + j];
+          f->pull[i] += f->weight[i * n + j];
         }
-      q->pull = fmax (q->pull, sum);
+      q->pull = fmax (q->pull, f->pull[i]);
     }
   f->n_components = 0;
   for (uint32_t i = 0; i < n; i++)
@@ -280,7 +279,7 @@ choose (const Program *q)
 }
 
 /* Two bodies of which one can move freely: it does, and they are one. */
-static bool
+static void
 join_bodies (Program *q, uint32_t p, double y)
 {
   CeldForest *f = &q->forest;
@@ -291,9 +290,7 @@ join_bodies (Program *q, uint32_t p, double y)
     if (f->body[f->component[i]] == body)
       q->u[i] += missing;
   q->y[p] = y;
-  f->active[f->n_active++] = p;
-  celd_forest_walk (f);
-  return celd_forest_set_up (f);
+  celd_forest_join (f, p);
 }
 
 /* The motion that a unit force on p causes, and in r what it takes from the links.  Curvature 0: none, the tree is
@@ -361,7 +358,10 @@ take_in (Program *q, uint32_t p)
       size_t loose;
 
       if (f->body[f->component[one->a]] != f->body[f->component[one->b]])
-        return join_bodies (q, p, y);
+        {
+          join_bodies (q, p, y);
+          return true;
+        }
       if (!find_motion (q, p, &curvature))
         return false;
       loose = first_loose (q, &when);
@@ -479,7 +479,7 @@ share_out (Program *q, double *numbers, uint32_t *indices)
 {
   CeldForest *f = &q->forest;
   size_t      n = f->n;
-  double    **vector[] = { &f->offset, &f->row, &q->u, &q->z, &q->force, &q->r };
+  double    **vector[] = { &f->offset, &f->row, &f->pull, &q->u, &q->z, &q->force, &q->r };
   uint32_t  **list[] = { &f->active, &f->order, &f->parent, &f->link, &f->tree, &f->component, &f->body, &q->sorted };
 
   f->weight  = numbers;
@@ -504,7 +504,7 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
 
   if (n >= UINT32_MAX / 16 || m >= UINT32_MAX || !good_numbers (n, k, m, inequality))
     return CELD_BAD_VALUE;
-  numbers = celd_alloc (3 * n + 6, n * sizeof (double));
+  numbers = celd_alloc (3 * n + 7, n * sizeof (double));
   indices = celd_alloc (13 * n + 4, sizeof (uint32_t));
   q.y     = celd_alloc0 (m, sizeof (double));
   q.item  = celd_alloc (m, sizeof (uint32_t));

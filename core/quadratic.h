@@ -29,6 +29,7 @@ typedef struct
   size_t                n_components;
 
   double               *weight;       /* n x n, w_ij of K */
+  double               *pull;         /* of a node, the sum of its weights */
   double               *inverse;      /* n x n, H: the motion that forces cause; trees are rigid, each body is held at
                                        * one of its trees */
   double               *work;         /* n x n */
@@ -43,12 +44,15 @@ void celd_forest_walk (CeldForest *forest);
 /* Computes H anew; false if K has a negative eigenvalue.  O(n^3). */
 bool celd_forest_set_up (CeldForest *forest);
 
+/* Joins two bodies by inequality p: the one in front hangs on the other. */
+void celd_forest_join (CeldForest *forest, uint32_t p);
+
 /* Joins two trees of a body by inequality p, with z = H (e_a - e_b) and its curvature z_a - z_b. */
 void celd_forest_add (CeldForest *forest, uint32_t p, const double *z, double curvature);
 
 /* Parts a tree at the link in this place of `active`; the last link takes that place.  One side can then move past the
  * other: `way` is its cheapest motion by 1, force = K way, and the curvature is what that costs twice; 0 if the body
- * falls apart, and if H had to be computed anew (then there is no way).  False if K has a negative eigenvalue. */
+ * falls apart, and if H had to be computed anew (there is no way then).  False if K has a negative eigenvalue. */
 bool celd_forest_drop (CeldForest *forest, size_t place, double *way, double *force, double *curvature);
 
 /* Has H lost its digits?  For a motion x by H, its curvature, and force = K x. */
