@@ -1,6 +1,6 @@
 /* What the files that read scribbles share: scribble-colours.c counts and cleans the colours of a layer,
- * scribble-clusters.c and scribble-overlaps.c say which of them are labels, scribbles.c tells fringes and hands out the
- * pixels.
+ * scribble-clusters.c and scribble-overlaps.c say which of them are labels, scribble-places.c hands out the pixels, and
+ * scribbles.c tells fringes and makes the palette.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,6 +11,11 @@
 
 #define CELD_LEAST_DOT 4        /* honest pixels that make a label: a dot of 2 x 2 */
 #define CELD_NO_CLUSTER UINT32_MAX
+#define CELD_THIN 3             /* pixels: a run of a colour at most this long can be a fringe */
+
+/* Instead of a cluster, as the label of a pixel. */
+#define CELD_UNDECIDED UINT32_MAX
+#define CELD_QUEUED (UINT32_MAX - 1)
 
 /* FRINGE: of a colour between its neighbours'; CORE: all four neighbours are of its colour; HONEST: any other. */
 typedef enum { FRINGE, HONEST, CORE } PixelKind;
@@ -42,7 +47,7 @@ typedef struct
   size_t           pixels;
   uint32_t        *id;          /* of each pixel: index into colour; 0 = transparent */
   uint8_t         *kind;        /* PixelKind of each pixel */
-  uint32_t        *label;       /* of each pixel: its cluster */
+  uint32_t        *label;       /* of each pixel: its cluster; from CELD_QUEUED on: none */
   Colour          *colour;
   size_t           n;
   uint32_t        *slot;        /* hash table of colour indices; 0 = free */
@@ -71,6 +76,9 @@ CeldStatus celd_scribble_clusters (Reading *r, const CeldRun *run);
 
 /* Takes the label from clusters that are only where two translucent strokes overlap. */
 CeldStatus celd_scribble_overlaps (Reading *r);
+
+/* Fills in label; clusters that only lines have which are too thin are added. */
+CeldStatus celd_scribble_places (Reading *r, const CeldRun *run);
 
 /* One more cluster, round a colour. */
 CeldStatus celd_scribble_cluster_add (Reading *r, uint32_t colour);
