@@ -1,8 +1,8 @@
 /* Line art of a drawing: ink 0, paper 1, whatever the drawing was made with.
  *
  * 1. One value a pixel, and its contrast against the paper around (paper.c).
- * 2. Noise: median second differences at three scales.  A drawing without noise is not smoothed, and clean black on
- *    white comes out as it went in: its antialiasing says where between two pixels a contour lies.
+ * 2. Noise: median second differences at three scales (ink-noise.c).  A drawing without noise is not smoothed, and
+ *    clean black on white comes out as it went in: its antialiasing says where between two pixels a contour lies.
  * 3. Ink: the contrast, divided by that of the drawing's dark strokes, or of the stroke itself where that is pale:
  *    LazyBrush [SDC09b] takes the response of a LoG filter for the same end, so that a faint contour is one.  Here a
  *    stroke is what a grey opening removes, so that flat grey areas stay as grey as they are.
@@ -10,13 +10,12 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "private.h"
+#include "ink.h"
 
 #include <math.h>
 #include <string.h>
 
 #define BINS 256
-#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
 #define FAINTEST 0.05f        /* least contrast of a stroke; yellow on white has 0.07 */
 #define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
 #define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
@@ -48,99 +47,6 @@ pass_done (Work *w)
   return celd_step (w->run, (double) ++w->passes / PASSES);
 }
 
-/* fminf and fmaxf, but for numbers only and not through a call. */
-static inline float
-least (float a, float b)
-{
-  return a < b ? a : b;
-}
-
-static inline float
-most (float a, float b)
-{
-  return a > b ? a : b;
-}
-
-/* ------------------------------------------------------------------ noise */
-
-/* The standard deviation of the paper's grain at one scale: median second difference along rows, where no ink is. */
-static float
-noise_at (const CeldPlane *contrast, int step)
-{
-  size_t of[BANKS][BINS] = { { 0 } }, all = 0, below = 0;
-  int    bin = 0;
-
-  for (int y = 0; y < contrast->height; y++)
-    for (int x = step; x < contrast->width - step; x++)
-      {
-        const float *c = &CELD_AT (contrast, x, y);
-
-        if (most (most (c[-step], c[0]), c[step]) >= 0.25f)
-          continue;
-        of[x % BANKS][(int) least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
-        all++;
-      }
-  for (int k = 1; k < BANKS; k++)
-    for (int i = 0; i < BINS; i++)
-      of[0][i] += of[k][i];
-  while (bin < BINS - 1 && 2 * (below += of[0][bin]) < all)
-    bin++;
-  return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
-}
-
-/* The ripple that one of ten paper pixels near dark ink exceeds: the echoes of a lossy picture; 0 in a clean one.
- * `around` is the largest contrast in some neighbourhood. */
-static float
-echo_level (const CeldPlane *contrast, const CeldPlane *around, float dark)
-{
-  size_t of[BINS] = { 0 }, all = 0, above = 0;
-  int    bin = BINS - 1;
-
-  for (int y = 1; y < contrast->height - 1; y++)
-    for (int x = 1; x < contrast->width - 1; x++)
-      {
-        const float *c = &CELD_AT (contrast, x, y), *up = c - contrast->stride, *down = c + contrast->stride;
-        float        beside = most (most (up[-1], up[0]), most (up[1], c[-1]));
-
-        beside = most (beside, most (most (c[1], down[-1]), most (down[0], down[1])));
-        if (CELD_AT (around, x, y) < 0.7f * dark || most (beside, c[0]) > 0.25f * dark)
-          continue;
-        of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
-        all++;
-      }
-  while (bin > 0 && 10 * (above += of[bin]) < all)
-    bin--;
-  return (float) bin / (BINS - 1);
-}
-
-/* One pass of the binomial filter (1 2 1)/4 in both directions; `spare` is overwritten. */
-static void
-smooth (CeldPlane *plane, CeldPlane *spare)
-{
-  int width = plane->width, height = plane->height;
-
-  for (int y = 0; y < height; y++)
-    {
-      const float *from = &CELD_AT (plane, 0, y);
-      float       *to = &CELD_AT (spare, 0, y);
-
-      to[0] = 0.25f * (from[0] + from[width > 1]) + 0.5f * from[0];
-      for (int x = 1; x < width - 1; x++)
-        to[x] = 0.25f * (from[x - 1] + from[x + 1]) + 0.5f * from[x];
-      to[width - 1] = 0.25f * (from[width > 1 ? width - 2 : 0] + from[width - 1]) + 0.5f * from[width - 1];
-    }
-  for (int y = 0; y < height; y++)
-    {
-      const float *above = &CELD_AT (spare, 0, y > 0 ? y - 1 : 0);
-      const float *below = &CELD_AT (spare, 0, y < height - 1 ? y + 1 : y);
-      const float *from = &CELD_AT (spare, 0, y);
-      float       *to = &CELD_AT (plane, 0, y);
-
-      for (int x = 0; x < width; x++)
-        to[x] = 0.25f * (above[x] + below[x]) + 0.5f * from[x];
-    }
-}
-
 /* ------------------------------------------------------------------ grey morphology with square windows */
 
 /* Each element becomes the least of those at most `radius` away along its row; `line` has room for width + 2 radius. */
@@ -158,9 +64,9 @@ least_along_rows (CeldPlane *plane, int radius, float *line)
       memcpy (line + radius, row, (size_t) plane->width * sizeof *row);
       for (span = 1; 2 * span <= window; span *= 2)
         for (int i = 0; i < n - span; i++)
-          line[i] = least (line[i], line[i + span]);
+          line[i] = celd_least (line[i], line[i + span]);
       for (int x = 0; x < plane->width; x++)
-        row[x] = least (line[x], line[x + window - span]);
+        row[x] = celd_least (line[x], line[x + window - span]);
     }
 }
 
@@ -181,14 +87,14 @@ least_along_columns (CeldPlane *plane, int radius, float *lines)
         memcpy (lines + edge + (size_t) y * breadth, &CELD_AT (plane, left, y), breadth * sizeof *lines);
       for (span = 1; 2 * span <= window; span *= 2)
         for (size_t i = 0, step = (size_t) span * breadth; i < n - step; i++)
-          lines[i] = least (lines[i], lines[i + step]);
+          lines[i] = celd_least (lines[i], lines[i + step]);
       for (int y = 0; y < plane->height; y++)
         {
           float       *row = &CELD_AT (plane, left, y);
           const float *first = lines + (size_t) y * breadth, *second = first + (size_t) (window - span) * breadth;
 
           for (size_t x = 0; x < breadth; x++)
-            row[x] = least (first[x], second[x]);
+            row[x] = celd_least (first[x], second[x]);
         }
     }
 }
@@ -290,7 +196,7 @@ measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
   if (status == CELD_OK)
     status = celd_paper_levels (&w->contrast, &w->level);
   for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
-    w->contrast.data[i] = most (1 - w->contrast.data[i] / w->level.data[i], 0);
+    w->contrast.data[i] = celd_most (1 - w->contrast.data[i] / w->level.data[i], 0);
   return status == CELD_OK ? pass_done (w) : status;
 }
 
@@ -302,7 +208,7 @@ measure_noise (Work *w, int step)
 
   for (w->noise = 0; step <= 16 && status == CELD_OK; step *= 4)
     {
-      w->noise = most (w->noise, noise_at (&w->contrast, step));
+      w->noise = celd_most (w->noise, celd_ink_noise (&w->contrast, step));
       status = pass_done (w);
     }
   return status;
@@ -320,12 +226,12 @@ quieten (Work *w)
   w->noisy = w->noise > NOISELESS;
   if (status != CELD_OK || !w->noisy)
     return status;
-  smooth (&w->contrast, &w->spare);
-  smooth (&w->contrast, &w->spare);
-  zero = least (2 * w->noise, 0.5f);
+  celd_ink_smooth (&w->contrast, &w->spare);
+  celd_ink_smooth (&w->contrast, &w->spare);
+  zero = celd_least (2 * w->noise, 0.5f);
   status = measure_noise (w, 4); /* wider than the filter, for noise that it has smeared has small differences */
   for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
-    w->contrast.data[i] = most (w->contrast.data[i] - zero, 0) / (1 - zero);
+    w->contrast.data[i] = celd_most (w->contrast.data[i] - zero, 0) / (1 - zero);
   return status == CELD_OK ? pass_done (w) : status;
 }
 
@@ -335,7 +241,7 @@ measure_ink (Work *w)
 {
   CeldStatus status;
 
-  w->faintest = most (FAINTEST, 8 * w->noise);
+  w->faintest = celd_most (FAINTEST, 8 * w->noise);
   w->dark = dark_level (&w->contrast, w->faintest);
   memcpy (w->level.data, w->contrast.data, w->pixels * sizeof (float));
   status = dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR);
@@ -343,11 +249,11 @@ measure_ink (Work *w)
     return status;
   if (w->noisy)
     {
-      w->dark = most (w->dark, 16 * w->noise);
-      w->faintest = most (w->faintest, 0.2f * w->dark);
+      w->dark = celd_most (w->dark, 16 * w->noise);
+      w->faintest = celd_most (w->faintest, 0.2f * w->dark);
     }
   else
-    w->faintest = most (w->faintest, 6 * echo_level (&w->contrast, &w->level, w->dark));
+    w->faintest = celd_most (w->faintest, 6 * celd_ink_echo (&w->contrast, &w->level, w->dark));
   if (w->dark > 0.9f && !w->noisy)
     w->dark = 1; /* black lines of a pixel or less are not quite black anywhere */
   return CELD_OK;
@@ -406,7 +312,7 @@ spread_levels (Work *w)
   if (status == CELD_OK)
     status = dilate (w, &w->area, w->widest);
   for (size_t i = 0; i < w->pixels; i++)
-    if (w->contrast.data[i] - w->area.data[i] < most (w->faintest, 0.5f * w->contrast.data[i]))
+    if (w->contrast.data[i] - w->area.data[i] < celd_most (w->faintest, 0.5f * w->contrast.data[i]))
       w->level.data[i] = 0;
   return status == CELD_OK ? dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR) : status;
 }
@@ -423,8 +329,8 @@ write_ink (const Work *w, bool pale, CeldPlane *ink)
         float  c = w->contrast.data[i], share = c / w->dark;
 
         if (pale && w->level.data[i] > 0 && c <= 1.05f * w->level.data[i]) /* else the rim of a darker stroke beside */
-          share = most (share, (c - w->area.data[i]) / (full * w->level.data[i]));
-        CELD_AT (ink, x, y) = 1 - least (share, 1);
+          share = celd_most (share, (c - w->area.data[i]) / (full * w->level.data[i]));
+        CELD_AT (ink, x, y) = 1 - celd_least (share, 1);
       }
 }
 

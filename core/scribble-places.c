@@ -155,8 +155,8 @@ is_lost (const Reading *r, size_t i)
          celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > STRONG * STRONG;
 }
 
-/* Gathers the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds the strongest colour among them, 0 if a
- * label touches them: then they are what is left of its rim. */
+/* Gathers the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds the strongest colour among them, 0 if
+ * a label touches them: then they are what is left of its rim. */
 static size_t
 gather_line (Reading *r, uint32_t i, uint32_t *line, uint32_t *strongest)
 {
