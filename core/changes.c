@@ -7,20 +7,6 @@
 #include <string.h>
 
 CeldRect
-celd_rect_union (CeldRect a, CeldRect b)
-{
-  int left, top, right, bottom;
-
-  if (!a.width || !b.width)
-    return a.width ? a : b;
-  left   = a.x < b.x ? a.x : b.x;
-  top    = a.y < b.y ? a.y : b.y;
-  right  = a.x + a.width > b.x + b.width ? a.x + a.width : b.x + b.width;
-  bottom = a.y + a.height > b.y + b.height ? a.y + a.height : b.y + b.height;
-  return (CeldRect) { left, top, right - left, bottom - top };
-}
-
-CeldRect
 celd_difference (const void *old, const void *new, int width, int height, size_t pixel)
 {
   CeldRect      all = { 0, 0, width, height }, found = { 0 };

@@ -40,6 +40,21 @@ CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
   ((a)->data && (b)->data && (a)->width == (b)->width && (a)->height == (b)->height && \
    (a)->width > 0 && (a)->height > 0 && (a)->width <= CELD_MAX_SIDE && (a)->height <= CELD_MAX_SIDE)
 
+/* The smallest rectangle round both; one of width 0 is none. */
+static inline CeldRect
+celd_rect_union (CeldRect a, CeldRect b)
+{
+  int left, top, right, bottom;
+
+  if (!a.width || !b.width)
+    return a.width ? a : b;
+  left   = a.x < b.x ? a.x : b.x;
+  top    = a.y < b.y ? a.y : b.y;
+  right  = a.x + a.width > b.x + b.width ? a.x + a.width : b.x + b.width;
+  bottom = a.y + a.height > b.y + b.height ? a.y + a.height : b.y + b.height;
+  return (CeldRect) { left, top, right - left, bottom - top };
+}
+
 /* ------------------------------------------------------------------ vectors */
 
 /* Before a plain loop over pixels: compiled for wider vectors too, and chosen when the library is loaded.  The resolver
@@ -237,7 +252,7 @@ typedef struct
 CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
                             CeldLabels *components, CeldComponent **list, size_t *n);
 
-/* ------------------------------------------------------------------ smooth.c: where depth is cut */
+/* ------------------------------------------------------------------ smooth.c, depth-weights.c: where depth is cut */
 
 /* Levels as a tight plane; what is not finite reads as the farthest level. */
 void celd_depth_levels (const CeldPlane *levels, float *level);

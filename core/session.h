@@ -100,8 +100,6 @@ CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
 
 /* ------------------------------------------------------------------ changes.c */
 
-CeldRect celd_rect_union (CeldRect a, CeldRect b);
-
 /* Where two tight pictures of so many bytes a pixel differ; everywhere if there is no old one. */
 CeldRect celd_difference (const void *old, const void *new, int width, int height, size_t pixel);
 

@@ -1,82 +1,14 @@
 /* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors (the paper's U_o).
  *
- * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
- * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink around p and q, as far as
- * half a stroke is wide, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are expanded
- * or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
- * a smooth transition.
- *
- * Without anchors given, each connected region of one level is held in its inner core: the pixels that lie at least
- * half as deep inside it as its deepest pixel.  (Distances count from the region's border, not from the frame.)
- * Specks are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none:
- * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.  What no anchor
- * reaches keeps its level, the mean over its area if it has several.
+ * Where depth is cut is in depth-weights.c, what holds a region without an anchor in depth-cores.c, and how the rest
+ * follows in depth-solve.c.  Here is what they work on, and what an edit changed of it: a pixel's equation is new if
+ * its level, a neighbour's level, whether one of them is fixed, or the ink round them changed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "private.h"
+#include "smooth.h"
 
 #include <math.h>
-#include <string.h>
-
-#define MOST_REACH 12 /* pixels: half a stroke at most, for solid areas are none */
-#define SPECK 16 /* regions of fewer pixels have no core, as in celd_separate */
-
-/* ------------------------------------------------------------------ weights of edges */
-
-/* Where levels differ. */
-typedef struct { const CeldPlane *ink; float threshold; int reach; } Border;
-
-/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
- * paper. */
-static float
-least_ink (const Border *b, int x0, int y0, int x1, int y1)
-{
-  float least = 1;
-
-  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < b->ink->height && least > b->threshold; y++)
-    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < b->ink->width; x++)
-      if (CELD_AT (b->ink, x, y) < least)
-        least = CELD_AT (b->ink, x, y);
-  return least;
-}
-
-/* v_pq of the pixel (x,y) and the one `right` and `down` of it. */
-static float
-weight (const Border *b, const float *level, int x, int y, int right, int down)
-{
-  size_t i = (size_t) y * (size_t) b->ink->width + (size_t) x, j = i + (right ? 1 : (size_t) b->ink->width);
-
-  if (x + right >= b->ink->width || y + down >= b->ink->height)
-    return 0;
-  if (level[i] == level[j])
-    return 1;
-
-  float least = least_ink (b, x - b->reach, y - b->reach, x + right + b->reach, y + down + b->reach);
-
-  return least <= b->threshold ? 0 : least;
-}
-
-CeldStatus
-celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
-                    float *east, float *south)
-{
-  Border b = { ink, threshold, (celd_stroke_width (ink) + 1) / 2 };
-  size_t i = 0;
-
-  b.reach = b.reach < 1 ? 1 : b.reach > MOST_REACH ? MOST_REACH : b.reach;
-  for (int y = 0; y < ink->height; y++)
-    {
-      if (y % 64 == 0 && celd_step (run, (double) y / ink->height) != CELD_OK)
-        return CELD_CANCELLED;
-      for (int x = 0; x < ink->width; x++, i++)
-        {
-          east[i]  = weight (&b, level, x, y, 1, 0);
-          south[i] = weight (&b, level, x, y, 0, 1);
-        }
-    }
-  return CELD_OK;
-}
 
 /* ------------------------------------------------------------------ levels */
 
@@ -114,170 +46,214 @@ celd_depth_regions (int width, int height, const float *level, const CeldRun *ru
   return status;
 }
 
-/* ------------------------------------------------------------------ anchors */
+/* ------------------------------------------------------------------ what is new */
 
-/* Pixels beside another region. */
+/* Marks the pixel and its four neighbours. */
 static void
-mark_borders (const CeldLabels *regions, uint8_t *border)
+mark_round (int width, int height, int x, int y, uint8_t *changed)
 {
-  size_t w = (size_t) regions->width, n = w * (size_t) regions->height;
+  uint8_t *here = changed + (size_t) y * (size_t) width + (size_t) x;
 
-  memset (border, 0, n);
-  for (size_t i = 0; i < n; i++)
+  here[0] = 1;
+  if (x > 0)
+    here[-1] = 1;
+  if (x + 1 < width)
+    here[1] = 1;
+  if (y > 0)
+    here[-width] = 1;
+  if (y + 1 < height)
+    here[width] = 1;
+}
+
+static void
+mark_levels (const CeldSmoother *old, const float *level, uint8_t *changed)
+{
+  size_t w = (size_t) old->width;
+
+  for (int y = 0; y < old->height; y++)
     {
-      if (i % w + 1 < w && regions->data[i] != regions->data[i + 1])
-        border[i] = border[i + 1] = 1;
-      if (i + w < n && regions->data[i] != regions->data[i + w])
-        border[i] = border[i + w] = 1;
+      const float *now = level + (size_t) y * w, *before = old->level + (size_t) y * w;
+
+      if (memcmp (now, before, w * sizeof *now))
+        for (int x = 0; x < old->width; x++)
+          if (now[x] != before[x])
+            mark_round (old->width, old->height, x, y, changed);
     }
 }
+
+static void
+mark_fixed (const CeldSmoother *old, const uint8_t *fixed, uint8_t *changed)
+{
+  size_t w = (size_t) old->width;
+
+  for (int y = 0; y < old->height; y++)
+    {
+      const uint8_t *now = fixed + (size_t) y * w, *before = old->fixed + (size_t) y * w;
+
+      if (memcmp (now, before, w))
+        for (int x = 0; x < old->width; x++)
+          if (!now[x] != !before[x])
+            mark_round (old->width, old->height, x, y, changed);
+    }
+}
+
+/* Everything whose weights may have seen the new ink. */
+static void
+mark_ink (const CeldSmoother *old, uint8_t *changed)
+{
+  CeldRect ink = old->new_ink;
+  int      far = old->reach + 1;
+
+  for (int y = ink.y - far; ink.width && y < ink.y + ink.height + far; y++)
+    for (int x = ink.x - far; y >= 0 && y < old->height && x < ink.x + ink.width + far; x++)
+      if (x >= 0 && x < old->width)
+        changed[(size_t) y * (size_t) old->width + (size_t) x] = 1;
+}
+
+/* ------------------------------------------------------------------ the step */
+
+/* What the step has to do with. */
+typedef struct
+{
+  int      width, height;
+  float   *level, *depth;
+  uint8_t *fixed, *changed;     /* changed NULL: all is new */
+  double   range;
+} Planes;
 
 static void
 read_anchors (const CeldMask *anchors, uint8_t *fixed)
 {
   for (int y = 0; y < anchors->height; y++)
     for (int x = 0; x < anchors->width; x++)
-      *fixed++ = CELD_AT (anchors, x, y) != 0;
+      *fixed++ = CELD_AT (anchors, x, y) ? CELD_ANCHOR : CELD_FREE;
 }
 
-/* Which regions have no anchor and are no speck; how many. */
-static size_t
-find_unheld (const CeldLabels *regions, const CeldComponent *list, size_t count, const uint8_t *fixed, uint8_t *unheld)
+static double
+range_of (const float *level, size_t n)
 {
-  size_t left = 0;
+  float low = level[0], high = level[0];
 
-  for (size_t k = 1; k <= count; k++)
-    unheld[k] = list[k - 1].area >= SPECK;
-  for (size_t i = 0; i < (size_t) regions->width * (size_t) regions->height; i++)
-    if (fixed[i])
-      unheld[regions->data[i]] = 0;
-  for (size_t k = 1; k <= count; k++)
-    left += unheld[k];
-  return left;
+  for (size_t i = 1; i < n; i++)
+    {
+      low  = level[i] < low ? level[i] : low;
+      high = level[i] > high ? level[i] : high;
+    }
+  return (double) high - (double) low;
 }
 
-/* Marks the pixels of these regions that lie at least half as deep inside as their region's deepest pixel. */
+/* Is what is kept worth comparing with?  Not if it was made less exactly, or cut elsewhere. */
+static bool
+is_of_use (const CeldSmoother *old, const CeldSmoothing *s, const Planes *p)
+{
+  return old && old->level && s->last && old->width == p->width && old->height == p->height &&
+         old->threshold == s->settings->ink_threshold && old->reach == s->reach &&
+         old->error <= (double) s->settings->tolerance * p->range;
+}
+
 static CeldStatus
-mark_cores (const CeldLabels *regions, size_t count, const uint8_t *unheld, const CeldRun *run, uint8_t *fixed)
+planes_new (const CeldSmoother *old, const CeldSmoothing *s, Planes *p)
 {
-  size_t     n       = (size_t) regions->width * (size_t) regions->height;
-  uint8_t   *border  = celd_alloc (n, sizeof *border);
-  int32_t   *squared = celd_alloc (n, sizeof *squared), *deepest = celd_alloc0 (count + 1, sizeof *deepest);
-  CeldStatus status  = border && squared && deepest ? CELD_OK : CELD_NO_MEMORY;
+  size_t n;
 
-  if (status != CELD_OK)
-    goto done;
-  mark_borders (regions, border);
-  status = celd_distance (regions->width, regions->height, border, run, squared);
-  if (status != CELD_OK)
-    goto done;
-  for (size_t i = 0; i < n; i++)
-    if (squared[i] > deepest[regions->data[i]])
-      deepest[regions->data[i]] = squared[i];
-  for (size_t i = 0; i < n; i++)
-    if (unheld[regions->data[i]] && squared[i] >= deepest[regions->data[i]] / 4)
-      fixed[i] = 1;
-
-done:
-  celd_free (border);
-  celd_free (squared);
-  celd_free (deepest);
-  return status;
+  *p = (Planes) { .width = s->levels->width, .height = s->levels->height };
+  n  = (size_t) p->width * (size_t) p->height;
+  p->level = celd_alloc (n, sizeof *p->level);
+  p->depth = celd_alloc (n, sizeof *p->depth);
+  p->fixed = celd_alloc0 (n, sizeof *p->fixed);
+  if (!p->level || !p->depth || !p->fixed)
+    return CELD_NO_MEMORY;
+  celd_depth_levels (s->levels, p->level);
+  if (s->anchors)
+    read_anchors (s->anchors, p->fixed);
+  p->range = range_of (p->level, n);
+  if (!is_of_use (old, s, p))
+    return CELD_OK;
+  p->changed = celd_alloc0 (n, sizeof *p->changed);
+  if (!p->changed)
+    return CELD_NO_MEMORY;
+  mark_levels (old, p->level, p->changed);
+  return CELD_OK;
 }
 
-/* Marks the core of each region that has nothing marked yet. */
-static CeldStatus
-hold_rest (int width, int height, const float *level, const CeldRun *run, uint8_t *fixed)
+/* The smoother takes the planes that it keeps. */
+static void
+remember (CeldSmoother *smoother, const CeldSmoothing *s, const CeldSolve *solve, Planes *p)
 {
-  size_t         count = 0;
-  CeldLabels     regions;
-  CeldComponent *list   = NULL;
-  uint8_t       *unheld = NULL;
-  CeldPart       first, second;
-  CeldRun        finding = celd_run_part (&first, run, 0, 0.5), measuring = celd_run_part (&second, run, 0.5, 1);
-  CeldStatus     status  = celd_labels_new (width, height, &regions);
+  celd_smoother_clear (smoother);
+  *smoother = (CeldSmoother) { p->width, p->height, p->level, p->fixed, s->settings->ink_threshold,
+                               solve->converged ? (double) s->settings->tolerance * p->range : INFINITY, s->reach,
+                               { 0 } };
+  p->level = NULL;
+  p->fixed = NULL;
+}
 
-  if (status == CELD_OK)
-    status = celd_depth_regions (width, height, level, &finding, &regions, &list, &count);
+CeldStatus
+celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldRun *run, CeldPlane *depth,
+                   CeldSolve *solve)
+{
+  CeldPart   part[2];
+  CeldRun    holding = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  Planes     p;
+  CeldStatus status = planes_new (smoother, s, &p);
+
+  if (status == CELD_OK && (!s->anchors || s->settings->hold_rest))
+    status = celd_cores_mark (p.width, p.height, p.level, s->speck, p.changed, p.changed ? smoother->fixed : NULL,
+                              &holding, p.fixed);
   if (status == CELD_OK)
     {
-      unheld = celd_alloc0 (count + 1, sizeof *unheld);
-      status = unheld ? CELD_OK : CELD_NO_MEMORY;
+      CeldSystem system = { p.width, p.height, p.level, p.fixed,
+                            { s->ink, s->settings->ink_threshold, s->reach }, p.changed, s->last,
+                            (double) s->settings->tolerance, p.range };
+
+      if (p.changed)
+        {
+          mark_fixed (smoother, p.fixed, p.changed);
+          mark_ink (smoother, p.changed);
+        }
+      status = celd_system_solve (&system, &solving, p.depth, solve);
     }
-  if (status == CELD_OK && find_unheld (&regions, list, count, fixed, unheld) > 0)
-    status = mark_cores (&regions, count, unheld, &measuring, fixed);
-  celd_free (regions.data);
-  celd_free (list);
-  celd_free (unheld);
+  if (status == CELD_OK)
+    {
+      *depth  = (CeldPlane) { p.width, p.height, (size_t) p.width, p.depth };
+      p.depth = NULL;
+      if (smoother)
+        remember (smoother, s, solve, &p);
+    }
+  celd_free (p.level);
+  celd_free (p.depth);
+  celd_free (p.fixed);
+  celd_free (p.changed);
   return status;
 }
 
-/* ------------------------------------------------------------------ the step */
-
-/* The result, kept within the levels: the solver's error must not carry it beyond. */
-static void
-deliver (const float *solved, const CeldPlane *levels, CeldPlane *depth)
+void
+celd_smoother_clear (CeldSmoother *smoother)
 {
-  float low = INFINITY, high = -INFINITY;
-
-  for (int y = 0; y < levels->height; y++)
-    for (int x = 0; x < levels->width; x++)
-      if (isfinite (CELD_AT (levels, x, y)))
-        {
-          low  = fminf (low, CELD_AT (levels, x, y));
-          high = fmaxf (high, CELD_AT (levels, x, y));
-        }
-  for (int y = 0; y < depth->height; y++)
-    for (int x = 0; x < depth->width; x++, solved++)
-      CELD_AT (depth, x, y) = low <= high ? fminf (fmaxf (*solved, low), high) : 0;
+  celd_free (smoother->level);
+  celd_free (smoother->fixed);
+  *smoother = (CeldSmoother) { 0 };
 }
 
 CeldStatus
 celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors, const CeldSettings *settings,
              const CeldRun *run, CeldPlane *depth, CeldSolve *solve)
 {
+  CeldSmoothing smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
+  CeldPlane     made = { 0 };
+  CeldSolve     how;
+  CeldStatus    status;
+
   if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, depth) || (anchors && !CELD_SAME_SIZE (ink, anchors)))
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-
-  int          w = ink->width, h = ink->height;
-  size_t       n = (size_t) w * (size_t) h;
-  float       *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
-  float       *diagonal = celd_alloc0 (n, sizeof *diagonal), *b = celd_alloc0 (n, sizeof *b);
-  float       *x = celd_alloc (n, sizeof *x);
-  uint8_t     *fixed = celd_alloc0 (n, sizeof *fixed);
-  CeldLaplace *laplace = NULL;
-  CeldPart     part[4];
-  CeldRun      anchoring = celd_run_part (&part[0], run, 0, 0.1), weighing = celd_run_part (&part[1], run, 0.1, 0.15);
-  CeldRun      setting_up = celd_run_part (&part[2], run, 0.15, 0.3), solving = celd_run_part (&part[3], run, 0.3, 1);
-  CeldStatus   status = east && south && diagonal && b && x && fixed ? CELD_OK : CELD_NO_MEMORY;
-
-  if (status != CELD_OK)
-    goto done;
-  celd_depth_levels (levels, x);
-  if (anchors)
-    read_anchors (anchors, fixed);
-  if (!anchors || settings->hold_rest)
-    status = hold_rest (w, h, x, &anchoring, fixed);
-  if (status == CELD_OK)
-    status = celd_depth_weights (ink, x, settings->ink_threshold, &weighing, east, south);
-  if (status != CELD_OK)
-    goto done;
-  celd_lap_pin (w, h, fixed, 1, x, east, south, diagonal, b);
-  status = celd_lap_setup (w, h, east, south, diagonal, NULL, &setting_up, &laplace);
-  if (status == CELD_OK)
-    status = celd_lap_solve (laplace, 1, b, x, (double) settings->tolerance, &solving, solve);
-  if (status == CELD_OK)
-    deliver (x, levels, depth);
-
-done:
-  celd_lap_free (laplace);
-  celd_free (east);
-  celd_free (south);
-  celd_free (diagonal);
-  celd_free (b);
-  celd_free (x);
-  celd_free (fixed);
+  smoothing.reach = celd_border_reach (celd_stroke_width (ink));
+  status = celd_smooth_again (NULL, &smoothing, run, &made, &how);
+  for (int y = 0; y < depth->height && status == CELD_OK; y++)
+    memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);
+  if (status == CELD_OK && solve)
+    *solve = how;
+  celd_free (made.data);
   return status;
 }
