@@ -108,9 +108,9 @@ raise_nodes (const Program *q, double *u)
     }
 }
 
-/* Weights and components of K. */
+/* Weights of K, without those that are nothing beside the largest. */
 static void
-read_matrix (Program *q, const double *k)
+read_weights (Program *q, const double *k)
 {
   CeldForest *f = &q->forest;
   size_t      n = f->n;
@@ -119,25 +119,41 @@ read_matrix (Program *q, const double *k)
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++)
       {
-        f->weight[i * n + j] = i == j ? 0 : -(k[i * n + j] + k[j * n + i]) / 2;
-        largest = fmax (largest, fabs (f->weight[i * n + j]));
+        double w = i == j ? 0 : -(k[i * n + j] + k[j * n + i]) / 2;
+
+        f->weight[i * n + j] = w;
+        if (fabs (w) > largest)
+          largest = fabs (w);
       }
-  celd_roots (f->body, n);
   for (size_t i = 0; i < n; i++)
     {
       f->pull[i] = 0;
       for (size_t j = 0; j < n; j++)
         {
-          if (fabs (f->weight[i * n + j]) <= TINY_WEIGHT * largest)
-            f->weight[i * n + j] = 0;
-          else if (j < i)
-            celd_join (f->body, (uint32_t) i, (uint32_t) j);
-          f->pull[i] += f->weight[i * n + j];
+          double w = fabs (f->weight[i * n + j]) > TINY_WEIGHT * largest ? f->weight[i * n + j] : 0;
+
+          f->weight[i * n + j] = w;
+          f->pull[i] += w;
         }
       q->pull = fmax (q->pull, f->pull[i]);
     }
+}
+
+static void
+find_components (CeldForest *f)
+{
+  size_t left = f->n;
+
+  celd_roots (f->body, f->n);
+  for (uint32_t i = 0; i < f->n; i++)
+    for (uint32_t j = 0; j < f->n && left > 1; j++)
+      if (f->weight[i * f->n + j] != 0 && celd_root (f->body, i) != celd_root (f->body, j))
+        {
+          celd_join (f->body, i, j);
+          left--;
+        }
   f->n_components = 0;
-  for (uint32_t i = 0; i < n; i++)
+  for (uint32_t i = 0; i < f->n; i++)
     {
       uint32_t root = celd_root (f->body, i);
 
@@ -372,7 +388,11 @@ take_in (Program *q, uint32_t p)
       for (size_t i = 0; i < f->n; i++)
         q->u[i] += when * q->z[i];
       for (size_t l = 0; l < f->n_active; l++)
-        q->y[f->active[l]] = fmax (q->y[f->active[l]] - when * q->r[l], 0);
+        {
+          double *left = &q->y[f->active[l]];
+
+          *left = *left > when * q->r[l] ? *left - when * q->r[l] : 0;
+        }
       y += when;
       if (full <= when)
         {
@@ -515,7 +535,8 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
       status = CELD_BAD_VALUE;
       if (sort_nodes (&q, q.forest.order))
         {
-          read_matrix (&q, k);
+          read_weights (&q, k);
+          find_components (&q.forest);
           start_links (&q, warm ? y : NULL);
           if (solve (&q))
             status = CELD_OK;
