@@ -7,7 +7,7 @@
  * dual problem rises with every step, so that no active set comes back and the method ends (ties could hold it up: the
  * number of steps is limited).  Three things are particular here:
  *
- * - active differences are links of a forest (quadratic-forest.c): dependence of constraints, the usual trouble of
+ * - active inequalities are links of a forest (quadratic-forest.c): dependence of constraints, the usual trouble of
  *   active sets, is a question of who is connected with whom;
  * - K does not tell where its components are: translations are free.  A violated inequality between two bodies moves
  *   one of them at no cost;
@@ -27,7 +27,6 @@
 
 #include <math.h>
 
-#define TINY_WEIGHT 1e-14 /* share of the largest: less is no connection */
 #define MOST        1e30  /* of an entry of K */
 #define FAR_GAP     1e12  /* most of a gap; its inverse the least */
 #define TINY_FLOW   1e-10 /* of a unit force, through a link: rounding */
@@ -40,12 +39,11 @@ typedef struct
   double    *y;                        /* m */
   double     range;                    /* of u and offsets, to judge rounding by */
   double     pull;                     /* largest weight of a node */
-  uint32_t  *first, *item, *sorted;    /* inequalities with b = i: item[first[i]] .. before first[i + 1]; nodes, every b
-                                        * before its a */
+  CeldRanks  ranks;
   int        steps, most_steps;
 } Program;
 
-/* ------------------------------------------------------------------ input */
+/* ------------------------------------------------------------------ the start */
 
 static bool
 good_numbers (size_t n, const double *k, size_t m, const CeldInequality *inequality)
@@ -60,107 +58,6 @@ good_numbers (size_t n, const double *k, size_t m, const CeldInequality *inequal
   return true;
 }
 
-/* Sorts the nodes so that every b comes before its a; false if there is a loop. */
-static bool
-sort_nodes (Program *q, uint32_t *waits)
-{
-  const CeldInequality *inequality = q->forest.inequality;
-  size_t                n = q->forest.n, m = q->forest.m, done = 0;
-
-  for (size_t i = 0; i <= n; i++)
-    q->first[i] = 0;
-  for (size_t i = 0; i < n; i++)
-    waits[i] = 0;
-  for (size_t i = 0; i < m; i++)
-    {
-      q->first[inequality[i].b]++;
-      waits[inequality[i].a]++;
-    }
-  for (size_t i = 0; i < n; i++)
-    q->first[i + 1] += q->first[i];
-  for (size_t i = m; i-- > 0;)
-    q->item[--q->first[inequality[i].b]] = (uint32_t) i;
-  for (uint32_t i = 0; i < n; i++)
-    if (!waits[i])
-      q->sorted[done++] = i;
-  for (size_t at = 0; at < done; at++)
-    for (uint32_t e = q->first[q->sorted[at]]; e < q->first[q->sorted[at] + 1]; e++)
-      if (!--waits[inequality[q->item[e]].a])
-        q->sorted[done++] = inequality[q->item[e]].a;
-  return done == n;
-}
-
-/* Raises nodes until every inequality holds, from the back to the front. */
-static void
-raise_nodes (const Program *q, double *u)
-{
-  for (size_t at = 0; at < q->forest.n; at++)
-    {
-      uint32_t b = q->sorted[at];
-
-      for (uint32_t e = q->first[b]; e < q->first[b + 1]; e++)
-        {
-          const CeldInequality *one = &q->forest.inequality[q->item[e]];
-
-          if (u[one->a] < u[b] + one->gap)
-            u[one->a] = u[b] + one->gap;
-        }
-    }
-}
-
-/* Weights of K, without those that are nothing beside the largest. */
-static void
-read_weights (Program *q, const double *k)
-{
-  CeldForest *f = &q->forest;
-  size_t      n = f->n;
-  double      largest = 0;
-
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = 0; j < n; j++)
-      {
-        double w = i == j ? 0 : -(k[i * n + j] + k[j * n + i]) / 2;
-
-        f->weight[i * n + j] = w;
-        if (fabs (w) > largest)
-          largest = fabs (w);
-      }
-  for (size_t i = 0; i < n; i++)
-    {
-      f->pull[i] = 0;
-      for (size_t j = 0; j < n; j++)
-        {
-          double w = fabs (f->weight[i * n + j]) > TINY_WEIGHT * largest ? f->weight[i * n + j] : 0;
-
-          f->weight[i * n + j] = w;
-          f->pull[i] += w;
-        }
-      q->pull = fmax (q->pull, f->pull[i]);
-    }
-}
-
-static void
-find_components (CeldForest *f)
-{
-  size_t left = f->n;
-
-  celd_roots (f->body, f->n);
-  for (uint32_t i = 0; i < f->n; i++)
-    for (uint32_t j = 0; j < f->n && left > 1; j++)
-      if (f->weight[i * f->n + j] != 0 && celd_root (f->body, i) != celd_root (f->body, j))
-        {
-          celd_join (f->body, i, j);
-          left--;
-        }
-  f->n_components = 0;
-  for (uint32_t i = 0; i < f->n; i++)
-    {
-      uint32_t root = celd_root (f->body, i);
-
-      f->component[i] = root == i ? (uint32_t) f->n_components++ : f->component[root];
-    }
-}
-
 /* Makes links of the inequalities that had a multiplier, as far as they are independent; without such of those that
  * hold the nodes at their longest-path levels: most of them stay. */
 static void
@@ -170,9 +67,12 @@ start_links (Program *q, const double *y)
 
   for (size_t i = 0; i < f->n; i++)
     q->u[i] = 0;
-  raise_nodes (q, q->u);
+  celd_ranks_raise (&q->ranks, f->n, f->inequality, q->u);
   for (size_t i = 0; i < f->n; i++)
-    q->range = fmax (q->range, q->u[i]);
+    {
+      q->range = fmax (q->range, q->u[i]);
+      q->pull = fmax (q->pull, f->pull[i]);
+    }
   celd_roots (f->tree, f->n);
   for (uint32_t i = 0; i < f->m; i++)
     {
@@ -460,7 +360,7 @@ lay_out (Program *q)
           q->u[i] += least[f->component[i]];
         }
     }
-  raise_nodes (q, q->u);
+  celd_ranks_raise (&q->ranks, f->n, f->inequality, q->u);
 }
 
 static CeldCertificate
@@ -500,7 +400,8 @@ share_out (Program *q, double *numbers, uint32_t *indices)
   CeldForest *f = &q->forest;
   size_t      n = f->n;
   double    **vector[] = { &f->offset, &f->row, &f->pull, &q->u, &q->z, &q->force, &q->r };
-  uint32_t  **list[] = { &f->active, &f->order, &f->parent, &f->link, &f->tree, &f->component, &f->body, &q->sorted };
+  uint32_t  **list[] = { &f->active, &f->order, &f->parent, &f->link, &f->tree, &f->component, &f->body,
+                             &q->ranks.sorted };
 
   f->weight  = numbers;
   f->inverse = numbers + n * n;
@@ -509,7 +410,7 @@ share_out (Program *q, double *numbers, uint32_t *indices)
     *vector[i] = numbers + (3 * n + i) * n;
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     *list[i] = indices + i * n;
-  q->first = indices + 8 * n;
+  q->ranks.first = indices + 8 * n;
   f->entry = indices + 9 * n + 1;
 }
 
@@ -524,19 +425,18 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
 
   if (n >= UINT32_MAX / 16 || m >= UINT32_MAX || !good_numbers (n, k, m, inequality))
     return CELD_BAD_VALUE;
-  numbers = celd_alloc (3 * n + 7, n * sizeof (double));
-  indices = celd_alloc (13 * n + 4, sizeof (uint32_t));
-  q.y     = celd_alloc0 (m, sizeof (double));
-  q.item  = celd_alloc (m, sizeof (uint32_t));
-  if (numbers && indices && q.y && q.item)
+  numbers      = celd_alloc (3 * n + 7, n * sizeof (double));
+  indices      = celd_alloc (13 * n + 4, sizeof (uint32_t));
+  q.y          = celd_alloc0 (m, sizeof (double));
+  q.ranks.item = celd_alloc (m, sizeof (uint32_t));
+  if (numbers && indices && q.y && q.ranks.item)
     {
       share_out (&q, numbers, indices);
       q.most_steps = (int) fmin (100 + 20 * ((double) n + (double) m), INT32_MAX);
       status = CELD_BAD_VALUE;
-      if (sort_nodes (&q, q.forest.order))
+      if (celd_ranks_sort (&q.ranks, n, m, inequality, q.forest.order))
         {
-          read_weights (&q, k);
-          find_components (&q.forest);
+          celd_forest_read (&q.forest, k);
           start_links (&q, warm ? y : NULL);
           if (solve (&q))
             status = CELD_OK;
@@ -554,6 +454,6 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
   celd_free (numbers);
   celd_free (indices);
   celd_free (q.y);
-  celd_free (q.item);
+  celd_free (q.ranks.item);
   return status;
 }

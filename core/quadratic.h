@@ -1,4 +1,4 @@
-/* What the two files of the dense quadratic program share: the matrices, and the forest of active inequalities.
+/* What the files of the dense quadratic program share: the matrices, and the forest of active inequalities.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -38,11 +38,26 @@ typedef struct
   bool                  fresh;        /* no update of H since its set-up */
 } CeldForest;
 
+/* ------------------------------------------------------------------ quadratic-matrix.c */
+
+/* Weights and components of K. */
+void celd_forest_read (CeldForest *forest, const double *k);
+
+/* Computes H anew; false if K has an eigenvalue that is not positive, other than those of its components.  O(n^3). */
+bool celd_forest_set_up (CeldForest *forest);
+
+/* image = K x, of differences; image = H x. */
+void celd_forest_force (const CeldForest *forest, const double *x, double *image);
+void celd_forest_motion (const CeldForest *forest, const double *x, double *image);
+
+/* ------------------------------------------------------------------ quadratic-forest.c */
+
 /* Follows a change of the active inequalities: trees, offsets, bodies. */
 void celd_forest_walk (CeldForest *forest);
 
-/* Computes H anew; false if K has a negative eigenvalue.  O(n^3). */
-bool celd_forest_set_up (CeldForest *forest);
+/* What each link carries of forces that are balanced on each tree: r[place], positive if it pushes its ends apart.
+ * The forces are used up. */
+void celd_forest_flow (const CeldForest *forest, double *force, double *r);
 
 /* Joins two bodies by inequality p: the one in front hangs on the other. */
 void celd_forest_join (CeldForest *forest, uint32_t p);
@@ -58,12 +73,19 @@ bool celd_forest_drop (CeldForest *forest, size_t place, double *way, double *fo
 /* Has H lost its digits?  For a motion x by H, its curvature, and force = K x. */
 bool celd_forest_worn (const CeldForest *forest, double curvature, const double *x, const double *force);
 
-/* image = K x, of differences; image = H x. */
-void celd_forest_force (const CeldForest *forest, const double *x, double *image);
-void celd_forest_motion (const CeldForest *forest, const double *x, double *image);
+/* ------------------------------------------------------------------ quadratic-ranks.c */
 
-/* What each link carries of forces that are balanced on each tree: r[place], positive if it pushes its ends apart.
- * The forces are used up. */
-void celd_forest_flow (const CeldForest *forest, double *force, double *r);
+/* Nodes in the order in which inequalities have them. */
+typedef struct
+{
+  uint32_t *first, *item; /* the inequalities whose b is i: item[first[i]] .. before first[i + 1] */
+  uint32_t *sorted;       /* nodes, every b before its a */
+} CeldRanks;
+
+/* Fills them; false if there is a loop.  waits: n, work space. */
+bool celd_ranks_sort (CeldRanks *ranks, size_t n, size_t m, const CeldInequality *inequality, uint32_t *waits);
+
+/* Raises nodes until every inequality holds, from the back to the front: from 0, to the longest-path levels. */
+void celd_ranks_raise (const CeldRanks *ranks, size_t n, const CeldInequality *inequality, double *u);
 
 #endif

@@ -493,6 +493,35 @@ rounding_of_k_does_no_harm (void)
     }
 }
 
+/* K may have entries > 0 beside its diagonal as long as it has no eigenvalue < 0: inexact bases make such. */
+static void
+some_weights_may_push (void)
+{
+  uint32_t state = 31;
+
+  for (int trial = 0; trial < 40; trial++)
+    {
+      double row[N];
+
+      start (4 + check_random (&state, 30));
+      for (size_t square = 0; square < 2 * p.n; square++)
+        {
+          row[p.n - 1] = 0;
+          for (size_t i = 0; i + 1 < p.n; i++)
+            {
+              row[i] = random_unit (&state) - 0.5;
+              row[p.n - 1] -= row[i];
+            }
+          for (size_t i = 0; i < p.n; i++)
+            for (size_t j = 0; j < p.n; j++)
+              p.k[i * p.n + j] += row[i] * row[j];
+        }
+      ask_at_random (&state, 1 + check_random (&state, 100), trial % 2);
+      CHECK (solve (&cold, false) == CELD_OK);
+      is_optimal (&cold);
+    }
+}
+
 int
 main (void)
 {
@@ -509,5 +538,6 @@ main (void)
   RUN (warm_is_as_good);
   RUN (nonsense_to_begin_with_does_no_harm);
   RUN (rounding_of_k_does_no_harm);
+  RUN (some_weights_may_push);
   return DONE;
 }
