@@ -8,32 +8,11 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "unions.h"
-#include "window.h"
+#include "window-cells.h"
 
 #include <string.h>
 
-#define PAPER     0.75f           /* ink from here on is paper, which a border had better not cross */
-#define DARK      (1 / 128.0)     /* of what paper costs: an edge of dark ink costs no more */
-#define KINDS     UINT32_C (0x60000000)
-#define KIND_INK  UINT32_C (0x20000000)
-#define LABELS    UINT32_C (0x1fffffff)
-
-typedef struct
-{
-  CeldCells       *cells;
-  const uint32_t  *free;         /* by basin */
-  uint32_t         id;
-  size_t           hint;         /* of celd_basin_run_at */
-  const uint8_t   *fine;         /* by block; NULL: blocks are to be coarse */
-  float            dark;         /* ink below this is dark */
-  uint32_t        *state;        /* of the pixels of a row of blocks: label, kind, CELD_CELL_FIXED */
-  uint32_t        *paint;        /* and the label of soft paint on them, 0 if there is none */
-  uint32_t        *change;       /* of the columns of pixels in it: not 0 where states differ */
-  uint32_t        *common;       /* and the bits that all states have */
-  bool            *painted;      /* by block of the row */
-  bool            *hard;         /* the same: is there hard paint in it that changes something? */
-  uint32_t        *parent;       /* of the pixels of a block: another one of its piece, itself for the first */
-} Builder;
+#define DARK (1 / 128.0)        /* of what paper costs: an edge of dark ink costs no more */
 
 void
 celd_cells_clear (CeldCells *cells)
@@ -48,99 +27,10 @@ celd_cells_clear (CeldCells *cells)
   *cells = (CeldCells) { .canvas = NULL };
 }
 
-static int
-window_width (const CeldCells *cells)
-{
-  return cells->window.right - cells->window.left + 1;
-}
-
-/* ------------------------------------------------------------------ the pixels of a row */
-
-/* The rim of the window is as it is, but where the picture ends. */
-static void
-read_basins (Builder *b, int y, uint32_t *state)
-{
-  const CeldWindow *w = &b->cells->window;
-  const CeldBasins *basins = b->cells->canvas->basins;
-  bool              rim = (y == w->top && y > 0) || (y == w->bottom && y + 1 < basins->height);
-  size_t            i = celd_basin_run_at (basins, y, w->left, &b->hint);
-
-  for (int x = w->left, end; x <= w->right; x = end, i++)
-    {
-      uint32_t basin = basins->run[i].basin;
-      uint32_t here = b->cells->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
-
-      end = celd_basin_run_end (basins, i, y);
-      end = end <= w->right ? end : w->right + 1;
-      for (int k = x; k < end; k++)
-        state[k - w->left] = here;
-    }
-  if (w->left > 0)
-    state[0] |= CELD_CELL_FIXED;
-  if (w->right + 1 < basins->width)
-    state[w->right - w->left] |= CELD_CELL_FIXED;
-}
-
-/* What is fixed has no kind. */
-static void
-read_ink (const Builder *b, int y, int x, int end, uint32_t *state)
-{
-  const float *ink = &CELD_AT (b->cells->canvas->ink, b->cells->window.left, y);
-
-  for (int i = x; i < end; i++)
-    state[i] += KIND_INK * ((uint32_t) (ink[i] < PAPER) + (uint32_t) (ink[i] < b->dark)) * (1 - (state[i] >> 31));
-}
-
-/* Hard paint on pixel k of a row.  What is not free is another window's. */
-static inline void
-obey (const Builder *b, uint32_t label, int k, uint32_t *state)
-{
-  if (*state & CELD_CELL_FIXED)
-    return;
-  if ((*state & LABELS) != label)
-    b->hard[k >> b->cells->shift] = true;
-  *state = CELD_CELL_FIXED | label;
-}
-
-static void
-read_paint (const Builder *b, int y, uint32_t *state, uint32_t *paint)
-{
-  const CeldCanvas  *canvas = b->cells->canvas;
-  const CeldWindow  *w = &b->cells->window;
-  const CeldSeedRow *row = &canvas->seeds.row[y];
-  size_t             low = 0, high = row->n;
-
-  memset (paint, 0, (size_t) window_width (b->cells) * sizeof *paint);
-  while (low < high)
-    {
-      size_t middle = low + (high - low) / 2;
-
-      if (row->run[middle].end <= w->left)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-  for (size_t i = low; i < row->n && row->run[i].x <= w->right; i++)
-    {
-      uint32_t l = row->run[i].label;
-      bool     hard = celd_canvas_vote (canvas, l) == CELD_HARD;
-      int      x = row->run[i].x > w->left ? row->run[i].x - w->left : 0;
-      int      end = (row->run[i].end <= w->right ? row->run[i].end : w->right + 1) - w->left;
-
-      for (int k = x; k < end; k++)
-        if (hard)
-          obey (b, l, k, &state[k]);
-        else
-          paint[k] = l;
-      for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift && !hard; k++)
-        b->painted[k] = true;
-    }
-}
-
 /* ------------------------------------------------------------------ blocks */
 
 static CeldStatus
-add_node (Builder *b, uint32_t present, uint32_t *node)
+add_node (CeldCellBuilder *b, uint32_t present, uint32_t *node)
 {
   CeldCells *cells = b->cells;
   uint32_t  *grown = celd_grow (cells->present, cells->n + 1, sizeof *grown);
@@ -149,29 +39,30 @@ add_node (Builder *b, uint32_t present, uint32_t *node)
     return CELD_NO_MEMORY;
   cells->present = grown;
   *node = (uint32_t) cells->n++;
-  grown[*node] = present & LABELS;
+  grown[*node] = present & CELD_CELL_LABELS;
   return CELD_OK;
 }
 
 /* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink
  * end at squares of 1 << square pixels a side. */
 static inline bool
-is_alike (const Builder *b, size_t first, int square, int x, int y, int i, int j)
+is_alike (const CeldCellBuilder *b, size_t first, int square, int x, int y, int i, int j)
 {
-  size_t   stride = (size_t) window_width (b->cells);
+  size_t   stride = (size_t) celd_cells_width (b->cells);
   size_t   p = first + (size_t) y * stride + (size_t) x, q = first + (size_t) j * stride + (size_t) i;
   uint32_t state = b->state[p];
 
   return state == b->state[q] && b->paint[p] == b->paint[q]
-         && ((state & KINDS) == 2 * KIND_INK || (x >> square == i >> square && y >> square == j >> square));
+         && ((state & CELD_CELL_KINDS) == 2 * CELD_CELL_KIND_INK
+             || (x >> square == i >> square && y >> square == j >> square));
 }
 
 /* Joins pixels of a block that are of the same kind: ink in eight directions, so that a slanting line's rim is one.
  * What the row above has joined already needs no second time. */
 static void
-join_pixels (const Builder *b, size_t first, int w, int h, int square)
+join_pixels (const CeldCellBuilder *b, size_t first, int w, int h, int square)
 {
-  size_t   stride = (size_t) window_width (b->cells);
+  size_t   stride = (size_t) celd_cells_width (b->cells);
   uint32_t down = UINT32_C (1) << b->cells->shift;
 
   for (int y = 0; y < h; y++)
@@ -188,7 +79,7 @@ join_pixels (const Builder *b, size_t first, int w, int h, int square)
           continue;
         if (north && !(west && north_west))
           celd_join (b->parent, k, k - down);
-        if (!(state & KINDS) || north || y == 0)
+        if (!(state & CELD_CELL_KINDS) || north || y == 0)
           continue;
         if (north_west && !west)
           celd_join (b->parent, k, k - down - 1);
@@ -199,10 +90,10 @@ join_pixels (const Builder *b, size_t first, int w, int h, int square)
 
 /* A block of several parts: a node for each piece, and the votes of the paint on it. */
 static CeldStatus
-split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block)
+split_block (CeldCellBuilder *b, size_t first, int w, int h, int square, uint32_t *block)
 {
   CeldCells *cells = b->cells;
-  size_t     stride = (size_t) window_width (cells), area = (size_t) 1 << 2 * cells->shift;
+  size_t     stride = (size_t) celd_cells_width (cells), area = (size_t) 1 << 2 * cells->shift;
   uint32_t  *detail = celd_grow (cells->detail, cells->n_details + 1, area * sizeof *detail);
   CeldStatus status = CELD_OK;
 
@@ -221,7 +112,7 @@ split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block
 
         if (b->state[p] & CELD_CELL_FIXED)
           {
-            detail[k] = CELD_CELL_FIXED | (b->state[p] & LABELS);
+            detail[k] = CELD_CELL_FIXED | (b->state[p] & CELD_CELL_LABELS);
             continue;
           }
         if (b->parent[k] == k)
@@ -236,7 +127,7 @@ split_block (Builder *b, size_t first, int w, int h, int square, uint32_t *block
 
 /* What the pixels of a block have in common, of the columns from `left` to `end` - 1; *uniform: everything? */
 static uint32_t
-common_state (const Builder *b, int left, int end, bool *uniform)
+common_state (const CeldCellBuilder *b, int left, int end, bool *uniform)
 {
   uint32_t different = 0, common = UINT32_MAX;
 
@@ -250,10 +141,10 @@ common_state (const Builder *b, int left, int end, bool *uniform)
 }
 
 static CeldStatus
-make_block (Builder *b, int column, int h, uint32_t *block)
+make_block (CeldCellBuilder *b, int column, int h, uint32_t *block)
 {
   CeldCells *cells = b->cells;
-  int        left = column << cells->shift, w = window_width (cells) - left;
+  int        left = column << cells->shift, w = celd_cells_width (cells) - left;
   bool       uniform;
   uint32_t   common;
 
@@ -261,7 +152,7 @@ make_block (Builder *b, int column, int h, uint32_t *block)
   common = common_state (b, left, left + w, &uniform);
   if (common & CELD_CELL_FIXED && !b->hard[column])
     {
-      *block = uniform ? CELD_CELL_FIXED | (common & LABELS) : CELD_CELL_ABOVE;
+      *block = uniform ? CELD_CELL_FIXED | (common & CELD_CELL_LABELS) : CELD_CELL_ABOVE;
       return CELD_OK;
     }
   if (uniform && !b->painted[column] && !(common & CELD_CELL_FIXED))
@@ -271,9 +162,9 @@ make_block (Builder *b, int column, int h, uint32_t *block)
 
 /* change[i] and common[i] of the pixels in column i. */
 static void
-compare_rows (const Builder *b, int h)
+compare_rows (const CeldCellBuilder *b, int h)
 {
-  size_t stride = (size_t) window_width (b->cells);
+  size_t stride = (size_t) celd_cells_width (b->cells);
 
   memset (b->change, 0, stride * sizeof *b->change);
   memcpy (b->common, b->state, stride * sizeof *b->common);
@@ -286,20 +177,16 @@ compare_rows (const Builder *b, int h)
 }
 
 static CeldStatus
-make_row (Builder *b, int row, int top, int h)
+make_row (CeldCellBuilder *b, int row, int top, int h)
 {
   CeldCells *cells = b->cells;
-  size_t     stride = (size_t) window_width (cells);
+  size_t     stride = (size_t) celd_cells_width (cells);
   CeldStatus status = CELD_OK;
 
   b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
   memset (b->painted, 0, (size_t) cells->columns * sizeof *b->painted);
   for (int y = 0; y < h; y++)
-    {
-      read_basins (b, top + y, b->state + (size_t) y * stride);
-      read_ink (b, top + y, 0, (int) stride, b->state + (size_t) y * stride);
-      read_paint (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
-    }
+    celd_cells_read (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
   compare_rows (b, h);
   for (int column = 0; column < cells->columns && status == CELD_OK; column++)
     status = make_block (b, column, h, &cells->block[(size_t) row * (size_t) cells->columns + (size_t) column]);
@@ -308,27 +195,12 @@ make_row (Builder *b, int row, int top, int h)
 
 /* ------------------------------------------------------------------ finer blocks */
 
-/* The labels that the coarser cells have found are the present ones now. */
-static void
-read_cells (const Builder *b, int y, int x, int end, uint32_t *state)
-{
-  const CeldCells *coarse = b->cells->coarse;
-
-  for (int i = x; i < end; i++)
-    {
-      uint32_t part = celd_cell_at (coarse, coarse->window.left + i, y);
-
-      state[i] = (part & CELD_CELL_FIXED) | celd_cell_label (coarse, part);
-    }
-  read_ink (b, y, x, end, state);
-}
-
 /* A block that was one node becomes 4 x 4, for no part of it is near ink; others 8 x 8 and what ink is in them. */
 static CeldStatus
-make_fine_row (Builder *b, int row, int top, int h)
+make_fine_row (CeldCellBuilder *b, int row, int top, int h)
 {
   CeldCells     *cells = b->cells;
-  int            w = window_width (cells);
+  int            w = celd_cells_width (cells);
   const uint8_t *fine = b->fine + (size_t) row * (size_t) cells->columns;
   uint32_t      *block = cells->block + (size_t) row * (size_t) cells->columns;
   const uint32_t *coarse = cells->coarse->block + (size_t) row * (size_t) cells->columns;
@@ -340,14 +212,7 @@ make_fine_row (Builder *b, int row, int top, int h)
     return CELD_OK;
   b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
   for (int y = 0; y < h; y++)
-    {
-      uint32_t *state = b->state + (size_t) y * (size_t) w;
-
-      for (int k = 0; k < cells->columns; k++)
-        if (fine[k])
-          read_cells (b, top + y, k << cells->shift, (k + 1) << cells->shift < w ? (k + 1) << cells->shift : w, state);
-      read_paint (b, top + y, state, b->paint + (size_t) y * (size_t) w);
-    }
+    celd_cells_read_again (b, top + y, fine, b->state + (size_t) y * (size_t) w, b->paint + (size_t) y * (size_t) w);
   for (int k = 0; k < cells->columns && status == CELD_OK; k++)
     if (fine[k])
       {
@@ -374,12 +239,12 @@ end_of_dark (const CeldCosts *costs)
 
 /* b->cells has its place; what it gets besides is left to the caller to free. */
 static CeldStatus
-build (Builder *b)
+build (CeldCellBuilder *b)
 {
   CeldCells        *cells = b->cells;
   const CeldWindow *window = &cells->window;
   int               size = 1 << cells->shift;
-  size_t            w = (size_t) window_width (cells);
+  size_t            w = (size_t) celd_cells_width (cells);
   CeldStatus        status = CELD_NO_MEMORY;
 
   cells->columns = (window->right - window->left + size) >> cells->shift;
@@ -428,8 +293,8 @@ CeldStatus
 celd_cells_new (const CeldCanvas *canvas, const uint32_t *label, const uint32_t *free, uint32_t id,
                 const CeldWindow *window, int shift, CeldCells *cells)
 {
-  CeldCells made = { .canvas = canvas, .basin_label = label, .window = *window, .shift = shift };
-  Builder   b = { .cells = &made, .free = free, .id = id };
+  CeldCells       made = { .canvas = canvas, .basin_label = label, .window = *window, .shift = shift };
+  CeldCellBuilder b = { .cells = &made, .free = free, .id = id };
 
   return keep (build (&b), &made, cells);
 }
@@ -437,8 +302,10 @@ celd_cells_new (const CeldCanvas *canvas, const uint32_t *label, const uint32_t 
 CeldStatus
 celd_cells_refine (const CeldCells *coarse, const uint8_t *fine, CeldCells *cells)
 {
-  CeldCells made = { .canvas = coarse->canvas, .coarse = coarse, .window = coarse->window, .shift = coarse->shift };
-  Builder   b = { .cells = &made, .fine = fine };
+  CeldCells       made = {
+    .canvas = coarse->canvas, .coarse = coarse, .window = coarse->window, .shift = coarse->shift
+  };
+  CeldCellBuilder b = { .cells = &made, .fine = fine };
 
   return keep (build (&b), &made, cells);
 }
