@@ -9,21 +9,21 @@
  */
 #include "laplace-rows.h"
 
-#define ENOUGH 0.25 /* of the residual left after one inner step: no second one */
-#define STRIP  16   /* rows in one piece of work */
-#define SMALL  8192 /* numbers in a vector that is not worth other threads */
+#define ENOUGH 0.25  /* of the residual left after one inner step: no second one */
+#define SMALL  16384 /* numbers in a vector that is not worth other threads */
+#define SUMS   3     /* kept of a row */
 
-/* What the strips of a pass need. */
+/* What the rows of a pass need. */
 typedef struct
 {
-  const CeldLevel *level;
-  float           *b, *x, *y, *image;
-  float           *coarse;      /* vector of the next level */
-  float            a[CELD_LANES], c[CELD_LANES];
-  double          *sum;
+  const CeldLevel        *level;
+  float                  *b, *x, *image; /* image: NULL where it is not needed */
+  const float            *other;         /* NULL, or the x of the first step */
+  CeldLevelVectors       *next;
+  float                   a[CELD_LANES];
+  double                 *sum;
+  int                     phase;
 } Pass;
-
-typedef void Body (void *pass, int strip);
 
 /* ------------------------------------------------------------------ vectors */
 
@@ -38,12 +38,12 @@ celd_coarse_new (const CeldLevels *levels, int lanes, const CeldRun *run, CeldCo
     {
       const CeldLevel  *level  = &levels->level[l];
       CeldLevelVectors *v      = &cycle->vectors[l];
-      float           **part[] = { &v->b, &v->x, &v->step, &v->image, &v->image2 };
+      float           **part[] = { &v->b, &v->x, &v->step, &v->image };
 
       for (size_t k = 0; k < sizeof part / sizeof *part; k++)
         if (!(*part[k] = celd_alloc0 ((size_t) level->n + 8, (size_t) lanes * sizeof (float))))
           return CELD_NO_MEMORY;
-      if (!(v->sum = celd_alloc (2 * ((size_t) level->height + 1), CELD_LANES * sizeof *v->sum)))
+      if (!(v->sum = celd_alloc ((size_t) level->height, SUMS * CELD_LANES * sizeof *v->sum)))
         return CELD_NO_MEMORY;
     }
   return CELD_OK;
@@ -60,236 +60,199 @@ celd_coarse_free (CeldCoarse *cycle)
       celd_free (v->x);
       celd_free (v->step);
       celd_free (v->image);
-      celd_free (v->image2);
       celd_free (v->sum);
     }
   celd_free (cycle->bottom);
 }
 
-/* ------------------------------------------------------------------ passes over the first nodes, and extra ones */
+/* ------------------------------------------------------------------ rows of first nodes */
 
-#define ROWS(pass, strip, y) \
-  int y = (strip) * STRIP; y < (pass)->level->height && y < ((strip) + 1) * STRIP; y++
+/* Black numbers of a vector. */
+#define BLACK(v) ((v) + p->level->plane * (size_t) lanes)
 
-/* Red ones from x = 0. */
 CELD_INLINE void
-guess (void *data, int strip, int lanes)
+nothing (const Pass *p, int y, int lanes)
 {
-  const Pass      *p = data;
+  (void) p;
+  (void) y;
+  (void) lanes;
+}
+
+/* Red ones from x = 0, and black ones from these. */
+CELD_INLINE void
+guess_row (const Pass *p, int y, int lanes)
+{
   const CeldLevel *level = p->level;
 
-  for (ROWS (p, strip, y))
-    for (EACH_PLACE (level, y, i))
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t beside = i + (y & 1 ? -(size_t) 1 : 1);
+
       PUT (p->x, i, WEIGHT (level->inverse, i) * EIGHT (p->b, i));
-}
-
-CELD_INLINE void
-relax_black (void *data, int strip, int lanes)
-{
-  const Pass      *p = data;
-  const CeldLevel *level = p->level;
-  size_t           plane = level->plane, other = plane * (size_t) lanes;
-
-  for (ROWS (p, strip, y))
-    for (EACH_PLACE (level, y, i))
-      PUT (p->x + other, i,
-           WEIGHT (level->inverse + plane, i) * (EIGHT (p->b + other, i) + PULL_BLACK (level, y, i, p->x)));
-}
-
-CELD_INLINE void
-relax_red (void *data, int strip, int lanes)
-{
-  const Pass      *p = data;
-  const CeldLevel *level = p->level;
-  size_t           other = level->plane * (size_t) lanes;
-
-  for (ROWS (p, strip, y))
-    for (EACH_PLACE (level, y, i))
-      PUT (p->x, i, WEIGHT (level->inverse, i) * (EIGHT (p->b, i) + PULL_RED (level, y, i, p->x + other)));
+      PUT (BLACK (p->x), i, WEIGHT (level->inverse + level->plane, i) *
+                              (EIGHT (BLACK (p->b), i) + WEIGHT (level->near, i) * EIGHT (p->x, i) +
+                               WEIGHT (level->far, beside) * (WEIGHT (level->inverse, beside) * EIGHT (p->b, beside)) +
+                               WEIGHT (level->south, i - level->stride) *
+                                 (WEIGHT (level->inverse, i - level->stride) * EIGHT (p->b, i - level->stride)) +
+                               WEIGHT (level->north, i + level->stride) *
+                                 (WEIGHT (level->inverse, i + level->stride) * EIGHT (p->b, i + level->stride))));
+    }
 }
 
 /* What black nodes, relaxed after red ones, pull is the residual of these. */
 CELD_INLINE void
-restrict_red (void *data, int strip, int lanes)
+restrict_row (const Pass *p, int y, int lanes)
 {
-  const Pass      *p = data;
   const CeldLevel *level = p->level;
-  size_t           other = level->plane * (size_t) lanes;
 
-  for (ROWS (p, strip, y))
-    for (EACH_PLACE (level, y, i))
-      {
-        CeldEight pull = PULL_RED (level, y, i, p->x + other);
+  for (EACH_PLACE (level, y, i))
+    {
+      CeldEight pull = PULL_RED (level, y, i, BLACK (p->x));
 
-        RESTRICT (level, i, pull, p->coarse);
-      }
+      RESTRICT (level, i, pull, p->next->b);
+    }
 }
 
+/* x += the next level's solution, at the places from .. to-1 */
 CELD_INLINE void
 correct (const Pass *p, size_t from, size_t to, int lanes)
 {
-  const uint32_t *coarser = p->level->coarser;
+  const CeldLevelVectors *next = p->next;
+  const uint32_t         *coarser = p->level->coarser;
+  CeldEight               a = LANES (next->a), c = LANES (next->c);
 
   for (size_t i = from; i < to; i++)
-    ADD (p->x, i, 1.f, p->coarse, coarser[i]);
+    if (lanes == 1)
+      p->x[i] += next->a[0] * next->x[coarser[i]] + next->c[0] * next->step[coarser[i]];
+    else
+      PUT (p->x, i, EIGHT (p->x, i) + a * EIGHT (next->x, coarser[i]) + c * EIGHT (next->step, coarser[i]));
 }
 
-/* Both colours. */
 CELD_INLINE void
-correct_rows (void *data, int strip, int lanes)
+correct_row (const Pass *p, int y, int lanes)
 {
-  const Pass *p = data;
+  size_t first = (size_t) (y + 1) * p->level->stride + 1;
 
-  for (ROWS (p, strip, y))
-    {
-      size_t first = (size_t) (y + 1) * p->level->stride + 1, end = first + (size_t) p->level->half;
-
-      correct (p, first, end, lanes);
-      correct (p, p->level->plane + first, p->level->plane + end, lanes);
-    }
+  correct (p, first, first + (size_t) p->level->half, lanes);
 }
 
-/* image = A x.  Red nodes are relaxed last, so that theirs is b; differences first, so that flat parts give exactly
- * nothing. */
+/* What extra nodes add to the relaxed first ones of a row; from, to: links. */
 CELD_INLINE void
-apply (void *data, int strip, int lanes)
+add_links (const Pass *p, uint32_t from, uint32_t to, int lanes)
 {
-  const Pass      *p = data;
   const CeldLevel *level = p->level;
-  size_t           plane = level->plane, other = plane * (size_t) lanes;
 
-  for (ROWS (p, strip, y))
-    for (EACH_PLACE (level, y, i))
+  for (uint32_t n = from; n < to; n++)
+    ADD (p->x, level->link_first[n], level->inverse[level->link_first[n]] * level->link_weight[n], p->x,
+         level->link_extra[n]);
+}
+
+CELD_INLINE void
+relax_black_row (const Pass *p, int y, int lanes)
+{
+  const CeldLevel *level = p->level;
+  size_t           row = (size_t) (level->height + y);
+
+  for (EACH_PLACE (level, y, i))
+    PUT (BLACK (p->x), i,
+         WEIGHT (level->inverse + level->plane, i) * (EIGHT (BLACK (p->b), i) + PULL_BLACK (level, y, i, p->x)));
+  if (level->links)
+    add_links (p, level->link_row[row], level->link_row[row + 1], lanes);
+}
+
+CELD_INLINE void
+relax_red_row (const Pass *p, int y, int lanes)
+{
+  const CeldLevel *level = p->level;
+
+  for (EACH_PLACE (level, y, i))
+    PUT (p->x, i, WEIGHT (level->inverse, i) * (EIGHT (p->b, i) + PULL_RED (level, y, i, BLACK (p->x))));
+  if (level->links)
+    add_links (p, level->link_row[y], level->link_row[y + 1], lanes);
+}
+
+/* image = A x of the black nodes, red ones being relaxed last, so that theirs is b; differences first, so that flat
+ * parts give exactly nothing.  Sums: of x b, of x A x, and of other A x. */
+CELD_INLINE void
+apply_row (const Pass *p, int y, int lanes)
+{
+  const CeldLevel *level = p->level;
+  CeldEight        xb = SPLAT (0), xi = SPLAT (0), oi = SPLAT (0);
+  double          *sum = p->sum + (size_t) y * SUMS * CELD_LANES;
+  size_t           row = (size_t) (level->height + y);
+
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t    beside = i + (y & 1 ? -(size_t) 1 : 1);
+      CeldEight x = EIGHT (BLACK (p->x), i), red = EIGHT (p->x, i) * EIGHT (p->b, i);
+      CeldEight image = WEIGHT (level->sink + level->plane, i) * x + WEIGHT (level->near, i) * (x - EIGHT (p->x, i)) +
+                        WEIGHT (level->far, beside) * (x - EIGHT (p->x, beside)) +
+                        WEIGHT (level->south, i - level->stride) * (x - EIGHT (p->x, i - level->stride)) +
+                        WEIGHT (level->north, i + level->stride) * (x - EIGHT (p->x, i + level->stride));
+
+      if (p->image)
+        PUT (BLACK (p->image), i, image);
+      xb += red + x * EIGHT (BLACK (p->b), i);
+      xi += red + x * image;
+      if (p->other)
+        oi += EIGHT (p->other, i) * EIGHT (p->b, i) + EIGHT (BLACK (p->other), i) * image;
+    }
+  celd_keep_sum (sum, &xb, lanes);
+  celd_keep_sum (sum + CELD_LANES, &xi, lanes);
+  celd_keep_sum (sum + 2 * CELD_LANES, &oi, lanes);
+  for (uint32_t n = level->links ? level->link_row[row] : 0; level->links && n < level->link_row[row + 1]; n++)
+    for (size_t k = 0; k < (size_t) lanes; k++)
       {
-        size_t    beside = i + (y & 1 ? -(size_t) 1 : 1);
-        CeldEight x = EIGHT (p->x + other, i);
+        size_t i = level->link_first[n] * (size_t) lanes + k, j = level->link_extra[n] * (size_t) lanes + k;
+        float  more = level->link_weight[n] * (p->x[i] - p->x[j]);
 
-        PUT (p->image, i, EIGHT (p->b, i));
-        PUT (p->image + other, i,
-             WEIGHT (level->sink + plane, i) * x + WEIGHT (level->near, i) * (x - EIGHT (p->x, i)) +
-               WEIGHT (level->far, beside) * (x - EIGHT (p->x, beside)) +
-               WEIGHT (level->south, i - level->stride) * (x - EIGHT (p->x, i - level->stride)) +
-               WEIGHT (level->north, i + level->stride) * (x - EIGHT (p->x, i + level->stride)));
+        if (p->image)
+          p->image[i] += more;
+        sum[CELD_LANES + k] += (double) (p->x[i] * more);
+        if (p->other)
+          sum[2 * CELD_LANES + k] += (double) (p->other[i] * more);
       }
 }
 
-/* Keeps the sums of a row. */
+/* b -= a A x; sums: of b b before and after. */
 CELD_INLINE void
-keep_sum (double *sum, CeldEight of, int lanes)
+reduce_row (const Pass *p, int y, int lanes)
 {
-  if (lanes > 1)
-    for (int k = 0; k < 8; k++)
-      sum[k] = (double) of[k];
-  else
-    sum[0] = (((double) of[0] + (double) of[1]) + ((double) of[2] + (double) of[3])) +
-             (((double) of[4] + (double) of[5]) + ((double) of[6] + (double) of[7]));
-}
-
-/* sum: of x y, and of x image. */
-CELD_INLINE void
-dot (void *data, int strip, int lanes)
-{
-  const Pass      *p = data;
   const CeldLevel *level = p->level;
-  size_t           other = level->plane * (size_t) lanes;
+  CeldEight        a = LANES (p->a), rest = SPLAT (1) - a, before = SPLAT (0), after = SPLAT (0);
+  double          *sum = p->sum + (size_t) y * SUMS * CELD_LANES;
 
-  for (ROWS (p, strip, y))
+  for (EACH_PLACE (level, y, i))
     {
-      CeldEight xy = SPLAT (0), xi = SPLAT (0);
+      CeldEight red = EIGHT (p->b, i), black = EIGHT (BLACK (p->b), i);
+      CeldEight new_red = rest * red, new_black = black - a * EIGHT (BLACK (p->image), i);
 
-      for (EACH_PLACE (level, y, i))
-        {
-          CeldEight red = EIGHT (p->x, i), black = EIGHT (p->x + other, i);
-
-          xy += red * EIGHT (p->y, i) + black * EIGHT (p->y + other, i);
-          xi += red * EIGHT (p->image, i) + black * EIGHT (p->image + other, i);
-        }
-      keep_sum (p->sum + (size_t) y * 2 * CELD_LANES, xy, lanes);
-      keep_sum (p->sum + (size_t) y * 2 * CELD_LANES + CELD_LANES, xi, lanes);
+      PUT (p->b, i, new_red);
+      PUT (BLACK (p->b), i, new_black);
+      before += red * red + black * black;
+      after += new_red * new_red + new_black * new_black;
     }
+  celd_keep_sum (sum, &before, lanes);
+  celd_keep_sum (sum + CELD_LANES, &after, lanes);
 }
 
-/* b -= a image; sum: of b b before and after. */
-CELD_INLINE void
-reduce (void *data, int strip, int lanes)
-{
-  const Pass      *p = data;
-  const CeldLevel *level = p->level;
-  CeldEight        a = lanes == 1 ? SPLAT (p->a[0]) : (CeldEight) *(const CeldLoose *) p->a;
-
-  for (ROWS (p, strip, y))
-    {
-      CeldEight before = SPLAT (0), after = SPLAT (0);
-
-      for (size_t colour = 0; colour < 2; colour++)
-        {
-          size_t other = colour * level->plane * (size_t) lanes;
-          float *b = p->b + other, *image = p->image + other;
-
-          for (EACH_PLACE (level, y, i))
-            {
-              CeldEight now = EIGHT (b, i), then = now - a * EIGHT (image, i);
-
-              PUT (b, i, then);
-              before += now * now;
-              after += then * then;
-            }
-        }
-      keep_sum (p->sum + (size_t) y * 2 * CELD_LANES, before, lanes);
-      keep_sum (p->sum + (size_t) y * 2 * CELD_LANES + CELD_LANES, after, lanes);
-    }
-}
-
-/* x = a x + c y */
-CELD_INLINE void
-combine (void *data, int strip, int lanes)
-{
-  const Pass      *p = data;
-  const CeldLevel *level = p->level;
-  CeldEight        a = lanes == 1 ? SPLAT (p->a[0]) : (CeldEight) *(const CeldLoose *) p->a;
-  CeldEight        c = lanes == 1 ? SPLAT (p->c[0]) : (CeldEight) *(const CeldLoose *) p->c;
-
-  for (ROWS (p, strip, y))
-    for (size_t colour = 0; colour < 2; colour++)
-      {
-        float *x = p->x + colour * level->plane * (size_t) lanes;
-
-        for (EACH_PLACE (level, y, i))
-          PUT (x, i, p->y ? a * EIGHT (x, i) + c * EIGHT (p->y + colour * level->plane * (size_t) lanes, i)
-                          : a * EIGHT (x, i));
-      }
-}
-
-/* Each pass for both numbers of lanes. */
-#define PASS(name) \
-  CELD_CLONES static void name##_single (void *data, int strip) { name (data, strip, 1); } \
-  CELD_CLONES static void name##_lanes (void *data, int strip) { name (data, strip, CELD_LANES); } \
-  static void name##_pass (const CeldCoarse *cycle, Pass *p) \
-  { \
-    each_strip (cycle, p, cycle->lanes == 1 ? name##_single : name##_lanes); \
-  }
+SWEEP (down, 2, guess_row, restrict_row, nothing, nothing)
+SWEEP (add, 1, correct_row, nothing, nothing, nothing)
+SWEEP (up, 3, relax_black_row, relax_red_row, apply_row, nothing)
+SWEEP (reduce, 1, reduce_row, nothing, nothing, nothing)
 
 static void
-each_strip (const CeldCoarse *cycle, Pass *p, Body *body)
+sweep (const CeldCoarse *cycle, Pass *p, int stages, void (*body) (void *pass, int i))
 {
-  int strips = (p->level->height + STRIP - 1) / STRIP;
+  const CeldLevel *level = p->level;
+  bool             small = (size_t) level->n * (size_t) cycle->lanes < SMALL;
+  bool             shared = level[1].height * (CELD_STRIP / 2) < level->height; /* a cell may lie in several strips */
 
-  if ((size_t) p->level->n * (size_t) cycle->lanes < SMALL)
-    for (int strip = 0; strip < strips; strip++)
-      body (p, strip);
-  else
-    celd_each (cycle->run, strips, body, p);
+  celd_sweep (small || shared ? NULL : cycle->run, level->height, stages, body, p, &p->phase);
 }
 
-PASS (guess)
-PASS (relax_black)
-PASS (relax_red)
-PASS (restrict_red)
-PASS (correct_rows)
-PASS (apply)
-PASS (dot)
-PASS (reduce)
-PASS (combine)
+#define RUN_SWEEP(cycle, p, stages, name) \
+  sweep (cycle, p, stages, (cycle)->lanes == 1 ? name##_single : name##_lanes)
 
 /* ------------------------------------------------------------------ extra nodes, one after the other */
 
@@ -323,53 +286,38 @@ extra_down (const Pass *p, int lanes)
 {
   const CeldLevel *level = p->level;
   const uint32_t  *extra = level->coarser + 2 * level->plane;
+  float           *coarse = p->next->b;
 
   for (size_t e = 0; e < level->n_extra; e++)
     relax_extra (p, e, level->start[e], level->middle[e], lanes);
   for (uint32_t n = 0; n < level->links; n++)
-    ADD (p->coarse, level->coarser[level->link_first[n]], level->link_weight[n], p->x, level->link_extra[n]);
+    ADD (coarse, level->coarser[level->link_first[n]], level->link_weight[n], p->x, level->link_extra[n]);
   for (size_t e = 0; e < level->n_extra; e++)
     for (uint32_t n = level->middle[e]; n < level->start[e + 1]; n++)
-      ADD (p->coarse, extra[e], level->weight[n], p->x, level->neighbour[n]);
+      ADD (coarse, extra[e], level->weight[n], p->x, level->neighbour[n]);
 }
 
+/* Corrects them, and the black nodes that they see. */
 CELD_INLINE void
 extra_up (const Pass *p, int lanes)
 {
   const CeldLevel *level = p->level;
 
+  for (uint32_t n = level->red_links; n < level->links; n++)
+    if (n == level->red_links || level->link_first[n] != level->link_first[n - 1])
+      correct (p, level->link_first[n], (size_t) level->link_first[n] + 1, lanes);
   correct (p, 2 * level->plane, level->n, lanes);
   for (size_t e = level->n_extra; e-- > 0;)
     relax_extra (p, e, level->start[e], level->start[e + 1], lanes);
 }
 
-/* What extra nodes add to relaxed first ones. */
+/* image of extra nodes */
 CELD_INLINE void
-add_links (const Pass *p, uint32_t from, uint32_t to, int lanes)
-{
-  const CeldLevel *level = p->level;
-
-  for (uint32_t n = from; n < to; n++)
-    ADD (p->x, level->link_first[n], level->inverse[level->link_first[n]] * level->link_weight[n], p->x,
-         level->link_extra[n]);
-}
-
-/* image of extra nodes, and what they add to black ones. */
-CELD_INLINE void
-extra_apply (const Pass *p, int lanes)
+extra_apply (const Pass *p, float *image, int lanes)
 {
   const CeldLevel *level = p->level;
   const float     *x = p->x;
 
-  for (uint32_t n = level->red_links; n < level->links; n++)
-    {
-      uint32_t i = level->link_first[n], j = level->link_extra[n];
-
-      if (lanes == 1)
-        p->image[i] += level->link_weight[n] * (x[i] - x[j]);
-      else
-        PUT (p->image, i, EIGHT (p->image, i) + SPLAT (level->link_weight[n]) * (EIGHT (x, i) - EIGHT (x, j)));
-    }
   for (size_t at = 2 * level->plane, e = 0; at < level->n; at++, e++)
     if (lanes == 1)
       {
@@ -377,7 +325,7 @@ extra_apply (const Pass *p, int lanes)
 
         for (uint32_t n = level->start[e]; n < level->start[e + 1]; n++)
           sum += level->weight[n] * (x[at] - x[level->neighbour[n]]);
-        p->image[at] = sum;
+        image[at] = sum;
       }
     else
       {
@@ -385,7 +333,7 @@ extra_apply (const Pass *p, int lanes)
 
         for (uint32_t n = level->start[e]; n < level->start[e + 1]; n++)
           sum += SPLAT (level->weight[n]) * (here - EIGHT (x, level->neighbour[n]));
-        PUT (p->image, at, sum);
+        PUT (image, at, sum);
       }
 }
 
@@ -409,27 +357,13 @@ extra_dot (const CeldLevel *level, const float *a, const float *b, double *sum, 
 CELD_INLINE void
 extra_reduce (const Pass *p, int lanes)
 {
-  CeldEight a = lanes == 1 ? SPLAT (p->a[0]) : (CeldEight) *(const CeldLoose *) p->a;
+  CeldEight a = LANES (p->a);
 
   for (size_t i = 2 * p->level->plane; i < p->level->n; i++)
     if (lanes == 1)
       p->b[i] -= p->a[0] * p->image[i];
     else
       PUT (p->b, i, EIGHT (p->b, i) - a * EIGHT (p->image, i));
-}
-
-/* x = a x + c y */
-CELD_INLINE void
-extra_combine (const Pass *p, int lanes)
-{
-  CeldEight a = lanes == 1 ? SPLAT (p->a[0]) : (CeldEight) *(const CeldLoose *) p->a;
-  CeldEight c = lanes == 1 ? SPLAT (p->c[0]) : (CeldEight) *(const CeldLoose *) p->c;
-
-  for (size_t i = 2 * p->level->plane; i < p->level->n; i++)
-    if (lanes == 1)
-      p->x[i] = p->a[0] * p->x[i] + (p->y ? p->c[0] * p->y[i] : 0);
-    else
-      PUT (p->x, i, p->y ? a * EIGHT (p->x, i) + c * EIGHT (p->y, i) : a * EIGHT (p->x, i));
 }
 
 #define BOTH(call) \
@@ -448,38 +382,52 @@ extra_combine (const Pass *p, int lanes)
 
 EXTRA (extra_down, (const Pass *p, int lanes_), extra_down (p, lanes))
 EXTRA (extra_up, (const Pass *p, int lanes_), extra_up (p, lanes))
-EXTRA (add_links, (const Pass *p, uint32_t from, uint32_t to, int lanes_), add_links (p, from, to, lanes))
-EXTRA (extra_apply, (const Pass *p, int lanes_), extra_apply (p, lanes))
+EXTRA (extra_apply, (const Pass *p, float *image, int lanes_), extra_apply (p, image, lanes))
 EXTRA (extra_dot, (const CeldLevel *level, const float *a, const float *b, double *sum, int lanes_),
        extra_dot (level, a, b, sum, lanes))
 EXTRA (extra_reduce, (const Pass *p, int lanes_), extra_reduce (p, lanes))
-EXTRA (extra_combine, (const Pass *p, int lanes_), extra_combine (p, lanes))
 
 /* ------------------------------------------------------------------ the cycle */
 
 static void krylov (CeldCoarse *cycle, int l);
 
-/* One cycle of level l, not the last: x becomes approximately the solution for b. */
+/* Adds up what a pass has summed row by row. */
 static void
-descend (CeldCoarse *cycle, int l, float *x)
+sum_rows (const Pass *p, int which, double *sum)
 {
-  const CeldLevel        *level = &cycle->levels->level[l];
-  const CeldLevelVectors *next = &cycle->vectors[l + 1];
-  Pass                    p = { .level = level, .b = cycle->vectors[l].b, .x = x, .coarse = next->b };
+  for (int k = 0; k < CELD_LANES; k++)
+    sum[k] = 0;
+  for (int y = 0; y < p->level->height; y++)
+    for (int k = 0; k < CELD_LANES; k++)
+      sum[k] += p->sum[((size_t) y * SUMS + (size_t) which) * CELD_LANES + (size_t) k];
+}
 
-  guess_pass (cycle, &p);
-  relax_black_pass (cycle, &p);
-  memset (next->b, 0, (size_t) level[1].n * (size_t) cycle->lanes * sizeof *next->b);
-  restrict_red_pass (cycle, &p);
-  extra_down_all (&p, cycle->lanes);
+/* One cycle of level l, not the last: x becomes approximately the solution for b; xb = x b, xi = x A x, oi = other A x.
+ * image: for A x; of the extra nodes even if p->image is NULL. */
+static void
+descend (CeldCoarse *cycle, int l, Pass *p, float *image, double *xb, double *xi, double *oi)
+{
+  const CeldLevel *level = p->level;
+  int              lanes = cycle->lanes;
+
+  p->next = &cycle->vectors[l + 1];
+  memset (p->next->b, 0, (size_t) level[1].n * (size_t) lanes * sizeof *p->next->b);
+  RUN_SWEEP (cycle, p, 2, down);
+  extra_down_all (p, lanes);
   krylov (cycle, l + 1);
-  p.coarse = next->x;
-  correct_rows_pass (cycle, &p);
-  extra_up_all (&p, cycle->lanes);
-  relax_black_pass (cycle, &p);
-  add_links_all (&p, level->red_links, level->links, cycle->lanes);
-  relax_red_pass (cycle, &p);
-  add_links_all (&p, 0, level->red_links, cycle->lanes);
+  RUN_SWEEP (cycle, p, 1, add);
+  extra_up_all (p, lanes);
+  RUN_SWEEP (cycle, p, 3, up);
+  sum_rows (p, 0, xb);
+  sum_rows (p, 1, xi);
+  sum_rows (p, 2, oi);
+  if (!level->n_extra)
+    return;
+  extra_apply_all (p, image, lanes);
+  extra_dot_all (level, p->x, p->b, xb, lanes);
+  extra_dot_all (level, p->x, image, xi, lanes);
+  if (p->other)
+    extra_dot_all (level, p->other, image, oi, lanes);
 }
 
 static void
@@ -498,85 +446,60 @@ solve_last (CeldCoarse *cycle)
       v->x[levels->bottom_node[i] * many + k] = (float) cycle->bottom[i * many + k];
 }
 
-/* Adds up what a pass has summed row by row. */
-static void
-sum_rows (const Pass *p, int which, double *sum)
+/* b -= a A x; is so much of it left, in any lane, that a second step is worth while? */
+static bool
+reduce_all (CeldCoarse *cycle, Pass *p)
 {
-  for (int k = 0; k < CELD_LANES; k++)
-    sum[k] = 0;
-  for (int y = 0; y < p->level->height; y++)
-    for (int k = 0; k < CELD_LANES; k++)
-      sum[k] += p->sum[((size_t) y * 2 + (size_t) which) * CELD_LANES + (size_t) k];
+  double before[CELD_LANES], after[CELD_LANES];
+  bool   again = false;
+
+  RUN_SWEEP (cycle, p, 1, reduce);
+  sum_rows (p, 0, before);
+  sum_rows (p, 1, after);
+  extra_dot_all (p->level, p->b, p->b, before, cycle->lanes);
+  extra_reduce_all (p, cycle->lanes);
+  extra_dot_all (p->level, p->b, p->b, after, cycle->lanes);
+  for (int k = 0; k < cycle->lanes; k++)
+    again = again || after[k] > ENOUGH * ENOUGH * before[k];
+  return again;
 }
 
-/* image = A x, xy = x y, xi = x image */
-static void
-measure (const CeldCoarse *cycle, Pass *p, double *xy, double *xi)
-{
-  apply_pass (cycle, p);
-  extra_apply_all (p, cycle->lanes);
-  dot_pass (cycle, p);
-  sum_rows (p, 0, xy);
-  sum_rows (p, 1, xi);
-  extra_dot_all (p->level, p->x, p->y, xy, cycle->lanes);
-  extra_dot_all (p->level, p->x, p->image, xi, cycle->lanes);
-}
-
-/* Level l: x becomes approximately the solution for b, which is used up. */
+/* Level l: a x + c step becomes approximately the solution for b, which is used up. */
 static void
 krylov (CeldCoarse *cycle, int l)
 {
   CeldLevelVectors *v = &cycle->vectors[l];
-  int               lanes = cycle->lanes;
-  double            before[CELD_LANES], after[CELD_LANES], xb[CELD_LANES], rho[CELD_LANES], gamma[CELD_LANES],
-                    yb[CELD_LANES], beta[CELD_LANES], first[CELD_LANES];
-  bool              again = false;
+  double            xb[CELD_LANES], rho[CELD_LANES], yb[CELD_LANES], beta[CELD_LANES], gamma[CELD_LANES];
   Pass              p = { .level = &cycle->levels->level[l], .b = v->b, .x = v->x, .image = v->image, .sum = v->sum };
 
+  for (int k = 0; k < CELD_LANES; k++)
+    {
+      v->a[k] = 1;
+      v->c[k] = 0;
+    }
   if (l == cycle->levels->n - 1)
     {
       solve_last (cycle);
       return;
     }
-  descend (cycle, l, v->x);
-  p.y = v->b;
-  measure (cycle, &p, xb, rho);
-  for (int k = 0; k < lanes; k++)
-    {
-      first[k] = rho[k] > 0 ? xb[k] / rho[k] : 0;
-      p.a[k]   = (float) first[k];
-    }
-  reduce_pass (cycle, &p);
-  sum_rows (&p, 0, before);
-  sum_rows (&p, 1, after);
-  extra_dot_all (p.level, v->b, v->b, before, lanes);
-  extra_reduce_all (&p, lanes);
-  extra_dot_all (p.level, v->b, v->b, after, lanes);
-  for (int k = 0; k < lanes; k++)
-    again = again || after[k] > ENOUGH * ENOUGH * before[k];
+  descend (cycle, l, &p, v->image, xb, rho, gamma);
+  for (int k = 0; k < cycle->lanes; k++)
+    p.a[k] = v->a[k] = (float) (rho[k] > 0 ? xb[k] / rho[k] : 0);
+  if (!reduce_all (cycle, &p))
+    return;
 
-  if (again)
+  p.x     = v->step;
+  p.other = v->x;
+  p.image = NULL;
+  descend (cycle, l, &p, v->image, yb, beta, gamma);
+  for (int k = 0; k < cycle->lanes; k++)
     {
-      descend (cycle, l, v->step);
-      p.x     = v->step;
-      p.image = v->image2;
-      measure (cycle, &p, yb, beta);
-      p.image = v->image;
-      dot_pass (cycle, &p);
-      sum_rows (&p, 1, gamma);
-      extra_dot_all (p.level, v->step, v->image, gamma, lanes);
-      for (int k = 0; k < lanes; k++)
-        {
-          double left = rho[k] > 0 ? beta[k] - gamma[k] * gamma[k] / rho[k] : 0, second = left > 0 ? yb[k] / left : 0;
+      double left = rho[k] > 0 ? beta[k] - gamma[k] * gamma[k] / rho[k] : 0, second = left > 0 ? yb[k] / left : 0;
 
-          p.a[k] = (float) (second != 0 ? first[k] - second * gamma[k] / rho[k] : first[k]);
-          p.c[k] = (float) second;
-        }
+      v->c[k] = (float) second;
+      if (second > 0 || second < 0)
+        v->a[k] -= (float) (second * gamma[k] / rho[k]);
     }
-  p.x = v->x;
-  p.y = again ? v->step : NULL;
-  combine_pass (cycle, &p);
-  extra_combine_all (&p, lanes);
 }
 
 void

@@ -9,15 +9,15 @@
  */
 #include "laplace.h"
 
-#define BOTTOM 150 /* nodes that are eliminated directly */
+#define BOTTOM 60  /* nodes that are eliminated directly */
 #define UNIT   8   /* places in a row are a multiple of these, and as many empty ones */
 
 static void
 level_clear (CeldLevel *level)
 {
   void *part[] = { level->near, level->far, level->north, level->south, level->sink, level->inverse, level->coarser,
-                   level->start, level->middle, level->neighbour, level->weight, level->link_first, level->link_extra,
-                   level->link_weight };
+                   level->start, level->middle, level->neighbour, level->weight, level->link_row,
+                   level->link_first, level->link_extra, level->link_weight };
 
   for (size_t i = 0; i < sizeof part / sizeof *part; i++)
     celd_free (part[i]);
@@ -118,6 +118,50 @@ part_neighbours (CeldLevel *level, uint32_t k)
   level->middle[k] = middle;
 }
 
+/* Lists the edges between first and extra nodes in the order of the first ones. */
+static CeldStatus
+list_links (CeldLevel *level)
+{
+  uint32_t  first = (uint32_t) (2 * level->plane), rows = 2 * (uint32_t) level->height;
+  uint32_t *begin = celd_alloc0 ((size_t) first + 1, sizeof *begin);
+
+  level->link_row    = celd_alloc ((size_t) rows + 1, sizeof *level->link_row);
+  level->link_first  = celd_alloc (level->links, sizeof *level->link_first);
+  level->link_extra  = celd_alloc (level->links, sizeof *level->link_extra);
+  level->link_weight = celd_alloc (level->links, sizeof *level->link_weight);
+  if (!begin || !level->link_row || !level->link_first || !level->link_extra || !level->link_weight)
+    {
+      celd_free (begin);
+      return CELD_NO_MEMORY;
+    }
+  for (uint32_t e = 0; e < level->start[level->n_extra]; e++)
+    if (level->neighbour[e] < first)
+      begin[level->neighbour[e] + 1]++;
+  for (uint32_t i = 0; i < first; i++)
+    begin[i + 1] += begin[i];
+  for (uint32_t row = 0; row <= rows; row++) /* a row begins after those above it, an empty one among them */
+    {
+      size_t colour = row < (uint32_t) level->height ? 0 : 1, y = row - colour * (size_t) level->height;
+
+      level->link_row[row] = begin[colour * level->plane + (y + 1) * level->stride];
+    }
+  for (uint32_t k = 0; k < level->n_extra; k++)
+    for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
+      {
+        uint32_t i = level->neighbour[e], at;
+
+        if (i >= first)
+          continue;
+        at = begin[i]++;
+        level->inverse[i] += level->weight[e];
+        level->link_first[at]  = i;
+        level->link_extra[at]  = first + k;
+        level->link_weight[at] = level->weight[e];
+      }
+  celd_free (begin);
+  return CELD_OK;
+}
+
 static void *
 copy (const void *items, size_t n, size_t size)
 {
@@ -148,32 +192,14 @@ lay_out_extra (const CeldWeights *g, CeldLevel *level)
       level->red_links += level->neighbour[e] < level->plane;
       level->links += level->neighbour[e] < first;
     }
-  level->link_first  = celd_alloc (level->links, sizeof *level->link_first);
-  level->link_extra  = celd_alloc (level->links, sizeof *level->link_extra);
-  level->link_weight = celd_alloc (level->links, sizeof *level->link_weight);
-  if (!level->link_first || !level->link_extra || !level->link_weight)
-    return CELD_NO_MEMORY;
-  for (uint32_t k = 0, red = 0, black = level->red_links; k < g->n_extra; k++)
+  for (uint32_t k = 0; k < g->n_extra; k++)
     {
       level->sink[first + k] = g->sink[(size_t) g->width * (size_t) g->height + k];
       for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
-        {
-          uint32_t i = level->neighbour[e];
-
-          level->inverse[first + k] += level->weight[e];
-          if (i >= first)
-            continue;
-          level->inverse[i] += level->weight[e];
-
-          uint32_t at = i < level->plane ? red++ : black++;
-
-          level->link_first[at]  = i;
-          level->link_extra[at]  = first + k;
-          level->link_weight[at] = level->weight[e];
-        }
+        level->inverse[first + k] += level->weight[e];
       part_neighbours (level, k);
     }
-  return CELD_OK;
+  return list_links (level);
 }
 
 static CeldStatus

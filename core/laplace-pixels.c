@@ -14,31 +14,29 @@
 
 #include <math.h>
 
-#define STRIP   32   /* rows in one piece of work; a multiple of what cells have, so that none is divided */
-#define STRETCH 1.4f /* of the coarse correction, which is too short where it is constant on aggregates */
+#define STRETCH 1.2f /* of the coarse correction, which is too short where it is constant on aggregates */
 #define SUMS    4    /* kept of a row */
 
 typedef double Eight __attribute__ ((vector_size (64)));
 typedef double Loose __attribute__ ((vector_size (64), aligned (8), may_alias));
 
+/* What the rows of a pass need. */
 typedef struct
 {
-  CeldSolution *s;
+  CeldSolution    *s;
   const CeldLevel *level;
-  float alpha[CELD_LANES], beta[CELD_LANES];
-  bool  deliver;
+  float            alpha[CELD_LANES], beta[CELD_LANES];
+  bool             step;        /* is there a step to take? */
+  bool             deliver;
+  int              phase;
 } Pass;
-
-typedef void Body (void *pass, int strip);
-
-#define ROWS(level, strip, y) int y = (strip) * STRIP; y < (level)->height && y < ((strip) + 1) * STRIP; y++
 
 /* ------------------------------------------------------------------ memory */
 
 static int
 strips (const CeldLaplace *l)
 {
-  return (l->height + STRIP - 1) / STRIP;
+  return (l->height + CELD_STRIP - 1) / CELD_STRIP;
 }
 
 CeldStatus
@@ -153,7 +151,7 @@ residual (void *data, int strip, int lanes)
   const CeldLevel *level = pass->level;
   size_t           size = level->stride * (size_t) lanes;
   double          *ring = pass->s->scratch + (size_t) strip * 3 * size;
-  int              from = strip * STRIP, to = from + STRIP < level->height ? from + STRIP : level->height;
+  int              from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < level->height ? end : level->height;
 
   for (int y = from - 1; y <= to; y++)
     {
@@ -169,222 +167,216 @@ residual (void *data, int strip, int lanes)
     }
 }
 
-/* ------------------------------------------------------------------ the cycle */
-
-/* black = from the red ones of z */
-CELD_INLINE void
-relax_black (void *data, int strip, int lanes)
+CELD_CLONES static void
+residual_single (void *data, int strip)
 {
-  const Pass      *pass = data;
-  const CeldLevel *level = pass->level;
-  const float     *z = pass->s->z;
+  residual (data, strip, 1);
+}
 
-  for (ROWS (level, strip, y))
-    for (EACH_PLACE (level, y, i))
-      PUT (pass->s->black, i, WEIGHT (level->inverse + level->plane, i) * PULL_BLACK (level, y, i, z));
+CELD_CLONES static void
+residual_lanes (void *data, int strip)
+{
+  residual (data, strip, CELD_LANES);
+}
+
+/* ------------------------------------------------------------------ down: a step, and the first half of the cycle */
+
+CELD_INLINE void
+nothing (const Pass *pass, int y, int lanes)
+{
+  (void) pass;
+  (void) y;
+  (void) lanes;
+}
+
+/* Keeps the largest of a row: of every lane, or of all eight. */
+CELD_INLINE void
+keep_largest (double *largest, const float *of, int lanes)
+{
+  for (int k = 0; k < 8; k++)
+    if (lanes > 1 || k == 0)
+      largest[k] = (double) of[k];
+    else
+      largest[0] = fmax (largest[0], (double) of[k]);
+}
+
+/* p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q */
+CELD_INLINE void
+step_row (const Pass *pass, int y, int lanes)
+{
+  const CeldSolution *s = pass->s;
+  const CeldLevel    *level = pass->level;
+  CeldEight           alpha = LANES (pass->alpha), beta = LANES (pass->beta);
+  float               low[8], high[8];
+  double             *row = s->row + (size_t) y * SUMS * CELD_LANES;
+
+  if (!pass->step)
+    return;
+  for (int k = 0; k < 8; k++)
+    low[k] = high[k] = -INFINITY;
+  for (EACH_PLACE (level, y, i))
+    {
+      CeldEight p = EIGHT (s->z, i) + beta * EIGHT (s->p, i), q = EIGHT (s->t, i) + beta * EIGHT (s->q, i);
+      CeldEight x = EIGHT (s->x, i) + alpha * p, inverse = WEIGHT (level->inverse, i);
+
+      PUT (s->p, i, p);
+      PUT (s->q, i, q);
+      PUT (s->x, i, x);
+      PUT (s->r, i, EIGHT (s->r, i) - alpha * q);
+      for (int k = 0; k < 8; k++)
+        {
+          float up = inverse[k] > 0 ? x[k] : -INFINITY, down = inverse[k] > 0 ? -x[k] : -INFINITY;
+
+          high[k] = up > high[k] ? up : high[k];
+          low[k]  = down > low[k] ? down : low[k];
+        }
+    }
+  keep_largest (row, low, lanes);
+  keep_largest (row + CELD_LANES, high, lanes);
+}
+
+/* black = from red ones that are relaxed from 0 */
+CELD_INLINE void
+guess_row (const Pass *pass, int y, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  const float     *r = pass->s->r, *inverse = level->inverse;
+
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+
+      PUT (pass->s->black, i,
+           WEIGHT (inverse + level->plane, i) *
+             (WEIGHT (level->near, i) * (WEIGHT (inverse, i) * EIGHT (r, i)) +
+              WEIGHT (level->far, beside) * (WEIGHT (inverse, beside) * EIGHT (r, beside)) +
+              WEIGHT (level->south, above) * (WEIGHT (inverse, above) * EIGHT (r, above)) +
+              WEIGHT (level->north, below) * (WEIGHT (inverse, below) * EIGHT (r, below))));
+    }
 }
 
 /* After black pixels only red ones have a residual, and that is what their neighbours pull. */
 CELD_INLINE void
-restrict_red (void *data, int strip, int lanes)
+restrict_row (const Pass *pass, int y, int lanes)
 {
-  const Pass      *pass = data;
   const CeldLevel *level = pass->level;
   float           *coarse = pass->s->cycle.vectors[1].b;
 
-  for (ROWS (level, strip, y))
-    for (EACH_PLACE (level, y, i))
-      {
-        CeldEight pull = PULL_RED (level, y, i, pass->s->black);
+  for (EACH_PLACE (level, y, i))
+    {
+      CeldEight pull = PULL_RED (level, y, i, pass->s->black);
 
-        RESTRICT (level, i, pull, coarse);
-      }
+      RESTRICT (level, i, pull, coarse);
+    }
+}
+
+SWEEP (down, 3, step_row, guess_row, restrict_row, nothing)
+
+/* ------------------------------------------------------------------ up: the second half, and S z */
+
+/* z = red ones relaxed from 0, and the coarse correction */
+CELD_INLINE void
+correct_row (const Pass *pass, int y, int lanes)
+{
+  const CeldLevel        *level = pass->level;
+  const CeldLevelVectors *next = &pass->s->cycle.vectors[1];
+  const uint32_t         *coarser = level->coarser;
+  const float            *r = pass->s->r;
+  float                  *z = pass->s->z, a = STRETCH * next->a[0], c = STRETCH * next->c[0];
+  CeldEight               many_a = STRETCH * LANES (next->a), many_c = STRETCH * LANES (next->c);
+
+  for (size_t i = (size_t) (y + 1) * level->stride + 1, end = i + (size_t) level->half; i < end; i++)
+    if (lanes == 1)
+      z[i] = level->inverse[i] * r[i] + a * next->x[coarser[i]] + c * next->step[coarser[i]];
+    else
+      PUT (z, i, SPLAT (level->inverse[i]) * EIGHT (r, i) + many_a * EIGHT (next->x, coarser[i]) +
+                   many_c * EIGHT (next->step, coarser[i]));
 }
 
 CELD_INLINE void
-correct (void *data, int strip, int lanes)
+relax_black_row (const Pass *pass, int y, int lanes)
 {
-  const Pass      *pass = data;
   const CeldLevel *level = pass->level;
-  const float     *coarse = pass->s->cycle.vectors[1].x;
 
-  for (ROWS (level, strip, y))
-    for (size_t i = (size_t) (y + 1) * level->stride + 1, end = i + (size_t) level->half; i < end; i++)
-      ADD (pass->s->z, i, STRETCH, coarse, level->coarser[i]);
+  for (EACH_PLACE (level, y, i))
+    PUT (pass->s->black, i, WEIGHT (level->inverse + level->plane, i) * PULL_BLACK (level, y, i, pass->s->z));
 }
 
 CELD_INLINE void
-relax_red (void *data, int strip, int lanes)
+relax_red_row (const Pass *pass, int y, int lanes)
 {
-  const Pass      *pass = data;
   const CeldLevel *level = pass->level;
 
-  for (ROWS (level, strip, y))
-    for (EACH_PLACE (level, y, i))
-      PUT (pass->s->z, i,
-           WEIGHT (level->inverse, i) * (EIGHT (pass->s->r, i) + PULL_RED (level, y, i, pass->s->black)));
+  for (EACH_PLACE (level, y, i))
+    PUT (pass->s->z, i,
+         WEIGHT (level->inverse, i) * (EIGHT (pass->s->r, i) + PULL_RED (level, y, i, pass->s->black)));
 }
-
-/* ------------------------------------------------------------------ S z */
 
 /* black = what black pixels have more than the red one of the same place */
 CELD_INLINE void
-rise_black (void *data, int strip, int lanes)
+rise_row (const Pass *pass, int y, int lanes)
 {
-  const Pass      *pass = data;
   const CeldLevel *level = pass->level;
   const float     *z = pass->s->z;
 
-  for (ROWS (level, strip, y))
-    for (EACH_PLACE (level, y, i))
-      {
-        size_t    beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
-        CeldEight here = EIGHT (z, i);
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t    beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+      CeldEight here = EIGHT (z, i);
 
-        PUT (pass->s->black, i,
-             WEIGHT (level->inverse + level->plane, i) *
-               (WEIGHT (level->far, beside) * (EIGHT (z, beside) - here) +
-                WEIGHT (level->south, above) * (EIGHT (z, above) - here) +
-                WEIGHT (level->north, below) * (EIGHT (z, below) - here) -
-                WEIGHT (level->sink + level->plane, i) * here));
-      }
+      PUT (pass->s->black, i,
+           WEIGHT (level->inverse + level->plane, i) *
+             (WEIGHT (level->far, beside) * (EIGHT (z, beside) - here) +
+              WEIGHT (level->south, above) * (EIGHT (z, above) - here) +
+              WEIGHT (level->north, below) * (EIGHT (z, below) - here) -
+              WEIGHT (level->sink + level->plane, i) * here));
+    }
 }
 
+/* t = S z, and sums */
 CELD_INLINE void
-keep_sum (double *sum, CeldEight of, int lanes)
+apply_row (const Pass *pass, int y, int lanes)
 {
-  if (lanes > 1)
-    for (int k = 0; k < 8; k++)
-      sum[k] = (double) of[k];
-  else
-    sum[0] = (((double) of[0] + (double) of[1]) + ((double) of[2] + (double) of[3])) +
-             (((double) of[4] + (double) of[5]) + ((double) of[6] + (double) of[7]));
-}
-
-CELD_INLINE void
-keep_extreme (double *extreme, const float *of, int lanes)
-{
-  for (int k = 0; k < 8; k++)
-    if (lanes > 1 || k == 0)
-      extreme[k] = (double) of[k];
-    else
-      extreme[0] = fmax (extreme[0], (double) of[k]);
-}
-
-CELD_INLINE void
-apply (void *data, int strip, int lanes)
-{
-  const Pass      *pass = data;
   const CeldLevel *level = pass->level;
   const float     *z = pass->s->z, *black = pass->s->black;
+  CeldEight        zr = SPLAT (0), zq = SPLAT (0), zt = SPLAT (0);
+  float            largest[8] = { 0 };
+  double          *row = pass->s->row + (size_t) y * SUMS * CELD_LANES;
 
-  for (ROWS (level, strip, y))
+  for (EACH_PLACE (level, y, i))
     {
-      CeldEight zr = SPLAT (0), zq = SPLAT (0), zt = SPLAT (0);
-      float     largest[8] = { 0 };
-      double   *sum = pass->s->row + (size_t) y * SUMS * CELD_LANES;
+      size_t    beside = i - (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+      CeldEight here = EIGHT (z, i);
+      CeldEight t = WEIGHT (level->sink, i) * here - WEIGHT (level->near, i) * EIGHT (black, i) +
+                    WEIGHT (level->far, i) * ((here - EIGHT (z, beside)) - EIGHT (black, beside)) +
+                    WEIGHT (level->north, i) * ((here - EIGHT (z, above)) - EIGHT (black, above)) +
+                    WEIGHT (level->south, i) * ((here - EIGHT (z, below)) - EIGHT (black, below));
 
-      for (EACH_PLACE (level, y, i))
-        {
-          size_t    beside = i - (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
-          CeldEight here = EIGHT (z, i);
-          CeldEight t = WEIGHT (level->sink, i) * here - WEIGHT (level->near, i) * EIGHT (black, i) +
-                        WEIGHT (level->far, i) * ((here - EIGHT (z, beside)) - EIGHT (black, beside)) +
-                        WEIGHT (level->north, i) * ((here - EIGHT (z, above)) - EIGHT (black, above)) +
-                        WEIGHT (level->south, i) * ((here - EIGHT (z, below)) - EIGHT (black, below));
-
-          PUT (pass->s->t, i, t);
-          zr += here * EIGHT (pass->s->r, i);
-          zq += here * EIGHT (pass->s->q, i);
-          zt += here * t;
-          for (int k = 0; k < 8; k++)
-            {
-              float size = here[k] < 0 ? -here[k] : here[k];
-
-              largest[k] = size > largest[k] ? size : largest[k];
-            }
-        }
-      keep_sum (sum, zr, lanes);
-      keep_sum (sum + CELD_LANES, zq, lanes);
-      keep_sum (sum + 2 * CELD_LANES, zt, lanes);
-      keep_extreme (sum + 3 * CELD_LANES, largest, lanes);
-    }
-}
-
-/* ------------------------------------------------------------------ a step of the conjugate gradient */
-
-/* And the first guess of the next z. */
-CELD_INLINE void
-advance (void *data, int strip, int lanes)
-{
-  const Pass      *pass = data;
-  CeldSolution    *s = pass->s;
-  const CeldLevel *level = pass->level;
-  CeldEight        alpha = lanes == 1 ? SPLAT (pass->alpha[0]) : (CeldEight) *(const CeldLoose *) pass->alpha;
-  CeldEight        beta = lanes == 1 ? SPLAT (pass->beta[0]) : (CeldEight) *(const CeldLoose *) pass->beta;
-
-  for (ROWS (level, strip, y))
-    {
-      float   low[8], high[8];
-      double *sum = s->row + (size_t) y * SUMS * CELD_LANES;
-
+      PUT (pass->s->t, i, t);
+      zr += here * EIGHT (pass->s->r, i);
+      zq += here * EIGHT (pass->s->q, i);
+      zt += here * t;
       for (int k = 0; k < 8; k++)
-        low[k] = high[k] = -INFINITY;
-      for (EACH_PLACE (level, y, i))
         {
-          CeldEight p = EIGHT (s->z, i) + beta * EIGHT (s->p, i), q = EIGHT (s->t, i) + beta * EIGHT (s->q, i);
-          CeldEight x = EIGHT (s->x, i) + alpha * p, r = EIGHT (s->r, i) - alpha * q;
-          CeldEight inverse = WEIGHT (level->inverse, i);
+          float size = here[k] < 0 ? -here[k] : here[k];
 
-          PUT (s->p, i, p);
-          PUT (s->q, i, q);
-          PUT (s->x, i, x);
-          PUT (s->r, i, r);
-          PUT (s->z, i, inverse * r);
-          for (int k = 0; k < 8; k++)
-            {
-              bool there = inverse[k] > 0;
-
-              high[k] = there && x[k] > high[k] ? x[k] : high[k];
-              low[k]  = there && -x[k] > low[k] ? -x[k] : low[k];
-            }
+          largest[k] = size > largest[k] ? size : largest[k];
         }
-      keep_extreme (sum, low, lanes);
-      keep_extreme (sum + CELD_LANES, high, lanes);
     }
+  celd_keep_sum (row, &zr, lanes);
+  celd_keep_sum (row + CELD_LANES, &zq, lanes);
+  celd_keep_sum (row + 2 * CELD_LANES, &zt, lanes);
+  keep_largest (row + 3 * CELD_LANES, largest, lanes);
 }
 
-/* Red pixels from z = 0. */
-CELD_INLINE void
-guess (void *data, int strip, int lanes)
-{
-  const Pass      *pass = data;
-  const CeldLevel *level = pass->level;
-
-  for (ROWS (level, strip, y))
-    for (EACH_PLACE (level, y, i))
-      PUT (pass->s->z, i, WEIGHT (level->inverse, i) * EIGHT (pass->s->r, i));
-}
+SWEEP (correct, 1, correct_row, nothing, nothing, nothing)
+SWEEP (up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
 
 /* ------------------------------------------------------------------ the passes */
 
-#define PASS(name) \
-  CELD_CLONES static void name##_single (void *data, int strip) { name (data, strip, 1); } \
-  CELD_CLONES static void name##_lanes (void *data, int strip) { name (data, strip, CELD_LANES); } \
-  static void name##_pass (Pass *p) \
-  { \
-    celd_each (p->s->run, strips (p->s->laplace), p->s->lanes == 1 ? name##_single : name##_lanes, p); \
-  }
-
-PASS (residual)
-PASS (relax_black)
-PASS (restrict_red)
-PASS (correct)
-PASS (relax_red)
-PASS (rise_black)
-PASS (apply)
-PASS (advance)
-PASS (guess)
+#define RUN_SWEEP(pass, stages, name) \
+  celd_sweep ((pass)->s->run, (pass)->level->height, stages, \
+              (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass, &(pass)->phase)
 
 static Pass
 pass_of (CeldSolution *s)
@@ -431,14 +423,14 @@ place_rhs (CeldSolution *s)
     }
 }
 
-void
-celd_pixels_refresh (CeldSolution *s)
+/* r = b - A x anew */
+static void
+refresh (CeldSolution *s)
 {
   Pass pass = pass_of (s);
 
   place_rhs (s);
-  residual_pass (&pass);
-  guess_pass (&pass);
+  RUN_SWEEP (&pass, 1, residual);
 }
 
 void
@@ -456,13 +448,13 @@ celd_pixels_begin (CeldSolution *s)
         for (size_t k = 0; k < many && level->inverse[place] > 0; k++)
           s->x[place * many + k] = s->user[((size_t) y * (size_t) l->width + (size_t) x) * many + k];
       }
-  celd_pixels_refresh (s);
+  refresh (s);
   for (size_t i = 0; i < level->plane; i++) /* what has no edge is done */
     if (!level->coarser[i])
       for (size_t k = 0; k < many; k++)
         {
-          s->x[i * many + k] += s->z[i * many + k];
-          s->r[i * many + k] = s->z[i * many + k] = 0;
+          s->x[i * many + k] += level->inverse[i] * s->r[i * many + k];
+          s->r[i * many + k] = 0;
         }
 }
 
@@ -473,7 +465,7 @@ celd_pixels_deliver (CeldSolution *s)
 
   place_rhs (s);
   pass.deliver = true;
-  residual_pass (&pass);
+  RUN_SWEEP (&pass, 1, residual);
 }
 
 /* Sums, or the largest, of what rows have kept. */
@@ -493,39 +485,38 @@ gather (const CeldSolution *s, int which, bool largest, double *result)
 }
 
 void
-celd_pixels_precondition (CeldSolution *s, CeldMeasure *m)
+celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m)
 {
   Pass              pass = pass_of (s);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
 
-  relax_black_pass (&pass);
-  memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-  restrict_red_pass (&pass);
-  celd_coarse_solve (&s->cycle);
-  correct_pass (&pass);
-  relax_black_pass (&pass);
-  relax_red_pass (&pass);
-  rise_black_pass (&pass);
-  apply_pass (&pass);
-  gather (s, 0, false, m->zr);
-  gather (s, 1, false, m->zq);
-  gather (s, 2, false, m->zt);
-  gather (s, 3, true, m->largest);
-}
-
-void
-celd_pixels_advance (CeldSolution *s, const double *alpha, const double *beta, double *low, double *high)
-{
-  Pass pass = pass_of (s);
-
-  for (int k = 0; k < s->lanes; k++)
+  pass.step = alpha != NULL;
+  for (int k = 0; k < s->lanes && alpha; k++)
     {
       pass.alpha[k] = (float) alpha[k];
       pass.beta[k]  = (float) beta[k];
     }
-  advance_pass (&pass);
-  gather (s, 0, true, low);
-  gather (s, 1, true, high);
-  for (int k = 0; k < s->lanes; k++)
-    low[k] = -low[k];
+  memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
+  RUN_SWEEP (&pass, 3, down);
+  if (alpha)
+    {
+      gather (s, 0, true, m->low);
+      gather (s, 1, true, m->high);
+      for (int k = 0; k < s->lanes; k++)
+        m->low[k] = -m->low[k];
+    }
+  if (fresh)
+    {
+      refresh (s);
+      pass.step = false;
+      memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
+      RUN_SWEEP (&pass, 3, down);
+    }
+  celd_coarse_solve (&s->cycle);
+  RUN_SWEEP (&pass, 1, correct);
+  RUN_SWEEP (&pass, 4, up);
+  gather (s, 0, false, m->zr);
+  gather (s, 1, false, m->zq);
+  gather (s, 2, false, m->zt);
+  gather (s, 3, true, m->largest);
 }

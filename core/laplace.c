@@ -19,7 +19,7 @@
 
 #define MOST_ROUNDS  200
 #define RENEW        4          /* rounds after which the residual is made anew */
-#define SAFETY       1.5        /* of the estimated error, as the cycle is not quite linear; it was seen 1.4 short */
+#define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
 #define BAND_WORK    (1u << 26) /* ... and in multiplications */
 
@@ -292,7 +292,8 @@ judge (Lane *lane, int round, double tolerance, const CeldMeasure *m, int k, dou
 static CeldStatus
 iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *solve)
 {
-  double done = 0, first = 0;
+  double      done = 0, first = 0, alpha[CELD_LANES], beta[CELD_LANES];
+  CeldMeasure m;
 
   most = most && most < MOST_ROUNDS ? most : MOST_ROUNDS;
   celd_pixels_begin (s);
@@ -300,14 +301,15 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
     lane[k] = (Lane) { .error = 1 };
   for (int round = 0;; round++)
     {
-      double      alpha[CELD_LANES], beta[CELD_LANES], low[CELD_LANES], high[CELD_LANES];
-      bool        all = true;
-      CeldMeasure m;
+      bool all = true;
 
-      celd_pixels_precondition (s, &m);
-      solve->error = 0;
+      celd_pixels_round (s, round ? alpha : NULL, beta, round && round % RENEW == 0, &m);
+      solve->iterations = round;
+      solve->error      = 0;
       for (int k = 0; k < s->lanes; k++)
         {
+          if (round) /* where all is nearly constant, the last digits of float are enough */
+            lane[k].scale = fmax (m.high[k] - m.low[k], 1e-6 * fmax (fabs (m.low[k]), fabs (m.high[k])) / tolerance);
           judge (&lane[k], round, tolerance, &m, k, &alpha[k], &beta[k]);
           all          = all && lane[k].done;
           solve->error = fmax (solve->error, lane[k].error);
@@ -320,12 +322,6 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
       done  = fmax (done, share_done (first, solve->error, tolerance));
       if (celd_step (s->run, done) != CELD_OK)
         return CELD_CANCELLED;
-      celd_pixels_advance (s, alpha, beta, low, high);
-      solve->iterations = round + 1;
-      for (int k = 0; k < s->lanes; k++) /* where all is nearly constant, the last digits of float are enough */
-        lane[k].scale = fmax (high[k] - low[k], 1e-6 * fmax (fabs (low[k]), fabs (high[k])) / tolerance);
-      if (round % RENEW == RENEW - 1)
-        celd_pixels_refresh (s);
     }
 }
 

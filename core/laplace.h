@@ -63,6 +63,7 @@ typedef struct
   uint32_t *start, *middle, *neighbour; /* edges of extra nodes; from `middle` on those to extra nodes after them */
   float    *weight;
   uint32_t  red_links, links;   /* edges between first and extra nodes, by the first node, red ones first */
+  uint32_t *link_row;           /* where the links of each row begin, red rows first */
   uint32_t *link_first, *link_extra;
   float    *link_weight;
 } CeldLevel;
@@ -91,7 +92,12 @@ void       celd_levels_clear (CeldLevels *levels);                        /* acc
 /* ------------------------------------------------------------------ laplace-cycle.c: the coarse levels */
 
 /* The vectors of a level, `lanes` numbers a place. */
-typedef struct { float *b, *x, *step, *image, *image2; double *sum; } CeldLevelVectors;
+typedef struct
+{
+  float  *b, *x, *step, *image; /* right-hand side; the two parts of the solution; A x */
+  float   a[CELD_LANES], c[CELD_LANES]; /* the solution is a x + c step */
+  double *sum;                  /* of each row */
+} CeldLevelVectors;
 
 typedef struct
 {
@@ -104,7 +110,7 @@ typedef struct
 
 CeldStatus celd_coarse_new (const CeldLevels *levels, int lanes, const CeldRun *run, CeldCoarse *cycle);
 void       celd_coarse_free (CeldCoarse *cycle);                            /* accepts a zeroed one */
-/* vectors[1].x becomes approximately the solution for vectors[1].b, which is used up. */
+/* a x + c step of vectors[1] becomes approximately the solution for its b, which is used up. */
 void       celd_coarse_solve (CeldCoarse *cycle);
 
 /* ------------------------------------------------------------------ laplace.c: the system */
@@ -155,17 +161,19 @@ typedef struct
   CeldCoarse          cycle;
 } CeldSolution;
 
-/* What is measured of each lane. */
-typedef struct { double zr[CELD_LANES], zq[CELD_LANES], zt[CELD_LANES], largest[CELD_LANES]; } CeldMeasure;
+/* What is measured of each lane: products of z, its largest size, extremes of x. */
+typedef struct
+{
+  double zr[CELD_LANES], zq[CELD_LANES], zt[CELD_LANES], largest[CELD_LANES], low[CELD_LANES], high[CELD_LANES];
+} CeldMeasure;
 
 CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run,
                               CeldSolution *s);
 void       celd_solution_free (CeldSolution *s);                          /* accepts a zeroed one */
 void       celd_pixels_begin (CeldSolution *s);                           /* x from the caller's, r = b - A x */
-void       celd_pixels_refresh (CeldSolution *s);                         /* r = b - A x anew */
-void       celd_pixels_precondition (CeldSolution *s, CeldMeasure *m);    /* z = about A^-1 r, t = A z; r z, q z, t z */
-/* p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q; extremes of x. */
-void       celd_pixels_advance (CeldSolution *s, const double *alpha, const double *beta, double *low, double *high);
+/* A step, p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q, unless alpha is NULL; if `fresh`, r = b - A x
+ * anew; then z = about A^-1 r and t = A z. */
+void       celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m);
 void       celd_pixels_deliver (CeldSolution *s);                         /* the caller's x */
 
 #endif
