@@ -30,6 +30,7 @@
 #define MOST        1e30  /* of an entry of K */
 #define FAR_GAP     1e12  /* most of a gap; its inverse the least */
 #define TINY_FLOW   1e-10 /* of a unit force, through a link: rounding */
+#define ROUNDING    1e-15 /* of u, relative */
 #define ROUNDS      10    /* of computing anew and going on */
 
 typedef struct
@@ -38,7 +39,6 @@ typedef struct
   double    *u, *z, *force, *r;        /* n each */
   double    *y;                        /* m */
   double     range;                    /* of u and offsets, to judge rounding by */
-  double     pull;                     /* largest weight of a node */
   CeldRanks  ranks;
   int        steps, most_steps;
 } Program;
@@ -69,10 +69,7 @@ start_links (Program *q, const double *y)
     q->u[i] = 0;
   celd_ranks_raise (&q->ranks, f->n, f->inequality, q->u);
   for (size_t i = 0; i < f->n; i++)
-    {
-      q->range = fmax (q->range, q->u[i]);
-      q->pull = fmax (q->pull, f->pull[i]);
-    }
+    q->range = fmax (q->range, q->u[i]);
   celd_roots (f->tree, f->n);
   for (uint32_t i = 0; i < f->m; i++)
     {
@@ -113,25 +110,50 @@ place_nodes (Program *q)
     }
 }
 
+/* The link that pulls the wrong way most, beyond what rounding of u may feign on either of its sides; or SIZE_MAX. */
+static size_t
+worst_link (Program *q)
+{
+  const CeldForest *f = &q->forest;
+  double           *side = q->z, *both = q->force, largest = 0;
+  size_t            worst = SIZE_MAX;
+
+  for (size_t i = 0; i < f->n; i++)
+    largest = fmax (largest, fabs (q->u[i]));
+  for (size_t i = 0; i < f->n; i++)
+    side[i] = ROUNDING * largest * fabs (f->pull[i]);
+  for (size_t at = f->n; at-- > 0;)
+    if (f->link[f->order[at]] != CELD_NO_LINK)
+      side[f->parent[f->order[at]]] += side[f->order[at]];
+  for (size_t at = 0; at < f->n; at++)
+    {
+      uint32_t i = f->order[at], l = f->link[i];
+
+      both[i] = l == CELD_NO_LINK ? side[i] : both[f->parent[i]];
+      if (l != CELD_NO_LINK && q->r[l] < -fmin (side[i], both[i] - side[i]) &&
+          (worst == SIZE_MAX || q->r[l] < q->r[worst]))
+        worst = l;
+    }
+  return worst;
+}
+
 /* Computes u and the multipliers anew, and lets links go that pull the wrong way. */
 static bool
 settle (Program *q)
 {
   CeldForest *f = &q->forest;
-  double      noise = -1e-14 * q->pull * q->range, curvature, along;
+  double      curvature, along;
   bool        good = celd_forest_set_up (f);
 
   if (good)
     place_nodes (q);
   while (good)
     {
-      size_t worst = SIZE_MAX;
+      size_t worst;
 
       celd_forest_force (f, q->u, q->force);
       celd_forest_flow (f, q->force, q->r);
-      for (size_t l = 0; l < f->n_active; l++)
-        if (q->r[l] < (worst == SIZE_MAX ? noise : q->r[worst]))
-          worst = l;
+      worst = worst_link (q);
       if (worst == SIZE_MAX)
         break;
       q->steps++;

@@ -468,6 +468,8 @@ nonsense_to_begin_with_does_no_harm (void)
         warm.y[i] = trial % 4 == 0 ? NAN : trial % 4 == 1 ? INFINITY : random_unit (&state) - 0.5;
       CHECK (solve (&warm, true) == CELD_OK);
       is_optimal (&warm);
+      CHECK (solve (&cold, false) == CELD_OK);
+      NEAR (warm.c.energy, cold.c.energy, 1e-10 * cold.c.energy);
     }
 }
 
