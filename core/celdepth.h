@@ -118,6 +118,10 @@ typedef struct
   bool        hold_rest;        /* regions without such a pixel keep their level, too, in their core; true */
   float       tolerance;        /* largest error of smooth depth, as a share of its range, (0,0.1]; 1e-4 */
 
+  /* exact depth */
+  float contrast;               /* how large a step of the ink parts depths, as a factor of the mean, [0.01,100]; 1 */
+  float weight_floor;           /* how strongly neighbours hold together at least, [1e-6,1]; 1e-6 */
+
   /* normals and shading */
   float bulge;                  /* 0 flat .. 1 hemisphere .. 4 */
   float light_azimuth;          /* degrees, 0 = from the right, 90 = from above */
@@ -239,6 +243,33 @@ CELD_API void celd_closures_clear (CeldClosures *closures);
 /* How well an iterative solve went. */
 typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
 
+/* A node of the exact program: a scribble, or an end of a relation off every scribble. */
+typedef struct
+{
+  uint32_t label;               /* of the scribble; 0 for the end of a relation */
+  int      x, y;                /* a pixel of it; -1,-1 if other paint hides it all */
+  double   depth;               /* in gaps of one relation; the least of all nodes is 0 */
+} CeldNode;
+
+/* What the exact program says beside the depth. */
+typedef struct
+{
+  CeldNode  *node;
+  size_t     n;
+  double     sigma;             /* of eq. (1) */
+  double     energy;            /* 1/2 d'Ld of eq. (2), where the depths of nodes have least gaps of 1 */
+  double     gap;               /* how far that is above the least at most, for the bases as they were solved */
+  double     violation;         /* how much the worst inequality misses; 0 if all hold */
+  size_t     inequalities;      /* between nodes */
+  size_t     active;            /* that hold with equality and push */
+  int        steps;             /* of the active set */
+  CeldSolve  solve;             /* of the harmonic bases */
+  CeldCycle *cycle;             /* contradictions between nodes, as in CeldOrder */
+  size_t     n_cycles;
+} CeldExact;
+
+CELD_API void celd_exact_clear (CeldExact *exact);
+
 /* ------------------------------------------------------------------ the steps, in the order of the route */
 
 /* Luma, and alpha if it is not NULL, of n pixels R'G'B'A with the values of sRGB: a drawing as every host reads it. */
@@ -319,6 +350,20 @@ CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *l
  * A result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
                                  const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
+
+/* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy sum w_pq (d_p -
+ * d_q)^2, w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)), sigma = contrast times the mean of (I_p -
+ * I_q)^2.  `ink` is that for depth.  Each scribble moves as one (with same_colour = separate each of its strokes); an
+ * end of a relation off every scribble is a pixel of its own, so that regions bend where relations go round in a
+ * circle between different points of them.  Equalities are exact, gaps may be fractions; a circle between the same
+ * nodes is reported, and its lightest and then latest relation left out.  Scribbles that the palette marks as
+ * background lie behind every other scribble unless relations say otherwise. `depth` leaves as settings->encoding
+ * says; with CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are appended, *exact is replaced; these
+ * two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and relations. */
+CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
+                                      const CeldRelations *relations, const CeldSettings *settings,
+                                      const CeldRun *run, CeldPlane *depth, CeldExact *exact,
+                                      CeldProblems *problems);
 
 /* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends; a region
  * without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */

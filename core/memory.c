@@ -129,6 +129,16 @@ celd_order_clear (CeldOrder *order)
 }
 
 void
+celd_exact_clear (CeldExact *exact)
+{
+  for (size_t i = 0; i < exact->n_cycles; i++)
+    celd_free (exact->cycle[i].item);
+  celd_free (exact->cycle);
+  celd_free (exact->node);
+  *exact = (CeldExact) { 0 };
+}
+
+void
 celd_closures_clear (CeldClosures *closures)
 {
   for (size_t i = 0; i < closures->n; i++)

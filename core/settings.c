@@ -18,6 +18,8 @@ celd_settings (void)
     .near_level      = 1,
     .hold_rest       = true,
     .tolerance       = 1e-4f,
+    .contrast        = 1,
+    .weight_floor    = 1e-6f,
     .bulge           = 1,
     .light_azimuth   = 135,
     .light_elevation = 45,
@@ -43,7 +45,8 @@ celd_settings_check (const CeldSettings *s)
               within (s->hardness, 0.01f, 1) && within (s->near_level, -1e6f, 1e6f) &&
               within (s->far_level, -1e6f, 1e6f) &&
               (s->encoding != CELD_ENCODING_FIXED || s->near_level > s->far_level) &&
-              s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->bulge, 0, 4) &&
+              s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->contrast, 0.01f, 100) &&
+              within (s->weight_floor, 1e-6f, 1) && within (s->bulge, 0, 4) &&
               within (s->light_azimuth, -360, 360) && within (s->light_elevation, -90, 90) &&
               within (s->ambient, 0, 1);
 

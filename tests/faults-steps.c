@@ -289,6 +289,54 @@ smooth_step (const CeldRun *run, Results *r)
   return celd_smooth (&ink, &levels, NULL, &settings, run, &depth, NULL);
 }
 
+/* The relations of the scene, and one between points off every scribble. */
+static CeldStatus
+exact_depth_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
+  CeldLabels    seeds = labels_of (&seed_pixels);
+  CeldRelations all = { 0 };
+  CeldSettings  apart = settings;
+  CeldStatus    status = celd_relations_parse ("10,30 > 50,35; 4,4 = 60,40", &all, NULL);
+
+  apart.same_colour = CELD_SAME_COLOUR_SEPARATE;
+  for (size_t i = 0; i < relations.n && status == CELD_OK; i++)
+    status = celd_relation_add (&all, relations.item[i]);
+  if (status == CELD_OK)
+    status = celd_depth_exact (&ink, &seeds, &seed_palette, &all, &apart, run, &depth, NULL, &r->problems);
+  celd_relations_clear (&all);
+  return status;
+}
+
+/* A program that is kept: one more point, and a scribble more. */
+static CeldStatus
+program_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
+  CeldLabels    seeds = labels_of (&seed_pixels);
+  CeldRelations one = { 0 };
+  CeldProgram  *program = celd_program_new ();
+  CeldExact     exact = { 0 };
+  CeldStatus    status = program ? celd_relations_parse ("10,30 > 50,35", &one, NULL) : CELD_NO_MEMORY;
+  CeldPlane     scratch = { W, H, W, celd_alloc (W * H, sizeof (float)) };
+  CeldPart      part[2];
+  CeldRun       first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+
+  if (status == CELD_OK)
+    status = scratch.data ? celd_program_set_ink (program, &ink, &settings, NULL) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_program_set_seeds (program, &seeds, &seed_palette, CELD_SAME_COLOUR_ONE, NULL);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, &relations, &settings, &first, &scratch, &exact, NULL);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, &one, &settings, &second, &depth, &exact, NULL);
+  celd_relations_clear (&one);
+  celd_exact_clear (&exact);
+  celd_program_free (program);
+  celd_free (scratch.data);
+  return status;
+}
+
 static CeldStatus
 normals_step (const CeldRun *run, Results *r)
 {
@@ -386,6 +434,8 @@ const Step steps[] = {
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },
+  { "exact depth", exact_depth_step, NULL, true },
+  { "program", program_step, NULL, true },
   { "normals", normals_step, NULL, true },
   { "shade", shade_step, NULL, false },
   { "flow", flow_step, NULL, true },
