@@ -1,4 +1,4 @@
-/* What the files of the segmentation benchmark share.
+/* What the benchmarks share; most of it is the segmentation's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -27,9 +27,7 @@ typedef struct
 /* Labels and what they are about. */
 typedef struct { uint32_t *label; CeldPalette palette; } Answer;
 
-/* ------------------------------------------------------------------ watch.c: time, memory, calls within core */
-
-double seconds (void);                    /* of processor time that the process has had */
+/* ------------------------------------------------------------------ watch.c: memory, calls within core */
 
 /* Bytes that are allocated, as the C library rounds them, and the most there have been since memory_mark. */
 typedef struct { size_t live, peak; } Memory;
@@ -73,6 +71,7 @@ extern bool    use_boost;                 /* celd_maxflow is Boost's */
 
 /* ------------------------------------------------------------------ figures.c */
 
+double seconds (void);                    /* of processor time that the process has had */
 void   must (CeldStatus status);          /* ends the program if something failed */
 double median (double *value, int n);     /* sorts them */
 

@@ -1,4 +1,4 @@
-/* Figures as they are printed.
+/* Figures as they are taken and printed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,6 +6,16 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
+
+double
+seconds (void)
+{
+  struct timespec t;
+
+  clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
+}
 
 void
 must (CeldStatus status)

@@ -1,4 +1,4 @@
-/* Time, memory, and what happens within core: the program is linked with --wrap, so that the functions below stand
+/* Memory, and what happens within core: the program is linked with --wrap, so that the functions below stand
  * before those of the C library and of core.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -11,16 +11,6 @@
 #include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-double
-seconds (void)
-{
-  struct timespec t;
-
-  clock_gettime (CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double) t.tv_sec + 1e-9 * (double) t.tv_nsec;
-}
 
 /* ------------------------------------------------------------------ memory */
 
