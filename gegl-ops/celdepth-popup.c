@@ -64,30 +64,29 @@ prepare (GeglOperation *operation)
 static CeldSettings
 settings (GeglProperties *o)
 {
-  CeldSettings s = {
-    .ink             = o->ink,
-    .ink_threshold   = (float) o->ink_threshold,
-    .method          = o->method,
-    .close_gaps      = o->close_gaps,
-    .keep_necks      = o->keep_necks,
-    .hardness        = (float) o->hardness,
-    .flats           = o->flats,
-    .background      = o->background,
-    .seeds           = o->seeds,
-    .same_colour     = o->same_colour,
-    .arrow_style     = o->arrow_style,
-    .encoding        = o->encoding,
-    .near_level      = (float) o->near_level,
-    .far_level       = (float) o->far_level,
-    .anchors         = o->anchors,
-    .hold_rest       = o->hold_rest,
-    .tolerance       = (float) o->tolerance,
-    .bulge           = (float) o->bulge,
-    .light_azimuth   = (float) o->light_azimuth,
-    .light_elevation = (float) o->light_elevation,
-    .ambient         = (float) o->ambient,
-  };
+  CeldSettings s = celd_settings ();
 
+  s.ink             = o->ink;
+  s.ink_threshold   = (float) o->ink_threshold;
+  s.method          = o->method;
+  s.close_gaps      = o->close_gaps;
+  s.keep_necks      = o->keep_necks;
+  s.hardness        = (float) o->hardness;
+  s.flats           = o->flats;
+  s.background      = o->background;
+  s.seeds           = o->seeds;
+  s.same_colour     = o->same_colour;
+  s.arrow_style     = o->arrow_style;
+  s.encoding        = o->encoding;
+  s.near_level      = (float) o->near_level;
+  s.far_level       = (float) o->far_level;
+  s.anchors         = o->anchors;
+  s.hold_rest       = o->hold_rest;
+  s.tolerance       = (float) o->tolerance;
+  s.bulge           = (float) o->bulge;
+  s.light_azimuth   = (float) o->light_azimuth;
+  s.light_elevation = (float) o->light_elevation;
+  s.ambient         = (float) o->ambient;
   celd_op_get_colour (o->background_colour, s.background_colour);
   return s;
 }
