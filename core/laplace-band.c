@@ -37,7 +37,7 @@ reach (const CeldBand *matrix, uint32_t i)
   return rest < matrix->band ? rest : matrix->band;
 }
 
-void
+CELD_CLONES void
 celd_band_eliminate (CeldBand *matrix)
 {
   for (uint32_t i = 0; i < matrix->n; i++)

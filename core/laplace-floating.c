@@ -8,74 +8,117 @@
 #include "laplace.h"
 #include "unions.h"
 
-/* The component of each pixel, by its root. */
-static void
-join_pixels (const CeldWeights *g, uint32_t *parent)
+/* Runs of pixels in a row that edges join; a run ends where the next one begins. */
+typedef struct
 {
-  size_t w = (size_t) g->width, n = w * (size_t) g->height;
+  uint32_t *first;              /* pixel */
+  uint32_t *parent;             /* the set of runs to which it belongs */
+  size_t    n;
+} Runs;
 
-  celd_roots (parent, n);
-  for (size_t i = 0; i < n; i++)
+/* Lists the runs; joins those of neighbouring rows.  row: the run of each pixel of two rows. */
+static CeldStatus
+join_runs (const CeldWeights *g, Runs *runs, uint32_t *row)
+{
+  size_t w = (size_t) g->width, h = (size_t) g->height;
+
+  for (size_t y = 0, i = 0; y < h; y++)
     {
-      if (i % w + 1 < w && g->east[i] > 0)
-        celd_join (parent, (uint32_t) i, (uint32_t) i + 1);
-      if (i + w < n && g->south[i] > 0)
-        celd_join (parent, (uint32_t) i, (uint32_t) (i + w));
+      uint32_t *here = row + (y & 1 ? w : 0), *above = row + (y & 1 ? 0 : w), last = UINT32_MAX, last_above = 0;
+
+      for (size_t x = 0; x < w; x++, i++)
+        {
+          if (x == 0 || !(g->east[i - 1] > 0))
+            {
+              uint32_t *first = celd_grow (runs->first, runs->n + 1, sizeof *first), *parent;
+
+              runs->first = first ? first : runs->first;
+              parent = celd_grow (runs->parent, runs->n + 1, sizeof *parent);
+              runs->parent = parent ? parent : runs->parent;
+              if (!first || !parent)
+                return CELD_NO_MEMORY;
+              runs->first[runs->n]  = (uint32_t) i;
+              runs->parent[runs->n] = (uint32_t) runs->n;
+              runs->n++;
+            }
+          here[x] = (uint32_t) runs->n - 1;
+          if (y == 0 || !(g->south[i - w] > 0) || (here[x] == last && above[x] == last_above))
+            continue;
+          last       = here[x];
+          last_above = above[x];
+          celd_join (runs->parent, last, last_above);
+        }
     }
+  return CELD_OK;
 }
 
-/* Numbers the components of several pixels without a diagonal; returns how many there are. */
+/* Numbers the sets of several pixels without a diagonal: number[k] of run k, 0 for all others; returns how many. */
 static uint32_t
-number_floating (const CeldWeights *g, uint32_t *parent, uint32_t *number)
+number_runs (const CeldWeights *g, Runs *runs, uint32_t *number)
 {
   size_t   n = (size_t) g->width * (size_t) g->height;
   uint32_t count = 0;
 
-  for (size_t i = 0; i < n; i++)
-    if (g->sink[i] > 0)
-      number[celd_root (parent, (uint32_t) i)] = CELD_NO_NODE; /* held */
-  for (size_t i = 0; i < n; i++) /* a root comes before its members, and is numbered when the first of them comes */
+  for (size_t k = 0; k < runs->n; k++)
+    for (size_t i = runs->first[k], end = k + 1 < runs->n ? runs->first[k + 1] : n; i < end; i++)
+      if (g->sink[i] > 0)
+        {
+          number[celd_root (runs->parent, (uint32_t) k)] = CELD_NO_NODE; /* held */
+          break;
+        }
+  for (size_t k = 0; k < runs->n; k++) /* a root comes before its members, and is numbered when it has a second pixel */
     {
-      uint32_t root = celd_root (parent, (uint32_t) i);
+      uint32_t root = celd_root (runs->parent, (uint32_t) k);
+      bool     several = root != k || (k + 1 < runs->n ? runs->first[k + 1] : n) > (size_t) runs->first[k] + 1;
 
-      if (root == i)
-        continue;
-      if (number[root] == 0)
+      if (number[root] == 0 && several)
         number[root] = ++count;
-      number[i] = number[root];
+      number[k] = number[root];
     }
-  for (size_t i = 0; i < n; i++)
-    if (number[i] == CELD_NO_NODE)
-      number[i] = 0;
+  for (size_t k = 0; k < runs->n; k++)
+    if (number[k] == CELD_NO_NODE)
+      number[k] = 0;
   return count;
+}
+
+/* The numbers of the pixels, and sizes. */
+static CeldStatus
+paint_runs (const Runs *runs, const uint32_t *number, CeldLaplace *l)
+{
+  size_t n = (size_t) l->width * (size_t) l->height;
+
+  l->floating      = celd_alloc (n, sizeof *l->floating);
+  l->floating_size = celd_alloc0 ((size_t) l->n_floating + 1, sizeof *l->floating_size);
+  if (!l->floating || !l->floating_size)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < runs->n; k++)
+    for (size_t i = runs->first[k], end = k + 1 < runs->n ? runs->first[k + 1] : n; i < end; i++)
+      {
+        l->floating[i] = number[k];
+        l->floating_size[number[k]]++;
+      }
+  return CELD_OK;
 }
 
 CeldStatus
 celd_floating_find (const CeldWeights *pixels, CeldLaplace *l)
 {
-  size_t     n      = (size_t) l->width * (size_t) l->height;
-  uint32_t  *parent = celd_alloc (n, sizeof *parent), *number = celd_alloc0 (n, sizeof *number);
-  CeldStatus status = parent && number ? CELD_OK : CELD_NO_MEMORY;
-  uint32_t   count  = 0;
+  Runs       runs   = { 0 };
+  uint32_t  *row    = celd_alloc (2 * (size_t) l->width, sizeof *row), *number = NULL;
+  CeldStatus status = row ? join_runs (pixels, &runs, row) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
+    status = (number = celd_alloc0 (runs.n, sizeof *number)) ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
     {
-      join_pixels (pixels, parent);
-      count = number_floating (pixels, parent, number);
+      l->n_floating = number_runs (pixels, &runs, number);
+      if (l->n_floating)
+        status = paint_runs (&runs, number, l);
     }
-  celd_free (parent);
-  if (count)
-    {
-      l->floating      = number;
-      l->n_floating    = count;
-      l->floating_size = celd_alloc0 ((size_t) count + 1, sizeof *l->floating_size);
-      if (!l->floating_size)
-        return CELD_NO_MEMORY;
-      for (size_t i = 0; i < n; i++)
-        l->floating_size[number[i]]++;
-    }
-  else
-    celd_free (number);
+  celd_free (runs.first);
+  celd_free (runs.parent);
+  celd_free (row);
+  celd_free (number);
   return status;
 }
 

@@ -11,7 +11,7 @@
 #include "unions.h"
 
 #define STRONG      0.5f /* of the strongest link of either end: a strong link */
-#define FEWER       0.6  /* share of nodes that a new level may keep at most */
+#define FEWER       0.45 /* share of nodes that a new level may keep at most */
 #define WHOLE       15   /* doublings after which every cell is the whole picture: 2^15 > CELD_MAX_SIDE */
 
 static uint32_t
@@ -41,6 +41,7 @@ typedef struct
   const CeldWeights *graph;
   int              doublings;
   float            strong;
+  float            most;        /* weight of the strongest link of all */
   float           *best;        /* weight of the strongest link */
   uint32_t        *link;        /* the node at its other end */
   uint32_t        *parent;
@@ -75,6 +76,11 @@ join_edge (Aggregation *a, uint32_t i, uint32_t j, float w)
 
   if (!(w > 0))
     return;
+  if (w >= a->strong * a->most) /* strong for whomever */
+    {
+      celd_join (a->parent, i, j);
+      return;
+    }
   leaf_i = is_leaf (a, i);
   leaf_j = is_leaf (a, j);
   if (leaf_i || leaf_j ? (leaf_i && a->link[i] == j) || (leaf_j && a->link[j] == i)
@@ -82,23 +88,41 @@ join_edge (Aggregation *a, uint32_t i, uint32_t j, float w)
     celd_join (a->parent, i, j);
 }
 
+/* The strongest of the four edges of each first node of a row; `north` is NULL above the first row.  The edges that lead
+ * out of the grid have weight 0. */
+CELD_CLONES static void
+see_row (uint32_t first, uint32_t w, const float *north, const float *south, const float *east, float *best,
+         uint32_t *link)
+{
+  for (uint32_t x = 0; x < w; x++)
+    {
+      float    up = north ? north[x] : 0, left = x ? east[x - 1] : 0, most = east[x];
+      uint32_t i = first + x, j = i + 1;
+
+      j    = south[x] > most ? i + w : j;
+      most = south[x] > most ? south[x] : most;
+      j    = left > most ? i - 1 : j;
+      most = left > most ? left : most;
+      j    = up > most ? i - w : j;
+      most = up > most ? up : most;
+      best[x] = most;
+      link[x] = j;
+    }
+}
+
 static void
 see_edges (Aggregation *a)
 {
   const CeldWeights *g = a->graph;
-  uint32_t         w = (uint32_t) g->width, n = cells (g), i = 0;
+  uint32_t           w = (uint32_t) g->width, n = cells (g);
 
-  for (int y = 0; y < g->height; y++)
-    for (uint32_t x = 0; x < w; x++, i++)
-      {
-        if (x + 1 < w)
-          see_edge (a, i, i + 1, g->east[i]);
-        if (i + w < n)
-          see_edge (a, i, i + w, g->south[i]);
-      }
+  for (uint32_t i = 0; i < n; i += w)
+    see_row (i, w, i ? g->south + i - w : NULL, g->south + i, g->east + i, a->best + i, a->link + i);
   for (uint32_t k = 0; k < g->n_extra; k++)
     for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
       see_edge (a, n + k, g->neighbour[e], g->weight[e]);
+  for (uint32_t i = 0; i < n + g->n_extra; i++)
+    a->most = a->best[i] > a->most ? a->best[i] : a->most;
 }
 
 static void
@@ -125,6 +149,34 @@ join_edges (Aggregation *a)
       }
 }
 
+/* The coarse cell in which a cell lies. */
+static uint32_t
+cell_above (const CeldWeights *g, uint32_t cell, int doublings, const CeldWeights *coarse)
+{
+  uint32_t w = (uint32_t) g->width;
+
+  return (cell / w >> doublings) * (uint32_t) coarse->width + (cell % w >> doublings);
+}
+
+/* Numbers the aggregate of node i, which lies in a coarse cell; *count is the next number of an extra one. */
+static inline void
+number_node (Aggregation *a, uint32_t i, uint32_t cell, uint8_t *taken, uint32_t *count)
+{
+  uint32_t root = celd_root (a->parent, i);
+
+  if (!(a->best[i] > 0))
+    a->link[i] = CELD_NO_NODE;
+  else if (root != i)
+    a->link[i] = a->link[root]; /* a root comes before its members */
+  else if (!taken[cell])
+    {
+      taken[cell] = 1;
+      a->link[i]  = cell;
+    }
+  else
+    a->link[i] = (*count)++;
+}
+
 /* Turns a->link into the number of each node's aggregate: the first one of a coarse cell takes the number of the cell,
  * others follow behind the cells.  Fills in the size of `coarse`. */
 static CeldStatus
@@ -136,23 +188,11 @@ number_aggregates (Aggregation *a, CeldWeights *coarse)
 
   if (!taken)
     return CELD_NO_MEMORY;
-  for (uint32_t i = 0; i < n + g->n_extra; i++)
-    {
-      uint32_t root = celd_root (a->parent, i), at = i < n ? i : g->cell[i - n];
-      uint32_t cell = (at / w >> a->doublings) * (uint32_t) coarse->width + (at % w >> a->doublings);
-
-      if (!(a->best[i] > 0))
-        a->link[i] = CELD_NO_NODE;
-      else if (root != i)
-        a->link[i] = a->link[root]; /* a root comes before its members */
-      else if (taken[cell]++ == 0)
-        a->link[i] = cell;
-      else
-        {
-          taken[cell] = 1;
-          a->link[i]  = count++;
-        }
-    }
+  for (uint32_t y = 0, i = 0; y < (uint32_t) g->height; y++)
+    for (uint32_t x = 0; x < w; x++, i++)
+      number_node (a, i, (y >> a->doublings) * (uint32_t) coarse->width + (x >> a->doublings), taken, &count);
+  for (uint32_t k = 0; k < g->n_extra; k++)
+    number_node (a, n + k, cell_above (g, g->cell[k], a->doublings, coarse), taken, &count);
   coarse->n_extra = count - cells (coarse);
   celd_free (taken);
   return CELD_OK;
@@ -280,7 +320,7 @@ list_edges (const Contraction *c, uint32_t *place)
 static CeldStatus
 contract (const CeldWeights *fine, const uint32_t *coarser, int doublings, CeldWeights *coarse)
 {
-  uint32_t    n = cells (coarse), fine_n = cells (fine), w = (uint32_t) fine->width;
+  uint32_t    n = cells (coarse), fine_n = cells (fine);
   uint32_t   *place = celd_alloc ((size_t) n + coarse->n_extra, sizeof *place);
   Contraction c = { .coarse = coarse };
   CeldStatus  status = CELD_NO_MEMORY;
@@ -296,11 +336,9 @@ contract (const CeldWeights *fine, const uint32_t *coarser, int doublings, CeldW
   for (uint32_t i = 0; i < fine_n + fine->n_extra && status == CELD_OK; i++)
     if (coarser[i] != CELD_NO_NODE)
       {
-        uint32_t at = i < fine_n ? i : fine->cell[i - fine_n];
-
         coarse->sink[coarser[i]] += fine->sink[i];
         if (coarser[i] >= n)
-          coarse->cell[coarser[i] - n] = (at / w >> doublings) * (uint32_t) coarse->width + (at % w >> doublings);
+          coarse->cell[coarser[i] - n] = cell_above (fine, i < fine_n ? i : fine->cell[i - fine_n], doublings, coarse);
       }
   celd_free (place);
   celd_free (c.edge);

@@ -78,17 +78,18 @@ level_new (const CeldWeights *g, CeldLevel *level)
 static void
 lay_out_grid (const CeldWeights *g, CeldLevel *level)
 {
-  uint32_t w = (uint32_t) g->width;
+  size_t w = (size_t) g->width;
 
   for (int y = 0; y < g->height; y++)
     for (int x = 0; x < g->width; x++)
       {
-        uint32_t i = (uint32_t) y * w + (uint32_t) x, at = celd_level_place (level, x, y);
-        float    east = x + 1 < g->width ? g->east[i] : 0, west = x > 0 ? g->east[i - 1] : 0;
-        float    south = y + 1 < g->height ? g->south[i] : 0, north = y > 0 ? g->south[i - w] : 0;
+        size_t i = (size_t) y * w + (size_t) x, row = (size_t) (y + 1) * level->stride + 1, at = row + (size_t) x / 2;
+        size_t place = (x + y) & 1 ? level->plane + at : at;
+        float  east = g->east[i], west = x > 0 ? g->east[i - 1] : 0;
+        float  south = g->south[i], north = y > 0 ? g->south[i - w] : 0;
 
-        level->sink[at]    = g->sink[i];
-        level->inverse[at] = north + west + east + south;
+        level->sink[place]    = g->sink[i];
+        level->inverse[place] = north + west + east + south;
         if ((x + y) & 1)
           continue;
         level->near[at]  = y & 1 ? west : east;
@@ -229,10 +230,9 @@ lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, bool pixels, con
 
   if (!(level->coarser = celd_alloc0 (places, sizeof *level->coarser)))
     return CELD_NO_MEMORY;
-  for (int y = 0; y < g->height; y++)
-    for (int x = 0; x < g->width; x++, i++)
-      if (!pixels || !((x + y) & 1))
-        level->coarser[celd_level_place (level, x, y)] = place_of (next, coarser[i]);
+  for (int y = 0; y < g->height; y++, i += (uint32_t) g->width)
+    for (int x = pixels ? y & 1 : 0; x < g->width; x += pixels ? 2 : 1)
+      level->coarser[celd_level_place (level, x, y)] = place_of (next, coarser[i + (uint32_t) x]);
   for (uint32_t k = 0; k < g->n_extra; k++)
     level->coarser[2 * level->plane + k] = place_of (next, coarser[n + k]);
   return CELD_OK;

@@ -384,13 +384,25 @@ pass_of (CeldSolution *s)
   return (Pass) { .s = s, .level = &s->laplace->levels.level[0] };
 }
 
-/* Where the right-hand side of a pixel goes. */
-static float *
-rhs_of (CeldSolution *s, int x, int y)
+/* Row y of the caller's right-hand side, of one colour. */
+CELD_INLINE void
+place_rhs_row (CeldSolution *s, int y, int colour, int lanes)
 {
-  size_t place = celd_level_place (&s->laplace->levels.level[0], x, y), plane = s->laplace->levels.level[0].plane;
+  const CeldLaplace *l = s->laplace;
+  const CeldLevel   *level = &l->levels.level[0];
+  size_t             many = (size_t) lanes, place = (size_t) (y + 1) * level->stride + 1;
+  const float       *inverse = level->inverse + (colour ? level->plane : 0);
+  float             *out = colour ? s->black : s->r;
 
-  return place < plane ? s->r + place * (size_t) s->lanes : s->black + (place - plane) * (size_t) s->lanes;
+  for (int x = (y + colour) & 1; x < l->width; x += 2, place++)
+    {
+      size_t pixel = (size_t) y * (size_t) l->width + (size_t) x;
+
+      for (size_t k = 0; k < many && inverse[place] > 0; k++)
+        out[place * many + k] = s->b_mean ? (float) ((double) s->b[pixel * many + k] -
+                                                     s->b_mean[l->floating[pixel] * many + k])
+                                          : s->b[pixel * many + k];
+    }
 }
 
 /* Right-hand sides: those of red pixels to r, of black ones to `black`. */
@@ -404,19 +416,16 @@ place_rhs (CeldSolution *s)
   memset (s->r, 0, level->plane * many * sizeof *s->r);
   memset (s->black, 0, level->plane * many * sizeof *s->black);
   for (int y = 0; y < l->height && s->b; y++)
-    for (int x = 0; x < l->width; x++)
-      {
-        size_t       pixel = (size_t) y * (size_t) l->width + (size_t) x;
-        const float *b = s->b + pixel * many;
-        float       *out = rhs_of (s, x, y);
-
-        for (size_t k = 0; k < many && level->inverse[celd_level_place (level, x, y)] > 0; k++)
-          out[k] = s->b_mean ? (float) ((double) b[k] - s->b_mean[l->floating[pixel] * many + k]) : b[k];
-      }
+    for (int colour = 0; colour < 2; colour++)
+      if (s->lanes == 1)
+        place_rhs_row (s, y, colour, 1);
+      else
+        place_rhs_row (s, y, colour, CELD_LANES);
   for (size_t h = 0; h < l->n_held; h++)
     {
       uint32_t w = (uint32_t) l->width, pixel = l->held[h].free;
-      float   *out = rhs_of (s, (int) (pixel % w), (int) (pixel / w));
+      uint32_t place = celd_level_place (level, (int) (pixel % w), (int) (pixel / w));
+      float   *out = place < level->plane ? s->r + place * many : s->black + (place - level->plane) * many;
 
       for (size_t k = 0; k < many; k++)
         out[k] += l->held[h].weight * s->user[l->held[h].fixed * many + k];

@@ -18,10 +18,12 @@
 #include <math.h>
 
 #define MOST_ROUNDS  200
-#define RENEW        4          /* rounds after which the residual is made anew */
+#define RENEW        6          /* rounds after which the residual is made anew */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
-#define BAND_WORK    (1u << 26) /* ... and in multiplications */
+#define BAND_WORK    (1u << 26) /* ... and in multiplications ... */
+#define WEAK         1e-3f      /* ... but where weights differ by more than this, as the cycle is weak there if lines */
+#define WEAK_MORE    4          /* are all that there is of a drawing, so many times as much */
 
 /* ------------------------------------------------------------------ pinned pixels */
 
@@ -101,10 +103,12 @@ copy_system (const float *east, const float *south, const float *diagonal, const
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < n; i++)
     {
-      g->east[i]  = i % w + 1 < w && east[i] > 0 ? east[i] : 0;
+      g->east[i]  = east[i] > 0 ? east[i] : 0;
       g->south[i] = i + w < n && south[i] > 0 ? south[i] : 0;
       g->sink[i]  = diagonal && diagonal[i] > 0 && !(fixed && fixed[i]) ? diagonal[i] : 0;
     }
+  for (size_t i = w - 1; i < n; i += w)
+    g->east[i] = 0;
   for (size_t i = 0; i < n && fixed && status == CELD_OK; i++)
     {
       if (g->east[i] > 0 && (fixed[i] || fixed[i + 1]))
@@ -113,6 +117,24 @@ copy_system (const float *east, const float *south, const float *diagonal, const
         status = hold (l, g, &g->south[i], i, i + w, fixed);
     }
   return status;
+}
+
+/* Do weights differ very much? */
+static bool
+has_weak_links (const CeldWeights *g)
+{
+  size_t n = (size_t) g->width * (size_t) g->height;
+  float  most = 0, least = INFINITY;
+
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < 2; k++)
+      {
+        float w = k ? g->south[i] : g->east[i];
+
+        most  = w > most ? w : most;
+        least = w > 0 && w < least ? w : least;
+      }
+  return least < WEAK * most;
 }
 
 /* Row by row along the shorter side, every pixel's edges are at most that side long. */
@@ -156,10 +178,15 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
     return CELD_NO_MEMORY;
   l->width  = width;
   l->height = height;
-  l->direct = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
   status    = celd_step (run, 0);
   if (status == CELD_OK)
     status = copy_system (east, south, diagonal, fixed, l, &graph);
+  if (status == CELD_OK)
+    {
+      size_t more = has_weak_links (&graph) ? WEAK_MORE : 1;
+
+      l->direct = n * band <= more * BAND_LENGTH && n * band * band <= more * BAND_WORK;
+    }
   if (status == CELD_OK)
     status = celd_floating_find (&graph, l);
   if (status == CELD_OK)

@@ -197,8 +197,9 @@ CeldStatus celd_multiway (const CeldMultiway *problem, const CeldRun *run, uint3
 /* ------------------------------------------------------------------ laplace.c: the one Laplacian solver */
 
 /* The system  A x = b  on the 4-grid, with  (A x)_p = diagonal_p x_p + sum over neighbours q of w_pq (x_p - x_q).
- * east, south: edge weights >= 0 (last column / last row ignored); diagonal >= 0.  Zero weights make walls and masks,
- * and edges over the frame do not exist (Neumann).  Components without any diagonal or fixed pixel are floating: they
+ * east, south: edge weights (last column / last row ignored), 1e-6 .. 1 of the largest or 0; what is not a positive
+ * number is 0, in the diagonal, too.  b, starts and fixed values are finite.  Zero weights make walls and masks, and
+ * edges over the frame do not exist (Neumann).  Components without any diagonal or fixed pixel are floating: they
  * keep the mean of their start. */
 typedef struct CeldLaplace CeldLaplace;
 

@@ -100,7 +100,7 @@ large_random_systems_agree_with_the_oracle (void)
 
   for (int round = 0; round < 8; round++)
     {
-      System    s = random_system (101 + (int) check_random (&seed, 60), 110 + (int) check_random (&seed, 90), &seed);
+      System    s = random_system (135 + (int) check_random (&seed, 40), 140 + (int) check_random (&seed, 60), &seed);
       CeldSolve how = solve (&s, 1e-4);
 
       CHECK (how.converged);
@@ -267,6 +267,139 @@ lanes_equal_single_solutions (void)
     }
 }
 
+/* A page of rings drawn with a line of `thickness`, through the middle of which go gaps; weights fall from 1 on paper to
+ * `least` under ink.  Some dots are fixed. */
+static System
+rings (int w, int h, double thickness, float least, uint8_t *fixed)
+{
+  System s = system_new (w, h, 1, 1);
+
+  for (int y = 0; y < h; y++)
+    for (int x = 0; x < w; x++)
+      for (int k = 0; k < 2; k++)
+        {
+          double u = fmod (x + (k ? 0 : 0.5), 34) - 17, v = fmod (y + (k ? 0.5 : 0), 34) - 17;
+          double ink = fmin (fmax (thickness / 2 + 0.5 - fabs (hypot (u, v) - 12), 0), 1);
+
+          if (fabs (v) < 1.5 && u > 0 && x % 3)
+            ink *= 0.5;
+          *(k ? &s.south[y * w + x] : &s.east[y * w + x]) = (float) pow ((double) least, ink);
+        }
+  for (int i = 0; i < w * h; i++)
+    fixed[i] = (i % w) % 51 == 17 && (i / w) % 34 == 17;
+  return s;
+}
+
+static void
+the_tolerance_holds_for_every_weight_floor (void)
+{
+  static const float  floor[]     = { 1, 0.1f, 1e-3f, 1e-6f };
+  static const double tolerance[] = { 1e-3, 1. / 65535 };
+
+  for (int k = 0; k < 12; k++)
+    for (int fine = 0; fine < 2; fine++)
+      {
+        int      side = k % 3 == 0 ? 64 : k % 3 == 1 ? 128 : 150;
+        uint8_t *fixed = calloc (150 * 150, 1);
+        float   *value = calloc (150 * 150, sizeof *value);
+        System   s = rings (side, side, 1.5, floor[k / 3], fixed);
+
+        for (int i = 0; i < side * side; i++)
+          s.x[i] = value[i] = fixed[i] ? (float) (i % 7) : 0;
+        if (fine)
+          pin (&s, fixed, value);
+        else
+          {
+            CeldLaplace *l = NULL;
+
+            CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, NULL, &l) == CELD_OK);
+            CHECK (celd_lap_solve (l, 1, NULL, s.x, tolerance[0], NULL, NULL) == CELD_OK);
+            celd_lap_free (l);
+            pin (&s, fixed, value); /* for the oracle */
+          }
+        if (fine)
+          CHECK (solve (&s, tolerance[1]).converged);
+        NEAR (error_of (&s), 0, tolerance[fine]);
+        free (fixed);
+        free (value);
+        system_free (&s);
+      }
+}
+
+static void
+a_start_near_the_solution_saves_rounds (void)
+{
+  uint8_t     *fixed = calloc (200 * 190, 1);
+  System       s = rings (200, 190, 3, 0.01f, fixed);
+  CeldLaplace *l = NULL;
+  CeldSolve    cold, warm, again;
+
+  for (size_t i = 0; i < pixels (&s); i++)
+    s.x[i] = fixed[i] ? (float) (i % 5) : 0;
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_solve (l, 1, NULL, s.x, 1e-5, NULL, &cold) == CELD_OK && cold.converged);
+  CHECK (celd_lap_solve (l, 1, NULL, s.x, 1e-4, NULL, &again) == CELD_OK && again.converged);
+  CHECK (again.iterations <= 1);
+  for (size_t i = 0; i < pixels (&s); i++)
+    s.x[i] += fixed[i] ? 0 : (float) (i % 200 < 40 ? 0.01 : 0);
+  CHECK (celd_lap_solve (l, 1, NULL, s.x, 1e-4, NULL, &warm) == CELD_OK && warm.converged);
+  CHECK (warm.iterations < cold.iterations);
+  celd_lap_free (l);
+  free (fixed);
+  system_free (&s);
+}
+
+static void
+a_preview_stops_after_the_rounds_asked_for (void)
+{
+  uint8_t     *fixed = calloc (200 * 190, 1);
+  System       s = rings (200, 190, 3, 0.01f, fixed);
+  float       *x = calloc (pixels (&s) * CELD_LANES, sizeof *x), *better = NULL;
+  CeldLaplace *l = NULL;
+  CeldSolve    how;
+  double       before = 0, after = 0;
+
+  for (size_t i = 0; i < pixels (&s); i++)
+    for (size_t k = 0; k < CELD_LANES; k++)
+      x[i * CELD_LANES + k] = fixed[i] ? (float) ((i + k) % 5) : 0;
+  better = malloc (pixels (&s) * CELD_LANES * sizeof *x);
+  memcpy (better, x, pixels (&s) * CELD_LANES * sizeof *x);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, NULL, &l) == CELD_OK);
+  CHECK (celd_lap_solve_lanes (l, NULL, better, 1e-6, 0, NULL, &how) == CELD_OK && how.converged);
+  for (size_t i = 0; i < pixels (&s) * CELD_LANES; i++)
+    before = fmax (before, fabs ((double) x[i] - (double) better[i]));
+  CHECK (celd_lap_solve_lanes (l, NULL, x, 1e-6, 2, NULL, &how) == CELD_OK);
+  CHECK (!how.converged && how.iterations == 2);
+  for (size_t i = 0; i < pixels (&s) * CELD_LANES; i++)
+    after = fmax (after, fabs ((double) x[i] - (double) better[i]));
+  CHECK (after < 0.3 * before);
+  celd_lap_free (l);
+  free (fixed);
+  free (x);
+  free (better);
+  system_free (&s);
+}
+
+static void
+what_is_not_a_positive_number_is_no_weight (void)
+{
+  System s = system_new (140, 100, 1, 1), t = system_new (140, 100, 1, 1);
+
+  for (int y = 0; y < s.h; y++)
+    {
+      s.east[y * s.w + 70] = y % 2 ? NAN : -1;
+      t.east[y * s.w + 70] = 0;
+      s.diagonal[y * s.w + 3] = NAN;
+    }
+  pin_columns (&s, 0, 1, s.w - 1, 5);
+  pin_columns (&t, 0, 1, s.w - 1, 5);
+  solve (&s, 1e-5);
+  solve (&t, 1e-5);
+  CHECK (memcmp (s.x, t.x, pixels (&s) * sizeof *s.x) == 0);
+  system_free (&s);
+  system_free (&t);
+}
+
 int
 main (void)
 {
@@ -276,6 +409,10 @@ main (void)
   RUN (a_closed_wall_of_one_pixel_keeps_both_sides_apart);
   RUN (a_gap_in_a_wall_lets_depth_through_smoothly);
   RUN (several_right_hand_sides_equal_single_ones);
+  RUN (the_tolerance_holds_for_every_weight_floor);
+  RUN (a_start_near_the_solution_saves_rounds);
+  RUN (a_preview_stops_after_the_rounds_asked_for);
+  RUN (what_is_not_a_positive_number_is_no_weight);
   RUN (lanes_equal_single_solutions);
   return DONE;
 }
