@@ -88,8 +88,8 @@ join_edge (Aggregation *a, uint32_t i, uint32_t j, float w)
     celd_join (a->parent, i, j);
 }
 
-/* The strongest of the four edges of each first node of a row; `north` is NULL above the first row.  The edges that lead
- * out of the grid have weight 0. */
+/* The strongest of the four edges of each first node of a row; `north` is NULL above the first row.  The edges that
+ * lead out of the grid have weight 0. */
 CELD_CLONES static void
 see_row (uint32_t first, uint32_t w, const float *north, const float *south, const float *east, float *best,
          uint32_t *link)

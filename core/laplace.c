@@ -21,9 +21,9 @@
 #define RENEW        6          /* rounds after which the residual is made anew */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
-#define BAND_WORK    (1u << 26) /* ... and in multiplications ... */
-#define WEAK         1e-3f      /* ... but where weights differ by more than this, as the cycle is weak there if lines */
-#define WEAK_MORE    4          /* are all that there is of a drawing, so many times as much */
+#define BAND_WORK    (1u << 26) /* ... and in multiplications */
+#define WEAK         1e-3f      /* Weights that differ by more than this, as where a small drawing is all lines, ... */
+#define WEAK_MORE    4          /* ... are hard for the cycle: so many times as much is worth while */
 
 /* ------------------------------------------------------------------ pinned pixels */
 

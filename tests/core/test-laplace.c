@@ -267,8 +267,8 @@ lanes_equal_single_solutions (void)
     }
 }
 
-/* A page of rings drawn with a line of `thickness`, through the middle of which go gaps; weights fall from 1 on paper to
- * `least` under ink.  Some dots are fixed. */
+/* A page of rings drawn with a line of `thickness`, through the middle of which go gaps; weights fall from 1 on paper
+ * to `least` under ink.  Some dots are fixed. */
 static System
 rings (int w, int h, double thickness, float least, uint8_t *fixed)
 {
