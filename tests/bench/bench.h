@@ -90,6 +90,7 @@ CeldStatus boost_maxflow (int width, int height, const int32_t *east, const int3
 /* A file in the format PAM, one or four bytes a pixel, enlarged without blending; ends the program if it cannot. */
 CeldPlane read_grey (const char *path);
 CeldPaint read_colours (const char *path, int width, int height);
+char     *read_text (const char *path);   /* a file of less than a megabyte; end with free */
 
 /* ------------------------------------------------------------------ strokes.c */
 

@@ -2,8 +2,9 @@
  *
  *   bench-laplace DRAWING SCRIBBLES RELATIONS RUNS CHOLMOD ICCG-SECONDS
  *
- * Prints one JSON object.  DRAWING has the size that is measured; SCRIBBLES are enlarged to it, RELATIONS is a file with
- * points of that size.  Times are medians of RUNS, in seconds of processor time, those on two threads of the clock.
+ * Prints one JSON object.  DRAWING has the size that is measured; SCRIBBLES are enlarged to it, RELATIONS is a file
+ * with points of that size.  Times are medians of RUNS, in seconds of processor time, those on two threads of the
+ * clock.
  * CHOLMOD 1: errors are true ones, against CHOLMOD's refined solution; 0: against our own, to a tenth of the tolerance.
  * ICCG-SECONDS: when conjugate gradients give up; 0: not at all.
  *
@@ -249,21 +250,6 @@ truth_of (const System *s, const Matrix *m, bool cholmod)
     truth[i] = (double) x[m->pixel[i]];
   celd_free (x);
   return truth;
-}
-
-static char *
-read_text (const char *path)
-{
-  FILE *file = fopen (path, "rb");
-  char *text = calloc (1, 1 << 20);
-
-  if (!file || !text || fread (text, 1, (1 << 20) - 1, file) == 0)
-    {
-      fprintf (stderr, "%s: cannot be read\n", path);
-      exit (1);
-    }
-  fclose (file);
-  return text;
 }
 
 int

@@ -1,4 +1,4 @@
-/* Pictures in the format PAM: a head of lines of text, then bytes.
+/* What the programs read: text, and pictures in the format PAM, a head of lines of text, then bytes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -83,4 +83,16 @@ read_colours (const char *path, int width, int height)
       }
   free (pixel);
   return paint;
+}
+
+char *
+read_text (const char *path)
+{
+  FILE *file = fopen (path, "rb");
+  char *text = calloc (1, 1 << 20);
+
+  if (!file || !text || fread (text, 1, (1 << 20) - 1, file) == 0)
+    give_up (path);
+  fclose (file);
+  return text;
 }

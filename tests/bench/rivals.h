@@ -33,13 +33,14 @@ void   matrix_clear (Matrix *matrix);
 /* r = b - A x, summed over differences as far as there are any. */
 void matrix_residual (const Matrix *matrix, const double *x, double *r);
 
-/* CHOLMOD's sparse Cholesky factors (supernodal if it thinks so): seconds of analysis, factorization and one solution, and
- * the solution, refined twice outside that time: the truth for all others. */
+/* CHOLMOD's sparse Cholesky factors (supernodal if it thinks so): seconds of analysis, factorization and one solution,
+ * and the solution, refined twice outside that time: the truth for all others. */
 typedef struct { double analyse, factorize, solve; } Cholmod;
 Cholmod cholmod_of (const Matrix *matrix, double *x);
 
-/* Conjugate gradients with an incomplete Cholesky factor without fill.  Stops when the largest error, as a share of the
- * range, is at most `error`, which it is told (not part of the time), or after `limit` seconds: then it returns INFINITY. */
+/* Conjugate gradients with an incomplete Cholesky factor without fill.  Stops when the largest error, as a share of
+ * the range, is at most `error`, which it is told (not part of the time), or after `limit` seconds: then it returns
+ * INFINITY. */
 double iccg_seconds (const Matrix *matrix, const double *truth, double range, double error, double limit,
                      int *iterations);
 
