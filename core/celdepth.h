@@ -416,6 +416,12 @@ CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run
 CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,
                                          CeldRect *changed);
+/* After an edit only what it touched is solved again, from where it was; the rest stays bit by bit.  The preview is for
+ * the eye while the full depth is made: a quarter of the width and height, rounded up, pixel (x,y) for those from
+ * (4x,4y) on; *changed counts its own pixels.  It needs no expansion, so that its borders lie in the middle of
+ * contours, and has gaps narrower than about eight pixels closed. */
+CELD_API CeldStatus celd_session_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane *quarter,
+                                                CeldRect *changed);
 CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
 CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals,
                                           CeldRect *changed);

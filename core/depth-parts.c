@@ -12,7 +12,7 @@
 
 /* ------------------------------------------------------------------ stretches */
 
-typedef struct { const float *level; const uint8_t *fixed; const CeldBorder *border; } Joins;
+typedef struct { const float *level; const uint8_t *fixed; const CeldEdges *edges; } Joins;
 
 CELD_CLONES static void
 mark_levels (const float *restrict level, int n, uint8_t *restrict mark)
@@ -63,8 +63,8 @@ stretch_row (const Joins *j, CeldParts *parts, int y, uint8_t *mark, size_t *n)
       bool open = is_free (j, first + (size_t) x);
 
       end = celd_next_marked (w, mark, x + 1);
-      while (open && j->border && end < w && is_free (j, first + (size_t) end) &&
-             celd_border_weight (j->border, j->level, end - 1, y, 1, 0) > 0)
+      while (open && j->edges && end < w && is_free (j, first + (size_t) end) &&
+             celd_edge_weight (j->edges, j->level, end - 1, y, 1, 0) > 0)
         end = celd_next_marked (w, mark, end + 1);
       if (open)
         status = add_stretch (parts, n, x, end);
@@ -81,7 +81,7 @@ meet (const Joins *j, int width, int y, int x, int end)
   const float *here = j->level + (size_t) y * (size_t) width, *above = here - width;
 
   for (int u = x; u < end; u++)
-    if (here[u] == above[u] || (j->border && celd_border_weight (j->border, j->level, u, y - 1, 0, 1) > 0))
+    if (here[u] == above[u] || (j->edges && celd_edge_weight (j->edges, j->level, u, y - 1, 0, 1) > 0))
       return true;
   return false;
 }
@@ -119,10 +119,10 @@ number_parts (CeldParts *parts, uint32_t *parent)
 }
 
 CeldStatus
-celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldBorder *border,
+celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldEdges *edges,
                  const CeldRun *run, CeldParts *parts)
 {
-  Joins      j = { level, fixed, border };
+  Joins      j = { level, fixed, edges };
   CeldParts  found = { .width = width, .height = height, .row = celd_alloc0 ((size_t) height + 1, sizeof (size_t)) };
   uint8_t   *mark = celd_alloc ((size_t) width, 1);
   uint32_t  *parent = NULL;

@@ -49,7 +49,7 @@ reach (const CeldSystem *e, Part *part, size_t p, int x, int y, int right)
 
   if (level >= part->low && level <= part->high)
     return;
-  if (celd_border_weight (&e->border, e->level, x, y, right, !right) > 0)
+  if (celd_edge_weight (&e->edges, e->level, x, y, right, !right) > 0)
     {
       part->low  = level < part->low ? level : part->low;
       part->high = level > part->high ? level : part->high;
@@ -179,7 +179,7 @@ write_equation (const CeldSystem *e, Box *box, int x, int y, size_t i)
 
       if (u < 0 || v < 0 || u + right >= e->width || v + !right >= e->height || (back && !e->fixed[q]))
         continue;
-      weight = celd_border_weight (&e->border, e->level, u, v, right, !right);
+      weight = celd_edge_weight (&e->edges, e->level, u, v, right, !right);
       if (e->fixed[q])
         {
           box->diagonal[i] += weight;
@@ -331,7 +331,7 @@ celd_system_solve (const CeldSystem *system, const CeldRun *run, float *depth, C
   Work       work = { .system = system, .depth = depth };
   CeldPart   part[2];
   CeldRun    finding = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
-  CeldStatus status = celd_parts_find (system->width, system->height, system->level, system->fixed, &system->border,
+  CeldStatus status = celd_parts_find (system->width, system->height, system->level, system->fixed, &system->edges,
                                        &finding, &work.parts);
 
   if (status != CELD_OK)

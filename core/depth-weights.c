@@ -13,7 +13,7 @@
 #define MOST_REACH 12 /* pixels: half a stroke at most, for solid areas are none */
 
 int
-celd_border_reach (int stroke)
+celd_edge_reach (int stroke)
 {
   int reach = (stroke + 1) / 2;
 
@@ -23,7 +23,7 @@ celd_border_reach (int stroke)
 /* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
  * paper. */
 static float
-least_ink (const CeldBorder *b, int x0, int y0, int x1, int y1)
+least_ink (const CeldEdges *b, int x0, int y0, int x1, int y1)
 {
   float least = 1;
 
@@ -36,7 +36,7 @@ least_ink (const CeldBorder *b, int x0, int y0, int x1, int y1)
 
 /* Of two pixels whose levels differ; on closed contours the first look is enough. */
 static float
-weight_across (const CeldBorder *b, int x, int y, int right, int down)
+weight_across (const CeldEdges *b, int x, int y, int right, int down)
 {
   float least = least_ink (b, x, y, x + right, y + down);
 
@@ -46,11 +46,11 @@ weight_across (const CeldBorder *b, int x, int y, int right, int down)
 }
 
 float
-celd_border_weight (const CeldBorder *border, const float *level, int x, int y, int right, int down)
+celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down)
 {
-  const float *here = level + (size_t) y * (size_t) border->ink->width + (size_t) x;
+  const float *here = level + (size_t) y * (size_t) edges->ink->width + (size_t) x;
 
-  return here[0] == here[right ? 1 : border->ink->width] ? 1 : weight_across (border, x, y, right, down);
+  return here[0] == here[right ? 1 : edges->ink->width] ? 1 : weight_across (edges, x, y, right, down);
 }
 
 /* 1 where two rows of levels are equal, else marked for a closer look. */
@@ -66,7 +66,7 @@ compare_levels (const float *restrict a, const float *restrict b, int n, float *
 }
 
 static void
-weigh_row (const CeldBorder *b, const float *level, int n, int y, int right, float *weight, uint8_t *differs)
+weigh_row (const CeldEdges *b, const float *level, int n, int y, int right, float *weight, uint8_t *differs)
 {
   compare_levels (level, level + (right ? 1 : b->ink->width), n, weight, differs);
   for (int x = celd_next_marked (n, differs, 0); x < n; x = celd_next_marked (n, differs, x + 1))
@@ -77,7 +77,7 @@ CeldStatus
 celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
                     float *east, float *south)
 {
-  CeldBorder b = { ink, threshold, celd_border_reach (celd_stroke_width (ink)) };
+  CeldEdges b = { ink, threshold, celd_edge_reach (celd_stroke_width (ink)) };
   size_t     w = (size_t) ink->width;
   uint8_t   *differs = celd_alloc (w, 1);
   CeldStatus status = differs ? CELD_OK : CELD_NO_MEMORY;

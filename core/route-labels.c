@@ -106,6 +106,7 @@ celd_make_ink (CeldSession *s, const CeldRun *run)
     }
   if (status == CELD_OK)
     {
+      celd_session_new_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
       take_ink (s, &ink);
       celd_free (s->depth_ink.data);
       s->depth_ink = depth_ink;

@@ -1,28 +1,17 @@
 /* The route of the paper as a session makes it: each stage from earlier ones, only what is missing.
  *
  *   drawing, contours ----> ink ------.--------------.---------------.
- *   scribbles, strokes -> seeds -> labels -> order -> flat, levels --+-> depth
+ *   scribbles, strokes -> seeds -> labels -> order -> flat, levels --+-> preview of depth, depth
  *   arrows, text ---> relations ------'                 levels -> normals -> shading
  *
- * The stages up to the labels are in route-labels.c.  Each of the others writes into new memory and replaces the old
- * result only when it succeeded; the comparison of the two is what the host is told to redraw.
+ * The stages up to the labels are in route-labels.c, depth is in route-depth.c.  Each of the others writes into new
+ * memory and replaces the old result only when it succeeded; the comparison of the two is what the host is told to redraw.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "session.h"
 
-#include <math.h>
-#include <string.h>
-
-#define END_RADIUS 2.0 /* pixels round a relation's end that keep its level */
-
 /* ------------------------------------------------------------------ the stages */
-
-static const CeldPlane *
-depth_ink (const CeldSession *s)
-{
-  return s->depth_ink.data ? &s->depth_ink : &s->ink;
-}
 
 static CeldStatus
 make_order (CeldSession *s, const CeldRun *run)
@@ -50,7 +39,9 @@ static void
 encode (const CeldSession *s, const CeldLabels *ranks, CeldPlane *levels)
 {
   for (size_t i = 0; i < (size_t) ranks->width * (size_t) ranks->height; i++)
-    levels->data[i] = celd_encode_level (ranks->data[i], s->order.levels, &s->settings);
+    levels->data[i] = i && ranks->data[i] == ranks->data[i - 1]
+                        ? levels->data[i - 1]
+                        : celd_encode_level (ranks->data[i], s->order.levels, &s->settings);
 }
 
 /* The rank of each pixel's label. */
@@ -94,7 +85,7 @@ make_levels (CeldSession *s, const CeldRun *run)
   CeldStatus status = rank_labels (s, &ranks);
 
   if (status == CELD_OK)
-    status = celd_expand (depth_ink (s), &ranks, run, &ranks);
+    status = celd_expand (celd_session_depth_ink (s), &ranks, run, &ranks);
   if (status == CELD_OK)
     status = celd_plane_new (ranks.width, ranks.height, &levels);
   if (status == CELD_OK)
@@ -107,84 +98,6 @@ make_levels (CeldSession *s, const CeldRun *run)
   return status;
 }
 
-/* Marks the pixels round an arrow's end; how many. */
-static size_t
-anchor_end (const CeldTerm *end, CeldMask *anchors)
-{
-  int    reach = (int) END_RADIUS;
-  size_t n     = 0;
-
-  if (end->by_colour || !(end->x >= 0 && end->y >= 0 && end->x < anchors->width && end->y < anchors->height))
-    return 0;
-  for (int y = (int) end->y - reach; y <= (int) end->y + reach; y++)
-    for (int x = (int) end->x - reach; x <= (int) end->x + reach; x++)
-      if (x >= 0 && y >= 0 && x < anchors->width && y < anchors->height &&
-          hypot (x + 0.5 - end->x, y + 0.5 - end->y) <= END_RADIUS)
-        {
-          CELD_AT (anchors, x, y) = 1;
-          n++;
-        }
-  return n;
-}
-
-/* Marks what is painted; how many runs of it there are. */
-static size_t
-anchor_seeds (const CeldSeedRows *seeds, CeldMask *anchors)
-{
-  size_t n = 0;
-
-  for (int y = 0; y < seeds->height; y++)
-    for (size_t i = 0; i < seeds->row[y].n; i++, n++)
-      {
-        const CeldSeedRun *run = &seeds->row[y].run[i];
-
-        memset (&CELD_AT (anchors, run->x, y), 1, (size_t) (run->end - run->x));
-      }
-  return n;
-}
-
-/* The paper's U_o; *n is 0 if there is none, as for CELD_ANCHORS_CORE. */
-static CeldStatus
-choose_anchors (const CeldSession *s, CeldMask *anchors, size_t *n)
-{
-  CeldAnchors choice = s->settings.anchors;
-  bool        scribbles = choice == CELD_ANCHORS_SCRIBBLES || choice == CELD_ANCHORS_BOTH;
-  bool        arrows = choice == CELD_ANCHORS_ARROWS || choice == CELD_ANCHORS_BOTH;
-  CeldStatus  status = celd_mask_new (s->levels.width, s->levels.height, anchors);
-
-  *n = status == CELD_OK && scribbles ? anchor_seeds (&s->seeds, anchors) : 0;
-  for (size_t i = 0; status == CELD_OK && i < s->relations.n; i++)
-    if (arrows || s->relations.item[i].anchor)
-      *n += anchor_end (&s->relations.item[i].nearer, anchors) + anchor_end (&s->relations.item[i].farther, anchors);
-  return status;
-}
-
-static CeldStatus
-make_depth (CeldSession *s, const CeldRun *run)
-{
-  CeldMask   anchors;
-  CeldPlane  depth = { 0 };
-  CeldSolve  solve = { 0 };
-  size_t     n;
-  CeldStatus status = choose_anchors (s, &anchors, &n);
-
-  if (status == CELD_OK)
-    status = celd_plane_new (s->levels.width, s->levels.height, &depth);
-  if (status == CELD_OK)
-    status = celd_smooth (depth_ink (s), &s->levels, n ? &anchors : NULL, &s->settings, run, &depth, &solve);
-  if (status == CELD_OK)
-    {
-      celd_problems_clear (&s->problems[STAGE_DEPTH]);
-      if (!solve.converged)
-        status = celd_problem_add (&s->problems[STAGE_DEPTH], (CeldProblem) {
-          .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX });
-      celd_session_replace (s, STAGE_DEPTH, &s->depth, &depth);
-    }
-  celd_free (anchors.data);
-  celd_free (depth.data);
-  return status;
-}
-
 static CeldStatus
 make_normals (CeldSession *s, const CeldRun *run)
 {
@@ -193,7 +106,7 @@ make_normals (CeldSession *s, const CeldRun *run)
   CeldStatus  status = CELD_NO_MEMORY;
 
   if (normals.data)
-    status = celd_normals (depth_ink (s), &s->levels, &s->settings, run, &normals);
+    status = celd_normals (celd_session_depth_ink (s), &s->levels, &s->settings, run, &normals);
   if (status != CELD_OK)
     {
       celd_free (normals.data);
@@ -238,7 +151,8 @@ static const struct
   [STAGE_ORDER]     = { make_order,          NEEDS (LABELS),                                 0.02 },
   [STAGE_FLAT]      = { make_flat,           NEEDS (ORDER),                                  0.01 },
   [STAGE_LEVELS]    = { make_levels,         NEEDS (ORDER),                                  0.21 },
-  [STAGE_DEPTH]     = { make_depth,          NEEDS (LEVELS),                                 0.21 },
+  [STAGE_PREVIEW]   = { celd_make_preview,   NEEDS (ORDER),                                  0.02 },
+  [STAGE_DEPTH]     = { celd_make_depth,     NEEDS (LEVELS),                                 0.05 },
   [STAGE_NORMALS]   = { make_normals,        NEEDS (LEVELS),                                 0.24 },
   [STAGE_SHADING]   = { make_shading,        NEEDS (NORMALS),                                0.01 },
 };

@@ -81,9 +81,13 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
     {
       celd_session_forget (session, STAGE_FLAT);
       celd_session_forget (session, STAGE_LEVELS);
+      celd_session_forget (session, STAGE_PREVIEW);
     }
   if (a->anchors != b->anchors || a->hold_rest != b->hold_rest || tolerance || threshold)
-    celd_session_forget (session, STAGE_DEPTH);
+    {
+      celd_session_forget (session, STAGE_PREVIEW);
+      celd_session_forget (session, STAGE_DEPTH);
+    }
   if (a->bulge != b->bulge || tolerance || threshold)
     celd_session_forget (session, STAGE_NORMALS);
   if (a->light_azimuth != b->light_azimuth || a->light_elevation != b->light_elevation || a->ambient != b->ambient)

@@ -47,11 +47,17 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->separated.data);
   celd_free (s->flat.data);
   celd_free (s->levels.data);
+  celd_free (s->preview.data);
   celd_free (s->depth.data);
+  celd_free (s->block_ink.data);
+  celd_smoother_clear (&s->smoother);
+  celd_smoother_clear (&s->preview_smoother);
   celd_free (s->shading.data);
   celd_free (s->normals.data);
   s->segmenter = NULL;
-  s->known_ink = s->ink = s->depth_ink = s->flat = s->levels = s->depth = s->shading = (CeldPlane) { 0 };
+  s->reach     = 0;
+  s->known_ink = s->ink = s->depth_ink = s->block_ink = (CeldPlane) { 0 };
+  s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
   s->solved  = s->separated = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };
 }
@@ -172,6 +178,16 @@ celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels
 
   if (status == CELD_OK)
     *levels = session->levels;
+  return status;
+}
+
+CeldStatus
+celd_session_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane *quarter, CeldRect *changed)
+{
+  CeldStatus status = ask (session, STAGE_PREVIEW, run, changed);
+
+  if (status == CELD_OK)
+    *quarter = session->preview;
   return status;
 }
 

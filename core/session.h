@@ -5,6 +5,7 @@
  *   strokes.c         single strokes over the scribbles layer
  *   route.c           which stages there are, and what is made from the labels
  *   route-labels.c    the stages up to the labels
+ *   route-depth.c     smooth depth and its preview
  *   changes.c         where two results differ
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -13,6 +14,7 @@
 #define CELD_SESSION_H
 
 #include "segment.h"
+#include "smooth.h"
 
 /* What can be made, each from earlier ones only. */
 typedef enum
@@ -25,6 +27,7 @@ typedef enum
   STAGE_ORDER,
   STAGE_FLAT,
   STAGE_LEVELS,
+  STAGE_PREVIEW,   /* of depth */
   STAGE_DEPTH,
   STAGE_NORMALS,
   STAGE_SHADING,
@@ -64,7 +67,10 @@ struct CeldSession
   CeldLabels     separated;                    /* the same with each region on its own; data NULL: not asked for */
   CeldPalette    palette;
   CeldOrder      order;
-  CeldPlane      flat, levels, depth, shading;
+  CeldPlane      flat, levels, preview, depth, shading;
+  CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
+  int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
+  CeldPlane      block_ink;                    /* of the preview; data NULL: to be made */
   CeldVectors    normals;
 
   CeldProblems   all_problems;                 /* gathered for celd_session_problems */
@@ -97,6 +103,17 @@ CeldStatus celd_make_ink       (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_scribbles (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_seeds     (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
+
+/* ------------------------------------------------------------------ route-depth.c */
+
+CeldStatus celd_make_preview (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_depth   (CeldSession *session, const CeldRun *run);
+
+/* The ink that depth is cut by. */
+const CeldPlane *celd_session_depth_ink (const CeldSession *session);
+
+/* Says that this ink, of the same size, will take its place. */
+void celd_session_new_depth_ink (CeldSession *session, const CeldPlane *ink);
 
 /* ------------------------------------------------------------------ changes.c */
 

@@ -248,7 +248,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-  smoothing.reach = celd_border_reach (celd_stroke_width (ink));
+  smoothing.reach = celd_edge_reach (celd_stroke_width (ink));
   status = celd_smooth_again (NULL, &smoothing, run, &made, &how);
   for (int y = 0; y < depth->height && status == CELD_OK; y++)
     memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);

@@ -18,13 +18,13 @@
 
 /* What decides v_pq where levels differ: the least ink as far as `reach` round both pixels, which counts as 0 at or
  * below the threshold. */
-typedef struct { const CeldPlane *ink; float threshold; int reach; } CeldBorder;
+typedef struct { const CeldPlane *ink; float threshold; int reach; } CeldEdges;
 
 /* How far ink matters in a drawing with strokes of this width. */
-int celd_border_reach (int stroke);
+int celd_edge_reach (int stroke);
 
 /* v_pq of the pixel (x,y) and its right (right 1, down 0) or lower neighbour (0, 1), which lies in the picture. */
-float celd_border_weight (const CeldBorder *border, const float *level, int x, int y, int right, int down);
+float celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down);
 
 /* ------------------------------------------------------------------ depth-parts.c */
 
@@ -40,9 +40,9 @@ typedef struct
   size_t       n;
 } CeldParts;
 
-/* What is joined: pixels that are not fixed (NULL: none is), across edges where v_pq > 0; with border NULL where levels
+/* What is joined: pixels that are not fixed (NULL: none is), across edges where v_pq > 0; with edges NULL where levels
  * are equal.  Tight planes. */
-CeldStatus celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldBorder *border,
+CeldStatus celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldEdges *edges,
                             const CeldRun *run, CeldParts *parts);
 void celd_parts_clear (CeldParts *parts);                     /* accepts a zeroed record */
 
@@ -75,7 +75,7 @@ typedef struct
   int            width, height;
   const float   *level;         /* of every pixel, finite */
   const uint8_t *fixed;         /* which keep theirs */
-  CeldBorder     border;
+  CeldEdges      edges;
   const uint8_t *changed;       /* pixels of whose equation anything is new; NULL: of all */
   const float   *last;          /* depth before, where `changed` is not NULL; else a start, or NULL */
   double         tolerance, range; /* largest error of depth, as a share of that range */
@@ -103,7 +103,7 @@ typedef struct
   const CeldPlane    *ink, *levels;
   const CeldMask     *anchors;  /* NULL: none */
   const CeldSettings *settings;
-  int                 reach;    /* as celd_border_reach has it */
+  int                 reach;    /* as celd_edge_reach has it */
   size_t              speck;    /* smaller regions hold nothing */
   const float        *last;     /* tight; the depth that `smoother` tells of; NULL if there is none */
 } CeldSmoothing;

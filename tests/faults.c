@@ -274,11 +274,13 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
     case 17: *status = celd_session_labels (s, run, &labels, &changed); break;
     case 18: *status = celd_session_remove_stroke (s, 3); break;
     case 19: *status = celd_session_paint_closures (s, run, &closures); break;
+    case 20: *status = celd_session_depth_preview (s, run, &plane, &changed); break;
+    case 21: *status = celd_session_depth (s, run, &plane, &changed); break;
     default: return false;
     }
   if (!*status && vectors.data)
     memcpy (out->vectors, vectors.data, sizeof out->vectors);
-  if (!*status && i == 9)
+  if (!*status && (i == 9 || i == 21))
     memcpy (out->plane, plane.data, sizeof out->plane);
   if (!*status && i == 11)
     memcpy (out->alpha, plane.data, sizeof out->alpha);

@@ -24,7 +24,7 @@ parts_are_what_a_flood_finds (void)
   for (uint32_t round = 0, r = 5; round < 60; round++)
     {
       CeldPlane  ink = ink_of (&picture);
-      CeldBorder border = { &ink, 0.25f, 1 };
+      CeldEdges edges = { &ink, 0.25f, 1 };
       CeldParts  parts = { 0 };
       bool       regions = round % 2;
       int        part[N], n, covered = 0;
@@ -32,7 +32,7 @@ parts_are_what_a_flood_finds (void)
       random_picture (&r, &picture);
       weigh (regions);
       n = flood_parts (regions ? NULL : picture.fixed, weight, part);
-      CHECK (celd_parts_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &border, NULL,
+      CHECK (celd_parts_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &edges, NULL,
                               &parts) == CELD_OK);
       CHECK (parts.n == (size_t) n);
       for (int y = 0; y < H; y++)
