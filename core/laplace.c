@@ -20,10 +20,7 @@
 #define MOST_ROUNDS  200
 #define RENEW        6          /* rounds after which the residual is made anew */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
-#define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
-#define BAND_WORK    (1u << 26) /* ... and in multiplications */
-#define WEAK         1e-3f      /* Weights that differ by more than this, as where a small drawing is all lines, ... */
-#define WEAK_MORE    4          /* ... are hard for the cycle: so many times as much is worth while */
+
 
 /* ------------------------------------------------------------------ pinned pixels */
 
@@ -119,57 +116,10 @@ copy_system (const float *east, const float *south, const float *diagonal, const
   return status;
 }
 
-/* Do weights differ very much? */
-static bool
-has_weak_links (const CeldWeights *g)
-{
-  size_t n = (size_t) g->width * (size_t) g->height;
-  float  most = 0, least = INFINITY;
-
-  for (size_t i = 0; i < n; i++)
-    for (int k = 0; k < 2; k++)
-      {
-        float w = k ? g->south[i] : g->east[i];
-
-        most  = w > most ? w : most;
-        least = w > 0 && w < least ? w : least;
-      }
-  return least < WEAK * most;
-}
-
-/* Row by row along the shorter side, every pixel's edges are at most that side long. */
-static CeldStatus
-set_up_band (const CeldWeights *g, CeldLaplace *l)
-{
-  bool       tall = l->width <= l->height;
-  size_t     w = (size_t) l->width, n = w * (size_t) l->height;
-  uint32_t   band = (uint32_t) (tall ? l->width : l->height);
-  CeldStatus status = celd_band_new ((uint32_t) n, band, &l->band);
-
-  if (status != CELD_OK)
-    return status;
-  if (!(l->keep = celd_alloc (n, 1)))
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < n; i++)
-    {
-      size_t  node   = tall ? i : i % w * (size_t) l->height + i / w;
-      double *weight = l->band.weight + node * band;
-
-      l->band.sink[node] = (double) g->sink[i];
-      weight[0]        += (double) (tall ? g->east[i] : g->south[i]);
-      weight[band - 1] += (double) (tall ? g->south[i] : g->east[i]);
-      l->keep[i] = !(g->sink[i] > 0 || g->east[i] > 0 || g->south[i] > 0 || (i % w && g->east[i - 1] > 0) ||
-                     (i >= w && g->south[i - w] > 0));
-    }
-  celd_band_eliminate (&l->band);
-  return CELD_OK;
-}
-
 CeldStatus
 celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
                 const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace)
 {
-  size_t       n = (size_t) width * (size_t) height, band = (size_t) (width < height ? width : height);
   CeldLaplace *l = celd_alloc0 (1, sizeof *l);
   CeldWeights    graph = { 0 };
   CeldStatus   status;
@@ -182,15 +132,12 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
   if (status == CELD_OK)
     status = copy_system (east, south, diagonal, fixed, l, &graph);
   if (status == CELD_OK)
-    {
-      size_t more = has_weak_links (&graph) ? WEAK_MORE : 1;
-
-      l->direct = n * band <= more * BAND_LENGTH && n * band * band <= more * BAND_WORK;
-    }
-  if (status == CELD_OK)
     status = celd_floating_find (&graph, l);
   if (status == CELD_OK)
-    status = l->direct ? set_up_band (&graph, l) : celd_levels_new (&graph, run, &l->levels);
+    {
+      l->direct = celd_is_direct (&graph);
+      status    = l->direct ? celd_direct_new (&graph, l) : celd_levels_new (&graph, run, &l->levels);
+    }
   celd_weights_clear (&graph);
   if (status == CELD_OK)
     *laplace = l;
@@ -211,34 +158,6 @@ celd_lap_free (CeldLaplace *laplace)
   celd_free (laplace->floating);
   celd_free (laplace->floating_size);
   celd_free (laplace);
-}
-
-/* ------------------------------------------------------------------ direct solutions */
-
-static CeldStatus
-eliminate (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x)
-{
-  bool    tall = l->width <= l->height;
-  size_t  w = (size_t) l->width, h = (size_t) l->height, many = (size_t) lanes;
-  double *v = celd_alloc (w * h, many * sizeof *v);
-
-  if (!v)
-    return CELD_NO_MEMORY;
-#define NODE(i) ((size_t) (tall ? (i) : (i) % w * h + (i) / w))
-  for (size_t i = 0; i < w * h; i++)
-    for (size_t k = 0; k < many; k++)
-      v[NODE (i) * many + k] =
-        (b ? (double) b[i * many + k] : 0) - (b_mean ? b_mean[l->floating[i] * many + k] : 0);
-  for (size_t i = 0; i < l->n_held; i++)
-    for (size_t k = 0; k < many; k++)
-      v[NODE (l->held[i].free) * many + k] += (double) l->held[i].weight * (double) x[l->held[i].fixed * many + k];
-  celd_band_solve (&l->band, lanes, v);
-  for (size_t i = 0; i < w * h; i++)
-    for (size_t k = 0; k < many && !l->keep[i]; k++)
-      x[i * many + k] = (float) v[NODE (i) * many + k];
-#undef NODE
-  celd_free (v);
-  return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ the conjugate gradient */
@@ -394,7 +313,7 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
   celd_floating_means (l, lanes, x, before);
   if (b_mean)
     celd_floating_means (l, lanes, b, b_mean);
-  status = l->direct ? eliminate (l, lanes, b, b_mean, x)
+  status = l->direct ? celd_direct_solve (l, lanes, b, b_mean, x)
                      : converge (l, lanes, b, b_mean, x, tolerance, most, run, solve);
   celd_floating_means (l, lanes, x, after);
   celd_floating_shift (l, lanes, before, after, x);

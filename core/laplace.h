@@ -132,6 +132,13 @@ struct CeldLaplace
   CeldLevels  levels;
 };
 
+/* ------------------------------------------------------------------ laplace-direct.c: small systems */
+
+bool       celd_is_direct (const CeldWeights *pixels);    /* is elimination worth while? */
+CeldStatus celd_direct_new (const CeldWeights *pixels, CeldLaplace *laplace);
+/* b may be NULL; b_mean: what to leave out of it in floating components, NULL if there are none. */
+CeldStatus celd_direct_solve (const CeldLaplace *laplace, int lanes, const float *b, const double *b_mean, float *x);
+
 /* ------------------------------------------------------------------ laplace-floating.c: parts that nothing holds */
 
 /* Finds the floating components of more than one pixel. */
@@ -170,10 +177,12 @@ typedef struct
 CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run,
                               CeldSolution *s);
 void       celd_solution_free (CeldSolution *s);                          /* accepts a zeroed one */
+/* laplace-residual.c: */
 void       celd_pixels_begin (CeldSolution *s);                           /* x from the caller's, r = b - A x */
+void       celd_pixels_refresh (CeldSolution *s);                         /* r = b - A x anew */
+void       celd_pixels_deliver (CeldSolution *s);                         /* the caller's x */
 /* A step, p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q, unless alpha is NULL; if `fresh`, r = b - A x
  * anew; then z = about A^-1 r and t = A z. */
 void       celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m);
-void       celd_pixels_deliver (CeldSolution *s);                         /* the caller's x */
 
 #endif
