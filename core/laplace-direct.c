@@ -33,9 +33,10 @@ bool
 celd_is_direct (const CeldWeights *g)
 {
   size_t n = (size_t) g->width * (size_t) g->height, band = (size_t) (g->width < g->height ? g->width : g->height);
-  size_t more = has_weak_links (g) ? WEAK_MORE : 1;
+  bool   small = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
 
-  return n * band <= more * BAND_LENGTH && n * band * band <= more * BAND_WORK;
+  return small || (n * band <= (size_t) WEAK_MORE * BAND_LENGTH && n * band * band <= (size_t) WEAK_MORE * BAND_WORK &&
+                   has_weak_links (g));
 }
 
 /* Every pixel's edges are at most the shorter side long. */

@@ -20,8 +20,14 @@ typedef struct
 static CeldStatus
 join_runs (const CeldWeights *g, Runs *runs, uint32_t *row)
 {
-  size_t w = (size_t) g->width, h = (size_t) g->height;
+  size_t w = (size_t) g->width, h = (size_t) g->height, n = 1;
 
+  for (size_t i = 0; i < w * h; i++)
+    n += !(g->east[i] > 0); /* which it is not in the last column */
+  runs->first  = celd_alloc (n, sizeof *runs->first);
+  runs->parent = celd_alloc (n, sizeof *runs->parent);
+  if (!runs->first || !runs->parent)
+    return CELD_NO_MEMORY;
   for (size_t y = 0, i = 0; y < h; y++)
     {
       uint32_t *here = row + (y & 1 ? w : 0), *above = row + (y & 1 ? 0 : w), last = UINT32_MAX, last_above = 0;
@@ -30,13 +36,6 @@ join_runs (const CeldWeights *g, Runs *runs, uint32_t *row)
         {
           if (x == 0 || !(g->east[i - 1] > 0))
             {
-              uint32_t *first = celd_grow (runs->first, runs->n + 1, sizeof *first), *parent;
-
-              runs->first = first ? first : runs->first;
-              parent = celd_grow (runs->parent, runs->n + 1, sizeof *parent);
-              runs->parent = parent ? parent : runs->parent;
-              if (!first || !parent)
-                return CELD_NO_MEMORY;
               runs->first[runs->n]  = (uint32_t) i;
               runs->parent[runs->n] = (uint32_t) runs->n;
               runs->n++;
