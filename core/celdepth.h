@@ -89,6 +89,7 @@ typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
 typedef enum { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER } CeldArrowStyle;
 typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, CELD_ANCHORS_CORE } CeldAnchors;
 typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
+typedef enum { CELD_SUGGEST_OFF, CELD_SUGGEST_FILL_GAPS, CELD_SUGGEST_ALL } CeldSuggest;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -109,6 +110,7 @@ typedef struct
   CeldSameColour same_colour;   /* is a colour one node, or is each of its connected regions? */
 
   /* order */
+  CeldSuggest    suggest;       /* suggestions join the artist's relations: none, where those leave a pair open, all */
   CeldArrowStyle arrow_style;
   CeldEncoding   encoding;      /* how levels leave */
   float          near_level, far_level; /* for CELD_ENCODING_FIXED: these levels become 1 and 0 */
@@ -156,7 +158,7 @@ CELD_API void celd_palette_clear (CeldPalette *palette);
 /* One end of a relation: a point of the drawing, or every region of a colour. */
 typedef struct { bool by_colour; uint8_t colour[3]; double x, y; } CeldTerm;
 
-typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW } CeldSource;
+typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW, CELD_SOURCE_SUGGESTION } CeldSource;
 
 /* `nearer` is in front of `farther`; or both have the same depth. */
 typedef struct
@@ -168,7 +170,7 @@ typedef struct
   double     weight;            /* > 0; in a contradiction the lighter relation gives way; 1 */
   double     gap;               /* least gap in levels, > 0; 1 */
   CeldSource source;
-  int        line, column;      /* where it stands in the text, from 1; 0 for painted arrows */
+  int        line, column;      /* where it stands in the text, from 1; 0 for others */
   uint32_t   id;                /* the host's name for it; 0 unless set through a session */
 } CeldRelation;
 
@@ -326,6 +328,32 @@ CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels
 CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
                                           CeldPalette *palette);
 
+/* Which of two regions that touch is in front, as far as the drawing tells: one relation a pair, appended, from a point
+ * inside the nearer to one inside the farther, source CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 =
+ * as good as a guess, 1/2 = three times as likely as not.  Suggestions do not contradict each other: the weakest of a
+ * cycle is not made.  `palette` has the areas and the background of the labels; ink may be NULL. */
+CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                  const CeldRun *run, CeldRelations *suggested);
+
+/* The same from a picture of depth, such as a depth estimator makes, in any unit, larger = nearer; not a number is
+ * unknown.  The confidence compares the difference of two regions' medians with the spread inside them. */
+CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                             const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested);
+
+/* The artist's relations, and behind them in the list those suggestions that do not contradict them or heavier
+ * suggestions; with CELD_SUGGEST_FILL_GAPS only where the artist's relations do not decide, directly or by way of
+ * others.  Suggestions get weights below all of the artist's.  Replaces `both`. */
+CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
+                                           const CeldRelations *relations, const CeldRelations *suggested,
+                                           CeldSuggest suggest, const CeldPlane *ink, const CeldRun *run,
+                                           CeldRelations *both);
+
+/* Paints relations between points as arrows of the default style over whatever is in the picture, lines about as wide
+ * as `width`: a layer that celd_arrows_read reads.  Green ones weigh 1, orange ones little.  Relations that name
+ * colours, and equalities, are no arrows; of arrows that would touch only the heaviest is painted. */
+CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double width,
+                                          CeldPaint *paint);
+
 /* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
  * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
  * contradict are reported as cycles, the lightest and then the latest of each is left out, the rest is ordered. */
@@ -412,6 +440,11 @@ CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldRun *
 /* The same as red lines about as wide as the drawing's, on a transparent picture: a layer of virtual contours, in which
  * the artist may erase what was closed wrongly. */
 CELD_API CeldStatus celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint *paint);
+/* What celd_suggest says of these labels, whether the settings apply it or not. */
+CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldRun *run,
+                                              const CeldRelations **suggested);
+/* The same as arrows on a transparent picture: an arrows layer, in which the artist may erase what is wrong. */
+CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPaint *paint);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
 CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,
@@ -431,6 +464,7 @@ CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *r
 /* What is known so far; borrowed, valid until the next call on the session.  The problems are NULL if there is no
  * memory to gather them. */
 CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);
+/* With settings.suggest, suggestions stand behind the artist's relations once the order is made. */
 CELD_API const CeldRelations *celd_session_relations (const CeldSession *session);
 CELD_API const CeldProblems  *celd_session_problems  (CeldSession *session);
 

@@ -14,13 +14,50 @@
 /* ------------------------------------------------------------------ the stages */
 
 static CeldStatus
+make_suggestions (CeldSession *s, const CeldRun *run)
+{
+  CeldRelations suggested = { 0 };
+  CeldStatus    status = celd_suggest (celd_session_current_labels (s), &s->palette, &s->ink, run, &suggested);
+
+  if (status != CELD_OK)
+    {
+      celd_relations_clear (&suggested);
+      return status;
+    }
+  celd_relations_clear (&s->suggested);
+  s->suggested = suggested;
+  return CELD_OK;
+}
+
+/* The relations that make the order: the artist's, or those and suggestions. */
+static CeldStatus
+join_suggestions (CeldSession *s, const CeldRun *run, const CeldRelations **relations)
+{
+  CeldStatus status;
+
+  *relations = &s->relations;
+  if (s->settings.suggest == CELD_SUGGEST_OFF)
+    return CELD_OK;
+  *relations = &s->joined;
+  status = celd_session_make (s, STAGE_SUGGESTIONS, run);
+  if (status != CELD_OK)
+    return status;
+  return celd_suggestions_join (celd_session_current_labels (s), &s->palette, &s->relations, &s->suggested,
+                                s->settings.suggest, &s->ink, NULL, &s->joined);
+}
+
+static CeldStatus
 make_order (CeldSession *s, const CeldRun *run)
 {
-  CeldOrder    order = { 0 };
-  CeldProblems problems = { 0 };
-  CeldStatus   status = celd_order (celd_session_current_labels (s), &s->palette, &s->relations, &s->ink, run, &order,
-                                    &problems);
+  const CeldRelations *relations;
+  CeldPart             part[2];
+  CeldRun              first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldOrder            order = { 0 };
+  CeldProblems         problems = { 0 };
+  CeldStatus           status = join_suggestions (s, &first, &relations);
 
+  if (status == CELD_OK)
+    status = celd_order (celd_session_current_labels (s), &s->palette, relations, &s->ink, &second, &order, &problems);
   if (status != CELD_OK)
     {
       celd_order_clear (&order);
@@ -148,6 +185,7 @@ static const struct
   [STAGE_SCRIBBLES] = { celd_make_scribbles, 0,                                              0.09 },
   [STAGE_SEEDS]     = { celd_make_seeds,     NEEDS (SCRIBBLES),                              0.01 },
   [STAGE_LABELS]    = { celd_make_labels,    NEEDS (INK) | NEEDS (RELATIONS) | NEEDS (SEEDS), 0.09 },
+  [STAGE_SUGGESTIONS] = { make_suggestions,  NEEDS (LABELS),                                 0.05 },
   [STAGE_ORDER]     = { make_order,          NEEDS (LABELS),                                 0.02 },
   [STAGE_FLAT]      = { make_flat,           NEEDS (ORDER),                                  0.01 },
   [STAGE_LEVELS]    = { make_levels,         NEEDS (ORDER),                                  0.21 },

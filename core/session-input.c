@@ -77,6 +77,8 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
       memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
       a->same_colour != b->same_colour || threshold)
     celd_session_forget (session, STAGE_LABELS);
+  if (a->suggest != b->suggest)
+    celd_session_forget (session, STAGE_ORDER);
   if (encoding)
     {
       celd_session_forget (session, STAGE_FLAT);

@@ -4,9 +4,11 @@
  */
 #include "session.h"
 
+#include <math.h>
 #include <string.h>
 
 #define THINNEST 2 /* pixels: a closure that can be seen, and that nothing leaks past when it is a virtual contour */
+#define SLENDER  0.6 /* stroke widths: an arrow beside the drawing's lines */
 
 CeldSession *
 celd_session_new (void)
@@ -32,6 +34,8 @@ celd_session_clear_results (CeldSession *session)
       s->unseen[i] = (CeldRect) { 0 };
     }
   celd_relations_clear (&s->relations);
+  celd_relations_clear (&s->suggested);
+  celd_relations_clear (&s->joined);
   celd_palette_clear (&s->layer_palette);
   celd_palette_clear (&s->seed_palette);
   celd_palette_clear (&s->palette);
@@ -152,6 +156,56 @@ celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint
 }
 
 CeldStatus
+celd_session_suggestions (CeldSession *session, const CeldRun *run, const CeldRelations **suggested)
+{
+  CeldStatus status = ask (session, STAGE_SUGGESTIONS, run, NULL);
+
+  if (status == CELD_OK)
+    *suggested = &session->suggested;
+  return status;
+}
+
+/* Without those about the background, which is behind everything as it is. */
+static CeldStatus
+choose_arrows (const CeldSession *session, CeldRelations *arrows)
+{
+  const CeldLabels *labels = celd_session_current_labels (session);
+  CeldStatus        status = CELD_OK;
+
+  for (size_t i = 0; i < session->suggested.n && status == CELD_OK; i++)
+    {
+      const CeldRelation *relation = &session->suggested.item[i];
+      uint32_t            farther = CELD_AT (labels, (int) relation->farther.x, (int) relation->farther.y);
+
+      if (!session->palette.item[farther - 1].background)
+        status = celd_relation_add (arrows, *relation);
+    }
+  return status;
+}
+
+CeldStatus
+celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPaint *paint)
+{
+  const CeldRelations *suggested;
+  CeldRelations        arrows = { 0 };
+  CeldStatus           status;
+
+  if (!CELD_SAME_SIZE (&session->drawing.luma, paint))
+    return CELD_BAD_SIZE;
+  status = celd_session_suggestions (session, run, &suggested);
+  if (status == CELD_OK)
+    status = choose_arrows (session, &arrows);
+  if (status == CELD_OK)
+    {
+      for (int y = 0; y < paint->height; y++)
+        memset (CELD_RGBA (paint, 0, y), 0, 4 * (size_t) paint->width);
+      status = celd_relations_paint (&arrows, fmax (THINNEST, SLENDER * celd_stroke_width (&session->ink)), paint);
+    }
+  celd_relations_clear (&arrows);
+  return status;
+}
+
+CeldStatus
 celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order)
 {
   CeldStatus status = ask (session, STAGE_ORDER, run, NULL);
@@ -230,7 +284,7 @@ celd_session_palette (const CeldSession *session)
 const CeldRelations *
 celd_session_relations (const CeldSession *session)
 {
-  return &session->relations;
+  return session->settings.suggest && session->valid[STAGE_ORDER] ? &session->joined : &session->relations;
 }
 
 const CeldProblems *

@@ -24,6 +24,7 @@ typedef enum
   STAGE_SCRIBBLES, /* the layer's seeds */
   STAGE_SEEDS,     /* the same under the single strokes */
   STAGE_LABELS,
+  STAGE_SUGGESTIONS,
   STAGE_ORDER,
   STAGE_FLAT,
   STAGE_LEVELS,
@@ -54,7 +55,8 @@ struct CeldSession
   bool           valid[N_STAGES];
   CeldRect       unseen[N_STAGES];             /* what the host has not asked for since it changed */
   CeldProblems   problems[N_STAGES];
-  CeldRelations  relations;
+  CeldRelations  relations;                    /* the artist's */
+  CeldRelations  suggested, joined;            /* and what the order was made from, with settings.suggest */
   CeldPlane      ink, depth_ink;               /* depth_ink.data NULL: the same as ink */
   CeldSeedRows   layer_seeds, seeds;
   CeldPalette    layer_palette, seed_palette;

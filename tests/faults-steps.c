@@ -264,6 +264,36 @@ order_step (const CeldRun *run, Results *r)
   return celd_order (&labels, &label_palette, &relations, &ink, run, &r->order, &r->problems);
 }
 
+/* From the lines and from a picture of depth, and beside the relations; some of it painted. */
+static CeldStatus
+suggest_step (const CeldRun *run, Results *r)
+{
+  CeldLabels    labels = labels_of (&label_pixels);
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (&drawing_pixels);
+  CeldPaint     paint = paint_of (r->pixels);
+  CeldRelations suggested = { 0 }, both = { 0 };
+  CeldPart      parts[3];
+  CeldRun       first = celd_run_part (&parts[0], run, 0, 0.4), second = celd_run_part (&parts[1], run, 0.4, 0.8);
+  CeldRun       third = celd_run_part (&parts[2], run, 0.8, 1);
+  CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &first, &suggested);
+
+  if (status == CELD_OK && !suggested.n)
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  if (status == CELD_OK)
+    status = celd_suggest_from_depth (&labels, &label_palette, &ink, &depth, &second, &suggested);
+  if (status == CELD_OK)
+    status = celd_suggestions_join (&labels, &label_palette, &relations, &suggested, CELD_SUGGEST_FILL_GAPS, &ink,
+                                    &third, &both);
+  if (status == CELD_OK)
+    status = celd_relations_paint (&suggested, 2, &paint);
+  if (status == CELD_OK)
+    r->relations = both;
+  else
+    celd_relations_clear (&both);
+  celd_relations_clear (&suggested);
+  return status;
+}
+
 static CeldStatus
 expand_step (const CeldRun *run, Results *r)
 {
@@ -431,6 +461,7 @@ const Step steps[] = {
   { "labels", labels_step, NULL, false },
   { "background", background_step, &label_palette, false },
   { "order", order_step, NULL, true },
+  { "suggest", suggest_step, NULL, true },
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },

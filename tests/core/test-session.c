@@ -287,6 +287,54 @@ another_size_starts_anew (void)
   celd_session_free (s);
 }
 
+/* A blue sheet over a red one: nothing is applied unless asked for, and the artist is never overruled. */
+static void
+suggestions (void)
+{
+  static const uint8_t green[3] = { 0, 255, 0 };
+  static float         luma[W * H];
+  static uint8_t       pixels[4 * W * H];
+  CeldDrawing          drawing = { .luma = { W, H, W, luma } };
+  CeldPaint            paint = { W, H, W, pixels };
+  CeldSession         *s = celd_session_new ();
+  CeldSettings         settings = celd_settings ();
+  const CeldRelations *suggested;
+  CeldPlane            flat;
+  int                  painted = 0;
+
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        bool red_sheet = x >= 3 && x < 28 && y >= 3 && y < 22, red_paper = x >= 5 && x < 26 && y >= 5 && y < 20;
+        bool blue_sheet = x >= 18 && x < 45 && y >= 10 && y < 29, blue_paper = x >= 20 && x < 43 && y >= 12 && y < 27;
+
+        luma[y * W + x] = blue_sheet ? blue_paper : red_sheet ? red_paper : 1;
+      }
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  put_box (s, 1, 7, 7, 10, 3, red);
+  put_box (s, 2, 24, 16, 14, 3, blue);
+  put_box (s, 3, 1, 0, 44, 2, green);
+  CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK);
+  CHECK (CELD_AT (&flat, 8, 8) == CELD_AT (&flat, 30, 17) && celd_session_relations (s)->n == 0);
+  CHECK (celd_session_suggestions (s, NULL, &suggested) == CELD_OK && suggested->n == 3);
+  CHECK (celd_session_paint_suggestions (s, NULL, &paint) == CELD_OK);
+  for (int p = 0; p < W * H; p++)
+    painted += pixels[4 * p + 3] > 127;
+  CHECK (painted > 10 && painted < 150); /* one arrow: those to the page are left out */
+  for (int k = CELD_SUGGEST_FILL_GAPS; k <= CELD_SUGGEST_ALL; k++)
+    {
+      settings.suggest = (CeldSuggest) k;
+      CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+      CHECK (celd_session_set_relations (s, "", NULL) == CELD_OK);
+      CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK && celd_session_relations (s)->n == 3);
+      CHECK (CELD_AT (&flat, 8, 8) < CELD_AT (&flat, 30, 17) && CELD_AT (&flat, 8, 8) > CELD_AT (&flat, 46, 2));
+      CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff @0.01", NULL) == CELD_OK);
+      CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK && celd_session_problems (s)->n == 0);
+      CHECK (CELD_AT (&flat, 8, 8) > CELD_AT (&flat, 30, 17));
+    }
+  celd_session_free (s);
+}
+
 int
 main (void)
 {
@@ -296,6 +344,7 @@ main (void)
   RUN (anchors_keep_their_level);
   RUN (setting_the_same_makes_nothing_again);
   RUN (a_new_ink_threshold_reaches_the_labels);
+  RUN (suggestions);
   RUN (cancel_leaves_it_usable);
   RUN (bad_input);
   RUN (strokes_far_outside);
