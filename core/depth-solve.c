@@ -164,31 +164,36 @@ fill_rest (const Work *work)
 
 /* ------------------------------------------------------------------ the others */
 
-/* The equation of pixel (x,y), i in the box.  Fixed neighbours are folded into diagonal and right-hand side. */
+/* Pixel i of the box is drawn to the fixed pixel q across the edge of pixel (x,y) to its right or lower neighbour. */
 static void
-write_equation (const CeldSystem *e, Box *box, int x, int y, size_t i)
+hold (const CeldSystem *e, const Box *box, size_t i, size_t q, int x, int y, int right)
 {
-  size_t p = pixel_at (e, x, y);
+  float weight = celd_edge_weight (&e->edges, e->level, x, y, right, !right);
 
-  for (int k = 0; k < 4; k++)
+  box->diagonal[i] += weight;
+  box->b[i]        += weight * e->level[q];
+}
+
+/* The equations of a stretch of row y; its first pixel is i in the box. */
+static void
+write_equations (const CeldSystem *e, const CeldStretch *s, int y, size_t i, const Box *box)
+{
+  size_t w = (size_t) e->width, p = pixel_at (e, s->x, y);
+
+  if (s->x > 0 && e->fixed[p - 1])
+    hold (e, box, i, p - 1, s->x - 1, y, 1);
+  for (int x = s->x; x < s->end; x++, i++, p++)
     {
-      int    right = k < 2, back = k & 1; /* the neighbour to the right, left, below, above */
-      int    u = x - (right && back), v = y - (!right && back);
-      size_t q = back ? p - (right ? 1 : (size_t) e->width) : p + (right ? 1 : (size_t) e->width);
-      float  weight;
-
-      if (u < 0 || v < 0 || u + right >= e->width || v + !right >= e->height || (back && !e->fixed[q]))
-        continue;
-      weight = celd_edge_weight (&e->edges, e->level, u, v, right, !right);
-      if (e->fixed[q])
-        {
-          box->diagonal[i] += weight;
-          box->b[i]        += weight * e->level[q];
-        }
-      else if (right)
-        box->east[i] = weight;
-      else
-        box->south[i] = weight;
+      if (x + 1 < s->end)
+        box->east[i] = celd_edge_weight (&e->edges, e->level, x, y, 1, 0);
+      else if (s->end < e->width && e->fixed[p + 1])
+        hold (e, box, i, p + 1, x, y, 1);
+      if (y > 0 && e->fixed[p - w])
+        hold (e, box, i, p - w, x, y - 1, 0);
+      if (y + 1 < e->height && e->fixed[p + w])
+        hold (e, box, i, p + w, x, y, 0);
+      else if (y + 1 < e->height)
+        box->south[i] = celd_edge_weight (&e->edges, e->level, x, y, 0, 1);
     }
 }
 
@@ -232,8 +237,8 @@ write_box (const Work *work, Box *box)
 
           box->diagonal[i] = box->b[i] = 0;
           box->x[i] = fminf (fmaxf (e->last ? e->last[p] : e->level[p], part->low), part->high);
-          write_equation (e, box, x, y, i);
         }
+      write_equations (e, s, y, in_box (box, s->x, y), box);
     }
   return (double) high - (double) low;
 }
@@ -273,6 +278,10 @@ solve_box (const Work *work, Box *box, const CeldRun *run, CeldSolve *solve)
     goto done;
   range  = write_box (work, box);
   status = celd_lap_setup (w, h, box->east, box->south, box->diagonal, NULL, &setting_up, &laplace);
+  celd_free (box->east);
+  celd_free (box->south);
+  celd_free (box->diagonal);
+  box->east = box->south = box->diagonal = NULL;
   if (status == CELD_OK)
     status = celd_lap_solve (laplace, 1, box->b, box->x, e->tolerance * e->range / range, &solving, solve);
   if (status == CELD_OK)

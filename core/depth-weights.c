@@ -34,23 +34,14 @@ least_ink (const CeldEdges *b, int x0, int y0, int x1, int y1)
   return least;
 }
 
-/* Of two pixels whose levels differ; on closed contours the first look is enough. */
-static float
-weight_across (const CeldEdges *b, int x, int y, int right, int down)
+float
+celd_edge_across (const CeldEdges *b, int x, int y, int right, int down)
 {
-  float least = least_ink (b, x, y, x + right, y + down);
+  float least = least_ink (b, x, y, x + right, y + down); /* enough on closed contours */
 
   if (least > b->threshold)
     least = least_ink (b, x - b->reach, y - b->reach, x + right + b->reach, y + down + b->reach);
   return least <= b->threshold ? 0 : least;
-}
-
-float
-celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down)
-{
-  const float *here = level + (size_t) y * (size_t) edges->ink->width + (size_t) x;
-
-  return here[0] == here[right ? 1 : edges->ink->width] ? 1 : weight_across (edges, x, y, right, down);
 }
 
 /* 1 where two rows of levels are equal, else marked for a closer look. */
@@ -70,7 +61,7 @@ weigh_row (const CeldEdges *b, const float *level, int n, int y, int right, floa
 {
   compare_levels (level, level + (right ? 1 : b->ink->width), n, weight, differs);
   for (int x = celd_next_marked (n, differs, 0); x < n; x = celd_next_marked (n, differs, x + 1))
-    weight[x] = weight_across (b, x, y, right, !right);
+    weight[x] = celd_edge_across (b, x, y, right, !right);
 }
 
 CeldStatus

@@ -23,8 +23,17 @@ typedef struct { const CeldPlane *ink; float threshold; int reach; } CeldEdges;
 /* How far ink matters in a drawing with strokes of this width. */
 int celd_edge_reach (int stroke);
 
-/* v_pq of the pixel (x,y) and its right (right 1, down 0) or lower neighbour (0, 1), which lies in the picture. */
-float celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down);
+/* v_pq of the pixel (x,y) and its right (right 1, down 0) or lower neighbour (0, 1), which lies in the picture; the
+ * first function is for levels that differ. */
+float celd_edge_across (const CeldEdges *edges, int x, int y, int right, int down);
+
+static inline float
+celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down)
+{
+  const float *here = level + (size_t) y * (size_t) edges->ink->width + (size_t) x;
+
+  return here[0] == here[right ? 1 : edges->ink->width] ? 1 : celd_edge_across (edges, x, y, right, down);
+}
 
 /* ------------------------------------------------------------------ depth-parts.c */
 
