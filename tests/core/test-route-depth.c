@@ -310,6 +310,59 @@ the_host_hears_of_changes (void)
   celd_session_free (s);
 }
 
+/* ------------------------------------------------------------------ anchors */
+
+/* Two halves of a page, parted by a wall with a gap, each with a stroke.  Which of these places keep their level? */
+enum { STROKE_LEFT = 1, END_LEFT = 2, CORE_LEFT = 4, CORE_RIGHT = 8 };
+static const int held_place[4][2] = { { 242, 22 }, { 255, 110 }, { 20, 110 }, { 325, 110 } };
+
+static int
+what_holds (CeldAnchors anchors, bool hold_rest, const char *relations)
+{
+  static Page  page;
+  CeldSession *s = celd_session_new ();
+  CeldSettings settings = celd_settings ();
+  CeldDrawing  drawing = { .luma = { WIDE, HIGH, WIDE, page.luma } };
+  CeldPaint    scribbles = { WIDE, HIGH, WIDE, page.paint };
+  CeldPlane    depth;
+  int          held = 0;
+
+  memset (page.paint, 0, sizeof page.paint);
+  for (int i = 0; i < WIDE * HIGH; i++)
+    page.luma[i] = i % WIDE >= 270 && i % WIDE < 274 && abs (i / WIDE - 110) > 15 ? 0 : 1;
+  paint_square (&page, 240, 20, colours[0]);
+  paint_square (&page, 290, 200, colours[1]);
+  settings.anchors   = anchors;
+  settings.hold_rest = hold_rest;
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_set_scribbles (s, &scribbles) == CELD_OK);
+  CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+  CHECK (celd_session_set_relations (s, relations, NULL) == CELD_OK);
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+  for (int k = 0; k < 4; k++)
+    held |= CELD_AT (&depth, held_place[k][0], held_place[k][1]) == (k < 3 ? 1.f : 0.f) ? 1 << k : 0;
+  celd_session_free (s);
+  return held;
+}
+
+static void
+anchors_are_what_was_chosen (void)
+{
+  const char *colour = "#e60000 > #0000e6", *points = "255,110 > 290,110", *one = "255,110 > #0000e6";
+  const char *marked = "255,110 > 290,110 !anchor";
+
+  CHECK (what_holds (CELD_ANCHORS_SCRIBBLES, true, points) == STROKE_LEFT);
+  CHECK (what_holds (CELD_ANCHORS_ARROWS, true, points) == END_LEFT);
+  CHECK (what_holds (CELD_ANCHORS_BOTH, true, points) == (STROKE_LEFT | END_LEFT));
+  CHECK (what_holds (CELD_ANCHORS_CORE, true, points) == (CORE_LEFT | CORE_RIGHT));
+  CHECK (what_holds (CELD_ANCHORS_ARROWS, true, colour) == (CORE_LEFT | CORE_RIGHT)); /* there are none */
+  CHECK (what_holds (CELD_ANCHORS_SCRIBBLES, false, marked) == (STROKE_LEFT | END_LEFT));
+  CHECK (what_holds (CELD_ANCHORS_CORE, true, marked) == END_LEFT);
+  CHECK (what_holds (CELD_ANCHORS_ARROWS, true, one) == (END_LEFT | CORE_RIGHT));
+  /* All that its end reaches takes its level. */
+  CHECK (what_holds (CELD_ANCHORS_ARROWS, false, one) == (STROKE_LEFT | END_LEFT | CORE_LEFT));
+}
+
 int
 main (void)
 {
@@ -318,5 +371,6 @@ main (void)
   RUN (the_preview_is_cut_where_depth_is);
   RUN (thin_contours_stay_closed);
   RUN (the_host_hears_of_changes);
+  RUN (anchors_are_what_was_chosen);
   return DONE;
 }
