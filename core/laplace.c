@@ -18,7 +18,7 @@
 #include <math.h>
 
 #define MOST_ROUNDS  200
-#define RENEW        3          /* rounds after which the residual is made anew: what float loses in it misleads, too */
+#define RENEW        3          /* rounds after which the residual is made anew: what float loses in it misleads */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
 
 
