@@ -1,6 +1,6 @@
 /* The pixels of the Laplacian solver in double: the residual anew, and the result.
  *
- * Right-hand sides are the caller's, with what fixed pixels pull.  Each strip makes the black rows itself that it needs.
+ * Right-hand sides are the caller's, with what fixed pixels pull.  Each strip makes the black rows it needs itself.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
