@@ -35,6 +35,7 @@ celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
   celd_free (s->block_ink.data);
   s->block_ink = (CeldPlane) { 0 };
   s->reach     = 0;
+  celd_session_forget_ranks (s);
   s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
   s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
 }

@@ -236,6 +236,14 @@ celd_session_current_labels (const CeldSession *session)
   return session->separated.data ? &session->separated : &session->solved;
 }
 
+static void
+see_labels (CeldSession *s, CeldRect changed)
+{
+  celd_session_see (s, STAGE_LABELS, changed);
+  if (changed.width)
+    celd_session_forget_ranks (s);
+}
+
 /* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
  * compared. */
 CeldStatus
@@ -257,20 +265,20 @@ celd_make_labels (CeldSession *s, const CeldRun *run)
     status = celd_segmenter_solve (s->segmenter, &s->seeds, &s->relations, &s->settings, &solve, &palette, &problems,
                                    &s->solved, &changed);
   if (status == CELD_OK && !s->separated.data)
-    celd_session_see (s, STAGE_LABELS, changed);
+    see_labels (s, changed);
   if (status == CELD_OK && apart)
     status = separate (s, &last, &palette, &separated);
   if (status != CELD_OK)
     {
+      celd_session_forget_ranks (s); /* what was painted before it failed, nobody knows */
       celd_free (separated.data);
       celd_palette_clear (&palette);
       celd_problems_clear (&problems);
       return status;
     }
   if (apart || s->separated.data)
-    celd_session_see (s, STAGE_LABELS,
-                      celd_difference (celd_session_current_labels (s)->data, apart ? separated.data : s->solved.data,
-                                       s->solved.width, s->solved.height, sizeof (uint32_t)));
+    see_labels (s, celd_difference (celd_session_current_labels (s)->data, apart ? separated.data : s->solved.data,
+                                    s->solved.width, s->solved.height, sizeof (uint32_t)));
   celd_free (s->separated.data);
   celd_palette_clear (&s->palette);
   celd_problems_clear (&s->problems[STAGE_LABELS]);

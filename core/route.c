@@ -114,8 +114,33 @@ make_flat (CeldSession *s, const CeldRun *run)
   return status;
 }
 
+/* Rank and level of each label. */
 static CeldStatus
-make_levels (CeldSession *s, const CeldRun *run)
+list_ranks (const CeldSession *s, CeldRank **list)
+{
+  CeldRank *rank = celd_alloc (s->order.n, sizeof *rank);
+
+  if (!rank)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < s->order.n; k++)
+    rank[k] = (CeldRank) { s->order.level[k],
+                           celd_encode_level (s->order.level[k], s->order.levels, &s->settings) };
+  *list = rank;
+  return CELD_OK;
+}
+
+/* With the labels and the ink as they were, do these ranks give the levels that there are? */
+static bool
+levels_stand (const CeldSession *s, const CeldRank *rank)
+{
+  for (size_t k = 0; s->rank && k < s->order.n && s->n_ranks == s->order.n; k++)
+    if (rank[k].rank != s->rank[k].rank || rank[k].level != s->rank[k].level)
+      return false;
+  return s->rank && s->n_ranks == s->order.n;
+}
+
+static CeldStatus
+expand_levels (CeldSession *s, const CeldRun *run)
 {
   CeldLabels ranks;
   CeldPlane  levels = { 0 };
@@ -132,6 +157,35 @@ make_levels (CeldSession *s, const CeldRun *run)
     }
   celd_free (ranks.data);
   celd_free (levels.data);
+  return status;
+}
+
+void
+celd_session_forget_ranks (CeldSession *session)
+{
+  celd_free (session->rank);
+  session->rank = NULL;
+}
+
+/* Most strokes and relations only say what is so already. */
+static CeldStatus
+make_levels (CeldSession *s, const CeldRun *run)
+{
+  CeldRank  *rank = NULL;
+  CeldStatus status = list_ranks (s, &rank);
+
+  if (status == CELD_OK && !levels_stand (s, rank))
+    {
+      status = expand_levels (s, run);
+      if (status == CELD_OK)
+        {
+          celd_session_forget_ranks (s);
+          s->rank    = rank;
+          s->n_ranks = s->order.n;
+          return CELD_OK;
+        }
+    }
+  celd_free (rank);
   return status;
 }
 

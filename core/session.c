@@ -51,6 +51,7 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->separated.data);
   celd_free (s->flat.data);
   celd_free (s->levels.data);
+  celd_session_forget_ranks (s);
   celd_free (s->preview.data);
   celd_free (s->depth.data);
   celd_free (s->block_ink.data);

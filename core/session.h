@@ -41,6 +41,9 @@ typedef struct { int y, x, end; } CeldSpan;
 /* A stroke of the host's over the scribbles layer. */
 typedef struct { uint32_t id; int x, y; uint8_t colour[3]; CeldSpan *span; size_t n; } CeldStroke;
 
+/* What levels know of a label. */
+typedef struct { uint32_t rank; float level; } CeldRank;
+
 struct CeldSession
 {
   /* what the host set */
@@ -70,6 +73,9 @@ struct CeldSession
   CeldPalette    palette;
   CeldOrder      order;
   CeldPlane      flat, levels, preview, depth, shading;
+  CeldRank      *rank;                         /* of each label as `levels` have it; NULL: the labels or the ink
+                                                * for depth are not those any more */
+  size_t         n_ranks;
   CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
   int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
   CeldPlane      block_ink;                    /* of the preview; data NULL: to be made */
@@ -83,6 +89,9 @@ void celd_session_forget (CeldSession *session, CeldStage stage);
 
 /* Makes what `stage` needs and does not hold, and the stage itself. */
 CeldStatus celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run);
+
+/* Says that the labels or the ink for depth change. */
+void celd_session_forget_ranks (CeldSession *session);
 
 /* Everything made: for a drawing of another size, and at the end. */
 void celd_session_clear_results (CeldSession *session);

@@ -310,6 +310,37 @@ the_host_hears_of_changes (void)
   celd_session_free (s);
 }
 
+/* A relation and a stroke that say what is so already: levels stand, and are not expanded again. */
+static void
+what_changes_nothing_expands_nothing (void)
+{
+  static Page      page;
+  uint32_t         r = 6;
+  CeldSession     *s = draw_discs (&page, &r, 0);
+  CeldRun          refuse = { .progress = check_refuse };
+  uint8_t          on[16];
+  CeldMask         mask = { 4, 4, 4, on };
+  CeldSettings     settings = celd_settings ();
+  const CeldOrder *order;
+  CeldPlane        levels;
+  CeldRect         changed;
+
+  memset (on, 1, sizeof on);
+  CHECK (celd_session_levels (s, NULL, &levels, NULL) == CELD_OK);
+  CHECK (celd_session_put_relation (s, 1, "#e60000 > #c8c800", NULL) == CELD_OK);
+  CHECK (celd_session_put_stroke (s, 1, 10, 4, &mask, colours[3]) == CELD_OK);
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK);
+  CHECK (celd_session_levels (s, &refuse, &levels, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_session_put_relation (s, 1, "#c8c800 > #e60000 @ 9", NULL) == CELD_OK);
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK);
+  CHECK (celd_session_levels (s, &refuse, &levels, NULL) == CELD_CANCELLED);
+  CHECK (celd_session_levels (s, NULL, &levels, NULL) == CELD_OK);
+  settings.encoding = CELD_ENCODING_RANK;
+  CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+  CHECK (celd_session_levels (s, &refuse, &levels, NULL) == CELD_CANCELLED);
+  celd_session_free (s);
+}
+
 /* ------------------------------------------------------------------ anchors */
 
 /* Two halves of a page, parted by a wall with a gap, each with a stroke.  Which of these places keep their level? */
@@ -371,6 +402,7 @@ main (void)
   RUN (the_preview_is_cut_where_depth_is);
   RUN (thin_contours_stay_closed);
   RUN (the_host_hears_of_changes);
+  RUN (what_changes_nothing_expands_nothing);
   RUN (anchors_are_what_was_chosen);
   return DONE;
 }

@@ -156,8 +156,9 @@ cancelled_edits_do_no_harm (void)
 static CeldSession *
 finished (State *s)
 {
-  CeldSession *session = celd_session_new ();
-  CeldPlane    plane;
+  CeldSession         *session = celd_session_new ();
+  CeldPlane            plane;
+  const CeldRelations *suggested;
 
   *s = (State) { .has_scribbles = true, .text = "#e60000 > #0000e6", .settings = celd_settings () };
   for (int i = 0; i < W * H; i++)
@@ -166,6 +167,7 @@ finished (State *s)
   paint_box (s->scribbles, (CeldRect) { 20, 16, 8, 3 }, colours[0]);
   paint_box (s->scribbles, (CeldRect) { 4, 3, 40, 2 }, colours[1]);
   apply (session, s);
+  CHECK (celd_session_suggestions (session, NULL, &suggested) == CELD_OK);
   CHECK (celd_session_flat (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth_preview (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth (session, NULL, &plane, NULL) == CELD_OK);
@@ -177,7 +179,7 @@ finished (State *s)
 #define STAGE(name) (1u << STAGE_##name)
 #define DEPTHS      (STAGE (PREVIEW) | STAGE (DEPTH))
 #define FROM_ORDER  (STAGE (ORDER) | STAGE (FLAT) | STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
-#define FROM_LABELS (STAGE (LABELS) | FROM_ORDER)
+#define FROM_LABELS (STAGE (LABELS) | STAGE (SUGGESTIONS) | FROM_ORDER)
 
 static unsigned
 still_made (const CeldSession *s)
