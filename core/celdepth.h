@@ -461,6 +461,16 @@ CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *r
 CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading,
                                           CeldRect *changed);
 
+/* The exact program, see celd_depth_exact, with the background of the settings.  A new relation is answered in
+ * milliseconds if its ends are scribbles or known ends of others.  The preview is for the eye while the first full depth
+ * is made: a half of the width and height, rounded up, in about a quarter of the time. */
+CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_exact_preview (CeldSession *session, const CeldRun *run, CeldPlane *half);
+/* What it says of the depth (NULL if that was not asked for since the last change), and the palette that its labels and
+ * those of its problems are in; both borrowed like the palette below. */
+CELD_API const CeldExact   *celd_session_exact_report  (const CeldSession *session);
+CELD_API const CeldPalette *celd_session_exact_palette (const CeldSession *session);
+
 /* What is known so far; borrowed, valid until the next call on the session.  The problems are NULL if there is no
  * memory to gather them. */
 CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);

@@ -4,8 +4,11 @@
  *   scribbles, strokes -> seeds -> labels -> order -> flat, levels --+-> preview of depth, depth
  *   arrows, text ---> relations ------'                 levels -> normals -> shading
  *
- * The stages up to the labels are in route-labels.c, depth is in route-depth.c.  Each of the others writes into new
- * memory and replaces the old result only when it succeeded; the comparison of the two is what the host is told to redraw.
+ *   ink -> weights -> nodes (of the seeds) -> exact depth (with the relations)
+ *
+ * The stages up to the labels are in route-labels.c, depth is in route-depth.c, the exact program in route-exact.c.  Each
+ * of the others writes into new memory and replaces the old result only when it succeeded; the comparison of the two is
+ * what the host is told to redraw.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -246,6 +249,9 @@ static const struct
   [STAGE_PREVIEW]   = { celd_make_preview,   NEEDS (ORDER),                                  0.02 },
   [STAGE_DEPTH]     = { celd_make_depth,     NEEDS (LEVELS),                                 0.05 },
   [STAGE_NORMALS]   = { make_normals,        NEEDS (LEVELS),                                 0.24 },
+  [STAGE_WEIGHTS]   = { celd_make_weights,   NEEDS (INK),                                    0.02 },
+  [STAGE_NODES]     = { celd_make_nodes,     NEEDS (SEEDS) | NEEDS (WEIGHTS),                0.10 },
+  [STAGE_EXACT]     = { celd_make_exact,     NEEDS (NODES) | NEEDS (RELATIONS),              2.00 },
   [STAGE_SHADING]   = { make_shading,        NEEDS (NORMALS),                                0.01 },
 };
 

@@ -90,6 +90,13 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
       celd_session_forget (session, STAGE_PREVIEW);
       celd_session_forget (session, STAGE_DEPTH);
     }
+  if (a->contrast != b->contrast || a->weight_floor != b->weight_floor)
+    celd_session_forget (session, STAGE_WEIGHTS);
+  if (a->background != b->background || memcmp (a->background_colour, b->background_colour, 3) ||
+      a->same_colour != b->same_colour)
+    celd_session_forget (session, STAGE_NODES);
+  if (encoding || tolerance)
+    celd_session_forget (session, STAGE_EXACT);
   if (a->bulge != b->bulge || tolerance || threshold)
     celd_session_forget (session, STAGE_NORMALS);
   if (a->light_azimuth != b->light_azimuth || a->light_elevation != b->light_elevation || a->ambient != b->ambient)

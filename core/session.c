@@ -43,6 +43,9 @@ celd_session_clear_results (CeldSession *session)
   celd_seed_rows_clear (&s->seeds);
   celd_order_clear (&s->order);
   celd_segmenter_free (s->segmenter);
+  celd_program_free (s->program);
+  celd_palette_clear (&s->exact_palette);
+  celd_exact_clear (&s->exact);
   if (s->known_ink.data != s->ink.data)
     celd_free (s->known_ink.data);
   celd_free (s->ink.data);
@@ -58,13 +61,17 @@ celd_session_clear_results (CeldSession *session)
   celd_smoother_clear (&s->smoother);
   celd_smoother_clear (&s->preview_smoother);
   celd_free (s->shading.data);
+  celd_free (s->exact_preview.data);
+  celd_free (s->exact_depth.data);
   celd_free (s->normals.data);
   s->segmenter = NULL;
+  s->program   = NULL;
   s->reach     = 0;
   s->known_ink = s->ink = s->depth_ink = s->block_ink = (CeldPlane) { 0 };
   s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
   s->solved  = s->separated = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };
+  s->exact_preview = s->exact_depth = (CeldPlane) { 0 };
 }
 
 void
@@ -274,6 +281,28 @@ celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shadi
   if (status == CELD_OK)
     *shading = session->shading;
   return status;
+}
+
+CeldStatus
+celd_session_exact (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed)
+{
+  CeldStatus status = ask (session, STAGE_EXACT, run, changed);
+
+  if (status == CELD_OK)
+    *depth = session->exact_depth;
+  return status;
+}
+
+const CeldExact *
+celd_session_exact_report (const CeldSession *session)
+{
+  return session->valid[STAGE_EXACT] ? &session->exact : NULL;
+}
+
+const CeldPalette *
+celd_session_exact_palette (const CeldSession *session)
+{
+  return &session->exact_palette;
 }
 
 const CeldPalette *

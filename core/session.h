@@ -6,6 +6,7 @@
  *   route.c           which stages there are, and what is made from the labels
  *   route-labels.c    the stages up to the labels
  *   route-depth.c     smooth depth and its preview
+ *   route-exact.c     the stages of the exact program, and its preview
  *   changes.c         where two results differ
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -13,6 +14,7 @@
 #ifndef CELD_SESSION_H
 #define CELD_SESSION_H
 
+#include "program.h"
 #include "segment.h"
 #include "smooth.h"
 
@@ -32,6 +34,9 @@ typedef enum
   STAGE_DEPTH,
   STAGE_NORMALS,
   STAGE_SHADING,
+  STAGE_WEIGHTS,   /* of the exact program */
+  STAGE_NODES,     /* the scribbles as it has them */
+  STAGE_EXACT,
   N_STAGES
 } CeldStage;
 
@@ -80,6 +85,10 @@ struct CeldSession
   int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
   CeldPlane      block_ink;                    /* of the preview; data NULL: to be made */
   CeldVectors    normals;
+  CeldProgram   *program;                      /* NULL: none yet */
+  CeldPalette    exact_palette;                /* of the scribbles, with the background */
+  CeldPlane      exact_preview, exact_depth;
+  CeldExact      exact;
 
   CeldProblems   all_problems;                 /* gathered for celd_session_problems */
 };
@@ -125,6 +134,11 @@ const CeldPlane *celd_session_depth_ink (const CeldSession *session);
 
 /* Says that this ink, of the same size, will take its place. */
 void celd_session_new_depth_ink (CeldSession *session, const CeldPlane *ink);
+/* ------------------------------------------------------------------ route-exact.c */
+
+CeldStatus celd_make_weights (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_nodes   (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_exact   (CeldSession *session, const CeldRun *run);
 
 /* ------------------------------------------------------------------ changes.c */
 

@@ -10,6 +10,7 @@
   _ (celdepth_depth_order) \
   _ (celdepth_depth_expand) \
   _ (celdepth_depth_smooth) \
+  _ (celdepth_depth_exact) \
   _ (celdepth_lumo_shade) \
   _ (celdepth_popup)
 

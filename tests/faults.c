@@ -276,8 +276,14 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
     case 19: *status = celd_session_paint_closures (s, run, &closures); break;
     case 20: *status = celd_session_depth_preview (s, run, &plane, &changed); break;
     case 21: *status = celd_session_depth (s, run, &plane, &changed); break;
+    case 22: *status = celd_session_exact (s, run, &plane, &changed); break;
+    case 23: *status = celd_session_put_relation (s, 8, "10,30 > 50,35", NULL); break;
+    case 24: *status = celd_session_exact (s, run, &plane, &changed); break;
+    case 25: *status = celd_session_exact_preview (s, run, &plane); break;
     default: return false;
     }
+  if (!*status && i == 24)
+    memcpy (out->alpha, plane.data, sizeof out->alpha);
   if (!*status && vectors.data)
     memcpy (out->vectors, vectors.data, sizeof out->vectors);
   if (!*status && (i == 9 || i == 21))

@@ -32,6 +32,11 @@ static const CliCommand commands[] = {
   { "shade", CLI_SHADE, "LEVELS", "Bends normals at the contours of expanded levels, and shades them.",
     "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
     "      --light-azimuth 45", cli_shade },
+  { "exact", CLI_EXACT, "DRAWING|LAYERED",
+    "The smoothest depth that keeps every relation exactly, by the paper's quadratic program.",
+    "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
+    "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
+    "      --encoding rank --report report.json", cli_exact },
 };
 
 static void

@@ -3,9 +3,9 @@
  *   cli.c       which sub-command              layers.c    a drawing and its layers from one file or several
  *   options.c   the options of a sub-command   pictures.c  pictures in and out, colours through babl
  *   popup.c     popup and segment              npy.c       numpy files
- *   steps.c     order, expand, smooth, shade   report.c    --report
- *   run.c       progress, cancel, timings      messages.c  sentences on stderr
- *   threads.c   the cores of the machine
+ *   exact.c     exact                          report.c    --report
+ *   steps.c     order, expand, smooth, shade   messages.c  sentences on stderr
+ *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,7 +24,8 @@ enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 
 typedef enum
 {
-  CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32
+  CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32,
+  CLI_EXACT = 64
 } CliSteps;
 
 /* File names are NULL where not given. */
@@ -145,11 +146,17 @@ typedef struct
   const CeldOrder     *order;
   const CeldProblems  *problems;
   const CeldClosures  *closures;
+  const CeldExact     *exact;       /* with it, of `order` there are the cycles alone */
   const CeldSettings  *settings;
   const GArray        *timings;
 } CliReport;
 
 bool cli_report_write (const char *path, const CliReport *report);
+
+/* ------------------------------------------------------------------ popup.c */
+
+/* Hands the input of the options over to the session, by way of the layers. */
+bool cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers);
 
 /* ------------------------------------------------------------------ the sub-commands */
 
@@ -159,5 +166,6 @@ int cli_order   (const CliOptions *options);
 int cli_expand  (const CliOptions *options);
 int cli_smooth  (const CliOptions *options);
 int cli_shade   (const CliOptions *options);
+int cli_exact   (const CliOptions *options);
 
 #endif

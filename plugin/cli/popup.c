@@ -14,9 +14,8 @@ typedef struct
   CeldVectors         normals;
 } Results;
 
-/* Hands the input over to the session. */
-static bool
-load (CeldSession *session, const CliOptions *options, CliLayers *layers)
+bool
+cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers)
 {
   char         *text = cli_relations_text (options);
   CeldTextError error;
@@ -126,7 +125,7 @@ run_route (const CliOptions *options, const char *command, bool whole_route)
   Results      results = { 0 };
   CliRun       run;
   int          code = CLI_FAILED;
-  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && load (session, options, &layers);
+  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
 
   cli_layers_clear (&layers);
   cli_run_begin (&run, options->quiet);

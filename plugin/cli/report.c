@@ -226,12 +226,48 @@ add_cost (JsonBuilder *json, const GArray *timings)
     add_integer (json, "peak-memory", (gint64) usage.ru_maxrss * 1024);
 }
 
+/* ------------------------------------------------------------------ the exact program */
+
+static void
+add_node (JsonBuilder *json, const CeldNode *node)
+{
+  json_builder_begin_object (json);
+  if (node->label)
+    add_integer (json, "label", node->label);
+  if (node->x >= 0)
+    add_place (json, "place", node->x, node->y);
+  add_number (json, "depth", node->depth);
+  json_builder_end_object (json);
+}
+
+static void
+add_exact (JsonBuilder *json, const CeldExact *exact)
+{
+  json_builder_set_member_name (json, "exact");
+  json_builder_begin_object (json);
+  add_number (json, "sigma", exact->sigma);
+  add_number (json, "energy", exact->energy);
+  add_number (json, "gap", exact->gap);
+  add_number (json, "violation", exact->violation);
+  add_integer (json, "inequalities", (gint64) exact->inequalities);
+  add_integer (json, "active", (gint64) exact->active);
+  add_integer (json, "steps", exact->steps);
+  add_integer (json, "iterations", exact->solve.iterations);
+  add_number (json, "error", exact->solve.error);
+  begin_list (json, "nodes");
+  for (size_t i = 0; i < exact->n; i++)
+    add_node (json, &exact->node[i]);
+  json_builder_end_array (json);
+  json_builder_end_object (json);
+}
+
 /* ------------------------------------------------------------------ the whole */
 
 static void
 add_order (JsonBuilder *json, const CliReport *report)
 {
-  add_integer (json, "levels", report->order->levels);
+  if (!report->exact)
+    add_integer (json, "levels", report->order->levels);
   begin_list (json, "cycles");
   for (size_t i = 0; i < report->order->n_cycles; i++)
     add_cycle (json, &report->order->cycle[i]);
@@ -261,6 +297,8 @@ make_text (const CliReport *report)
   add_relations (json, report);
   if (report->order)
     add_order (json, report);
+  if (report->exact)
+    add_exact (json, report->exact);
   begin_list (json, "problems");
   for (size_t i = 0; report->problems && i < report->problems->n; i++)
     add_problem (json, report, &report->problems->item[i]);

@@ -14,7 +14,7 @@ from PIL import Image
 
 from pictures import COMMAND, RELATIONS, Test
 
-STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade')
+STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'exact')
 
 
 class Usage(Test):

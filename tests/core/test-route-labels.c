@@ -172,6 +172,7 @@ finished (State *s)
   CHECK (celd_session_depth_preview (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_shading (session, NULL, &plane, NULL) == CELD_OK);
+  CHECK (celd_session_exact (session, NULL, &plane, NULL) == CELD_OK);
   return session;
 }
 
@@ -180,6 +181,9 @@ finished (State *s)
 #define DEPTHS      (STAGE (PREVIEW) | STAGE (DEPTH))
 #define FROM_ORDER  (STAGE (ORDER) | STAGE (FLAT) | STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
 #define FROM_LABELS (STAGE (LABELS) | STAGE (SUGGESTIONS) | FROM_ORDER)
+#define FROM_NODES  (STAGE (NODES) | STAGE (EXACT))
+#define FROM_INK    (STAGE (INK) | FROM_LABELS | STAGE (WEIGHTS) | FROM_NODES)
+#define FROM_SEEDS  (STAGE (SEEDS) | FROM_LABELS | FROM_NODES)
 
 static unsigned
 still_made (const CeldSession *s)
@@ -208,19 +212,23 @@ static void
 a_setting_redoes_what_reads_it (void)
 {
   REDOES ((void) 0, 0);
-  REDOES (settings.ink = CELD_INK_DARK, STAGE (INK) | FROM_LABELS);
-  REDOES (settings.flats = true, STAGE (SCRIBBLES) | STAGE (SEEDS) | FROM_LABELS);
+  REDOES (settings.ink = CELD_INK_DARK, FROM_INK);
+  REDOES (settings.flats = true, STAGE (SCRIBBLES) | FROM_SEEDS);
   REDOES (settings.method = CELD_METHOD_EXACT, FROM_LABELS);
   REDOES (settings.close_gaps = false, FROM_LABELS);
   REDOES (settings.keep_necks = false, FROM_LABELS);
   REDOES (settings.hardness = 1, FROM_LABELS);
   REDOES (settings.ink_threshold = 0.5f, FROM_LABELS);
-  REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_LABELS);
-  REDOES (settings.encoding = CELD_ENCODING_RANK, FROM_ORDER & ~STAGE (ORDER));
-  REDOES (settings.near_level = 3, FROM_ORDER & ~STAGE (ORDER));
-  REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (NORMALS) | STAGE (SHADING));
+  REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_LABELS | STAGE (EXACT));
+  REDOES (settings.encoding = CELD_ENCODING_RANK, (FROM_ORDER & ~STAGE (ORDER)) | STAGE (EXACT));
+  REDOES (settings.near_level = 3, (FROM_ORDER & ~STAGE (ORDER)) | STAGE (EXACT));
+  REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (NORMALS) | STAGE (SHADING) | STAGE (EXACT));
   REDOES (settings.anchors = CELD_ANCHORS_CORE, DEPTHS);
   REDOES (settings.bulge = 2, STAGE (NORMALS) | STAGE (SHADING));
+  REDOES (settings.contrast = 2, STAGE (WEIGHTS) | FROM_NODES);
+  REDOES (settings.weight_floor = 1e-3f, STAGE (WEIGHTS) | FROM_NODES);
+  REDOES (settings.same_colour = CELD_SAME_COLOUR_SEPARATE, FROM_LABELS | FROM_NODES);
+  REDOES (settings.background = CELD_BACKGROUND_NONE, FROM_LABELS | FROM_NODES);
   REDOES (settings.ambient = 0.5f, STAGE (SHADING));
 }
 
@@ -233,10 +241,10 @@ layers_redo_what_is_made_of_them (void)
   CeldPaint    scribbles = { W, H, W, state.scribbles };
 
   CHECK (celd_session_put_stroke (s, 1, 30, 25, &(CeldMask) { 2, 2, 2, on }, colours[0]) == CELD_OK);
-  CHECK (still_made (s) == (ALL & ~(STAGE (SEEDS) | FROM_LABELS)));
+  CHECK (still_made (s) == (ALL & ~FROM_SEEDS));
   paint_box (state.scribbles, (CeldRect) { 22, 22, 4, 4 }, colours[0]);
   CHECK (celd_session_set_scribbles (s, &scribbles) == CELD_OK);
-  CHECK (still_made (s) == (ALL & ~(STAGE (SCRIBBLES) | STAGE (SEEDS) | FROM_LABELS)));
+  CHECK (still_made (s) == (ALL & ~(STAGE (SCRIBBLES) | FROM_SEEDS)));
   celd_session_free (s);
 }
 

@@ -166,6 +166,35 @@ depth_is_that_of_core (void)
   g_object_unref (input);
 }
 
+/* With the scribbles of the page, of which the green one is the background, and contours. */
+static void
+exact_depth_is_that_of_core (void)
+{
+  static uint32_t data[PIXELS];
+  static float    inked[PIXELS], wanted[PIXELS];
+  CeldLabels      seeds = { WIDTH, HEIGHT, WIDTH, data };
+  CeldDrawing     baked = { .luma = { WIDTH, HEIGHT, WIDTH, inked } };
+  CeldPlane       exact = { WIDTH, HEIGHT, WIDTH, wanted };
+  CeldSettings    settings = celd_settings ();
+  CeldPalette     painted = { 0 };
+
+  settings.contrast = 2;
+  CHECK (celd_contours_bake (&page_drawing, &contours_paint, CELD_FOR_DEPTH, CELD_INK_AUTO, NULL, &baked) == CELD_OK);
+  CHECK (celd_ink (&baked, CELD_INK_AUTO, NULL, &exact) == CELD_OK);
+  memcpy (inked, wanted, sizeof inked);
+  CHECK (celd_scribbles_read (&scribbles_paint, &settings, NULL, &seeds, &painted) == CELD_OK);
+  for (size_t k = 0; k < painted.n; k++)
+    for (size_t i = 0; i < palette.n; i++)
+      if (!memcmp (painted.item[k].colour, palette.item[i].colour, 4))
+        painted.item[k].background = palette.item[i].background;
+  CHECK (celd_depth_exact (&baked.luma, &seeds, &painted, &relations, &settings, NULL, &exact, NULL, NULL) == CELD_OK);
+  operate ("celdepth:depth-exact", (Pads) { { drawing, scribbles, arrows, contours } }, "Y float", result,
+           "contrast", 2.0, NULL);
+  SAME (wanted, 1);
+  NEAR (range (wanted, PIXELS), 1, 0);
+  celd_palette_clear (&painted);
+}
+
 static void
 light_is_that_of_core (void)
 {
@@ -351,6 +380,7 @@ main (int argc, char **argv)
   RUN (order_is_that_of_core);
   RUN (levels_are_those_of_core);
   RUN (depth_is_that_of_core);
+  RUN (exact_depth_is_that_of_core);
   RUN (light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (method_is_that_of_core);

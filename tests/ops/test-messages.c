@@ -43,6 +43,10 @@ nothing_to_go_by_is_said (void)
   operate ("celdepth:popup", (Pads) { { drawing } }, "RGBA float", result, NULL);
   PASSES_THROUGH ();
   CHECK (SAYS ("Pop-up: ") && SAYS ("scribble"));
+  be_quiet ();
+  operate ("celdepth:depth-exact", (Pads) { { drawing } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Depth Exact: ") && SAYS ("scribble"));
 }
 
 static void
@@ -144,7 +148,7 @@ empty_and_single_pixels_do_no_harm (void)
 {
   static const char *const operations[] = {
     "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
-    "celdepth:depth-smooth", "celdepth:lumo-shade", "celdepth:popup",
+    "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:popup",
   };
   GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
   GeglBuffer *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
@@ -176,6 +180,9 @@ numbers_that_are_none_do_no_harm (void)
   operate ("celdepth:depth-expand", (Pads) { { bad, bad } }, "Y float", result, NULL);
   operate ("celdepth:depth-smooth", (Pads) { { bad, drawing, scribbles } }, "Y float", result, NULL);
   operate ("celdepth:popup", (Pads) { { bad, scribbles, arrows } }, "Y float", result, NULL);
+  for (int i = 0; i < PIXELS; i++)
+    strange += !isfinite (result[i]);
+  operate ("celdepth:depth-exact", (Pads) { { bad, scribbles, arrows } }, "Y float", result, NULL);
   for (int i = 0; i < PIXELS; i++)
     strange += !isfinite (result[i]);
   CHECK (strange == 0);

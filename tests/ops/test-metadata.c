@@ -15,6 +15,9 @@ static const struct { const char *name; const char *pads; const char *properties
     "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
+  { "celdepth:depth-exact", "aux3 aux2 aux input",
+    "ink flats background background-colour same-colour relations arrow-style encoding near-level far-level tolerance "
+    "contrast weight-floor" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",

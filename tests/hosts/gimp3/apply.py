@@ -78,6 +78,7 @@ def people(bits):
     step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
     for result in ('shading', 'normals'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)
+    step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows})
     for result in ('labels', 'order', 'levels', 'depth', 'normals', 'shading', 'problems'):
         step(drawing, 'popup', 'popup-' + result, {'aux': scribbles, 'aux2': arrows}, result=result)
     image.delete()
