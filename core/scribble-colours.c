@@ -2,7 +2,7 @@
  *
  * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; where
  * they do not, but differ in small steps this way and that, the picture was stored with loss (JPEG), and is
- * filtered first.  In a picture without alpha the commonest colour is paper.
+ * restored first if its chroma is smeared, else filtered.  In a picture without alpha the commonest colour is paper.
  * Cost: O(pixels); a lossy picture takes 8 bytes a pixel more for the time of filtering.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -204,15 +204,11 @@ forget_colours (Reading *r)
   memset (r->slot, 0, r->slots * sizeof *r->slot);
 }
 
-/* Counts the colours again, in a filtered copy. */
+/* Filters into buffer[0], by way of buffer[1]. */
 static CeldStatus
-filter (Reading *r, bool flats, const CeldRun *run)
+filter (const Reading *r, CeldPaint *buffer, const CeldRun *run)
 {
-  CeldPart   part;
-  CeldRun    again = celd_run_part (&part, run, 0.8, 1);
-  CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
-                           { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) } };
-  CeldStatus status = buffer[0].data && buffer[1].data ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status = CELD_OK;
 
   for (int i = 0; i < PASSES && status == CELD_OK; i++)
     {
@@ -221,14 +217,29 @@ filter (Reading *r, bool flats, const CeldRun *run)
       celd_each (run, r->height, filter_row, &f);
       status = celd_step (run, 0.2 * (i + 1));
     }
+  return status;
+}
+
+/* Counts the colours again, in a restored or filtered copy. */
+static CeldStatus
+clean (Reading *r, bool smeared, bool flats, const CeldRun *run)
+{
+  CeldPart   part;
+  CeldRun    again = celd_run_part (&part, run, 0.8, 1);
+  CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
+                           { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
+  CeldStatus status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = smeared ? celd_scribble_restore (r, run, &buffer[0]) : filter (r, buffer, run);
   if (status == CELD_OK)
     {
-      const CeldPaint *unfiltered = r->paint;
+      const CeldPaint *stored = r->paint;
 
       forget_colours (r);
-      r->paint = &buffer[(PASSES + 1) % 2];
+      r->paint = &buffer[0];
       status = count_colours (r, flats, &again);
-      r->paint = unfiltered;
+      r->paint = stored;
       r->radius = LOSSY;
       r->lossy = true;
     }
@@ -241,8 +252,9 @@ CeldStatus
 celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
 {
   CeldPart   part[2];
-  CeldRun    count = celd_run_part (&part[0], run, 0, 0.3), clean = celd_run_part (&part[1], run, 0.3, 1);
+  CeldRun    count = celd_run_part (&part[0], run, 0, 0.3), rest = celd_run_part (&part[1], run, 0.3, 1);
   CeldStatus status;
+  bool       smeared;
 
   r->colour = celd_grow (NULL, 1, sizeof *r->colour);
   if (!r->colour)
@@ -253,5 +265,6 @@ celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
   if (status != CELD_OK)
     return status;
   measure_noise (r);
-  return r->radius > 2 * CLEAN ? filter (r, flats, &clean) : CELD_OK;
+  smeared = r->radius >= 2 * CLEAN && celd_scribble_smeared (r);
+  return smeared || r->radius > 2 * CLEAN ? clean (r, smeared, flats, &rest) : CELD_OK;
 }

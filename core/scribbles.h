@@ -1,6 +1,7 @@
 /* What the files that read scribbles share: scribble-colours.c counts and cleans the colours of a layer,
- * scribble-clusters.c and scribble-overlaps.c say which of them are labels, scribble-places.c hands out the pixels, and
- * scribbles.c tells fringes and makes the palette.
+ * scribble-loss.c and scribble-unmix.c bring back colours that loss has smeared, scribble-clusters.c and
+ * scribble-overlaps.c say which of them are labels, scribble-places.c hands out the pixels, and scribbles.c tells
+ * fringes and makes the palette.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -68,8 +69,14 @@ celd_colour_distance (const int *a, const int *b)
   return d0 * d0 + d1 * d1 + d2 * d2;
 }
 
-/* Fills in id, colour, paper, radius and lossy. */
+/* Fills in id, colour, paper, radius and lossy; label and kind are lent for work. */
 CeldStatus celd_scribble_colours (Reading *r, bool flats, const CeldRun *run);
+
+/* Does much of the chroma of strokes on white paper lie beside them? */
+bool celd_scribble_smeared (const Reading *r);
+
+/* Paints the strokes of a smeared picture flat, in the colours that they had, on flat paper. */
+CeldStatus celd_scribble_restore (Reading *r, const CeldRun *run, CeldPaint *out);
 
 /* Fills in cluster, from colours whose honest and core pixels are counted. */
 CeldStatus celd_scribble_clusters (Reading *r, const CeldRun *run);

@@ -9,7 +9,7 @@
 
 /* ------------------------------------------------------------------ the scene */
 
-Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels;
+Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels, lossy_pixels;
 
 static Pixels        ink_pixels, seed_pixels, level_pixels, expanded_pixels, normal_pixels;
 static CeldPalette   seed_palette, label_palette;
@@ -28,11 +28,13 @@ fill_box (Pixels *p, int left, int top, int right, int bottom, float luma, uint3
       }
 }
 
-/* Two overlapping sheets with outlines; a stroke in each and behind them; an arrow; a virtual contour of each kind. */
+/* Two overlapping sheets with outlines; a stroke in each and behind them; an arrow; a virtual contour of each kind;
+ * a pale, uneven stroke in a tinted block of white paper, as loss leaves it. */
 static void
 draw_scene (void)
 {
   Pixels *d = &drawing_pixels, *s = &scribble_pixels, *a = &arrow_pixels, *c = &contour_pixels;
+  Pixels *l = &lossy_pixels;
 
   for (int p = 0; p < W * H; p++)
     d->plane[p] = d->alpha[p] = 1;
@@ -47,6 +49,11 @@ draw_scene (void)
   fill_box (a, 14, 24, 36, 26, 0, 0x202020ff);
   for (int k = 0; k < 6; k++)
     fill_box (a, 36 - k, 24 - k, 37 - k, 26 + k, 0, 0x202020ff);
+  fill_box (l, 0, 0, W, H, 0, 0xffffffff);
+  fill_box (l, 0, 16, 32, 32, 0, 0xfff0f0ff);
+  fill_box (l, 2, 20, 30, 24, 0, 0xd07080ff);
+  for (int x = 4; x < 30; x += 4)
+    fill_box (l, x, 20, x + 2, 24, 0, 0xe08090ff);
   fill_box (c, 20, 28, 23, 33, 0, 0xff0000ff);
   fill_box (c, 44, 33, 48, 36, 0, 0x0000ffff);
   fill_box (c, 40, 24, 42, 30, 0, 0x00ff00ff);
@@ -76,6 +83,15 @@ static CeldStatus
 scribbles_step (const CeldRun *run, Results *r)
 {
   CeldPaint  scribbles = paint_of (&scribble_pixels);
+  CeldLabels seeds = labels_of (r->pixels);
+
+  return celd_scribbles_read (&scribbles, &settings, run, &seeds, &r->palette);
+}
+
+static CeldStatus
+lossy_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&lossy_pixels);
   CeldLabels seeds = labels_of (r->pixels);
 
   return celd_scribbles_read (&scribbles, &settings, run, &seeds, &r->palette);
@@ -450,6 +466,7 @@ const Step steps[] = {
   { "ink", ink_step, NULL, true },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
+  { "lossy scribbles", lossy_step, NULL, true },
   { "relations", relations_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
   { "basins", basins_step, NULL, true },

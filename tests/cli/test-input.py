@@ -69,6 +69,25 @@ class Layers(Test):
         subprocess.run(['oiiotool', *parts, '--siappendall', '-o', self.path('page.exr')], check=True)
         self.same_labels('page.exr')
 
+    def test_jpeg(self):
+        """Thin scribbles in a JPEG whose chroma has half the size: the colours that were painted, each in its place."""
+        colours = [(200, 30, 40), (30, 60, 200), (20, 130, 50), (230, 180, 50), (180, 90, 200), (20, 20, 24)]
+        page = Image.new('L', (300, 300), 255)
+        for y in range(46, 250, 45):
+            ImageDraw.Draw(page).line([(0, y), (299, y + 18)], fill=0, width=3)
+        page.save(self.path('page.png'))
+        layer = Image.new('RGB', (300, 300), 'white')
+        for i, colour in enumerate(colours):
+            ImageDraw.Draw(layer).line([(20, 25 + 45 * i), (280, 40 + 45 * i)], fill=colour, width=3)
+        for quality in (75, 90):
+            layer.save(self.path('scribbles.jpg'), quality=quality, subsampling='4:2:0')
+            self.celdepth('segment', 'page.png', '--scribbles', 'scribbles.jpg', '--labels', 'regions.png')
+            found = self.picture('regions.png')
+            self.assertEqual(len(np.unique(found.reshape(-1, 4), axis=0)), len(colours))
+            for i, colour in enumerate(colours):
+                away = np.linalg.norm(found[32 + 45 * i, 150, :3].astype(float) - colour)
+                self.assertLess(away, 40, f'{colour} at quality {quality}')
+
     def test_tiff_pages(self):
         page_name = 285
         with TiffImagePlugin.AppendingTiffWriter(self.path('page.tif'), True) as file:
