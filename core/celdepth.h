@@ -86,6 +86,7 @@ typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT } CeldMethod;
 typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
 typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
 typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
+typedef enum { CELD_ON_CYCLE_REPORT, CELD_ON_CYCLE_DROP_WEAKEST } CeldOnCycle;
 typedef enum { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER } CeldArrowStyle;
 typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, CELD_ANCHORS_CORE } CeldAnchors;
 typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
@@ -111,6 +112,8 @@ typedef struct
 
   /* order */
   CeldSuggest    suggest;       /* suggestions join the artist's relations: none, where those leave a pair open, all */
+  CeldOnCycle    on_cycle;      /* of relations that contradict: lighter and later ones give way one by one, or those
+                                 * of the least weight in sum */
   CeldArrowStyle arrow_style;
   CeldEncoding   encoding;      /* how levels leave */
   float          near_level, far_level; /* for CELD_ENCODING_FIXED: these levels become 1 and 0 */
@@ -219,7 +222,11 @@ CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *
 
 /* Relations that cannot hold together: item[0..n-1] are indices into the relations, in the order of the cycle
  * (each one's farther region is the next one's nearer region, the last leads back to the first). */
-typedef struct { size_t *item; size_t n; } CeldCycle;
+typedef struct { size_t *item; size_t n; size_t knot; } CeldCycle;
+
+/* All relations that go round in circles with each other: those of a strongly connected component of regions, in the
+ * order given; and a shortest cycle through the newest of them that is on one. */
+typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldKnot;
 
 typedef struct
 {
@@ -228,6 +235,8 @@ typedef struct
   uint32_t   levels;            /* one more than the largest level */
   CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
   size_t     n_cycles;
+  CeldKnot  *knot;
+  size_t     n_knots;
 } CeldOrder;
 
 CELD_API void celd_order_clear (CeldOrder *order);
@@ -268,6 +277,8 @@ typedef struct
   CeldSolve  solve;             /* of the harmonic bases */
   CeldCycle *cycle;             /* contradictions between nodes, as in CeldOrder */
   size_t     n_cycles;
+  CeldKnot  *knot;
+  size_t     n_knots;
 } CeldExact;
 
 CELD_API void celd_exact_clear (CeldExact *exact);
@@ -340,12 +351,12 @@ CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *p
 CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                              const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested);
 
-/* The artist's relations, and behind them in the list those suggestions that do not contradict them or heavier
- * suggestions; with CELD_SUGGEST_FILL_GAPS only where the artist's relations do not decide, directly or by way of
+/* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
+ * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the artist's relations do not decide, directly or by way of
  * others.  Suggestions get weights below all of the artist's.  Replaces `both`. */
 CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
                                            const CeldRelations *relations, const CeldRelations *suggested,
-                                           CeldSuggest suggest, const CeldPlane *ink, const CeldRun *run,
+                                           const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,
                                            CeldRelations *both);
 
 /* Paints relations between points as arrows of the default style over whatever is in the picture, lines about as wide
@@ -356,9 +367,11 @@ CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double
 
 /* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
  * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
- * contradict are reported as cycles, the lightest and then the latest of each is left out, the rest is ordered. */
+ * contradict are reported as cycles and left out by settings->on_cycle, the rest is ordered.  No other member of the
+ * settings counts; NULL: the defaults. */
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                                const CeldPlane *ink, const CeldRun *run, CeldOrder *order, CeldProblems *problems);
+                                const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run,
+                                CeldOrder *order, CeldProblems *problems);
 
 /* Levels as they leave: celd_order's ranks as settings->encoding says. */
 CELD_API float celd_encode_level (uint32_t level, uint32_t levels, const CeldSettings *settings);

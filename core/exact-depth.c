@@ -162,7 +162,8 @@ report_cycles (const CeldLabels *nodes, const Problem *q, CeldProblems *problems
 
 /* The relations that can hold together. */
 static CeldStatus
-settle_relations (const CeldProgram *p, const CeldRun *run, Problem *q, CeldProblems *problems)
+settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldRun *run, Problem *q,
+                  CeldProblems *problems)
 {
   const CeldBases *b = &p->bases;
   CeldLabels       nodes = { b->width, b->height, (size_t) b->width, b->node };
@@ -172,7 +173,7 @@ settle_relations (const CeldProgram *p, const CeldRun *run, Problem *q, CeldProb
   if (status != CELD_OK)
     return status;
   rename_labels (p, before, problems);
-  status = celd_graph_settle (&q->graph, run, &q->order);
+  status = celd_graph_settle (&q->graph, settings->on_cycle, run, &q->order);
   return status == CELD_OK ? report_cycles (&nodes, q, problems) : status;
 }
 
@@ -284,7 +285,7 @@ worst_violation (const Problem *q)
   return worst;
 }
 
-/* Everything there is to tell; takes the cycles. */
+/* Everything there is to tell; takes the cycles and knots. */
 static CeldStatus
 tell (const CeldProgram *p, Problem *q, CeldExact *exact)
 {
@@ -299,9 +300,9 @@ tell (const CeldProgram *p, Problem *q, CeldExact *exact)
     .node = node, .n = n, .sigma = p->sigma, .energy = q->certificate.energy, .gap = q->certificate.gap,
     .violation = worst_violation (q), .inequalities = q->n, .active = q->certificate.active,
     .steps = q->certificate.steps, .solve = p->solve, .cycle = q->order.cycle, .n_cycles = q->order.n_cycles,
+    .knot = q->order.knot, .n_knots = q->order.n_knots,
   };
-  q->order.cycle    = NULL;
-  q->order.n_cycles = 0;
+  q->order = (CeldOrder) { 0 };
   return CELD_OK;
 }
 
@@ -337,7 +338,7 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
   if (status == CELD_OK)
     status = name_nodes (p, &q);
   if (status == CELD_OK)
-    status = settle_relations (p, &ordering, &q, problems);
+    status = settle_relations (p, settings, &ordering, &q, problems);
   if (status == CELD_OK)
     status = merge_nodes (p, &q);
   for (size_t i = 0; i < q.graph.n_links && status == CELD_OK; i++)

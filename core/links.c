@@ -164,12 +164,6 @@ add_background (const CeldPalette *palette, CeldGraph *graph)
   return status;
 }
 
-bool
-celd_graph_equal (const CeldGraph *graph, size_t link)
-{
-  return link < graph->relations->n && graph->relations->item[link].equal;
-}
-
 CeldStatus
 celd_graph_add (CeldGraph *graph, uint32_t label)
 {

@@ -118,12 +118,24 @@ celd_problems_clear (CeldProblems *problems)
   *problems = (CeldProblems) { 0 };
 }
 
+static void
+clear_cycles (CeldCycle *cycle, size_t n_cycles, CeldKnot *knot, size_t n_knots)
+{
+  for (size_t i = 0; i < n_cycles; i++)
+    celd_free (cycle[i].item);
+  for (size_t i = 0; i < n_knots; i++)
+    {
+      celd_free (knot[i].item);
+      celd_free (knot[i].newest.item);
+    }
+  celd_free (cycle);
+  celd_free (knot);
+}
+
 void
 celd_order_clear (CeldOrder *order)
 {
-  for (size_t i = 0; i < order->n_cycles; i++)
-    celd_free (order->cycle[i].item);
-  celd_free (order->cycle);
+  clear_cycles (order->cycle, order->n_cycles, order->knot, order->n_knots);
   celd_free (order->level);
   *order = (CeldOrder) { 0 };
 }
@@ -131,9 +143,7 @@ celd_order_clear (CeldOrder *order)
 void
 celd_exact_clear (CeldExact *exact)
 {
-  for (size_t i = 0; i < exact->n_cycles; i++)
-    celd_free (exact->cycle[i].item);
-  celd_free (exact->cycle);
+  clear_cycles (exact->cycle, exact->n_cycles, exact->knot, exact->n_knots);
   celd_free (exact->node);
   *exact = (CeldExact) { 0 };
 }

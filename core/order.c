@@ -12,7 +12,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order.h"
-#include "unions.h"
 
 #include <math.h>
 
@@ -23,8 +22,7 @@ typedef struct
 {
   const CeldGraph *graph;
   CeldIndex        up;      /* links that lead up from a label */
-  uint32_t        *parent;  /* of label k - 1: union-find */
-  uint32_t        *next;    /* the next label of the same class, round and round */
+  CeldClasses      classes;
   bool            *visible; /* of a class, at its root: has it a pixel? */
   int64_t         *level;   /* of a class; -1: not visible, and nothing visible behind it */
   size_t          *waits;   /* of a class: nearer ends in links that are not placed yet */
@@ -39,8 +37,7 @@ sort_end (Sort *s)
 {
   celd_free (s->up.first);
   celd_free (s->up.link);
-  celd_free (s->parent);
-  celd_free (s->next);
+  celd_classes_clear (&s->classes);
   celd_free (s->visible);
   celd_free (s->level);
   celd_free (s->waits);
@@ -57,42 +54,23 @@ sort_new (const CeldGraph *g, Sort *s)
 
   *s = (Sort) {
     .graph = g,
-    .parent = celd_alloc (n, sizeof (uint32_t)), .next = celd_alloc (n, sizeof (uint32_t)),
     .visible = celd_alloc0 (n, sizeof (bool)), .level = celd_alloc (n, sizeof (int64_t)),
     .waits = celd_alloc0 (n, sizeof (size_t)), .behind = celd_alloc0 (m, sizeof (size_t)),
     .height = celd_alloc0 (m, sizeof (int64_t)), .queue = celd_alloc (n, sizeof (uint32_t)),
   };
-  status = s->parent && s->next && s->visible && s->level && s->waits && s->behind && s->height && s->queue
-         ? celd_graph_index (g, CELD_FARTHER, &s->up) : CELD_NO_MEMORY;
+  status = s->visible && s->level && s->waits && s->behind && s->height && s->queue
+         ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_graph_index (g, CELD_FARTHER, &s->up);
   if (status != CELD_OK)
-    {
-      sort_end (s);
-      return status;
-    }
-  for (uint32_t k = 0; k < n; k++)
-    s->parent[k] = s->next[k] = k;
-  return CELD_OK;
+    sort_end (s);
+  return status;
 }
 
 static uint32_t
 class_of (Sort *s, uint32_t k)
 {
-  return celd_root (s->parent, k);
-}
-
-static void
-unite (Sort *s, uint32_t a, uint32_t b)
-{
-  uint32_t next;
-
-  a = class_of (s, a);
-  b = class_of (s, b);
-  if (a == b)
-    return;
-  celd_join (s->parent, a, b);
-  next       = s->next[a]; /* two rings become one */
-  s->next[a] = s->next[b];
-  s->next[b] = next;
+  return celd_class_of (&s->classes, k);
 }
 
 static void
@@ -103,7 +81,7 @@ contract_equalities (Sort *s)
   for (size_t i = 0; i < g->n_links; i++)
     if (g->kept[i] && celd_graph_equal (g, i))
       for (size_t e = g->first[2 * i] + 1; e < g->first[2 * i + 2]; e++)
-        unite (s, g->end[e - 1], g->end[e]);
+        celd_classes_join (&s->classes, g->end[e - 1], g->end[e]);
 }
 
 static void
@@ -191,7 +169,7 @@ place_class (Sort *s, uint32_t c)
           if (--s->behind[link] == 0)
             raise_nearer (s, link);
         }
-      k = s->next[k];
+      k = s->classes.next[k];
     }
   while (k != c);
 }
@@ -258,7 +236,8 @@ report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalet
 
 CeldStatus
 celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-            const CeldPlane *ink, const CeldRun *run, CeldOrder *order, CeldProblems *problems)
+            const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+            CeldProblems *problems)
 {
   CeldGraph  graph  = { 0 };
   CeldOrder  made   = { 0 };
@@ -269,7 +248,7 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
     return CELD_BAD_SIZE;
   status = celd_graph_new (labels, palette, relations, ink, &graph, problems);
   if (status == CELD_OK)
-    status = celd_graph_settle (&graph, run, &made);
+    status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, run, &made);
   if (status == CELD_OK)
     status = sort_levels (&graph, labels, &made);
   if (status == CELD_OK)

@@ -46,7 +46,7 @@ join_suggestions (CeldSession *s, const CeldRun *run, const CeldRelations **rela
   if (status != CELD_OK)
     return status;
   return celd_suggestions_join (celd_session_current_labels (s), &s->palette, &s->relations, &s->suggested,
-                                s->settings.suggest, &s->ink, NULL, &s->joined);
+                                &s->settings, &s->ink, NULL, &s->joined);
 }
 
 static CeldStatus
@@ -60,7 +60,8 @@ make_order (CeldSession *s, const CeldRun *run)
   CeldStatus           status = join_suggestions (s, &first, &relations);
 
   if (status == CELD_OK)
-    status = celd_order (celd_session_current_labels (s), &s->palette, relations, &s->ink, &second, &order, &problems);
+    status = celd_order (celd_session_current_labels (s), &s->palette, relations, &s->ink, &s->settings, &second,
+                         &order, &problems);
   if (status != CELD_OK)
     {
       celd_order_clear (&order);

@@ -77,7 +77,7 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
       memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
       a->same_colour != b->same_colour || threshold)
     celd_session_forget (session, STAGE_LABELS);
-  if (a->suggest != b->suggest)
+  if (a->suggest != b->suggest || a->on_cycle != b->on_cycle)
     celd_session_forget (session, STAGE_ORDER);
   if (encoding)
     {
@@ -95,7 +95,7 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
   if (a->background != b->background || memcmp (a->background_colour, b->background_colour, 3) ||
       a->same_colour != b->same_colour)
     celd_session_forget (session, STAGE_NODES);
-  if (encoding || tolerance)
+  if (encoding || tolerance || a->on_cycle != b->on_cycle)
     celd_session_forget (session, STAGE_EXACT);
   if (a->bulge != b->bulge || tolerance || threshold)
     celd_session_forget (session, STAGE_NORMALS);

@@ -111,7 +111,7 @@ select_kept (const CeldGraph *graph, size_t n_own, CeldSuggest suggest, CeldRela
 
 CeldStatus
 celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                       const CeldRelations *suggested, CeldSuggest suggest, const CeldPlane *ink, const CeldRun *run,
+                       const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,
                        CeldRelations *both)
 {
   static const CeldRelations none = { 0 };
@@ -123,14 +123,14 @@ celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, con
 
   if (!CELD_SAME_SIZE (labels, labels) || (ink && !CELD_SAME_SIZE (labels, ink)))
     return CELD_BAD_SIZE;
-  status = list_all (relations, suggest == CELD_SUGGEST_OFF ? &none : suggested, &all);
+  status = list_all (relations, settings->suggest == CELD_SUGGEST_OFF ? &none : suggested, &all);
   if (status == CELD_OK && all.n > relations->n)
     {
       status = celd_graph_new (labels, palette, &all, ink, &graph, NULL);
       if (status == CELD_OK)
-        status = celd_graph_settle (&graph, run, &order);
+        status = celd_graph_settle (&graph, settings->on_cycle, run, &order);
       if (status == CELD_OK)
-        status = select_kept (&graph, relations->n, suggest, &all);
+        status = select_kept (&graph, relations->n, settings->suggest, &all);
     }
   if (status == CELD_OK)
     {

@@ -12,6 +12,7 @@ CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_RELATIONS
 CELD_PROPERTY_ARROW_STYLE
+CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_ENCODING
 CELD_PROPERTY_TOLERANCE
 
@@ -62,6 +63,7 @@ settings (GeglProperties *o)
   s.background   = o->background;
   s.same_colour  = o->same_colour;
   s.arrow_style  = o->arrow_style;
+  s.on_cycle     = o->on_cycle;
   s.encoding     = o->encoding;
   s.near_level   = (float) o->near_level;
   s.far_level    = (float) o->far_level;

@@ -8,6 +8,7 @@
 
 CELD_PROPERTY_RELATIONS
 CELD_PROPERTY_ARROW_STYLE
+CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_ENCODING
@@ -41,6 +42,7 @@ settings (GeglProperties *o)
 
   s.ink         = o->ink;
   s.arrow_style = o->arrow_style;
+  s.on_cycle    = o->on_cycle;
   s.same_colour = o->same_colour;
   s.background  = o->background;
   s.encoding    = o->encoding;
@@ -88,7 +90,7 @@ render (CeldOp *op)
          (!drawn || celd_op_read_ink (op, "aux2", o->ink, &ink)) &&
          read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
          celd_op_read_relations (op, o->relations, "aux", o->arrow_style) &&
-         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &op->run,
+         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->run,
                                       &op->order, &op->problems)) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
          write_levels (op, &s, &labels);

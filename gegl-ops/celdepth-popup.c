@@ -19,6 +19,7 @@ CELD_PROPERTY_SEEDS
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_RELATIONS
 CELD_PROPERTY_ARROW_STYLE
+CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_ENCODING
 
 property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIBBLES)
@@ -77,6 +78,7 @@ settings (GeglProperties *o)
   s.seeds           = o->seeds;
   s.same_colour     = o->same_colour;
   s.arrow_style     = o->arrow_style;
+  s.on_cycle        = o->on_cycle;
   s.encoding        = o->encoding;
   s.near_level      = (float) o->near_level;
   s.far_level       = (float) o->far_level;

@@ -39,6 +39,10 @@ ENUM_TYPE (celd_same_colour_get_type, "CeldSameColour",
            { CELD_SAME_COLOUR_ONE, "One depth", "one" },
            { CELD_SAME_COLOUR_SEPARATE, "Separate", "separate" })
 
+ENUM_TYPE (celd_on_cycle_get_type, "CeldOnCycle",
+           { CELD_ON_CYCLE_REPORT, "Leave out lighter and later relations", "report" },
+           { CELD_ON_CYCLE_DROP_WEAKEST, "Leave out the least weight in sum", "drop-weakest" })
+
 ENUM_TYPE (celd_arrow_style_get_type, "CeldArrowStyle",
            { CELD_ARROW_HEAD, "The arrowhead points at the farther part", "head" },
            { CELD_ARROW_DOT, "A dot marks the nearer end", "dot" },

@@ -15,6 +15,7 @@ GType celd_method_get_type      (void);
 GType celd_background_get_type  (void);
 GType celd_seeds_get_type       (void);
 GType celd_same_colour_get_type (void);
+GType celd_on_cycle_get_type (void);
 GType celd_arrow_style_get_type (void);
 GType celd_anchors_get_type     (void);
 GType celd_encoding_get_type    (void);
@@ -96,6 +97,11 @@ GType celd_popup_result_get_type   (void);
     description ("What is nearer than what, in words: 120,80 > 300,95 compares two points, #ff0000 > #00ff00 two " \
                  "colours, = means equal. One a line, or with ; between") \
     ui_meta ("multiline", "true")
+
+#define CELD_PROPERTY_ON_CYCLE \
+  property_enum (on_cycle, "Contradictions", CeldOnCycle, celd_on_cycle, CELD_ON_CYCLE_REPORT) \
+    description ("Of relations that go round in a circle, which are left out: lighter and later ones, each by itself, " \
+                 "or those that weigh least together. All are named in either case")
 
 #define CELD_PROPERTY_ARROW_STYLE \
   property_enum (arrow_style, "Arrow style", CeldArrowStyle, celd_arrow_style, CELD_ARROW_HEAD) \

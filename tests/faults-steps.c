@@ -277,7 +277,36 @@ order_step (const CeldRun *run, Results *r)
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels labels = labels_of (&label_pixels);
 
-  return celd_order (&labels, &label_palette, &relations, &ink, run, &r->order, &r->problems);
+  return celd_order (&labels, &label_palette, &relations, &ink, &settings, run, &r->order, &r->problems);
+}
+
+/* A knot of three labels and one of twenty, which is too large to be solved exactly. */
+static CeldStatus
+knots_step (const CeldRun *run, Results *r)
+{
+  enum { SMALL = 3, N = 23 };
+  uint32_t      pixel[N];
+  CeldRegion    region[N] = { 0 };
+  CeldRelation  item[2 * N] = { 0 };
+  CeldSettings  weakest = settings;
+  CeldLabels    labels = { N, 1, N, pixel };
+  CeldPalette   palette = { region, N };
+  CeldRelations circles = { item, 2 * N };
+
+  weakest.on_cycle = CELD_ON_CYCLE_DROP_WEAKEST;
+  for (int k = 0; k < N; k++)
+    {
+      int first = k < SMALL ? 0 : SMALL, n = k < SMALL ? SMALL : N - SMALL;
+
+      pixel[k] = (uint32_t) k + 1;
+      for (int i = 0; i < 2; i++)
+        {
+          item[2 * k + i] = (CeldRelation) { .weight = 1 + k % 3, .gap = 1, .equal = i && k == SMALL };
+          item[2 * k + i].nearer.x  = k;
+          item[2 * k + i].farther.x = first + (k - first + 1 + 7 * i) % n;
+        }
+    }
+  return celd_order (&labels, &palette, &circles, NULL, &weakest, run, &r->order, &r->problems);
 }
 
 /* From the lines and from a picture of depth, and beside the relations; some of it painted. */
@@ -288,18 +317,19 @@ suggest_step (const CeldRun *run, Results *r)
   CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (&drawing_pixels);
   CeldPaint     paint = paint_of (r->pixels);
   CeldRelations suggested = { 0 }, both = { 0 };
+  CeldSettings  gaps = settings;
   CeldPart      parts[3];
   CeldRun       first = celd_run_part (&parts[0], run, 0, 0.4), second = celd_run_part (&parts[1], run, 0.4, 0.8);
   CeldRun       third = celd_run_part (&parts[2], run, 0.8, 1);
   CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &first, &suggested);
 
+  gaps.suggest = CELD_SUGGEST_FILL_GAPS;
   if (status == CELD_OK && !suggested.n)
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   if (status == CELD_OK)
     status = celd_suggest_from_depth (&labels, &label_palette, &ink, &depth, &second, &suggested);
   if (status == CELD_OK)
-    status = celd_suggestions_join (&labels, &label_palette, &relations, &suggested, CELD_SUGGEST_FILL_GAPS, &ink,
-                                    &third, &both);
+    status = celd_suggestions_join (&labels, &label_palette, &relations, &suggested, &gaps, &ink, &third, &both);
   if (status == CELD_OK)
     status = celd_relations_paint (&suggested, 2, &paint);
   if (status == CELD_OK)
@@ -479,6 +509,7 @@ const Step steps[] = {
   { "background", background_step, &label_palette, false },
   { "order", order_step, NULL, true },
   { "suggest", suggest_step, NULL, true },
+  { "knots", knots_step, NULL, true },
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },

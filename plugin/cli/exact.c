@@ -66,6 +66,8 @@ cli_exact (const CliOptions *options)
     {
       cycles.cycle    = celd_session_exact_report (session)->cycle;
       cycles.n_cycles = celd_session_exact_report (session)->n_cycles;
+      cycles.knot     = celd_session_exact_report (session)->knot;
+      cycles.n_knots  = celd_session_exact_report (session)->n_knots;
       good = cli_write_depth (options->depth, &depth, nearest_depth (&depth, options->settings.encoding)) &&
              write_report (session, options, &run, &depth, &cycles);
     }

@@ -103,6 +103,9 @@ cli_say_cycles (const CeldOrder *order, const CeldRelations *relations)
             fprintf (stderr, "    %s  (line %d, column %d)\n", text, relation->line, relation->column);
           g_free (text);
         }
+      if (order->knot[cycle->knot].n > cycle->n)
+        fprintf (stderr, "    Other circles go through these, too: %" G_GSIZE_FORMAT " relations in all.\n",
+                 order->knot[cycle->knot].n);
     }
 }
 

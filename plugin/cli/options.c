@@ -100,6 +100,8 @@ static const SettingOption settings[] = {
   { "seeds", MADE_OF_LABELS, CHOICE, MEMBER (seeds), "auto|scribbles", "may arrows make regions of their own?" },
   { "same-colour", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (same_colour), "one|separate",
     "regions of one colour have one depth, or each its own" },
+  { "on-cycle", CLI_POPUP | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (on_cycle), "report|drop-weakest",
+    "of relations that contradict, leave out lighter and later ones, or the least weight in sum" },
   { "arrow-style", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper",
     "how arrows are painted" },
   { "encoding", CLI_POPUP | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (encoding), "normalized|rank|fixed",

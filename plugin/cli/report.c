@@ -143,12 +143,23 @@ add_relations (JsonBuilder *json, const CliReport *report)
 }
 
 static void
-add_cycle (JsonBuilder *json, const CeldCycle *cycle)
+add_indices (JsonBuilder *json, const size_t *item, size_t n)
 {
   json_builder_begin_array (json);
-  for (size_t i = 0; i < cycle->n; i++)
-    json_builder_add_int_value (json, (gint64) cycle->item[i]);
+  for (size_t i = 0; i < n; i++)
+    json_builder_add_int_value (json, (gint64) item[i]);
   json_builder_end_array (json);
+}
+
+static void
+add_knot (JsonBuilder *json, const CeldKnot *knot)
+{
+  json_builder_begin_object (json);
+  json_builder_set_member_name (json, "relations");
+  add_indices (json, knot->item, knot->n);
+  json_builder_set_member_name (json, "newest");
+  add_indices (json, knot->newest.item, knot->newest.n);
+  json_builder_end_object (json);
 }
 
 /* ------------------------------------------------------------------ closures, problems, cost */
@@ -270,7 +281,11 @@ add_order (JsonBuilder *json, const CliReport *report)
     add_integer (json, "levels", report->order->levels);
   begin_list (json, "cycles");
   for (size_t i = 0; i < report->order->n_cycles; i++)
-    add_cycle (json, &report->order->cycle[i]);
+    add_indices (json, report->order->cycle[i].item, report->order->cycle[i].n);
+  json_builder_end_array (json);
+  begin_list (json, "knots");
+  for (size_t i = 0; i < report->order->n_knots; i++)
+    add_knot (json, &report->order->knot[i]);
   json_builder_end_array (json);
 }
 

@@ -118,7 +118,7 @@ make_order (const CeldSettings *settings, Ordering *o)
   if (status == CELD_OK && o->layers.arrows.data)
     status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, run, &o->relations, &o->problems);
   if (status == CELD_OK)
-    status = celd_order (&o->labels, &o->palette, &o->relations, ink, run, &o->order, &o->problems);
+    status = celd_order (&o->labels, &o->palette, &o->relations, ink, settings, run, &o->order, &o->problems);
   return status;
 }
 

@@ -42,7 +42,7 @@ ask (const char *const *rows, const CeldPalette *palette, const char *relations,
       *end++ = *c;
   *end = 0;
   CHECK (celd_relations_parse (text, &a.relations, NULL) == CELD_OK);
-  a.status = celd_order (&labels, palette, &a.relations, ink, NULL, &a.order, &a.problems);
+  a.status = celd_order (&labels, palette, &a.relations, ink, NULL, NULL, &a.order, &a.problems);
   CHECK (a.status == CELD_OK && a.order.n == palette->n);
   free (labels.data);
   return a;

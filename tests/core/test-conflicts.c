@@ -56,7 +56,7 @@ solve (Case *c)
   CeldPalette   palette   = { c->region, (size_t) c->n_labels };
   CeldRelations relations = { c->item, (size_t) c->n };
 
-  CHECK (celd_order (&labels, &palette, &relations, NULL, NULL, &c->order, &c->problems) == CELD_OK);
+  CHECK (celd_order (&labels, &palette, &relations, NULL, NULL, NULL, &c->order, &c->problems) == CELD_OK);
   for (int i = 0; i < c->n; i++)
     c->kept[i] = true;
   for (size_t i = 0; i < c->order.n_cycles; i++)
@@ -214,7 +214,7 @@ large_graph (uint32_t random_of_100, double seconds)
       kept[i] = true;
     }
   start = clock ();
-  CHECK (celd_order (&labels, &palette, &relations, NULL, NULL, &order, NULL) == CELD_OK);
+  CHECK (celd_order (&labels, &palette, &relations, NULL, NULL, NULL, &order, NULL) == CELD_OK);
   CHECK ((double) (clock () - start) / CLOCKS_PER_SEC < seconds);
   CHECK ((order.n_cycles > 0) == (random_of_100 > 0));
   for (size_t i = 0; i < order.n_cycles; i++)
@@ -261,11 +261,11 @@ cancelled (void)
   while (c.n < 15);
   palette = (CeldPalette) { c.region, (size_t) c.n_labels };
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, &run, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &run, &order, &problems) == CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   calls = 2;
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, &run, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &run, &order, &problems) == CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   celd_problems_clear (&problems);
 }

@@ -119,13 +119,13 @@ bad_input (void)
   CeldOrder     order    = { 0 };
   CeldProblems  problems = { 0 };
 
-  CHECK (celd_order (&none, &palette, &r, NULL, NULL, &order, NULL) == CELD_BAD_SIZE);
-  CHECK (celd_order (&labels, &palette, &r, &ink, NULL, &order, NULL) == CELD_BAD_SIZE);
-  CHECK (celd_order (&labels, &palette, &r, &nan_ink, NULL, &order, &problems) == CELD_OK);
+  CHECK (celd_order (&none, &palette, &r, NULL, NULL, NULL, &order, NULL) == CELD_BAD_SIZE);
+  CHECK (celd_order (&labels, &palette, &r, &ink, NULL, NULL, &order, NULL) == CELD_BAD_SIZE);
+  CHECK (celd_order (&labels, &palette, &r, &nan_ink, NULL, NULL, &order, &problems) == CELD_OK);
   CHECK (order.n == 1 && order.levels == 1 && order.level[0] == 0 && problems.n == 1);
   item.nearer.x = 0;
   item.farther  = (CeldTerm) { .x = 0.5 };
-  CHECK (celd_order (&labels, &empty, &r, NULL, NULL, &order, &problems) == CELD_OK); /* labels beyond the palette */
+  CHECK (celd_order (&labels, &empty, &r, NULL, NULL, NULL, &order, &problems) == CELD_OK); /* labels beyond the palette */
   CHECK (order.n == 0 && order.levels == 1 && problems.n == 2 && problems.item[1].kind == CELD_PROBLEM_OUTSIDE);
   celd_order_clear (&order);
   celd_problems_clear (&problems);

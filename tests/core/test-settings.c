@@ -97,7 +97,7 @@ partners_of_a_contradiction (void)
   };
   CeldRelations relations = { relation, 3 };
   size_t        item[] = { 1, 0, 2 };
-  CeldCycle     cycle = { item, 3 };
+  CeldCycle     cycle = { item, 3, 0 };
   char          text[200], small[40];
 
   celd_cycle_text (&cycle, &relations, text, sizeof text);

@@ -33,9 +33,11 @@ expect (const char *own, double weight, const char *suggested, CeldSuggest sugge
   CeldRelations ideas = read_pairs (suggested, CELD_SOURCE_SUGGESTION, 0.9), both = { 0 };
   CeldPalette   palette = palette_of (6, true);
   CeldLabels    labels = art_labels (PARTS);
+  CeldSettings  settings = celd_settings ();
   char          text[200], *end = text;
 
-  CHECK (celd_suggestions_join (&labels, &palette, &relations, &ideas, suggest, NULL, NULL, &both) == CELD_OK);
+  settings.suggest = suggest;
+  CHECK (celd_suggestions_join (&labels, &palette, &relations, &ideas, &settings, NULL, NULL, &both) == CELD_OK);
   CHECK (both.n >= relations.n);
   for (size_t i = 0; i < both.n; i++)
     {
@@ -95,19 +97,22 @@ among_themselves (void)
   expect ("C>A", 1, "A>B B>C", CELD_SUGGEST_ALL, "A>B");
 }
 
-/* The artist's own contradictions stay, to be reported. */
+/* The artist's own contradictions stay, to be reported; many suggestions do not outweigh one of the artist's arrows. */
 static void
-own_contradictions (void)
+own_contradictions (CeldOnCycle on_cycle)
 {
   CeldRelations own = read_pairs ("A>B B>C C>A", CELD_SOURCE_TEXT, 1), both = { 0 };
   CeldRelations ideas = read_pairs ("C>B D>A", CELD_SOURCE_SUGGESTION, 0.9);
   CeldPalette   palette = palette_of (6, true);
   CeldLabels    labels = art_labels (PARTS);
   CeldOrder     order = { 0 };
+  CeldSettings  settings = celd_settings ();
 
-  CHECK (celd_suggestions_join (&labels, &palette, &own, &ideas, CELD_SUGGEST_ALL, NULL, NULL, &both) == CELD_OK);
+  settings.suggest  = CELD_SUGGEST_ALL;
+  settings.on_cycle = on_cycle;
+  CHECK (celd_suggestions_join (&labels, &palette, &own, &ideas, &settings, NULL, NULL, &both) == CELD_OK);
   CHECK (both.n == 4);
-  CHECK (celd_order (&labels, &palette, &both, NULL, NULL, &order, NULL) == CELD_OK && order.n_cycles == 1);
+  CHECK (celd_order (&labels, &palette, &both, NULL, &settings, NULL, &order, NULL) == CELD_OK && order.n_cycles == 1);
   for (size_t i = 0; order.n_cycles && i < order.cycle[0].n; i++)
     CHECK (order.cycle[0].item[i] < own.n);
   celd_order_clear (&order);
@@ -119,14 +124,27 @@ own_contradictions (void)
 }
 
 static void
+own_contradictions_reported (void)
+{
+  own_contradictions (CELD_ON_CYCLE_REPORT);
+}
+
+static void
+own_contradictions_dropped (void)
+{
+  own_contradictions (CELD_ON_CYCLE_DROP_WEAKEST);
+}
+
+static void
 bad_size (void)
 {
   CeldPalette   palette = palette_of (6, true);
   CeldLabels    labels = art_labels (PARTS);
   CeldPlane     ink = { 3, 3, 3, (float[9]) { 0 } };
   CeldRelations none = { 0 }, both = { 0 };
+  CeldSettings  settings = celd_settings ();
 
-  CHECK (celd_suggestions_join (&labels, &palette, &none, &none, CELD_SUGGEST_ALL, &ink, NULL, &both) == CELD_BAD_SIZE);
+  CHECK (celd_suggestions_join (&labels, &palette, &none, &none, &settings, &ink, NULL, &both) == CELD_BAD_SIZE);
   free (labels.data);
   free (palette.item);
 }
@@ -138,7 +156,8 @@ main (void)
   RUN (artist_wins);
   RUN (gaps_only);
   RUN (among_themselves);
-  RUN (own_contradictions);
+  RUN (own_contradictions_reported);
+  RUN (own_contradictions_dropped);
   RUN (bad_size);
   return DONE;
 }

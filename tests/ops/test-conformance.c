@@ -26,7 +26,7 @@ static CeldStatus
 make_order (const CeldSettings *settings, CeldLabels *ranks)
 {
   CeldOrder  order = { 0 };
-  CeldStatus status = celd_order (&labels, &palette, &relations, &ink, NULL, &order, NULL);
+  CeldStatus status = celd_order (&labels, &palette, &relations, &ink, NULL, NULL, &order, NULL);
 
   for (int i = 0; status == CELD_OK && i < PIXELS; i++)
     {

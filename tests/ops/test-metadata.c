@@ -12,18 +12,18 @@ static const struct { const char *name; const char *pads; const char *properties
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
     "arrow-style" },
   { "celdepth:depth-order", "aux2 aux input",
-    "relations arrow-style same-colour background background-colour encoding near-level far-level ink" },
+    "relations arrow-style on-cycle same-colour background background-colour encoding near-level far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
-    "ink flats background background-colour same-colour relations arrow-style encoding near-level far-level tolerance "
-    "contrast weight-floor" },
+    "ink flats background background-colour same-colour relations arrow-style on-cycle encoding near-level far-level "
+    "tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-style encoding near-level far-level anchors hold-rest tolerance bulge light-azimuth "
-    "light-elevation ambient directx" },
+    "same-colour relations arrow-style on-cycle encoding near-level far-level anchors hold-rest tolerance bulge "
+    "light-azimuth light-elevation ambient directx" },
 };
 
 static bool
@@ -113,6 +113,7 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:popup", "seeds", "auto scribbles" },
     { "celdepth:popup", "same-colour", "one separate" },
     { "celdepth:popup", "arrow-style", "head dot fade taper" },
+    { "celdepth:popup", "on-cycle", "report drop-weakest" },
     { "celdepth:popup", "encoding", "normalized rank fixed" },
     { "celdepth:popup", "anchors", "scribbles arrows both core" },
   };
