@@ -1,8 +1,8 @@
 /* Smooth depth in a session, and a preview of it at a quarter of the width and height.
  *
  * The preview needs no expansion: it works on flat levels, of which each block of pixels takes one, and on the least
- * ink of each block, so that thin contours stay closed.  Both keep what they were made from, and solve again only what an
- * edit touched.
+ * ink of each block, so that thin contours stay closed.  Both keep what they were made from, and solve again only what
+ * an edit touched.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
