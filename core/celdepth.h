@@ -352,8 +352,9 @@ CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const Cel
                                              const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested);
 
 /* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
- * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the artist's relations do not decide, directly or by way of
- * others.  Suggestions get weights below all of the artist's.  Replaces `both`. */
+ * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
+ * artist's relations do not decide, directly or by way of others.  Suggestions get weights below all of the artist's.
+ * Replaces `both`, which may be `relations`. */
 CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
                                            const CeldRelations *relations, const CeldRelations *suggested,
                                            const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,

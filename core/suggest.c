@@ -17,7 +17,7 @@
 #include <stdlib.h>
 
 #define CERTAIN 6.0             /* log-odds of the background being behind */
-#define MOST    0.999           /* confidence */
+#define LEAST   0.001           /* confidence, and its steps: it is to be read by people */
 
 /* Weight of each cue, and how much of it counts at most. */
 static const struct { double weight, most; } weights[CELD_N_CUES] = {
@@ -98,8 +98,11 @@ relation_of (const CeldPairCues *pair, double odds)
 {
   CeldTerm a = { .x = floor (pair->ax), .y = floor (pair->ay) }, b = { .x = floor (pair->bx), .y = floor (pair->by) };
 
+  double   confidence = round (tanh (fabs (odds) / 2) / LEAST) * LEAST;
+
   return (CeldRelation) {
-    .nearer = odds > 0 ? a : b, .farther = odds > 0 ? b : a, .weight = fmin (MOST, tanh (fabs (odds) / 2)), .gap = 1,
+    .nearer = odds > 0 ? a : b, .farther = odds > 0 ? b : a, .gap = 1,
+    .weight = fmax (LEAST, fmin (1 - LEAST, confidence)),
     .source = CELD_SOURCE_SUGGESTION,
   };
 }

@@ -9,6 +9,7 @@
 CELD_PROPERTY_RELATIONS
 CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
+CELD_PROPERTY_SUGGEST
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_ENCODING
@@ -25,7 +26,8 @@ CELD_PROPERTY_INK
 static const CeldPad pads[] = {
   { "input", "Labels", "The regions as flat colours, made by Lazybrush Segment or painted", TRUE },
   { "aux", "Arrows", "Arrows from nearer to farther parts", FALSE },
-  { "aux2", "Drawing", "The line drawing: points on its ink mean the region beside it", FALSE },
+  { "aux2", "Drawing", "The line drawing: points on its ink mean the region beside it; suggestions "
+                      "come from it", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -44,6 +46,7 @@ settings (GeglProperties *o)
   s.arrow_style = o->arrow_style;
   s.on_cycle    = o->on_cycle;
   s.same_colour = o->same_colour;
+  s.suggest     = o->suggest;
   s.background  = o->background;
   s.encoding    = o->encoding;
   s.near_level  = (float) o->near_level;
@@ -63,6 +66,20 @@ read_labels (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, CeldLabels
          celd_op_try (op, celd_labels_read (&colours, labels, &op->palette)) &&
          celd_op_try (op, celd_background_mark (labels, ink, s, &op->palette)) &&
          (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
+}
+
+/* With `suggest`, what the drawing says joins the relations; without a drawing it is what the regions' shapes say. */
+static gboolean
+add_suggestions (CeldOp *op, const CeldSettings *s, const CeldLabels *labels, const CeldPlane *ink)
+{
+  CeldRelations suggested = { 0 };
+  gboolean      good = s->suggest == CELD_SUGGEST_OFF ||
+                       (celd_op_try (op, celd_suggest (labels, &op->palette, ink, &op->quiet, &suggested)) &&
+                        celd_op_try (op, celd_suggestions_join (labels, &op->palette, &op->relations, &suggested,
+                                                                s, ink, &op->quiet, &op->relations)));
+
+  celd_relations_clear (&suggested);
+  return good;
 }
 
 static gboolean
@@ -90,6 +107,7 @@ render (CeldOp *op)
          (!drawn || celd_op_read_ink (op, "aux2", o->ink, &ink)) &&
          read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
          celd_op_read_relations (op, o->relations, "aux", o->arrow_style) &&
+         add_suggestions (op, &s, &labels, drawn ? &ink : NULL) &&
          celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->run,
                                       &op->order, &op->problems)) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&

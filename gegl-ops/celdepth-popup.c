@@ -20,6 +20,7 @@ CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_RELATIONS
 CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
+CELD_PROPERTY_SUGGEST
 CELD_PROPERTY_ENCODING
 
 property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIBBLES)
@@ -56,7 +57,7 @@ prepare (GeglOperation *operation)
   static const char *const formats[] = {
     [CELD_POPUP_LABELS] = "R'G'B'A u8", [CELD_POPUP_ORDER]   = "Y float",   [CELD_POPUP_LEVELS]  = "Y float",
     [CELD_POPUP_DEPTH]  = "Y float",    [CELD_POPUP_NORMALS] = "RGB float", [CELD_POPUP_SHADING] = "Y float",
-    [CELD_POPUP_PROBLEMS] = "R'G'B'A u8",
+    [CELD_POPUP_PROBLEMS] = "R'G'B'A u8", [CELD_POPUP_SUGGESTIONS] = "R'G'B'A u8",
   };
 
   gegl_operation_set_format (operation, "output", babl_format (formats[GEGL_PROPERTIES (operation)->result]));
@@ -79,6 +80,7 @@ settings (GeglProperties *o)
   s.same_colour     = o->same_colour;
   s.arrow_style     = o->arrow_style;
   s.on_cycle        = o->on_cycle;
+  s.suggest         = o->suggest;
   s.encoding        = o->encoding;
   s.near_level      = (float) o->near_level;
   s.far_level       = (float) o->far_level;
@@ -122,6 +124,16 @@ write_problems (CeldOp *op)
 }
 
 static gboolean
+write_suggestions (CeldOp *op)
+{
+  CeldPaint paint;
+
+  return celd_op_new_paint (op, &paint) &&
+         celd_op_try (op, celd_session_paint_suggestions (op->operation->session, &op->run, &paint)) &&
+         celd_op_write (op, paint.data);
+}
+
+static gboolean
 write_result (CeldOp *op)
 {
   switch (GEGL_PROPERTIES (op->operation)->result)
@@ -133,6 +145,7 @@ write_result (CeldOp *op)
     case CELD_POPUP_NORMALS:  return write_normals (op);
     case CELD_POPUP_SHADING:  return write_plane (op, celd_session_shading);
     case CELD_POPUP_PROBLEMS: return write_problems (op);
+    case CELD_POPUP_SUGGESTIONS: return write_suggestions (op);
     }
   return FALSE;
 }
@@ -148,7 +161,7 @@ render (CeldOp *op)
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
       !write_result (op))
     return FALSE;
-  if (o->result != CELD_POPUP_LABELS && /* then the order has been made already */
+  if (o->result != CELD_POPUP_LABELS && o->result != CELD_POPUP_SUGGESTIONS && /* then the order has been made already */
       !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
   return celd_op_tell_session (op, order);

@@ -64,6 +64,11 @@ ENUM_TYPE (celd_purpose_get_type, "CeldPurpose",
            { CELD_FOR_SEGMENTATION, "For segmentation", "segmentation" },
            { CELD_FOR_DEPTH, "For depth", "depth" })
 
+ENUM_TYPE (celd_suggest_get_type, "CeldSuggest",
+           { CELD_SUGGEST_OFF, "Off", "off" },
+           { CELD_SUGGEST_FILL_GAPS, "Where arrows leave it open", "fill-gaps" },
+           { CELD_SUGGEST_ALL, "All", "all" })
+
 ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
            { CELD_LUMO_ART, "Shaded art", "art" },
            { CELD_LUMO_SHADING, "Shading", "shading" },
@@ -82,4 +87,5 @@ ENUM_TYPE (celd_popup_result_get_type, "CeldPopupResult",
            { CELD_POPUP_DEPTH, "Depth: smooth", "depth" },
            { CELD_POPUP_NORMALS, "Normals", "normals" },
            { CELD_POPUP_SHADING, "Shading", "shading" },
-           { CELD_POPUP_PROBLEMS, "Problems: marks over the drawing where something should be looked at", "problems" })
+           { CELD_POPUP_PROBLEMS, "Problems: marks over the drawing where something should be looked at", "problems" },
+           { CELD_POPUP_SUGGESTIONS, "Suggestions: which part seems to be in front, as arrows", "suggestions" })

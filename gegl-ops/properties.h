@@ -20,13 +20,14 @@ GType celd_arrow_style_get_type (void);
 GType celd_anchors_get_type     (void);
 GType celd_encoding_get_type    (void);
 GType celd_purpose_get_type     (void);
+GType celd_suggest_get_type     (void);
 
 typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
 typedef enum { CELD_SEGMENT_LABELS, CELD_SEGMENT_CLOSURES, CELD_SEGMENT_PROBLEMS } CeldSegmentResult;
 typedef enum
 {
   CELD_POPUP_LABELS, CELD_POPUP_ORDER, CELD_POPUP_LEVELS, CELD_POPUP_DEPTH, CELD_POPUP_NORMALS, CELD_POPUP_SHADING,
-  CELD_POPUP_PROBLEMS
+  CELD_POPUP_PROBLEMS, CELD_POPUP_SUGGESTIONS
 } CeldPopupResult;
 
 GType celd_lumo_result_get_type    (void);
@@ -106,6 +107,11 @@ GType celd_popup_result_get_type   (void);
 #define CELD_PROPERTY_ARROW_STYLE \
   property_enum (arrow_style, "Arrow style", CeldArrowStyle, celd_arrow_style, CELD_ARROW_HEAD) \
     description ("How a painted arrow says which of its ends is nearer")
+
+#define CELD_PROPERTY_SUGGEST \
+  property_enum (suggest, "Suggestions", CeldSuggest, celd_suggest, CELD_SUGGEST_OFF) \
+    description ("May the drawing itself say what is in front, by its T-junctions and shapes: never, only where " \
+                 "arrows and relations leave it open, or everywhere? Arrows and relations always win")
 
 #define CELD_PROPERTY_ENCODING \
   property_enum (encoding, "Encoding", CeldEncoding, celd_encoding, CELD_ENCODING_NORMALIZED) \

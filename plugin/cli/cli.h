@@ -34,7 +34,7 @@ typedef struct
   char        *input;
   char        *drawing, *scribbles, *contours, *arrows, *anchors;
   char        *relations, *relations_file;
-  char        *labels, *closures, *order, *levels, *depth, *normals, *shading, *report;
+  char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   bool         quiet, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -103,7 +103,7 @@ bool cli_is_device     (const char *path); /* neither a file nor a folder: a ter
 bool cli_can_write     (const char *path);
 bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
 bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPalette *palette);
-bool cli_write_closures (const char *path, const CeldPaint *closures);
+bool cli_write_layer   (const char *path, const CeldPaint *layer);
 bool cli_write_normals (const char *path, const CeldVectors *normals);
 bool cli_write_shading (const char *path, const CeldPlane *shading);
 
@@ -142,7 +142,7 @@ typedef struct
   const char          *command;
   int                  width, height;
   const CeldPalette   *palette;
-  const CeldRelations *relations;
+  const CeldRelations *relations, *suggestions;
   const CeldOrder     *order;
   const CeldProblems  *problems;
   const CeldClosures  *closures;
@@ -152,6 +152,11 @@ typedef struct
 } CliReport;
 
 bool cli_report_write (const char *path, const CliReport *report);
+
+/* A text as a whole or not at all; to a device as it is. */
+bool cli_write_text (const char *path, const char *text);
+/* One relation a line. */
+bool cli_write_relations (const char *path, const CeldRelations *relations);
 
 /* ------------------------------------------------------------------ popup.c */
 

@@ -206,20 +206,20 @@ cli_write_labels (const char *path, const CeldLabels *labels, const CeldPalette 
 
 /* As normals: height x width x 4 into numpy files. */
 bool
-cli_write_closures (const char *path, const CeldPaint *closures)
+cli_write_layer (const char *path, const CeldPaint *layer)
 {
-  size_t      n = 4 * (size_t) closures->width * (size_t) closures->height;
+  size_t      n = 4 * (size_t) layer->width * (size_t) layer->height;
   CeldIoError error;
   float      *values;
   bool        good;
 
   if (!cli_is_npy (path))
-    return check_written (celd_io_write_paint (path, closures, &error), &error);
+    return check_written (celd_io_write_paint (path, layer, &error), &error);
   values = g_try_new (float, n);
   for (size_t i = 0; values && i < n; i++)
-    values[i] = (float) closures->data[i] / 255;
+    values[i] = (float) layer->data[i] / 255;
   good = cli_check (values ? CELD_OK : CELD_NO_MEMORY) &&
-         cli_npy_write (path, closures->width, closures->height, 4, 4 * closures->stride, values);
+         cli_npy_write (path, layer->width, layer->height, 4, 4 * layer->stride, values);
   g_free (values);
   return good;
 }

@@ -7,11 +7,12 @@
 /* Views of what the session made; data NULL where it was not asked for. */
 typedef struct
 {
-  CeldLabels          labels;
-  const CeldClosures *closures;
-  const CeldOrder    *order;
-  CeldPlane           flat, levels, depth, shading;
-  CeldVectors         normals;
+  CeldLabels           labels;
+  const CeldClosures  *closures;
+  const CeldRelations *suggestions;
+  const CeldOrder     *order;
+  CeldPlane            flat, levels, depth, shading;
+  CeldVectors          normals;
 } Results;
 
 bool
@@ -49,6 +50,8 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
     status = celd_session_labels (session, &run->run, &results->labels, NULL);
   if (status == CELD_OK)
     status = celd_session_closures (session, &run->run, &results->closures);
+  if (status == CELD_OK && (options->suggestions || options->suggested_arrows || options->settings.suggest))
+    status = celd_session_suggestions (session, &run->run, &results->suggestions);
   if (status != CELD_OK || !whole_route)
     return status;
   cli_run_stage (run, "order");
@@ -72,13 +75,15 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
   return status;
 }
 
+/* Paints a layer of the drawing's size, and writes it. */
 static bool
-write_closures (CeldSession *session, const char *path, const Results *results)
+write_layer (CeldSession *session, const char *path, const Results *results,
+             CeldStatus (*make_layer) (CeldSession *session, const CeldRun *run, CeldPaint *paint))
 {
   int       w = results->labels.width, h = results->labels.height;
   CeldPaint paint = { w, h, (size_t) w, g_try_new (uint8_t, 4 * (gsize) w * (gsize) h) };
-  bool      good = cli_check (paint.data ? celd_session_paint_closures (session, NULL, &paint) : CELD_NO_MEMORY) &&
-                   cli_write_closures (path, &paint);
+  bool      good = cli_check (paint.data ? make_layer (session, NULL, &paint) : CELD_NO_MEMORY) &&
+                   cli_write_layer (path, &paint);
 
   g_free (paint.data);
   return good;
@@ -91,7 +96,11 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
   float nearest = ranks ? (float) (results->order->levels - 1) : 1;
 
   return (!options->labels  || cli_write_labels (options->labels, &results->labels, celd_session_palette (session))) &&
-         (!options->closures || write_closures (session, options->closures, results)) &&
+         (!options->closures ||
+          write_layer (session, options->closures, results, celd_session_paint_closures)) &&
+         (!options->suggestions || cli_write_relations (options->suggestions, results->suggestions)) &&
+         (!options->suggested_arrows ||
+          write_layer (session, options->suggested_arrows, results, celd_session_paint_suggestions)) &&
          (!options->order   || cli_write_depth (options->order, &results->flat, nearest)) &&
          (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
          (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
@@ -109,6 +118,7 @@ write_report (CeldSession *session, const char *command, const CliOptions *optio
     .height    = results->labels.height,
     .palette   = celd_session_palette (session),
     .relations = celd_session_relations (session),
+    .suggestions = results->suggestions,
     .order     = results->order,
     .problems  = celd_session_problems (session),
     .closures  = results->closures,

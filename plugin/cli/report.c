@@ -101,6 +101,10 @@ reason (CeldProblemKind kind)
     }
 }
 
+static const char *const sources[] = {
+  [CELD_SOURCE_TEXT] = "text", [CELD_SOURCE_ARROW] = "arrow", [CELD_SOURCE_SUGGESTION] = "suggestion"
+};
+
 static void
 add_relation (JsonBuilder *json, const CeldRelation *relation, const char *why)
 {
@@ -108,7 +112,7 @@ add_relation (JsonBuilder *json, const CeldRelation *relation, const char *why)
 
   json_builder_begin_object (json);
   add_text (json, "text", text);
-  add_text (json, "source", relation->source == CELD_SOURCE_ARROW ? "arrow" : "text");
+  add_text (json, "source", sources[relation->source]);
   if (relation->source == CELD_SOURCE_TEXT)
     {
       add_integer (json, "line", relation->line);
@@ -275,6 +279,15 @@ add_exact (JsonBuilder *json, const CeldExact *exact)
 /* ------------------------------------------------------------------ the whole */
 
 static void
+add_suggestions (JsonBuilder *json, const CeldRelations *suggestions)
+{
+  begin_list (json, "suggestions");
+  for (size_t i = 0; i < suggestions->n; i++)
+    add_relation (json, &suggestions->item[i], NULL);
+  json_builder_end_array (json);
+}
+
+static void
 add_order (JsonBuilder *json, const CliReport *report)
 {
   if (!report->exact)
@@ -310,6 +323,8 @@ make_text (const CliReport *report)
   if (report->closures)
     add_segmentation (json, report);
   add_relations (json, report);
+  if (report->suggestions)
+    add_suggestions (json, report->suggestions);
   if (report->order)
     add_order (json, report);
   if (report->exact)
@@ -343,21 +358,44 @@ write_device (const char *path, const char *text)
 }
 
 bool
-cli_report_write (const char *path, const CliReport *report)
+cli_write_text (const char *path, const char *text)
 {
-  char   *data = make_text (report), *text = g_strconcat (data, "\n", NULL);
   GError *error = NULL;
   bool    good;
 
   if (cli_is_device (path))
-    good = write_device (path, text);
-  else
-    {
-      good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
-      if (!good)
-        cli_say ("Cannot write \"%s\": %s", path, error->message);
-    }
+    return write_device (path, text);
+  good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+  if (!good)
+    cli_say ("Cannot write \"%s\": %s", path, error->message);
   g_clear_error (&error);
+  return good;
+}
+
+bool
+cli_write_relations (const char *path, const CeldRelations *relations)
+{
+  GString *all = g_string_new (NULL);
+  bool     good;
+
+  for (size_t i = 0; i < relations->n; i++)
+    {
+      char *text = cli_relation_text (&relations->item[i]);
+
+      g_string_append_printf (all, "%s\n", text);
+      g_free (text);
+    }
+  good = cli_write_text (path, all->str);
+  g_string_free (all, TRUE);
+  return good;
+}
+
+bool
+cli_report_write (const char *path, const CliReport *report)
+{
+  char *data = make_text (report), *text = g_strconcat (data, "\n", NULL);
+  bool  good = cli_write_text (path, text);
+
   g_free (text);
   g_free (data);
   return good;

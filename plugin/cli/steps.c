@@ -84,7 +84,7 @@ typedef struct
   CeldLabels    labels;
   CeldPlane     ink;
   CeldPalette   palette;
-  CeldRelations relations;
+  CeldRelations relations, suggestions;
   CeldOrder     order;
   CeldProblems  problems;
   CliRun        run;
@@ -106,17 +106,33 @@ load_ordering (const CliOptions *options, Ordering *o)
   return good && (!options->drawing || make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));
 }
 
+/* What the drawing suggests, and if that is to count, behind the relations. */
 static CeldStatus
-make_order (const CeldSettings *settings, Ordering *o)
+make_suggestions (const CeldPlane *ink, const CeldSettings *settings, Ordering *o)
 {
-  const CeldPlane *ink = o->ink.data ? &o->ink : NULL;
-  const CeldRun   *run = &o->run.run;
-  CeldStatus       status = celd_background_mark (&o->labels, ink, settings, &o->palette);
+  const CeldRun *run = &o->run.run;
+  CeldStatus     status = celd_suggest (&o->labels, &o->palette, ink, run, &o->suggestions);
+
+  if (status == CELD_OK && settings->suggest)
+    status = celd_suggestions_join (&o->labels, &o->palette, &o->relations, &o->suggestions, settings, ink, run,
+                                    &o->relations);
+  return status;
+}
+
+static CeldStatus
+make_order (const CliOptions *options, Ordering *o)
+{
+  const CeldSettings *settings = &options->settings;
+  const CeldPlane    *ink = o->ink.data ? &o->ink : NULL;
+  const CeldRun      *run = &o->run.run;
+  CeldStatus          status = celd_background_mark (&o->labels, ink, settings, &o->palette);
 
   if (status == CELD_OK && settings->same_colour == CELD_SAME_COLOUR_SEPARATE)
     status = celd_separate (run, &o->labels, &o->palette);
   if (status == CELD_OK && o->layers.arrows.data)
     status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, run, &o->relations, &o->problems);
+  if (status == CELD_OK && (options->suggestions || settings->suggest))
+    status = make_suggestions (ink, settings, o);
   if (status == CELD_OK)
     status = celd_order (&o->labels, &o->palette, &o->relations, ink, settings, run, &o->order, &o->problems);
   return status;
@@ -134,12 +150,14 @@ write_ordering (const CliOptions *options, const Ordering *o)
     levels.data[i] = celd_encode_level (o->order.level[o->labels.data[i] - 1], o->order.levels, settings);
   good = good && cli_write_depth (options->levels, &levels, ranks ? (float) (o->order.levels - 1) : 1);
   g_free (levels.data);
+  good = good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
   return good && (!options->report || cli_report_write (options->report, &(CliReport) {
     .command   = "order",
     .width     = o->labels.width,
     .height    = o->labels.height,
     .palette   = &o->palette,
     .relations = &o->relations,
+    .suggestions = options->suggestions || settings->suggest ? &o->suggestions : NULL,
     .order     = &o->order,
     .problems  = &o->problems,
     .settings  = settings,
@@ -156,6 +174,7 @@ clear_ordering (Ordering *o)
   g_free (o->ink.data);
   celd_palette_clear (&o->palette);
   celd_relations_clear (&o->relations);
+  celd_relations_clear (&o->suggestions);
   celd_order_clear (&o->order);
   celd_problems_clear (&o->problems);
   cli_run_end (&o->run);
@@ -173,7 +192,7 @@ cli_order (const CliOptions *options)
   if (good)
     {
       cli_run_stage (&o.run, "order");
-      good = finish (&o.run, make_order (&options->settings, &o));
+      good = finish (&o.run, make_order (options, &o));
     }
   if (good && write_ordering (options, &o))
     {

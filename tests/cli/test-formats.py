@@ -154,6 +154,29 @@ class Formats(Test):
                 self.assertEqual(self.report()['closures'], [])
                 self.assertEqual(self.report()['method'], 'exact' if 'exact' in words else 'basins')
 
+    def test_suggestions(self):
+        """As text, as arrows that are read back, in the report; they count only when asked to, and never against the
+        artist."""
+        words = ('--levels', 'levels.npy', '--report', 'report.json')
+        self.popup(*words, '--suggestions', 'suggestions.txt', '--suggested-arrows', 'arrows.png')
+        with open(self.path('suggestions.txt'), encoding='utf-8') as file:
+            text = file.read()
+        self.assertEqual(text.splitlines(), [s['text'] for s in self.report()['suggestions']])
+        self.assertEqual(len(text.splitlines()), 3)
+        self.assertEqual(self.report()['relations'], [])
+        plain = np.load(self.path('levels.npy'))
+        self.assertEqual(at(plain, IN_A), at(plain, IN_B))
+        for asked in (('--suggest', 'fill-gaps'), ('--suggest', 'all'), ('--relations', text),
+                      ('--arrows', 'arrows.png')):
+            with self.subTest(asked):
+                self.popup(*words, *asked)
+                levels = np.load(self.path('levels.npy'))
+                self.assertLess(at(levels, IN_A), at(levels, IN_B))
+        self.popup(*words, '--suggest', 'all', '--relations', '#ff0000 > #0000ff')
+        levels = np.load(self.path('levels.npy'))
+        self.assertGreater(at(levels, IN_A), at(levels, IN_B))
+        self.assertEqual([r['source'] for r in self.report()['relations']], ['text', 'suggestion', 'suggestion'])
+
     def test_steps_equal_the_route(self):
         """segment, order, expand, smooth, shade one after the other, by way of files."""
         self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',

@@ -12,7 +12,7 @@ static const struct { const char *name; const char *pads; const char *properties
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
     "arrow-style" },
   { "celdepth:depth-order", "aux2 aux input",
-    "relations arrow-style on-cycle same-colour background background-colour encoding near-level far-level ink" },
+    "relations arrow-style on-cycle suggest same-colour background background-colour encoding near-level far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
@@ -22,8 +22,8 @@ static const struct { const char *name; const char *pads; const char *properties
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-style on-cycle encoding near-level far-level anchors hold-rest tolerance bulge "
-    "light-azimuth light-elevation ambient directx" },
+    "same-colour relations arrow-style on-cycle suggest encoding near-level far-level anchors hold-rest tolerance "
+    "bulge light-azimuth light-elevation ambient directx" },
 };
 
 static bool
@@ -105,7 +105,7 @@ static void
 choices_have_the_nicks_of_the_contract (void)
 {
   static const struct { const char *operation, *property, *nicks; } cases[] = {
-    { "celdepth:popup", "result", "labels order levels depth normals shading problems" },
+    { "celdepth:popup", "result", "labels order levels depth normals shading problems suggestions" },
     { "celdepth:lazybrush-segment", "result", "labels closures problems" },
     { "celdepth:popup", "ink", "auto dark light alpha" },
     { "celdepth:popup", "method", "basins exact" },
@@ -114,6 +114,7 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:popup", "same-colour", "one separate" },
     { "celdepth:popup", "arrow-style", "head dot fade taper" },
     { "celdepth:popup", "on-cycle", "report drop-weakest" },
+    { "celdepth:popup", "suggest", "off fill-gaps all" },
     { "celdepth:popup", "encoding", "normalized rank fixed" },
     { "celdepth:popup", "anchors", "scribbles arrows both core" },
   };

@@ -1,0 +1,21 @@
+"""The cases with ground truth, by kind.
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import os
+
+VARIANTS = ['gappy', 'wide', 'crop', 'pencil']
+KINDS = ['clean', *VARIANTS, 'sloppy']
+
+
+def cases_in(folder, kinds):
+    """(name, kind, folder) of every case of these kinds; a sloppy one has the folder of its clean drawing."""
+    for name in sorted(os.listdir(folder)):
+        path = os.path.join(folder, name)
+        if os.path.exists(os.path.join(path, 'truth.json')):
+            variant = name.rsplit('-', 1)[-1]
+            kind = variant if variant in VARIANTS else 'clean'
+            if kind in kinds:
+                yield name, kind, path
+            if kind == 'clean' and 'sloppy' in kinds:
+                yield name + '-sloppy', 'sloppy', path
