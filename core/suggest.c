@@ -1,9 +1,10 @@
 /* Suggestions: which region is in front, from the drawing alone.
  *
  * The cues of each pair (suggest-cues.c) are weighed and added up to log-odds, as if each spoke for itself.  The
- * weights are those of a logistic regression on random scenes of sheets laid over each other, but for two that such scenes cannot tell: that the background is behind is as good as certain, and that a line in a
- * region ends where something covers it is little more than a guess, as folds end at outlines of their own, too.
- * Pairs are then taken by falling confidence, and one that would close a cycle with those before it is left out.
+ * weights are those of a logistic regression on random scenes of sheets laid over each other, but for two that such
+ * scenes cannot tell: that the background is behind is as good as certain, and that a line in a region ends where
+ * something covers it is little more than a guess, as folds end at outlines of their own, too.  Pairs are then taken
+ * by falling confidence, and one that would close a cycle with those before it is left out.
  *
  * The cues are those that vision takes order from in line drawings: T-junctions (Guzman, Decomposition of a visual
  * scene into three-dimensional bodies, 1968), surroundedness, convexity and compactness of figures (Rubin 1921; Palou

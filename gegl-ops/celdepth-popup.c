@@ -161,7 +161,8 @@ render (CeldOp *op)
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
       !write_result (op))
     return FALSE;
-  if (o->result != CELD_POPUP_LABELS && o->result != CELD_POPUP_SUGGESTIONS && /* then the order has been made already */
+  /* In other cases the order has been made already. */
+  if (o->result != CELD_POPUP_LABELS && o->result != CELD_POPUP_SUGGESTIONS &&
       !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
   return celd_op_tell_session (op, order);
