@@ -82,7 +82,7 @@ typedef struct { CeldPlane luma, alpha; } CeldDrawing;
 /* ------------------------------------------------------------------ settings; celd_settings () gives the defaults */
 
 typedef enum { CELD_INK_AUTO, CELD_INK_DARK, CELD_INK_LIGHT, CELD_INK_ALPHA } CeldInkMode;
-typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT } CeldMethod;
+typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT, CELD_METHOD_WALKER } CeldMethod;
 typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
 typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
 typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
@@ -100,7 +100,7 @@ typedef struct
   float       ink_threshold;    /* ink at or below this counts as fully inked, [0,0.99]; 0.25 */
 
   /* scribbles and segmentation */
-  CeldMethod     method;        /* on the drawing's basins, or exact cuts of all pixels */
+  CeldMethod     method;        /* on the drawing's basins, by exact cuts of all pixels, or a random walker */
   bool           close_gaps;    /* basins: borders across paper run from line end to line end */
   bool           keep_necks;    /* basins: a part with strokes of one label alone keeps it, whatever a cut would save */
   float          hardness;      /* 0.01 soft (a majority of paint wins) .. 1 hard (every stroke is obeyed); 0.05 */
@@ -123,7 +123,7 @@ typedef struct
   bool        hold_rest;        /* regions without such a pixel keep their level, too, in their core; true */
   float       tolerance;        /* largest error of smooth depth, as a share of its range, (0,0.1]; 1e-4 */
 
-  /* exact depth */
+  /* exact depth, and the random walker */
   float contrast;               /* how large a step of the ink parts depths, as a factor of the mean, [0.01,100]; 1 */
   float weight_floor;           /* how strongly neighbours hold together at least, [1e-6,1]; 1e-6 */
 
@@ -449,7 +449,7 @@ CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t
 CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
 CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels,
                                          CeldRect *changed);
-/* The gaps that these labels close; none with CELD_METHOD_EXACT. */
+/* The gaps that these labels close; none with other methods than CELD_METHOD_BASINS. */
 CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosures **closures);
 /* The same as red lines about as wide as the drawing's, on a transparent picture: a layer of virtual contours, in which
  * the artist may erase what was closed wrongly. */
@@ -476,8 +476,8 @@ CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *r
                                           CeldRect *changed);
 
 /* The exact program, see celd_depth_exact, with the background of the settings.  A new relation is answered in
- * milliseconds if its ends are scribbles or known ends of others.  The preview is for the eye while the first full depth
- * is made: a half of the width and height, rounded up, in about a quarter of the time. */
+ * milliseconds if its ends are scribbles or known ends of others.  The preview is for the eye while the first full
+ * depth is made: a half of the width and height, rounded up, in about a quarter of the time. */
 CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
 CELD_API CeldStatus celd_session_exact_preview (CeldSession *session, const CeldRun *run, CeldPlane *half);
 /* What it says of the depth (NULL if that was not asked for since the last change), and the palette that its labels and

@@ -6,9 +6,9 @@
  *
  *   ink -> weights -> nodes (of the seeds) -> exact depth (with the relations)
  *
- * The stages up to the labels are in route-labels.c, depth is in route-depth.c, the exact program in route-exact.c.  Each
- * of the others writes into new memory and replaces the old result only when it succeeded; the comparison of the two is
- * what the host is told to redraw.
+ * The stages up to the labels are in route-labels.c, depth is in route-depth.c, the exact program in
+ * route-exact.c.  Each of the others writes into new memory and replaces the old result only when it succeeded; the
+ * comparison of the two is what the host is told to redraw.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

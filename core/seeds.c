@@ -94,7 +94,7 @@ plant_relation (const CeldRelation *relation, bool *reached, CeldCanvas *canvas)
 {
   CeldEnd    end[2] = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) };
   uint32_t   room[2] = { room_of (canvas->basins, end[0]), room_of (canvas->basins, end[1]) }, label = 0;
-  double     widest = canvas->settings->method == CELD_METHOD_EXACT ? INFINITY : ON_BASINS;
+  double     widest = canvas->settings->method != CELD_METHOD_BASINS ? INFINITY : ON_BASINS;
   double     reach = room[0] == room[1] ? CELD_REACH * celd_ends_apart (end[0], end[1]) : INFINITY;
   CeldStatus status = CELD_OK;
 

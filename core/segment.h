@@ -105,6 +105,9 @@ CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run,
 /* Of every pixel; `labels` is tight. */
 CeldStatus celd_exact_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels);
 
+/* walker.c: of every pixel, those that a random walker likely reaches first; `labels` is tight. */
+CeldStatus celd_walker_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels);
+
 /* Of every basin. */
 CeldStatus celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label);
 

@@ -351,7 +351,8 @@ solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldRun
   CeldStatus  status = celd_labels_new (labels->width, labels->height, &exact);
 
   if (status == CELD_OK)
-    status = celd_exact_solve (canvas, &cuts, &exact);
+    status = canvas->settings->method == CELD_METHOD_WALKER ? celd_walker_solve (canvas, &cuts, &exact)
+                                                            : celd_exact_solve (canvas, &cuts, &exact);
   if (status == CELD_OK && relations)
     status = celd_seeds_split (relations, &splits, &exact, canvas, &patches);
   for (size_t i = 0; i < patches.n; i++)
@@ -380,7 +381,7 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
   bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
   CeldStatus status = prepare_seeds (arrows ? relations : NULL, &first, canvas);
 
-  if (status == CELD_OK && canvas->settings->method == CELD_METHOD_EXACT)
+  if (status == CELD_OK && canvas->settings->method != CELD_METHOD_BASINS)
     status = solve_on_pixels (s, arrows ? relations : NULL, &solving, canvas, labels);
   else if (status == CELD_OK)
     status = solve_on_basins (s, arrows ? relations : NULL, &solving, canvas, labels);

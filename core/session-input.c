@@ -91,7 +91,11 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
       celd_session_forget (session, STAGE_DEPTH);
     }
   if (a->contrast != b->contrast || a->weight_floor != b->weight_floor)
-    celd_session_forget (session, STAGE_WEIGHTS);
+    {
+      celd_session_forget (session, STAGE_WEIGHTS);
+      if (b->method == CELD_METHOD_WALKER)
+        celd_session_forget (session, STAGE_LABELS);
+    }
   if (a->background != b->background || memcmp (a->background_colour, b->background_colour, 3) ||
       a->same_colour != b->same_colour)
     celd_session_forget (session, STAGE_NODES);

@@ -37,7 +37,7 @@ within (float value, float least, float most)
 CeldStatus
 celd_settings_check (const CeldSettings *s)
 {
-  bool good = (unsigned) s->ink <= CELD_INK_ALPHA && (unsigned) s->method <= CELD_METHOD_EXACT &&
+  bool good = (unsigned) s->ink <= CELD_INK_ALPHA && (unsigned) s->method <= CELD_METHOD_WALKER &&
               (unsigned) s->background <= CELD_BACKGROUND_COLOUR && (unsigned) s->seeds <= CELD_SEEDS_SCRIBBLES &&
               (unsigned) s->same_colour <= CELD_SAME_COLOUR_SEPARATE &&
               (unsigned) s->suggest <= CELD_SUGGEST_ALL && (unsigned) s->on_cycle <= CELD_ON_CYCLE_DROP_WEAKEST &&

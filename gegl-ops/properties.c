@@ -24,7 +24,8 @@ ENUM_TYPE (celd_ink_mode_get_type, "CeldInkMode",
 
 ENUM_TYPE (celd_method_get_type, "CeldMethod",
            { CELD_METHOD_BASINS, "Basins", "basins" },
-           { CELD_METHOD_EXACT, "Exact", "exact" })
+           { CELD_METHOD_EXACT, "Exact", "exact" },
+           { CELD_METHOD_WALKER, "Random walker", "walker" })
 
 ENUM_TYPE (celd_background_get_type, "CeldBackground",
            { CELD_BACKGROUND_AUTO, "Along the frame", "auto" },

@@ -54,8 +54,8 @@ GType celd_popup_result_get_type   (void);
 
 #define CELD_PROPERTY_METHOD \
   property_enum (method, "Method", CeldMethod, celd_method, CELD_METHOD_BASINS) \
-    description ("How regions are found: on the basins of the drawing, at the speed of the brush, or by exact cuts " \
-                 "of all its pixels, which takes a second or more") \
+    description ("How regions are found: on the basins of the drawing, at the speed of the brush, by exact cuts of " \
+                 "all its pixels, or by a random walker, which both take a second or more") \
   property_boolean (close_gaps, "Close gaps", TRUE) \
     description ("Borders across paper run from line end to line end, as a person would draw them") \
     ui_meta ("visible", "method {basins}") \

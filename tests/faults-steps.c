@@ -134,6 +134,17 @@ flats_step (const CeldRun *run, Results *r)
   return celd_segment (&ink, &seeds, &relations, &flats, run, &labels, &r->palette, &r->problems);
 }
 
+static CeldStatus
+walker_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    ink = plane_of (&ink_pixels);
+  CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+  CeldSettings walker = settings;
+
+  walker.method = CELD_METHOD_WALKER;
+  return celd_segment (&ink, &seeds, &relations, &walker, run, &labels, &r->palette, &r->problems);
+}
+
 /* An empty page of one label, and two hard bars of another close to each other: the window is large enough to be cut in
  * blocks first, and the border between the bars is looked at again. */
 static CeldStatus
@@ -502,6 +513,7 @@ const Step steps[] = {
   { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },
+  { "walker", walker_step, &seed_palette, true },
   { "windows", windows_step, NULL, true },
   { "closures", closures_step, NULL, true },
   { "separate", separate_step, &label_palette, true },

@@ -192,7 +192,7 @@ add_closure (JsonBuilder *json, const CeldClosure *closure)
 static void
 add_segmentation (JsonBuilder *json, const CliReport *report)
 {
-  static const char *methods[] = { "basins", "exact" };
+  static const char *methods[] = { "basins", "exact", "walker" };
 
   add_text (json, "method", methods[report->settings->method]);
   begin_list (json, "closures");

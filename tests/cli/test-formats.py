@@ -146,13 +146,13 @@ class Formats(Test):
 
     def test_no_closures(self):
         self.open_box()
-        for words in (('--method', 'exact'), ('--close-gaps', 'no')):
+        for words in (('--method', 'exact'), ('--method', 'walker'), ('--close-gaps', 'no')):
             with self.subTest(words):
                 self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--closures', 'c.png',
                               '--report', 'report.json', *words)
                 self.assertEqual(self.picture('c.png').max(), 0)
                 self.assertEqual(self.report()['closures'], [])
-                self.assertEqual(self.report()['method'], 'exact' if 'exact' in words else 'basins')
+                self.assertEqual(self.report()['method'], words[1] if '--method' in words else 'basins')
 
     def test_suggestions(self):
         """As text, as arrows that are read back, in the report; they count only when asked to, and never against the

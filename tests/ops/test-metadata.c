@@ -108,7 +108,7 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:popup", "result", "labels order levels depth normals shading problems suggestions" },
     { "celdepth:lazybrush-segment", "result", "labels closures problems" },
     { "celdepth:popup", "ink", "auto dark light alpha" },
-    { "celdepth:popup", "method", "basins exact" },
+    { "celdepth:popup", "method", "basins exact walker" },
     { "celdepth:popup", "background", "auto none colour" },
     { "celdepth:popup", "seeds", "auto scribbles" },
     { "celdepth:popup", "same-colour", "one separate" },
