@@ -222,7 +222,16 @@ CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *
 
 /* Relations that cannot hold together: item[0..n-1] are indices into the relations, in the order of the cycle
  * (each one's farther region is the next one's nearer region, the last leads back to the first). */
-typedef struct { size_t *item; size_t n; size_t knot; } CeldCycle;
+typedef struct
+{
+  size_t  *item;
+  size_t   n;
+  size_t   knot;                /* of CeldOrder */
+  uint32_t label;               /* whose connected regions it takes to have one depth: without that, as with
+                                 * same_colour = separate, there would be no such cycle; 0: none */
+  uint8_t  colour[3];           /* of that label */
+  int      x[2], y[2];          /* one place in each of two such regions */
+} CeldCycle;
 
 /* All relations that go round in circles with each other: those of a strongly connected component of regions, in the
  * order given; and a shortest cycle through the newest of them that is on one. */
@@ -233,6 +242,7 @@ typedef struct
   uint32_t  *level;             /* of label k: level[k-1]; 0 = farthest */
   size_t     n;                 /* labels */
   uint32_t   levels;            /* one more than the largest level */
+  double    *height;            /* of each level, in gaps of one relation; NULL where that is the level itself */
   CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
   size_t     n_cycles;
   CeldKnot  *knot;
@@ -369,13 +379,16 @@ CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double
 /* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
  * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
  * contradict are reported as cycles and left out by settings->on_cycle, the rest is ordered.  No other member of the
- * settings counts; NULL: the defaults. */
+ * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else levels
+ * number the heights that there are. */
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                                 const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run,
                                 CeldOrder *order, CeldProblems *problems);
 
-/* Levels as they leave: celd_order's ranks as settings->encoding says. */
-CELD_API float celd_encode_level (uint32_t level, uint32_t levels, const CeldSettings *settings);
+/* Levels as they leave, as settings->encoding says: a level's height in gaps of one relation, of `levels` in all (one
+ * more than the largest height); and a level of an order. */
+CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
+CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
 
 /* Depth expansion (section 3.3): ink goes to the region that drew it.  `ranks` may have any values, larger = nearer;
  * `expanded` holds the same values and may alias `ranks`. */

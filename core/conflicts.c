@@ -140,7 +140,7 @@ read_cycle (const Search *s, size_t i, size_t state, CeldCycle *cycle)
 
   for (size_t t = state; t != NOWHERE; t = s->from[t])
     n += t / 2 >= n_labels;
-  cycle->item = celd_alloc (n, sizeof (size_t));
+  *cycle = (CeldCycle) { .item = celd_alloc (n, sizeof (size_t)) };
   if (!cycle->item)
     return CELD_NO_MEMORY;
   cycle->n = n;

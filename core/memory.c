@@ -137,6 +137,7 @@ celd_order_clear (CeldOrder *order)
 {
   clear_cycles (order->cycle, order->n_cycles, order->knot, order->n_knots);
   celd_free (order->level);
+  celd_free (order->height);
   *order = (CeldOrder) { 0 };
 }
 

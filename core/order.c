@@ -1,11 +1,14 @@
-/* Depth order: topological sort of the regions (section 3.2 and appendix, [Kah62]) with longest-path levels.
+/* Depth order: topological sort of the regions (section 3.2 and appendix, [Kah62]) with longest-path heights.
  *
  * Equalities are contracted by union-find; then classes are taken from the farthest on, each when everything behind it
  * is placed, one level (or the relation's gap) in front of the nearest of those.  So every region lies as far back as
- * the relations allow, levels are the same whatever the order of equal choices, and two unrelated regions are both
- * directly in front of the background.  Linear time behind conflicts.c, which leaves no oriented loop.
+ * the relations allow, heights are the same whatever the order of equal choices, and two unrelated regions are both
+ * directly in front of the background.  Of all heights from 0 on that keep the relations these are the least for every
+ * region at once, and with them every sum that grows with heights: the convex program of fractional gaps, too, needs no
+ * other method.  Linear time behind conflicts.c, which leaves no oriented loop.
  *
- * Choices where the paper is silent: gaps are whole levels, rounded up, at most LARGEST_GAP.  A label without a pixel
+ * Choices where the paper is silent: gaps are at most LARGEST_GAP.  With whole gaps alone heights are levels; else levels
+ * number the different heights.  A label without a pixel
  * (a colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the
  * level of what is behind it, so that the levels that can be seen have no holes.
  *
@@ -14,8 +17,11 @@
 #include "order.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#define LEAST_GAP   1e-6
 #define LARGEST_GAP 1000
+#define SAME        1e-9 /* heights that differ by less are one level: sums of gaps in another order */
 
 /* The classes of equal depth, and the state of the sort. */
 typedef struct
@@ -24,10 +30,10 @@ typedef struct
   CeldIndex        up;      /* links that lead up from a label */
   CeldClasses      classes;
   bool            *visible; /* of a class, at its root: has it a pixel? */
-  int64_t         *level;   /* of a class; -1: not visible, and nothing visible behind it */
+  double          *level;   /* of a class: its height; -1: not visible, and nothing visible behind it */
   size_t          *waits;   /* of a class: nearer ends in links that are not placed yet */
   size_t          *behind;  /* of a link: farther ends that are not placed yet */
-  int64_t         *height;  /* of a link: least level of a visible nearer end */
+  double          *height;  /* of a link: least height of a visible nearer end */
   uint32_t        *queue;   /* classes to place */
   size_t           n_queue;
 } Sort;
@@ -54,9 +60,9 @@ sort_new (const CeldGraph *g, Sort *s)
 
   *s = (Sort) {
     .graph = g,
-    .visible = celd_alloc0 (n, sizeof (bool)), .level = celd_alloc (n, sizeof (int64_t)),
+    .visible = celd_alloc0 (n, sizeof (bool)), .level = celd_alloc (n, sizeof (double)),
     .waits = celd_alloc0 (n, sizeof (size_t)), .behind = celd_alloc0 (m, sizeof (size_t)),
-    .height = celd_alloc0 (m, sizeof (int64_t)), .queue = celd_alloc (n, sizeof (uint32_t)),
+    .height = celd_alloc0 (m, sizeof (double)), .queue = celd_alloc (n, sizeof (uint32_t)),
   };
   status = s->visible && s->level && s->waits && s->behind && s->height && s->queue
          ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
@@ -122,12 +128,12 @@ count_waits (Sort *s)
 }
 
 /* Least distance in levels that a link asks for. */
-static int64_t
+static double
 gap_of (const CeldGraph *g, size_t link)
 {
   double gap = link < g->relations->n ? g->relations->item[link].gap : 1;
 
-  return gap > 1 ? (int64_t) fmin (ceil (gap), LARGEST_GAP) : 1; /* NaN: 1 */
+  return gap > 0 ? fmin (fmax (gap, LEAST_GAP), LARGEST_GAP) : 1; /* NaN: 1 */
 }
 
 /* The farther ends of a link are placed: so are its nearer ones as far as this link goes. */
@@ -139,7 +145,7 @@ raise_nearer (Sort *s, size_t link)
   for (size_t e = g->first[2 * link + 1]; e < g->first[2 * link + 2]; e++)
     {
       uint32_t c     = class_of (s, g->end[e]);
-      int64_t  level = s->height[link] - !s->visible[c];
+      double   level = s->height[link] - !s->visible[c];
 
       if (s->level[c] < level)
         s->level[c] = level;
@@ -160,7 +166,7 @@ place_class (Sort *s, uint32_t c)
       for (size_t j = s->up.first[k]; j < s->up.first[k + 1]; j++)
         {
           size_t  link   = s->up.link[j];
-          int64_t height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
+          double  height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
 
           if (!g->kept[link] || celd_graph_equal (g, link))
             continue;
@@ -174,27 +180,78 @@ place_class (Sort *s, uint32_t c)
   while (k != c);
 }
 
-/* Levels of labels from those of classes. */
+static int
+compare_heights (const void *one, const void *two)
+{
+  double a = *(const double *) one, b = *(const double *) two;
+
+  return a < b ? -1 : a > b;
+}
+
+/* The heights of visible labels, each once, by rising height; 0 is one of them. */
+static size_t
+list_heights (Sort *s, double *height)
+{
+  size_t n = 1, kept = 1;
+
+  height[0] = 0;
+  for (uint32_t k = 0; k < s->graph->n_labels; k++)
+    if (s->visible[k])
+      height[n++] = s->level[class_of (s, k)];
+  qsort (height, n, sizeof *height, compare_heights);
+  for (size_t i = 1; i < n; i++)
+    if (height[i] > height[kept - 1] + SAME)
+      height[kept++] = height[i];
+  return kept;
+}
+
+/* The highest level of `n` whose height is not above the given one. */
+static uint32_t
+find_level (const double *height, size_t n, double wanted)
+{
+  size_t low = 0, high = n;
+
+  while (high - low > 1)
+    {
+      size_t middle = (low + high) / 2;
+
+      if (height[middle] <= wanted + SAME)
+        low = middle;
+      else
+        high = middle;
+    }
+  return (uint32_t) low;
+}
+
+/* Levels of labels from the heights of classes. */
 static CeldStatus
 write_levels (Sort *s, CeldOrder *order)
 {
-  size_t  n   = s->graph->n_labels;
-  int64_t top = 0;
+  size_t  n = s->graph->n_labels, n_heights;
+  double *height = celd_alloc (n + 1, sizeof *height), top;
+  bool    whole = true;
 
   order->level = celd_alloc (n, sizeof *order->level);
-  if (!order->level)
-    return CELD_NO_MEMORY;
-  for (uint32_t k = 0; k < n; k++)
-    if (s->visible[k] && s->level[class_of (s, k)] > top)
-      top = s->level[class_of (s, k)];
+  if (!order->level || !height)
+    {
+      celd_free (height);
+      return CELD_NO_MEMORY;
+    }
+  n_heights = list_heights (s, height);
+  top       = height[n_heights - 1];
+  for (size_t i = 0; i < n_heights; i++)
+    whole = whole && height[i] == floor (height[i]);
   for (uint32_t k = 0; k < n; k++)
     {
-      int64_t level = s->level[class_of (s, k)];
+      double level = fmin (fmax (s->level[class_of (s, k)], 0), top);
 
-      order->level[k] = (uint32_t) (level < 0 ? 0 : level > top ? top : level);
+      order->level[k] = whole ? (uint32_t) level : find_level (height, n_heights, level);
     }
   order->n      = n;
-  order->levels = (uint32_t) top + 1;
+  order->levels = whole ? (uint32_t) top + 1 : (uint32_t) n_heights;
+  order->height = whole ? NULL : height;
+  if (whole)
+    celd_free (height);
   return CELD_OK;
 }
 
@@ -252,6 +309,8 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
   if (status == CELD_OK)
     status = sort_levels (&graph, labels, &made);
   if (status == CELD_OK)
+    status = celd_cycles_explain (labels, palette, ink, &graph, &made);
+  if (status == CELD_OK)
     status = report_cycles (&made, labels, palette, relations, problems);
   if (status == CELD_OK)
     status = celd_step (run, 1);
@@ -271,14 +330,21 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
 }
 
 float
-celd_encode_level (uint32_t level, uint32_t levels, const CeldSettings *settings)
+celd_encode_level (double level, double levels, const CeldSettings *settings)
 {
-  float range = settings->near_level - settings->far_level;
+  double far = (double) settings->far_level, range = (double) settings->near_level - far;
 
   switch (settings->encoding)
     {
     case CELD_ENCODING_RANK:  return (float) level;
-    case CELD_ENCODING_FIXED: return range > 0 ? ((float) level - settings->far_level) / range : 0;
-    default:                  return levels > 1 ? (float) level / (float) (levels - 1) : 0;
+    case CELD_ENCODING_FIXED: return range > 0 ? (float) ((level - far) / range) : 0;
+    default:                  return levels > 1 ? (float) (level / (levels - 1)) : 0;
     }
+}
+
+float
+celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings)
+{
+  return order->height ? celd_encode_level (order->height[level], order->height[order->levels - 1] + 1, settings)
+                       : celd_encode_level (level, order->levels, settings);
 }

@@ -119,6 +119,14 @@ CeldStatus celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const 
  * link. */
 CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const CeldRun *run, CeldOrder *order);
 
+/* ------------------------------------------------------------------ cycle-colours.c */
+
+/* Finds the label of each cycle that needs regions of it that do not touch to have one depth. */
+CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                const CeldGraph *graph, CeldOrder *order);
+
+/* ------------------------------------------------------------------ links.c */
+
 /* Where an artist finds a relation: an end inside the drawing; -1,-1 if none is. */
 void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation,
                           int *x, int *y);

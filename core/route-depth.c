@@ -51,7 +51,7 @@ flat_level (const CeldSession *s, int x, int y)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
 
-  return celd_encode_level (s->order.level[CELD_AT (labels, x, y) - 1], s->order.levels, &s->settings);
+  return celd_order_value (&s->order, s->order.level[CELD_AT (labels, x, y) - 1], &s->settings);
 }
 
 static void

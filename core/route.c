@@ -82,7 +82,7 @@ encode (const CeldSession *s, const CeldLabels *ranks, CeldPlane *levels)
   for (size_t i = 0; i < (size_t) ranks->width * (size_t) ranks->height; i++)
     levels->data[i] = i && ranks->data[i] == ranks->data[i - 1]
                         ? levels->data[i - 1]
-                        : celd_encode_level (ranks->data[i], s->order.levels, &s->settings);
+                        : celd_order_value (&s->order, ranks->data[i], &s->settings);
 }
 
 /* The rank of each pixel's label. */
@@ -128,7 +128,7 @@ list_ranks (const CeldSession *s, CeldRank **list)
     return CELD_NO_MEMORY;
   for (size_t k = 0; k < s->order.n; k++)
     rank[k] = (CeldRank) { s->order.level[k],
-                           celd_encode_level (s->order.level[k], s->order.levels, &s->settings) };
+                           celd_order_value (&s->order, s->order.level[k], &s->settings) };
   *list = rank;
   return CELD_OK;
 }

@@ -173,4 +173,8 @@ celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *t
       relation_name (relations, cycle->item[i], relation, sizeof relation);
       used += (size_t) snprintf (text + used, size - used, "%s%s", relation, i + 1 < cycle->n ? ", " : ".");
     }
+  if (cycle->label && used < size)
+    snprintf (text + used, size - used, " That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
+              "same-colour=separate gives each its own.", cycle->colour[0], cycle->colour[1], cycle->colour[2],
+              cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
 }

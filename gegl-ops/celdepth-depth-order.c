@@ -90,7 +90,7 @@ write_levels (CeldOp *op, const CeldSettings *s, const CeldLabels *labels)
   if (!celd_op_new_plane (op, &levels))
     return FALSE;
   for (size_t i = 0; i < (size_t) labels->width * (size_t) labels->height; i++)
-    levels.data[i] = celd_encode_level (op->order.level[labels->data[i] - 1], op->order.levels, s);
+    levels.data[i] = celd_order_value (&op->order, op->order.level[labels->data[i] - 1], s);
   return celd_op_write (op, levels.data);
 }
 

@@ -93,7 +93,7 @@ static bool
 write_results (CeldSession *session, const CliOptions *options, const Results *results)
 {
   bool  ranks = options->settings.encoding == CELD_ENCODING_RANK && results->order && results->order->levels > 1;
-  float nearest = ranks ? (float) (results->order->levels - 1) : 1;
+  float nearest = ranks ? celd_order_value (results->order, results->order->levels - 1, &options->settings) : 1;
 
   return (!options->labels  || cli_write_labels (options->labels, &results->labels, celd_session_palette (session))) &&
          (!options->closures ||

@@ -80,7 +80,7 @@ add_label (JsonBuilder *json, const CliReport *report, size_t index)
       uint32_t level = report->order->level[index];
 
       add_integer (json, "level", level);
-      add_number (json, "value", (double) celd_encode_level (level, report->order->levels, report->settings));
+      add_number (json, "value", (double) celd_order_value (report->order, level, report->settings));
     }
   json_builder_end_object (json);
 }
@@ -153,6 +153,24 @@ add_indices (JsonBuilder *json, const size_t *item, size_t n)
   for (size_t i = 0; i < n; i++)
     json_builder_add_int_value (json, (gint64) item[i]);
   json_builder_end_array (json);
+}
+
+static void
+add_one_colour (JsonBuilder *json, size_t index, const CeldCycle *cycle)
+{
+  json_builder_begin_object (json);
+  add_integer (json, "cycle", (gint64) index);
+  add_integer (json, "label", cycle->label);
+  begin_list (json, "places");
+  for (int i = 0; i < 2; i++)
+    {
+      json_builder_begin_array (json);
+      json_builder_add_double_value (json, cycle->x[i]);
+      json_builder_add_double_value (json, cycle->y[i]);
+      json_builder_end_array (json);
+    }
+  json_builder_end_array (json);
+  json_builder_end_object (json);
 }
 
 static void
@@ -295,6 +313,11 @@ add_order (JsonBuilder *json, const CliReport *report)
   begin_list (json, "cycles");
   for (size_t i = 0; i < report->order->n_cycles; i++)
     add_indices (json, report->order->cycle[i].item, report->order->cycle[i].n);
+  json_builder_end_array (json);
+  begin_list (json, "one-colour");
+  for (size_t i = 0; i < report->order->n_cycles; i++)
+    if (report->order->cycle[i].label)
+      add_one_colour (json, i, &report->order->cycle[i]);
   json_builder_end_array (json);
   begin_list (json, "knots");
   for (size_t i = 0; i < report->order->n_knots; i++)

@@ -147,8 +147,8 @@ write_ordering (const CliOptions *options, const Ordering *o)
   bool                good = cli_plane_new (o->labels.width, o->labels.height, &levels);
 
   for (size_t i = 0; good && i < (size_t) levels.width * (size_t) levels.height; i++)
-    levels.data[i] = celd_encode_level (o->order.level[o->labels.data[i] - 1], o->order.levels, settings);
-  good = good && cli_write_depth (options->levels, &levels, ranks ? (float) (o->order.levels - 1) : 1);
+    levels.data[i] = celd_order_value (&o->order, o->order.level[o->labels.data[i] - 1], settings);
+  good = good && cli_write_depth (options->levels, &levels, ranks ? celd_order_value (&o->order, o->order.levels - 1, settings) : 1);
   g_free (levels.data);
   good = good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
   return good && (!options->report || cli_report_write (options->report, &(CliReport) {

@@ -31,7 +31,6 @@ known_levels (void)
   situation ("A>B>C>D;A>D", false, "321000", 0);         /* the longest path counts */
   situation ("A>B;A>B;A>B", false, "100000", 0);
   situation ("A>B+2", true, "311110", 0);
-  situation ("A>B+1.5;B>C", false, "310000", 0);         /* gaps are whole levels */
   situation ("A=B;B=C;C>D;E=D;F>A", false, "111002", 0); /* classes of equal depth */
   situation ("A=A;B=C;C=B;A>B", false, "100000", 0);
 }
@@ -132,6 +131,62 @@ bad_input (void)
   celd_palette_clear (&palette);
 }
 
+/* Heights of all six labels of a situation with fractional gaps. */
+static void
+heights (const char *relations, const double wanted[6], uint32_t levels)
+{
+  CeldPalette  palette = palette_of (6, false);
+  CeldSettings s = celd_settings ();
+  Answer       a = ask (PARTS, &palette, relations, NULL);
+  double       top = 0;
+
+  CHECK (a.order.n_cycles == 0 && a.order.levels == levels);
+  s.encoding = CELD_ENCODING_RANK;
+  for (size_t k = 0; k < 6; k++)
+    {
+      NEAR (celd_order_value (&a.order, a.order.level[k], &s), wanted[k], 1e-6);
+      top = fmax (top, wanted[k]);
+    }
+  s.encoding = CELD_ENCODING_NORMALIZED;
+  for (size_t k = 0; k < 6; k++)
+    NEAR (celd_order_value (&a.order, a.order.level[k], &s), wanted[k] / top, 1e-6);
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
+static void
+fractional_gaps (void)
+{
+  heights ("A>B+1.5;B>C", (double[]) { 2.5, 1, 0, 0, 0, 0 }, 3);
+  heights ("A>B+0.25;C>B", (double[]) { 0.25, 0, 1, 0, 0, 0 }, 3);
+  heights ("A>B+0.1;B>C+0.2;D>C+0.3;E=D", (double[]) { 0.3, 0.2, 0, 0.3, 0.3, 0 }, 3); /* but for rounding the same */
+  heights ("A>B+0.5;B>C+0.5;A>D+3;D>E", (double[]) { 4, 0.5, 0, 1, 0, 0 }, 4);
+  heights ("A>B+2.5;B>C+2.5", (double[]) { 5, 2.5, 0, 0, 0, 0 }, 3);
+}
+
+/* A and C of one colour, apart from each other: only that closes the circle. */
+static void
+one_colour_closes_a_circle (void)
+{
+  static const char *const rows[] = { "AABBAACCDDDD", "AABBAACCDDDD", NULL };
+  CeldPalette              palette = palette_of (4, false);
+  Answer                   a = ask (rows, &palette, "A>B;B>C", NULL); /* points: C lies in the second part of a */
+
+  CHECK (a.order.n_cycles == 1 && a.order.cycle[0].label == 1 && a.order.cycle[0].colour[0] == 10);
+  CHECK (a.order.cycle[0].x[0] + a.order.cycle[0].x[1] == 4);
+  forget (&a);
+  a = ask (rows, &palette, "#0a0000>B;B>C", NULL);
+  CHECK (a.order.n_cycles == 1 && a.order.cycle[0].label == 0); /* a colour means all of its regions */
+  forget (&a);
+  a = ask (rows, &palette, "A>B;B>D;D>1.5,1.5", NULL);
+  CHECK (a.order.n_cycles == 1 && a.order.cycle[0].label == 0);
+  forget (&a);
+  a = ask (rows, &palette, "A>B;C=D;D<B", NULL);
+  CHECK (a.order.n_cycles == 1 && a.order.cycle[0].label == 1);
+  forget (&a);
+  celd_palette_clear (&palette);
+}
+
 static void
 encodings (void)
 {
@@ -159,6 +214,8 @@ main (void)
   RUN (lighter_relations_give_way);
   RUN (lost_labels_leave_no_hole);
   RUN (bad_input);
+  RUN (fractional_gaps);
+  RUN (one_colour_closes_a_circle);
   RUN (encodings);
   return DONE;
 }

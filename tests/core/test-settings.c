@@ -97,14 +97,18 @@ partners_of_a_contradiction (void)
   };
   CeldRelations relations = { relation, 3 };
   size_t        item[] = { 1, 0, 2 };
-  CeldCycle     cycle = { item, 3, 0 };
-  char          text[200], small[40];
+  CeldCycle     cycle = { .item = item, .n = 3 };
+  char          text[300], small[40];
 
   celd_cycle_text (&cycle, &relations, text, sizeof text);
   CHECK (strstr (text, "line 1, column 1, the arrow from (0, 0) to (0, 7)."));
   CHECK (!strstr (text, "relation 8")); /* it is the one that the sentence before is about */
   celd_cycle_text (&cycle, &relations, small, sizeof small);
   CHECK (strlen (small) == sizeof small - 1);
+  cycle.label = 2;
+  cycle.x[0]  = 17;
+  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  CHECK (strstr (text, "#000000") && strstr (text, "(17, 0)") && strstr (text, "same-colour=separate"));
 }
 
 int
