@@ -49,7 +49,7 @@ typedef enum
   CELD_NO_MEMORY,         /* an allocation failed, or a size would overflow */
   CELD_BAD_SIZE,          /* a picture is empty, too large, or sizes differ */
   CELD_BAD_VALUE,         /* a setting is outside its range */
-  CELD_BAD_RELATION,      /* relations text cannot be read: see CeldTextError */
+  CELD_BAD_RELATION,      /* relations text or path data cannot be read: see CeldTextError */
   CELD_NOTHING_TO_GO_BY   /* neither a scribble nor an arrow */
 } CeldStatus;
 
@@ -161,7 +161,7 @@ CELD_API void celd_palette_clear (CeldPalette *palette);
 /* One end of a relation: a point of the drawing, or every region of a colour. */
 typedef struct { bool by_colour; uint8_t colour[3]; double x, y; } CeldTerm;
 
-typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW, CELD_SOURCE_SUGGESTION } CeldSource;
+typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW, CELD_SOURCE_PATH, CELD_SOURCE_SUGGESTION } CeldSource;
 
 /* `nearer` is in front of `farther`; or both have the same depth. */
 typedef struct
@@ -173,7 +173,7 @@ typedef struct
   double     weight;            /* > 0; in a contradiction the lighter relation gives way; 1 */
   double     gap;               /* least gap in levels, > 0; 1 */
   CeldSource source;
-  int        line, column;      /* where it stands in the text, from 1; 0 for others */
+  int        line, column;      /* where it stands in the text or path, from 1; 0 for others */
   uint32_t   id;                /* the host's name for it; 0 unless set through a session */
 } CeldRelation;
 
@@ -181,7 +181,7 @@ typedef struct { CeldRelation *item; size_t n; } CeldRelations;
 
 CELD_API void celd_relations_clear (CeldRelations *relations);
 
-/* Where relations text could not be read. */
+/* Where relations text or path data could not be read. */
 typedef struct { int line, column; char expected[48]; char found[24]; } CeldTextError;
 
 /* Something the artist should know; none of these stops the work. */
@@ -319,6 +319,10 @@ CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldS
  * and *error (may be NULL) says where.  Locale-independent. */
 CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
 
+/* Arrows as SVG path data (docs/relations.md): each sub-path becomes one relation from its first to its last point,
+ * appended; errors as above. */
+CELD_API CeldStatus celd_arrow_path_parse (const char *path, CeldRelations *relations, CeldTextError *error);
+
 /* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
 CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *run,
                                       CeldRelations *relations, CeldProblems *problems);
@@ -445,6 +449,7 @@ CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const Celd
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);
 CELD_API CeldStatus celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error);
+CELD_API CeldStatus celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextError *error);
 
 /* Single strokes over the scribble layer, by the host's id (not 0): the mask's pixels from (x,y) on take the colour.
  * The same id again replaces the stroke; strokes painted later lie above earlier ones. */

@@ -28,6 +28,8 @@ celd_make_relations (CeldSession *s, const CeldRun *run)
   CeldProblems  problems = { 0 };
   CeldStatus    status = append_relations (&all, &s->text);
 
+  if (status == CELD_OK)
+    status = append_relations (&all, &s->path);
   if (status == CELD_OK && s->arrows.data)
     status = celd_arrows_read (&s->arrows, s->settings.arrow_style, run, &all, &problems);
   if (status == CELD_OK)

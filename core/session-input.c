@@ -205,21 +205,35 @@ celd_session_set_contours (CeldSession *session, const CeldPaint *contours)
   return set_layer (session, contours, &session->contours, STAGE_INK);
 }
 
-CeldStatus
-celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error)
+/* What a reader makes of a text (NULL: nothing) becomes `known`. */
+static CeldStatus
+set_text (CeldSession *session, CeldStatus (*parse) (const char *text, CeldRelations *relations, CeldTextError *error),
+          const char *text, CeldRelations *known, CeldTextError *error)
 {
   CeldRelations relations = { 0 };
-  CeldStatus    status = celd_relations_parse (text ? text : "", &relations, error);
+  CeldStatus    status = parse (text ? text : "", &relations, error);
 
-  if (status != CELD_OK || same_relations (&relations, &session->text))
+  if (status != CELD_OK || same_relations (&relations, known))
     {
       celd_relations_clear (&relations);
       return status;
     }
-  celd_relations_clear (&session->text);
-  session->text = relations;
+  celd_relations_clear (known);
+  *known = relations;
   celd_session_forget (session, STAGE_RELATIONS);
   return CELD_OK;
+}
+
+CeldStatus
+celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error)
+{
+  return set_text (session, celd_relations_parse, text, &session->text, error);
+}
+
+CeldStatus
+celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextError *error)
+{
+  return set_text (session, celd_arrow_path_parse, path, &session->path, error);
 }
 
 /* Without the relations of one id; how many there were. */

@@ -82,6 +82,7 @@ celd_session_free (CeldSession *session)
   celd_session_clear_results (session);
   celd_problems_clear (&session->all_problems);
   celd_relations_clear (&session->text);
+  celd_relations_clear (&session->path);
   celd_relations_clear (&session->single);
   celd_strokes_clear (session->stroke, session->n_strokes);
   celd_free (session->stroke);

@@ -21,7 +21,7 @@
 /* What can be made, each from earlier ones only. */
 typedef enum
 {
-  STAGE_RELATIONS, /* the text's, the arrows layer's and the single ones, in one list */
+  STAGE_RELATIONS, /* the text's, the path's, the layer's and the single ones, in one list */
   STAGE_INK,       /* for segmentation and for depth */
   STAGE_SCRIBBLES, /* the layer's seeds */
   STAGE_SEEDS,     /* the same under the single strokes */
@@ -57,7 +57,7 @@ struct CeldSession
   CeldPaint     scribbles, arrows, contours;   /* owned; data NULL = none */
   CeldStroke   *stroke;                        /* in painting order */
   size_t        n_strokes;
-  CeldRelations text, single;                  /* as set; painted ones are read in STAGE_RELATIONS */
+  CeldRelations text, path, single;            /* as set; painted ones are read in STAGE_RELATIONS */
 
   /* what was made of it; valid[s] says whether stage s still holds */
   bool           valid[N_STAGES];

@@ -96,6 +96,8 @@ relation_name (const CeldRelations *relations, size_t index, char *name, size_t 
 
   if (r && r->source == CELD_SOURCE_TEXT && r->id)
     snprintf (name, size, "relation %u", (unsigned) r->id);
+  else if (r && r->source == CELD_SOURCE_PATH)
+    snprintf (name, size, "the arrow in line %d, column %d of the path", r->line, r->column);
   else if (r && r->source == CELD_SOURCE_TEXT)
     snprintf (name, size, "the relation in line %d, column %d", r->line, r->column);
   else if (r)

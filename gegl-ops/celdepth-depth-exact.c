@@ -11,6 +11,7 @@ CELD_PROPERTY_FLATS
 CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_PATH
 CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_ENCODING
@@ -84,7 +85,7 @@ render (CeldOp *op)
   CeldPlane        depth;
   CeldOrder        cycles = { 0 };
 
-  if (!celd_op_set_session (op, &s, o->relations) ||
+  if (!celd_op_set_session (op, &s, o->relations, o->arrow_path) ||
       !celd_op_set_layer (op, "aux3", celd_session_set_contours))
     return FALSE;
   session = op->operation->session;

@@ -7,6 +7,7 @@
 #ifdef GEGL_PROPERTIES
 
 CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_PATH
 CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_SUGGEST
@@ -106,7 +107,7 @@ render (CeldOp *op)
   return celd_op_try (op, celd_settings_check (&s)) &&
          (!drawn || celd_op_read_ink (op, "aux2", o->ink, &ink)) &&
          read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
-         celd_op_read_relations (op, o->relations, "aux", o->arrow_style) &&
+         celd_op_read_relations (op, o->relations, o->arrow_path, "aux", o->arrow_style) &&
          add_suggestions (op, &s, &labels, drawn ? &ink : NULL) &&
          celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->run,
                                       &op->order, &op->problems)) &&

@@ -17,6 +17,7 @@ CELD_PROPERTY_FLATS
 CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_SEEDS
 CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_PATH
 CELD_PROPERTY_ARROW_STYLE
 
 #else
@@ -97,7 +98,7 @@ render (CeldOp *op)
   GeglProperties *o = GEGL_PROPERTIES (op->operation);
   CeldSettings    s = settings (o);
 
-  return celd_op_set_session (op, &s, o->relations) &&
+  return celd_op_set_session (op, &s, o->relations, o->arrow_path) &&
          write_result (op) &&
          celd_op_tell_session (op, NULL);
 }

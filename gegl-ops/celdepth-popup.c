@@ -18,6 +18,7 @@ CELD_PROPERTY_BACKGROUND
 CELD_PROPERTY_SEEDS
 CELD_PROPERTY_SAME_COLOUR
 CELD_PROPERTY_RELATIONS
+CELD_PROPERTY_ARROW_PATH
 CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_SUGGEST
@@ -157,7 +158,7 @@ render (CeldOp *op)
   CeldSettings     s = settings (o);
   const CeldOrder *order = NULL;
 
-  if (!celd_op_set_session (op, &s, o->relations) ||
+  if (!celd_op_set_session (op, &s, o->relations, o->arrow_path) ||
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
       !write_result (op))
     return FALSE;

@@ -101,14 +101,26 @@ celd_op_try (CeldOp *op, CeldStatus status)
   return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
 }
 
-gboolean
-celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
+/* Says where a text cannot be read, and what it may look like. */
+static gboolean
+try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char *what, const char *example)
 {
   if (status != CELD_BAD_RELATION)
     return celd_op_try (op, status);
-  return celd_op_fail (op, "The relations cannot be read: line %d, column %d has %s, where %s was expected. "
-                       "An example of a relation is: 120,80 > 300,95", error->line, error->column,
-                       error->found, error->expected);
+  return celd_op_fail (op, "The %s cannot be read: line %d, column %d has %s, where %s was expected. An example of %s",
+                       what, error->line, error->column, error->found, error->expected, example);
+}
+
+gboolean
+celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  return try_text (op, status, error, "relations", "a relation is: 120,80 > 300,95");
+}
+
+gboolean
+celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  return try_text (op, status, error, "arrow path", "an arrow is: M 120,80 L 300,95");
 }
 
 gboolean

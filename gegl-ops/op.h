@@ -87,8 +87,9 @@ struct _CeldOp
 gboolean celd_op_fail (CeldOp *op, const char *format, ...) G_GNUC_PRINTF (2, 3);
 /* TRUE if a step of core went well; else its reason becomes the message. */
 gboolean celd_op_try (CeldOp *op, CeldStatus status);
-/* As celd_op_try, for steps that read the relations text. */
+/* As celd_op_try, for steps that read the relations text, or an arrow path. */
 gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
+gboolean celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error);
 /* Tells the artist; the result is delivered all the same, so always TRUE.  `order` has the circles of contradictions;
  * NULL before there is one. */
 gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
@@ -117,9 +118,10 @@ gboolean celd_op_new_mask    (CeldOp *op, CeldMask *mask);
 gboolean celd_op_new_paint   (CeldOp *op, CeldPaint *paint);
 gboolean celd_op_new_vectors (CeldOp *op, CeldVectors *vectors);
 
-/* The relations of a text (may be NULL) and of a painted layer (a pad that may be missing), in this order, to
- * op->relations; unclear arrows to op->problems. */
-gboolean celd_op_read_relations (CeldOp *op, const char *text, const char *pad, CeldArrowStyle style);
+/* The relations of a text, of an arrow path (both may be NULL) and of a painted layer (a pad that may be missing), in
+ * this order, to op->relations; unclear arrows to op->problems. */
+gboolean celd_op_read_relations (CeldOp *op, const char *text, const char *path, const char *pad,
+                                 CeldArrowStyle style);
 
 /* Seed labels and op->palette from painted strokes. */
 gboolean celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *settings, CeldLabels *seeds);
@@ -136,9 +138,9 @@ gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean
 
 /* ------------------------------------------------------------------ session.c */
 
-/* Settings, drawing (input), scribbles (aux), arrows (aux2) and relations, to the session of this operation, which from
- * now on it has. */
-gboolean celd_op_set_session (CeldOp *op, const CeldSettings *settings, const char *relations);
+/* Settings, drawing (input), scribbles (aux), arrows (aux2), relations and arrow path, to the session of this
+ * operation, which from now on it has. */
+gboolean celd_op_set_session (CeldOp *op, const CeldSettings *settings, const char *relations, const char *path);
 
 /* A further layer, from a pad that may be missing. */
 gboolean celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session,

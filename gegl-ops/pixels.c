@@ -147,12 +147,13 @@ celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *setting
 }
 
 gboolean
-celd_op_read_relations (CeldOp *op, const char *text, const char *pad, CeldArrowStyle style)
+celd_op_read_relations (CeldOp *op, const char *text, const char *path, const char *pad, CeldArrowStyle style)
 {
   CeldTextError error = { 0 };
   CeldPaint     paint;
 
   return celd_op_try_text (op, celd_relations_parse (text ? text : "", &op->relations, &error), &error) &&
+         celd_op_try_path (op, celd_arrow_path_parse (path ? path : "", &op->relations, &error), &error) &&
          (!celd_op_has (op, pad) ||
           (celd_op_read_paint (op, pad, &paint) &&
            celd_op_try (op, celd_arrows_read (&paint, style, &op->quiet, &op->relations, &op->problems))));

@@ -104,6 +104,11 @@ GType celd_popup_result_get_type   (void);
     description ("Of relations that go round in a circle, which are left out: lighter and later ones, each by itself, " \
                  "or those that weigh least together. All are named in either case")
 
+#define CELD_PROPERTY_ARROW_PATH \
+  property_string (arrow_path, "Arrow path", "") \
+    description ("Arrows as SVG path data, each from the nearer to the farther part: M 120,80 L 300,95") \
+    ui_meta ("multiline", "true")
+
 #define CELD_PROPERTY_ARROW_STYLE \
   property_enum (arrow_style, "Arrow style", CeldArrowStyle, celd_arrow_style, CELD_ARROW_HEAD) \
     description ("How a painted arrow says which of its ends is nearer")

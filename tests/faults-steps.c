@@ -106,6 +106,14 @@ relations_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
+path_step (const CeldRun *run, Results *r)
+{
+  (void) run;
+  return celd_arrow_path_parse ("M14,30 40,35 M1 1h13v29m3 3q9-9 1 27z l5 5M5 5 6 6M7 7 8 8M9 9 10 10M1 1 2 2M3 3 4 4",
+                                &r->relations, NULL);
+}
+
+static CeldStatus
 arrows_step (const CeldRun *run, Results *r)
 {
   CeldPaint arrows = paint_of (&arrow_pixels);
@@ -509,6 +517,7 @@ const Step steps[] = {
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },
   { "relations", relations_step, NULL, false },
+  { "arrow-path", path_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
   { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },

@@ -33,7 +33,7 @@ typedef struct
 {
   char        *input;
   char        *drawing, *scribbles, *contours, *arrows, *anchors;
-  char        *relations, *relations_file;
+  char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   bool         quiet, background_colour; /* was a background colour given? */
   CeldSettings settings;
@@ -131,8 +131,10 @@ bool cli_layer_read (const char *path, const char *role, CliLayers *layers, Celd
 
 /* The text of --relations or --relations-file; "" if neither is given, NULL if it cannot be read. */
 char *cli_relations_text (const CliOptions *options);
-/* Says where relations text cannot be read. */
-bool cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTextError *error);
+/* What that text is called in messages. */
+const char *cli_relations_name (const CliOptions *options);
+/* Says where such a text, or an arrow path, cannot be read. */
+bool cli_check_text (CeldStatus status, const char *name, const CeldTextError *error);
 
 /* ------------------------------------------------------------------ report.c */
 

@@ -152,12 +152,17 @@ cli_relations_text (const CliOptions *options)
   return text;
 }
 
+const char *
+cli_relations_name (const CliOptions *options)
+{
+  return options->relations_file ? options->relations_file : "Relations";
+}
+
 bool
-cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTextError *error)
+cli_check_text (CeldStatus status, const char *name, const CeldTextError *error)
 {
   if (status != CELD_BAD_RELATION)
     return cli_check (status);
-  return cli_error ("%s, line %d, column %d: expected %s, found %s.",
-                    options->relations_file ? options->relations_file : "Relations",
-                    error->line, error->column, error->expected, error->found);
+  return cli_error ("%s, line %d, column %d: expected %s, found %s.", name, error->line, error->column,
+                    error->expected, error->found);
 }

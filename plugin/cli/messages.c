@@ -100,7 +100,8 @@ cli_say_cycles (const CeldOrder *order, const CeldRelations *relations)
           if (relation->source == CELD_SOURCE_ARROW)
             fprintf (stderr, "    %s  (painted arrow)\n", text);
           else
-            fprintf (stderr, "    %s  (line %d, column %d)\n", text, relation->line, relation->column);
+            fprintf (stderr, "    %s  (%sline %d, column %d)\n", text,
+                     relation->source == CELD_SOURCE_PATH ? "arrow path, " : "", relation->line, relation->column);
           g_free (text);
         }
       if (cycle->label)

@@ -44,6 +44,8 @@ static const FileOption files[] = {
   { "relations", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
+  { "arrow-path", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
+    "arrows as SVG path data such as 'M 120,80 L 300,90', the nearer end first" },
   { "labels", MADE_OF_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
   { "closures", MADE_OF_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
     "write the gaps that were closed, as red contours on a transparent layer" },

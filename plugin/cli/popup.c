@@ -21,7 +21,10 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
   char         *text = cli_relations_text (options);
   CeldTextError error;
   bool          good = text &&
-                       cli_check_relations (celd_session_set_relations (session, text, &error), options, &error) &&
+                       cli_check_text (celd_session_set_relations (session, text, &error),
+                                       cli_relations_name (options), &error) &&
+                       cli_check_text (celd_session_set_arrow_path (session, options->arrow_path, &error),
+                                       "Arrow path", &error) &&
                        cli_layers_read (options->input, options, CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS, layers) &&
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));

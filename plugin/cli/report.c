@@ -102,7 +102,8 @@ reason (CeldProblemKind kind)
 }
 
 static const char *const sources[] = {
-  [CELD_SOURCE_TEXT] = "text", [CELD_SOURCE_ARROW] = "arrow", [CELD_SOURCE_SUGGESTION] = "suggestion"
+  [CELD_SOURCE_TEXT] = "text", [CELD_SOURCE_ARROW] = "arrow", [CELD_SOURCE_PATH] = "path",
+  [CELD_SOURCE_SUGGESTION] = "suggestion"
 };
 
 static void
@@ -113,7 +114,7 @@ add_relation (JsonBuilder *json, const CeldRelation *relation, const char *why)
   json_builder_begin_object (json);
   add_text (json, "text", text);
   add_text (json, "source", sources[relation->source]);
-  if (relation->source == CELD_SOURCE_TEXT)
+  if (relation->line)
     {
       add_integer (json, "line", relation->line);
       add_integer (json, "column", relation->column);

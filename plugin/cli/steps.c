@@ -95,8 +95,11 @@ load_ordering (const CliOptions *options, Ordering *o)
 {
   char         *text = cli_relations_text (options);
   CeldTextError error;
+  const char   *path = options->arrow_path ? options->arrow_path : "";
   bool          good = text &&
-                       cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
+                       cli_check_text (celd_relations_parse (text, &o->relations, &error),
+                                       cli_relations_name (options), &error) &&
+                       cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "Arrow path", &error) &&
                        cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
                        cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&

@@ -64,6 +64,20 @@ unreadable_relations_are_located (void)
 }
 
 static void
+unreadable_arrow_paths_are_located (void)
+{
+  be_quiet ();
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles } }, "RGBA float", result,
+           "arrow-path", "M 45,40 L 90,40\nM 45,40 L 90", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("arrow path") && SAYS ("line 2") && SAYS ("column 13"));
+  be_quiet ();
+  operate ("celdepth:depth-order", (Pads) { { drawing } }, "RGBA float", result, "arrow-path", "45,40", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("line 1, column 1"));
+}
+
+static void
 layers_elsewhere_are_refused (void)
 {
   GeglBuffer *elsewhere = gegl_buffer_new (GEGL_RECTANGLE (500, 0, 10, 10), babl_format ("R'G'B'A u8"));
@@ -249,6 +263,7 @@ main (int argc, char **argv)
   RUN (missing_pads_are_named);
   RUN (nothing_to_go_by_is_said);
   RUN (unreadable_relations_are_located);
+  RUN (unreadable_arrow_paths_are_located);
   RUN (layers_elsewhere_are_refused);
   RUN (layers_of_another_size_are_told);
   RUN (open_pickers_are_no_mistake);

@@ -10,20 +10,22 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:virtual-contours", "aux input", "result ink" },
   { "celdepth:lazybrush-segment", "aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
-    "arrow-style" },
+    "arrow-path arrow-style" },
   { "celdepth:depth-order", "aux2 aux input",
-    "relations arrow-style on-cycle suggest same-colour background background-colour encoding near-level far-level ink" },
+    "relations arrow-path arrow-style on-cycle suggest same-colour background background-colour encoding near-level "
+    "far-level ink" },
   { "celdepth:depth-expand", "aux input", "ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
-    "ink flats background background-colour same-colour relations arrow-style on-cycle encoding near-level far-level "
+    "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
+    "far-level "
     "tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-style on-cycle suggest encoding near-level far-level anchors hold-rest tolerance "
-    "bulge light-azimuth light-elevation ambient directx" },
+    "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level anchors hold-rest "
+    "tolerance bulge light-azimuth light-elevation ambient directx" },
 };
 
 static bool
