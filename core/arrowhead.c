@@ -110,11 +110,14 @@ foremost (const CeldTrail *trail, const View *view, double most_s)
   return (CeldPoint) { sum.x / n, sum.y / n };
 }
 
-/* Width of the last piece before a distance, four widths long; the start may be thin, but not that thin. */
+/* Width of the last piece before a distance, four widths long.  Pens start thin: where the shaft has just begun, its
+ * whole first half says more. */
 static double
 width_before (const CeldTrail *trail, double w, double distance)
 {
-  return fmax (0.75 * w, celd_trail_width (trail, fmax (0, distance - 4 * w), distance));
+  double least = distance < 0.5 * celd_trail_length (trail) ? 0.9 : 0.75;
+
+  return fmax (least * w, celd_trail_width (trail, fmax (0, distance - 4 * w), distance));
 }
 
 /* The distance at which the stroke gets wider than just before and stays so; its length if it does not. */
@@ -210,13 +213,16 @@ is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double 
   return 20 * outside < e->n;
 }
 
-/* Is it a filled disc? */
+/* Is it a filled disc?  It fills more of its box than a triangle does, or else it is at least broadest in the middle. */
 static bool
 is_dot (const Extent *e)
 {
   double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
+  double filled = (double) e->n / (breadth * depth);
+  double middle = (0.5 * (e->left_s + e->right_s) - e->least_s) / fmax (1, e->most_s - e->least_s);
 
-  return depth > 0.6 * breadth && depth < 1.6 * breadth && (double) e->n > 0.66 * breadth * depth;
+  return depth > 0.6 * breadth && depth < 1.6 * breadth &&
+         (filled > 0.65 || (filled > 0.56 && middle > 0.35 && middle < 0.75));
 }
 
 /* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is

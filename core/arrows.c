@@ -14,31 +14,19 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "trail.h"
+#include "arrows.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define LEAST_STROKE  6    /* pixels; fewer are a speck */
-#define LEAST_SIGNAL  0.2  /* fade and taper: least difference, as a share of the larger value */
-#define SLACK         0.1  /* the middle third may leave their range by this share: ends are round and soft */
-#define LEAST_OPACITY 128  /* of paint; a fading stroke reaches on to FADED_OPACITY */
-#define FADED_OPACITY 16
+#define LEAST_OPACITY 128  /* of paint */
+#define THIN_OPACITY  48   /* the thin end of a taper covers its pixels in part; */
+#define FADED_OPACITY 16   /* a fading stroke reaches on to this */
 #define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
 
-/* The two ends of an arrow. */
-typedef struct { CeldPoint nearer, farther; } Ends;
-
-/* Opacity of a layer's pixels: its alpha, or the contrast to the commonest colour of a layer without. */
-typedef struct
-{
-  const CeldPaint *paint;
-  bool             opaque;
-  uint8_t          paper[3];
-} Layer;
-
-static int
-opacity (const Layer *layer, int x, int y)
+int
+celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y)
 {
   const uint8_t *c = CELD_RGBA (layer->paint, x, y);
   int            contrast = 0;
@@ -51,84 +39,38 @@ opacity (const Layer *layer, int x, int y)
   return contrast;
 }
 
-/* Mean opacity of a stroke between two distances, strong pixels first: soft edges say little. */
-static double
-strength (const CeldTrail *trail, const Layer *layer, double from, double to)
-{
-  double sum = 0, weights = 0;
-
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      uint32_t p = trail->pixel[i];
-      double   a;
-
-      if (trail->distance[p] < from || trail->distance[p] > to)
-        continue;
-      a = opacity (layer, celd_trail_x (trail, p), celd_trail_y (trail, p));
-      sum     += a * a;
-      weights += a;
-    }
-  return weights > 0 ? sum / weights : 0;
-}
-
-/* Which end is opaque, or thick? */
-static bool
-read_slope (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *ends)
-{
-  uint32_t  start = celd_trail_follow (trail, trail->pixel, 1);
-  double    third, value[3], least, most, w;
-  CeldPoint first, last;
-
-  celd_trail_follow (trail, &start, 1);
-  third = celd_trail_length (trail) / 3;
-  if (third < 2)
-    return false;
-  for (int i = 0; i < 3; i++)
-    value[i] = style == CELD_ARROW_FADE ? strength (trail, layer, i * third, (i + 1) * third)
-                                        : celd_trail_width (trail, i * third, (i + 1) * third);
-  least = fmin (value[0], value[2]);
-  most  = fmax (value[0], value[2]);
-  if (most - least < LEAST_SIGNAL * most || value[1] < least - SLACK * most || value[1] > most + SLACK * most)
-    return false;
-  w     = fmax (1, celd_trail_width (trail, 0, 3 * third));
-  first = celd_trail_centre (trail, 0, w);
-  last  = celd_trail_centre (trail, 3 * third - w, 3 * third);
-  *ends = value[0] > value[2] ? (Ends) { first, last } : (Ends) { last, first };
-  return true;
-}
-
 /* Is there an arrowhead, and at the nearer end? */
 static bool
-head_disagrees (CeldTrail *trail, const Ends *ends)
+head_disagrees (CeldTrail *trail, const CeldEnds *ends)
 {
   CeldEnds found;
 
-  return celd_arrowhead (trail, false, &found) && hypot (found.tip.x - ends->nearer.x, found.tip.y - ends->nearer.y) <
-                                                  hypot (found.tip.x - ends->farther.x, found.tip.y - ends->farther.y);
+  return celd_arrowhead (trail, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
+                                                  hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
 }
 
 static bool
-read_stroke (CeldTrail *trail, const Layer *layer, CeldArrowStyle style, Ends *ends)
+read_stroke (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldEnds *ends)
 {
   CeldEnds found;
 
   if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
-    return read_slope (trail, layer, style, ends) && !head_disagrees (trail, ends);
+    return celd_arrow_slope (trail, layer, style, ends) && !head_disagrees (trail, ends);
   if (!celd_arrowhead (trail, style == CELD_ARROW_DOT, &found))
     return false;
-  *ends = style == CELD_ARROW_DOT ? (Ends) { found.tip, found.tail } : (Ends) { found.tail, found.tip };
+  *ends = style == CELD_ARROW_DOT ? (CeldEnds) { found.tip, found.tail } : found;
   return true;
 }
 
 /* The commonest colour of a layer without alpha, found by a vote on 5 bits a channel; else the layer has alpha. */
 static CeldStatus
-look_at_layer (const CeldPaint *paint, Layer *layer)
+look_at_layer (const CeldPaint *paint, CeldArrowLayer *layer)
 {
   uint32_t *votes = celd_alloc0 (1 << 15, sizeof *votes), best = 0;
 
   if (!votes)
     return CELD_NO_MEMORY;
-  *layer = (Layer) { .paint = paint, .opaque = true };
+  *layer = (CeldArrowLayer) { .paint = paint, .opaque = true };
   for (int y = 0; y < paint->height && layer->opaque; y++)
     for (int x = 0; x < paint->width; x++)
       {
@@ -149,7 +91,7 @@ look_at_layer (const CeldPaint *paint, Layer *layer)
 
 /* Strokes whose mean colour is blue are cracks: hue 195 to 265 degrees, not greyish. */
 static bool
-is_blue (const CeldTrail *trail, const Layer *layer)
+is_blue (const CeldTrail *trail, const CeldArrowLayer *layer)
 {
   double red = 0, green = 0, blue = 0, most, least, hue;
 
@@ -157,7 +99,7 @@ is_blue (const CeldTrail *trail, const Layer *layer)
     {
       int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
       const uint8_t *c = CELD_RGBA (layer->paint, x, y);
-      int            a = opacity (layer, x, y);
+      int            a = celd_arrow_opacity (layer, x, y);
 
       red   += c[0] * a;
       green += c[1] * a;
@@ -172,7 +114,7 @@ is_blue (const CeldTrail *trail, const Layer *layer)
 }
 
 static CeldStatus
-add_arrow (const Ends *ends, bool crack, CeldRelations *relations)
+add_arrow (const CeldEnds *ends, bool crack, CeldRelations *relations)
 {
   CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
 
@@ -180,13 +122,13 @@ add_arrow (const Ends *ends, bool crack, CeldRelations *relations)
     return CELD_NO_MEMORY;
   relations->item      = item;
   item[relations->n++] = (CeldRelation) {
-    .nearer = { .x = ends->nearer.x, .y = ends->nearer.y }, .farther = { .x = ends->farther.x, .y = ends->farther.y },
+    .nearer = { .x = ends->tail.x, .y = ends->tail.y }, .farther = { .x = ends->tip.x, .y = ends->tip.y },
     .crack = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
   };
   return CELD_OK;
 }
 
-/* What one pass over the strokes needs. */
+/* What one pass over the strokes needs.  `strokes` are components: strokes that cross are one. */
 typedef struct
 {
   CeldLabels      strokes;   /* each pixel's stroke, from 1 */
@@ -204,13 +146,15 @@ strokes_end (Strokes *s)
   celd_free (s->pixel);
   celd_free (s->trail.distance);
   celd_free (s->trail.front);
+  celd_free (s->trail.kept);
 }
 
 static CeldStatus
-find_strokes (const Layer *layer, CeldArrowStyle style, const CeldRun *run, Strokes *s)
+find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run, Strokes *s)
 {
   const CeldPaint *paint = layer->paint;
-  int              least = layer->opaque ? CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY : LEAST_OPACITY;
+  int              least = layer->opaque ? CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
+                                          : style == CELD_ARROW_TAPER ? THIN_OPACITY : LEAST_OPACITY;
   CeldLabels       mask;
   CeldStatus       status = celd_labels_new (paint->width, paint->height, &mask);
 
@@ -218,7 +162,7 @@ find_strokes (const Layer *layer, CeldArrowStyle style, const CeldRun *run, Stro
     return status;
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
-      CELD_AT (&mask, x, y) = opacity (layer, x, y) >= least;
+      CELD_AT (&mask, x, y) = celd_arrow_opacity (layer, x, y) >= least;
   status = celd_labels_new (paint->width, paint->height, &s->strokes);
   if (status == CELD_OK)
     status = celd_components (&mask, 0, true, run, &s->strokes, &s->component, &s->n);
@@ -244,8 +188,9 @@ gather_pixels (Strokes *s)
   s->trail = (CeldTrail) {
     .width = s->strokes.width, .height = s->strokes.height,
     .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
+    .kept = celd_alloc (most, sizeof (float)),
   };
-  if (!next || !s->pixel || !s->trail.distance || !s->trail.front)
+  if (!next || !s->pixel || !s->trail.distance || !s->trail.front || !s->trail.kept)
     {
       celd_free (next);
       return CELD_NO_MEMORY;
@@ -276,9 +221,86 @@ unclear_arrow (const CeldTrail *trail)
   };
 }
 
+/* Appends the arrow that a stroke is; *clear becomes false if it is none.  What it leaves in the plane of distances is
+ * wiped off: strands share pixels. */
 static CeldStatus
-read_strokes (Strokes *s, const Layer *layer, CeldArrowStyle style, const CeldRun *run,
-              CeldRelations *relations, CeldProblems *problems)
+read_one (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations, bool *clear)
+{
+  CeldEnds   ends = { { 0, 0 }, { 0, 0 } };
+  CeldStatus status = CELD_OK;
+
+  if (read_stroke (trail, layer, style, &ends))
+    status = add_arrow (&ends, is_blue (trail, layer), relations);
+  else
+    *clear = false;
+  for (size_t i = 0; i < trail->n; i++)
+    trail->distance[trail->pixel[i]] = INFINITY;
+  return status;
+}
+
+/* The strand k, as a stroke of its own. */
+static void
+take_strand (const CeldStrands *strands, size_t k, CeldTrail *trail)
+{
+  trail->pixel = strands->pixel + strands->first[k];
+  trail->n     = strands->first[k + 1] - strands->first[k];
+}
+
+/* Strokes that cross: all of them are arrows, or none counts.  What looks like a crossing may be part of a figure that
+ * is none, and then some strand of it is no arrow. */
+static CeldStatus
+read_strands (CeldTrail *trail, const CeldStrands *strands, const CeldArrowLayer *layer, CeldArrowStyle style,
+              CeldRelations *relations, bool *clear)
+{
+  size_t     before = relations->n;
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < strands->n && status == CELD_OK && *clear; k++)
+    {
+      take_strand (strands, k, trail);
+      status = read_one (trail, layer, style, relations, clear);
+    }
+  if (!*clear)
+    relations->n = before;
+  return status;
+}
+
+/* A component: one stroke, or several that cross. */
+static CeldStatus
+read_component (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+                CeldProblems *problems)
+{
+  CeldTrail   whole = *trail;
+  CeldStrands strands = { 0 };
+  bool        clear = true;
+  CeldStatus  status;
+
+  if (trail->n < LEAST_STROKE)
+    return CELD_OK;
+  status = celd_strands_find (trail, &strands);
+  if (status == CELD_OK && strands.n)
+    status = read_strands (trail, &strands, layer, style, relations, &clear);
+  if (status == CELD_OK && (!strands.n || !clear))
+    {
+      *trail = whole;
+      clear  = true;
+      status = read_one (trail, layer, style, relations, &clear);
+    }
+  if (status == CELD_OK && !clear && !strands.n)
+    status = celd_problem_add (problems, unclear_arrow (trail));
+  for (size_t k = 0; k < strands.n && status == CELD_OK && !clear; k++)
+    {
+      take_strand (&strands, k, trail);
+      if (trail->n >= LEAST_STROKE)
+        status = celd_problem_add (problems, unclear_arrow (trail));
+    }
+  celd_strands_clear (&strands);
+  return status;
+}
+
+static CeldStatus
+read_components (Strokes *s, const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run,
+                 CeldRelations *relations, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
   size_t     done   = 0, all = 0;
@@ -287,17 +309,10 @@ read_strokes (Strokes *s, const Layer *layer, CeldArrowStyle style, const CeldRu
     all += s->component[k].area;
   for (size_t k = 0; k < s->n && status == CELD_OK; k++)
     {
-      Ends ends = { { 0, 0 }, { 0, 0 } };
-
       s->trail.pixel = s->pixel + done;
       s->trail.n     = s->component[k].area;
       done += s->trail.n;
-      if (s->trail.n < LEAST_STROKE)
-        continue;
-      if (read_stroke (&s->trail, layer, style, &ends))
-        status = add_arrow (&ends, is_blue (&s->trail, layer), relations);
-      else
-        status = celd_problem_add (problems, unclear_arrow (&s->trail));
+      status = read_component (&s->trail, layer, style, relations, problems);
       if (status == CELD_OK)
         status = celd_step (run, (double) done / (double) all);
     }
@@ -309,7 +324,7 @@ celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *
                   CeldRelations *relations, CeldProblems *problems)
 {
   Strokes    strokes = { 0 };
-  Layer      layer;
+  CeldArrowLayer layer;
   CeldPart   first, rest;
   CeldRun    finding = celd_run_part (&first, run, 0, 0.5), reading = celd_run_part (&rest, run, 0.5, 1);
   size_t     n_relations = relations->n, n_problems = problems ? problems->n : 0;
@@ -323,7 +338,7 @@ celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *
   if (status == CELD_OK)
     status = gather_pixels (&strokes);
   if (status == CELD_OK)
-    status = read_strokes (&strokes, &layer, style, &reading, relations, problems);
+    status = read_components (&strokes, &layer, style, &reading, relations, problems);
   strokes_end (&strokes);
   if (status != CELD_OK)
     {

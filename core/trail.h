@@ -21,6 +21,7 @@ typedef struct
   size_t          n;
   CeldFront      *front;         /* front[i]: pixels with distance < i; room for 3 n / 2 + 4 */
   size_t          n_fronts;
+  float          *kept;          /* room for n distances of an earlier start */
 } CeldTrail;
 
 int       celd_trail_x (const CeldTrail *trail, uint32_t pixel);     /* column in the picture */

@@ -77,18 +77,19 @@ without_direction (void)
 }
 
 static void
-crossing_arrows_are_not_guessed (void)
+arrows_end_to_end_are_not_guessed (void)
 {
   for (int degrees = 0; degrees < 180; degrees += 30)
     {
-      Arrow     one = straight (degrees, 4, FILLED, 16), two = straight (degrees + 80, 4, OPEN, 16);
-      CeldPaint paint = blank (100, 100);
+      Arrow     one = straight (degrees, 4, FILLED, 16);
+      Arrow     two = arrow_at (one.tip, degrees * 0.0174532925 + 0.5, 50, 4, 0, 0, OPEN, 16);
+      CeldPaint paint = blank (150, 150);
       Answer    answer;
 
       draw_arrow (&paint, &one, GREEN);
       draw_arrow (&paint, &two, BLUE);
       answer = read_paint (&paint, CELD_ARROW_HEAD);
-      CHECK (answer.relations.n == 0 && answer.problems.n == 1);
+      CHECK (answer.relations.n == 0 && answer.problems.n >= 1);
       forget (&answer);
       free (paint.data);
     }
@@ -101,6 +102,6 @@ main (void)
   RUN (heads_of_all_kinds);
   RUN (pens_that_start_or_end_thin);
   RUN (without_direction);
-  RUN (crossing_arrows_are_not_guessed);
+  RUN (arrows_end_to_end_are_not_guessed);
   return DONE;
 }
