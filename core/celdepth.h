@@ -86,7 +86,7 @@ typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT, CELD_METHOD_WALKER } CeldM
 typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
 typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
 typedef enum { CELD_SAME_COLOUR_ONE, CELD_SAME_COLOUR_SEPARATE } CeldSameColour;
-typedef enum { CELD_ON_CYCLE_REPORT, CELD_ON_CYCLE_DROP_WEAKEST } CeldOnCycle;
+typedef enum { CELD_ON_CYCLE_REPORT, CELD_ON_CYCLE_DROP_WEAKEST, CELD_ON_CYCLE_SPLIT } CeldOnCycle;
 typedef enum { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER } CeldArrowStyle;
 typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, CELD_ANCHORS_CORE } CeldAnchors;
 typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
@@ -113,7 +113,8 @@ typedef struct
   /* order */
   CeldSuggest    suggest;       /* suggestions join the artist's relations: none, where those leave a pair open, all */
   CeldOnCycle    on_cycle;      /* of relations that contradict: lighter and later ones give way one by one, or those
-                                 * of the least weight in sum */
+                                 * of the least weight in sum; or a session splits regions, and only what that cannot
+                                 * resolve gives way, by weight in sum */
   CeldArrowStyle arrow_style;
   CeldEncoding   encoding;      /* how levels leave */
   float          near_level, far_level; /* for CELD_ENCODING_FIXED: these levels become 1 and 0 */

@@ -125,6 +125,23 @@ CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const Celd
 CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                 const CeldGraph *graph, CeldOrder *order);
 
+/* ------------------------------------------------------------------ split-cycles.c */
+
+/* A region split between two anchors: x[0],y[0] is in what keeps the label, x[1],y[1] in the other. */
+typedef struct { uint32_t label, other; int x[2], y[2]; } CeldSplit;
+typedef struct { CeldSplit *item; size_t n; } CeldSplits;
+
+/* Splits regions of `labels` until no contradiction is left that this can resolve; labels and palette grow.  After a
+ * failure they are undefined, but can be cleared. */
+CeldStatus celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const CeldSettings *settings,
+                              const CeldRun *run, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits);
+
+/* Has the label been split? */
+bool celd_splits_have (const CeldSplits *splits, uint32_t label);
+
+/* Ink along the new borders becomes paper; that of the regions' outlines, `stroke` wide, stays. */
+void celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink);
+
 /* ------------------------------------------------------------------ links.c */
 
 /* Where an artist finds a relation: an end inside the drawing; -1,-1 if none is. */

@@ -20,11 +20,17 @@ celd_session_depth_ink (const CeldSession *s)
   return s->depth_ink.data ? &s->depth_ink : &s->ink;
 }
 
-void
-celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
+const CeldPlane *
+celd_session_bent_ink (const CeldSession *s)
 {
-  CeldRect changed = celd_difference (celd_session_depth_ink (s)->data, ink->data, ink->width, ink->height,
-                                      sizeof *ink->data);
+  return s->bent_ink.data ? &s->bent_ink : celd_session_depth_ink (s);
+}
+
+/* What is made from the old ink has to be looked at where the new one differs. */
+static void
+change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
+{
+  CeldRect changed = celd_difference (old->data, new->data, new->width, new->height, sizeof *new->data);
   CeldRect blocks = { changed.x / SIDE, changed.y / SIDE, (changed.x + changed.width + SIDE - 1) / SIDE,
                       (changed.y + changed.height + SIDE - 1) / SIDE };
 
@@ -38,6 +44,23 @@ celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
   celd_session_forget_ranks (s);
   s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
   s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
+}
+
+void
+celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
+{
+  change_ink (s, celd_session_depth_ink (s), ink);
+}
+
+void
+celd_session_bend (CeldSession *s, CeldPlane *bent)
+{
+  if (!s->bent_ink.data && !bent->data)
+    return;
+  change_ink (s, celd_session_bent_ink (s), bent->data ? bent : celd_session_depth_ink (s));
+  celd_free (s->bent_ink.data);
+  s->bent_ink = *bent;
+  *bent = (CeldPlane) { 0 };
 }
 
 /* ------------------------------------------------------------------ anchors */
@@ -79,6 +102,13 @@ mark_end (Anchors *a, const CeldTerm *end)
         mark (a, x, y);
 }
 
+/* Is the pixel in a region that was split?  Its strokes may lie on both sides of the new border. */
+static bool
+is_split (const CeldSession *s, int x, int y)
+{
+  return s->splits.n && celd_splits_have (&s->splits, CELD_AT (celd_session_current_labels (s), x, y));
+}
+
 /* What is painted. */
 static void
 mark_seeds (Anchors *a, const CeldSeedRows *seeds)
@@ -86,7 +116,17 @@ mark_seeds (Anchors *a, const CeldSeedRows *seeds)
   for (int y = 0; y < seeds->height; y++)
     for (size_t i = 0; i < seeds->row[y].n; i++)
       for (int x = seeds->row[y].run[i].x; x < seeds->row[y].run[i].end; x = (x / a->side + 1) * a->side)
-        mark (a, x, y);
+        if (!is_split (a->session, x, y))
+          mark (a, x, y);
+}
+
+/* What a split region bends between. */
+static void
+mark_splits (Anchors *a, const CeldSplits *splits)
+{
+  for (size_t i = 0; i < splits->n; i++)
+    for (int k = 0; k < 2; k++)
+      mark_end (a, &(CeldTerm) { .x = splits->item[i].x[k] + 0.5, .y = splits->item[i].y[k] + 0.5 });
 }
 
 /* The paper's U_o; n stays 0 if there is none, as for CELD_ANCHORS_CORE. */
@@ -98,7 +138,10 @@ choose_anchors (Anchors *a)
   bool               arrows = choice == CELD_ANCHORS_ARROWS || choice == CELD_ANCHORS_BOTH;
 
   if (choice == CELD_ANCHORS_SCRIBBLES || choice == CELD_ANCHORS_BOTH)
-    mark_seeds (a, &s->seeds);
+    {
+      mark_seeds (a, &s->seeds);
+      mark_splits (a, &s->splits);
+    }
   for (size_t i = 0; i < s->relations.n; i++)
     if (arrows || s->relations.item[i].anchor)
       {
@@ -135,14 +178,14 @@ static void
 measure_reach (CeldSession *s)
 {
   if (!s->reach)
-    s->reach = celd_edge_reach (celd_stroke_width (celd_session_depth_ink (s)));
+    s->reach = celd_edge_reach (celd_stroke_width (celd_session_bent_ink (s)));
 }
 
 CeldStatus
 celd_make_depth (CeldSession *s, const CeldRun *run)
 {
   Anchors       anchors = { .session = s, .side = 1 };
-  CeldSmoothing smoothing = { .ink = celd_session_depth_ink (s), .levels = &s->levels, .settings = &s->settings,
+  CeldSmoothing smoothing = { .ink = celd_session_bent_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
   CeldStatus    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
 
@@ -218,7 +261,7 @@ celd_make_preview (CeldSession *s, const CeldRun *run)
   CeldSettings  settings = s->settings;
   CeldSmoothing smoothing = { .ink = &s->block_ink, .levels = &levels, .settings = &settings,
                               .speck = CELD_SPECK / (SIDE * SIDE) };
-  CeldStatus    status = s->block_ink.data ? CELD_OK : pool_ink (celd_session_depth_ink (s), &s->block_ink);
+  CeldStatus    status = s->block_ink.data ? CELD_OK : pool_ink (celd_session_bent_ink (s), &s->block_ink);
 
   if (status == CELD_OK)
     status = celd_plane_new (s->block_ink.width, s->block_ink.height, &levels);

@@ -220,16 +220,64 @@ prepare_segmenter (CeldSession *s, const CeldRun *run)
   return tell_ink (s, run);
 }
 
-/* The labels of the segmenter with each region on its own. */
-static CeldStatus
-separate (const CeldSession *s, const CeldRun *run, CeldPalette *palette, CeldLabels *labels)
-{
-  CeldStatus status = celd_labels_new (s->solved.width, s->solved.height, labels);
+/* What the segmenter does not do of its own: labels NULL where the settings ask for nothing of it, or where no
+ * contradiction needs it. */
+typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane bent; } Parted;
 
+static void
+parted_clear (Parted *parted)
+{
+  celd_free (parted->labels.data);
+  celd_free (parted->splits.item);
+  celd_free (parted->bent.data);
+}
+
+/* Splits regions where relations contradict, and takes the ink off the new borders. */
+static CeldStatus
+split (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+{
+  const CeldPlane *ink = celd_session_depth_ink (s);
+  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, run, &parted->labels, palette,
+                                               &parted->splits);
+
+  if (status == CELD_OK && parted->splits.n)
+    status = celd_plane_new (ink->width, ink->height, &parted->bent);
+  if (status == CELD_OK && parted->splits.n)
+    {
+      memcpy (parted->bent.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
+      celd_splits_erase (&parted->splits, &parted->labels, celd_stroke_width (ink), &parted->bent);
+    }
+  return status;
+}
+
+/* The labels of the segmenter with each region on its own, or with regions split where relations contradict. */
+static CeldStatus
+part (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+{
+  bool       apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
+  bool       bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
+  CeldLabels *labels = &parted->labels;
+  CeldPart   halves[2];
+  CeldRun    first = celd_run_part (&halves[0], run, 0, bend ? 0.5 : 1);
+  CeldRun    second = celd_run_part (&halves[1], run, apart ? 0.5 : 0, 1);
+  CeldStatus status;
+
+  if (!apart && !bend)
+    return CELD_OK;
+  status = celd_labels_new (s->solved.width, s->solved.height, labels);
   if (status != CELD_OK)
     return status;
   memcpy (labels->data, s->solved.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
-  return celd_separate (run, labels, palette);
+  if (apart)
+    status = celd_separate (&first, labels, palette);
+  if (status == CELD_OK && bend)
+    status = split (s, &second, palette, parted);
+  if (status == CELD_OK && !apart && !parted->splits.n)
+    {
+      celd_free (labels->data);
+      *labels = (CeldLabels) { 0 };
+    }
+  return status;
 }
 
 const CeldLabels *
@@ -251,11 +299,10 @@ see_labels (CeldSession *s, CeldRect changed)
 CeldStatus
 celd_make_labels (CeldSession *s, const CeldRun *run)
 {
-  bool         apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
-  CeldPart     part[3];
-  CeldRun      tell = celd_run_part (&part[0], run, 0, 0.5), solve = celd_run_part (&part[1], run, 0.5, 0.9);
-  CeldRun      last = celd_run_part (&part[2], run, 0.9, 1);
-  CeldLabels   separated = { 0 };
+  CeldPart     parts[3];
+  CeldRun      tell = celd_run_part (&parts[0], run, 0, 0.5), solve = celd_run_part (&parts[1], run, 0.5, 0.9);
+  CeldRun      last = celd_run_part (&parts[2], run, 0.9, 1);
+  Parted       parted = { 0 };
   CeldPalette  palette = { 0 };
   CeldProblems problems = { 0 };
   CeldRect     changed = { 0 };
@@ -268,23 +315,27 @@ celd_make_labels (CeldSession *s, const CeldRun *run)
                                    &s->solved, &changed);
   if (status == CELD_OK && !s->separated.data)
     see_labels (s, changed);
-  if (status == CELD_OK && apart)
-    status = separate (s, &last, &palette, &separated);
+  if (status == CELD_OK)
+    status = part (s, &last, &palette, &parted);
   if (status != CELD_OK)
     {
       celd_session_forget_ranks (s); /* what was painted before it failed, nobody knows */
-      celd_free (separated.data);
+      parted_clear (&parted);
       celd_palette_clear (&palette);
       celd_problems_clear (&problems);
       return status;
     }
-  if (apart || s->separated.data)
-    see_labels (s, celd_difference (celd_session_current_labels (s)->data, apart ? separated.data : s->solved.data,
+  if (parted.labels.data || s->separated.data)
+    see_labels (s, celd_difference (celd_session_current_labels (s)->data,
+                                    parted.labels.data ? parted.labels.data : s->solved.data,
                                     s->solved.width, s->solved.height, sizeof (uint32_t)));
+  celd_session_bend (s, &parted.bent);
   celd_free (s->separated.data);
+  celd_free (s->splits.item);
   celd_palette_clear (&s->palette);
   celd_problems_clear (&s->problems[STAGE_LABELS]);
-  s->separated = separated;
+  s->separated = parted.labels;
+  s->splits    = parted.splits;
   s->palette   = palette;
   s->problems[STAGE_LABELS] = problems;
   return CELD_OK;

@@ -151,7 +151,7 @@ expand_levels (CeldSession *s, const CeldRun *run)
   CeldStatus status = rank_labels (s, &ranks);
 
   if (status == CELD_OK)
-    status = celd_expand (celd_session_depth_ink (s), &ranks, run, &ranks);
+    status = celd_expand (celd_session_bent_ink (s), &ranks, run, &ranks);
   if (status == CELD_OK)
     status = celd_plane_new (ranks.width, ranks.height, &levels);
   if (status == CELD_OK)
@@ -201,7 +201,7 @@ make_normals (CeldSession *s, const CeldRun *run)
   CeldStatus  status = CELD_NO_MEMORY;
 
   if (normals.data)
-    status = celd_normals (celd_session_depth_ink (s), &s->levels, &s->settings, run, &normals);
+    status = celd_normals (celd_session_bent_ink (s), &s->levels, &s->settings, run, &normals);
   if (status != CELD_OK)
     {
       celd_free (normals.data);

@@ -60,6 +60,7 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
 {
   const CeldSettings *a = &session->settings, *b = settings;
   bool                threshold = a->ink_threshold != b->ink_threshold, tolerance = a->tolerance != b->tolerance;
+  bool                split = (a->on_cycle == CELD_ON_CYCLE_SPLIT) != (b->on_cycle == CELD_ON_CYCLE_SPLIT);
   bool                encoding = a->encoding != b->encoding || a->near_level != b->near_level ||
                                  a->far_level != b->far_level;
   CeldStatus          status = celd_settings_check (settings);
@@ -75,7 +76,7 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
   if (a->method != b->method || a->close_gaps != b->close_gaps || a->keep_necks != b->keep_necks ||
       a->hardness != b->hardness || a->background != b->background ||
       memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
-      a->same_colour != b->same_colour || threshold)
+      a->same_colour != b->same_colour || threshold || split)
     celd_session_forget (session, STAGE_LABELS);
   if (a->suggest != b->suggest || a->on_cycle != b->on_cycle)
     celd_session_forget (session, STAGE_ORDER);

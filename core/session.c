@@ -58,6 +58,8 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->preview.data);
   celd_free (s->depth.data);
   celd_free (s->block_ink.data);
+  celd_free (s->bent_ink.data);
+  celd_free (s->splits.item);
   celd_smoother_clear (&s->smoother);
   celd_smoother_clear (&s->preview_smoother);
   celd_free (s->shading.data);
@@ -67,7 +69,8 @@ celd_session_clear_results (CeldSession *session)
   s->segmenter = NULL;
   s->program   = NULL;
   s->reach     = 0;
-  s->known_ink = s->ink = s->depth_ink = s->block_ink = (CeldPlane) { 0 };
+  s->known_ink = s->ink = s->depth_ink = s->block_ink = s->bent_ink = (CeldPlane) { 0 };
+  s->splits = (CeldSplits) { 0 };
   s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
   s->solved  = s->separated = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };

@@ -15,6 +15,7 @@
 #define CELD_SESSION_H
 
 #include "program.h"
+#include "order.h"
 #include "segment.h"
 #include "smooth.h"
 
@@ -66,6 +67,8 @@ struct CeldSession
   CeldRelations  relations;                    /* the artist's */
   CeldRelations  suggested, joined;            /* and what the order was made from, with settings.suggest */
   CeldPlane      ink, depth_ink;               /* depth_ink.data NULL: the same as ink */
+  CeldSplits     splits;                       /* regions that contradictions have split */
+  CeldPlane      bent_ink;                     /* depth_ink without ink along their new borders; NULL: the same */
   CeldSeedRows   layer_seeds, seeds;
   CeldPalette    layer_palette, seed_palette;
   CeldSegmenter *segmenter;                    /* NULL: none yet */
@@ -74,7 +77,7 @@ struct CeldSession
   float          known_threshold;
   bool           known_bridged;   /* and whether gaps were bridged */
   CeldLabels     solved;                       /* the segmenter's */
-  CeldLabels     separated;                    /* the same with each region on its own; data NULL: not asked for */
+  CeldLabels     separated;                    /* the same with regions on their own, or split; data NULL: not asked for */
   CeldPalette    palette;
   CeldOrder      order;
   CeldPlane      flat, levels, preview, depth, shading;
@@ -129,8 +132,12 @@ CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_preview (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_depth   (CeldSession *session, const CeldRun *run);
 
-/* The ink that depth is cut by. */
+/* The ink for depth, and the same without what lies along the borders of splits: what depth is cut by. */
 const CeldPlane *celd_session_depth_ink (const CeldSession *session);
+const CeldPlane *celd_session_bent_ink (const CeldSession *session);
+
+/* Takes the plane in place of that of earlier splits; without data there are none. */
+void celd_session_bend (CeldSession *session, CeldPlane *bent);
 
 /* Says that this ink, of the same size, will take its place. */
 void celd_session_new_depth_ink (CeldSession *session, const CeldPlane *ink);

@@ -40,7 +40,7 @@ celd_settings_check (const CeldSettings *s)
   bool good = (unsigned) s->ink <= CELD_INK_ALPHA && (unsigned) s->method <= CELD_METHOD_WALKER &&
               (unsigned) s->background <= CELD_BACKGROUND_COLOUR && (unsigned) s->seeds <= CELD_SEEDS_SCRIBBLES &&
               (unsigned) s->same_colour <= CELD_SAME_COLOUR_SEPARATE &&
-              (unsigned) s->suggest <= CELD_SUGGEST_ALL && (unsigned) s->on_cycle <= CELD_ON_CYCLE_DROP_WEAKEST &&
+              (unsigned) s->suggest <= CELD_SUGGEST_ALL && (unsigned) s->on_cycle <= CELD_ON_CYCLE_SPLIT &&
               (unsigned) s->arrow_style <= CELD_ARROW_TAPER && (unsigned) s->encoding <= CELD_ENCODING_FIXED &&
               (unsigned) s->anchors <= CELD_ANCHORS_CORE && within (s->ink_threshold, 0, 0.99f) &&
               within (s->hardness, 0.01f, 1) && within (s->near_level, -1e6f, 1e6f) &&

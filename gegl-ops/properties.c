@@ -42,7 +42,8 @@ ENUM_TYPE (celd_same_colour_get_type, "CeldSameColour",
 
 ENUM_TYPE (celd_on_cycle_get_type, "CeldOnCycle",
            { CELD_ON_CYCLE_REPORT, "Leave out lighter and later relations", "report" },
-           { CELD_ON_CYCLE_DROP_WEAKEST, "Leave out the least weight in sum", "drop-weakest" })
+           { CELD_ON_CYCLE_DROP_WEAKEST, "Leave out the least weight in sum", "drop-weakest" },
+           { CELD_ON_CYCLE_SPLIT, "Split regions, so that they bend", "split" })
 
 ENUM_TYPE (celd_arrow_style_get_type, "CeldArrowStyle",
            { CELD_ARROW_HEAD, "The arrowhead points at the farther part", "head" },

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
+#include "order.h"
 #include "partition.h"
 #include "program.h"
 #include "segment.h"
@@ -359,6 +360,36 @@ suggest_step (const CeldRun *run, Results *r)
   return status;
 }
 
+/* The two sheets before each other: one of them is split. */
+static CeldStatus
+split_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), bent = plane_of (r->pixels);
+  CeldLabels    known = labels_of (&label_pixels), labels = { 0 };
+  CeldRelations circle = { 0 };
+  CeldSplits    splits = { 0 };
+  CeldStatus    status = celd_relations_parse ("12,12 > 52,36; 28,36 > 12,30", &circle, NULL);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&label_palette, &r->palette);
+  if (status == CELD_OK)
+    status = celd_labels_new (W, H, &labels);
+  for (int y = 0; y < H && status == CELD_OK; y++)
+    memcpy (&CELD_AT (&labels, 0, y), &CELD_AT (&known, 0, y), W * sizeof (uint32_t));
+  if (status == CELD_OK)
+    status = celd_cycles_split (&circle, &ink, &settings, run, &labels, &r->palette, &splits);
+  if (status == CELD_OK && splits.n != 1)
+    status = CELD_BAD_VALUE; /* the test would say nothing */
+  if (status == CELD_OK)
+    celd_splits_erase (&splits, &labels, 3, &bent);
+  if (status != CELD_OK)
+    celd_palette_clear (&r->palette);
+  celd_relations_clear (&circle);
+  celd_free (labels.data);
+  celd_free (splits.item);
+  return status;
+}
+
 static CeldStatus
 expand_step (const CeldRun *run, Results *r)
 {
@@ -531,6 +562,7 @@ const Step steps[] = {
   { "order", order_step, NULL, true },
   { "suggest", suggest_step, NULL, true },
   { "knots", knots_step, NULL, true },
+  { "split-cycles", split_step, NULL, true },
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },

@@ -115,7 +115,7 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:popup", "seeds", "auto scribbles" },
     { "celdepth:popup", "same-colour", "one separate" },
     { "celdepth:popup", "arrow-style", "head dot fade taper" },
-    { "celdepth:popup", "on-cycle", "report drop-weakest" },
+    { "celdepth:popup", "on-cycle", "report drop-weakest split" },
     { "celdepth:popup", "suggest", "off fill-gaps all" },
     { "celdepth:popup", "encoding", "normalized rank fixed" },
     { "celdepth:popup", "anchors", "scribbles arrows both core" },
