@@ -384,8 +384,8 @@ CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double
 /* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
  * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
  * contradict are reported as cycles and left out by settings->on_cycle, the rest is ordered.  No other member of the
- * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else levels
- * number the heights that there are. */
+ * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else
+ * levels number the heights that there are. */
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                                 const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run,
                                 CeldOrder *order, CeldProblems *problems);

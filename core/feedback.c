@@ -240,8 +240,8 @@ sift_knots (const CeldGraph *g, const CeldTurn *turn, size_t n_turns, const bool
 }
 
 CeldStatus
-celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, const CeldTurn *turn, size_t n_turns,
-               const CeldRun *run, bool *broken)
+celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, const CeldTurn *turn,
+               size_t n_turns, const CeldRun *run, bool *broken)
 {
   bool      *in = celd_alloc0 (graph->n_links, sizeof *in), any = false;
   Sift       s = { 0 };

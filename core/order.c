@@ -7,8 +7,8 @@
  * region at once, and with them every sum that grows with heights: the convex program of fractional gaps, too, needs no
  * other method.  Linear time behind conflicts.c, which leaves no oriented loop.
  *
- * Choices where the paper is silent: gaps are at most LARGEST_GAP.  With whole gaps alone heights are levels; else levels
- * number the different heights.  A label without a pixel
+ * Choices where the paper is silent: gaps are at most LARGEST_GAP.  With whole gaps alone heights are levels; else
+ * levels number the different heights.  A label without a pixel
  * (a colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the
  * level of what is behind it, so that the levels that can be seen have no holes.
  *

@@ -76,8 +76,8 @@ find (CeldSequence *s, uint32_t class)
   s->list[s->n++] = entry_of (s, class);
 }
 
-/* Follows admitted inequalities from a class, upwards or downwards, no farther than the place `limit`; true if it meets a
- * goal. */
+/* Follows admitted inequalities from a class, upwards or downwards, no farther than the place `limit`; true if it meets
+ * a goal. */
 static bool
 follow (CeldSequence *s, uint32_t class, CeldSide to, uint32_t limit)
 {

@@ -77,7 +77,7 @@ struct CeldSession
   float          known_threshold;
   bool           known_bridged;   /* and whether gaps were bridged */
   CeldLabels     solved;                       /* the segmenter's */
-  CeldLabels     separated;                    /* the same with regions on their own, or split; data NULL: not asked for */
+  CeldLabels     separated;                    /* the same with regions on their own, or split; data NULL: not needed */
   CeldPalette    palette;
   CeldOrder      order;
   CeldPlane      flat, levels, preview, depth, shading;

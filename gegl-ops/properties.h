@@ -101,9 +101,9 @@ GType celd_popup_result_get_type   (void);
 
 #define CELD_PROPERTY_ON_CYCLE \
   property_enum (on_cycle, "Contradictions", CeldOnCycle, celd_on_cycle, CELD_ON_CYCLE_REPORT) \
-    description ("Of relations that go round in a circle, which are left out: lighter and later ones, each by itself, " \
-                 "or those that weigh least together; or regions are split where that is cheapest, and bend. All are " \
-                 "named in any case, but for those that a split resolves")
+    description ("Of relations that go round in a circle, which are left out: lighter and later ones, each by " \
+                 "itself, or those that weigh least together; or regions are split where that is cheapest, and " \
+                 "bend. All are named in any case, but for those that a split resolves")
 
 #define CELD_PROPERTY_ARROW_PATH \
   property_string (arrow_path, "Arrow path", "") \

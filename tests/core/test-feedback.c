@@ -53,7 +53,9 @@ make_scene (Scene *s, int n_labels, int n, uint32_t *state)
   for (int k = 0; k < n_labels; k++)
     {
       /* the last two share a colour, now and then; never all of them */
-      s->region[k] = (CeldRegion) { .colour = { (uint8_t) (20 * (k == n_labels - 1 && k > 2 ? k - 1 : k)), 0, 0, 255 } };
+      int hue = k == n_labels - 1 && k > 2 ? k - 1 : k;
+
+      s->region[k] = (CeldRegion) { .colour = { (uint8_t) (20 * hue), 0, 0, 255 } };
       s->pixel[k]  = (uint32_t) k + 1;
     }
   for (int i = 0; i < n; i++)

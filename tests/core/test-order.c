@@ -124,7 +124,7 @@ bad_input (void)
   CHECK (order.n == 1 && order.levels == 1 && order.level[0] == 0 && problems.n == 1);
   item.nearer.x = 0;
   item.farther  = (CeldTerm) { .x = 0.5 };
-  CHECK (celd_order (&labels, &empty, &r, NULL, NULL, NULL, &order, &problems) == CELD_OK); /* labels beyond the palette */
+  CHECK (celd_order (&labels, &empty, &r, NULL, NULL, NULL, &order, &problems) == CELD_OK); /* unknown labels */
   CHECK (order.n == 0 && order.levels == 1 && problems.n == 2 && problems.item[1].kind == CELD_PROBLEM_OUTSIDE);
   celd_order_clear (&order);
   celd_problems_clear (&problems);
