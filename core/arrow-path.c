@@ -2,9 +2,9 @@
  *
  *   path     = { command }                           the first one is M or m
  *   command  = letter { numbers }                    a letter's numbers may come again without it; after M that means L
- *   numbers  = M, L, T: x y   H: x   V: y   C: x1 y1 x2 y2 x y   S, Q: x1 y1 x y   A: rx ry angle flag flag x y   Z: none
+ *   numbers  = M, L, T: x y   H: x   V: y   C: x1 y1 x2 y2 x y   S, Q: x1 y1 x y   A: rx ry angle flag flag x y
  *
- * Small letters count from the current point.  Numbers may touch where that is clear ("-1-2", ".5.5"), and blanks or one
+ * Small letters count from the current point.  Numbers may touch where that is clear ("-1-2", ".5.5"); blanks or one
  * comma stand between them.  Only the ends of an arrow matter, so curves need not be flattened: their last point does.
  * Z closes a sub-path back to its first point in SVG; that line is no part of the arrow.  An arrow without two
  * different ends is refused, because it relates nothing.

@@ -1,8 +1,8 @@
 /* Strokes whose opacity or width says which end is nearer.
  *
  * The stroke is followed from one end to the other.  It must be a single line: a pixel off the way between the ends
- * belongs to another stroke that touches this one.  The thirds of the way decide; pieces of the way must then fall about
- * steadily from the strong end to the weak one, because two strokes that touch with their ends look like one.
+ * belongs to another stroke that touches this one.  The thirds of the way decide; pieces of the way must then fall
+ * about steadily from the strong end to the weak one, because two strokes that touch with their ends look like one.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -94,7 +94,8 @@ bool
 celd_arrow_slope (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldEnds *ends)
 {
   uint32_t  start = celd_trail_follow (trail, trail->pixel, 1), last = celd_trail_follow (trail, &start, 1);
-  double    length = celd_trail_length (trail), value[MOST_PIECES], widths[MOST_PIECES] = { 0 }, third[3], most, least, w, margin;
+  double    length = celd_trail_length (trail), value[MOST_PIECES], widths[MOST_PIECES] = { 0 }, third[3];
+  double    most, least, w, margin;
   int       n = (int) fmax (4, fmin (MOST_PIECES, length / 4));
   CeldPoint first, end;
 

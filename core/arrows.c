@@ -1,13 +1,14 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
  * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
- * commonest colour) is one arrow.  Its form decides, its colour only says whether registration may tear there (blue).
+ * commonest colour) is one arrow; where strokes cross, they are followed straight on (strands.c).  Its form decides,
+ * its colour only says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)
- *   fade   the first and the last third differ in opacity, with the middle one between: the opaque end is nearer.
- *          Such a stroke is read down to an alpha of FADED_OPACITY: its faint end is the farther end
- *   taper  the same with their width: the thick end is nearer
+ *   fade   opacity falls from the nearer end on (arrow-slope.c).  Such a stroke is read down to an alpha of
+ *          FADED_OPACITY: its faint end is the farther end
+ *   taper  the same with its width: the thick end is nearer
  *
  * Strokes that do not say clearly, or whose arrowhead says the opposite, are reported, never guessed.  Costs a few
  * sweeps over the pixels of each stroke.

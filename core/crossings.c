@@ -1,7 +1,7 @@
 /* Where painted strokes cross.
  *
- * On a circle round a crossing lie four arms, two and two opposite each other, with paint from the centre to each and on
- * beyond it.  That tells a crossing from a head, whose barbs all point one way, and whose corners end.  Circles of
+ * On a circle round a crossing lie four arms, two and two opposite each other, with paint from the centre to each and
+ * on beyond it.  That tells a crossing from a head, whose barbs all point one way, and whose corners end.  Circles of
  * several sizes are tried round the pixels that are farthest from the edges of the paint: strokes that cross at a small
  * angle part late.  The straightest one of those that overlap is the crossing.
  *

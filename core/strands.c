@@ -67,7 +67,8 @@ cut_out (Knot *k)
       memset (bare, 1, n);
       for (size_t i = 0; i < trail->n; i++)
         {
-          int    x = celd_trail_x (trail, trail->pixel[i]) - c->left, y = celd_trail_y (trail, trail->pixel[i]) - c->top;
+          int    x = celd_trail_x (trail, trail->pixel[i]) - c->left;
+          int    y = celd_trail_y (trail, trail->pixel[i]) - c->top;
           size_t p = (size_t) y * (size_t) c->width + (size_t) x;
 
           c->painted[p] = 1;

@@ -10,7 +10,7 @@
 
 /* ------------------------------------------------------------------ the scene */
 
-Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels, lossy_pixels;
+Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels, lossy_pixels, crossing_pixels;
 
 static Pixels        ink_pixels, seed_pixels, level_pixels, expanded_pixels, normal_pixels;
 static CeldPalette   seed_palette, label_palette;
@@ -50,6 +50,13 @@ draw_scene (void)
   fill_box (a, 14, 24, 36, 26, 0, 0x202020ff);
   for (int k = 0; k < 6; k++)
     fill_box (a, 36 - k, 24 - k, 37 - k, 26 + k, 0, 0x202020ff);
+  fill_box (&crossing_pixels, 4, 20, 50, 22, 0, 0x202020ff);
+  fill_box (&crossing_pixels, 20, 4, 22, 40, 0, 0x202020ff);
+  for (int k = 0; k < 6; k++)
+    {
+      fill_box (&crossing_pixels, 52 - k, 20 - k, 53 - k, 22 + k, 0, 0x202020ff);
+      fill_box (&crossing_pixels, 20 - k, 42 - k, 22 + k, 43 - k, 0, 0x202020ff);
+    }
   fill_box (l, 0, 0, W, H, 0, 0xffffffff);
   fill_box (l, 0, 16, 32, 32, 0, 0xfff0f0ff);
   fill_box (l, 2, 20, 30, 24, 0, 0xd07080ff);
@@ -118,6 +125,14 @@ static CeldStatus
 arrows_step (const CeldRun *run, Results *r)
 {
   CeldPaint arrows = paint_of (&arrow_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+crossing_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&crossing_pixels);
 
   return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
 }
@@ -550,6 +565,7 @@ const Step steps[] = {
   { "relations", relations_step, NULL, false },
   { "arrow-path", path_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
+  { "crossing arrows", crossing_step, NULL, true },
   { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },

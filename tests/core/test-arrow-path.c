@@ -75,7 +75,8 @@ numbers (void)
 static void
 random_spellings (void)
 {
-  static const char *const gaps[] = { " ", ",", " , ", "\n", "\t,\r\n" }, *const formats[] = { "%.3f", "%+.4f", "%.6e" };
+  static const char *const gaps[] = { " ", ",", " , ", "\n", "\t,\r\n" };
+  static const char *const formats[] = { "%.3f", "%+.4f", "%.6e" };
   uint32_t state = 5;
 
   for (int i = 0; i < 2000; i++)

@@ -54,10 +54,10 @@ two_that_cross (void)
       for (int i = 0; i < n; i++)
         {
           double    w = random_between (&state, 3, 7), angle = random_between (&state, 0, 6.28);
-          double    turn = random_between (&state, 0.7, 2.44), length = random_between (&state, 26, 30) * 0.25 * (w + 20);
-          Arrow     a = through ((Point) { 120, 120 }, angle, length, random_between (&state, 0.4, 0.5), w, STYLES[s], i % 2);
-          Arrow     b = through ((Point) { 120, 120 }, angle + turn, length, random_between (&state, 0.4, 0.5), w, STYLES[s],
-                                 i % 3 == 0);
+          double    turn = random_between (&state, 0.7, 2.44), length = random_between (&state, 6, 7.5) * (w + 20);
+          Point     middle = { 120, 120 };
+          Arrow     a = through (middle, angle, length, random_between (&state, 0.4, 0.5), w, STYLES[s], i % 2);
+          Arrow     b = through (middle, angle + turn, length, random_between (&state, 0.4, 0.5), w, STYLES[s], !(i % 3));
           CeldPaint paint = blank (SIZE, SIZE);
           Answer    answer;
           int       found;
@@ -109,8 +109,9 @@ arrows_that_touch (void)
     {
       CeldArrowStyle style = STYLES[i % 4];
       double    w = random_between (&state, 3, 8), angle = random_between (&state, 0, 6.28), share = i % 3 / 2.;
+      double    turn = random_between (&state, 0.5, 5.8);
       Arrow     a = through ((Point) { 120, 120 }, angle, 90, i / 4 % 3 / 2., w, style, i % 8 < 4);
-      Arrow     b = through ((Point) { 120, 120 }, angle + random_between (&state, 0.5, 5.8), 90, share, w, style, i % 8 < 4);
+      Arrow     b = through ((Point) { 120, 120 }, angle + turn, 90, share, w, style, i % 8 < 4);
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
 
@@ -176,7 +177,8 @@ small_arrows (void)
 
   for (int i = 0; i < 800; i++)
     {
-      double    length = random_between (&state, 8, 24), w = fmax (1.2, length / 9), angle = random_between (&state, 0, 6.28);
+      double    length = random_between (&state, 8, 24), w = fmax (1.2, length / 9);
+      double    angle = random_between (&state, 0, 6.28);
       Arrow     a = through ((Point) { 30, 30 }, angle, length, 0.5, w, STYLES[i % 4], i % 8 < 4);
       CeldPaint paint = blank (60, 60);
       Answer    answer;
