@@ -13,13 +13,16 @@
 
 #define PI          3.14159265358979
 #define ARMS        4
-#define SAMPLES     400  /* on a circle, at most */
+#define SAMPLES     256  /* on a circle, at most */
 #define MOST_BEND   0.6  /* radians that a stroke may turn at a crossing */
 #define MOST_RATIO  2.2  /* of the breadths of its arms */
 #define BEYOND      1.5  /* arms reach on to so many radii */
 
 /* A possible crossing, and how far its strokes are from straight. */
 typedef struct { CeldCrossing crossing; double bend; } Candidate;
+
+/* Points of the circle of radius 1. */
+typedef struct { double x[SAMPLES], y[SAMPLES]; } Circle;
 
 static bool
 is_painted (const CeldCutting *c, double x, double y)
@@ -51,13 +54,14 @@ goes_on (const CeldCutting *c, CeldPoint centre, double angle, double radius)
 
 /* The middles and widths, in radians, of the four painted arcs of a circle; false if there are not four. */
 static bool
-find_arcs (const CeldCutting *c, CeldPoint centre, double radius, double middle[ARMS], double wide[ARMS])
+find_arcs (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, double middle[ARMS],
+           double wide[ARMS])
 {
-  int  n = (int) fmin (SAMPLES, ceil (12 * radius)), first = 0, arcs = 0, start = 0;
+  int  step = radius < 6 ? 4 : radius < 12 ? 2 : 1, n = SAMPLES / step, first = 0, arcs = 0, start = 0;
   bool on[SAMPLES];
 
   for (int i = 0; i < n; i++)
-    on[i] = is_painted (c, centre.x + radius * cos (2 * PI * i / n), centre.y + radius * sin (2 * PI * i / n));
+    on[i] = is_painted (c, centre.x + radius * circle->x[i * step], centre.y + radius * circle->y[i * step]);
   while (first < n && on[first])
     first++;
   if (first == n)
@@ -87,12 +91,12 @@ bend_between (double a, double b)
 
 /* Is there a crossing of strokes on a circle? */
 static bool
-look_round (const CeldCutting *c, CeldPoint centre, double radius, Candidate *found)
+look_round (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, Candidate *found)
 {
   double        middle[ARMS], wide[ARMS];
   CeldCrossing *x = &found->crossing;
 
-  if (!find_arcs (c, centre, radius, middle, wide))
+  if (!find_arcs (c, circle, centre, radius, middle, wide))
     return false;
   found->bend = fmax (bend_between (middle[0], middle[2]), bend_between (middle[1], middle[3]));
   if (found->bend > MOST_BEND)
@@ -127,6 +131,13 @@ static CeldStatus
 gather (const CeldCutting *c, Candidate **list, size_t *n)
 {
   static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
+  Circle              circle;
+
+  for (int i = 0; i < SAMPLES; i++)
+    {
+      circle.x[i] = cos (2 * PI * i / SAMPLES);
+      circle.y[i] = sin (2 * PI * i / SAMPLES);
+    }
 
   for (int y = 1; y + 1 < c->height; y++)
     for (int x = 1; x + 1 < c->width; x++)
@@ -137,7 +148,7 @@ gather (const CeldCutting *c, Candidate **list, size_t *n)
         if (!c->painted[p] || !is_inmost (c, p))
           continue;
         for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
-          if (look_round (c, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
+          if (look_round (c, &circle, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
               one.bend < best.bend)
             best = one;
         if (best.bend < INFINITY)
