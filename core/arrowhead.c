@@ -213,7 +213,8 @@ is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double 
   return 20 * outside < e->n;
 }
 
-/* Is it a filled disc?  It fills more of its box than a triangle does, or else it is at least broadest in the middle. */
+/* Is it a filled disc?  It fills more of its box than a triangle does, or else it is at least broadest in the
+ * middle. */
 static bool
 is_dot (const Extent *e)
 {

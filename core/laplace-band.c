@@ -37,8 +37,8 @@ reach (const CeldBand *matrix, uint32_t i)
   return rest < matrix->band ? rest : matrix->band;
 }
 
-CELD_CLONES void
-celd_band_eliminate (CeldBand *matrix)
+CELD_CLONES static void
+eliminate_band (CeldBand *matrix)
 {
   for (uint32_t i = 0; i < matrix->n; i++)
     {
@@ -63,6 +63,12 @@ celd_band_eliminate (CeldBand *matrix)
       for (uint32_t j = 0; j < m; j++)
         w[j] *= matrix->sink[i];
     }
+}
+
+void
+celd_band_eliminate (CeldBand *matrix)
+{
+  eliminate_band (matrix);
 }
 
 /* The constant `lanes` lets the inner loops be vectors. */
@@ -94,11 +100,17 @@ solve (const CeldBand *matrix, double *x, size_t lanes)
     }
 }
 
-CELD_CLONES void
-celd_band_solve (const CeldBand *matrix, int lanes, double *x)
+CELD_CLONES static void
+solve_band (const CeldBand *matrix, int lanes, double *x)
 {
   if (lanes == 1)
     solve (matrix, x, 1);
   else
     solve (matrix, x, CELD_LANES);
+}
+
+void
+celd_band_solve (const CeldBand *matrix, int lanes, double *x)
+{
+  solve_band (matrix, lanes, x);
 }

@@ -116,12 +116,17 @@ reduce (const CeldPass *p, int lanes)
 
 /* Each for both numbers of lanes. */
 #define BOTH(name, arguments, ...) \
-  CELD_CLONES void celd_extra_##name arguments \
+  CELD_CLONES static void extra_##name arguments \
   { \
     if (lanes == 1) \
       name (__VA_ARGS__, 1); \
     else \
       name (__VA_ARGS__, CELD_LANES); \
+  } \
+\
+  void celd_extra_##name arguments \
+  { \
+    extra_##name (__VA_ARGS__, lanes); \
   }
 
 BOTH (down, (const CeldPass *p, int lanes), p)

@@ -156,7 +156,7 @@ restrict_row (const Pass *pass, int y, int lanes)
     }
 }
 
-SWEEP (down, 3, step_row, guess_row, restrict_row, nothing)
+SWEEP (pixels_down, 3, step_row, guess_row, restrict_row, nothing)
 
 /* ------------------------------------------------------------------ up: the second half, and S z */
 
@@ -255,8 +255,8 @@ apply_row (const Pass *pass, int y, int lanes)
   keep_largest (row + 3 * CELD_LANES, largest, lanes);
 }
 
-SWEEP (correct, 1, correct_row, nothing, nothing, nothing)
-SWEEP (up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
+SWEEP (pixels_correct, 1, correct_row, nothing, nothing, nothing)
+SWEEP (pixels_up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
 
 /* ------------------------------------------------------------------ the passes */
 
@@ -299,7 +299,7 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
       pass.beta[k]  = (float) beta[k];
     }
   memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-  RUN_SWEEP (&pass, 3, down);
+  RUN_SWEEP (&pass, 3, pixels_down);
   if (alpha)
     {
       gather (s, 0, true, m->low);
@@ -312,11 +312,11 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
       celd_pixels_refresh (s);
       pass.step = false;
       memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-      RUN_SWEEP (&pass, 3, down);
+      RUN_SWEEP (&pass, 3, pixels_down);
     }
   celd_coarse_solve (&s->cycle);
-  RUN_SWEEP (&pass, 1, correct);
-  RUN_SWEEP (&pass, 4, up);
+  RUN_SWEEP (&pass, 1, pixels_correct);
+  RUN_SWEEP (&pass, 4, pixels_up);
   gather (s, 0, false, m->zr);
   gather (s, 1, false, m->zq);
   gather (s, 2, false, m->zt);

@@ -91,7 +91,8 @@ celd_sweep (const CeldRun *run, int height, int stages, void (*body) (void *pass
     celd_each (run, *phase ? strips - 1 : strips, body, pass);
 }
 
-/* Defines the bodies name_single and name_lanes of a sweep over Pass, whose stages are stage (pass, row, lanes). */
+/* Defines the bodies name_single and name_lanes of a sweep over Pass, whose stages are stage (pass, row, lanes).  Names
+ * are unique in core: clang makes what chooses between clones global. */
 #define SWEEP(name, stages, first, second, third, fourth) \
   CELD_INLINE void name (void *data, int i, int lanes) \
   { \

@@ -57,8 +57,9 @@ celd_rect_union (CeldRect a, CeldRect b)
 
 /* ------------------------------------------------------------------ vectors */
 
-/* Before a plain loop over pixels: compiled for wider vectors too, and chosen when the library is loaded.  The resolver
- * runs before sanitizers are ready. */
+/* Before a static function, a plain loop over pixels: compiled for wider vectors too, and chosen when the library is
+ * loaded.  Its name is unique in core, and it is called in its own file: clang makes the chosen one global under
+ * another name.  The resolver runs before sanitizers are ready. */
 #if defined __has_feature
 #if __has_feature (address_sanitizer) || __has_feature (undefined_behavior_sanitizer) \
   || __has_feature (thread_sanitizer)

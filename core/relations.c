@@ -42,7 +42,9 @@ read_positive (CeldReader *r, double *number)
 static int
 hexadecimal (char c)
 {
-  return celd_text_is_digit (c) ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+  if (celd_text_is_digit (c))
+    return c - '0';
+  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
 static CeldStatus

@@ -274,8 +274,8 @@ gather_loop (Gathering *g, const CeldRimLoop *loop)
   return status;
 }
 
-/* Do the outlines of three regions turn as they do at a T?  One of them runs on, both others have a corner, and all turns
- * together make half a circle. */
+/* Do the outlines of three regions turn as they do at a T?  One of them runs on, both others have a corner, and all
+ * turns together make half a circle. */
 static bool
 is_clear (const CeldCornerSet *corner)
 {

@@ -111,8 +111,8 @@ select_kept (const CeldGraph *graph, size_t n_own, CeldSuggest suggest, CeldRela
 
 CeldStatus
 celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                       const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,
-                       CeldRelations *both)
+                       const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink,
+                       const CeldRun *run, CeldRelations *both)
 {
   static const CeldRelations none = { 0 };
 

@@ -151,7 +151,8 @@ write_ordering (const CliOptions *options, const Ordering *o)
 
   for (size_t i = 0; good && i < (size_t) levels.width * (size_t) levels.height; i++)
     levels.data[i] = celd_order_value (&o->order, o->order.level[o->labels.data[i] - 1], settings);
-  good = good && cli_write_depth (options->levels, &levels, ranks ? celd_order_value (&o->order, o->order.levels - 1, settings) : 1);
+  good = good && cli_write_depth (options->levels, &levels,
+                                  ranks ? celd_order_value (&o->order, o->order.levels - 1, settings) : 1);
   g_free (levels.data);
   good = good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
   return good && (!options->report || cli_report_write (options->report, &(CliReport) {

@@ -58,8 +58,8 @@ class Exact(Test):
         self.assertEqual([r.get('left-out') for r in report['relations']], [None, None, None, 'outside'])
 
     def test_contradiction(self):
-        said = self.exact('--relations', '#ff0000 > #0000ff; #0000ff > #ff0000 @0.5', '--depth', 'depth.npy', '--report',
-                          'report.json', code=3)
+        said = self.exact('--relations', '#ff0000 > #0000ff; #0000ff > #ff0000 @0.5', '--depth', 'depth.npy',
+                          '--report', 'report.json', code=3)
         self.assertIn('#0000ff > #ff0000', said)
         self.assertEqual(self.report()['cycles'], [[1, 0]])
 

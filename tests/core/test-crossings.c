@@ -57,7 +57,8 @@ two_that_cross (void)
           double    turn = random_between (&state, 0.7, 2.44), length = random_between (&state, 6, 7.5) * (w + 20);
           Point     middle = { 120, 120 };
           Arrow     a = through (middle, angle, length, random_between (&state, 0.4, 0.5), w, STYLES[s], i % 2);
-          Arrow     b = through (middle, angle + turn, length, random_between (&state, 0.4, 0.5), w, STYLES[s], !(i % 3));
+          Arrow     b = through (middle, angle + turn, length, random_between (&state, 0.4, 0.5), w, STYLES[s],
+                                 !(i % 3));
           CeldPaint paint = blank (SIZE, SIZE);
           Answer    answer;
           int       found;

@@ -62,7 +62,7 @@ static void
 nested_discs (void)
 {
   static const uint32_t pairs[][2] = { { 4, 3 }, { 3, 2 }, { 2, 1 } };
-  static const Sheet    sheet[] = {
+  const Sheet           sheet[] = {
     page, { 100, 95, 100, 95, 85 }, { 96, 99, 96, 99, 60 }, { 103, 92, 103, 92, 30 }
   };
 
@@ -148,7 +148,7 @@ line_that_ends (void)
 static void
 hole_of_a_ring (void)
 {
-  static const Sheet sheet[] = { page, { 100, 95, 100, 95, 80 }, { 100, 95, 100, 95, 45 } };
+  const Sheet sheet[] = { page, { 100, 95, 100, 95, 80 }, { 100, 95, 100, 95, 45 } };
   Sheets             s;
   CeldRelations      suggested;
 
@@ -237,8 +237,8 @@ random_scenes (void)
 static void
 any_size (void)
 {
-  static const Sheet small[] = { page, { 40, 40, 40, 40, 25 }, { 60, 45, 85, 60, 14 } };
-  static const Sheet large[] = { page, { 120, 120, 120, 120, 75 }, { 180, 135, 255, 180, 42 } };
+  const Sheet small[] = { page, { 40, 40, 40, 40, 25 }, { 60, 45, 85, 60, 14 } };
+  const Sheet large[] = { page, { 120, 120, 120, 120, 75 }, { 180, 135, 255, 180, 42 } };
   Sheets             s, l;
   CeldRelations      one, other;
 
@@ -260,7 +260,7 @@ any_size (void)
 static void
 odd_input (void)
 {
-  static const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
+  const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
   Sheets             s;
   CeldRelations      suggested;
   CeldPalette        none = { 0 };
@@ -292,7 +292,7 @@ odd_input (void)
 static void
 stops_when_asked (void)
 {
-  static const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
+  const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
   const CeldRun      run = { .progress = check_refuse };
   CeldRelations      suggested = { 0 };
   Sheets             s;

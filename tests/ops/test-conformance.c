@@ -235,7 +235,8 @@ static void
 method_is_that_of_core (void)
 {
   static const struct { CeldMethod method; gboolean gaps, necks; } cases[] = {
-    { CELD_METHOD_EXACT, TRUE, TRUE }, { CELD_METHOD_WALKER, TRUE, TRUE }, { CELD_METHOD_BASINS, FALSE, TRUE }, { CELD_METHOD_BASINS, TRUE, FALSE },
+    { CELD_METHOD_EXACT, TRUE, TRUE }, { CELD_METHOD_WALKER, TRUE, TRUE },
+    { CELD_METHOD_BASINS, FALSE, TRUE }, { CELD_METHOD_BASINS, TRUE, FALSE },
   };
   static uint32_t data[PIXELS];
   static uint8_t  wanted[4 * PIXELS];
