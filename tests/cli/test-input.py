@@ -129,6 +129,17 @@ class Strokes(Test):
         levels = np.load(self.path('l.npy'))
         self.assertGreater(levels[45, 70], levels[18, 75])
 
+    def test_text_path_and_paint_together(self):
+        self.arrow()
+        self.popup('--arrows', 'arrows.png', '--relations', '20,20 > 1,1', '--arrow-path', 'M70,45 L 20,20',
+                   '--levels', 'l.npy', '--report', 'r.json')
+        with open(self.path('r.json'), encoding='utf-8') as file:
+            relations = json.load(file)['relations']
+        self.assertEqual([r['source'] for r in relations], ['text', 'path', 'arrow'])
+        self.assertEqual((relations[1]['text'], relations[1]['column']), ('70,45 > 20,20', 1))
+        levels = np.load(self.path('l.npy'))
+        self.assertGreater(levels[45, 70], levels[20, 20])
+
     def test_arrows_alone(self):
         self.arrow()
         self.celdepth('popup', 'drawing.png', '--arrows', 'arrows.png', '--levels', 'l.npy')
@@ -247,17 +258,6 @@ class BadInput(Test):
         Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('blank.png'))
         self.fails('popup', 'drawing.png', '--depth', 'd.png', naming='nothing to go by')
         self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='nothing to go by')
-
-    def test_text_path_and_paint_together(self):
-        self.arrow()
-        self.popup('--arrows', 'arrows.png', '--relations', '20,20 > 1,1', '--arrow-path', 'M70,45 L 20,20',
-                   '--levels', 'l.npy', '--report', 'r.json')
-        with open(self.path('r.json'), encoding='utf-8') as file:
-            relations = json.load(file)['relations']
-        self.assertEqual([r['source'] for r in relations], ['text', 'path', 'arrow'])
-        self.assertEqual((relations[1]['text'], relations[1]['column']), ('70,45 > 20,20', 1))
-        levels = np.load(self.path('l.npy'))
-        self.assertGreater(levels[45, 70], levels[20, 20])
 
     def test_unreadable_arrow_path(self):
         text = self.popup('--arrow-path', 'M 1,1 L 2,2\nL 3;4', '--depth', 'd.png', code=1)
