@@ -69,6 +69,11 @@ def measure_laplace(name, megapixels, options):
     return {'case': name, 'megapixels': megapixels, **figures}
 
 
+def measure_distance(name, megapixels, options):
+    drawing, _, _ = make_page(name, megapixels, os.path.join(options.build, 'pages'))
+    return {'case': name, 'megapixels': megapixels, **run('bench-distance', options, drawing, options.runs)}
+
+
 # ------------------------------------------------------------------ the exact program, for general solvers
 
 def contracted(figures, prefix):
@@ -162,7 +167,7 @@ def times(slow, fast):
     return lambda r: r[slow] / r[fast] if slow in r and r.get(fast) else None
 
 
-TABLES = [
+LAPLACE_TABLES = [
     ('Equation (3): milliseconds a megapixel with set-up, true errors as a share of the range', [
         ('set-up', '.1f', by_megapixel('set-up 1e-3')),
         ('1e-3', '.1f', by_megapixel('ours 1e-3')),
@@ -182,6 +187,15 @@ TABLES = [
         ('CHOLMOD', '.0f', milliseconds('cholmod')),
         ('x 1e-3', '.0f', times('cholmod', 'ours 1e-3')),
         ('x 1/65535', '.0f', times('cholmod', 'ours 1/65535'))]),
+]
+
+DISTANCE_TABLES = [
+    ('Distances: milliseconds a megapixel to the ink, and to one pixel', [
+        ('near', '.1f', figure('near, ours')),
+        ('textbook', '.1f', figure('near, textbook')),
+        ('far', '.1f', figure('far, ours')),
+        ('textbook', '.1f', figure('far, textbook')),
+        ('different', '.0f', lambda r: r['near, different pixels'] + r['far, different pixels'])]),
 ]
 
 PROGRAM_TABLES = [
@@ -222,21 +236,22 @@ def main():
     parser.add_argument('--no-save', action='store_true', help='writes no file')
     options = parser.parse_args()
 
-    systems, programs = [], []
+    systems, programs, distances = [], [], []
     for size in options.sizes:
         for name in options.cases:
             print(f'{name}, {size:g} MP', file=sys.stderr)
             systems.append(measure_laplace(name, size, options))
+            distances.append(measure_distance(name, size, options))
     pages = [(side * side / 1e6, True) for side in options.sides] + [(size, False) for size in options.sizes]
     for size, rivals in pages:
         for name in options.programs:
             print(f'{name}, exact program, {size:g} MP', file=sys.stderr)
             programs.append(measure_program(name, size, options, rivals))
     if options.json:
-        print(json.dumps({'systems': systems, 'programs': programs}, indent=1))
+        print(json.dumps({'systems': systems, 'distances': distances, 'programs': programs}, indent=1))
         return
     lines = [f'celdepth {version()}, one core of {processor()}; medians of {options.runs} runs', '']
-    for tables, results in (TABLES, systems), (PROGRAM_TABLES, programs):
+    for tables, results in (LAPLACE_TABLES, systems), (DISTANCE_TABLES, distances), (PROGRAM_TABLES, programs):
         for title, columns in tables:
             lines += table(title, columns, results)
     save(lines, None if options.no_save else 'solvers')
