@@ -49,7 +49,7 @@ def random_scene(random):
 def as_text(scene):
     floor, ink, label, relations = scene
     h, w = ink.shape
-    return '\n'.join([f'{w} {h} {floor!r}', ' '.join(map(repr, ink.ravel().tolist())),
+    return '\n'.join([f'{w} {h} {float(floor)!r}', ' '.join(map(repr, ink.ravel().tolist())),
                       ' '.join(map(str, label.ravel())), str(len(relations)),
                       *(f'{x0 + .5} {y0 + .5} {x1 + .5} {y1 + .5} {gap}' for x0, y0, x1, y1, gap in relations)])
 

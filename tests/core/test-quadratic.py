@@ -79,7 +79,7 @@ class Quadratic(unittest.TestCase):
                 k = np.diag(weight.sum(axis=1)) - weight
             problems.append((k, inequalities(random, n, int(random.integers(1, 3 * n)))))
         text = '\n'.join('\n'.join([f'{len(k)} {len(asked)}', ' '.join(map(repr, k.ravel().tolist()))] +
-                                   [f'{a} {b} {gap!r}' for a, b, gap in asked]) for k, asked in problems)
+                                   [f'{a} {b} {float(gap)!r}' for a, b, gap in asked]) for k, asked in problems)
         answers = subprocess.run(sys.argv[1:2], input=text, capture_output=True, text=True, check=True).stdout
         answers = [list(map(float, line.split())) for line in answers.splitlines()]
         self.assertEqual(len(answers), TRIALS)
