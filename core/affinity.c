@@ -6,6 +6,11 @@
  * contour would weigh 0.3, and depth would leak through every one.  (It would also be the noise of a scan that decides
  * which pairs differ.)  Where nothing differs every weight is 1.
  *
+ * In the weight itself I_p - I_q is the contrast round the pair: the range of ink within the 3 x 3 pixels round p, or
+ * round q if that is less.  Taken of the two pixels alone, antialiasing undoes it: along a line that is nearly level,
+ * ink fades into paper in dozens of tiny steps, a way round every large one, which lets more through than all the rest
+ * of a drawing's outlines.  Being the lesser of the two, it leaves the paper beside a line with the paper.
+ *
  * Weights below about 1e-16 would be lost beside 1, hence the floor: the program is exact for the weights with it.  It
  * also joins all pixels, so that the solution is unique but for a constant.
  *
@@ -18,8 +23,9 @@
 typedef struct
 {
   const CeldPlane *ink;
-  float           *east, *south;   /* squared differences first, then weights */
-  double          *sum;            /* of each row */
+  float           *contrast;       /* round each pixel */
+  float           *east, *south;
+  double          *sum;            /* of the squared differences of each row, and to the next */
   double           scale;          /* 1 / sigma, 0 if nothing differs */
   float            floor;
 } Affinities;
@@ -32,30 +38,56 @@ ink_at (const CeldPlane *ink, int x, int y)
   return isfinite (value) ? value : 1;
 }
 
-static void
-square_row (void *data, int y)
+typedef struct { float low, high; } Range;
+
+static Range
+join (Range a, Range b)
 {
-  Affinities *a = data;
-  size_t      w = (size_t) a->ink->width, i = (size_t) y * w;
-  double      sum = 0;
+  return (Range) { a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high };
+}
 
-  for (int x = 0; x < a->ink->width; x++, i++)
+/* Of three pixels, one above the other, as far as they are in the picture. */
+static Range
+column (const CeldPlane *ink, int x, int y)
+{
+  float here = ink_at (ink, x, y), above = y > 0 ? ink_at (ink, x, y - 1) : here;
+  float below = y + 1 < ink->height ? ink_at (ink, x, y + 1) : here;
+
+  return join ((Range) { here, here }, join ((Range) { above, above }, (Range) { below, below }));
+}
+
+static void
+measure_row (void *data, int y)
+{
+  Affinities      *a = data;
+  const CeldPlane *ink = a->ink;
+  float           *contrast = a->contrast + (size_t) y * (size_t) ink->width;
+  Range            left = column (ink, 0, y), middle = left, right;
+  double           sum = 0;
+
+  for (int x = 0; x < ink->width; x++)
     {
-      float here  = ink_at (a->ink, x, y);
-      float east  = x + 1 < a->ink->width ? ink_at (a->ink, x + 1, y) - here : 0;
-      float south = y + 1 < a->ink->height ? ink_at (a->ink, x, y + 1) - here : 0;
+      bool  east = x + 1 < ink->width, south = y + 1 < ink->height;
+      float here = ink_at (ink, x, y);
+      float to_east = east ? ink_at (ink, x + 1, y) - here : 0, to_south = south ? ink_at (ink, x, y + 1) - here : 0;
+      Range whole;
 
-      a->east[i]  = east * east;
-      a->south[i] = south * south;
-      sum += (double) a->east[i] + (double) a->south[i];
+      right       = east ? column (ink, x + 1, y) : middle;
+      whole       = join (join (left, middle), right);
+      contrast[x] = whole.high - whole.low;
+      sum        += (double) (to_east * to_east) + (double) (to_south * to_south);
+      left        = middle;
+      middle      = right;
     }
   a->sum[y] = sum;
 }
 
 static float
-weight (const Affinities *a, float square)
+weight (const Affinities *a, float one, float other)
 {
-  return square > 0 ? fmaxf ((float) exp (-(double) square * a->scale), a->floor) : 1;
+  double contrast = (double) (one < other ? one : other), exponent = contrast * contrast * a->scale;
+
+  return exponent > 0 ? exponent < 30 ? fmaxf ((float) exp (-exponent), a->floor) : a->floor : 1;
 }
 
 static void
@@ -66,8 +98,8 @@ weigh_row (void *data, int y)
 
   for (int x = 0; x < a->ink->width; x++, i++)
     {
-      a->east[i]  = x + 1 < a->ink->width ? weight (a, a->east[i]) : 0;
-      a->south[i] = y + 1 < a->ink->height ? weight (a, a->south[i]) : 0;
+      a->east[i]  = x + 1 < a->ink->width ? weight (a, a->contrast[i], a->contrast[i + 1]) : 0;
+      a->south[i] = y + 1 < a->ink->height ? weight (a, a->contrast[i], a->contrast[i + w]) : 0;
     }
 }
 
@@ -76,12 +108,15 @@ celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRu
                  double *mean)
 {
   double     w = ink->width, h = ink->height, pairs = (w - 1) * h + w * (h - 1), sum = 0;
-  Affinities a = { ink, east, south, celd_alloc ((size_t) ink->height, sizeof (double)), 0, floor };
-  CeldStatus status = a.sum ? celd_step (run, 0) : CELD_NO_MEMORY;
+  Affinities a = {
+    ink, celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof (float)), east, south,
+    celd_alloc ((size_t) ink->height, sizeof (double)), 0, floor
+  };
+  CeldStatus status = a.contrast && a.sum ? celd_step (run, 0) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
-      celd_each (run, ink->height, square_row, &a);
+      celd_each (run, ink->height, measure_row, &a);
       for (int y = 0; y < ink->height; y++)
         sum += a.sum[y];
       *mean   = pairs > 0 ? sum / pairs : 0;
@@ -90,6 +125,7 @@ celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRu
     }
   if (status == CELD_OK)
     celd_each (run, ink->height, weigh_row, &a);
+  celd_free (a.contrast);
   celd_free (a.sum);
   return status;
 }

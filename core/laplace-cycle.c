@@ -9,7 +9,8 @@
  */
 #include "laplace-coarse.h"
 
-#define ENOUGH 0.25 /* of the residual left after one inner step: no second one */
+/* So much of the residual left after one inner step: no second one.  It pays more on the first levels. */
+#define ENOUGH(l) ((l) <= 2 ? 0.25 : 0.5)
 
 /* ------------------------------------------------------------------ vectors */
 
@@ -110,9 +111,9 @@ solve_last (CeldCoarse *cycle)
       v->x[levels->bottom_node[i] * many + k] = (float) cycle->bottom[i * many + k];
 }
 
-/* b -= a A x; is so much of it left, in any lane, that a second step is worth while? */
+/* b -= a A x on level l; is so much of it left, in any lane, that a second step is worth while? */
 static bool
-reduce_all (CeldCoarse *cycle, CeldPass *p)
+reduce_all (CeldCoarse *cycle, CeldPass *p, int l)
 {
   double before[CELD_LANES], after[CELD_LANES];
   bool   again = false;
@@ -124,7 +125,7 @@ reduce_all (CeldCoarse *cycle, CeldPass *p)
   celd_extra_reduce (p, cycle->lanes);
   celd_extra_dot (p->level, p->b, p->b, after, cycle->lanes);
   for (int k = 0; k < cycle->lanes; k++)
-    again = again || after[k] > ENOUGH * ENOUGH * before[k];
+    again = again || after[k] > ENOUGH (l) * ENOUGH (l) * before[k];
   return again;
 }
 
@@ -149,7 +150,7 @@ krylov (CeldCoarse *cycle, int l)
   descend (cycle, l, &p, v->image, xb, rho, gamma);
   for (int k = 0; k < cycle->lanes; k++)
     p.a[k] = v->a[k] = (float) (rho[k] > 0 ? xb[k] / rho[k] : 0);
-  if (!reduce_all (cycle, &p))
+  if (!reduce_all (cycle, &p, l))
     return;
 
   p.x     = v->step;

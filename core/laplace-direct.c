@@ -4,39 +4,17 @@
  */
 #include "laplace.h"
 
-#include <math.h>
-
 #define BAND_LENGTH  (1u << 20) /* largest size of a direct solution, in doubles ... */
 #define BAND_WORK    (1u << 26) /* ... and in multiplications */
-#define WEAK         1e-3f      /* Weights that differ by more than this, as where a small drawing is all lines, ... */
-#define WEAK_MORE    4          /* ... are hard for the cycle: so many times as much is worth while */
-
-/* Do weights differ very much? */
-static bool
-has_weak_links (const CeldWeights *g)
-{
-  size_t n = (size_t) g->width * (size_t) g->height;
-  float  most = 0, least = INFINITY;
-
-  for (size_t i = 0; i < n; i++)
-    for (int k = 0; k < 2; k++)
-      {
-        float w = k ? g->south[i] : g->east[i];
-
-        most  = w > most ? w : most;
-        least = w > 0 && w < least ? w : least;
-      }
-  return least < WEAK * most;
-}
+#define WEAK_MORE    4          /* weak links are hard for the cycle: so many times as much is worth while */
 
 bool
-celd_is_direct (const CeldWeights *g)
+celd_is_direct (const CeldWeights *g, bool weak)
 {
   size_t n = (size_t) g->width * (size_t) g->height, band = (size_t) (g->width < g->height ? g->width : g->height);
-  bool   small = n * band <= BAND_LENGTH && n * band * band <= BAND_WORK;
+  size_t more = weak ? WEAK_MORE : 1;
 
-  return small || (n * band <= (size_t) WEAK_MORE * BAND_LENGTH && n * band * band <= (size_t) WEAK_MORE * BAND_WORK &&
-                   has_weak_links (g));
+  return n * band <= more * BAND_LENGTH && n * band * band <= more * BAND_WORK;
 }
 
 /* Every pixel's edges are at most the shorter side long. */
@@ -79,9 +57,12 @@ celd_direct_solve (const CeldLaplace *l, int lanes, const float *b, const double
 #define NODE(i) ((size_t) (tall ? (i) : (i) % w * h + (i) / w))
   for (size_t i = 0; i < w * h; i++)
     for (size_t k = 0; k < many; k++)
-      v[NODE (i) * many + k] =
-        (b ? (double) b[i * many + k] : 0) - (b_mean ? b_mean[l->floating[i] * many + k] : 0);
-  for (size_t i = 0; i < l->n_held; i++)
+      v[NODE (i) * many + k] = b ? (double) b[i * many + k] : 0;
+  for (size_t f = 0; f < celd_floating_runs (l) && b_mean; f++)
+    for (size_t i = l->floating[f].first; i < l->floating[f].end; i++)
+      for (size_t k = 0; k < many; k++)
+        v[NODE (i) * many + k] -= b_mean[l->floating[f].component * many + k];
+  for (size_t i = 0; i < l->held_row[h]; i++)
     for (size_t k = 0; k < many; k++)
       v[NODE (l->held[i].free) * many + k] += (double) l->held[i].weight * (double) x[l->held[i].fixed * many + k];
   celd_band_solve (&l->band, lanes, v);

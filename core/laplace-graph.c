@@ -2,23 +2,22 @@
  *
  * A node of level l is one strongly connected component of pixels inside one cell of 2^l x 2^l pixels: no wall, however
  * thin, is averaged over.  A node whose links are all weak beside those of its strongest neighbour hangs on that
- * neighbour's aggregate as a leaf and joins nothing else.  Prolongation is constant on aggregates, so that coarse
- * weights are plain sums, never differences.  Nodes without an edge have no coarser node: relaxation solves them.
+ * neighbour's aggregate as a leaf and joins nothing else.  Only on a small island among weak links it must not hang
+ * before all of that is in the cell.  Prolongation is constant on aggregates, so that coarse
+ * weights are plain sums, never differences.  Nodes without an edge have no coarser node: relaxation solves them; nor
+ * have those that the ground holds (laplace-ground.c).
+ *
+ * Aggregates lie within one cell, so rows of cells are independent of each other and go to the host's threads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "laplace.h"
+#include "laplace-graph.h"
 #include "unions.h"
 
 #define STRONG      0.5f /* of the strongest link of either end: a strong link */
-#define FEWER       0.45 /* share of nodes that a new level may keep at most */
+#define FEWER       0.6  /* share of nodes that a new level may keep at most */
+#define SMALL       1024 /* pixels of an island at most */
 #define WHOLE       15   /* doublings after which every cell is the whole picture: 2^15 > CELD_MAX_SIDE */
-
-static uint32_t
-cells (const CeldWeights *g)
-{
-  return (uint32_t) g->width * (uint32_t) g->height;
-}
 
 void
 celd_weights_clear (CeldWeights *g)
@@ -27,66 +26,32 @@ celd_weights_clear (CeldWeights *g)
   celd_free (g->south);
   celd_free (g->sink);
   celd_free (g->cell);
+  celd_free (g->row_extra);
+  celd_free (g->island);
   celd_free (g->start);
   celd_free (g->neighbour);
   celd_free (g->weight);
   *g = (CeldWeights) { 0 };
 }
 
-/* ------------------------------------------------------------------ aggregation */
+/* ------------------------------------------------------------------ links */
 
 /* What aggregation knows of the nodes. */
 typedef struct
 {
   const CeldWeights *graph;
-  int              doublings;
-  float            strong;
-  float            most;        /* weight of the strongest link of all */
-  float           *best;        /* weight of the strongest link */
-  uint32_t        *link;        /* the node at its other end */
-  uint32_t        *parent;
+  CeldWeights       *coarse;
+  const CeldRun     *run;
+  float              strong;
+  float              most;        /* weight of the strongest link of all */
+  float             *best;        /* weight of the strongest link */
+  uint32_t          *link;        /* the node at its other end; in the end the aggregate */
+  uint32_t          *parent;
+  uint8_t           *open;        /* of islands: does it go on beyond its coarse cell? */
+  uint32_t          *row_most;    /* of each fine row: bits of the strongest link */
+  uint32_t          *row_count;   /* of each fine row: nodes with a link; of each coarse row: aggregates */
+  uint8_t           *mixed;       /* of each coarse cell: are its nodes not one aggregate? */
 } Aggregation;
-
-static inline void
-see_edge (Aggregation *a, uint32_t i, uint32_t j, float w)
-{
-  if (w > a->best[i])
-    {
-      a->best[i] = w;
-      a->link[i] = j;
-    }
-  if (w > a->best[j])
-    {
-      a->best[j] = w;
-      a->link[j] = i;
-    }
-}
-
-/* Are all links of node i weak beside those of its strongest neighbour? */
-static inline bool
-is_leaf (const Aggregation *a, uint32_t i)
-{
-  return a->best[i] < a->strong * a->best[a->link[i]];
-}
-
-static inline void
-join_edge (Aggregation *a, uint32_t i, uint32_t j, float w)
-{
-  bool leaf_i, leaf_j;
-
-  if (!(w > 0))
-    return;
-  if (w >= a->strong * a->most) /* strong for whomever */
-    {
-      celd_join (a->parent, i, j);
-      return;
-    }
-  leaf_i = is_leaf (a, i);
-  leaf_j = is_leaf (a, j);
-  if (leaf_i || leaf_j ? (leaf_i && a->link[i] == j) || (leaf_j && a->link[j] == i)
-                       : w >= a->strong * a->best[i] && w >= a->strong * a->best[j])
-    celd_join (a->parent, i, j);
-}
 
 /* The strongest of the four edges of each first node of a row; `north` is NULL above the first row.  The edges that
  * lead out of the grid have weight 0. */
@@ -110,53 +75,300 @@ see_row (uint32_t first, uint32_t w, const float *north, const float *south, con
     }
 }
 
+CELD_CLONES static void
+measure_links (uint32_t w, const CeldBits *best, uint32_t *most, uint32_t *count)
+{
+  uint32_t largest = 0, linked = 0;
+
+  for (uint32_t x = 0; x < w; x++)
+    {
+      largest = best[x] > largest ? best[x] : largest;
+      linked += best[x] > 0;
+    }
+  *most  = largest;
+  *count = linked;
+}
+
 static void
+see_strip (void *data, int strip)
+{
+  Aggregation       *a = data;
+  const CeldWeights *g = a->graph;
+  uint32_t           w = (uint32_t) g->width;
+  int                end = (strip + 1) * CELD_STRIP < g->height ? (strip + 1) * CELD_STRIP : g->height;
+
+  for (int y = strip * CELD_STRIP; y < end; y++)
+    {
+      uint32_t i = (uint32_t) y * w;
+
+      see_row (i, w, y ? g->south + i - w : NULL, g->south + i, g->east + i, a->best + i, a->link + i);
+      measure_links (w, (const CeldBits *) (a->best + i), &a->row_most[y], &a->row_count[y]);
+    }
+}
+
+/* A link of node i; returns whether it is the first one. */
+static inline bool
+see_link (Aggregation *a, uint32_t i, uint32_t j, float w)
+{
+  bool first = !(a->best[i] > 0);
+
+  if (!(w > a->best[i]))
+    return false;
+  a->best[i] = w;
+  a->link[i] = j;
+  return first;
+}
+
+/* The strongest link of every node; returns how many have one. */
+static uint32_t
 see_edges (Aggregation *a)
 {
   const CeldWeights *g = a->graph;
-  uint32_t           w = (uint32_t) g->width, n = cells (g);
+  uint32_t           n = celd_weights_cells (g), linked = 0, most = 0;
 
-  for (uint32_t i = 0; i < n; i += w)
-    see_row (i, w, i ? g->south + i - w : NULL, g->south + i, g->east + i, a->best + i, a->link + i);
+  celd_each (a->run, (g->height + CELD_STRIP - 1) / CELD_STRIP, see_strip, a);
+  for (int y = 0; y < g->height; y++)
+    {
+      most = a->row_most[y] > most ? a->row_most[y] : most;
+      linked += a->row_count[y];
+    }
+  memcpy (&a->most, &most, sizeof most);
   for (uint32_t k = 0; k < g->n_extra; k++)
     for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
-      see_edge (a, n + k, g->neighbour[e], g->weight[e]);
-  for (uint32_t i = 0; i < n + g->n_extra; i++)
-    a->most = a->best[i] > a->most ? a->best[i] : a->most;
+      {
+        linked += see_link (a, n + k, g->neighbour[e], g->weight[e]);
+        linked += see_link (a, g->neighbour[e], n + k, g->weight[e]);
+        a->most = g->weight[e] > a->most ? g->weight[e] : a->most;
+      }
+  return linked;
 }
 
-static void
-join_edges (Aggregation *a)
+/* ------------------------------------------------------------------ aggregates */
+
+/* Are all links of node i weak beside those of its strongest neighbour? */
+static inline bool
+is_leaf (const Aggregation *a, uint32_t i)
+{
+  return a->best[i] < a->strong * a->best[a->link[i]];
+}
+
+static bool
+same_cell (const Aggregation *a, uint32_t i, uint32_t j)
 {
   const CeldWeights *g = a->graph;
-  uint32_t         w = (uint32_t) g->width, n = cells (g), i = 0, side = 1u << a->doublings;
+  uint32_t           n = celd_weights_cells (g);
 
-  for (uint32_t y = 0; y < (uint32_t) g->height; y++)
-    for (uint32_t x = 0; x < w; x++, i++)
+  return celd_weights_above (g, i < n ? i : g->cell[i - n], a->coarse) ==
+         celd_weights_above (g, j < n ? j : g->cell[j - n], a->coarse);
+}
+
+/* Must this leaf not hang on its strongest neighbour, because that is part of an island? */
+static inline bool
+waits (const Aggregation *a, uint32_t i)
+{
+  uint32_t host = a->link[i];
+
+  return a->graph->island && a->graph->island[host] &&
+         (!same_cell (a, i, host) || a->open[celd_root (a->parent, host)]);
+}
+
+/* An edge within a coarse cell.  The first sweep joins what it links strongly; the second one leaves, which hang on
+ * their strongest neighbours.  An island that goes on beyond the cell is moved as one only on a coarser level, and
+ * what hung on it could not move against it on any: its leaves are like other nodes.  Returns whether there are any. */
+static inline bool
+join_edge (Aggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
+{
+  bool leaf_i, leaf_j, wait_i, wait_j, strong = w >= a->strong * a->most; /* for whomever */
+
+  if (strong && w > 0 && !leaves)
+    celd_join (a->parent, i, j);
+  if (strong || !(w > 0))
+    return false;
+  leaf_i = is_leaf (a, i);
+  leaf_j = is_leaf (a, j);
+  strong = w >= a->strong * a->best[i] && w >= a->strong * a->best[j];
+  if (!leaves)
+    {
+      if (!leaf_i && !leaf_j && strong)
+        celd_join (a->parent, i, j);
+      return leaf_i || leaf_j;
+    }
+  wait_i = leaf_i && waits (a, i);
+  wait_j = leaf_j && waits (a, j);
+  if ((leaf_i && a->link[i] == j && !wait_i) || (leaf_j && a->link[j] == i && !wait_j) ||
+      (strong && (wait_i || wait_j) && leaf_i == wait_i && leaf_j == wait_j))
+    celd_join (a->parent, i, j);
+  return false;
+}
+
+/* Joins the first nodes of a fine row with their neighbours in the same cells. */
+static inline bool
+join_row (Aggregation *a, bool leaves, uint32_t y)
+{
+  const CeldWeights *g = a->graph;
+  uint32_t           w = (uint32_t) g->width, i = y * w, side = 1u << a->coarse->doublings;
+  bool               below = (y + 1) % side && y + 1 < (uint32_t) g->height, found = false;
+
+  for (uint32_t x = 0; x < w; x++, i++)
+    {
+      if ((x + 1) % side && x + 1 < w)
+        found |= join_edge (a, leaves, i, i + 1, g->east[i]);
+      if (below)
+        found |= join_edge (a, leaves, i, i + w, g->south[i]);
+    }
+  return found;
+}
+
+/* The same for two rows of cells of 2 x 2 nodes, nearly all of which are of a piece. */
+static inline bool
+join_pair_of_rows (Aggregation *a, bool leaves, uint32_t y)
+{
+  const CeldWeights *g = a->graph;
+  uint32_t           w = (uint32_t) g->width, i = y * w, *parent = a->parent;
+  const float       *east = g->east, *south = g->south;
+  float              strong = a->strong * a->most;
+  bool               found = false;
+
+  for (uint32_t x = 0; x + 1 < w; x += 2, i += 2)
+    if (east[i] >= strong && east[i + w] >= strong && south[i] >= strong && south[i + 1] >= strong && strong > 0)
       {
-        if ((x + 1) % side && x + 1 < w)
-          join_edge (a, i, i + 1, g->east[i]);
-        if ((y + 1) % side && i + w < n)
-          join_edge (a, i, i + w, g->south[i]);
+        if (!leaves)
+          parent[i + 1] = parent[i + w] = parent[i + w + 1] = i;
       }
-  for (uint32_t k = 0; k < g->n_extra; k++)
+    else
+      {
+        found |= join_edge (a, leaves, i, i + 1, east[i]);
+        found |= join_edge (a, leaves, i, i + w, south[i]);
+        found |= join_edge (a, leaves, i + 1, i + w + 1, south[i + 1]);
+        found |= join_edge (a, leaves, i + w, i + w + 1, east[i + w]);
+      }
+  if (w % 2)
+    found |= join_edge (a, leaves, i, i + w, south[i]);
+  return found;
+}
+
+/* Joins an extra node with its neighbours in its coarse cell. */
+static inline bool
+join_extra (Aggregation *a, bool leaves, uint32_t k)
+{
+  const CeldWeights *g = a->graph;
+  uint32_t           n = celd_weights_cells (g);
+  bool               found = false;
+
+  for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
+    if (same_cell (a, n + k, g->neighbour[e]))
+      found |= join_edge (a, leaves, n + k, g->neighbour[e], g->weight[e]);
+  return found;
+}
+
+/* One sweep over the nodes of a row of coarse cells. */
+static inline bool
+join_nodes (Aggregation *a, bool leaves, const CeldNodes *nodes)
+{
+  bool found = false;
+
+  if (a->coarse->doublings == 1 && nodes->to - nodes->from == 2)
+    found = join_pair_of_rows (a, leaves, nodes->from);
+  else
+    for (uint32_t y = nodes->from; y < nodes->to; y++)
+      found |= join_row (a, leaves, y);
+  for (uint32_t k = nodes->extra; k < nodes->extra_end; k++)
+    found |= join_extra (a, leaves, k);
+  return found;
+}
+
+/* Marks the parts of islands in a row that go on beyond their cells; edges of extra nodes have been seen. */
+static void
+mark_open (Aggregation *a, const CeldNodes *nodes)
+{
+  const CeldWeights *g = a->graph;
+  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), side = 1u << a->coarse->doublings;
+
+#define OPENS(weight) (g->island[i] && (weight) > 0 && (weight) >= a->strong * a->best[i])
+  for (uint32_t y = nodes->from; y < nodes->to; y++)
+    for (uint32_t x = 0, i = y * w; x < w; x++, i++)
+      if ((x % side == 0 && x > 0 && OPENS (g->east[i - 1])) || ((x + 1) % side == 0 && OPENS (g->east[i])) ||
+          (y % side == 0 && y > 0 && OPENS (g->south[i - w])) || ((y + 1) % side == 0 && OPENS (g->south[i])))
+        a->open[i] = 1;
+#undef OPENS
+  for (uint32_t i = nodes->from * w; i < nodes->to * w; i++)
+    if (a->open[i])
+      a->open[celd_root (a->parent, i)] = 1;
+  for (uint32_t i = n + nodes->extra; i < n + nodes->extra_end; i++)
+    if (a->open[i])
+      a->open[celd_root (a->parent, i)] = 1;
+}
+
+/* Marks parts of islands that edges of extra nodes lead beyond their cells. */
+static void
+mark_open_extra (Aggregation *a)
+{
+  const CeldWeights *g = a->graph;
+  uint32_t           n = celd_weights_cells (g);
+
+  memset (a->open, 0, g->island ? (size_t) n + g->n_extra : 0);
+  for (uint32_t k = 0; k < g->n_extra && g->island; k++)
     for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
       {
-        uint32_t j = g->neighbour[e], c = g->cell[k], d = j < n ? j : g->cell[j - n];
+        uint32_t i = n + k, j = g->neighbour[e];
+        float    w = g->weight[e];
 
-        if (c % w >> a->doublings == d % w >> a->doublings && c / w >> a->doublings == d / w >> a->doublings)
-          join_edge (a, n + k, j, g->weight[e]);
+        if (!(w > 0) || same_cell (a, i, j))
+          continue;
+        a->open[i] |= g->island[i] && w >= a->strong * a->best[i];
+        a->open[j] |= g->island[j] && w >= a->strong * a->best[j];
       }
 }
 
-/* The coarse cell in which a cell lies. */
-static uint32_t
-cell_above (const CeldWeights *g, uint32_t cell, int doublings, const CeldWeights *coarse)
+/* Aggregates of a row of coarse cells, and how many there are. */
+static void
+aggregate_row (void *data, int row)
 {
-  uint32_t w = (uint32_t) g->width;
+  Aggregation       *a = data;
+  const CeldWeights *g = a->graph;
+  CeldNodes          nodes = celd_weights_nodes (g, a->coarse, row);
+  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), count = 0;
 
-  return (cell / w >> doublings) * (uint32_t) coarse->width + (cell % w >> doublings);
+  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
+    a->parent[i] = i;
+  for (uint32_t k = nodes.extra; k < nodes.extra_end; k++)
+    a->parent[n + k] = n + k;
+  if (join_nodes (a, false, &nodes))
+    {
+      if (g->island)
+        mark_open (a, &nodes);
+      join_nodes (a, true, &nodes);
+    }
+  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
+    count += (a->parent[i] == i) & (a->best[i] > 0);
+  for (uint32_t k = n + nodes.extra; k < n + nodes.extra_end; k++)
+    count += (a->parent[k] == k) & (a->best[k] > 0);
+  a->row_count[row] = count;
 }
+
+static int
+halved (int size, int doublings)
+{
+  return (int) (((uint32_t) size + (1u << doublings) - 1) >> doublings);
+}
+
+/* Aggregates in cells of so many doublings; returns how many there are. */
+static uint32_t
+aggregate (Aggregation *a, int doublings)
+{
+  uint32_t count = 0;
+
+  a->coarse->doublings = doublings;
+  a->coarse->width  = halved (a->graph->width, doublings);
+  a->coarse->height = halved (a->graph->height, doublings);
+  mark_open_extra (a);
+  celd_each (a->run, a->coarse->height, aggregate_row, a);
+  for (int row = 0; row < a->coarse->height; row++)
+    count += a->row_count[row];
+  return count;
+}
+
+/* ------------------------------------------------------------------ numbers */
 
 /* Numbers the aggregate of node i, which lies in a coarse cell; *count is the next number of an extra one. */
 static inline void
@@ -177,240 +389,193 @@ number_node (Aggregation *a, uint32_t i, uint32_t cell, uint8_t *taken, uint32_t
     a->link[i] = (*count)++;
 }
 
-/* Turns a->link into the number of each node's aggregate: the first one of a coarse cell takes the number of the cell,
- * others follow behind the cells.  Fills in the size of `coarse`. */
-static CeldStatus
-number_aggregates (Aggregation *a, CeldWeights *coarse)
+/* First nodes of a cell of 2 x 2, if they are one aggregate. */
+static inline bool
+number_four (Aggregation *a, uint32_t i, uint32_t w, uint32_t cell)
 {
+  const uint32_t *parent = a->parent;
+
+  if (parent[i] != i || parent[i + 1] != i || parent[i + w] != i || parent[i + w + 1] != i)
+    return false;
+  a->link[i] = a->link[i + 1] = a->link[i + w] = a->link[i + w + 1] = cell;
+  return true;
+}
+
+/* The nodes of a row of coarse cells.  What is taken is marked in `mixed` for the time being.  Extra aggregates count
+ * from the first one of the row. */
+static void
+number_row (void *data, int row)
+{
+  Aggregation       *a = data;
   const CeldWeights *g = a->graph;
-  uint32_t         n = cells (g), w = (uint32_t) g->width, count = cells (coarse);
-  uint8_t         *taken = celd_alloc0 (count, 1);
+  CeldWeights       *coarse = a->coarse;
+  CeldNodes          nodes = celd_weights_nodes (g, coarse, row);
+  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), cells = celd_weights_cells (coarse);
+  uint32_t           cell = (uint32_t) row * (uint32_t) coarse->width, side = 1u << coarse->doublings, count = cells;
+  bool               pair = side == 2 && nodes.to - nodes.from == 2;
 
-  if (!taken)
-    return CELD_NO_MEMORY;
-  for (uint32_t y = 0, i = 0; y < (uint32_t) g->height; y++)
-    for (uint32_t x = 0; x < w; x++, i++)
-      number_node (a, i, (y >> a->doublings) * (uint32_t) coarse->width + (x >> a->doublings), taken, &count);
-  for (uint32_t k = 0; k < g->n_extra; k++)
-    number_node (a, n + k, cell_above (g, g->cell[k], a->doublings, coarse), taken, &count);
-  coarse->n_extra = count - cells (coarse);
-  celd_free (taken);
-  return CELD_OK;
+  for (uint32_t x0 = 0, c = cell; x0 < w; x0 += side, c++)
+    {
+      bool done = pair && x0 + 1 < w && number_four (a, nodes.from * w + x0, w, c);
+
+      a->mixed[c] = done;
+      for (uint32_t y = nodes.from; y < nodes.to && !done; y++)
+        for (uint32_t x = x0; x < x0 + side && x < w; x++)
+          number_node (a, y * w + x, c, a->mixed, &count);
+    }
+  for (uint32_t k = nodes.extra; k < nodes.extra_end; k++)
+    number_node (a, n + k, celd_weights_above (g, g->cell[k], coarse), a->mixed, &count);
+  a->row_count[row] = count - cells;
+  if (coarse->doublings > 1)
+    return;
+  for (uint32_t x = 0; x < (uint32_t) coarse->width; x++)
+    {
+      uint32_t i = nodes.from * w + 2 * x, c = cell + x;
+
+      bool four = nodes.to - nodes.from == 2 && 2 * x + 1 < w && a->link[i] == c && a->link[i + 1] == c &&
+                  a->link[i + w] == c && a->link[i + w + 1] == c;
+
+      a->mixed[c] = four ? 0 : CELD_MIXED;
+    }
 }
 
-/* ------------------------------------------------------------------ the coarse graph */
-
-/* An edge from an extra node. */
-typedef struct { uint32_t from, to; float weight; } Edge;
-
-typedef struct
+/* Extra aggregates of a row come after those of the rows before. */
+static void
+shift_row (void *data, int row)
 {
-  CeldWeights *coarse;
-  Edge      *edge;
-  size_t     n;
-} Contraction;
+  Aggregation       *a = data;
+  const CeldWeights *g = a->graph;
+  CeldNodes          nodes = celd_weights_nodes (g, a->coarse, row);
+  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), cells = celd_weights_cells (a->coarse);
+  uint32_t           before = a->coarse->row_extra[row];
 
+  if (!before || before == a->coarse->row_extra[row + 1])
+    return;
+  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
+    a->link[i] += a->link[i] >= cells && a->link[i] != CELD_NO_NODE ? before : 0;
+  for (uint32_t i = n + nodes.extra; i < n + nodes.extra_end; i++)
+    a->link[i] += a->link[i] >= cells && a->link[i] != CELD_NO_NODE ? before : 0;
+}
+
+/* Parts of islands stay so on the coarse level as long as they are not whole. */
+static void
+carry_row (void *data, int row)
+{
+  Aggregation *a = data;
+  CeldNodes    nodes = celd_weights_nodes (a->graph, a->coarse, row);
+  uint32_t     w = (uint32_t) a->graph->width, n = celd_weights_cells (a->graph);
+
+  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
+    if (a->open[i] && a->link[i] != CELD_NO_NODE)
+      a->coarse->island[a->link[i]] = 1;
+  for (uint32_t i = n + nodes.extra; i < n + nodes.extra_end; i++)
+    if (a->open[i] && a->link[i] != CELD_NO_NODE)
+      a->coarse->island[a->link[i]] = 1;
+}
+
+/* Turns a->link into the number of each node's aggregate: the first one of a coarse cell takes the number of the cell,
+ * others follow behind the cells, row by row. */
 static CeldStatus
-push_edge (Contraction *c, uint32_t from, uint32_t to, float w)
+number_aggregates (Aggregation *a)
 {
-  Edge *edge = celd_grow (c->edge, c->n + 1, sizeof *edge);
+  CeldWeights *coarse = a->coarse;
 
-  if (!edge)
-    return CELD_NO_MEMORY;
-  c->edge         = edge;
-  c->edge[c->n++] = (Edge) { from, to, w };
-  return CELD_OK;
-}
-
-/* The edge of weight w between what have become nodes i and j. */
-static inline CeldStatus
-add_edge (Contraction *c, uint32_t i, uint32_t j, float w)
-{
-  CeldWeights *g = c->coarse;
-  uint32_t   n = cells (g), low = i < j ? i : j, high = i < j ? j : i;
-  CeldStatus status = CELD_OK;
-
-  if (i == j || !(w > 0))
+  celd_each (a->run, coarse->height, number_row, a);
+  for (int row = 0; row < coarse->height; row++)
+    coarse->row_extra[row + 1] = coarse->row_extra[row] + a->row_count[row];
+  coarse->n_extra = coarse->row_extra[coarse->height];
+  celd_each (a->run, coarse->height, shift_row, a);
+  if (!a->graph->island)
     return CELD_OK;
-  if (high < n)
-    {
-      if (high == low + 1 && g->width > 1)
-        g->east[low] += w;
-      else
-        g->south[low] += w;
-      return CELD_OK;
-    }
-  if (i >= n)
-    status = push_edge (c, i - n, j, w);
-  if (j >= n && status == CELD_OK)
-    status = push_edge (c, j - n, i, w);
-  return status;
-}
-
-static CeldStatus
-add_edges (const CeldWeights *fine, const uint32_t *coarser, Contraction *c)
-{
-  uint32_t   w = (uint32_t) fine->width, n = cells (fine), i = 0;
-  CeldStatus status = CELD_OK;
-
-  for (int y = 0; y < fine->height && status == CELD_OK; y++)
-    for (uint32_t x = 0; x < w && status == CELD_OK; x++, i++)
-      {
-        if (x + 1 < w)
-          status = add_edge (c, coarser[i], coarser[i + 1], fine->east[i]);
-        if (i + w < n && status == CELD_OK)
-          status = add_edge (c, coarser[i], coarser[i + w], fine->south[i]);
-      }
-  for (uint32_t k = 0; k < fine->n_extra; k++)
-    for (uint32_t e = fine->start[k]; e < fine->start[k + 1] && status == CELD_OK; e++)
-      if (fine->neighbour[e] < n + k) /* each edge once */
-        status = add_edge (c, coarser[n + k], coarser[fine->neighbour[e]], fine->weight[e]);
-  return status;
-}
-
-/* Sorts the edges of extra nodes by their node, equal ones summed up.  place: workspace, one for each coarse node. */
-static CeldStatus
-list_edges (const Contraction *c, uint32_t *place)
-{
-  CeldWeights *g = c->coarse;
-  uint32_t   kept = 0, from = 0;
-
-  g->start     = celd_alloc0 ((size_t) g->n_extra + 2, sizeof *g->start);
-  g->neighbour = celd_alloc (c->n, sizeof *g->neighbour);
-  g->weight    = celd_alloc (c->n, sizeof *g->weight);
-  if (!g->start || !g->neighbour || !g->weight)
+  if (!(coarse->island = celd_alloc0 ((size_t) celd_weights_cells (coarse) + coarse->n_extra, 1)))
     return CELD_NO_MEMORY;
-  for (size_t e = 0; e < c->n; e++)
-    g->start[c->edge[e].from + 2]++;
-  for (uint32_t k = 0; k < g->n_extra; k++)
-    g->start[k + 2] += g->start[k + 1];
-  for (size_t e = 0; e < c->n; e++)
-    {
-      uint32_t at = g->start[c->edge[e].from + 1]++;
-
-      g->neighbour[at] = c->edge[e].to;
-      g->weight[at]    = c->edge[e].weight;
-    }
-  for (uint32_t i = 0; i < cells (g) + g->n_extra; i++)
-    place[i] = CELD_NO_NODE;
-  for (uint32_t k = 0; k < g->n_extra; k++)
-    {
-      uint32_t end = g->start[k + 1], first = kept;
-
-      for (uint32_t e = from; e < end; e++)
-        {
-          uint32_t *at = &place[g->neighbour[e]];
-
-          if (*at == CELD_NO_NODE || *at < first)
-            {
-              *at = kept;
-              g->neighbour[kept] = g->neighbour[e];
-              g->weight[kept++]  = g->weight[e];
-            }
-          else
-            g->weight[*at] += g->weight[e];
-        }
-      from = end;
-      g->start[k + 1] = kept;
-    }
+  celd_each (a->run, coarse->height, carry_row, a);
   return CELD_OK;
-}
-
-/* Nodes, edges and sinks of the coarse graph, whose size is known. */
-static CeldStatus
-contract (const CeldWeights *fine, const uint32_t *coarser, int doublings, CeldWeights *coarse)
-{
-  uint32_t    n = cells (coarse), fine_n = cells (fine);
-  uint32_t   *place = celd_alloc ((size_t) n + coarse->n_extra, sizeof *place);
-  Contraction c = { .coarse = coarse };
-  CeldStatus  status = CELD_NO_MEMORY;
-
-  coarse->east  = celd_alloc0 (n, sizeof *coarse->east);
-  coarse->south = celd_alloc0 (n, sizeof *coarse->south);
-  coarse->sink  = celd_alloc0 ((size_t) n + coarse->n_extra, sizeof *coarse->sink);
-  coarse->cell  = celd_alloc (coarse->n_extra, sizeof *coarse->cell);
-  if (place && coarse->east && coarse->south && coarse->sink && coarse->cell)
-    status = add_edges (fine, coarser, &c);
-  if (status == CELD_OK)
-    status = list_edges (&c, place);
-  for (uint32_t i = 0; i < fine_n + fine->n_extra && status == CELD_OK; i++)
-    if (coarser[i] != CELD_NO_NODE)
-      {
-        coarse->sink[coarser[i]] += fine->sink[i];
-        if (coarser[i] >= n)
-          coarse->cell[coarser[i] - n] = cell_above (fine, i < fine_n ? i : fine->cell[i - fine_n], doublings, coarse);
-      }
-  celd_free (place);
-  celd_free (c.edge);
-  return status;
 }
 
 /* ------------------------------------------------------------------ coarsening */
 
-static int
-halved (int size, int doublings)
+/* The pixels of small components of strong links. */
+static CeldStatus
+find_islands (Aggregation *a, CeldWeights *g)
 {
-  return (int) (((uint32_t) size + (1u << doublings) - 1) >> doublings);
+  uint32_t  w = (uint32_t) g->width, n = celd_weights_cells (g), *size = celd_alloc0 (n, sizeof *size);
+  float     strong = a->strong * a->most;
+
+  g->island = celd_alloc (n, 1);
+  if (!size || !g->island)
+    {
+      celd_free (size);
+      return CELD_NO_MEMORY;
+    }
+  celd_roots (a->parent, n);
+  for (uint32_t i = 0; i < n; i++)
+    {
+      if (g->east[i] > 0 && g->east[i] >= strong)
+        celd_join (a->parent, i, i + 1);
+      if (g->south[i] > 0 && g->south[i] >= strong)
+        celd_join (a->parent, i, i + w);
+    }
+  for (uint32_t i = 0; i < n; i++)
+    size[celd_root (a->parent, i)]++;
+  for (uint32_t i = 0; i < n; i++)
+    g->island[i] = size[celd_root (a->parent, i)] <= SMALL;
+  celd_free (size);
+  return CELD_OK;
 }
 
-/* Nodes that have an edge. */
-static uint32_t
-count_linked (const Aggregation *a, uint32_t n)
+static CeldStatus
+aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *run, Aggregation *a)
 {
-  uint32_t count = 0;
+  uint32_t n = celd_weights_cells (fine) + fine->n_extra;
 
-  for (uint32_t i = 0; i < n; i++)
-    count += a->best[i] > 0;
-  return count;
-}
-
-/* Aggregates with edges among them; their number is known by the roots. */
-static uint32_t
-aggregate (Aggregation *a, uint32_t n)
-{
-  uint32_t count = 0;
-
-  for (uint32_t i = 0; i < n; i++)
-    a->parent[i] = i;
-  join_edges (a);
-  for (uint32_t i = 0; i < n; i++)
-    count += a->parent[i] == i && a->best[i] > 0;
-  return count;
+  *coarse = (CeldWeights) { 0 };
+  *a = (Aggregation) {
+    .graph = fine, .coarse = coarse, .run = run, .strong = STRONG,
+    .best = celd_alloc (n, sizeof *a->best),
+    .link = celd_alloc (n, sizeof *a->link),
+    .parent = celd_alloc (n, sizeof *a->parent),
+    .open = celd_alloc (n, 1),
+    .row_most = celd_alloc ((size_t) fine->height, sizeof *a->row_most),
+    .row_count = celd_alloc ((size_t) fine->height, sizeof *a->row_count),
+  };
+  if (!a->best || !a->link || !a->parent || !a->open || !a->row_most || !a->row_count)
+    return CELD_NO_MEMORY;
+  memset (a->best + celd_weights_cells (fine), 0, fine->n_extra * sizeof *a->best);
+  return CELD_OK;
 }
 
 CeldStatus
-celd_weights_coarsen (const CeldWeights *fine, int *doubled, CeldWeights *coarse, uint32_t **coarser)
+celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, int *doubled, CeldWeights *coarse, uint32_t **coarser)
 {
-  uint32_t    n = cells (fine) + fine->n_extra;
-  Aggregation a = {
-    .graph = fine, .doublings = 1, .strong = STRONG,
-    .best = celd_alloc0 (n, sizeof *a.best),
-    .link = celd_alloc0 (n, sizeof *a.link),
-    .parent = celd_alloc (n, sizeof *a.parent),
-  };
-  CeldStatus  status = a.best && a.link && a.parent ? CELD_OK : CELD_NO_MEMORY;
-  double      most = 0;
+  Aggregation a;
+  CeldStatus  status = aggregation_new (fine, coarse, run, &a);
+  int         doublings = 1;
+  double      most;
 
-  *coarse = (CeldWeights) { 0 };
+  if (status == CELD_OK)
+    status = celd_weights_ground (fine, run);
   if (status != CELD_OK)
     goto done;
-  see_edges (&a);
-  most = FEWER * count_linked (&a, n);
-  while (aggregate (&a, n) > most)
-    if (*doubled + a.doublings < WHOLE)
-      a.doublings++;
+  most   = FEWER * see_edges (&a);
+  status = fine->weak ? find_islands (&a, fine) : CELD_OK;
+  if (status != CELD_OK)
+    goto done;
+  while (aggregate (&a, doublings) > most)
+    if (*doubled + doublings < WHOLE)
+      doublings++;
     else if (a.strong > 0)
       a.strong = a.strong > 1e-9f ? 0.1f * a.strong : 0;
     else
       break;
-  *doubled += a.doublings;
-  if (*doubled > WHOLE)
-    *doubled = WHOLE;
-  coarse->width  = halved (fine->width, a.doublings);
-  coarse->height = halved (fine->height, a.doublings);
-  status         = number_aggregates (&a, coarse);
+  *doubled = *doubled + doublings < WHOLE ? *doubled + doublings : WHOLE;
+  a.mixed  = celd_alloc (celd_weights_cells (coarse), 1);
+  coarse->row_extra = celd_alloc0 ((size_t) coarse->height + 1, sizeof *coarse->row_extra);
+  status = a.mixed && coarse->row_extra ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = contract (fine, a.link, a.doublings, coarse);
+    status = number_aggregates (&a);
+  if (status == CELD_OK)
+    status = celd_weights_contract (fine, a.link, a.mixed, run, coarse);
 
 done:
   if (status == CELD_OK)
@@ -422,5 +587,9 @@ done:
     }
   celd_free (a.best);
   celd_free (a.parent);
+  celd_free (a.open);
+  celd_free (a.row_most);
+  celd_free (a.row_count);
+  celd_free (a.mixed);
   return status;
 }

@@ -74,29 +74,53 @@ level_new (const CeldWeights *g, CeldLevel *level)
                                                                                                     : CELD_NO_MEMORY;
 }
 
+/* What the rows of a layout need. */
+typedef struct
+{
+  const CeldWeights *graph;
+  const uint32_t    *coarser;   /* of each node of the graph */
+  const CeldLevel   *next;
+  CeldLevel         *level;
+  int                doublings; /* to the next level */
+  bool               pixels;
+  uint32_t          *count;     /* of each row */
+} Layout;
+
+/* Nodes x = odd, odd + 2, ... of a row go to places 1, 2, ...: those whose sums they get in `inverse`. */
+CELD_CLONES static void
+lay_out_places (size_t w, size_t odd, const float *east, const float *south, const float *above, const float *sink,
+                float *inverse, float *held, float *to_east, float *to_west, float *to_south, float *to_north)
+{
+  for (size_t x = odd, at = 0; x < w; x += 2, at++)
+    {
+      float right = east[x], left = x ? east[x - 1] : 0, down = south[x], up = above ? above[x] : 0;
+
+      held[at]    = sink[x];
+      inverse[at] = (up + left) + (right + down);
+      if (!to_east)
+        continue;
+      to_east[at]  = right;
+      to_west[at]  = left;
+      to_south[at] = down;
+      to_north[at] = up;
+    }
+}
+
 /* The edges between first nodes, and the sums of each node's in `inverse`. */
 static void
-lay_out_grid (const CeldWeights *g, CeldLevel *level)
+lay_out_row (void *data, int y)
 {
-  size_t w = (size_t) g->width;
+  const Layout      *o = data;
+  const CeldWeights *g = o->graph;
+  CeldLevel         *level = o->level;
+  size_t             w = (size_t) g->width, i = (size_t) y * w, at = (size_t) (y + 1) * level->stride + 1, odd = y & 1;
+  const float       *above = y ? g->south + i - w : NULL;
 
-  for (int y = 0; y < g->height; y++)
-    for (int x = 0; x < g->width; x++)
-      {
-        size_t i = (size_t) y * w + (size_t) x, row = (size_t) (y + 1) * level->stride + 1, at = row + (size_t) x / 2;
-        size_t place = (x + y) & 1 ? level->plane + at : at;
-        float  east = g->east[i], west = x > 0 ? g->east[i - 1] : 0;
-        float  south = g->south[i], north = y > 0 ? g->south[i - w] : 0;
-
-        level->sink[place]    = g->sink[i];
-        level->inverse[place] = north + west + east + south;
-        if ((x + y) & 1)
-          continue;
-        level->near[at]  = y & 1 ? west : east;
-        level->far[at]   = y & 1 ? east : west;
-        level->north[at] = north;
-        level->south[at] = south;
-      }
+  lay_out_places (w, odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + at, level->sink + at,
+                  (odd ? level->far : level->near) + at, (odd ? level->near : level->far) + at, level->south + at,
+                  level->north + at);
+  lay_out_places (w, !odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + level->plane + at,
+                  level->sink + level->plane + at, NULL, NULL, NULL, NULL);
 }
 
 /* Sorts the edges of an extra node k: those to extra nodes after it go to the end. */
@@ -203,36 +227,91 @@ lay_out_extra (const CeldWeights *g, CeldLevel *level)
   return list_links (level);
 }
 
-static CeldStatus
-lay_out (const CeldWeights *g, CeldLevel *level)
+/* Sums of edges become inverse diagonals; returns how many nodes have an edge. */
+CELD_CLONES static uint32_t
+invert (size_t n, const float *sink, float *inverse)
 {
+  uint32_t linked = 0;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      float full = inverse[i] + sink[i];
+
+      linked    += inverse[i] > 0;
+      inverse[i] = full > 0 ? 1 / full : 0;
+    }
+  return linked;
+}
+
+static void
+invert_row (void *data, int y)
+{
+  const Layout *o = data;
+  CeldLevel    *level = o->level;
+  size_t        at = (size_t) (y + 1) * level->stride, black = level->plane + at;
+
+  o->count[y] = invert (level->stride, level->sink + at, level->inverse + at) +
+                invert (level->stride, level->sink + black, level->inverse + black);
+}
+
+/* *linked: nodes that have an edge. */
+static CeldStatus
+lay_out (const CeldWeights *g, const CeldRun *run, CeldLevel *level, uint32_t *linked)
+{
+  Layout     o = { .graph = g, .level = level, .count = celd_alloc ((size_t) g->height, sizeof *o.count) };
   CeldStatus status = level_new (g, level);
 
-  if (status != CELD_OK)
-    return status;
-  lay_out_grid (g, level);
-  status = lay_out_extra (g, level);
-  for (uint32_t i = 0; i < level->n; i++)
+  if (!o.count)
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
     {
-      float full = level->inverse[i] + level->sink[i];
-
-      level->inverse[i] = full > 0 ? 1 / full : 0;
+      celd_each (run, g->height, lay_out_row, &o);
+      status = lay_out_extra (g, level);
     }
+  if (status == CELD_OK)
+    {
+      celd_each (run, g->height, invert_row, &o);
+      *linked = invert (level->n_extra, level->sink + 2 * level->plane, level->inverse + 2 * level->plane);
+      for (int y = 0; y < g->height; y++)
+        *linked += o.count[y];
+    }
+  celd_free (o.count);
   return status;
 }
 
-/* Where the nodes of a level go on the next one; of pixels only red ones are asked for. */
-static CeldStatus
-lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, bool pixels, const CeldLevel *next, CeldLevel *level)
+/* Where the first nodes of a row go on the next level; of pixels only red ones are asked for. */
+static void
+lay_out_coarser_row (void *data, int y)
 {
-  uint32_t n = (uint32_t) g->width * (uint32_t) g->height, i = 0;
-  size_t   places = pixels ? level->plane : level->n;
+  const Layout   *o = data;
+  const CeldLevel *next = o->next;
+  uint32_t        w = (uint32_t) o->graph->width, cells = (uint32_t) next->width * (uint32_t) next->height;
+  uint32_t        first = (uint32_t) (y >> o->doublings) * (uint32_t) next->width;
+  const uint32_t *coarser = o->coarser + (size_t) y * w;
 
-  if (!(level->coarser = celd_alloc0 (places, sizeof *level->coarser)))
+  for (uint32_t x = o->pixels ? y & 1 : 0; x < w; x += o->pixels ? 2 : 1)
+    {
+      uint32_t to = coarser[x] == CELD_NO_NODE ? 0
+                    : coarser[x] < cells ? celd_level_place (next, (int) (coarser[x] - first), y >> o->doublings)
+                                         : (uint32_t) (2 * next->plane) + coarser[x] - cells;
+
+      o->level->coarser[celd_level_place (o->level, (int) x, y)] = to;
+    }
+}
+
+static CeldStatus
+lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, const CeldRun *run,
+                 const CeldLevel *next, CeldLevel *level)
+{
+  uint32_t n = (uint32_t) g->width * (uint32_t) g->height;
+  bool     pixels = !g->row_extra;
+  Layout   o = {
+    .graph = g, .level = level, .coarser = coarser, .next = next, .doublings = doublings, .pixels = pixels
+  };
+
+  if (!(level->coarser = celd_alloc0 (pixels ? level->plane : level->n, sizeof *level->coarser)))
     return CELD_NO_MEMORY;
-  for (int y = 0; y < g->height; y++, i += (uint32_t) g->width)
-    for (int x = pixels ? y & 1 : 0; x < g->width; x += pixels ? 2 : 1)
-      level->coarser[celd_level_place (level, x, y)] = place_of (next, coarser[i + (uint32_t) x]);
+  celd_each (run, g->height, lay_out_coarser_row, &o);
   for (uint32_t k = 0; k < g->n_extra; k++)
     level->coarser[2 * level->plane + k] = place_of (next, coarser[n + k]);
   return CELD_OK;
@@ -286,30 +365,19 @@ done:
 
 /* ------------------------------------------------------------------ all levels */
 
-/* Nodes with an edge. */
-static uint32_t
-count_linked (const CeldLevel *level)
-{
-  uint32_t linked = 0;
-
-  for (uint32_t i = 0; i < level->n; i++)
-    linked += level->inverse[i] > 0 && level->inverse[i] * level->sink[i] < 1;
-  return linked;
-}
-
 /* The next graph, and the way there. */
 static CeldStatus
-coarsen (CeldWeights *graph, bool pixels, int *doubled, CeldLevel *level)
+coarsen (CeldWeights *graph, const CeldRun *run, int *doubled, CeldLevel *level)
 {
-  CeldWeights  coarse;
-  CeldLevel  next;
-  uint32_t  *coarser = NULL;
-  CeldStatus status  = celd_weights_coarsen (graph, doubled, &coarse, &coarser);
+  CeldWeights coarse;
+  CeldLevel   next;
+  uint32_t   *coarser = NULL;
+  CeldStatus  status  = celd_weights_coarsen (graph, run, doubled, &coarse, &coarser);
 
   if (status != CELD_OK)
     return status;
   next   = level_shape (&coarse);
-  status = lay_out_coarser (graph, coarser, pixels, &next, level);
+  status = lay_out_coarser (graph, coarser, coarse.doublings, run, &next, level);
   celd_free (coarser);
   celd_weights_clear (graph);
   *graph = coarse;
@@ -321,21 +389,21 @@ celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels)
 {
   int        doubled = 0;
   bool       last    = false;
+  uint32_t   linked;
   CeldStatus status  = CELD_OK;
 
   *levels = (CeldLevels) { 0 };
   while (status == CELD_OK && !last)
     {
-      bool       pixels = levels->n == 0;
-      CeldLevel *level  = &levels->level[levels->n++];
+      CeldLevel *level = &levels->level[levels->n++];
 
       status = celd_step (run, doubled / 15.);
       if (status == CELD_OK)
-        status = lay_out (graph, level);
+        status = lay_out (graph, run, level, &linked);
       if (status != CELD_OK)
         break;
-      last   = levels->n == CELD_MAX_LEVELS || (!pixels && count_linked (level) <= BOTTOM);
-      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, pixels, &doubled, level);
+      last   = levels->n == CELD_MAX_LEVELS || (levels->n > 1 && linked <= BOTTOM);
+      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, run, &doubled, level);
     }
   if (status != CELD_OK)
     celd_levels_clear (levels);

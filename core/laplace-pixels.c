@@ -23,7 +23,7 @@ typedef struct
   CeldSolution    *s;
   const CeldLevel *level;
   float            alpha[CELD_LANES], beta[CELD_LANES];
-  bool             step;        /* is there a step to take? */
+  bool             step;        /* is there a step to take first? */
   int              phase;
 } Pass;
 
@@ -47,7 +47,8 @@ celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float 
       return CELD_NO_MEMORY;
   s->row     = celd_alloc ((size_t) laplace->height, SUMS * CELD_LANES * sizeof *s->row);
   s->scratch = celd_alloc0 ((size_t) strips (laplace) * 3 * level->stride, (size_t) lanes * sizeof *s->scratch);
-  return s->row && s->scratch ? celd_coarse_new (&laplace->levels, lanes, run, &s->cycle) : CELD_NO_MEMORY;
+  s->side    = celd_alloc ((size_t) strips (laplace) * level->stride, (size_t) lanes * sizeof *s->side);
+  return s->row && s->scratch && s->side ? celd_coarse_new (&laplace->levels, lanes, run, &s->cycle) : CELD_NO_MEMORY;
 }
 
 void
@@ -62,6 +63,7 @@ celd_solution_free (CeldSolution *s)
   celd_free (s->black);
   celd_free (s->row);
   celd_free (s->scratch);
+  celd_free (s->side);
   celd_coarse_free (&s->cycle);
 }
 
@@ -156,6 +158,7 @@ restrict_row (const Pass *pass, int y, int lanes)
     }
 }
 
+SWEEP (pixels_step, 1, step_row, nothing, nothing, nothing)
 SWEEP (pixels_down, 3, step_row, guess_row, restrict_row, nothing)
 
 /* ------------------------------------------------------------------ up: the second half, and S z */
@@ -264,10 +267,18 @@ SWEEP (pixels_up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
   celd_sweep ((pass)->s->run, (pass)->level->height, stages, \
               (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass, &(pass)->phase)
 
+/* A pass with these coefficients of a step, or without one. */
 static Pass
-pass_of (CeldSolution *s)
+pass_of (CeldSolution *s, const double *alpha, const double *beta)
 {
-  return (Pass) { .s = s, .level = &s->laplace->levels.level[0] };
+  Pass pass = { .s = s, .level = &s->laplace->levels.level[0], .step = alpha != NULL };
+
+  for (int k = 0; k < s->lanes && alpha; k++)
+    {
+      pass.alpha[k] = (float) alpha[k];
+      pass.beta[k]  = (float) beta[k];
+    }
+  return pass;
 }
 
 /* Sums, or the largest, of what rows have kept. */
@@ -289,14 +300,14 @@ gather (const CeldSolution *s, int which, bool largest, double *result)
 void
 celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m)
 {
-  Pass              pass = pass_of (s);
+  Pass              pass = pass_of (s, alpha, beta);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
 
-  pass.step = alpha != NULL;
-  for (int k = 0; k < s->lanes && alpha; k++)
+  if (fresh)
     {
-      pass.alpha[k] = (float) alpha[k];
-      pass.beta[k]  = (float) beta[k];
+      RUN_SWEEP (&pass, 1, pixels_step);
+      celd_pixels_refresh (s);
+      pass.step = false;
     }
   memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
   RUN_SWEEP (&pass, 3, pixels_down);
@@ -306,13 +317,6 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
       gather (s, 1, true, m->high);
       for (int k = 0; k < s->lanes; k++)
         m->low[k] = -m->low[k];
-    }
-  if (fresh)
-    {
-      celd_pixels_refresh (s);
-      pass.step = false;
-      memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-      RUN_SWEEP (&pass, 3, pixels_down);
     }
   celd_coarse_solve (&s->cycle);
   RUN_SWEEP (&pass, 1, pixels_correct);

@@ -13,67 +13,51 @@ typedef struct
 {
   CeldSolution    *s;
   const CeldLevel *level;
+  bool             begin;       /* what has no edge is done at once */
   bool             deliver;     /* the result, rather than the residual */
   int              phase;
 } Pass;
 
-/* Row y of the caller's right-hand side, of one colour. */
+/* ------------------------------------------------------------------ right-hand sides */
+
+/* The right-hand side of the pixels of one colour in row y. */
 CELD_INLINE void
-place_rhs_row (CeldSolution *s, int y, int colour, int lanes)
+place_rhs_row (const CeldSolution *s, int y, int colour, float *out, int lanes)
 {
   const CeldLaplace *l = s->laplace;
   const CeldLevel   *level = &l->levels.level[0];
-  size_t             many = (size_t) lanes, place = (size_t) (y + 1) * level->stride + 1;
-  const float       *inverse = level->inverse + (colour ? level->plane : 0);
-  float             *out = colour ? s->black : s->r;
+  size_t             many = (size_t) lanes, w = (size_t) l->width, first = (size_t) y * w;
+  const float       *inverse = level->inverse + (colour ? level->plane : 0) + (size_t) (y + 1) * level->stride;
 
-  for (int x = (y + colour) & 1; x < l->width; x += 2, place++)
+  memset (out, 0, level->stride * many * sizeof *out);
+  for (size_t x = (size_t) (y + colour) & 1, at = 1; x < w && s->b; x += 2, at++)
+    for (size_t k = 0; k < many; k++)
+      out[at * many + k] = inverse[at] > 0 ? s->b[(first + x) * many + k] : 0;
+  for (size_t f = s->b_mean ? l->floating_row[y] : 0; s->b_mean && f < l->floating_row[y + 1]; f++)
+    for (size_t x = l->floating[f].first - first; x < l->floating[f].end - first; x++)
+      for (size_t k = 0; k < many && (int) ((x + (size_t) y) & 1) == colour; k++)
+        out[(x / 2 + 1) * many + k] = (float) ((double) s->b[(first + x) * many + k] -
+                                               s->b_mean[l->floating[f].component * many + k]);
+  for (size_t h = l->held_row[y]; h < l->held_row[y + 1]; h++)
     {
-      size_t pixel = (size_t) y * (size_t) l->width + (size_t) x;
+      size_t x = l->held[h].free - first;
 
-      for (size_t k = 0; k < many && inverse[place] > 0; k++)
-        out[place * many + k] = s->b_mean ? (float) ((double) s->b[pixel * many + k] -
-                                                     s->b_mean[l->floating[pixel] * many + k])
-                                          : s->b[pixel * many + k];
+      for (size_t k = 0; k < many && (int) ((x + (size_t) y) & 1) == colour; k++)
+        out[(x / 2 + 1) * many + k] += l->held[h].weight * s->user[l->held[h].fixed * many + k];
     }
 }
 
-/* Right-hand sides: those of red pixels to r, of black ones to `black`. */
-static void
-place_rhs (CeldSolution *s)
-{
-  const CeldLaplace *l = s->laplace;
-  const CeldLevel   *level = &l->levels.level[0];
-  size_t             many = (size_t) s->lanes;
-
-  memset (s->r, 0, level->plane * many * sizeof *s->r);
-  memset (s->black, 0, level->plane * many * sizeof *s->black);
-  for (int y = 0; y < l->height && s->b; y++)
-    for (int colour = 0; colour < 2; colour++)
-      if (s->lanes == 1)
-        place_rhs_row (s, y, colour, 1);
-      else
-        place_rhs_row (s, y, colour, CELD_LANES);
-  for (size_t h = 0; h < l->n_held; h++)
-    {
-      uint32_t w = (uint32_t) l->width, pixel = l->held[h].free;
-      uint32_t place = celd_level_place (level, (int) (pixel % w), (int) (pixel / w));
-      float   *out = place < level->plane ? s->r + place * many : s->black + (place - level->plane) * many;
-
-      for (size_t k = 0; k < many; k++)
-        out[k] += l->held[h].weight * s->user[l->held[h].fixed * many + k];
-    }
-}
+/* ------------------------------------------------------------------ rows */
 
 #define WIDE(v, i) __builtin_convertvector (EIGHT (v, i), Eight)
 #define WIDE_WEIGHT(w, i) __builtin_convertvector (WEIGHT (w, i), Eight)
 
-/* The numbers of the black pixels of row y, from `black`, their right-hand side; nothing outside the picture. */
+/* The numbers of the black pixels of row y; nothing outside the picture.  b: workspace for their right-hand side. */
 CELD_INLINE void
-solve_black_row (const Pass *pass, int y, double *out, int lanes)
+solve_black_row (const Pass *pass, int y, float *b, double *out, int lanes)
 {
   const CeldLevel *level = pass->level;
-  const float     *x = pass->s->x, *b = pass->s->black, *sink = level->sink + level->plane;
+  const float     *x = pass->s->x, *sink = level->sink + level->plane;
   size_t           first = (size_t) (y + 1) * level->stride;
 
   if (y < 0 || y >= level->height)
@@ -81,22 +65,23 @@ solve_black_row (const Pass *pass, int y, double *out, int lanes)
       memset (out, 0, level->stride * (size_t) lanes * sizeof *out);
       return;
     }
+  place_rhs_row (pass->s, y, 1, b, lanes);
   for (EACH_PLACE (level, y, i))
     {
       size_t beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
       Eight  near = WIDE_WEIGHT (level->near, i), far = WIDE_WEIGHT (level->far, beside);
       Eight  south = WIDE_WEIGHT (level->south, above), north = WIDE_WEIGHT (level->north, below);
       Eight  whole = WIDE_WEIGHT (sink, i) + near + far + south + north;
-      Eight  sum = WIDE (b, i) + near * WIDE (x, i) + far * WIDE (x, beside) + south * WIDE (x, above) +
+      Eight  sum = WIDE (b, i - first) + near * WIDE (x, i) + far * WIDE (x, beside) + south * WIDE (x, above) +
                   north * WIDE (x, below);
 
       for (int k = 0; k < 8; k++)
-        sum[k] = whole[k] > 0 ? sum[k] / whole[k] : 0;
-      *(Loose *) (out + (i - first) * (size_t) lanes) = sum;
+        whole[k] = whole[k] > 0 ? whole[k] : 1; /* the sum is 0 then */
+      *(Loose *) (out + (i - first) * (size_t) lanes) = sum / whole;
     }
 }
 
-/* r of row y, in which its right-hand side is, from the black rows round it. */
+/* r of row y, from the black rows round it. */
 CELD_INLINE void
 residual_row (const Pass *pass, int y, const double *above, const double *here, const double *below, int lanes)
 {
@@ -105,6 +90,7 @@ residual_row (const Pass *pass, int y, const double *above, const double *here, 
   float           *r = pass->s->r;
   size_t           first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
 
+  place_rhs_row (pass->s, y, 0, r + first * many, lanes);
   for (EACH_PLACE (level, y, i))
     {
       size_t at = i - first;
@@ -117,6 +103,28 @@ residual_row (const Pass *pass, int y, const double *above, const double *here, 
       sum += WIDE_WEIGHT (level->south, i) * (*(const Loose *) (below + at * many) - red);
       PUT (r, i, __builtin_convertvector (sum, CeldEight));
     }
+}
+
+static inline bool
+has_edge (const CeldLevel *level, size_t i)
+{
+  return level->near[i] > 0 || level->far[i] > 0 || level->north[i] > 0 || level->south[i] > 0;
+}
+
+/* Pixels of row y without an edge: their residual goes at once.  Others have no coarser node either. */
+CELD_INLINE void
+settle_row (const Pass *pass, int y, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  float           *x = pass->s->x, *r = pass->s->r;
+  size_t           many = (size_t) lanes, first = (size_t) (y + 1) * level->stride + 1;
+
+  for (size_t i = first; i < first + (size_t) level->half; i++)
+    for (size_t k = i * many; k < (i + 1) * many && !level->coarser[i] && !has_edge (level, i); k++)
+      {
+        x[k] += level->inverse[i] * r[k];
+        r[k] = 0;
+      }
 }
 
 /* The caller's row y. */
@@ -145,6 +153,7 @@ residual (void *data, int strip, int lanes)
   const CeldLevel *level = pass->level;
   size_t           size = level->stride * (size_t) lanes;
   double          *ring = pass->s->scratch + (size_t) strip * 3 * size;
+  float           *side = pass->s->side + (size_t) strip * size;
   int              from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < level->height ? end : level->height;
 
   for (int y = from - 1; y <= to; y++)
@@ -153,12 +162,46 @@ residual (void *data, int strip, int lanes)
 
       for (int k = 0; k < 3; k++) /* rows y-2, y-1, y */
         row[k] = ring + (size_t) ((y + 4 + k) % 3) * size;
-      solve_black_row (pass, y, row[2], lanes);
+      solve_black_row (pass, y, side, row[2], lanes);
       if (pass->deliver && y >= from && y < to)
         deliver_row (pass, y, row[2], lanes);
       if (!pass->deliver && y > from)
         residual_row (pass, y - 1, row[0], row[1], row[2], lanes);
     }
+  for (int y = from; y < to && pass->begin; y++)
+    settle_row (pass, y, lanes);
+}
+
+/* The red pixels of a strip, from the caller's. */
+CELD_INLINE void
+read_strip (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  size_t           many = (size_t) lanes, w = (size_t) level->width;
+  int              from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < level->height ? end : level->height;
+
+  for (int y = from; y < to; y++)
+    {
+      const float *in = pass->s->user + (size_t) y * w * many;
+      size_t       place = (size_t) (y + 1) * level->stride + 1;
+
+      for (size_t x = (size_t) y & 1; x < w; x += 2, place++)
+        for (size_t k = 0; k < many; k++)
+          pass->s->x[place * many + k] = level->inverse[place] > 0 ? in[x * many + k] : 0;
+    }
+}
+
+CELD_CLONES static void
+read_strip_single (void *data, int strip)
+{
+  read_strip (data, strip, 1);
+}
+
+CELD_CLONES static void
+read_strip_lanes (void *data, int strip)
+{
+  read_strip (data, strip, CELD_LANES);
 }
 
 CELD_CLONES static void
@@ -176,52 +219,28 @@ residual_lanes (void *data, int strip)
 /* ------------------------------------------------------------------ the passes */
 
 static void
-run (Pass *pass)
+run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
 {
-  celd_sweep (pass->s->run, pass->level->height, 1, pass->s->lanes == 1 ? residual_single : residual_lanes, pass,
-              &pass->phase);
+  celd_sweep (pass->s->run, pass->level->height, 1, pass->s->lanes == 1 ? single : lanes, pass, &pass->phase);
 }
 
 void
 celd_pixels_refresh (CeldSolution *s)
 {
-  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
-
-  place_rhs (s);
-  run (&pass);
+  run (&(Pass) { .s = s, .level = &s->laplace->levels.level[0] }, residual_single, residual_lanes);
 }
 
 void
 celd_pixels_begin (CeldSolution *s)
 {
-  const CeldLaplace *l = s->laplace;
-  const CeldLevel   *level = &l->levels.level[0];
-  size_t             many = (size_t) s->lanes;
+  Pass pass = { .s = s, .level = &s->laplace->levels.level[0], .begin = true };
 
-  for (int y = 0; y < l->height; y++)
-    for (int x = y & 1; x < l->width; x += 2)
-      {
-        size_t place = celd_level_place (level, x, y);
-
-        for (size_t k = 0; k < many && level->inverse[place] > 0; k++)
-          s->x[place * many + k] = s->user[((size_t) y * (size_t) l->width + (size_t) x) * many + k];
-      }
-  celd_pixels_refresh (s);
-  for (size_t i = 0; i < level->plane; i++) /* what has no edge is done */
-    if (!level->coarser[i])
-      for (size_t k = 0; k < many; k++)
-        {
-          s->x[i * many + k] += level->inverse[i] * s->r[i * many + k];
-          s->r[i * many + k] = 0;
-        }
+  run (&pass, read_strip_single, read_strip_lanes);
+  run (&pass, residual_single, residual_lanes);
 }
 
 void
 celd_pixels_deliver (CeldSolution *s)
 {
-  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
-
-  place_rhs (s);
-  pass.deliver = true;
-  run (&pass);
+  run (&(Pass) { .s = s, .level = &s->laplace->levels.level[0], .deliver = true }, residual_single, residual_lanes);
 }

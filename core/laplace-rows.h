@@ -72,8 +72,6 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
  * as its own rows allow; the rows beside borders of strips follow in rounds of their own.  So threads share strips, and
  * none can change the result. */
 
-#define CELD_STRIP 32 /* rows; a multiple of what cells have, unless a level says otherwise */
-
 /* May stage `stage` take this row of the strip from .. to-1 before the other strips are done? */
 static inline bool
 celd_row_ready (int row, int from, int to, int height, int stage)

@@ -18,9 +18,9 @@
 #include <math.h>
 
 #define MOST_ROUNDS  200
-#define RENEW        3          /* rounds after which the residual is made anew: what float loses in it misleads */
+#define RENEW        6          /* rounds after which the residual is made anew: what float loses in it misleads, ... */
+#define RENEW_WEAK   3          /* ... the more where weak links make much of it */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
-
 
 /* ------------------------------------------------------------------ pinned pixels */
 
@@ -66,56 +66,6 @@ celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float
 
 /* ------------------------------------------------------------------ set-up */
 
-/* Cuts the edge of weight *w between pixels i and j, of which one is fixed at least, and notes what it couples. */
-static CeldStatus
-hold (CeldLaplace *l, CeldWeights *g, float *w, size_t i, size_t j, const uint8_t *fixed)
-{
-  size_t held = fixed[i] ? i : j, other = fixed[i] ? j : i;
-
-  if (!fixed[other])
-    {
-      CeldHeld *more = celd_grow (l->held, l->n_held + 1, sizeof *more);
-
-      if (!more)
-        return CELD_NO_MEMORY;
-      l->held               = more;
-      l->held[l->n_held++]  = (CeldHeld) { (uint32_t) other, (uint32_t) held, *w };
-      g->sink[other] += *w;
-    }
-  *w = 0;
-  return CELD_OK;
-}
-
-/* The pixels as a graph, without the fixed ones; what is not a positive number is no weight. */
-static CeldStatus
-copy_system (const float *east, const float *south, const float *diagonal, const uint8_t *fixed, CeldLaplace *l,
-             CeldWeights *g)
-{
-  size_t     w = (size_t) l->width, n = w * (size_t) l->height;
-  CeldStatus status = CELD_OK;
-
-  *g = (CeldWeights) { .width = l->width, .height = l->height, .east = celd_alloc (n, sizeof *g->east),
-                     .south = celd_alloc (n, sizeof *g->south), .sink = celd_alloc (n, sizeof *g->sink) };
-  if (!g->east || !g->south || !g->sink)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < n; i++)
-    {
-      g->east[i]  = east[i] > 0 ? east[i] : 0;
-      g->south[i] = i + w < n && south[i] > 0 ? south[i] : 0;
-      g->sink[i]  = diagonal && diagonal[i] > 0 && !(fixed && fixed[i]) ? diagonal[i] : 0;
-    }
-  for (size_t i = w - 1; i < n; i += w)
-    g->east[i] = 0;
-  for (size_t i = 0; i < n && fixed && status == CELD_OK; i++)
-    {
-      if (g->east[i] > 0 && (fixed[i] || fixed[i + 1]))
-        status = hold (l, g, &g->east[i], i, i + 1, fixed);
-      if (g->south[i] > 0 && (fixed[i] || fixed[i + w]) && status == CELD_OK)
-        status = hold (l, g, &g->south[i], i, i + w, fixed);
-    }
-  return status;
-}
-
 CeldStatus
 celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
                 const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace)
@@ -130,12 +80,12 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
   l->height = height;
   status    = celd_step (run, 0);
   if (status == CELD_OK)
-    status = copy_system (east, south, diagonal, fixed, l, &graph);
+    status = celd_system_copy (east, south, diagonal, fixed, run, l, &graph);
   if (status == CELD_OK)
     status = celd_floating_find (&graph, l);
   if (status == CELD_OK)
     {
-      l->direct = celd_is_direct (&graph);
+      l->direct = celd_is_direct (&graph, l->weak);
       status    = l->direct ? celd_direct_new (&graph, l) : celd_levels_new (&graph, run, &l->levels);
     }
   celd_weights_clear (&graph);
@@ -155,7 +105,9 @@ celd_lap_free (CeldLaplace *laplace)
   celd_levels_clear (&laplace->levels);
   celd_free (laplace->keep);
   celd_free (laplace->held);
+  celd_free (laplace->held_row);
   celd_free (laplace->floating);
+  celd_free (laplace->floating_row);
   celd_free (laplace->floating_size);
   celd_free (laplace);
 }
@@ -241,6 +193,8 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
   double      done = 0, first = 0, alpha[CELD_LANES], beta[CELD_LANES];
   CeldMeasure m;
 
+  int         renew = s->laplace->weak ? RENEW_WEAK : RENEW;
+
   most = most && most < MOST_ROUNDS ? most : MOST_ROUNDS;
   celd_pixels_begin (s);
   for (int k = 0; k < s->lanes; k++)
@@ -249,7 +203,7 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
     {
       bool all = true;
 
-      celd_pixels_round (s, round ? alpha : NULL, beta, round && round % RENEW == 0, &m);
+      celd_pixels_round (s, round ? alpha : NULL, beta, round && round % renew == 0, &m);
       solve->iterations = round;
       solve->error      = 0;
       for (int k = 0; k < s->lanes; k++)

@@ -23,6 +23,11 @@ void       celd_band_eliminate (CeldBand *matrix);
 void       celd_band_solve (const CeldBand *matrix, int lanes, double *x);
 void       celd_band_clear (CeldBand *matrix);                            /* accepts a zeroed one */
 
+#define CELD_STRIP 32 /* rows that a thread takes; a multiple of what cells have, unless a level says otherwise */
+
+/* The bits of a number; positive ones are in the order of their bits, and loops over these are vectors'. */
+typedef uint32_t CeldBits __attribute__ ((may_alias));
+
 /* ------------------------------------------------------------------ laplace-graph.c: aggregation */
 
 #define CELD_NO_NODE UINT32_MAX
@@ -33,17 +38,22 @@ void       celd_band_clear (CeldBand *matrix);                            /* acc
 typedef struct
 {
   int       width, height;
+  int       doublings;          /* of cells since the graph before */
   uint32_t  n_extra;
   float    *east, *south;
   float    *sink;               /* of every node: diagonal beyond the edge weights */
-  uint32_t *cell;               /* of each extra node */
+  uint32_t *cell;               /* of each extra node, row by row */
+  uint32_t *row_extra;          /* where the extra nodes of each row begin; NULL for pixels */
+  bool      weak;               /* of pixels: do weights differ very much? */
+  uint8_t  *island;             /* of each node: part of a small island among weak links, parted by cells; or NULL */
   uint32_t *start, *neighbour;
   float    *weight;
 } CeldWeights;
 
-/* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge.  *doubled counts
- * how often cells have been doubled since the pixels. */
-CeldStatus celd_weights_coarsen (const CeldWeights *fine, int *doubled, CeldWeights *coarse, uint32_t **coarser);
+/* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge and for those that
+ * their sink holds, whose edges `fine` loses.  *doubled counts how often cells have been doubled since the pixels. */
+CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, int *doubled, CeldWeights *coarse,
+                                 uint32_t **coarser);
 void       celd_weights_clear (CeldWeights *graph);                           /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ laplace-levels.c: what is solved on */
@@ -118,28 +128,45 @@ void       celd_coarse_solve (CeldCoarse *cycle);
 /* The coupling of a free pixel with a fixed one. */
 typedef struct { uint32_t free, fixed; float weight; } CeldHeld;
 
+/* Pixels first .. end-1 of a row, of a floating component from 1. */
+typedef struct { uint32_t first, end, component; } CeldFloating;
+
 struct CeldLaplace
 {
-  int         width, height;
-  CeldHeld   *held;
-  size_t      n_held;
-  uint32_t   *floating;         /* of each pixel: its floating component from 1, or 0; NULL if none */
-  size_t     *floating_size;    /* pixels of each floating component */
-  uint32_t    n_floating;
-  bool        direct;           /* by elimination of `band`, without levels */
-  CeldBand    band;
-  uint8_t    *keep;             /* of each pixel, if direct: does nothing tell its x? */
-  CeldLevels  levels;
+  int           width, height;
+  CeldHeld     *held;           /* in the order of the rows of the free pixels */
+  size_t       *held_row;       /* where the rows begin in `held` */
+  CeldFloating *floating;       /* in the order of the rows; NULL if none */
+  size_t       *floating_row;   /* where they begin */
+  size_t       *floating_size;  /* pixels of each floating component */
+  uint32_t      n_floating;
+  bool          weak;           /* do weights differ very much? */
+  bool          direct;         /* by elimination of `band`, without levels */
+  CeldBand      band;
+  uint8_t      *keep;           /* of each pixel, if direct: does nothing tell its x? */
+  CeldLevels    levels;
 };
+
+/* ------------------------------------------------------------------ laplace-system.c: what a caller asks for */
+
+/* The graph of the free pixels; `held`, `held_row` and `weak` of the system. */
+CeldStatus celd_system_copy (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
+                             const CeldRun *run, CeldLaplace *laplace, CeldWeights *graph);
 
 /* ------------------------------------------------------------------ laplace-direct.c: small systems */
 
-bool       celd_is_direct (const CeldWeights *pixels);    /* is elimination worth while? */
+bool       celd_is_direct (const CeldWeights *pixels, bool weak);      /* is elimination worth while? */
 CeldStatus celd_direct_new (const CeldWeights *pixels, CeldLaplace *laplace);
 /* b may be NULL; b_mean: what to leave out of it in floating components, NULL if there are none. */
 CeldStatus celd_direct_solve (const CeldLaplace *laplace, int lanes, const float *b, const double *b_mean, float *x);
 
 /* ------------------------------------------------------------------ laplace-floating.c: parts that nothing holds */
+
+static inline size_t
+celd_floating_runs (const CeldLaplace *laplace)
+{
+  return laplace->n_floating ? laplace->floating_row[laplace->height] : 0;
+}
 
 /* Finds the floating components of more than one pixel. */
 CeldStatus celd_floating_find (const CeldWeights *pixels, CeldLaplace *laplace);
@@ -165,6 +192,7 @@ typedef struct
   float             *black;     /* workspace of the black pixels */
   double            *row;       /* sums of each row */
   double            *scratch;   /* rows of each strip */
+  float             *side;      /* a row's right-hand side, of each strip */
   CeldCoarse          cycle;
 } CeldSolution;
 

@@ -284,55 +284,80 @@ give_up_shares (const CeldBases *b, const double *a, const float *basis)
     }
 }
 
-/* Node n + 1 at pixel p, with the basis in g. */
-static CeldStatus
-insert (CeldBases *b, size_t p, const float *g, const CeldRun *run)
+/* Memory for more nodes, so that nothing fails while they are put in. */
+typedef struct
 {
-  size_t     n = b->n;
-  double    *k = celd_alloc ((n + 1) * (n + 1), sizeof *k), *a = celd_alloc (n, 2 * sizeof *a), *with = a + n, own;
-  size_t    *pixel = celd_grow (b->pixel, n - b->n_sets + 1, sizeof *pixel);
-  CeldStatus status = CELD_NO_MEMORY;
+  float  *basis;                /* a plane for each */
+  double *stiffness;            /* the matrices one after the other */
+  double *share, *with, *work;
+} Room;
 
-  if (pixel)
-    b->pixel = pixel;
-  if (k && a && pixel)
-    status = grow_groups (b, groups_for ((uint32_t) n + 1));
-  if (status == CELD_OK)
-    status = celd_stiffness_of (b, g, run, with, &own);
-  if (status == CELD_OK)
-    {
-      a[0] = 1;
-      for (uint32_t i = 2; i <= n; i++)
-        {
-          a[i - 1] = (double) lane_of (b, i)[p * CELD_LANES];
-          a[0]    -= a[i - 1];
-        }
-      extend_stiffness (b, a, with, own, k);
-      give_up_shares (b, a, g);
-      celd_free (b->stiffness);
-      b->stiffness = k;
-      k = NULL;
-      b->pixel[n - b->n_sets] = p;
-      b->node[p] = ++b->n;
-    }
-  celd_free (k);
-  celd_free (a);
-  return status;
+static void
+room_clear (Room *room)
+{
+  celd_free (room->basis);
+  celd_free (room->stiffness);
+  celd_free (room->share);
 }
 
-CeldStatus
-celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldRun *run,
-                CeldSolve *solve)
+static CeldStatus
+room_new (CeldBases *b, size_t n_points, Room *room)
 {
-  size_t       pixels = (size_t) bases->width * (size_t) bases->height;
-  float       *source = celd_alloc0 (pixels, sizeof *source), *g = celd_alloc (pixels, sizeof *g);
+  size_t pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
+
+  *room = (Room) {
+    celd_alloc (pixels, n_points * sizeof (float)), celd_alloc (n * n, n_points * sizeof (double)),
+    celd_alloc (2 * n + celd_stiffness_room (n), sizeof (double)), NULL, NULL
+  };
+  if (!room->basis || !room->stiffness || !room->share)
+    return CELD_NO_MEMORY;
+  for (size_t i = b->n - b->n_sets + 1; i <= n - b->n_sets; i++)
+    {
+      size_t *pixel = celd_grow (b->pixel, i, sizeof *pixel);
+
+      if (!pixel)
+        return CELD_NO_MEMORY;
+      b->pixel = pixel;
+    }
+  room->with = room->share + n;
+  room->work = room->with + n;
+  return grow_groups (b, groups_for ((uint32_t) n));
+}
+
+/* Node n + 1 at pixel p, with the basis in g; k: for its stiffness. */
+static void
+insert (CeldBases *b, size_t p, const float *g, const CeldRun *run, Room *room, double *k)
+{
+  size_t  n = b->n;
+  double *a = room->share, own;
+
+  celd_stiffness_of (b, g, run, room->work, room->with, &own);
+  a[0] = 1;
+  for (uint32_t i = 2; i <= n; i++)
+    {
+      a[i - 1] = (double) lane_of (b, i)[p * CELD_LANES];
+      a[0]    -= a[i - 1];
+    }
+  extend_stiffness (b, a, room->with, own, k);
+  give_up_shares (b, a, g);
+  b->stiffness = k;
+  b->pixel[n - b->n_sets] = p;
+  b->node[p] = ++b->n;
+}
+
+/* The answers to sources at the points. */
+static CeldStatus
+solve_points (const CeldBases *b, const size_t *point, size_t n_points, double tolerance, const CeldRun *run,
+              float *g, CeldSolve *solve)
+{
+  size_t       pixels = (size_t) b->width * (size_t) b->height;
+  float       *source = celd_alloc0 (pixels, sizeof *source);
   CeldLaplace *laplace = NULL;
   CeldPart     part;
   CeldRun      setting_up = celd_run_part (&part, run, 0, 0.3);
-  CeldStatus   status = source && g ? set_up (bases, &setting_up, &laplace) : CELD_NO_MEMORY;
+  CeldStatus   status = source ? set_up (b, &setting_up, &laplace) : CELD_NO_MEMORY;
 
-  solve->converged = true;
-  for (size_t i = 0; i < n_points && status == CELD_OK; i++)
+  for (size_t i = 0; i < n_points && status == CELD_OK; i++, g += pixels)
     {
       CeldPart  share;
       CeldRun   solving = celd_run_part (&share, run, 0.3 + 0.7 * (double) i / (double) n_points,
@@ -343,16 +368,44 @@ celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double t
       source[point[i]] = 1;
       status = celd_lap_solve (laplace, 1, source, g, tolerance, &solving, &one);
       source[point[i]] = 0;
-      if (status == CELD_OK)
-        {
-          make_basis (bases, point[i], g);
-          status = insert (bases, point[i], g, run);
-        }
       take_worst (solve, &one);
     }
   celd_lap_free (laplace);
   celd_free (source);
-  celd_free (g);
+  return status;
+}
+
+CeldStatus
+celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldRun *run,
+                CeldSolve *solve)
+{
+  CeldBases *b = bases;
+  size_t     pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
+  Room       room;
+  double    *k, *old = b->stiffness;
+  CeldStatus status = room_new (b, n_points, &room);
+
+  solve->converged = true;
+  if (status == CELD_OK)
+    status = solve_points (b, point, n_points, tolerance, run, room.basis, solve);
+  k = status == CELD_OK ? celd_alloc (n * n, sizeof *k) : NULL;
+  if (k)
+    {
+      for (size_t i = 0; i < n_points; i++)
+        {
+          float *g = room.basis + i * pixels;
+
+          make_basis (b, point[i], g);
+          insert (b, point[i], g, run, &room, i + 1 < n_points ? room.stiffness + i * n * n : k);
+        }
+      celd_free (old);
+    }
+  else
+    {
+      shrink_groups (b, groups_for (b->n));
+      status = status == CELD_OK ? CELD_NO_MEMORY : status;
+    }
+  room_clear (&room);
   return status;
 }
 

@@ -203,14 +203,20 @@ multiply_band (void *data, int band)
     }
 }
 
-CeldStatus
-celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run, double *with, double *own)
+size_t
+celd_stiffness_room (size_t n)
+{
+  return BANDS * (n + CELD_LANES);
+}
+
+void
+celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run, double *room, double *with,
+                   double *own)
 {
   size_t   lanes = bases->n_groups * CELD_LANES;
-  Products s = { bases, basis, celd_alloc0 (BANDS * (lanes + 1), sizeof (double)) };
+  Products s = { bases, basis, room };
 
-  if (!s.sum)
-    return CELD_NO_MEMORY;
+  memset (room, 0, BANDS * (lanes + 1) * sizeof *room);
   celd_each (run, BANDS, multiply_band, &s);
   for (size_t band = 1; band < BANDS; band++)
     for (size_t i = 0; i <= lanes; i++)
@@ -222,6 +228,4 @@ celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *ru
       with[0] -= with[k];
     }
   *own = s.sum[lanes];
-  celd_free (s.sum);
-  return CELD_OK;
 }

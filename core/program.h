@@ -10,7 +10,8 @@
 /* ------------------------------------------------------------------ affinity.c: the weights of edges */
 
 /* The weights w_pq of eq. (1), least `floor`, for celd_lap_setup: tight planes of the size of the ink, zero where the
- * picture ends.  sigma is `contrast` times the mean of (I_p - I_q)^2 over all pairs of neighbours, as *mean tells. */
+ * picture ends.  I_p - I_q is the contrast round p or round q, 3 x 3 pixels, whichever is less; sigma is `contrast`
+ * times the mean of the plain (I_p - I_q)^2 over all pairs of neighbours, as *mean tells. */
 CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRun *run,
                             float *east, float *south, double *mean);
 
@@ -41,7 +42,7 @@ CeldStatus celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_s
                             size_t n_points, double tolerance, const CeldRun *run, CeldSolve *solve);
 
 /* One more node for each of these pixels, which are in none: one solution each.  After a failure the nodes are those
- * before, perhaps with some of the new ones. */
+ * before. */
 CeldStatus celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance,
                            const CeldRun *run, CeldSolve *solve);
 
@@ -60,9 +61,11 @@ CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const Ce
  * result a little, to second order, but never breaks a constraint. */
 CeldStatus celd_stiffness (CeldBases *bases, const CeldRun *run);
 
-/* The energies of one more basis, a tight plane: with each of the n bases, and of its own. */
-CeldStatus celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run,
+/* The energies of one more basis, a tight plane: with each of the n bases, and of its own.  room: as many numbers as
+ * celd_stiffness_room says for so many nodes or more. */
+void       celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run, double *room,
                               double *with, double *own);
+size_t     celd_stiffness_room (size_t n);
 
 /* ------------------------------------------------------------------ quadratic.c: the program of a few nodes */
 

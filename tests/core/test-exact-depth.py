@@ -136,7 +136,8 @@ class Exact(unittest.TestCase):
                     if upper - lower > 1e-9 * upper:
                         continue
                     judged += 1
-                    self.assertLessEqual(ours.energy, upper * (1 + 1e-8))
+                    # Bases are floats: where neighbours hold firmly, their last digit costs 1e-16 or so an edge.
+                    self.assertLessEqual(ours.energy, upper * (1 + 1e-8) + 1e-14)
                     self.assertGreaterEqual(ours.energy, lower * (1 - 1e-8))
                     off = (ours.depth - depth) - np.median(ours.depth - depth)
                     self.assertLessEqual(abs(off).max(), 1e-4)

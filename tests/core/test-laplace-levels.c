@@ -34,7 +34,7 @@ no_aggregate_reaches_over_a_wall_or_its_cell (void)
   uint32_t *node = NULL;
   int      *first = malloc (W * H * sizeof *first), doubled = 0;
 
-  CHECK (celd_weights_coarsen (&graph, &doubled, &coarse, &node) == CELD_OK);
+  CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
   CHECK (doubled == 1 && coarse.width == W / 2 && coarse.height == H / 2 && coarse.n_extra == H / 2);
   for (int c = 0; c < W * H; c++)
     first[c] = -1;
@@ -69,7 +69,7 @@ a_leaf_joins_nothing (void)
   graph.south[0] = 0;
   graph.east[5] = graph.east[2] = graph.south[2] = 1;
   graph.east[4] = 0;
-  CHECK (celd_weights_coarsen (&graph, &doubled, &coarse, &node) == CELD_OK);
+  CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
   CHECK (node[0] != node[5] && (node[1] == node[0] || node[1] == node[5] || node[1] != node[2]));
   CHECK (node[4] == CELD_NO_NODE);
   celd_weights_clear (&graph);
@@ -92,7 +92,7 @@ weights_and_sinks_are_sums (void)
       double     sink = 0, crossing = 0, edges = 0;
       LevelEdge *edge;
 
-      CHECK (celd_weights_coarsen (&graph, &doubled, &coarse, &node) == CELD_OK);
+      CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
       for (int i = 0; i < W * H; i++)
         {
           sink += (double) graph.sink[i];

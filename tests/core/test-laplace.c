@@ -109,6 +109,89 @@ large_random_systems_agree_with_the_oracle (void)
     }
 }
 
+/* Blobs of ink whose outlines have the least weight, a fixed stroke one pixel away from each: that pixel is held by the
+ * stroke far more than by the ink, and must not hold the ink so. */
+static System
+inked_system (float least, uint32_t *seed)
+{
+  System   s = system_new (150, 140, 1, 0.7f + (float) check_random (seed, 3) / 10);
+  uint8_t *fixed = calloc (pixels (&s), 1);
+  float   *value = calloc (pixels (&s), sizeof *value);
+
+  for (int blob = 0; blob < 8; blob++)
+    {
+      int x0 = 3 + (int) check_random (seed, 100), x1 = x0 + 8 + (int) check_random (seed, 30);
+      int y0 = 3 + (int) check_random (seed, 90), y1 = y0 + 8 + (int) check_random (seed, 30);
+      int rim = 1 + (int) check_random (seed, 4);
+
+      for (int y = y0 - 1; y <= y1; y++)
+        for (int x = x0 - 1; x <= x1; x++)
+          if (x < x0 + rim || x > x1 - rim || y < y0 + rim || y > y1 - rim)
+            s.east[y * s.w + x] = s.south[y * s.w + x] = least;
+      for (int x = x0; x <= x1; x++)
+        {
+          fixed[(y0 - 2) * s.w + x] = 1;
+          value[(y0 - 2) * s.w + x] = (float) blob;
+        }
+    }
+  pin (&s, fixed, value);
+  free (fixed);
+  free (value);
+  return s;
+}
+
+static void
+ink_behind_a_fixed_stroke_agrees_with_the_oracle (void)
+{
+  static const float least[] = { 1e-6f, 1e-5f, 1e-4f, 1e-2f, 1 };
+  uint32_t           seed = 13;
+
+  for (size_t k = 0; k < 10; k++)
+    {
+      System    s = inked_system (least[k % 5], &seed);
+      CeldSolve how = solve (&s, 1e-4);
+
+      CHECK (how.converged && how.iterations < 40);
+      NEAR (error_of (&s), 0, 1e-4);
+      system_free (&s);
+    }
+}
+
+/* Islands of strong links in a band of weak ones, as noise makes them within a line, many of them across cells. */
+static void
+islands_in_ink_agree_with_the_oracle (void)
+{
+  uint32_t seed = 17;
+
+  for (int round = 0; round < 3; round++)
+    {
+      System   s = system_new (150, 140, 1, 1);
+      uint8_t *fixed = calloc (pixels (&s), 1);
+      float   *value = calloc (pixels (&s), sizeof *value);
+
+      for (int i = 40 * s.w; i < 100 * s.w; i++)
+        s.east[i] = s.south[i] = 1e-6f;
+      for (int k = 0; k < 400; k++)
+        {
+          int x0 = (int) check_random (&seed, 140), y0 = 42 + (int) check_random (&seed, 50);
+
+          for (int x = x0; x < x0 + 5; x++)
+            s.east[y0 * s.w + x] = s.south[y0 * s.w + x] = s.east[(y0 + 1) * s.w + x] = 1;
+        }
+      for (int x = 0; x < s.w; x++)
+        {
+          fixed[x] = fixed[139 * s.w + x] = 1;
+          value[x] = x < 75;
+        }
+      pin (&s, fixed, value);
+      CHECK (solve (&s, 1e-4).converged);
+      NEAR (error_of (&s), 0, 1e-4);
+      free (fixed);
+      free (value);
+      system_free (&s);
+    }
+}
+
 /* Pins column x to a value. */
 static void
 pin_columns (System *s, int x0, float value0, int x1, float value1)
@@ -405,6 +488,8 @@ main (void)
 {
   RUN (random_systems_agree_with_the_oracle);
   RUN (large_random_systems_agree_with_the_oracle);
+  RUN (ink_behind_a_fixed_stroke_agrees_with_the_oracle);
+  RUN (islands_in_ink_agree_with_the_oracle);
   RUN (between_two_columns_it_is_a_ramp);
   RUN (a_closed_wall_of_one_pixel_keeps_both_sides_apart);
   RUN (a_gap_in_a_wall_lets_depth_through_smoothly);

@@ -1,0 +1,50 @@
+/* What the files of the Laplacian solver's graphs share.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_LAPLACE_GRAPH_H
+#define CELD_LAPLACE_GRAPH_H
+
+#include "laplace.h"
+
+static inline uint32_t
+celd_weights_cells (const CeldWeights *g)
+{
+  return (uint32_t) g->width * (uint32_t) g->height;
+}
+
+/* The coarse cell in which a cell lies. */
+static inline uint32_t
+celd_weights_above (const CeldWeights *fine, uint32_t cell, const CeldWeights *coarse)
+{
+  uint32_t w = (uint32_t) fine->width;
+
+  return (cell / w >> coarse->doublings) * (uint32_t) coarse->width + (cell % w >> coarse->doublings);
+}
+
+/* What lies in a row of coarse cells: rows from .. to-1 of cells, extra nodes extra .. extra_end-1. */
+typedef struct { uint32_t from, to, extra, extra_end; } CeldNodes;
+
+static inline CeldNodes
+celd_weights_nodes (const CeldWeights *fine, const CeldWeights *coarse, int row)
+{
+  uint32_t from = (uint32_t) row << coarse->doublings, to = (uint32_t) (row + 1) << coarse->doublings;
+
+  to = to < (uint32_t) fine->height ? to : (uint32_t) fine->height;
+  return (CeldNodes) { from, to, fine->n_extra ? fine->row_extra[from] : 0, fine->n_extra ? fine->row_extra[to] : 0 };
+}
+
+/* ------------------------------------------------------------------ laplace-ground.c */
+
+/* Cuts the edges of nodes that their sinks hold far more; what is at the other ends is held by these edges. */
+CeldStatus celd_weights_ground (CeldWeights *graph, const CeldRun *run);
+
+/* ------------------------------------------------------------------ laplace-contract.c */
+
+#define CELD_MIXED 0x80 /* a cell that is not of a piece */
+
+/* Edges and sinks of the coarse graph, whose sizes are known.  mixed: of each coarse cell; only for those of 2 x 2. */
+CeldStatus celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed,
+                                  const CeldRun *run, CeldWeights *coarse);
+
+#endif
