@@ -73,6 +73,7 @@ typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* one byte a pixel, 0 = no */
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A, straight alpha */
 typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x,y,z a pixel */
+typedef struct { int width, height; size_t stride; float    *data; } CeldColours; /* R,G,B,A, straight alpha */
 
 typedef struct { int x, y, width, height; } CeldRect;
 
@@ -91,6 +92,14 @@ typedef enum { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPE
 typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, CELD_ANCHORS_CORE } CeldAnchors;
 typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
 typedef enum { CELD_SUGGEST_OFF, CELD_SUGGEST_FILL_GAPS, CELD_SUGGEST_ALL } CeldSuggest;
+typedef enum { CELD_EXPANSION_OUTLINES, CELD_EXPANSION_THICKNESS } CeldExpansion;
+typedef enum { CELD_ENHANCE_STACK, CELD_ENHANCE_DARKEN, CELD_ENHANCE_CONTRAST } CeldEnhance;
+typedef enum
+{
+  CELD_STEREO_LEFT, CELD_STEREO_RIGHT, CELD_STEREO_SIDE_BY_SIDE, CELD_STEREO_HALF_SIDE_BY_SIDE, CELD_STEREO_CROSSED,
+  CELD_STEREO_OVER_UNDER, CELD_STEREO_INTERLACED, CELD_STEREO_GREY, CELD_STEREO_COLOUR, CELD_STEREO_HALF_COLOUR,
+  CELD_STEREO_DUBOIS
+} CeldStereo;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -119,6 +128,11 @@ typedef struct
   CeldEncoding   encoding;      /* how levels leave */
   float          near_level, far_level; /* for CELD_ENCODING_FIXED: these levels become 1 and 0 */
 
+  /* whose the ink is */
+  CeldExpansion  expansion;     /* outlines of one pen each, or the paper's thickness of contours */
+
+  bool           complete;      /* layers: also what nearer ones hide; false */
+
   /* smooth depth */
   CeldAnchors anchors;          /* which pixels keep their level (the paper's U_o) */
   bool        hold_rest;        /* regions without such a pixel keep their level, too, in their core; true */
@@ -133,6 +147,19 @@ typedef struct
   float light_azimuth;          /* degrees, 0 = from the right, 90 = from above */
   float light_elevation;        /* degrees above the picture, 90 = from the viewer */
   float ambient;                /* share of light that reaches every pixel, [0,1] */
+
+  /* depth enhancement */
+  CeldEnhance enhance;          /* regions cast shadows on those behind them, or unsharp masking of depth, which darkens
+                                 * what is behind a border, or also lightens what is before it */
+  float shadow_size;            /* deviation of the blur as a share of the diagonal, [0.0005,0.2]; 0.012 */
+  float shadow_strength;        /* 0 none .. 1 black; 0.6 */
+  float shadow_offset;          /* stack: how far shadows lie from the light, as a share of the diagonal, [0,0.2]; 0 */
+  float shadow_range;           /* stack: from this difference on a shadow is full, as a share of all depth, [0,1]; 0 */
+
+  /* stereo */
+  float disparity;              /* between depth 1 and 0, of both eyes, as a share of the width, [0,0.2]; 0.02 */
+  CeldStereo stereo;            /* how two views come in one picture; side by side */
+  float convergence;            /* which depth lies on the screen, from 0 farthest to 1 nearest; 0.5 */
 } CeldSettings;
 
 CELD_API CeldSettings celd_settings (void);
@@ -196,7 +223,8 @@ typedef enum
   CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
   CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
   CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
-  CELD_PROBLEM_NOT_CONVERGED       /* smooth depth was delivered with a larger error than asked for */
+  CELD_PROBLEM_NOT_CONVERGED,      /* smooth depth was delivered with a larger error than asked for */
+  CELD_PROBLEM_REGION_SPLIT        /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
 } CeldProblemKind;
 
 #define CELD_NO_INDEX SIZE_MAX
@@ -293,6 +321,41 @@ typedef struct
 } CeldExact;
 
 CELD_API void celd_exact_clear (CeldExact *exact);
+
+/* Whose each pixel is, with its ink.  The host gives three pictures of the drawing's size. */
+typedef struct
+{
+  CeldLabels owner;             /* the label whose area or ink the pixel is; where it has parts of two labels, as at an
+                                 * antialiased edge, the nearer one (of equal levels either) */
+  CeldLabels under;             /* the other one, which is seen beside the owner; = owner where there is but one */
+  CeldPlane  share;             /* how much of the pixel the owner covers, above 0; 1 where there is but one.
+                                 * Ink in the pixel is the owner's or, where that has none, under's. */
+} CeldOwnership;
+
+/* A drawing cut into layers, one a region.  Layer 0 is the farthest; each over those before it, by the common `over`
+ * on straight alpha, they are the drawing again. */
+typedef struct CeldLayers CeldLayers;
+
+typedef struct
+{
+  uint32_t label;
+  uint32_t level;
+  CeldRect box;                 /* outside it the layer is transparent; width 0: everywhere */
+} CeldLayer;
+
+/* What layers will be stored in, which counts for their composite. */
+typedef enum
+{
+  CELD_STORE_FLOAT,
+  CELD_STORE_8_BIT,             /* 255ths */
+  CELD_STORE_8_BIT_SRGB         /* linear light, as 255ths of its encoding as sRGB */
+} CeldStore;
+
+CELD_API size_t           celd_layers_count (const CeldLayers *layers);
+CELD_API const CeldLayer *celd_layers_item  (const CeldLayers *layers, size_t layer);
+/* The layer's box as r,g,b,a with straight alpha: 4 x width x height numbers. */
+CELD_API void             celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba);
+CELD_API void             celd_layers_free  (CeldLayers *layers);            /* accepts NULL */
 
 /* ------------------------------------------------------------------ the steps, in the order of the route */
 
@@ -411,15 +474,18 @@ CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *l
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
                                  const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
 
-/* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy sum w_pq (d_p -
- * d_q)^2, w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)), sigma = contrast times the mean of (I_p -
- * I_q)^2.  `ink` is that for depth.  Each scribble moves as one (with same_colour = separate each of its strokes); an
- * end of a relation off every scribble is a pixel of its own, so that regions bend where relations go round in a
- * circle between different points of them.  Equalities are exact, gaps may be fractions; a circle between the same
- * nodes is reported, and its lightest and then latest relation left out.  Scribbles that the palette marks as
- * background lie behind every other scribble unless relations say otherwise. `depth` leaves as settings->encoding
- * says; with CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are appended, *exact is replaced; these
- * two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and relations. */
+/* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy
+ * sum w_pq (d_p - d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the
+ * contrast in the 3 x 3 pixels round p or q, whichever is less, sigma is contrast times the mean of (I_p - I_q)^2;
+ * `ink` is that for depth.
+ * Each scribble moves as one (with same_colour = separate each of its strokes); an end of a relation off every scribble
+ * is a pixel of its own, so that regions bend where relations go round in a circle between different points of them.
+ * Equalities are exact, gaps may be fractions; a circle between the same nodes is reported, and its lightest and then
+ * latest relation left out.  Scribbles that the palette marks as background lie behind every other scribble unless
+ * relations say otherwise.
+ * `depth` leaves as settings->encoding says; with CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are
+ * appended, *exact is replaced; these two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and
+ * relations. */
 CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
                                       const CeldRelations *relations, const CeldSettings *settings,
                                       const CeldRun *run, CeldPlane *depth, CeldExact *exact,
@@ -449,6 +515,10 @@ CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const Celd
 CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);
+/* A picture of depth for suggestions, as celd_suggest_from_depth has it, in the same way. */
+CELD_API CeldStatus celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth);
+/* Strokes over ink in the colours of regions: each gives the piece of line below it to its region. */
+CELD_API CeldStatus celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections);
 CELD_API CeldStatus celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error);
 CELD_API CeldStatus celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextError *error);
 
@@ -480,6 +550,13 @@ CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldRu
 CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPaint *paint);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
 CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
+/* Whose the pixels are, with their ink, in the labels above.  Where a pixel has two labels, `levels` have the one that
+ * covers more of it. */
+CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldRun *run, CeldOwnership *ownership,
+                                            CeldRect *changed);
+/* The art cut into a layer for each label, with settings.complete, see celd_layers_cut; the host's own, to be freed. */
+CELD_API CeldStatus celd_session_layers (CeldSession *session, const CeldColours *art, CeldStore store,
+                                         const CeldRun *run, CeldLayers **layers);
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,
                                          CeldRect *changed);
 /* After an edit only what it touched is solved again, from where it was; the rest stays bit by bit.  The preview is for

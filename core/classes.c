@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order.h"
-#include "unions.h"
 
 CeldStatus
 celd_classes_new (size_t n, CeldClasses *classes)
@@ -22,12 +21,6 @@ celd_classes_clear (CeldClasses *classes)
   celd_free (classes->parent);
   celd_free (classes->next);
   *classes = (CeldClasses) { 0 };
-}
-
-uint32_t
-celd_class_of (CeldClasses *classes, uint32_t k)
-{
-  return celd_root (classes->parent, k);
 }
 
 void

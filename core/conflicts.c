@@ -14,146 +14,10 @@
 #include <stdlib.h>
 
 #define BETWEEN_STEPS 256 /* relations between two reports of progress */
-#define NOWHERE SIZE_MAX
 
-/* A search walks labels and links by turns.  Its states are 2 x node + strict: node k < n_labels is a label, node
- * n_labels + i is link i, strict says whether an inequality came before. */
-typedef struct
-{
-  const CeldGraph *graph;
-  CeldIndex        down;   /* links that lead down from a label */
-  const bool      *use;    /* links that a search may take */
-  CeldSequence    *sequence; /* NULL: labels may stand anywhere; else not before the place `floor` */
-  uint32_t         floor;
-  size_t          *queue;
-  size_t           n_queue;
-  size_t          *from;   /* the state before; NOWHERE at a start */
-  size_t          *seen;   /* number of the search that saw a state last */
-  size_t          *goal;   /* of label k: number of the search that looks for it */
-  size_t           number; /* of this search, from 1 */
-} Search;
-
-static void
-search_end (Search *s)
-{
-  celd_free (s->down.first);
-  celd_free (s->down.link);
-  celd_free (s->queue);
-  celd_free (s->from);
-  celd_free (s->seen);
-  celd_free (s->goal);
-  *s = (Search) { 0 };
-}
-
-/* Also after a failure search_end is to follow. */
+/* One more cycle, the one that a search has found. */
 static CeldStatus
-search_new (const CeldGraph *graph, Search *s)
-{
-  size_t states = 2 * (graph->n_labels + graph->n_links);
-
-  *s = (Search) {
-    .graph = graph, .use = graph->kept,
-    .queue = celd_alloc (states, sizeof (size_t)), .from = celd_alloc (states, sizeof (size_t)),
-    .seen = celd_alloc0 (states, sizeof (size_t)), .goal = celd_alloc0 (graph->n_labels, sizeof (size_t)),
-  };
-  return s->queue && s->from && s->seen && s->goal ? celd_graph_index (graph, CELD_NEARER, &s->down) : CELD_NO_MEMORY;
-}
-
-static void
-search_begin (Search *s)
-{
-  s->number++;
-  s->n_queue = 0;
-}
-
-static void
-visit (Search *s, size_t node, size_t strict, size_t from)
-{
-  size_t state = 2 * node + strict;
-
-  if (s->seen[state] == s->number)
-    return;
-  s->seen[state]         = s->number;
-  s->from[state]         = from;
-  s->queue[s->n_queue++] = state;
-}
-
-/* Goes down from what was visited until a goal is reached behind an inequality; its state, or NOWHERE. */
-static size_t
-descend (Search *s)
-{
-  const CeldGraph *g = s->graph;
-
-  for (size_t i = 0; i < s->n_queue; i++)
-    {
-      size_t state = s->queue[i], node = state / 2, strict = state % 2;
-
-      if (node < g->n_labels)
-        {
-          if (strict && s->goal[node] == s->number)
-            return state;
-          if (s->sequence && s->sequence->place[celd_class_of (&s->sequence->classes, (uint32_t) node)] < s->floor)
-            continue;
-          for (size_t j = s->down.first[node]; j < s->down.first[node + 1]; j++)
-            if (s->use[s->down.link[j]])
-              visit (s, g->n_labels + s->down.link[j], strict || !celd_graph_equal (g, s->down.link[j]), state);
-        }
-      else
-        {
-          size_t        link = node - g->n_labels;
-          const size_t *f    = &g->first[2 * link];
-
-          for (size_t e = f[0]; e < (celd_graph_equal (g, link) ? f[2] : f[1]); e++)
-            visit (s, g->end[e], strict, state);
-        }
-    }
-  return NOWHERE;
-}
-
-/* The end of a path of relations in use that relation i contradicts, or NOWHERE. */
-static size_t
-contradicting_path (Search *s, size_t i)
-{
-  const CeldGraph *g     = s->graph;
-  const size_t    *f     = &g->first[2 * i];
-  bool             equal = celd_graph_equal (g, i);
-
-  search_begin (s);
-  s->floor = UINT32_MAX;
-  for (size_t e = equal ? f[0] : f[1]; e < f[2]; e++)
-    {
-      uint32_t place = s->sequence ? s->sequence->place[celd_class_of (&s->sequence->classes, g->end[e])] : 0;
-
-      s->floor = place < s->floor ? place : s->floor;
-      s->goal[g->end[e]] = s->number;
-    }
-  for (size_t e = f[0]; e < (equal ? f[2] : f[1]); e++)
-    visit (s, g->end[e], !equal, NOWHERE);
-  return descend (s);
-}
-
-/* Relation i and the links of the path that ends in `state`. */
-static CeldStatus
-read_cycle (const Search *s, size_t i, size_t state, CeldCycle *cycle)
-{
-  size_t n_labels = s->graph->n_labels, n = 1;
-
-  for (size_t t = state; t != NOWHERE; t = s->from[t])
-    n += t / 2 >= n_labels;
-  *cycle = (CeldCycle) { .item = celd_alloc (n, sizeof (size_t)) };
-  if (!cycle->item)
-    return CELD_NO_MEMORY;
-  cycle->n = n;
-  for (size_t t = state; t != NOWHERE; t = s->from[t])
-    if (t / 2 >= n_labels)
-      cycle->item[--n] = t / 2 - n_labels;
-  cycle->item[0] = i;
-  return CELD_OK;
-}
-
-/* One more cycle: of relation i, by the path that ends in `state`. */
-static CeldStatus
-add_cycle (const Search *s, size_t i, size_t state, size_t knot, CeldOrder *order)
+add_cycle (const CeldSearch *s, size_t knot, CeldOrder *order)
 {
   CeldCycle *cycles = celd_grow (order->cycle, order->n_cycles + 1, sizeof *cycles);
   CeldStatus status;
@@ -161,7 +25,7 @@ add_cycle (const Search *s, size_t i, size_t state, size_t knot, CeldOrder *orde
   if (!cycles)
     return CELD_NO_MEMORY;
   order->cycle = cycles;
-  status = read_cycle (s, i, state, &cycles[order->n_cycles]);
+  status = celd_search_cycle (s, &cycles[order->n_cycles]);
   if (status == CELD_OK)
     cycles[order->n_cycles++].knot = knot;
   return status;
@@ -170,19 +34,22 @@ add_cycle (const Search *s, size_t i, size_t state, size_t knot, CeldOrder *orde
 /* The background goes behind every label that it is neither in front of nor equal to.  With several background labels
  * (separate regions of its colour), those behind one of them are left as they are, so that no cycle can close. */
 static CeldStatus
-complete_background (CeldGraph *g, Search *s)
+complete_background (CeldGraph *g, CeldSearch *s)
 {
   size_t    *f      = &g->first[2 * (g->n_links - 1)];
-  CeldStatus status = CELD_OK;
+  CeldIndex  down;
+  CeldStatus status;
 
   if (f[0] == f[1])
     return CELD_OK;
-  search_begin (s);
-  for (size_t e = f[0]; e < f[1]; e++)
-    visit (s, g->end[e], 0, NOWHERE);
-  descend (s);
+  status = celd_graph_index (g, CELD_NEARER, g->kept, &down);
+  if (status != CELD_OK)
+    return status;
+  s->ways[CELD_FARTHER] = celd_index_ways (&down);
+  celd_search_behind (s, f[0], f[1]);
+  celd_index_clear (&down);
   for (size_t k = 0; k < g->n_labels && status == CELD_OK; k++)
-    if (s->seen[2 * k] != s->number && s->seen[2 * k + 1] != s->number)
+    if (!celd_search_was_at (s, k))
       status = celd_graph_add (g, (uint32_t) k + 1);
   f[2] = g->n_ends;
   g->kept[g->n_links - 1] = true;
@@ -243,20 +110,22 @@ put_off (CeldGraph *g, const CeldKnots *knots, const CeldRun *run, const CeldKno
 
 /* Keeps relations by turns as long as they contradict nothing. */
 static CeldStatus
-try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n, const CeldRun *run, Search *search,
-           CeldOrder *order)
+try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n, const CeldRun *run,
+           CeldSearch *search, CeldOrder *order)
 {
   CeldSequence sequence;
   CeldStatus   status = celd_sequence_new (g, &sequence);
 
   search->sequence = &sequence;
+  for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
+    search->ways[to] = celd_sequence_ways (&sequence, (CeldSide) to);
   for (size_t t = 0; t < n && status == CELD_OK; t++)
     {
       size_t i = turns[t].relation;
 
       g->kept[i] = celd_sequence_admit (&sequence, i);
-      if (!g->kept[i])
-        status = add_cycle (search, i, contradicting_path (search, i), knots->link[i] - 1, order);
+      if (!g->kept[i] && celd_search_contradiction (search, i))
+        status = add_cycle (search, knots->link[i] - 1, order);
       if (status == CELD_OK && t % BETWEEN_STEPS == 0)
         status = celd_step (run, (double) t / (double) n);
     }
@@ -267,8 +136,8 @@ try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n
 
 /* Frees the graph from contradictions. */
 static CeldStatus
-break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const CeldRun *run, Search *search,
-             CeldOrder *order)
+break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const CeldRun *run,
+             CeldSearch *search, CeldOrder *order)
 {
   CeldPart   part[2];
   CeldRun    choose = celd_run_part (&part[0], run, 0, 0.5);
@@ -285,46 +154,43 @@ break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const C
   return status;
 }
 
-/* Is the path that ends in `state` free of loops?  An equality may be led round one that it has no part in. */
-static bool
-is_simple (Search *s, size_t state)
-{
-  search_begin (s);
-  for (size_t t = state; t != NOWHERE; t = s->from[t])
-    {
-      size_t node = t / 2;
-
-      if (s->seen[2 * node] == s->number)
-        return false;
-      s->seen[2 * node] = s->number;
-    }
-  return true;
-}
-
-/* The shortest cycle through the newest relation of a knot that has one; use[] is true for the knot's relations. */
+/* The shortest cycle through the newest relation of a knot that has one. */
 static CeldStatus
-find_newest_cycle (Search *s, bool *use, CeldKnot *knot)
+find_newest_cycle (CeldSearch *s, CeldKnot *knot)
 {
   CeldStatus status = CELD_OK;
 
-  s->use = use;
   for (size_t k = knot->n; k-- > 0 && !knot->newest.n && status == CELD_OK; )
     {
-      size_t i = knot->item[k], end;
-
-      use[i] = false;
-      end = contradicting_path (s, i);
-      if (end != NOWHERE && is_simple (s, end))
-        status = read_cycle (s, i, end, &knot->newest);
-      use[i] = true;
+      s->except = knot->item[k];
+      if (celd_search_contradiction (s, knot->item[k]) && celd_search_is_simple (s))
+        status = celd_search_cycle (s, &knot->newest);
     }
-  s->use = s->graph->kept;
+  s->except = CELD_NO_INDEX;
+  return status;
+}
+
+/* The same for all knots: no path leads from one to another and back. */
+static CeldStatus
+find_newest_cycles (CeldSearch *s, const bool *use, CeldOrder *order)
+{
+  CeldIndex  index[2] = { { 0 } };
+  CeldStatus status = celd_graph_index (s->graph, CELD_NEARER, use, &index[CELD_FARTHER]);
+
+  if (status == CELD_OK)
+    status = celd_graph_index (s->graph, CELD_FARTHER, use, &index[CELD_NEARER]);
+  for (int to = CELD_FARTHER; to <= CELD_NEARER && status == CELD_OK; to++)
+    s->ways[to] = celd_index_ways (&index[to]);
+  for (size_t k = 0; k < order->n_knots && status == CELD_OK; k++)
+    status = find_newest_cycle (s, &order->knot[k]);
+  celd_index_clear (&index[CELD_FARTHER]);
+  celd_index_clear (&index[CELD_NEARER]);
   return status;
 }
 
 /* The relations of each knot, and its newest cycle. */
 static CeldStatus
-describe_knots (Search *s, const CeldKnots *knots, CeldOrder *order)
+describe_knots (CeldSearch *s, const CeldKnots *knots, CeldOrder *order)
 {
   size_t     n_links = s->graph->n_links;
   bool      *use = celd_alloc0 (n_links, sizeof *use);
@@ -349,8 +215,8 @@ describe_knots (Search *s, const CeldKnots *knots, CeldOrder *order)
             use[i] = true;
           }
       }
-  for (size_t k = 0; k < knots->n && status == CELD_OK; k++) /* no path leads from one knot to another and back */
-    status = find_newest_cycle (s, use, &order->knot[k]);
+  if (status == CELD_OK)
+    status = find_newest_cycles (s, use, order);
   celd_free (use);
   return status;
 }
@@ -358,9 +224,9 @@ describe_knots (Search *s, const CeldKnots *knots, CeldOrder *order)
 CeldStatus
 celd_graph_settle (CeldGraph *g, CeldOnCycle on_cycle, const CeldRun *run, CeldOrder *order)
 {
-  Search     search;
+  CeldSearch search;
   CeldKnots  knots = { 0 };
-  CeldStatus status = search_new (g, &search);
+  CeldStatus status = celd_search_new (g, &search);
 
   if (status == CELD_OK)
     status = celd_knots_find (g, &knots);
@@ -371,6 +237,6 @@ celd_graph_settle (CeldGraph *g, CeldOnCycle on_cycle, const CeldRun *run, CeldO
   if (status == CELD_OK)
     status = complete_background (g, &search);
   celd_knots_clear (&knots);
-  search_end (&search);
+  celd_search_clear (&search);
   return status;
 }

@@ -41,30 +41,18 @@ sift_clear (Sift *s)
 
 /* ------------------------------------------------------------------ classes by place, and their wishes */
 
-static int
-compare_entries (const void *one, const void *two)
-{
-  uint64_t a = *(const uint64_t *) one, b = *(const uint64_t *) two;
-
-  return a < b ? -1 : a > b;
-}
-
 /* Numbers the places of classes without a hole. */
 static void
 line_up (Sift *s)
 {
-  CeldSequence *q = &s->sequence;
-  size_t        n_labels = s->graph->n_labels;
+  const CeldSequence *q = &s->sequence;
 
-  for (uint32_t k = 0; k < n_labels; k++)
-    if (celd_class_of (&q->classes, k) == k)
-      q->list[s->n++] = (uint64_t) q->place[k] << 32 | k;
-  qsort (q->list, s->n, sizeof *q->list, compare_entries);
-  for (size_t i = 0; i < s->n; i++)
-    {
-      s->at[i] = (uint32_t) q->list[i];
-      s->place[s->at[i]] = (uint32_t) i;
-    }
+  for (size_t p = 0; p < s->graph->n_labels; p++)
+    if (q->at[p] != UINT32_MAX)
+      {
+        s->at[s->n] = q->at[p];
+        s->place[q->at[p]] = (uint32_t) s->n++;
+      }
 }
 
 /* Counts wishes (pass 0) or writes them (pass 1: first[c + 1] moves on to where those of class c end). */

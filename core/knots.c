@@ -25,8 +25,7 @@ typedef struct
 static void
 walk_end (Walk *w)
 {
-  celd_free (w->down.first);
-  celd_free (w->down.link);
+  celd_index_clear (&w->down);
   celd_free (w->number);
   celd_free (w->low);
   celd_free (w->cursor);
@@ -47,7 +46,7 @@ walk_new (const CeldGraph *g, Walk *w)
     .path = celd_alloc (n, sizeof (uint32_t)), .stack = celd_alloc (n, sizeof (uint32_t)),
   };
   return w->number && w->low && w->cursor && w->open && w->path && w->stack
-       ? celd_graph_index (g, CELD_NEARER, &w->down) : CELD_NO_MEMORY;
+       ? celd_graph_index (g, CELD_NEARER, NULL, &w->down) : CELD_NO_MEMORY;
 }
 
 /* The nodes that steps from a node lead to: where they begin and end in down.link or in graph->end. */
@@ -121,7 +120,7 @@ go_on (Walk *w, CeldKnots *knots)
   if (w->cursor[node] < last)
     {
       size_t step = w->cursor[node]++;
-      size_t next = node < g->n_labels ? g->n_labels + w->down.link[step] : g->end[step];
+      size_t next = node < g->n_labels ? g->n_labels + w->down.way[step].link : g->end[step];
 
       if (next >= g->n_labels && !g->kept[next - g->n_labels])
         return;

@@ -80,6 +80,19 @@ add_term (Picture *picture, const CeldTerm *term, CeldGraph *graph)
   return label ? celd_graph_add (graph, label) : CELD_OK;
 }
 
+uint32_t
+celd_term_label (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldTerm *term,
+                 int *stroke)
+{
+  Picture   picture = { labels, palette, ink, *stroke };
+  CeldGraph graph = { 0 };
+  uint32_t  label = add_term (&picture, term, &graph) == CELD_OK && graph.n_ends == 1 ? graph.end[0] + 1 : 0;
+
+  *stroke = picture.stroke;
+  celd_graph_clear (&graph);
+  return label;
+}
+
 void
 celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation, int *x, int *y)
 {
@@ -125,7 +138,8 @@ add_link (Picture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
   CeldProblem         problem  = { .relation = i };
   CeldStatus          status;
 
-  graph->kept[i] = true;
+  graph->kept[i]  = true;
+  graph->equal[i] = relation->equal;
   for (size_t side = 0; side < 2; side++)
     {
       graph->first[2 * i + side] = graph->n_ends;
@@ -176,17 +190,32 @@ celd_graph_add (CeldGraph *graph, uint32_t label)
   return CELD_OK;
 }
 
-CeldStatus
-celd_graph_index (const CeldGraph *graph, CeldSide side, CeldIndex *index)
+void
+celd_index_clear (CeldIndex *index)
 {
-  size_t *first = celd_alloc0 (graph->n_labels + 2, sizeof *first), *link = celd_alloc (graph->n_ends, sizeof *link);
+  celd_free (index->first);
+  celd_free (index->way);
+  *index = (CeldIndex) { 0 };
+}
 
-  *index = (CeldIndex) { first, link };
-  if (!first || !link)
+CeldWay
+celd_graph_way (const CeldGraph *graph, size_t link, CeldSide to)
+{
+  const size_t *f = &graph->first[2 * link + to];
+
+  return (CeldWay) { (uint32_t) link, !graph->equal[link] && f[1] - f[0] == 1 ? graph->end[f[0]] : CELD_ENDS };
+}
+
+CeldStatus
+celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldIndex *index)
+{
+  size_t  *first = celd_alloc0 (graph->n_labels + 2, sizeof *first);
+  CeldWay *way = celd_alloc (graph->n_ends, sizeof *way);
+
+  *index = (CeldIndex) { first, way };
+  if (!first || !way)
     {
-      celd_free (first);
-      celd_free (link);
-      *index = (CeldIndex) { 0 };
+      celd_index_clear (index);
       return CELD_NO_MEMORY;
     }
   /* Count into first[k + 2], add up, then place: each place moves first[k + 1] on to where label k ends. */
@@ -195,13 +224,16 @@ celd_graph_index (const CeldGraph *graph, CeldSide side, CeldIndex *index)
       for (size_t i = 0; i < graph->n_links; i++)
         {
           const size_t *f    = &graph->first[2 * i];
-          bool          both = celd_graph_equal (graph, i);
+          bool          both = graph->equal[i];
 
+          if (use && !use[i])
+            continue;
           for (size_t e = both ? f[0] : f[side]; e < (both ? f[2] : f[side + 1]); e++)
             if (pass == 0)
               first[graph->end[e] + 2]++;
             else
-              link[first[graph->end[e] + 1]++] = i;
+              way[first[graph->end[e] + 1]++] = celd_graph_way (graph, i, side == CELD_NEARER ? CELD_FARTHER
+                                                                                              : CELD_NEARER);
         }
       for (size_t k = 2; pass == 0 && k < graph->n_labels + 2; k++)
         first[k] += first[k - 1];
@@ -220,8 +252,9 @@ celd_graph_new (const CeldLabels *labels, const CeldPalette *palette, const Celd
   *graph = (CeldGraph) {
     .relations = relations, .n_labels = palette->n, .n_links = n_links,
     .first = celd_alloc0 (2 * n_links + 1, sizeof (size_t)), .kept = celd_alloc0 (n_links, sizeof (bool)),
+    .equal = celd_alloc0 (n_links, sizeof (bool)),
   };
-  if (!graph->first || !graph->kept)
+  if (!graph->first || !graph->kept || !graph->equal)
     status = CELD_NO_MEMORY;
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     status = add_link (&picture, i, graph, problems);
@@ -238,5 +271,6 @@ celd_graph_clear (CeldGraph *graph)
   celd_free (graph->first);
   celd_free (graph->end);
   celd_free (graph->kept);
+  celd_free (graph->equal);
   *graph = (CeldGraph) { 0 };
 }

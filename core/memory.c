@@ -71,6 +71,32 @@ celd_mask_new (int width, int height, CeldMask *mask)
 }
 
 CeldStatus
+celd_ownership_new (int width, int height, CeldOwnership *own)
+{
+  CeldOwnership made = { 0 };
+  CeldStatus    status = celd_labels_new (width, height, &made.owner);
+
+  if (status == CELD_OK)
+    status = celd_labels_new (width, height, &made.under);
+  if (status == CELD_OK)
+    status = celd_plane_new (width, height, &made.share);
+  if (status == CELD_OK)
+    *own = made;
+  else
+    celd_ownership_clear (&made);
+  return status;
+}
+
+void
+celd_ownership_clear (CeldOwnership *own)
+{
+  celd_free (own->owner.data);
+  celd_free (own->under.data);
+  celd_free (own->share.data);
+  *own = (CeldOwnership) { 0 };
+}
+
+CeldStatus
 celd_problem_add (CeldProblems *problems, CeldProblem problem)
 {
   CeldProblem *item;

@@ -7,7 +7,7 @@
  * region at once, and with them every sum that grows with heights: the convex program of fractional gaps, too, needs no
  * other method.  Linear time behind conflicts.c, which leaves no oriented loop.
  *
- * Choices where the paper is silent: gaps are at most LARGEST_GAP.  With whole gaps alone heights are levels; else
+ * Choices where the paper is silent: gaps are at most CELD_LARGEST_GAP.  With whole gaps alone heights are levels; else
  * levels number the different heights.  A label without a pixel
  * (a colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the
  * level of what is behind it, so that the levels that can be seen have no holes.
@@ -16,12 +16,9 @@
  */
 #include "order.h"
 
-#include <math.h>
 #include <stdlib.h>
 
-#define LEAST_GAP   1e-6
-#define LARGEST_GAP 1000
-#define SAME        1e-9 /* heights that differ by less are one level: sums of gaps in another order */
+#define SAME 1e-9 /* heights that differ by less are one level: sums of gaps in another order */
 
 /* The classes of equal depth, and the state of the sort. */
 typedef struct
@@ -41,8 +38,7 @@ typedef struct
 static void
 sort_end (Sort *s)
 {
-  celd_free (s->up.first);
-  celd_free (s->up.link);
+  celd_index_clear (&s->up);
   celd_classes_clear (&s->classes);
   celd_free (s->visible);
   celd_free (s->level);
@@ -67,7 +63,7 @@ sort_new (const CeldGraph *g, Sort *s)
   status = s->visible && s->level && s->waits && s->behind && s->height && s->queue
          ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = celd_graph_index (g, CELD_FARTHER, &s->up);
+    status = celd_graph_index (g, CELD_FARTHER, NULL, &s->up);
   if (status != CELD_OK)
     sort_end (s);
   return status;
@@ -131,9 +127,7 @@ count_waits (Sort *s)
 static double
 gap_of (const CeldGraph *g, size_t link)
 {
-  double gap = link < g->relations->n ? g->relations->item[link].gap : 1;
-
-  return gap > 0 ? fmin (fmax (gap, LEAST_GAP), LARGEST_GAP) : 1; /* NaN: 1 */
+  return link < g->relations->n ? celd_gap (g->relations->item[link].gap) : 1;
 }
 
 /* The farther ends of a link are placed: so are its nearer ones as far as this link goes. */
@@ -165,7 +159,7 @@ place_class (Sort *s, uint32_t c)
     {
       for (size_t j = s->up.first[k]; j < s->up.first[k + 1]; j++)
         {
-          size_t  link   = s->up.link[j];
+          size_t  link   = s->up.way[j].link;
           double  height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
 
           if (!g->kept[link] || celd_graph_equal (g, link))
@@ -190,14 +184,14 @@ compare_heights (const void *one, const void *two)
 
 /* The heights of visible labels, each once, by rising height; 0 is one of them. */
 static size_t
-list_heights (Sort *s, double *height)
+list_heights (CeldClasses *classes, const double *of_class, const bool *visible, size_t n_labels, double *height)
 {
   size_t n = 1, kept = 1;
 
   height[0] = 0;
-  for (uint32_t k = 0; k < s->graph->n_labels; k++)
-    if (s->visible[k])
-      height[n++] = s->level[class_of (s, k)];
+  for (uint32_t k = 0; k < n_labels; k++)
+    if (!visible || visible[k])
+      height[n++] = of_class[celd_class_of (classes, k)];
   qsort (height, n, sizeof *height, compare_heights);
   for (size_t i = 1; i < n; i++)
     if (height[i] > height[kept - 1] + SAME)
@@ -223,31 +217,33 @@ find_level (const double *height, size_t n, double wanted)
   return (uint32_t) low;
 }
 
-/* Levels of labels from the heights of classes. */
-static CeldStatus
-write_levels (Sort *s, CeldOrder *order)
+CeldStatus
+celd_levels_write (CeldClasses *classes, const double *of_class, const bool *visible, CeldOrder *order)
 {
-  size_t  n = s->graph->n_labels, n_heights;
-  double *height = celd_alloc (n + 1, sizeof *height), top;
-  bool    whole = true;
+  size_t    n = order->n, n_heights;
+  double   *height = celd_alloc (n + 1, sizeof *height), top;
+  uint32_t *level = celd_alloc (n, sizeof *level);
+  bool      whole = true;
 
-  order->level = celd_alloc (n, sizeof *order->level);
-  if (!order->level || !height)
+  if (!level || !height)
     {
       celd_free (height);
+      celd_free (level);
       return CELD_NO_MEMORY;
     }
-  n_heights = list_heights (s, height);
+  n_heights = list_heights (classes, of_class, visible, n, height);
   top       = height[n_heights - 1];
   for (size_t i = 0; i < n_heights; i++)
     whole = whole && height[i] == floor (height[i]);
   for (uint32_t k = 0; k < n; k++)
     {
-      double level = fmin (fmax (s->level[class_of (s, k)], 0), top);
+      double wanted = fmin (fmax (of_class[celd_class_of (classes, k)], 0), top);
 
-      order->level[k] = whole ? (uint32_t) level : find_level (height, n_heights, level);
+      level[k] = whole ? (uint32_t) wanted : find_level (height, n_heights, wanted);
     }
-  order->n      = n;
+  celd_free (order->level);
+  celd_free (order->height);
+  order->level  = level;
   order->levels = whole ? (uint32_t) top + 1 : (uint32_t) n_heights;
   order->height = whole ? NULL : height;
   if (whole)
@@ -256,7 +252,7 @@ write_levels (Sort *s, CeldOrder *order)
 }
 
 static CeldStatus
-sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order)
+sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order, CeldRanks *ranks)
 {
   Sort       sort;
   CeldStatus status = sort_new (graph, &sort);
@@ -268,7 +264,10 @@ sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order)
   count_waits (&sort);
   for (size_t i = 0; i < sort.n_queue; i++)
     place_class (&sort, sort.queue[i]);
-  status = write_levels (&sort, order);
+  order->n = graph->n_labels;
+  status = celd_levels_write (&sort.classes, sort.level, sort.visible, order);
+  if (status == CELD_OK && ranks && celd_ranks_suit (graph, sort.visible))
+    status = celd_ranks_new (graph, order, &sort.classes, sort.level, ranks);
   sort_end (&sort);
   return status;
 }
@@ -292,12 +291,13 @@ report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalet
 }
 
 CeldStatus
-celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-            const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
-            CeldProblems *problems)
+celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+                 const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+                 CeldProblems *problems, CeldRanks *ranks)
 {
   CeldGraph  graph  = { 0 };
   CeldOrder  made   = { 0 };
+  CeldRanks  kept   = { 0 };
   size_t     before = problems ? problems->n : 0;
   CeldStatus status;
 
@@ -307,26 +307,38 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
   if (status == CELD_OK)
     status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, run, &made);
   if (status == CELD_OK)
-    status = sort_levels (&graph, labels, &made);
+    status = sort_levels (&graph, labels, &made, ranks ? &kept : NULL);
   if (status == CELD_OK)
     status = celd_cycles_explain (labels, palette, ink, &graph, &made);
   if (status == CELD_OK)
     status = report_cycles (&made, labels, palette, relations, problems);
   if (status == CELD_OK)
     status = celd_step (run, 1);
-  if (status == CELD_OK)
-    {
-      celd_order_clear (order);
-      *order = made;
-    }
-  else
+  celd_graph_clear (&graph);
+  if (status != CELD_OK)
     {
       celd_order_clear (&made);
+      celd_ranks_clear (&kept);
       if (problems)
         problems->n = before;
+      return status;
     }
-  celd_graph_clear (&graph);
-  return status;
+  celd_order_clear (order);
+  *order = made;
+  if (ranks)
+    {
+      celd_ranks_clear (ranks);
+      *ranks = kept;
+    }
+  return CELD_OK;
+}
+
+CeldStatus
+celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+            const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+            CeldProblems *problems)
+{
+  return celd_order_keep (labels, palette, relations, ink, settings, run, order, problems, NULL);
 }
 
 float

@@ -21,15 +21,25 @@ CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* not 
 CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* cleared */
 CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
 
+CeldStatus celd_ownership_new (int width, int height, CeldOwnership *own); /* labels cleared, shares not */
+void       celd_ownership_clear (CeldOwnership *own);                     /* also what was made by half */
+
 CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem); /* problems NULL: nothing to do */
 CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
+
+static inline bool
+celd_term_same (const CeldTerm *a, const CeldTerm *b)
+{
+  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
+}
+
 
 /* ------------------------------------------------------------------ views */
 
 /* The pixel (x,y) of any view that has one element a pixel. */
 #define CELD_AT(view, x, y) ((view)->data[(size_t) (y) * (view)->stride + (size_t) (x)])
 
-/* First byte of the pixel (x,y) of a CeldPaint. */
+/* First byte or float of the pixel (x,y) of a CeldPaint or CeldColours. */
 #define CELD_RGBA(view, x, y) ((view)->data + 4 * ((size_t) (y) * (view)->stride + (size_t) (x)))
 
 /* First float of the pixel (x,y) of a CeldVectors. */

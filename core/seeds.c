@@ -26,7 +26,7 @@ has_paper (const CeldPlane *ink, int y, int x, int end)
 
 /* The rooms on whose paper the seeds of row y lie; both are runs from left to right. */
 static void
-reach_along (const CeldCanvas *canvas, int y, bool *reached)
+reach_along (const CeldCanvas *canvas, int y)
 {
   const CeldBasins  *basins = canvas->basins;
   const CeldSeedRow *row = &canvas->seeds.row[y];
@@ -41,8 +41,8 @@ reach_along (const CeldCanvas *canvas, int y, bool *reached)
           k++;
         end  = k < last && basins->run[k + 1].x < row->run[i].end ? basins->run[k + 1].x : row->run[i].end;
         room = basins->room[basins->run[k].basin];
-        if (!reached[room])
-          reached[room] = has_paper (canvas->ink, y, x, end);
+        if (!canvas->reached[room])
+          canvas->reached[room] = has_paper (canvas->ink, y, x, end);
       }
 }
 
@@ -90,7 +90,7 @@ room_of (const CeldBasins *basins, CeldEnd end)
 }
 
 static CeldStatus
-plant_relation (const CeldRelation *relation, bool *reached, CeldCanvas *canvas)
+plant_relation (const CeldRelation *relation, CeldCanvas *canvas)
 {
   CeldEnd    end[2] = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) };
   uint32_t   room[2] = { room_of (canvas->basins, end[0]), room_of (canvas->basins, end[1]) }, label = 0;
@@ -102,37 +102,48 @@ plant_relation (const CeldRelation *relation, bool *reached, CeldCanvas *canvas)
     {
       CeldDiscs discs;
 
-      if (!room[i] || reached[room[i]])
+      if (!room[i] || canvas->reached[room[i]])
         continue;
       if (!label || !relation->equal)
         status = celd_hue_add (canvas, &label);
       discs = celd_discs_find (canvas, end[i], reach, widest);
       for (int k = 0; k < 2 && status == CELD_OK; k++)
         status = plant_disc (canvas, &discs.disc[k], room[i], label);
-      reached[room[i]] = true;
+      canvas->reached[room[i]] = true;
     }
   return status;
+}
+
+bool
+celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *relation)
+{
+  uint32_t room[2] = { room_of (canvas->basins, celd_end_find (canvas, &relation->nearer)),
+                       room_of (canvas->basins, celd_end_find (canvas, &relation->farther)) };
+
+  return (room[0] && !canvas->reached[room[0]]) || (room[1] && !canvas->reached[room[1]]);
 }
 
 CeldStatus
 celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
 {
-  bool      *reached;
   CeldStatus status = CELD_OK;
 
   if (!relations->n)
     return CELD_OK;
-  reached = celd_alloc0 (canvas->basins->n_rooms + 1, sizeof *reached);
-  if (!reached)
+  canvas->reached = celd_alloc0 (canvas->basins->n_rooms + 1, sizeof *canvas->reached);
+  if (!canvas->reached)
     return CELD_NO_MEMORY;
   for (int y = 0; y < canvas->basins->height; y++)
-    reach_along (canvas, y, reached);
+    reach_along (canvas, y);
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
-      status = plant_relation (&relations->item[i], reached, canvas);
+      if (celd_seeds_wanted (canvas, &relations->item[i]))
+        {
+          canvas->acting = i + 1;
+          status = plant_relation (&relations->item[i], canvas);
+        }
       if (status == CELD_OK && i % 256 == 0)
         status = celd_step (run, (double) i / (double) relations->n);
     }
-  celd_free (reached);
   return status;
 }

@@ -39,6 +39,8 @@ typedef struct
   int32_t             soft_vote; /* cost of a pixel of a soft stroke with another label */
   CeldSpread          painted;   /* where seeds lay before stains were taken back; empty before they are looked for */
   bool                stained;   /* and some have been taken back */
+  bool               *reached;   /* by room: does a seed lie on its paper?  NULL before arrows have planted any */
+  size_t              acting;    /* relations from the first to the last that planted or split anything */
   CeldSpread         *kept;      /* of seeds that the last answer for these basins was made from; NULL: none is kept */
 } CeldCanvas;
 
@@ -91,14 +93,21 @@ CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ seeds.c: arrows as strokes */
 
-/* Seeds for each end of a relation that lies in a room which nothing reaches. */
+/* Seeds for each end of a relation that lies in a room which nothing reaches; canvas->reached says which those are. */
 CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
+
+/* Does an end of the relation lie in such a room? */
+bool       celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *relation);
 
 /* split.c: splits regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes: what
  * is under these keeps its label.  What changes is appended to the patches, no pixel twice among them, and the discs of
  * both ends to the canvas' seeds. */
 CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
+
+/* Has it nothing to split for the relation, whose ends are settled: not on any of the patches? */
+bool       celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const CeldLabels *labels,
+                             const CeldPatches *patches);
 
 /* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
 
@@ -162,6 +171,14 @@ CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *in
 CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
                                  const CeldSettings *settings, const CeldRun *run, CeldPalette *palette,
                                  CeldProblems *problems, CeldLabels *labels, CeldRect *changed);
+
+/* How many of the last solve's relations, from the first on, it takes for its answer: those behind changed nothing. */
+size_t celd_segmenter_acting (const CeldSegmenter *segmenter);
+
+/* Would this relation, behind those, change nothing either?  `settings` and `labels` are those of the last solve.
+ * False also where that cannot be told without solving. */
+bool celd_segmenter_spares (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
+                            const CeldLabels *labels);
 
 /* The gaps that the last solve closed; borrowed. */
 const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);

@@ -21,6 +21,9 @@ struct CeldSegmenter
   CeldPainting painting;
   CeldSpread   spread;          /* of the last answer's seeds */
   CeldClosures closures;
+  CeldPatches  redrawn;         /* what closing gaps and settling borders have changed of the last answer */
+  bool        *reached;         /* of the last answer, as in CeldCanvas; NULL: none that arrows could plant for */
+  size_t       acting;
 };
 
 /* ------------------------------------------------------------------ the object */
@@ -42,6 +45,8 @@ celd_segmenter_free (CeldSegmenter *segmenter)
   celd_painting_clear (&segmenter->painting);
   celd_spread_clear (&segmenter->spread);
   celd_closures_clear (&segmenter->closures);
+  celd_patches_clear (&segmenter->redrawn);
+  celd_free (segmenter->reached);
   celd_free (segmenter);
 }
 
@@ -190,6 +195,7 @@ canvas_clear (CeldCanvas *canvas)
   celd_seed_rows_clear (&canvas->seeds);
   celd_spread_clear (&canvas->painted);
   celd_palette_clear (&canvas->palette);
+  celd_free (canvas->reached);
 }
 
 static bool
@@ -263,7 +269,7 @@ close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, Celd
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
   celd_free (label);
-  celd_patches_clear (&patches);
+  s->redrawn = patches;
   if (status != CELD_OK)
     {
       celd_closures_clear (&closures);
@@ -283,7 +289,7 @@ settle_borders (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, 
 
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
-  celd_patches_clear (&patches);
+  s->redrawn = patches;
   return status;
 }
 
@@ -300,6 +306,7 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
   if (status == CELD_OK && relations)
     status = split (s, relations, run, canvas, labels);
   celd_closures_clear (&s->closures);
+  celd_patches_clear (&s->redrawn);
   if (status == CELD_OK && canvas->settings->close_gaps)
     status = close_gaps (s, canvas, run, labels);
   else if (status == CELD_OK)
@@ -363,7 +370,10 @@ solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldRun
   if (status == CELD_OK)
     status = celd_painting_replace (&s->painting, &s->basins, &exact, labels);
   if (status == CELD_OK)
-    celd_closures_clear (&s->closures);
+    {
+      celd_closures_clear (&s->closures);
+      celd_patches_clear (&s->redrawn);
+    }
   celd_patches_clear (&patches);
   celd_free (exact.data);
   return status;
@@ -417,6 +427,10 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
 
       *palette       = canvas.palette;
       canvas.palette = old;
+      celd_free (segmenter->reached);
+      segmenter->reached = canvas.reached;
+      segmenter->acting  = canvas.acting;
+      canvas.reached     = NULL;
       *changed       = segmenter->painting.changed;
       segmenter->painting.changed = (CeldRect) { 0 };
     }
@@ -425,4 +439,26 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
   celd_problems_clear (&found);
   canvas_clear (&canvas);
   return status;
+}
+
+/* ------------------------------------------------------------------ relations that change nothing */
+
+size_t
+celd_segmenter_acting (const CeldSegmenter *segmenter)
+{
+  return segmenter->acting;
+}
+
+/* Bends of borders came after regions were split, so ends must not lie where a border has moved. */
+bool
+celd_segmenter_spares (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
+                       const CeldLabels *labels)
+{
+  const CeldSegmenter *s = segmenter;
+  CeldCanvas           canvas = { .settings = settings, .ink = &s->ink, .basins = &s->basins, .reached = s->reached };
+
+  if (settings->seeds != CELD_SEEDS_AUTO)
+    return true;
+  return s->reached && !celd_seeds_wanted (&canvas, relation) &&
+         celd_seeds_apart (&canvas, relation, labels, &s->redrawn);
 }

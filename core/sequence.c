@@ -1,14 +1,16 @@
-/* Classes of labels in a sequence from far to near that every relation admitted so far respects [Pearce & Kelly 2006].
+/* Classes of labels in a sequence from far to near that every relation admitted so far respects.
  *
- * One more relation only moves classes that lie between its ends: those that lead to its farther side, and those that
- * its nearer side leads to, share out their places anew, the former first.  A relation whose ends stand right costs
- * nothing, and one that contradicts is found on a search that never leaves the places between its ends.
+ * A relation whose ends stand right costs nothing.  Else one search goes upwards from its nearer side, through places
+ * by rising number, another downwards from its farther side, by falling number, the one with less work behind it first,
+ * until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If they meet, the
+ * relation contradicts.  If not, what the first has passed below the crossing moves up to it, what the second has
+ * passed above moves down, before the former: only classes between the ends of the relation move.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order.h"
 
-#include <stdlib.h>
+#define NOBODY UINT32_MAX /* a class that has joined another leaves its place empty */
 
 /* ------------------------------------------------------------------ work space */
 
@@ -16,16 +18,15 @@ void
 celd_sequence_clear (CeldSequence *s)
 {
   celd_classes_clear (&s->classes);
-  celd_free (s->up.first);
-  celd_free (s->up.link);
-  celd_free (s->down.first);
-  celd_free (s->down.link);
-  celd_free (s->admitted);
+  for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
+    {
+      celd_index_clear (&s->way[to]);
+      celd_free (s->last[to]);
+      celd_free (s->mark[to]);
+    }
+  celd_free (s->at);
   celd_free (s->place);
-  celd_free (s->seen);
-  celd_free (s->goal);
-  celd_free (s->list);
-  celd_free (s->places);
+  celd_free (s->moved);
   *s = (CeldSequence) { 0 };
 }
 
@@ -35,119 +36,25 @@ celd_sequence_new (const CeldGraph *graph, CeldSequence *s)
   size_t     n = graph->n_labels;
   CeldStatus status;
 
-  *s = (CeldSequence) {
-    .graph = graph, .admitted = celd_alloc0 (graph->n_links, sizeof (bool)),
-    .place = celd_alloc (n, sizeof (uint32_t)), .seen = celd_alloc0 (n, sizeof (size_t)),
-    .goal = celd_alloc0 (n, sizeof (size_t)), .list = celd_alloc (2 * n, sizeof (uint64_t)),
-    .places = celd_alloc (2 * n, sizeof (uint32_t)),
-  };
-  status = s->admitted && s->place && s->seen && s->goal && s->list && s->places
-         ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    status = celd_graph_index (graph, CELD_FARTHER, &s->up);
-  if (status == CELD_OK)
-    status = celd_graph_index (graph, CELD_NEARER, &s->down);
+  *s = (CeldSequence) { .graph = graph, .at = celd_alloc (n, sizeof *s->at), .place = celd_alloc (n, sizeof *s->place),
+                        .moved = celd_alloc (n, sizeof *s->moved) };
+  status = s->at && s->place && s->moved ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
+  for (int to = CELD_FARTHER; to <= CELD_NEARER && status == CELD_OK; to++)
+    {
+      s->last[to] = celd_alloc (n, sizeof *s->last[to]);
+      s->mark[to] = celd_alloc0 (n, sizeof *s->mark[to]);
+      status = s->last[to] && s->mark[to]
+             ? celd_graph_index (graph, to == CELD_NEARER ? CELD_FARTHER : CELD_NEARER, NULL, &s->way[to])
+             : CELD_NO_MEMORY;
+      for (size_t k = 0; k < n && status == CELD_OK; k++)
+        s->last[to][k] = s->way[to].first[k];
+    }
   for (uint32_t k = 0; status == CELD_OK && k < n; k++)
-    s->place[k] = k;
+    s->at[k] = s->place[k] = k;
   return status;
 }
 
 /* ------------------------------------------------------------------ searches between two places */
-
-/* Classes to move, each with its place in front of its number, so that sorting is by place. */
-static uint64_t
-entry_of (const CeldSequence *s, uint32_t class)
-{
-  return (uint64_t) s->place[class] << 32 | class;
-}
-
-static uint32_t
-class_at (const CeldSequence *s, size_t i)
-{
-  return (uint32_t) s->list[i];
-}
-
-static void
-find (CeldSequence *s, uint32_t class)
-{
-  if (s->seen[class] == s->number)
-    return;
-  s->seen[class] = s->number;
-  s->list[s->n++] = entry_of (s, class);
-}
-
-/* Follows admitted inequalities from a class, upwards or downwards, no farther than the place `limit`; true if it meets
- * a goal. */
-static bool
-follow (CeldSequence *s, uint32_t class, CeldSide to, uint32_t limit)
-{
-  const CeldGraph *g = s->graph;
-  const CeldIndex *index = to == CELD_NEARER ? &s->up : &s->down;
-  uint32_t         k = class;
-
-  do
-    {
-      for (size_t j = index->first[k]; j < index->first[k + 1]; j++)
-        {
-          size_t link = index->link[j];
-
-          if (!s->admitted[link] || celd_graph_equal (g, link))
-            continue;
-          for (size_t e = g->first[2 * link + to]; e < g->first[2 * link + to + 1]; e++)
-            {
-              uint32_t c = celd_class_of (&s->classes, g->end[e]);
-
-              if (to == CELD_NEARER ? s->place[c] > limit : s->place[c] < limit)
-                continue;
-              if (to == CELD_NEARER && s->goal[c] == s->number)
-                return true;
-              find (s, c);
-            }
-        }
-      k = s->classes.next[k];
-    }
-  while (k != class);
-  return false;
-}
-
-/* Everything that the entries from `first` on lead to, behind them in the list; true if a goal is among it. */
-static bool
-search (CeldSequence *s, size_t first, CeldSide to, uint32_t limit)
-{
-  for (size_t i = first; i < s->n; i++)
-    if (follow (s, class_at (s, i), to, limit))
-      return true;
-  return false;
-}
-
-/* ------------------------------------------------------------------ one more relation */
-
-static int
-compare_entries (const void *one, const void *two)
-{
-  uint64_t a = *(const uint64_t *) one, b = *(const uint64_t *) two;
-
-  return a < b ? -1 : a > b;
-}
-
-static int
-compare_places (const void *one, const void *two)
-{
-  uint32_t a = *(const uint32_t *) one, b = *(const uint32_t *) two;
-
-  return a < b ? -1 : a > b;
-}
-
-/* Deals the places of the classes in list[0..n-1] out to them in rising order. */
-static void
-deal_places (CeldSequence *s, size_t n)
-{
-  for (size_t i = 0; i < n; i++)
-    s->places[i] = (uint32_t) (s->list[i] >> 32);
-  qsort (s->places, n, sizeof *s->places, compare_places);
-  for (size_t i = 0; i < n; i++)
-    s->place[class_at (s, i)] = s->places[i];
-}
 
 /* The places of the classes of end[first] .. end[last - 1]. */
 static void
@@ -164,117 +71,174 @@ span_of (CeldSequence *s, size_t first, size_t last, uint32_t *least, uint32_t *
     }
 }
 
-/* Adds the classes of ends between two places to the list. */
-static void
-begin_from (CeldSequence *s, size_t first, size_t last, uint32_t least, uint32_t most)
+static bool
+mark_one (CeldSequence *s, CeldSide to, uint32_t label)
 {
-  for (size_t e = first; e < last; e++)
-    {
-      uint32_t c = celd_class_of (&s->classes, s->graph->end[e]);
+  uint32_t place = s->place[celd_class_of (&s->classes, label)];
 
-      if (s->place[c] >= least && s->place[c] <= most)
-        find (s, c);
+  if (place < s->window[0] || place > s->window[1])
+    return false;
+  s->mark[to][place] = s->number;
+  return s->mark[!to][place] == s->number;
+}
+
+/* Marks the places of the classes of end[first] .. end[last - 1] that are not out of the window; true if the other
+ * search has been at one of them. */
+static bool
+mark (CeldSequence *s, CeldSide to, size_t first, size_t last)
+{
+  bool met = false;
+
+  for (size_t e = first; e < last; e++)
+    met |= mark_one (s, to, s->graph->end[e]);
+  return met;
+}
+
+/* Follows admitted inequalities from the class at a place to one side, and counts them; true if the searches meet. */
+static bool
+follow (CeldSequence *s, uint32_t place, CeldSide to, size_t *work)
+{
+  const CeldGraph *g = s->graph;
+  CeldWays         ways = celd_sequence_ways (s, to);
+  bool             met = false;
+  uint32_t         k = s->at[place];
+
+  do
+    {
+      for (const CeldWay *way = ways.way + ways.first[k]; way < ways.way + ways.last[k]; way++)
+        if (way->end != CELD_ENDS)
+          met |= mark_one (s, to, way->end);
+        else if (!g->equal[way->link])
+          met |= mark (s, to, g->first[2 * way->link + to], g->first[2 * way->link + to + 1]);
+      *work += ways.last[k] - ways.first[k];
+      k = s->classes.next[k];
+    }
+  while (k != s->at[place] && !met);
+  return met;
+}
+
+/* Goes through the window from both ends until the searches meet (false), or their places cross: from *crossing on up,
+ * everything that leads to a mark downwards is marked, and so upwards below it. */
+static bool
+search (CeldSequence *s, uint32_t *crossing)
+{
+  uint32_t up = s->window[0], down = s->window[1] + 1; /* places below `up` and from `down` on are done */
+  size_t   work[2] = { 0 };
+
+  while (up < down)
+    if (work[CELD_NEARER] <= work[CELD_FARTHER])
+      {
+        if (s->mark[CELD_NEARER][up] == s->number && follow (s, up, CELD_NEARER, &work[CELD_NEARER]))
+          return false;
+        up++;
+      }
+    else
+      {
+        down--;
+        if (s->mark[CELD_FARTHER][down] == s->number && follow (s, down, CELD_FARTHER, &work[CELD_FARTHER]))
+          return false;
+      }
+  *crossing = up;
+  return true;
+}
+
+/* ------------------------------------------------------------------ one more relation */
+
+/* Appends the classes at the places from `first` to before `end` that the search to a side has marked, or not. */
+static uint32_t
+gather (CeldSequence *s, uint32_t n, uint32_t first, uint32_t end, CeldSide to, bool marked)
+{
+  for (uint32_t p = first; p < end; p++)
+    if (s->at[p] != NOBODY && (s->mark[to][p] == s->number) == marked)
+      s->moved[n++] = s->at[p];
+  return n;
+}
+
+/* Gives the window its new sequence: what stays below the crossing, what moves down to it, the class `own` if that is
+ * somebody, what moves up to it, what stays above; empty places come last. */
+static void
+deal_places (CeldSequence *s, uint32_t crossing, uint32_t own)
+{
+  uint32_t first = s->window[0], end = s->window[1] + 1, n = gather (s, 0, first, crossing, CELD_NEARER, false);
+
+  n = gather (s, n, crossing, end, CELD_FARTHER, true);
+  if (own != NOBODY)
+    s->moved[n++] = own;
+  n = gather (s, n, first, crossing, CELD_NEARER, true);
+  n = gather (s, n, crossing, end, CELD_FARTHER, false);
+  for (uint32_t i = 0; i < end - first; i++)
+    {
+      s->at[first + i] = i < n ? s->moved[i] : NOBODY;
+      if (i < n)
+        s->place[s->moved[i]] = first + i;
     }
 }
 
-static void
-set_goals (CeldSequence *s, size_t first, size_t last)
-{
-  for (size_t e = first; e < last; e++)
-    s->goal[celd_class_of (&s->classes, s->graph->end[e])] = s->number;
-}
-
-/* Is a class of the list both in front and behind? */
-static bool
-meets_goal (const CeldSequence *s)
-{
-  for (size_t i = 0; i < s->n; i++)
-    if (s->goal[class_at (s, i)] == s->number)
-      return true;
-  return false;
-}
-
-/* What is behind the farther ends and out of place, then what is before the nearer ends. */
 static bool
 admit_inequality (CeldSequence *s, const size_t *f)
 {
-  uint32_t least, most, unused;
-  size_t   n_before;
+  uint32_t unused, crossing;
 
-  span_of (s, f[0], f[1], &unused, &most);
-  span_of (s, f[1], f[2], &least, &unused);
-  if (most < least)
+  span_of (s, f[0], f[1], &unused, &s->window[1]);
+  span_of (s, f[1], f[2], &s->window[0], &unused);
+  if (s->window[1] < s->window[0])
     return true;
   s->number++;
-  s->n = 0;
-  set_goals (s, f[0], f[1]);
-  begin_from (s, f[1], f[2], least, most);
-  if (meets_goal (s) || search (s, 0, CELD_NEARER, most))
+  mark (s, CELD_NEARER, f[1], f[2]);
+  if (mark (s, CELD_FARTHER, f[0], f[1]) || !search (s, &crossing))
     return false;
-  n_before = s->n;
-  begin_from (s, f[0], f[1], least, most);
-  search (s, n_before, CELD_FARTHER, least);
-  qsort (s->list, n_before, sizeof *s->list, compare_entries);
-  qsort (s->list + n_before, s->n - n_before, sizeof *s->list, compare_entries);
-  /* the second part goes first: turn the list */
-  for (size_t i = 0; i < n_before; i++)
-    s->list[s->n + i] = s->list[i];
-  for (size_t i = 0; i < s->n; i++)
-    s->list[i] = s->list[n_before + i];
-  deal_places (s, s->n);
+  deal_places (s, crossing, NOBODY);
   return true;
 }
 
-static void
+/* The classes become one, which has no place yet. */
+static uint32_t
 join_all (CeldSequence *s, const size_t *f)
 {
-  uint32_t place = UINT32_MAX, unused;
-
-  span_of (s, f[0], f[2], &place, &unused);
+  for (size_t e = f[0]; e < f[2]; e++)
+    s->at[s->place[celd_class_of (&s->classes, s->graph->end[e])]] = NOBODY;
   for (size_t e = f[0] + 1; e < f[2]; e++)
     celd_classes_join (&s->classes, s->graph->end[e - 1], s->graph->end[e]);
-  s->place[celd_class_of (&s->classes, s->graph->end[f[0]])] = place;
+  return celd_class_of (&s->classes, s->graph->end[f[0]]);
 }
 
-/* The classes of an equality come to stand side by side, what is behind any of them before all of them. */
+/* Both searches begin at all classes, which become one at the crossing; all but one of their places stay empty. */
 static bool
 admit_equality (CeldSequence *s, const size_t *f)
 {
-  uint32_t least, most;
-  size_t   n_own, n_up, n_down;
+  uint32_t crossing;
 
-  span_of (s, f[0], f[2], &least, &most);
-  if (least == most)
+  span_of (s, f[0], f[2], &s->window[0], &s->window[1]);
+  if (s->window[0] == s->window[1])
     return true;
   s->number++;
-  s->n = 0;
-  set_goals (s, f[0], f[2]);
-  begin_from (s, f[0], f[2], least, most);
-  n_own = s->n;
-  if (search (s, 0, CELD_NEARER, most))
+  mark (s, CELD_NEARER, f[0], f[2]);
+  mark (s, CELD_FARTHER, f[0], f[2]);
+  if (!search (s, &crossing))
     return false;
-  n_up = s->n - n_own;
-  for (size_t i = 0; i < n_own; i++)
-    follow (s, class_at (s, i), CELD_FARTHER, least);
-  search (s, n_own + n_up, CELD_FARTHER, least);
-  n_down = s->n - n_own - n_up;
-  qsort (s->list + n_own, n_up, sizeof *s->list, compare_entries);
-  qsort (s->list + n_own + n_up, n_down, sizeof *s->list, compare_entries);
-  /* own, up, down -> down, own, up */
-  for (size_t i = s->n; i-- > 0; )
-    s->list[i + n_down] = s->list[i];
-  for (size_t i = 0; i < n_down; i++)
-    s->list[i] = s->list[s->n + i];
-  deal_places (s, s->n);
-  join_all (s, f);
+  deal_places (s, crossing, join_all (s, f));
   return true;
+}
+
+/* From now on searches take the link. */
+static void
+add_ways (CeldSequence *s, size_t link)
+{
+  const size_t *f = &s->graph->first[2 * link];
+  bool          equal = s->graph->equal[link];
+
+  for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
+    for (size_t e = to == CELD_NEARER || equal ? f[0] : f[1]; e < (to == CELD_FARTHER || equal ? f[2] : f[1]); e++)
+      s->way[to].way[s->last[to][s->graph->end[e]]++] = celd_graph_way (s->graph, link, (CeldSide) to);
 }
 
 bool
 celd_sequence_admit (CeldSequence *s, size_t link)
 {
   const size_t *f = &s->graph->first[2 * link];
+  bool          fits = s->graph->equal[link] ? admit_equality (s, f) : admit_inequality (s, f);
 
-  s->admitted[link] = celd_graph_equal (s->graph, link) ? admit_equality (s, f) : admit_inequality (s, f);
-  return s->admitted[link];
+  if (fits)
+    add_ways (s, link);
+  return fits;
 }

@@ -24,6 +24,11 @@ celd_settings (void)
     .light_azimuth   = 135,
     .light_elevation = 45,
     .ambient         = 0.25f,
+    .shadow_size     = 0.012f,
+    .shadow_strength = 0.6f,
+    .disparity       = 0.02f,
+    .stereo          = CELD_STEREO_SIDE_BY_SIDE,
+    .convergence     = 0.5f,
   };
 }
 
@@ -42,14 +47,19 @@ celd_settings_check (const CeldSettings *s)
               (unsigned) s->same_colour <= CELD_SAME_COLOUR_SEPARATE &&
               (unsigned) s->suggest <= CELD_SUGGEST_ALL && (unsigned) s->on_cycle <= CELD_ON_CYCLE_SPLIT &&
               (unsigned) s->arrow_style <= CELD_ARROW_TAPER && (unsigned) s->encoding <= CELD_ENCODING_FIXED &&
-              (unsigned) s->anchors <= CELD_ANCHORS_CORE && within (s->ink_threshold, 0, 0.99f) &&
+              (unsigned) s->anchors <= CELD_ANCHORS_CORE &&
+              (unsigned) s->expansion <= CELD_EXPANSION_THICKNESS && within (s->ink_threshold, 0, 0.99f) &&
               within (s->hardness, 0.01f, 1) && within (s->near_level, -1e6f, 1e6f) &&
               within (s->far_level, -1e6f, 1e6f) &&
               (s->encoding != CELD_ENCODING_FIXED || s->near_level > s->far_level) &&
               s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->contrast, 0.01f, 100) &&
               within (s->weight_floor, 1e-6f, 1) && within (s->bulge, 0, 4) &&
               within (s->light_azimuth, -360, 360) && within (s->light_elevation, -90, 90) &&
-              within (s->ambient, 0, 1);
+              within (s->ambient, 0, 1) && (unsigned) s->enhance <= CELD_ENHANCE_CONTRAST &&
+              within (s->shadow_size, 0.0005f, 0.2f) && within (s->shadow_strength, 0, 1) &&
+              within (s->shadow_offset, 0, 0.2f) && within (s->shadow_range, 0, 1) &&
+              within (s->disparity, 0, 0.2f) && within (s->convergence, 0, 1) &&
+              (unsigned) s->stereo <= CELD_STEREO_DUBOIS;
 
   return good ? CELD_OK : CELD_BAD_VALUE;
 }
@@ -160,6 +170,11 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
     case CELD_PROBLEM_NOT_CONVERGED:
       snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does "
                 "not matter.");
+      break;
+    case CELD_PROBLEM_REGION_SPLIT:
+      snprintf (text, size, "Relations go round in a circle, so the region%s was split: its part at (%d, %d) has a "
+                "level of its own, and the sheet bends. Delete a relation of the circle if that is wrong.",
+                label, p->x, p->y);
       break;
     }
 }

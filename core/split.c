@@ -324,7 +324,7 @@ cut_region (Split *split, CeldCut *cut, const CeldRun *run, int *kept)
 }
 
 static CeldStatus
-split_region (Split *split, CeldCut *cut, const CeldRun *run)
+split_region (Split *split, CeldCut *cut, size_t relation, const CeldRun *run)
 {
   double     reach = CELD_REACH * celd_ends_apart (cut->end[0], cut->end[1]);
   int        kept = -1;
@@ -336,17 +336,22 @@ split_region (Split *split, CeldCut *cut, const CeldRun *run)
         cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
       status = cut_region (split, cut, run, &kept);
       if (status == CELD_OK && kept >= 0)
-        status = take_over (split, cut, kept);
+        {
+          status = take_over (split, cut, kept);
+          if (split->canvas->acting <= relation)
+            split->canvas->acting = relation + 1;
+        }
     }
   leave_region (split, cut);
   return status;
 }
 
 static CeldStatus
-split_relation (Split *split, const CeldRelation *relation, const CeldRun *run)
+split_relation (Split *split, const CeldRelations *relations, size_t i, const CeldRun *run)
 {
-  CeldCanvas *canvas = split->canvas;
-  CeldCut     cut = {
+  const CeldRelation *relation = &relations->item[i];
+  CeldCanvas         *canvas = split->canvas;
+  CeldCut             cut = {
     .canvas = canvas, .end = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) },
   };
 
@@ -369,7 +374,7 @@ split_relation (Split *split, const CeldRelation *relation, const CeldRun *run)
   cut.at    = split->at;
   cut.mark  = split->mark;
   cut.node  = split->node;
-  return split_region (split, &cut, run);
+  return split_region (split, &cut, i, run);
 }
 
 /* ------------------------------------------------------------------ all relations in turn */
@@ -393,6 +398,26 @@ add_patches (const Split *split, CeldPatches *patches)
   return status;
 }
 
+static bool
+lies_on (const CeldPatches *patches, CeldEnd end)
+{
+  for (size_t i = 0; i < patches->n; i++)
+    if (patches->item[i].y == end.y && patches->item[i].x <= end.x && patches->item[i].end > end.x)
+      return true;
+  return false;
+}
+
+bool
+celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const CeldLabels *labels,
+                  const CeldPatches *patches)
+{
+  CeldEnd a = celd_end_find (canvas, &relation->nearer), b = celd_end_find (canvas, &relation->farther);
+
+  if (relation->equal || !a.there || !b.there)
+    return true;
+  return CELD_AT (labels, a.x, a.y) != CELD_AT (labels, b.x, b.y) && !lies_on (patches, a) && !lies_on (patches, b);
+}
+
 CeldStatus
 celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels, CeldCanvas *canvas,
                   CeldPatches *patches)
@@ -409,7 +434,7 @@ celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const Celd
       double   n = (double) relations->n;
       CeldRun  one = celd_run_part (&part, run, (double) i / n, (double) (i + 1) / n);
 
-      status = split_relation (&split, &relations->item[i], &one);
+      status = split_relation (&split, relations, i, &one);
     }
   if (status == CELD_OK)
     status = add_patches (&split, patches);

@@ -25,7 +25,7 @@ walk_new (const CeldGraph *graph, size_t n_own, Walk *w)
 {
   *w = (Walk) { .graph = graph, .n_own = n_own, .queue = celd_alloc (graph->n_labels, sizeof *w->queue),
                 .seen = celd_alloc0 (graph->n_labels, sizeof *w->seen) };
-  return w->queue && w->seen ? celd_graph_index (graph, CELD_NEARER, &w->down) : CELD_NO_MEMORY;
+  return w->queue && w->seen ? celd_graph_index (graph, CELD_NEARER, NULL, &w->down) : CELD_NO_MEMORY;
 }
 
 static void
@@ -33,8 +33,7 @@ walk_clear (Walk *w)
 {
   celd_free (w->queue);
   celd_free (w->seen);
-  celd_free (w->down.first);
-  celd_free (w->down.link);
+  celd_index_clear (&w->down);
 }
 
 static size_t
@@ -59,7 +58,7 @@ is_decided (Walk *w, size_t link)
   for (size_t i = 0; i < n; i++)
     for (size_t j = w->down.first[w->queue[i]]; j < w->down.first[w->queue[i] + 1]; j++)
       {
-        size_t        l = w->down.link[j];
+        size_t        l = w->down.way[j].link;
         const size_t *f = &g->first[2 * l];
 
         if (l >= w->n_own || !g->kept[l])

@@ -8,7 +8,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import math
 
 import numpy as np
-from PIL import Image, ImageDraw
+from PIL import Image, ImageChops, ImageDraw
 from scipy import ndimage
 
 STYLES = ['open', 'filled', 'dot', 'fade', 'taper']      # of a stroke; the first two are the arrow style `head`
@@ -28,35 +28,39 @@ class Canvas:
         points = np.asarray(points)
         self.left, self.top = (int(v) for v in np.floor(points.min(0) - margin))
         size = np.ceil(points.max(0) + margin).astype(int) - (self.left, self.top)
-        self.opacity = np.zeros((size[1] * SAMPLES, size[0] * SAMPLES), np.float32)
+        self.opacity = Image.new('L', (int(size[0]) * SAMPLES, int(size[1]) * SAMPLES))
 
     def place(self, points):
         return [((x - self.left) * SAMPLES, (y - self.top) * SAMPLES) for x, y in points]
 
     def polygon(self, points):
-        mask = Image.new('L', self.opacity.shape[::-1])
-        ImageDraw.Draw(mask).polygon(self.place(points), fill=255)
-        self.opacity = np.maximum(self.opacity, np.asarray(mask) / 255)
+        ImageDraw.Draw(self.opacity).polygon(self.place(points), fill=255)
 
     def stroke(self, points, widths, opacities):
-        """Discs along a line, faint ones first where opacities fall."""
-        mask = Image.new('L', self.opacity.shape[::-1])
+        """Discs along a line, and what lies between them; faint ones first where opacities fall."""
+        mask = Image.new('L', self.opacity.size)
         draw = ImageDraw.Draw(mask)
+        fades = max(opacities) > min(opacities)
         steps = []
         for i, (a, b) in enumerate(zip(points, points[1:])):
-            n = max(1, math.ceil(SAMPLES * math.dist(a, b)))
-            for t in np.arange(n + 1) / n:
-                steps.append((opacities[i] + t * (opacities[i + 1] - opacities[i]),
-                              a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]),
-                              widths[i] + t * (widths[i + 1] - widths[i])))
-        for opacity, x, y, width in sorted(steps):
-            (x, y), r = self.place([(x, y)])[0], SAMPLES * width / 2
-            draw.ellipse([x - r, y - r, x + r, y + r], fill=round(255 * opacity))
-        self.opacity = np.maximum(self.opacity, np.asarray(mask) / 255)
+            n = max(1, math.ceil(math.dist(a, b))) if fades else 1
+            t = np.arange(n + 1)[:, None] / n
+            ends = np.array([[*a, widths[i], opacities[i]], [*b, widths[i + 1], opacities[i + 1]]])
+            steps.extend(ends[0] + t * (ends[1] - ends[0]))
+        steps = np.array(steps) * (SAMPLES, SAMPLES, SAMPLES / 2, 255) - (self.left * SAMPLES, self.top * SAMPLES, 0, 0)
+        for k in np.argsort(steps[:, 3], kind='stable'):
+            x, y, r, opacity = steps[k]
+            draw.ellipse([x - r, y - r, x + r, y + r], fill=round(opacity))
+            if k + 1 < len(steps):
+                u, v, q, _ = steps[k + 1]
+                length = max(math.hypot(u - x, v - y), 1e-9)
+                i, j = (v - y) / length, (x - u) / length
+                draw.polygon([(x + r * i, y + r * j), (u + q * i, v + q * j), (u - q * i, v - q * j),
+                              (x - r * i, y - r * j)], fill=round(opacity))
+        self.opacity = ImageChops.lighter(self.opacity, mask)
 
     def reduced(self):
-        h, w = self.opacity.shape
-        return self.opacity.reshape(h // SAMPLES, SAMPLES, w // SAMPLES, SAMPLES).mean((1, 3))
+        return np.asarray(self.opacity.reduce(SAMPLES), np.float32) / 255
 
 
 def smooth_noise(rng, n, waves):
@@ -99,12 +103,14 @@ def paint_head(canvas, rng, line, width, filled):
         return line
     ahead = tip + 0.4 * width * np.array([math.cos(angle), math.sin(angle)])
     canvas.polygon([tuple(ahead), barbs[0][2], barbs[1][2]])
-    return line[[i for i, p in enumerate(line) if math.dist(p, tip) > 0.5 * size]]
+    outside = next(i for i in range(len(line) - 1, -1, -1) if math.dist(line[i], tip) > 0.5 * size)
+    start, way = line[outside], line[outside + 1] - line[outside]
+    inside = next(t for t in np.arange(0, 1.05, 0.05) if math.dist(start + t * way, tip) <= 0.5 * size)
+    return np.concatenate([line[:outside + 1], [start + inside * way]])      # the head hides how the shaft ends
 
 
-def paint_arrow(rng, nearer, farther, width, kind):
-    """One stroke from a nearer to a farther place: (left, top, opacity)."""
-    line = hand_line(rng, nearer, farther, width)
+def paint_arrow(rng, line, width, kind):
+    """One stroke along a line from a nearer to a farther place: (left, top, opacity)."""
     t = np.linspace(0, 1, POINTS)
     widths = width * (1 + 0.05 * smooth_noise(rng, POINTS, 5))
     canvas = Canvas(line, 6 * width + 6)
@@ -112,7 +118,7 @@ def paint_arrow(rng, nearer, farther, width, kind):
     if kind in ('open', 'filled'):
         pressure = np.clip(t / rng.uniform(0.02, 0.15), rng.uniform(0.6, 1), 1)    # pens may start thin
         shaft = paint_head(canvas, rng, line, width, kind == 'filled')
-        canvas.stroke(shaft, (widths * pressure)[:len(shaft)], opacity)
+        canvas.stroke(shaft, (widths * pressure)[:len(shaft)], opacity[:len(shaft)])
     elif kind == 'dot':
         r = rng.uniform(1.2, 1.7) * width
         blob = [tuple(line[0] + r * rng.uniform(0.9, 1.1) * np.array([math.cos(a), math.sin(a)]))

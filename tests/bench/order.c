@@ -100,6 +100,7 @@ main (void)
   measure ("1 of 100 astray, report", 10, 0, CELD_ON_CYCLE_REPORT);
   measure ("1 of 100 astray, drop-weakest", 10, 0, CELD_ON_CYCLE_DROP_WEAKEST);
   measure ("all at random, report", 1000, 0, CELD_ON_CYCLE_REPORT);
+  measure ("the same, 5 % equalities", 1000, 50, CELD_ON_CYCLE_REPORT);
   measure ("all at random, drop-weakest", 1000, 0, CELD_ON_CYCLE_DROP_WEAKEST);
   return 0;
 }

@@ -143,6 +143,37 @@ is_cycle_from (const Case *c, const CeldCycle *cycle, int at, int home)
   return strict && at == home;
 }
 
+/* Relations on a shortest path that relation i contradicts, over those marked in `use`; 0: there is none.  Distances
+ * of labels without and behind an inequality are lowered until nothing changes. */
+static int
+shortest_path (const Case *c, const bool *use, int i)
+{
+  enum { FAR_AWAY = 1000 };
+  int way[MOST_LABELS][2], shortest = 0;
+
+  for (int start = 0; start < (c->item[i].equal ? 2 : 1); start++)
+    {
+      int from = start ? c->near[i] : c->far[i], to = start ? c->far[i] : c->near[i];
+
+      for (int k = 0; k < c->n_labels; k++)
+        way[k][0] = way[k][1] = FAR_AWAY;
+      way[from][!c->item[i].equal] = 0;
+      for (int round = 0; round < 2 * MOST_LABELS; round++)
+        for (int j = 0; j < c->n; j++)
+          for (int turned = 0; use[j] && turned < (c->item[j].equal ? 2 : 1); turned++)
+            for (int strict = 0; strict < 2; strict++)
+              {
+                int *goal = &way[turned ? c->near[j] : c->far[j]][strict || !c->item[j].equal];
+                int  length = way[turned ? c->far[j] : c->near[j]][strict] + 1;
+
+                *goal = length < *goal ? length : *goal;
+              }
+      if (way[to][1] < FAR_AWAY && (!shortest || way[to][1] < shortest))
+        shortest = way[to][1];
+    }
+  return shortest;
+}
+
 static void
 check_case (Case *c)
 {
@@ -162,6 +193,8 @@ check_case (Case *c)
       for (int j = 0; j < c->n; j++)
         use[j] = j == i || (c->kept[j] && comes_before (c, j, i));
       CHECK (!least_levels (c, use, NULL, level));
+      use[i] = false;
+      CHECK (cycle->n == (size_t) shortest_path (c, use, i) + 1);
       CHECK (is_cycle_from (c, cycle, c->far[i], c->near[i]) ||
              (c->item[i].equal && is_cycle_from (c, cycle, c->near[i], c->far[i])));
     }

@@ -25,6 +25,12 @@ ranges_are_kept (void)
     { &s.light_azimuth, -360, -361, 361 },
     { &s.light_elevation, 90, -91, 91 },
     { &s.ambient, 1, -0.1f, 1.1f },
+    { &s.shadow_size, 0.2f, 0, 0.3f },
+    { &s.shadow_strength, 1, -0.1f, 1.1f },
+    { &s.shadow_offset, 0.2f, -0.1f, 0.3f },
+    { &s.shadow_range, 1, -0.1f, 1.1f },
+    { &s.disparity, 0.2f, -0.1f, 0.3f },
+    { &s.convergence, 1, -0.1f, 1.1f },
   };
 
   for (size_t i = 0; i < sizeof range / sizeof *range; i++)
