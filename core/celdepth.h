@@ -499,6 +499,17 @@ CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels,
 /* Lambert shading of normals by the light of the settings, in [0,1], linear light. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
+/* Depth enhancement (section 5, Figures 1d and 5c): the share of light that is taken from the art, or added, from -1
+ * (black) over 0 (nothing) to 1 (twice as bright), linear.  `levels` are expanded; for the stack at most 256 of them are
+ * told apart.  Not a number reads as 0.  CELD_BAD_VALUE for bad settings. */
+CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+                                  CeldPlane *change);
+/* Such a change applied to art; what it takes, as a black layer to put over the art; and applied to a grey picture of
+ * the levels, the nearest white: what an artist sees of depth while drawing (Figure 5c).  Linear light. */
+CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);
+CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
+CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
+
 /* ------------------------------------------------------------------ the session: the route, kept between edits */
 
 /* Holds a drawing, its strokes and relations, and every result made so far.  Set or change anything in any order, then
