@@ -458,14 +458,56 @@ CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *pal
 CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
 CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
 
-/* Depth expansion (section 3.3): ink goes to the region that drew it.  `ranks` may have any values, larger = nearer;
- * `expanded` holds the same values and may alias `ranks`. */
+/* Whose each pixel is, with its ink: paper is its label's, ink goes to the region that drew it.  Labels are 1 .. n,
+ * level[k - 1] is that of label k.  `corrections` (NULL, or 0 where there is none) are strokes over ink: the piece of
+ * line below each goes to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of its own pen,
+ * over what lies behind it; with CELD_EXPANSION_THICKNESS it is celd_expand.  `owner` may alias `labels`. */
+CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
+                              const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                              CeldOwnership *ownership);
+
+/* Strokes in the colours of regions, as corrections: opaque pixels are the label of their colour, the first of several;
+ * 0 where nothing is painted, or a colour that no region has. */
+CELD_API CeldStatus celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels);
+
+/* celd_own for levels before expansion, of any encoding, larger = nearer; not a number reads as 0.  Every level, or
+ * with `regions` (may be NULL) every region of a level, is a label.  `corrections` (may be NULL) are labels of
+ * `regions`; of a region with several levels they mean the level that has most of it.  CELD_BAD_VALUE for corrections
+ * without regions.
+ * `expanded` is the level that has more of each pixel and may alias `levels`. */
+CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                        const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                        CeldPlane *expanded);
+
+/* The same as a matte: of each pixel's owner its level, its region (`region` may be NULL; 0 without regions) and how
+ * much of the pixel it covers, above 0 (CeldOwnership).  `level` may alias `levels`, `region` may alias `regions`. */
+CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                          const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                          CeldPlane *level, CeldLabels *region, CeldPlane *share);
+
+/* Depth expansion by the thickness of contours (section 3.3).  `ranks` may have any values, larger = nearer; `expanded`
+ * holds the same values and may alias `ranks`. */
 CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run,
                                  CeldLabels *expanded);
 
-/* The same for levels of any encoding; not a number reads as 0. */
-CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldRun *run,
-                                        CeldPlane *expanded);
+/* Cuts the art, the drawing itself or colours for it, into one layer for each label that has pixels, in the order of
+ * level[label - 1], labels being 1 .. n; of equal levels later labels are in front.  At antialiased edges both layers
+ * get a share of the pixel, in colours of their own.
+ * `art` is in [0,1] and in whatever the layers are to be composited in, encoded colours or linear light.  All numbers
+ * are such as `store` has; in 8 bits the composite is right to one step.
+ * `complete` adds what nearer layers hide: outlines run on smoothly, with the region's own line along them, holes are
+ * closed, and of the label `background` (0: none) everything is there; never where it could be seen.
+ * `ink` is the drawing's, for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *ownership, const uint32_t *level,
+                                     size_t n, const CeldColours *art, uint32_t background, CeldStore store, bool complete,
+                                     const CeldRun *run, CeldLayers **layers);
+
+/* The same from levels before expansion, with the labels of celd_expand_levels: a layer's is its number from the
+ * farthest, from 1.  The background is the farthest label if it has most of the frame. */
+CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                           const CeldLabels *corrections, const CeldColours *art,
+                                           CeldExpansion method, CeldStore store, bool complete, const CeldRun *run,
+                                           CeldLayers **layers);
 
 /* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core
  * of each region without one, too; an edge is cut where levels differ and the least ink within half a stroke of its two
@@ -509,6 +551,23 @@ CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *s
 CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
+
+/* The layers from the side (section 5, Figure 1g), each moved by its own depth, which goes on where it is hidden:
+ * `eye` -1 for the left one, 1 for the right one, 0 gives the art back, between for parallax.  `ownership` is what they
+ * were cut by.  Completed layers leave no holes.  Colours are those that the layers were cut in. */
+CELD_API CeldStatus celd_stereo_view (const CeldLayers *layers, const CeldOwnership *ownership,
+                                      const CeldPlane *depth, double eye, const CeldSettings *settings,
+                                      const CeldRun *run, CeldColours *view);
+/* How strong that will be: disparities in front of and behind the screen, in shares of the width, and whether something
+ * in front of the screen is cut by the frame at the left or right, which the eyes cannot put together. */
+typedef struct { double front, behind; bool cut_left, cut_right; } CeldComfort;
+#define CELD_STEREO_COMFORT (1.0 / 30) /* of the width: more disparity from front to back strains the eyes */
+CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
+/* Two views in one picture, whose size celd_stereo_size tells from theirs; anaglyphs for red glasses on the left and
+ * cyan ones on the right, in linear light. */
+CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);
+CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
+                                      CeldColours *joined);
 
 /* ------------------------------------------------------------------ the session: the route, kept between edits */
 

@@ -13,39 +13,44 @@
 #include "expand.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #define LEAST_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
 
-static int
-compare_ranks (const void *a, const void *b)
+int
+celd_compare_ranks (const void *a, const void *b)
 {
   uint32_t p = *(const uint32_t *) a, q = *(const uint32_t *) b;
 
   return (p > q) - (p < q);
 }
 
-/* The distinct ranks, in rising order: first one of each run in a row, then sorted and thinned. */
-static CeldStatus
-list_ranks (const CeldLabels *ranks, CeldSheet *sheet)
+/* First one of each run in a row, then sorted and thinned. */
+CeldStatus
+celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
 {
-  size_t n = 0;
+  uint32_t *rank = NULL;
+  size_t    found = 0, kept = 0;
 
   for (int y = 0; y < ranks->height; y++)
     for (int x = 0; x < ranks->width; x++)
       if (x == 0 || CELD_AT (ranks, x, y) != CELD_AT (ranks, x - 1, y))
         {
-          uint32_t *rank = celd_grow (sheet->rank, n + 1, sizeof *rank);
+          uint32_t *grown = celd_grow (rank, found + 1, sizeof *grown);
 
-          if (!rank)
-            return CELD_NO_MEMORY;
-          sheet->rank = rank;
-          rank[n++] = CELD_AT (ranks, x, y);
+          if (!grown)
+            {
+              celd_free (rank);
+              return CELD_NO_MEMORY;
+            }
+          rank = grown;
+          rank[found++] = CELD_AT (ranks, x, y);
         }
-  qsort (sheet->rank, n, sizeof *sheet->rank, compare_ranks);
-  for (size_t i = 0; i < n; i++)
-    if (i == 0 || sheet->rank[i] != sheet->rank[i - 1])
-      sheet->rank[sheet->n++] = sheet->rank[i];
+  qsort (rank, found, sizeof *rank, celd_compare_ranks);
+  for (size_t i = 0; i < found; i++)
+    if (i == 0 || rank[i] != rank[i - 1])
+      rank[kept++] = rank[i];
+  *list = rank;
+  *n    = kept;
   return CELD_OK;
 }
 
@@ -64,7 +69,7 @@ number_pixels (const CeldLabels *ranks, CeldSheet *sheet)
           *level = level[-1];
         else
           {
-            const uint32_t *found = bsearch (rank, sheet->rank, sheet->n, sizeof *rank, compare_ranks);
+            const uint32_t *found = bsearch (rank, sheet->rank, sheet->n, sizeof *rank, celd_compare_ranks);
 
             *level = (uint32_t) (found - sheet->rank) + 1;
           }
@@ -191,7 +196,7 @@ celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run, 
   sheet.pixels = (size_t) ranks->width * (size_t) ranks->height;
   sheet.level = celd_alloc (sheet.pixels, sizeof *sheet.level);
   sheet.depth_in_ink = celd_alloc (sheet.pixels, sizeof *sheet.depth_in_ink);
-  status = sheet.level && sheet.depth_in_ink ? list_ranks (ranks, &sheet) : CELD_NO_MEMORY;
+  status = sheet.level && sheet.depth_in_ink ? celd_list_ranks (ranks, &sheet.rank, &sheet.n) : CELD_NO_MEMORY;
   if (status)
     goto done;
   sheet.box = celd_alloc0 (sheet.n, sizeof *sheet.box);
@@ -210,49 +215,5 @@ done:
   celd_free (sheet.depth_in_ink);
   celd_free (sheet.rank);
   celd_free (sheet.box);
-  return status;
-}
-
-/* ------------------------------------------------------------------ levels */
-
-/* The bits of a float as a number that sorts as the float does. */
-static uint32_t
-rank_of_level (float level)
-{
-  float    number = level == level ? level + 0.f : 0; /* neither NaN nor -0 */
-  uint32_t bits;
-
-  memcpy (&bits, &number, sizeof bits);
-  return bits & UINT32_C (0x80000000) ? ~bits : bits | UINT32_C (0x80000000);
-}
-
-static float
-level_of_rank (uint32_t rank)
-{
-  uint32_t bits = rank & UINT32_C (0x80000000) ? rank & UINT32_C (0x7fffffff) : ~rank;
-  float    level;
-
-  memcpy (&level, &bits, sizeof level);
-  return level;
-}
-
-CeldStatus
-celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldRun *run, CeldPlane *expanded)
-{
-  CeldLabels ranks;
-  CeldStatus status;
-
-  if (!CELD_SAME_SIZE (levels, expanded))
-    return CELD_BAD_SIZE;
-  status = celd_labels_new (levels->width, levels->height, &ranks);
-  for (int y = 0; y < levels->height && status == CELD_OK; y++)
-    for (int x = 0; x < levels->width; x++)
-      CELD_AT (&ranks, x, y) = rank_of_level (CELD_AT (levels, x, y));
-  if (status == CELD_OK)
-    status = celd_expand (ink, &ranks, run, &ranks);
-  for (int y = 0; y < levels->height && status == CELD_OK; y++)
-    for (int x = 0; x < levels->width; x++)
-      CELD_AT (expanded, x, y) = level_of_rank (CELD_AT (&ranks, x, y));
-  celd_free (ranks.data);
   return status;
 }

@@ -41,7 +41,7 @@ change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
   celd_free (s->block_ink.data);
   s->block_ink = (CeldPlane) { 0 };
   s->reach     = 0;
-  celd_session_forget_ranks (s);
+  celd_session_forget_ownership (s);
   s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
   s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
 }

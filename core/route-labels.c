@@ -21,11 +21,62 @@ append_relations (CeldRelations *to, const CeldRelations *from)
   return status;
 }
 
+/* Do two relations say the same of the labels? */
+static bool
+same_ends (const CeldRelation *a, const CeldRelation *b)
+{
+  return a->equal == b->equal && celd_term_same (&a->nearer, &b->nearer) && celd_term_same (&a->farther, &b->farther);
+}
+
+bool
+celd_session_spares (const CeldSession *session, const CeldRelation *relation)
+{
+  return celd_segmenter_spares (session->segmenter, relation, &session->settings, &session->solved);
+}
+
+/* No relation contradicts others, on labels that none has split. */
+static CeldStatus
+agree (const CeldSession *s, const CeldRelations *relations, bool *agreed)
+{
+  CeldGraph  graph = { 0 };
+  CeldKnots  knots = { 0 };
+  CeldStatus status = celd_graph_new (celd_session_current_labels (s), &s->palette, relations, &s->ink, &graph, NULL);
+
+  if (status == CELD_OK)
+    status = celd_knots_find (&graph, &knots);
+  *agreed = status == CELD_OK && !knots.n;
+  celd_knots_clear (&knots);
+  celd_graph_clear (&graph);
+  return status;
+}
+
+/* Would the labels be as they are with these relations in place of the present ones?  They say something of labels
+ * where they make regions or split them: few do. */
+static CeldStatus
+keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
+{
+  const CeldRelations *old = &s->relations;
+  bool                 bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT;
+  size_t               same = 0;
+
+  *kept = false;
+  while (same < old->n && same < relations->n && same_ends (&old->item[same], &relations->item[same]))
+    same++;
+  if (same < celd_segmenter_acting (s->segmenter) || (bend && s->splits.n))
+    return CELD_OK;
+  for (size_t i = same; i < relations->n; i++)
+    if (!celd_session_spares (s, &relations->item[i]))
+      return CELD_OK;
+  *kept = true;
+  return bend ? agree (s, relations, kept) : CELD_OK;
+}
+
 CeldStatus
 celd_make_relations (CeldSession *s, const CeldRun *run)
 {
   CeldRelations all = { 0 };
   CeldProblems  problems = { 0 };
+  bool          kept = false;
   CeldStatus    status = append_relations (&all, &s->text);
 
   if (status == CELD_OK)
@@ -34,12 +85,16 @@ celd_make_relations (CeldSession *s, const CeldRun *run)
     status = celd_arrows_read (&s->arrows, s->settings.arrow_style, run, &all, &problems);
   if (status == CELD_OK)
     status = append_relations (&all, &s->single);
+  if (status == CELD_OK && s->valid[STAGE_LABELS])
+    status = keep_labels (s, &all, &kept);
   if (status == CELD_OK)
     {
       celd_relations_clear (&s->relations);
       celd_problems_clear (&s->problems[STAGE_RELATIONS]);
       s->relations = all;
       s->problems[STAGE_RELATIONS] = problems;
+      if (!kept)
+        celd_session_forget (s, STAGE_LABELS);
       return CELD_OK;
     }
   celd_relations_clear (&all);
@@ -280,6 +335,18 @@ part (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *pa
   return status;
 }
 
+static CeldStatus
+report_splits (const CeldSplits *splits, CeldProblems *problems)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < splits->n && status == CELD_OK; i++)
+    status = celd_problem_add (problems, (CeldProblem) {
+      CELD_PROBLEM_REGION_SPLIT, splits->item[i].x[1], splits->item[i].y[1], splits->item[i].label,
+      splits->item[i].other, CELD_NO_INDEX });
+  return status;
+}
+
 const CeldLabels *
 celd_session_current_labels (const CeldSession *session)
 {
@@ -291,7 +358,7 @@ see_labels (CeldSession *s, CeldRect changed)
 {
   celd_session_see (s, STAGE_LABELS, changed);
   if (changed.width)
-    celd_session_forget_ranks (s);
+    celd_session_forget_ownership (s);
 }
 
 /* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
@@ -317,9 +384,11 @@ celd_make_labels (CeldSession *s, const CeldRun *run)
     see_labels (s, changed);
   if (status == CELD_OK)
     status = part (s, &last, &palette, &parted);
+  if (status == CELD_OK)
+    status = report_splits (&parted.splits, &problems);
   if (status != CELD_OK)
     {
-      celd_session_forget_ranks (s); /* what was painted before it failed, nobody knows */
+      celd_session_forget_ownership (s); /* what was painted before it failed, nobody knows */
       parted_clear (&parted);
       celd_palette_clear (&palette);
       celd_problems_clear (&problems);

@@ -6,9 +6,9 @@
  *
  *   ink -> weights -> nodes (of the seeds) -> exact depth (with the relations)
  *
- * The stages up to the labels are in route-labels.c, depth is in route-depth.c, the exact program in
- * route-exact.c.  Each of the others writes into new memory and replaces the old result only when it succeeded; the
- * comparison of the two is what the host is told to redraw.
+ * The stages up to the labels are in route-labels.c, levels in route-levels.c, depth is in route-depth.c, the exact
+ * program in route-exact.c.  Each of the others writes into new memory and replaces the old result only when it
+ * succeeded; the comparison of the two is what the host is told to redraw.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,9 +19,15 @@
 static CeldStatus
 make_suggestions (CeldSession *s, const CeldRun *run)
 {
-  CeldRelations suggested = { 0 };
-  CeldStatus    status = celd_suggest (celd_session_current_labels (s), &s->palette, &s->ink, run, &suggested);
+  const CeldLabels *labels = celd_session_current_labels (s);
+  CeldRelations     suggested = { 0 };
+  CeldPart          part[2];
+  CeldRun           first = celd_run_part (&part[0], run, 0, s->hint.data ? 0.5 : 1);
+  CeldRun           second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldStatus        status = celd_suggest (labels, &s->palette, &s->ink, &first, &suggested);
 
+  if (status == CELD_OK && s->hint.data)
+    status = celd_suggest_from_depth (labels, &s->palette, &s->ink, &s->hint, &second, &suggested);
   if (status != CELD_OK)
     {
       celd_relations_clear (&suggested);
@@ -60,8 +66,8 @@ make_order (CeldSession *s, const CeldRun *run)
   CeldStatus           status = join_suggestions (s, &first, &relations);
 
   if (status == CELD_OK)
-    status = celd_order (celd_session_current_labels (s), &s->palette, relations, &s->ink, &s->settings, &second,
-                         &order, &problems);
+    status = celd_order_keep (celd_session_current_labels (s), &s->palette, relations, &s->ink, &s->settings, &second,
+                              &order, &problems, &s->ranks);
   if (status != CELD_OK)
     {
       celd_order_clear (&order);
@@ -73,124 +79,6 @@ make_order (CeldSession *s, const CeldRun *run)
   s->order = order;
   s->problems[STAGE_ORDER] = problems;
   return CELD_OK;
-}
-
-/* Levels of ranks as the settings encode them. */
-static void
-encode (const CeldSession *s, const CeldLabels *ranks, CeldPlane *levels)
-{
-  for (size_t i = 0; i < (size_t) ranks->width * (size_t) ranks->height; i++)
-    levels->data[i] = i && ranks->data[i] == ranks->data[i - 1]
-                        ? levels->data[i - 1]
-                        : celd_order_value (&s->order, ranks->data[i], &s->settings);
-}
-
-/* The rank of each pixel's label. */
-static CeldStatus
-rank_labels (const CeldSession *s, CeldLabels *ranks)
-{
-  const CeldLabels *labels = celd_session_current_labels (s);
-  CeldStatus        status = celd_labels_new (labels->width, labels->height, ranks);
-
-  if (status == CELD_OK)
-    for (size_t i = 0; i < (size_t) ranks->width * (size_t) ranks->height; i++)
-      ranks->data[i] = s->order.level[labels->data[i] - 1];
-  return status;
-}
-
-static CeldStatus
-make_flat (CeldSession *s, const CeldRun *run)
-{
-  CeldLabels ranks;
-  CeldPlane  flat = { 0 };
-  CeldStatus status = rank_labels (s, &ranks);
-
-  (void) run;
-  if (status == CELD_OK)
-    status = celd_plane_new (ranks.width, ranks.height, &flat);
-  if (status == CELD_OK)
-    {
-      encode (s, &ranks, &flat);
-      celd_session_replace (s, STAGE_FLAT, &s->flat, &flat);
-    }
-  celd_free (ranks.data);
-  celd_free (flat.data);
-  return status;
-}
-
-/* Rank and level of each label. */
-static CeldStatus
-list_ranks (const CeldSession *s, CeldRank **list)
-{
-  CeldRank *rank = celd_alloc (s->order.n, sizeof *rank);
-
-  if (!rank)
-    return CELD_NO_MEMORY;
-  for (size_t k = 0; k < s->order.n; k++)
-    rank[k] = (CeldRank) { s->order.level[k],
-                           celd_order_value (&s->order, s->order.level[k], &s->settings) };
-  *list = rank;
-  return CELD_OK;
-}
-
-/* With the labels and the ink as they were, do these ranks give the levels that there are? */
-static bool
-levels_stand (const CeldSession *s, const CeldRank *rank)
-{
-  for (size_t k = 0; s->rank && k < s->order.n && s->n_ranks == s->order.n; k++)
-    if (rank[k].rank != s->rank[k].rank || rank[k].level != s->rank[k].level)
-      return false;
-  return s->rank && s->n_ranks == s->order.n;
-}
-
-static CeldStatus
-expand_levels (CeldSession *s, const CeldRun *run)
-{
-  CeldLabels ranks;
-  CeldPlane  levels = { 0 };
-  CeldStatus status = rank_labels (s, &ranks);
-
-  if (status == CELD_OK)
-    status = celd_expand (celd_session_bent_ink (s), &ranks, run, &ranks);
-  if (status == CELD_OK)
-    status = celd_plane_new (ranks.width, ranks.height, &levels);
-  if (status == CELD_OK)
-    {
-      encode (s, &ranks, &levels);
-      celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
-    }
-  celd_free (ranks.data);
-  celd_free (levels.data);
-  return status;
-}
-
-void
-celd_session_forget_ranks (CeldSession *session)
-{
-  celd_free (session->rank);
-  session->rank = NULL;
-}
-
-/* Most strokes and relations only say what is so already. */
-static CeldStatus
-make_levels (CeldSession *s, const CeldRun *run)
-{
-  CeldRank  *rank = NULL;
-  CeldStatus status = list_ranks (s, &rank);
-
-  if (status == CELD_OK && !levels_stand (s, rank))
-    {
-      status = expand_levels (s, run);
-      if (status == CELD_OK)
-        {
-          celd_session_forget_ranks (s);
-          s->rank    = rank;
-          s->n_ranks = s->order.n;
-          return CELD_OK;
-        }
-    }
-  celd_free (rank);
-  return status;
 }
 
 static CeldStatus
@@ -235,25 +123,27 @@ make_shading (CeldSession *s, const CeldRun *run)
 static const struct
 {
   CeldStatus (*make) (CeldSession *session, const CeldRun *run);
-  unsigned   needs;
+  unsigned   needs;   /* what has to be made before; when that is forgotten, so is the stage */
+  unsigned   follows; /* what has to be made before, and forgets the stage itself if need be */
   double     share; /* of the time of the whole route, for progress */
 } stages[N_STAGES] = {
-  [STAGE_RELATIONS] = { celd_make_relations, 0,                                              0.02 },
-  [STAGE_INK]       = { celd_make_ink,       0,                                              0.09 },
-  [STAGE_SCRIBBLES] = { celd_make_scribbles, 0,                                              0.09 },
-  [STAGE_SEEDS]     = { celd_make_seeds,     NEEDS (SCRIBBLES),                              0.01 },
-  [STAGE_LABELS]    = { celd_make_labels,    NEEDS (INK) | NEEDS (RELATIONS) | NEEDS (SEEDS), 0.09 },
-  [STAGE_SUGGESTIONS] = { make_suggestions,  NEEDS (LABELS),                                 0.05 },
-  [STAGE_ORDER]     = { make_order,          NEEDS (LABELS),                                 0.02 },
-  [STAGE_FLAT]      = { make_flat,           NEEDS (ORDER),                                  0.01 },
-  [STAGE_LEVELS]    = { make_levels,         NEEDS (ORDER),                                  0.21 },
-  [STAGE_PREVIEW]   = { celd_make_preview,   NEEDS (ORDER),                                  0.02 },
-  [STAGE_DEPTH]     = { celd_make_depth,     NEEDS (LEVELS),                                 0.05 },
-  [STAGE_NORMALS]   = { make_normals,        NEEDS (LEVELS),                                 0.24 },
-  [STAGE_WEIGHTS]   = { celd_make_weights,   NEEDS (INK),                                    0.02 },
-  [STAGE_NODES]     = { celd_make_nodes,     NEEDS (SEEDS) | NEEDS (WEIGHTS),                0.10 },
-  [STAGE_EXACT]     = { celd_make_exact,     NEEDS (NODES) | NEEDS (RELATIONS),              2.00 },
-  [STAGE_SHADING]   = { make_shading,        NEEDS (NORMALS),                                0.01 },
+  [STAGE_RELATIONS]   = { celd_make_relations, 0,                                  0,                 0.02 },
+  [STAGE_INK]         = { celd_make_ink,       0,                                  0,                 0.09 },
+  [STAGE_SCRIBBLES]   = { celd_make_scribbles, 0,                                  0,                 0.09 },
+  [STAGE_SEEDS]       = { celd_make_seeds,     NEEDS (SCRIBBLES),                  0,                 0.01 },
+  [STAGE_LABELS]      = { celd_make_labels,    NEEDS (INK) | NEEDS (SEEDS),        NEEDS (RELATIONS), 0.09 },
+  [STAGE_SUGGESTIONS] = { make_suggestions,    NEEDS (LABELS),                     0,                 0.05 },
+  [STAGE_ORDER]       = { make_order,          NEEDS (LABELS) | NEEDS (RELATIONS), 0,                 0.02 },
+  [STAGE_FLAT]        = { celd_make_flat,      NEEDS (ORDER),                      0,                 0.01 },
+  [STAGE_OWNERSHIP]   = { celd_make_ownership, NEEDS (ORDER),                      0,                 0.20 },
+  [STAGE_LEVELS]      = { celd_make_levels,    NEEDS (OWNERSHIP),                  0,                 0.01 },
+  [STAGE_PREVIEW]     = { celd_make_preview,   NEEDS (ORDER),                      0,                 0.02 },
+  [STAGE_DEPTH]       = { celd_make_depth,     NEEDS (LEVELS),                     0,                 0.05 },
+  [STAGE_NORMALS]     = { make_normals,        NEEDS (LEVELS),                     0,                 0.24 },
+  [STAGE_WEIGHTS]     = { celd_make_weights,   NEEDS (INK),                        0,                 0.02 },
+  [STAGE_NODES]       = { celd_make_nodes,     NEEDS (SEEDS) | NEEDS (WEIGHTS),    0,                 0.10 },
+  [STAGE_EXACT]       = { celd_make_exact,     NEEDS (NODES) | NEEDS (RELATIONS),  0,                 2.00 },
+  [STAGE_SHADING]     = { make_shading,        NEEDS (NORMALS),                    0,                 0.01 },
 };
 
 /* Needs name earlier stages only, so one pass in each direction finds all. */
@@ -272,18 +162,30 @@ celd_session_forget (CeldSession *session, CeldStage stage)
     }
 }
 
+/* The stages that are to be made, or may be: what follows another knows when that is made. */
+static unsigned
+open_stages (const CeldSession *session)
+{
+  unsigned open = 0;
+
+  for (int s = 0; s < N_STAGES; s++)
+    if (!session->valid[s] || ((stages[s].needs | stages[s].follows) & open))
+      open |= 1u << s;
+  return open;
+}
+
 CeldStatus
 celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run)
 {
-  unsigned   wanted = 1u << stage;
+  unsigned   wanted = 1u << stage, open = open_stages (session);
   double     total = 0, done = 0;
   CeldStatus status = CELD_OK;
 
   for (int s = N_STAGES - 1; s >= 0; s--)
     if (wanted & (1u << s))
       {
-        wanted |= stages[s].needs;
-        total += session->valid[s] ? 0 : stages[s].share;
+        wanted |= stages[s].needs | stages[s].follows;
+        total += open & (1u << s) ? stages[s].share : 0;
       }
   for (int s = 0; s < N_STAGES && status == CELD_OK; s++)
     if ((wanted & (1u << s)) && !session->valid[s])

@@ -34,21 +34,15 @@ same_paint (const CeldPaint *a, const CeldPaint *b)
 }
 
 static bool
-same_term (const CeldTerm *a, const CeldTerm *b)
-{
-  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
-}
-
-static bool
 same_relations (const CeldRelations *a, const CeldRelations *b)
 {
   for (size_t i = 0; i < a->n && a->n == b->n; i++)
     {
       const CeldRelation *p = &a->item[i], *q = &b->item[i];
 
-      if (!same_term (&p->nearer, &q->nearer) || !same_term (&p->farther, &q->farther) || p->equal != q->equal ||
-          p->crack != q->crack || p->anchor != q->anchor || p->weight != q->weight || p->gap != q->gap ||
-          p->line != q->line || p->column != q->column)
+      if (!celd_term_same (&p->nearer, &q->nearer) || !celd_term_same (&p->farther, &q->farther) ||
+          p->equal != q->equal || p->crack != q->crack || p->anchor != q->anchor || p->weight != q->weight ||
+          p->gap != q->gap || p->line != q->line || p->column != q->column)
         return false;
     }
   return a->n == b->n;
@@ -80,6 +74,11 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
     celd_session_forget (session, STAGE_LABELS);
   if (a->suggest != b->suggest || a->on_cycle != b->on_cycle)
     celd_session_forget (session, STAGE_ORDER);
+  if (a->expansion != b->expansion)
+    {
+      celd_session_forget (session, STAGE_OWNERSHIP);
+      celd_session_forget_ownership (session);
+    }
   if (encoding)
     {
       celd_session_forget (session, STAGE_FLAT);
@@ -127,7 +126,10 @@ clear_layers (CeldSession *s)
   celd_free (s->scribbles.data);
   celd_free (s->arrows.data);
   celd_free (s->contours.data);
-  s->scribbles = s->arrows = s->contours = (CeldPaint) { 0 };
+  celd_free (s->hint.data);
+  celd_free (s->corrections.data);
+  s->scribbles = s->arrows = s->contours = s->corrections = (CeldPaint) { 0 };
+  s->hint = (CeldPlane) { 0 };
 }
 
 CeldStatus
@@ -206,6 +208,28 @@ celd_session_set_contours (CeldSession *session, const CeldPaint *contours)
   return set_layer (session, contours, &session->contours, STAGE_INK);
 }
 
+CeldStatus
+celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth)
+{
+  CeldPlane  copy = { 0 };
+  CeldStatus status = CELD_OK;
+
+  if (depth && !CELD_SAME_SIZE (&session->drawing.luma, depth))
+    return CELD_BAD_SIZE;
+  if (same_plane (depth ? depth : &copy, &session->hint))
+    return CELD_OK;
+  if (depth)
+    status = copy_plane (depth, &copy);
+  if (status != CELD_OK)
+    return status;
+  celd_free (session->hint.data);
+  session->hint = copy;
+  celd_session_forget (session, STAGE_SUGGESTIONS);
+  if (session->settings.suggest != CELD_SUGGEST_OFF)
+    celd_session_forget (session, STAGE_ORDER);
+  return CELD_OK;
+}
+
 /* What a reader makes of a text (NULL: nothing) becomes `known`. */
 static CeldStatus
 set_text (CeldSession *session, CeldStatus (*parse) (const char *text, CeldRelations *relations, CeldTextError *error),
@@ -226,6 +250,17 @@ set_text (CeldSession *session, CeldStatus (*parse) (const char *text, CeldRelat
 }
 
 CeldStatus
+celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections)
+{
+  const uint8_t *old = session->corrections.data;
+  CeldStatus     status = set_layer (session, corrections, &session->corrections, STAGE_OWNERSHIP);
+
+  if (session->corrections.data != old)
+    celd_session_forget_ownership (session);
+  return status;
+}
+
+CeldStatus
 celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error)
 {
   return set_text (session, celd_relations_parse, text, &session->text, error);
@@ -237,53 +272,99 @@ celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextErr
   return set_text (session, celd_arrow_path_parse, path, &session->path, error);
 }
 
-/* Without the relations of one id; how many there were. */
+/* Without the relations of one id among the first `end`; how many there were. */
 static size_t
-drop_relations (CeldRelations *relations, uint32_t id)
+drop_relations (CeldRelations *relations, uint32_t id, size_t end)
 {
   size_t kept = 0, n = relations->n;
 
-  for (size_t i = 0; i < n; i++)
-    if (relations->item[i].id != id)
+  while (kept < end && relations->item[kept].id != id)
+    kept++;
+  if (kept == end)
+    return 0;
+  for (size_t i = kept; i < n; i++)
+    if (i >= end || relations->item[i].id != id)
       relations->item[kept++] = relations->item[i];
   relations->n = kept;
   return n - kept;
 }
 
+/* Adds a relation behind all others to what was made of these; false if that has to be made anew. */
+static bool
+take_relation (CeldSession *s, const CeldRelation *relation)
+{
+  const CeldLabels *labels = celd_session_current_labels (s);
+  uint32_t          near, far;
+
+  if (!s->ranks.n || !celd_session_spares (s, relation))
+    return false;
+  near = celd_term_label (labels, &s->palette, &s->ink, &relation->nearer, &s->ranks.stroke);
+  far  = celd_term_label (labels, &s->palette, &s->ink, &relation->farther, &s->ranks.stroke);
+  return near && far && celd_ranks_add (&s->ranks, relation, near, far, &s->order) &&
+         celd_relation_add (&s->relations, *relation) == CELD_OK;
+}
+
+/* The same for several; then all that is made of the order is to be made anew, but not the order itself. */
+static bool
+take_relations (CeldSession *s, const CeldRelations *added)
+{
+  size_t before = s->relations.n;
+
+  if (!s->valid[STAGE_RELATIONS] || !s->valid[STAGE_ORDER] || s->settings.suggest != CELD_SUGGEST_OFF ||
+      (s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && (s->splits.n || s->order.n_knots)))
+    return false;
+  for (size_t i = 0; i < added->n; i++)
+    if (!take_relation (s, &added->item[i]))
+      {
+        s->relations.n = before; /* labels are told by what they were made from */
+        return false;
+      }
+  celd_session_forget (s, STAGE_EXACT);
+  celd_session_forget (s, STAGE_ORDER);
+  s->valid[STAGE_ORDER] = true;
+  return true;
+}
+
+/* Takes over `added`, with nothing of the same id before. */
+static CeldStatus
+append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
+{
+  size_t     before = s->single.n;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < added->n && status == CELD_OK; i++)
+    status = celd_relation_add (&s->single, added->item[i]);
+  if (status != CELD_OK)
+    {
+      s->single.n = before;
+      return status;
+    }
+  if (drop_relations (&s->single, id, before) || !take_relations (s, added))
+    celd_session_forget (s, STAGE_RELATIONS);
+  return CELD_OK;
+}
+
 CeldStatus
 celd_session_put_relation (CeldSession *session, uint32_t id, const char *text, CeldTextError *error)
 {
-  CeldRelations all = { 0 };
-  CeldStatus    status = CELD_OK;
+  CeldRelations added = { 0 };
+  CeldStatus    status;
 
   if (!id || !text)
     return CELD_BAD_VALUE;
-  for (size_t i = 0; i < session->single.n && status == CELD_OK; i++)
-    if (session->single.item[i].id != id)
-      status = celd_relation_add (&all, session->single.item[i]);
+  status = celd_relations_parse (text, &added, error);
+  for (size_t i = 0; i < added.n; i++)
+    added.item[i].id = id;
   if (status == CELD_OK)
-    {
-      size_t others = all.n;
-
-      status = celd_relations_parse (text, &all, error);
-      for (size_t i = others; i < all.n; i++)
-        all.item[i].id = id;
-    }
-  if (status != CELD_OK)
-    {
-      celd_relations_clear (&all);
-      return status;
-    }
-  celd_relations_clear (&session->single);
-  session->single = all;
-  celd_session_forget (session, STAGE_RELATIONS);
-  return CELD_OK;
+    status = append_single (session, id, &added);
+  celd_relations_clear (&added);
+  return status;
 }
 
 CeldStatus
 celd_session_remove_relation (CeldSession *session, uint32_t id)
 {
-  if (!drop_relations (&session->single, id))
+  if (!drop_relations (&session->single, id, session->single.n))
     return CELD_BAD_VALUE;
   celd_session_forget (session, STAGE_RELATIONS);
   return CELD_OK;

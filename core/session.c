@@ -42,6 +42,7 @@ celd_session_clear_results (CeldSession *session)
   celd_seed_rows_clear (&s->layer_seeds);
   celd_seed_rows_clear (&s->seeds);
   celd_order_clear (&s->order);
+  celd_ranks_clear (&s->ranks);
   celd_segmenter_free (s->segmenter);
   celd_program_free (s->program);
   celd_palette_clear (&s->exact_palette);
@@ -54,7 +55,7 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->separated.data);
   celd_free (s->flat.data);
   celd_free (s->levels.data);
-  celd_session_forget_ranks (s);
+  celd_session_clear_ownership (s);
   celd_free (s->preview.data);
   celd_free (s->depth.data);
   celd_free (s->block_ink.data);
@@ -90,8 +91,10 @@ celd_session_free (CeldSession *session)
   celd_strokes_clear (session->stroke, session->n_strokes);
   celd_free (session->stroke);
   celd_free (session->scribbles.data);
+  celd_free (session->corrections.data);
   celd_free (session->arrows.data);
   celd_free (session->contours.data);
+  celd_free (session->hint.data);
   celd_free (session->drawing.luma.data);
   celd_free (session->drawing.alpha.data);
   celd_free (session);
@@ -234,6 +237,16 @@ celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, 
 
   if (status == CELD_OK)
     *levels = session->flat;
+  return status;
+}
+
+CeldStatus
+celd_session_ownership (CeldSession *session, const CeldRun *run, CeldOwnership *ownership, CeldRect *changed)
+{
+  CeldStatus status = ask (session, STAGE_OWNERSHIP, run, changed);
+
+  if (status == CELD_OK)
+    *ownership = session->ownership;
   return status;
 }
 

@@ -5,7 +5,9 @@
  *   strokes.c         single strokes over the scribbles layer
  *   route.c           which stages there are, and what is made from the labels
  *   route-labels.c    the stages up to the labels
+ *   route-levels.c    whose the ink is, and the levels that come of it
  *   route-depth.c     smooth depth and its preview
+ *   route-layers.c    the drawing cut into layers
  *   route-exact.c     the stages of the exact program, and its preview
  *   changes.c         where two results differ
  *
@@ -30,6 +32,7 @@ typedef enum
   STAGE_SUGGESTIONS,
   STAGE_ORDER,
   STAGE_FLAT,
+  STAGE_OWNERSHIP, /* whose the ink is */
   STAGE_LEVELS,
   STAGE_PREVIEW,   /* of depth */
   STAGE_DEPTH,
@@ -47,15 +50,13 @@ typedef struct { int y, x, end; } CeldSpan;
 /* A stroke of the host's over the scribbles layer. */
 typedef struct { uint32_t id; int x, y; uint8_t colour[3]; CeldSpan *span; size_t n; } CeldStroke;
 
-/* What levels know of a label. */
-typedef struct { uint32_t rank; float level; } CeldRank;
-
 struct CeldSession
 {
   /* what the host set */
   CeldSettings  settings;
   CeldDrawing   drawing;                       /* owned; luma.data NULL = none yet */
-  CeldPaint     scribbles, arrows, contours;   /* owned; data NULL = none */
+  CeldPaint     scribbles, arrows, contours, corrections; /* owned; data NULL = none */
+  CeldPlane     hint;                          /* depth from elsewhere; owned; data NULL = none */
   CeldStroke   *stroke;                        /* in painting order */
   size_t        n_strokes;
   CeldRelations text, path, single;            /* as set; painted ones are read in STAGE_RELATIONS */
@@ -80,10 +81,13 @@ struct CeldSession
   CeldLabels     separated;                    /* the same with regions on their own, or split; data NULL: not needed */
   CeldPalette    palette;
   CeldOrder      order;
+  CeldRanks      ranks;                        /* of the order, for one more relation */
   CeldPlane      flat, levels, preview, depth, shading;
-  CeldRank      *rank;                         /* of each label as `levels` have it; NULL: the labels or the ink
+  CeldOwnership  ownership;                    /* owned */
+  uint32_t      *rank;                         /* of each label as the ownership has it; NULL: the labels or the ink
                                                 * for depth are not those any more */
   size_t         n_ranks;
+  float         *value;                        /* of each label in the levels; NULL: they are of an older ownership */
   CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
   int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
   CeldPlane      block_ink;                    /* of the preview; data NULL: to be made */
@@ -102,9 +106,6 @@ void celd_session_forget (CeldSession *session, CeldStage stage);
 /* Makes what `stage` needs and does not hold, and the stage itself. */
 CeldStatus celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run);
 
-/* Says that the labels or the ink for depth change. */
-void celd_session_forget_ranks (CeldSession *session);
-
 /* Everything made: for a drawing of another size, and at the end. */
 void celd_session_clear_results (CeldSession *session);
 
@@ -121,11 +122,25 @@ CeldStatus celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRow
 
 /* ------------------------------------------------------------------ route-labels.c */
 
+/* Relations forget the labels if these change with them. */
 CeldStatus celd_make_relations (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_ink       (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_scribbles (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_seeds     (CeldSession *session, const CeldRun *run);
 CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
+
+/* ------------------------------------------------------------------ route-levels.c */
+
+CeldStatus celd_make_flat      (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_ownership (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_levels    (CeldSession *session, const CeldRun *run);
+
+/* Would relation i, behind all others, leave the labels as they are?  For as long as these hold. */
+bool celd_session_spares (const CeldSession *session, const CeldRelation *relation);
+
+/* Says that the labels or the ink for depth change. */
+void celd_session_forget_ownership (CeldSession *session);
+void celd_session_clear_ownership (CeldSession *session);
 
 /* ------------------------------------------------------------------ route-depth.c */
 

@@ -29,6 +29,8 @@ static const CeldPad pads[] = {
   { "aux", "Arrows", "Arrows from nearer to farther parts", FALSE },
   { "aux2", "Drawing", "The line drawing: points on its ink mean the region beside it; suggestions "
                       "come from it", FALSE },
+  { "aux3", "Depth hint", "Depth from elsewhere, such as an estimator's, nearer is brighter: suggestions come from "
+                          "it, too", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -69,13 +71,25 @@ read_labels (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, CeldLabels
          (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
 }
 
-/* With `suggest`, what the drawing says joins the relations; without a drawing it is what the regions' shapes say. */
+/* What the drawing says, or without one the regions' shapes; and the depth hint. */
+static gboolean
+find_suggestions (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink, CeldRelations *suggested)
+{
+  CeldPlane hint;
+
+  return celd_op_try (op, celd_suggest (labels, &op->palette, ink, &op->quiet, suggested)) &&
+         (!celd_op_has (op, "aux3") ||
+          (celd_op_read_plane (op, "aux3", &hint) &&
+           celd_op_try (op, celd_suggest_from_depth (labels, &op->palette, ink, &hint, &op->quiet, suggested))));
+}
+
+/* With `suggest` that joins the relations. */
 static gboolean
 add_suggestions (CeldOp *op, const CeldSettings *s, const CeldLabels *labels, const CeldPlane *ink)
 {
   CeldRelations suggested = { 0 };
   gboolean      good = s->suggest == CELD_SUGGEST_OFF ||
-                       (celd_op_try (op, celd_suggest (labels, &op->palette, ink, &op->quiet, &suggested)) &&
+                       (find_suggestions (op, labels, ink, &suggested) &&
                         celd_op_try (op, celd_suggestions_join (labels, &op->palette, &op->relations, &suggested,
                                                                 s, ink, &op->quiet, &op->relations)));
 

@@ -23,6 +23,7 @@ CELD_PROPERTY_ARROW_STYLE
 CELD_PROPERTY_ON_CYCLE
 CELD_PROPERTY_SUGGEST
 CELD_PROPERTY_ENCODING
+CELD_PROPERTY_EXPANSION
 
 property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIBBLES)
     description ("Which pixels keep their level in smooth depth")
@@ -83,6 +84,7 @@ settings (GeglProperties *o)
   s.on_cycle        = o->on_cycle;
   s.suggest         = o->suggest;
   s.encoding        = o->encoding;
+  s.expansion       = o->expansion;
   s.near_level      = (float) o->near_level;
   s.far_level       = (float) o->far_level;
   s.anchors         = o->anchors;

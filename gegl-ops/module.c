@@ -12,6 +12,7 @@
   _ (celdepth_depth_smooth) \
   _ (celdepth_depth_exact) \
   _ (celdepth_lumo_shade) \
+  _ (celdepth_depth_enhance) \
   _ (celdepth_popup)
 
 #define DECLARE(name) void gegl_op_ ## name ## _register_type (GTypeModule *module);

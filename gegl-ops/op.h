@@ -109,6 +109,7 @@ gpointer celd_op_alloc (CeldOp *op, gsize size);
 gboolean celd_op_read_plane   (CeldOp *op, const char *pad, CeldPlane *plane);      /* linear values */
 gboolean celd_op_read_paint   (CeldOp *op, const char *pad, CeldPaint *paint);      /* R'G'B'A, sRGB */
 gboolean celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing);
+gboolean celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours);  /* linear */
 gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink);
 
 /* Pictures of the size of the call; not cleared. */
@@ -117,6 +118,7 @@ gboolean celd_op_new_labels  (CeldOp *op, CeldLabels *labels);
 gboolean celd_op_new_mask    (CeldOp *op, CeldMask *mask);
 gboolean celd_op_new_paint   (CeldOp *op, CeldPaint *paint);
 gboolean celd_op_new_vectors (CeldOp *op, CeldVectors *vectors);
+gboolean celd_op_new_colours (CeldOp *op, CeldColours *colours);
 
 /* The relations of a text, of an arrow path (both may be NULL) and of a painted layer (a pad that may be missing), in
  * this order, to op->relations; unclear arrows to op->problems. */

@@ -59,6 +59,15 @@ celd_op_new_vectors (CeldOp *op, CeldVectors *vectors)
   return vectors->data != NULL;
 }
 
+gboolean
+celd_op_new_colours (CeldOp *op, CeldColours *colours)
+{
+  int w = op->picture.width, h = op->picture.height;
+
+  *colours = (CeldColours) { w, h, (size_t) w, celd_op_alloc (op, 4 * count (op) * sizeof (float)) };
+  return colours->data != NULL;
+}
+
 /* ------------------------------------------------------------------ reading */
 
 static GeglBuffer *
@@ -101,6 +110,15 @@ celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
   if (!celd_op_new_paint (op, paint))
     return FALSE;
   get (op, pad, &op->picture, "R'G'B'A u8", paper (op, pad), paint->data);
+  return TRUE;
+}
+
+gboolean
+celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours)
+{
+  if (!celd_op_new_colours (op, colours))
+    return FALSE;
+  get (op, pad, &op->picture, "RGBA float", paper (op, pad), colours->data);
   return TRUE;
 }
 
@@ -209,15 +227,14 @@ celd_op_write_paint (CeldOp *op, const CeldLabels *labels, const CeldPalette *pa
 gboolean
 celd_op_write_lit (CeldOp *op, const char *pad, const CeldPlane *light)
 {
-  float *rgba = celd_op_alloc (op, 4 * count (op) * sizeof (float));
+  CeldColours art;
 
-  if (!rgba)
+  if (!celd_op_read_colours (op, pad, &art))
     return FALSE;
-  get (op, pad, &op->picture, "RGBA float", paper (op, pad), rgba);
   for (gsize i = 0; i < count (op); i++)
     for (int c = 0; c < 3; c++)
-      rgba[4 * i + (gsize) c] *= light->data[i];
-  return celd_op_write (op, rgba);
+      art.data[4 * i + (gsize) c] *= light->data[i];
+  return celd_op_write (op, art.data);
 }
 
 gboolean

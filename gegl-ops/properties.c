@@ -57,6 +57,10 @@ ENUM_TYPE (celd_anchors_get_type, "CeldAnchors",
            { CELD_ANCHORS_BOTH, "Scribbles and arrows", "both" },
            { CELD_ANCHORS_CORE, "The core of each region", "core" })
 
+ENUM_TYPE (celd_expansion_get_type, "CeldExpansion",
+           { CELD_EXPANSION_OUTLINES, "Outlines", "outlines" },
+           { CELD_EXPANSION_THICKNESS, "Thickness of contours", "thickness" })
+
 ENUM_TYPE (celd_encoding_get_type, "CeldEncoding",
            { CELD_ENCODING_NORMALIZED, "From 0 to 1", "normalized" },
            { CELD_ENCODING_RANK, "Ranks", "rank" },
@@ -71,10 +75,25 @@ ENUM_TYPE (celd_suggest_get_type, "CeldSuggest",
            { CELD_SUGGEST_FILL_GAPS, "Where arrows leave it open", "fill-gaps" },
            { CELD_SUGGEST_ALL, "All", "all" })
 
+ENUM_TYPE (celd_enhance_get_type, "CeldEnhance",
+           { CELD_ENHANCE_STACK, "Shadows on what is behind", "stack" },
+           { CELD_ENHANCE_DARKEN, "Darker behind borders of depth", "darken" },
+           { CELD_ENHANCE_CONTRAST, "Also lighter before them", "contrast" })
+
+ENUM_TYPE (celd_enhance_result_get_type, "CeldEnhanceResult",
+           { CELD_ENHANCED_ART, "Art", "art" },
+           { CELD_ENHANCED_LAYER, "Shadow layer alone", "layer" },
+           { CELD_ENHANCED_VIEW, "View of depth", "view" })
+
 ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
            { CELD_LUMO_ART, "Shaded art", "art" },
            { CELD_LUMO_SHADING, "Shading", "shading" },
            { CELD_LUMO_NORMALS, "Normals", "normals" })
+
+ENUM_TYPE (celd_expand_result_get_type, "CeldExpandResult",
+           { CELD_EXPAND_LEVELS, "Levels: ink given to its owner", "levels" },
+           { CELD_EXPAND_LAYER, "Layer: the drawing cut up, one layer of it", "layer" },
+           { CELD_EXPAND_MATTE, "Matte: owner and alpha", "matte" })
 
 ENUM_TYPE (celd_segment_result_get_type, "CeldSegmentResult",
            { CELD_SEGMENT_LABELS, "Labels: the regions as flat colours", "labels" },

@@ -21,8 +21,12 @@ GType celd_anchors_get_type     (void);
 GType celd_encoding_get_type    (void);
 GType celd_purpose_get_type     (void);
 GType celd_suggest_get_type     (void);
+GType celd_enhance_get_type     (void);
+GType celd_expansion_get_type   (void);
 
 typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
+typedef enum { CELD_ENHANCED_ART, CELD_ENHANCED_LAYER, CELD_ENHANCED_VIEW } CeldEnhanceResult;
+typedef enum { CELD_EXPAND_LEVELS, CELD_EXPAND_LAYER, CELD_EXPAND_MATTE } CeldExpandResult;
 typedef enum { CELD_SEGMENT_LABELS, CELD_SEGMENT_CLOSURES, CELD_SEGMENT_PROBLEMS } CeldSegmentResult;
 typedef enum
 {
@@ -31,6 +35,8 @@ typedef enum
 } CeldPopupResult;
 
 GType celd_lumo_result_get_type    (void);
+GType celd_enhance_result_get_type (void);
+GType celd_expand_result_get_type  (void);
 GType celd_segment_result_get_type (void);
 GType celd_popup_result_get_type   (void);
 
@@ -103,7 +109,8 @@ GType celd_popup_result_get_type   (void);
   property_enum (on_cycle, "Contradictions", CeldOnCycle, celd_on_cycle, CELD_ON_CYCLE_REPORT) \
     description ("Of relations that go round in a circle, which are left out: lighter and later ones, each by " \
                  "itself, or those that weigh least together; or regions are split where that is cheapest, and " \
-                 "bend. All are named in any case, but for those that a split resolves")
+                 "bend: by popup, where regions are made; depth-order leaves out what weighs least, then. " \
+                 "All that is left out is named, and each split")
 
 #define CELD_PROPERTY_ARROW_PATH \
   property_string (arrow_path, "Arrow path", "") \
@@ -133,6 +140,14 @@ GType celd_popup_result_get_type   (void);
     value_range (-1e6, 1e6) \
     ui_range (0.0, 20.0) \
     ui_meta ("visible", "encoding {fixed}")
+
+#define CELD_EXPANSION_WORDS \
+  "Who gets the ink: each part has outlines of its own pen, over what is behind it, or by the local thickness of " \
+  "the contours, as published"
+
+#define CELD_PROPERTY_EXPANSION \
+  property_enum (expansion, "Ink owners", CeldExpansion, celd_expansion, CELD_EXPANSION_OUTLINES) \
+    description (CELD_EXPANSION_WORDS)
 
 /* ------------------------------------------------------------------ smooth depth */
 
@@ -179,5 +194,42 @@ GType celd_popup_result_get_type   (void);
   property_boolean (directx, "DirectX normals", FALSE) \
     description ("Green points down, as DirectX wants it, and not up as in OpenGL") \
     ui_meta ("visible", "result {normals}")
+
+/* ------------------------------------------------------------------ depth enhancement */
+
+#define CELD_PROPERTY_SHADOWS \
+  property_enum (enhance, "Method", CeldEnhance, celd_enhance, CELD_ENHANCE_STACK) \
+    description ("Parts cast soft shadows on those behind them; or depth is sharpened: darker behind a border of " \
+                 "depth, or also lighter before it") \
+  property_double (shadow_size, "Size", 0.012) \
+    description ("How far shadows spread, as a share of the picture's diagonal") \
+    value_range (0.0005, 0.2) \
+    ui_range (0.002, 0.05) \
+    ui_steps (0.001, 0.01) \
+    ui_digits (4) \
+  property_double (shadow_strength, "Strength", 0.6) \
+    description ("How dark shadows are: 0 leaves the art as it is, 1 reaches black") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+  property_double (shadow_offset, "Offset", 0.0) \
+    description ("How far shadows fall away from the light, as a share of the picture's diagonal") \
+    value_range (0.0, 0.2) \
+    ui_range (0.0, 0.05) \
+    ui_steps (0.001, 0.01) \
+    ui_digits (4) \
+    ui_meta ("visible", "enhance {stack}") \
+  property_double (light_azimuth, "Light azimuth", 135.0) \
+    description ("Where the light comes from: 0 from the right, 90 from above, 180 from the left") \
+    value_range (-360.0, 360.0) \
+    ui_range (0.0, 360.0) \
+    ui_meta ("unit", "degree") \
+    ui_meta ("direction", "ccw") \
+    ui_meta ("visible", "enhance {stack}") \
+  property_double (shadow_range, "Full from", 0.0) \
+    description ("From this difference of depth on a shadow is full, as a share of all depth; nearer parts cast " \
+                 "fainter ones. At 0 all are full") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+    ui_meta ("visible", "enhance {stack}")
 
 #endif

@@ -3,7 +3,8 @@
  * Reading: open a file, look at its parts (the layers of a PSD, the parts of an EXR, the pages of a TIFF; one part in
  * an ordinary picture), read the parts that are wanted.  Every part comes as large as the canvas, at its place on it,
  * transparent around.  Alpha is straight, whatever the file does.
- * Writing: a picture appears complete or not at all: it is written beside its name and then moved there.
+ * Writing: a picture appears complete or not at all: it is written beside its name and then moved there.  So does a
+ * stack of layers.
  *
  * Colour stays as it is in the file: encoded by the embedded profile (sRGB if there is none), or linear light; the
  * caller converts.  No function of this file throws, prints or keeps global state.
@@ -105,8 +106,37 @@ bool celd_io_write_normals (const char *path, const CeldVectors *normals, CeldIo
 /* Colours of 8 bits with straight alpha, sRGB; in .exr linear light. */
 bool celd_io_write_paint (const char *path, const CeldPaint *paint, CeldIoError *error);
 
+/* Colours in linear light with straight alpha: .exr and .tif floats; .png 16 bits, encoded and tagged as sRGB. */
+bool celd_io_write_colours (const char *path, const CeldColours *colours, CeldIoError *error);
+
 /* Linear light in [0,1]: .exr and .tif floats; .png 16 bits, encoded and tagged as sRGB. */
 bool celd_io_write_light (const char *path, const CeldPlane *light, CeldIoError *error);
+
+/* ------------------------------------------------------------------ layers */
+
+/* A name may have any characters; EXR wants each only once.  A box of width 0 is one transparent pixel. */
+typedef struct { const char *name; CeldRect box; } CeldIoLayer;
+
+typedef struct
+{
+  int                width, height;    /* of the canvas */
+  const CeldIoLayer *layer;            /* from back to front, boxes within the canvas */
+  size_t             layers;
+  const float       *merged;           /* the picture that the layers make: as wide and high, r,g,b,a, straight alpha */
+  bool             (*paint) (void *host, size_t layer, float *rgba); /* a layer's box, straight alpha; false: give up */
+  void              *host;
+} CeldIoStack;
+
+/* By the ending of the name:
+ *   .ora    OpenRaster 0.0.5: zip, PNG and XML; 8 bits, sRGB
+ *   .exr    a part for each layer, in this order, floats in linear light, with data windows
+ *   none    a folder that is empty or does not exist: a PNG of the canvas for each layer, numbered from the back;
+ *           8 bits, sRGB */
+typedef enum { CELD_IO_NO_STACK, CELD_IO_OPEN_RASTER, CELD_IO_EXR_PARTS, CELD_IO_FOLDER } CeldIoStackKind;
+CeldIoStackKind celd_io_stack_kind (const char *path);
+
+/* Layers are asked for one by one, each once.  If paint gives up, nothing is written and the error is empty. */
+bool celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error);
 
 #ifdef __cplusplus
 }

@@ -1,4 +1,4 @@
-// What reading and writing share: errors as sentences, and no exception that leaves for C.
+// What reading and writing share: errors as sentences, no exception that leaves for C, and nothing half-written.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #ifndef CELDEPTH_IO_HPP
@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
+
+#include <unistd.h>
 
 // Header notes that turn stored numbers back into the values that were given.
 constexpr const char *note_farthest = "celdepth:farthest";
@@ -52,5 +55,43 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
   std::snprintf (error->text, sizeof error->text, "Cannot %s \"%s\": %s", verb, path.c_str (), why.c_str ());
   return false;
 }
+
+// A file, or a folder, that is being written: under another name until commit (), gone if that is never called.
+class NewFile
+{
+public:
+  explicit NewFile (const std::string &path, bool folder = false)
+    : final (std::filesystem::weakly_canonical (path))
+  {
+    if (!final.has_filename ()) // "folder/"
+      final = final.parent_path ();
+    if (std::filesystem::exists (final) && folder && !std::filesystem::is_directory (final))
+      throw IoFailure ("it is not a folder.");
+    if (std::filesystem::exists (final) && folder && !std::filesystem::is_empty (final))
+      throw IoFailure ("it is a folder that is not empty.");
+    if (std::filesystem::exists (final) && !folder && !std::filesystem::is_regular_file (final))
+      throw IoFailure ("it is not an ordinary file.");
+    temporary = final;
+    temporary += ".new-" + std::to_string (getpid ());
+    if (folder)
+      std::filesystem::create_directory (temporary);
+  }
+
+  ~NewFile ()
+  {
+    std::error_code ignored;
+
+    std::filesystem::remove_all (temporary, ignored);
+  }
+
+  NewFile (const NewFile &) = delete;
+  NewFile &operator= (const NewFile &) = delete;
+
+  std::string name () const { return temporary.string (); }
+  void        commit () { std::filesystem::rename (temporary, final); }
+
+private:
+  std::filesystem::path final, temporary;
+};
 
 #endif

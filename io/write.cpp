@@ -13,8 +13,6 @@
 #include <memory>
 #include <vector>
 
-#include <unistd.h>
-
 using OIIO::ImageSpec;
 
 // Distances in EXR, as compositors expect them: of the nearest and of the farthest point.
@@ -46,35 +44,6 @@ format_name (Format format)
 {
   return format == Format::exr ? "openexr" : format == Format::png ? "png" : "tiff";
 }
-
-// A file that is being written: under another name until commit (), gone if that is never called.
-class NewFile
-{
-public:
-  explicit NewFile (const std::string &path)
-    : final (std::filesystem::weakly_canonical (path)), temporary (final)
-  {
-    if (std::filesystem::exists (final) && !std::filesystem::is_regular_file (final))
-      throw IoFailure ("it is not an ordinary file.");
-    temporary += ".new-" + std::to_string (getpid ());
-  }
-
-  ~NewFile ()
-  {
-    std::error_code ignored;
-
-    std::filesystem::remove (temporary, ignored);
-  }
-
-  NewFile (const NewFile &) = delete;
-  NewFile &operator= (const NewFile &) = delete;
-
-  std::string name () const { return temporary.string (); }
-  void        commit () { std::filesystem::rename (temporary, final); }
-
-private:
-  std::filesystem::path final, temporary;
-};
 
 // ------------------------------------------------------------------ one part
 
@@ -269,6 +238,30 @@ write_paint (const std::string &path, const CeldPaint &paint)
 }
 
 static void
+write_colours (const std::string &path, const CeldColours &colours)
+{
+  const bool         png = format_of (path) == Format::png;
+  const size_t       row = 4 * size_t (colours.width);
+  std::vector<float> encoded (png ? row * size_t (colours.height) : 0);
+  const float       *data = png ? encoded.data () : colours.data;
+  const size_t       stride = png ? row : 4 * colours.stride;
+
+  for (size_t i = 0; i < encoded.size (); i++)
+    {
+      float value = colours.data[i / row * 4 * colours.stride + i % row];
+
+      encoded[i] = i % 4 == 3 ? value : encode_srgb (value);
+    }
+
+  const CeldIoChannel channels[] = { { "R", data, 4, stride }, { "G", data + 1, 4, stride },
+                                     { "B", data + 2, 4, stride }, { "A", data + 3, 4, stride } };
+  const CeldIoPicture picture = { nullptr, colours.width, colours.height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, png,
+                                  channels, 4 };
+
+  write_file (path, &picture, 1, nullptr, 0);
+}
+
+static void
 write_light (const std::string &path, const CeldPlane &light)
 {
   const bool         png = format_of (path) == Format::png;
@@ -319,6 +312,12 @@ bool
 celd_io_write_paint (const char *path, const CeldPaint *paint, CeldIoError *error)
 {
   return guarded ("write", path, error, [&] { write_paint (path, *paint); });
+}
+
+bool
+celd_io_write_colours (const char *path, const CeldColours *colours, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_colours (path, *colours); });
 }
 
 bool

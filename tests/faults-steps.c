@@ -414,12 +414,85 @@ expand_step (const CeldRun *run, Results *r)
   return celd_expand (&ink, &ranks, run, &expanded);
 }
 
+/* The label picture cut up, as if the left part of each shared pixel were the label's and the right part the next one's:
+ * gaps, holes and lines to complete. */
+static CeldStatus
+layers_step (const CeldRun *run, Results *r)
+{
+  static uint32_t under[W * H];
+  static float    share[W * H], art[4 * W * H];
+  CeldPlane       ink = plane_of (&ink_pixels);
+  CeldOwnership   own = { labels_of (&expanded_pixels), { W, H, W, under }, { W, H, W, share } };
+  CeldColours     colours = { W, H, W, art };
+  uint32_t        level[8] = { 1, 2, 0, 3, 4, 5, 6, 7 };
+  CeldLayers     *layers = NULL;
+  CeldStatus      status;
+
+  for (int p = 0; p < W * H; p++)
+    {
+      under[p] = expanded_pixels.labels[(p + 1) % (W * H)];
+      share[p] = under[p] == expanded_pixels.labels[p] ? 1 : 0.5f;
+      for (int c = 0; c < 4; c++)
+        art[4 * p + c] = c == 3 ? 1 : ink_pixels.plane[p] * (float) (p % W) / W;
+    }
+  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, run, &layers);
+  for (size_t k = 0; status == CELD_OK && k < celd_layers_count (layers); k++)
+    r->pixels->labels[k] = (uint32_t) celd_layers_item (layers, k)->box.width;
+  celd_layers_free (layers);
+  return status;
+}
+
+static CeldStatus
+layers_of_levels_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels);
+  CeldLabels   regions = labels_of (&label_pixels);
+  CeldColours  colours = { W, H, W, art };
+  CeldLayers  *layers = NULL;
+  CeldStatus   status = celd_layers_of_levels (&ink, &levels, &regions, &regions, &colours,
+                                               CELD_EXPANSION_THICKNESS, CELD_STORE_FLOAT, false, run, &layers);
+
+  if (status == CELD_OK)
+    r->pixels->labels[0] = (uint32_t) celd_layers_count (layers);
+  celd_layers_free (layers);
+  return status;
+}
+
 static CeldStatus
 expand_levels_step (const CeldRun *run, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), expanded = plane_of (r->pixels);
 
-  return celd_expand_levels (&ink, &levels, run, &expanded);
+  return celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, run, &expanded);
+}
+
+static CeldStatus
+matte_step (const CeldRun *run, Results *r)
+{
+  static float level[W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), share = plane_of (r->pixels);
+  CeldLabels   regions = labels_of (&label_pixels);
+
+  return celd_matte_of_levels (&ink, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, run,
+                               &(CeldPlane) { W, H, W, level }, NULL, &share);
+}
+
+static CeldStatus
+own_step (const CeldRun *run, Results *r)
+{
+  CeldPlane      ink = plane_of (&ink_pixels);
+  CeldLabels     labels = labels_of (&label_pixels), owner = labels_of (r->pixels);
+  CeldOwnership  own = { 0 };
+  const uint32_t level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  CeldStatus     status = celd_ownership_new (W, H, &own);
+
+  if (status == CELD_OK)
+    status = celd_own (&ink, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, run, &own);
+  for (int p = 0; status == CELD_OK && p < W * H; p++)
+    owner.data[p] = own.owner.data[p];
+  celd_ownership_clear (&own);
+  return status;
 }
 
 static CeldStatus
@@ -495,6 +568,51 @@ shade_step (const CeldRun *run, Results *r)
 
   (void) run;
   return celd_shade (&normals, &settings, &shading);
+}
+
+/* A sheet before paper, cut beforehand. */
+static CeldStatus
+stereo_step (const CeldRun *run, Results *r)
+{
+  static uint32_t owner[W * H];
+  static float    art[4 * W * H], view[4 * W * H], whole[W * H];
+  CeldPlane       ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
+  CeldOwnership   own = { { W, H, W, owner }, { W, H, W, owner }, { W, H, W, whole } };
+  CeldColours     colours = { W, H, W, art }, to = { W, H, W, view };
+  uint32_t        level[2] = { 0, 1 };
+  CeldLayers     *layers = NULL;
+  CeldStatus      status;
+
+  for (int p = 0; p < W * H; p++)
+    {
+      owner[p] = p % W > 20 && p % W < 40 ? 2 : 1;
+      whole[p] = art[4 * p] = art[4 * p + 1] = art[4 * p + 2] = art[4 * p + 3] = 1;
+    }
+  status = celd_layers_cut (&ink, &own, level, 2, &colours, 1, 0, false, NULL, &layers);
+  if (status == CELD_OK)
+    status = celd_stereo_view (layers, &own, &depth, 0.7, &settings, run, &to);
+  if (status == CELD_OK)
+    memcpy (r->pixels->vectors, view, sizeof r->pixels->vectors);
+  celd_layers_free (layers);
+  return status;
+}
+
+static CeldStatus
+enhance_step (const CeldRun *run, Results *r)
+{
+  CeldPlane levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
+
+  return celd_enhance (&levels, &settings, run, &change);
+}
+
+static CeldStatus
+unsharp_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
+  CeldSettings unsharp = settings;
+
+  unsharp.enhance = CELD_ENHANCE_CONTRAST;
+  return celd_enhance (&levels, &unsharp, run, &change);
 }
 
 /* A grid of 8 x 6 nodes, of which four labels hold the corners and quarrel about the rest. */
@@ -581,11 +699,18 @@ const Step steps[] = {
   { "split-cycles", split_step, NULL, true },
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },
+  { "matte", matte_step, NULL, true },
+  { "ownership", own_step, NULL, true },
+  { "layers", layers_step, NULL, true },
+  { "layers of levels", layers_of_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },
   { "exact depth", exact_depth_step, NULL, true },
   { "program", program_step, NULL, true },
   { "normals", normals_step, NULL, true },
   { "shade", shade_step, NULL, false },
+  { "stereo", stereo_step, NULL, true },
+  { "enhance", enhance_step, NULL, true },
+  { "unsharp", unsharp_step, NULL, true },
   { "flow", flow_step, NULL, true },
   { "partition", partition_step, NULL, true },
   { "quadratic", quadratic_step, NULL, false },

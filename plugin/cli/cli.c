@@ -26,17 +26,30 @@ static const CliCommand commands[] = {
     "  celdepth order flat.png --arrows arrows.png --drawing bee.png --levels flat-levels.npy\n"
     "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' --levels flat-levels.npy", cli_order },
   { "expand", CLI_EXPAND, "LEVELS", "Gives each contour to the region that drew it.",
-    "  celdepth expand flat-levels.npy --drawing bee.png --levels levels.npy", cli_expand },
+    "  celdepth expand flat-levels.npy --drawing bee.png --regions flat.png --levels levels.npy", cli_expand },
   { "smooth", CLI_SMOOTH, "LEVELS", "Makes depth smooth except across contours between levels.",
     "  celdepth smooth levels.npy --drawing bee.png --anchors strokes.png --depth depth.exr", cli_smooth },
   { "shade", CLI_SHADE, "LEVELS", "Bends normals at the contours of expanded levels, and shades them.",
     "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
     "      --light-azimuth 45", cli_shade },
+  { "enhance", CLI_ENHANCE, "LEVELS", "Sets parts off against what is behind them, by soft shadows.",
+    "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
+    "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"
+    "  celdepth enhance levels.npy --view view.png", cli_enhance },
+  { "stereo", CLI_STEREO, "DRAWING|LAYERED", "The drawing as two eyes see it, from its layers and their depth.",
+    "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
+    "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png --right right.png \\\n"
+    "      --disparity 0.03", cli_stereo },
   { "exact", CLI_EXACT, "DRAWING|LAYERED",
     "The smoothest depth that keeps every relation exactly, by the paper's quadratic program.",
     "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
     "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
     "      --encoding rank --report report.json", cli_exact },
+  { "layers", CLI_LAYERS, "DRAWING|LAYERED", "Cuts a drawing into one layer a region, each with its own ink, in order.",
+    "  celdepth layers bee.png --scribbles strokes.png --arrows arrows.png --output bee.ora\n"
+    "  celdepth layers bee.png --scribbles strokes.png --relations '120,80 > 300,90' --complete yes \\\n"
+    "      --colours painted.png --output bee.exr --report report.json\n"
+    "  celdepth layers page.psd --output layers      (a folder of PNG files)", cli_layers },
 };
 
 static void

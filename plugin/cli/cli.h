@@ -4,6 +4,8 @@
  *   options.c   the options of a sub-command   pictures.c  pictures in and out, colours through babl
  *   popup.c     popup and segment              npy.c       numpy files
  *   exact.c     exact                          report.c    --report
+ *   enhance.c   enhance                        stereo.c    stereo
+ *   stack.c     layers
  *   steps.c     order, expand, smooth, shade   messages.c  sentences on stderr
  *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
@@ -25,16 +27,19 @@ enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 typedef enum
 {
   CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32,
-  CLI_EXACT = 64
+  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512
 } CliSteps;
 
 /* File names are NULL where not given. */
 typedef struct
 {
+  CliSteps     step;
   char        *input;
-  char        *drawing, *scribbles, *contours, *arrows, *anchors;
+  char        *drawing, *scribbles, *contours, *corrections, *arrows, *anchors, *depth_hint;
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
+  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo;
+  char        *colours, *output, *light;
   bool         quiet, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -97,6 +102,11 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
 
 bool cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing);
 bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
+/* Colours of a part, linear light or encoded as sRGB; and a picture's first part, in linear light.  Free data with
+ * g_free. */
+bool cli_read_part    (CeldIoFile *file, size_t part, bool linear, CeldColours *colours);
+bool cli_read_colours (const char *path, CeldColours *colours);
+bool cli_colours_new  (int width, int height, CeldColours *colours);
 bool cli_read_levels  (const char *path, CeldPlane *levels);
 
 bool cli_is_device     (const char *path); /* neither a file nor a folder: a terminal, a pipe, /dev/null */
@@ -106,6 +116,7 @@ bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPa
 bool cli_write_layer   (const char *path, const CeldPaint *layer);
 bool cli_write_normals (const char *path, const CeldVectors *normals);
 bool cli_write_shading (const char *path, const CeldPlane *shading);
+bool cli_write_colours (const char *path, const CeldColours *colours);
 
 bool cli_plane_new (int width, int height, CeldPlane *plane);   /* end with g_free (data) */
 bool cli_labels_new (int width, int height, CeldLabels *labels);
@@ -117,17 +128,28 @@ bool cli_npy_write (const char *path, int width, int height, int depth, size_t r
 
 /* ------------------------------------------------------------------ layers.c */
 
-typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS = 8 } CliRoles;
+typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS = 8,
+               CLI_CORRECTIONS = 16 } CliRoles;
 
 /* data NULL where there is none. */
-typedef struct { int width, height; CeldDrawing drawing; CeldPaint scribbles, arrows, contours; } CliLayers;
+typedef struct
+{
+  int         width, height;
+  CeldDrawing drawing;
+  CeldPaint   scribbles, arrows, contours, corrections;
+} CliLayers;
 
 /* The layers of the wanted roles: from the files that the options name, else from the parts of `input` (may be NULL)
  * that bear the role's name.  All must be as large as the layers' width and height, where these are set before. */
 bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers);
 void cli_layers_clear (CliLayers *layers);
+/* Levels or depth of the size of the layers. */
+bool cli_hint_read    (const char *path, const CliLayers *layers, CeldPlane *depth);
 /* One picture: its part of that name, or else its first. */
 bool cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint);
+
+/* The drawing of `input` in its colours; or if `path` is not NULL, the part "colours" of that file, or its first. */
+bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
 
 /* The text of --relations or --relations-file; "" if neither is given, NULL if it cannot be read. */
 char *cli_relations_text (const CliOptions *options);
@@ -148,6 +170,7 @@ typedef struct
   const CeldOrder     *order;
   const CeldProblems  *problems;
   const CeldClosures  *closures;
+  const CeldLayers    *layers;
   const CeldExact     *exact;       /* with it, of `order` there are the cycles alone */
   const CeldSettings  *settings;
   const GArray        *timings;
@@ -174,5 +197,8 @@ int cli_expand  (const CliOptions *options);
 int cli_smooth  (const CliOptions *options);
 int cli_shade   (const CliOptions *options);
 int cli_exact   (const CliOptions *options);
+int cli_enhance (const CliOptions *options);
+int cli_stereo  (const CliOptions *options);
+int cli_layers  (const CliOptions *options);
 
 #endif

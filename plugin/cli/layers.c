@@ -8,6 +8,7 @@
 
 static const struct { CliRoles role; const char *name; } roles[] = {
   { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
+  { CLI_CORRECTIONS, "corrections" },
 };
 
 /* ------------------------------------------------------------------ one file */
@@ -24,18 +25,22 @@ open_file (const char *path)
 }
 
 static bool
-check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
+check_sides (int width, int height, const char *path, const CliLayers *layers)
 {
-  int width = celd_io_width (file), height = celd_io_height (file);
-
-  if (!layers->width)
-    {
-      layers->width = width;
-      layers->height = height;
-    }
   return (layers->width == width && layers->height == height) ||
          cli_error ("\"%s\" has %d x %d pixels, but %d x %d are needed; give all layers the size of the drawing.",
                     path, width, height, layers->width, layers->height);
+}
+
+static bool
+check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
+{
+  if (!layers->width)
+    {
+      layers->width = celd_io_width (file);
+      layers->height = celd_io_height (file);
+    }
+  return check_sides (celd_io_width (file), celd_io_height (file), path, layers);
 }
 
 /* Where a file has layers, but not the drawing, that is a mistake; without layers its picture is the drawing. */
@@ -71,18 +76,38 @@ cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint
   return good;
 }
 
+bool
+cli_hint_read (const char *path, const CliLayers *layers, CeldPlane *depth)
+{
+  return cli_read_levels (path, depth) && check_sides (depth->width, depth->height, path, layers);
+}
+
+bool
+cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art)
+{
+  CeldIoFile *file = open_file (path ? path : input);
+  size_t      part = !file ? 0 : path ? celd_io_find (file, "colours") : find_drawing (file, input);
+  bool        good = file && check_size (file, path ? path : input, layers) &&
+                     cli_read_part (file, part == CELD_NO_INDEX ? 0 : part, linear, art);
+
+  celd_io_close (file);
+  return good;
+}
+
 /* ------------------------------------------------------------------ all layers */
 
 static CeldPaint *
 paint_of (CliLayers *layers, CliRoles role)
 {
-  return role == CLI_SCRIBBLES ? &layers->scribbles : role == CLI_ARROWS ? &layers->arrows : &layers->contours;
+  return role == CLI_SCRIBBLES ? &layers->scribbles : role == CLI_ARROWS ? &layers->arrows
+       : role == CLI_CONTOURS ? &layers->contours : &layers->corrections;
 }
 
 static const char *
 path_of (const CliOptions *options, CliRoles role)
 {
-  return role == CLI_SCRIBBLES ? options->scribbles : role == CLI_ARROWS ? options->arrows : options->contours;
+  return role == CLI_SCRIBBLES ? options->scribbles : role == CLI_ARROWS ? options->arrows
+       : role == CLI_CONTOURS ? options->contours : options->corrections;
 }
 
 /* The drawing, and what else the same file holds and no option gives. */
@@ -123,6 +148,7 @@ cli_layers_clear (CliLayers *layers)
   g_free (layers->scribbles.data);
   g_free (layers->arrows.data);
   g_free (layers->contours.data);
+  g_free (layers->corrections.data);
   *layers = (CliLayers) { 0 };
 }
 

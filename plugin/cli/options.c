@@ -12,13 +12,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#define MADE_OF_LABELS (CLI_POPUP | CLI_SEGMENT)
+#define GIVES_LABELS   (CLI_POPUP | CLI_SEGMENT)
+#define MADE_OF_LABELS (GIVES_LABELS | CLI_LAYERS | CLI_STEREO)
 #define WITH_LAYERS    (MADE_OF_LABELS | CLI_EXACT)
 #define WITH_INK       (WITH_LAYERS | CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE)
 
 /* ------------------------------------------------------------------ files */
 
-typedef enum { INPUT, TEXT, OUTPUT, REPORT } FileKind;
+typedef enum { INPUT, TEXT, OUTPUT, REPORT, STACK } FileKind; /* from OUTPUT on they are written */
 
 typedef struct
 {
@@ -38,6 +39,8 @@ static const FileOption files[] = {
   { "scribbles", WITH_LAYERS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour a region" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
     "virtual contours: red cuts, blue cuts regions only, green erases ink" },
+  { "corrections", CLI_POPUP | CLI_LAYERS, 0, INPUT, MEMBER (corrections), "PICTURE",
+    "strokes over ink that give it to the region of their colour" },
   { "arrows", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
   { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
     "painted pixels keep their level; without: the inner core of each region" },
@@ -46,20 +49,36 @@ static const FileOption files[] = {
   { "relations-file", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
   { "arrow-path", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
     "arrows as SVG path data such as 'M 120,80 L 300,90', the nearer end first" },
-  { "labels", MADE_OF_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
-  { "closures", MADE_OF_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
+  { "depth-hint", GIVES_LABELS | CLI_ORDER, 0, INPUT, MEMBER (depth_hint), "PICTURE",
+    "depth from elsewhere, near = white: suggestions come from it, too" },
+  { "labels", GIVES_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
+  { "closures", GIVES_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
     "write the gaps that were closed, as red contours on a transparent layer" },
-  { "suggestions", MADE_OF_LABELS | CLI_ORDER, 0, REPORT, MEMBER (suggestions), "OUT",
+  { "suggestions", GIVES_LABELS | CLI_ORDER, 0, REPORT, MEMBER (suggestions), "OUT",
     "write which part seems to be in front, as relations with a confidence" },
-  { "suggested-arrows", MADE_OF_LABELS, 0, OUTPUT, MEMBER (suggested_arrows), "OUT",
+  { "suggested-arrows", GIVES_LABELS, 0, OUTPUT, MEMBER (suggested_arrows), "OUT",
     "write the same as arrows on a transparent layer" },
   { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT", "write levels before contours are given to their owners" },
   { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
     "write levels" },
   { "depth", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, CLI_SMOOTH | CLI_EXACT, OUTPUT, MEMBER (depth), "OUT",
     "write smooth depth" },
+  { "regions", CLI_EXPAND, 0, INPUT, MEMBER (regions), "PICTURE",
+    "regions as segment wrote them: tells parts of one level apart" },
+  { "art", CLI_ENHANCE, 0, INPUT, MEMBER (art), "PICTURE", "the picture that shadows fall on" },
+  { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with its shadows" },
+  { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
+  { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
   { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
   { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
+  { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
+  { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
+  { "joined", CLI_STEREO, 0, OUTPUT, MEMBER (stereo), "OUT", "write both in one picture, see --stereo" },
+  { "colours", CLI_LAYERS | CLI_STEREO, 0, INPUT, MEMBER (colours), "PICTURE", "what is cut instead of the drawing" },
+  { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
+    "what the layers are composited in: encoded colours (Krita), linear light (GIMP 3); encoded, but for .exr" },
+  { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
+    "write layers: .ora (OpenRaster), .exr (a part each), or a folder of PNG files" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT", "write what was found, as JSON" },
 };
 
@@ -106,9 +125,10 @@ static const SettingOption settings[] = {
   { "seeds", MADE_OF_LABELS, CHOICE, MEMBER (seeds), "auto|scribbles", "may arrows make regions of their own?" },
   { "same-colour", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (same_colour), "one|separate",
     "regions of one colour have one depth, or each its own" },
-  { "on-cycle", CLI_POPUP | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (on_cycle), "report|drop-weakest|split",
+  { "on-cycle", CLI_POPUP | CLI_LAYERS | CLI_STEREO | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (on_cycle),
+    "report|drop-weakest|split",
     "of relations that contradict, leave out lighter and later ones, or the least weight in sum; or split regions" },
-  { "suggest", CLI_POPUP | CLI_ORDER, CHOICE, MEMBER (suggest), "off|fill-gaps|all",
+  { "suggest", CLI_POPUP | CLI_LAYERS | CLI_STEREO | CLI_ORDER, CHOICE, MEMBER (suggest), "off|fill-gaps|all",
     "order by suggestions, too: none, where relations leave it open, all; off" },
   { "arrow-style", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper",
     "how arrows are painted" },
@@ -118,9 +138,14 @@ static const SettingOption settings[] = {
     "with fixed encoding, the level that becomes 1" },
   { "far-level", CLI_POPUP | CLI_ORDER | CLI_EXACT, NUMBER, MEMBER (far_level), "N",
     "with fixed encoding, the level that becomes 0" },
-  { "anchors", CLI_POPUP, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
+  { "complete", CLI_LAYERS, TRUTH, MEMBER (complete), "no|yes", "layers have what nearer ones hide, too; no" },
+  { "expansion", CLI_POPUP | CLI_LAYERS | CLI_STEREO, CHOICE, MEMBER (expansion), "outlines|thickness",
+    "who gets the ink: outlines of one pen each, or by the thickness of contours" },
+  { "method", CLI_EXPAND, CHOICE, MEMBER (expansion), "outlines|thickness",
+    "outlines of one pen each, or by the thickness of contours" },
+  { "anchors", CLI_POPUP | CLI_STEREO, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
     "which pixels keep their level in smooth depth" },
-  { "hold-rest", CLI_POPUP | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
+  { "hold-rest", CLI_POPUP | CLI_STEREO | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
     "regions without an anchor keep their level in their core; yes" },
   { "tolerance", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, NUMBER, MEMBER (tolerance), "0-0.1",
     "largest error of smooth depth; 0.0001" },
@@ -129,10 +154,26 @@ static const SettingOption settings[] = {
   { "weight-floor", CLI_EXACT, NUMBER, MEMBER (weight_floor), "0.000001-1",
     "how strongly neighbours hold together at least; 0.000001" },
   { "bulge", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
-  { "light-azimuth", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_azimuth), "DEGREES",
+  { "light-azimuth", CLI_POPUP | CLI_SHADE | CLI_ENHANCE, NUMBER, MEMBER (light_azimuth), "DEGREES",
     "0 from the right, 90 from above; 135" },
   { "light-elevation", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_elevation), "DEGREES", "90 from the viewer; 45" },
   { "ambient", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (ambient), "0-1", "light that reaches every pixel; 0.25" },
+  { "disparity", CLI_STEREO, NUMBER, MEMBER (disparity), "0-0.2",
+    "how far the nearest and the farthest lie apart for two eyes, as a share of the width; 0.02" },
+  { "convergence", CLI_STEREO, NUMBER, MEMBER (convergence), "0-1",
+    "which depth lies on the screen, 1 the nearest; 0.5" },
+  { "stereo", CLI_STEREO, CHOICE, MEMBER (stereo),
+    "left|right|side-by-side|half-side-by-side|crossed|over-under|interlaced|grey|colour|half-colour|dubois",
+    "how --joined has both views; the last four are for red and cyan glasses; side-by-side" },
+  { "enhance", CLI_ENHANCE, CHOICE, MEMBER (enhance), "stack|darken|contrast",
+    "soft shadows on what is behind; or darker behind borders of depth, or also lighter before them" },
+  { "shadow-size", CLI_ENHANCE, NUMBER, MEMBER (shadow_size), "0.0005-0.2",
+    "how far shadows spread, as a share of the diagonal; 0.012" },
+  { "shadow-strength", CLI_ENHANCE, NUMBER, MEMBER (shadow_strength), "0-1", "how dark shadows are; 0.6" },
+  { "shadow-offset", CLI_ENHANCE, NUMBER, MEMBER (shadow_offset), "0-0.2",
+    "how far shadows fall away from the light, as a share of the diagonal; 0" },
+  { "shadow-range", CLI_ENHANCE, NUMBER, MEMBER (shadow_range), "0-1",
+    "from this share of all depth on shadows are full; 0" },
 };
 
 /* The place of a word in "a|b|c"; -1 if it is not there. */
@@ -205,7 +246,7 @@ take_setting (const char *name, const char *value, gpointer data, GError **error
   const SettingOption *setting = settings;
   CeldSettings         alone = celd_settings ();
 
-  while (strcmp (setting->name, name + 2))
+  while (strcmp (setting->name, name + 2) || !(setting->steps & (int) options->step))
     setting++;
   if (set_setting (setting, value, &alone) && celd_settings_check (&alone) == CELD_OK)
     {
@@ -295,6 +336,8 @@ check_files (const CliCommand *command, CliOptions *options)
       outputs++;
       if (files[i].kind == OUTPUT && !cli_can_write (name))
         return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
+      if (files[i].kind == STACK && !celd_io_stack_kind (name))
+        return cli_error ("--%s %s: the ending must be .ora or .exr, or none for a folder.", files[i].name, name);
       if (same_file (name, options->input))
         return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
       for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
@@ -305,8 +348,12 @@ check_files (const CliCommand *command, CliOptions *options)
             return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
         }
     }
+  if (options->enhanced && !options->art)
+    return cli_error ("--enhanced needs --art.");
   return outputs || cli_error ("Nothing to write: name at least one output, such as --%s.",
                                command->step == CLI_SHADE ? "shading"
+                               : command->step == CLI_ENHANCE ? "enhanced"
+                               : command->step == CLI_STEREO ? "joined"
                                : command->step == CLI_SEGMENT ? "labels" : "depth");
 }
 
@@ -317,20 +364,34 @@ cli_is_device (const char *path)
          !g_file_test (path, G_FILE_TEST_IS_DIR);
 }
 
-/* Pictures are written beside their name and moved there; a report may go to a device. */
+static bool
+is_empty (const char *folder)
+{
+  GDir *open = g_dir_open (folder, 0, NULL);
+  bool  empty = open && !g_dir_read_name (open);
+
+  if (open)
+    g_dir_close (open);
+  return empty;
+}
+
+/* Pictures and layers are written beside their name and moved there; a report may go to a device. */
 static bool
 check_place (const char *name, FileKind kind)
 {
-  char *folder = g_path_get_dirname (name);
+  char *plain = g_canonicalize_filename (name, NULL), *folder = g_path_get_dirname (plain); /* without a last slash */
   bool  device = cli_is_device (name), good = true;
 
-  if (g_file_test (name, G_FILE_TEST_IS_DIR))
+  if (kind == STACK && celd_io_stack_kind (name) == CELD_IO_FOLDER && g_file_test (name, G_FILE_TEST_IS_DIR))
+    good = is_empty (name) || cli_error ("Cannot write \"%s\": it is a folder that is not empty.", name);
+  else if (g_file_test (name, G_FILE_TEST_IS_DIR))
     good = cli_error ("Cannot write \"%s\": it is a folder.", name);
-  else if (device && kind == OUTPUT)
+  else if (device && kind != REPORT)
     good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
   else if (!device && g_access (folder, W_OK))
     good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
   g_free (folder);
+  g_free (plain);
   return good;
 }
 
@@ -355,6 +416,11 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
   if (argc != 2)
     return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
   options->input = g_strdup (argv[1]);
+  if (options->light && find_word ("encoded|linear", options->light) < 0)
+    return cli_error ("--light cannot be '%s'; it takes encoded|linear.", options->light);
+  if (options->light && !strcmp (options->light, "encoded") && options->output &&
+      celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS)
+    return cli_error ("--light encoded is not for .exr, whose colours are linear light.");
   if (options->relations && options->relations_file)
     return cli_error ("Give --relations or --relations-file, not both.");
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
@@ -367,7 +433,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
 int
 cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
-  *options = (CliOptions) { .settings = celd_settings () };
+  *options = (CliOptions) { .step = command->step, .settings = celd_settings () };
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
     return check_places (options) ? CLI_DONE : CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);

@@ -21,6 +21,13 @@ cli_labels_new (int width, int height, CeldLabels *labels)
   return labels->data || cli_check (CELD_NO_MEMORY);
 }
 
+bool
+cli_colours_new (int width, int height, CeldColours *colours)
+{
+  *colours = (CeldColours) { width, height, (size_t) width, g_try_new (float, 4 * (gsize) width * (gsize) height) };
+  return colours->data || cli_check (CELD_NO_MEMORY);
+}
+
 /* ------------------------------------------------------------------ reading */
 
 /* The space of the embedded profile; NULL (sRGB) if there is none that fits the pixels. */
@@ -135,6 +142,30 @@ cli_read_paint (CeldIoFile *file, size_t part, CeldPaint *paint)
 }
 
 bool
+cli_read_part (CeldIoFile *file, size_t part, bool linear, CeldColours *to)
+{
+  Colours colours = { 0 };
+  bool    good = colours_read (file, part, linear ? "RGBA float" : "R'G'B'A float", &colours) &&
+                 cli_colours_new (celd_io_width (file), celd_io_height (file), to);
+
+  for (int y = 0; good && y < to->height; y++)
+    colours_convert (&colours, y, to->data + 4 * (size_t) y * to->stride);
+  colours_clear (&colours);
+  return good;
+}
+
+bool
+cli_read_colours (const char *path, CeldColours *colours)
+{
+  CeldIoError error;
+  CeldIoFile *file = celd_io_open (path, &error);
+  bool        good = file ? cli_read_part (file, 0, true, colours) : cli_error ("%s", error.text);
+
+  celd_io_close (file);
+  return good;
+}
+
+bool
 cli_read_levels (const char *path, CeldPlane *levels)
 {
   CeldIoError error;
@@ -242,4 +273,14 @@ cli_write_shading (const char *path, const CeldPlane *shading)
   if (cli_is_npy (path))
     return cli_npy_write (path, shading->width, shading->height, 0, shading->stride, shading->data);
   return check_written (celd_io_write_light (path, shading, &error), &error);
+}
+
+bool
+cli_write_colours (const char *path, const CeldColours *colours)
+{
+  CeldIoError error;
+
+  if (cli_is_npy (path))
+    return cli_npy_write (path, colours->width, colours->height, 4, 4 * colours->stride, colours->data);
+  return check_written (celd_io_write_colours (path, colours, &error), &error);
 }

@@ -58,6 +58,25 @@ begin_list (JsonBuilder *json, const char *name)
 
 /* ------------------------------------------------------------------ labels */
 
+/* The layer of a label: its number from the back, and its box. */
+static void
+add_layer (JsonBuilder *json, const CeldLayers *layers, uint32_t label)
+{
+  for (size_t i = 0; i < celd_layers_count (layers); i++)
+    if (celd_layers_item (layers, i)->label == label)
+      {
+        CeldRect box = celd_layers_item (layers, i)->box;
+
+        add_integer (json, "layer", (gint64) i);
+        begin_list (json, "box");
+        json_builder_add_int_value (json, box.x);
+        json_builder_add_int_value (json, box.y);
+        json_builder_add_int_value (json, box.width);
+        json_builder_add_int_value (json, box.height);
+        json_builder_end_array (json);
+      }
+}
+
 static void
 add_label (JsonBuilder *json, const CliReport *report, size_t index)
 {
@@ -82,6 +101,8 @@ add_label (JsonBuilder *json, const CliReport *report, size_t index)
       add_integer (json, "level", level);
       add_number (json, "value", (double) celd_order_value (report->order, level, report->settings));
     }
+  if (report->layers)
+    add_layer (json, report->layers, (uint32_t) index + 1);
   json_builder_end_object (json);
 }
 
@@ -225,7 +246,7 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
 {
   static const char *kinds[] = {
     "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
-    "contradiction", "not-converged",
+    "contradiction", "not-converged", "region-split",
   };
   char text[400];
 

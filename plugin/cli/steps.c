@@ -82,7 +82,7 @@ typedef struct
   CliLayers     layers;
   CeldPaint     paint;
   CeldLabels    labels;
-  CeldPlane     ink;
+  CeldPlane     ink, hint;
   CeldPalette   palette;
   CeldRelations relations, suggestions;
   CeldOrder     order;
@@ -102,6 +102,7 @@ load_ordering (const CliOptions *options, Ordering *o)
                        cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "Arrow path", &error) &&
                        cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
+                       (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint)) &&
                        cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&
                        cli_check (celd_labels_read (&o->paint, &o->labels, &o->palette));
 
@@ -109,13 +110,15 @@ load_ordering (const CliOptions *options, Ordering *o)
   return good && (!options->drawing || make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));
 }
 
-/* What the drawing suggests, and if that is to count, behind the relations. */
+/* What the drawing suggests, and depth from elsewhere, and if that is to count, behind the relations. */
 static CeldStatus
 make_suggestions (const CeldPlane *ink, const CeldSettings *settings, Ordering *o)
 {
   const CeldRun *run = &o->run.run;
   CeldStatus     status = celd_suggest (&o->labels, &o->palette, ink, run, &o->suggestions);
 
+  if (status == CELD_OK && o->hint.data)
+    status = celd_suggest_from_depth (&o->labels, &o->palette, ink, &o->hint, run, &o->suggestions);
   if (status == CELD_OK && settings->suggest)
     status = celd_suggestions_join (&o->labels, &o->palette, &o->relations, &o->suggestions, settings, ink, run,
                                     &o->relations);
@@ -176,6 +179,7 @@ clear_ordering (Ordering *o)
   g_free (o->paint.data);
   g_free (o->labels.data);
   g_free (o->ink.data);
+  g_free (o->hint.data);
   celd_palette_clear (&o->palette);
   celd_relations_clear (&o->relations);
   celd_relations_clear (&o->suggestions);
@@ -211,18 +215,37 @@ cli_order (const CliOptions *options)
 
 /* ------------------------------------------------------------------ expand */
 
+/* Flat colours, as segment writes them. */
+static bool
+read_regions (const char *path, CliLayers *layers, CeldLabels *regions)
+{
+  CeldPaint   paint = { 0 };
+  CeldPalette palette = { 0 };
+  bool        good = cli_layer_read (path, "labels", layers, &paint) &&
+                     cli_labels_new (paint.width, paint.height, regions) &&
+                     cli_check (celd_labels_read (&paint, regions, &palette));
+
+  g_free (paint.data);
+  celd_palette_clear (&palette);
+  return good;
+}
+
 int
 cli_expand (const CliOptions *options)
 {
-  Step step;
-  bool good = begin_step (options, &step);
+  Step       step;
+  CeldLabels regions = { 0 };
+  bool       good = begin_step (options, &step) &&
+                    (!options->regions || read_regions (options->regions, &step.layers, &regions));
 
   if (good)
     {
       cli_run_stage (&step.run, "levels");
-      good = finish (&step.run, celd_expand_levels (&step.ink, &step.levels, &step.run.run, &step.levels)) &&
+      good = finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL, NULL,
+                                                    options->settings.expansion, &step.run.run, &step.levels)) &&
              cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
     }
+  g_free (regions.data);
   return end_step (&step, good);
 }
 

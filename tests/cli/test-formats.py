@@ -7,7 +7,7 @@ import json
 import unittest
 
 import numpy as np
-from PIL import ImageDraw
+from PIL import Image, ImageDraw
 
 from pictures import BLUE, GREEN, HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, png_chunks
 
@@ -177,6 +177,52 @@ class Formats(Test):
         self.assertGreater(at(levels, IN_A), at(levels, IN_B))
         self.assertEqual([r['source'] for r in self.report()['relations']], ['text', 'suggestion', 'suggestion'])
 
+    def suggested(self, flat):
+        """The pairs of colours that suggestions.txt puts in order."""
+        pairs = set()
+        with open(self.path('suggestions.txt'), encoding='utf-8') as file:
+            for line in file:
+                points = [[float(v) for v in point.split(',')] for point in line.split(' @')[0].split(' > ')]
+                pairs.add(tuple(tuple(flat[int(y), int(x)]) for x, y in points))
+        return pairs
+
+    def test_depth_hint(self):
+        """Depth from elsewhere, in any unit, is one more voice, which counts only if asked for and never against the
+        artist."""
+        popup = ('popup', 'drawing.png', '--scribbles', 'scribbles.png')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'flat.png')
+        flat = self.picture('flat.png')
+        for nearer, farther in ((IN_A, IN_B), (IN_B, IN_A)):
+            front, back = (tuple(at(flat, place)) for place in (nearer, farther))
+            depth = np.where((flat == front).all(-1), 700, np.where((flat == back).all(-1), 300, 0))
+            np.save(self.path('hint.npy'), depth.astype(np.float32))
+            for arguments in (('order', 'flat.png'), popup):
+                with self.subTest(arguments, nearer=nearer):
+                    hinted = (*arguments, '--levels', 'levels.npy', '--depth-hint', 'hint.npy')
+                    self.celdepth(*hinted, '--suggestions', 'suggestions.txt')
+                    self.assertIn((front, back), self.suggested(flat))
+                    levels = np.load(self.path('levels.npy'))
+                    self.assertEqual(at(levels, nearer), at(levels, farther))
+                    self.celdepth(*hinted, '--suggest', 'all', '--relations', '{},{} < {},{}'.format(*nearer, *farther))
+                    levels = np.load(self.path('levels.npy'))
+                    self.assertLess(at(levels, nearer), at(levels, farther))
+        np.save(self.path('hint.npy'), np.zeros((3, 3), np.float32))
+        self.fails(*popup, '--levels', 'levels.npy', '--depth-hint', 'hint.npy', naming='hint.npy')
+
+    def test_blue_arrows_are_cracks(self):
+        """Painted in another colour they are arrows like any other."""
+        for colour, crack in (((0, 60, 255), True), ((200, 60, 0), False)):
+            with self.subTest(colour):
+                layer = Image.new('RGBA', (WIDTH, HEIGHT))
+                draw = ImageDraw.Draw(layer)
+                draw.line([(18, 20), (68, 45)], fill=colour + (255,), width=3)
+                draw.polygon([(72, 47), (67, 39), (62, 48)], fill=colour + (255,))
+                layer.save(self.path('arrows.png'))
+                self.popup('--arrows', 'arrows.png', '--levels', 'levels.npy', '--report', 'report.json')
+                levels, relations = np.load(self.path('levels.npy')), self.report()['relations']
+                self.assertGreater(at(levels, IN_A), at(levels, IN_B))
+                self.assertEqual([(r['source'], r.get('crack', False)) for r in relations], [('arrow', crack)])
+
     def test_steps_equal_the_route(self):
         """segment, order, expand, smooth, shade one after the other, by way of files."""
         self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',
@@ -184,13 +230,22 @@ class Formats(Test):
         page = ('--drawing', 'drawing.png')
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'b.png')
         self.celdepth('order', 'b.png', *page, '--relations', RELATIONS, '--levels', 'b-order.npy')
-        self.celdepth('expand', 'b-order.npy', *page, '--levels', 'b-levels.npy')
+        self.celdepth('expand', 'b-order.npy', *page, '--regions', 'b.png', '--levels', 'b-levels.npy')
         self.celdepth('smooth', 'b-levels.npy', *page, '--anchors', 'scribbles.png', '--depth', 'b-depth.npy')
         self.celdepth('shade', 'b-levels.npy', *page, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
         np.testing.assert_array_equal(self.picture('a.png'), self.picture('b.png'))
         for name in ('order', 'levels', 'depth', 'normals', 'shading'):
             a, b = (np.load(self.path(f'{run}-{name}.npy')) for run in 'ab')
             np.testing.assert_allclose(a, b, atol=1e-4)
+
+    def test_parts_of_one_level(self):
+        """Two boxes of one level meet in the middle of their common outline, whether by steps or by the route."""
+        relations = ('--relations', '70,45 > 4,4; 20,20 > 4,4')
+        self.popup(*relations, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy')
+        self.celdepth('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'a.png', '--levels', 'b.npy')
+        np.testing.assert_array_equal(np.load(self.path('a-levels.npy')), np.load(self.path('b.npy')))
+        self.fails('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'no.png', '--levels', 'c.npy',
+                   naming='no.png')
 
     def test_labels_come_back(self):
         """order reads the labels that segment wrote."""

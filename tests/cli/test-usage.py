@@ -14,7 +14,7 @@ from PIL import Image
 
 from pictures import COMMAND, RELATIONS, Test
 
-STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'exact')
+STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo')
 
 
 class Usage(Test):
@@ -40,6 +40,8 @@ class Usage(Test):
         self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='More than one')
         self.wrong('popup', 'a.png', naming='Nothing to write')
         self.wrong('segment', 'a.png', naming='such as --labels')
+        self.wrong('enhance', 'a.npy', naming='such as --enhanced')
+        self.wrong('enhance', 'a.npy', '--enhanced', 'b.png', naming='--art')
         self.wrong('expand', 'a.npy', '--levels', 'b.npy', naming='--drawing is missing')
         self.wrong('smooth', 'a.npy', '--drawing', 'a.png', naming='--depth is missing')
         self.wrong('segment', 'a.png', '--labels', 'b.png', '--bulge', '1', naming='--bulge')

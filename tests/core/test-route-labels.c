@@ -111,6 +111,115 @@ edits_make_what_a_fresh_session_makes (void)
     }
 }
 
+/* ------------------------------------------------------------------ relations come and go */
+
+#define MOST_SINGLE 24
+
+typedef struct { uint32_t id; char text[64]; } Single;
+
+static bool
+same_cycles (const CeldOrder *a, const CeldOrder *b)
+{
+  for (size_t k = 0; k < a->n_cycles && a->n_cycles == b->n_cycles; k++)
+    if (a->cycle[k].n != b->cycle[k].n || a->cycle[k].label != b->cycle[k].label ||
+        memcmp (a->cycle[k].item, b->cycle[k].item, a->cycle[k].n * sizeof *a->cycle[k].item))
+      return false;
+  return a->n_cycles == b->n_cycles && a->n_knots == b->n_knots;
+}
+
+static bool
+same_order (const CeldOrder *a, const CeldOrder *b)
+{
+  return a->n == b->n && a->levels == b->levels && !memcmp (a->level, b->level, a->n * sizeof *a->level) &&
+         !a->height == !b->height && (!a->height || !memcmp (a->height, b->height, a->levels * sizeof *a->height)) &&
+         same_cycles (a, b);
+}
+
+/* Puts a relation between random points in, in place of that with the same id, or takes one out; the list says which
+ * there are, in the order in which they count. */
+static void
+change_relation (CeldSession *session, Single *list, size_t *n, uint32_t *r)
+{
+  static const char *const flags[] = { "", "", "", "", "", "@2", "+2", "+0.5" };
+  uint32_t id = 1 + pick (r, MOST_SINGLE);
+  bool     there = false, take_out = pick (r, 6) == 0;
+  size_t   k = 0;
+
+  for (k = 0; k < *n && list[k].id != id; k++)
+    ;
+  there = k < *n;
+  if (there)
+    memmove (&list[k], &list[k + 1], (--*n - k) * sizeof *list);
+  if (take_out)
+    {
+      CHECK ((celd_session_remove_relation (session, id) == CELD_OK) == there);
+      return;
+    }
+  list[*n].id = id;
+  snprintf (list[*n].text, sizeof list[*n].text, "%u,%u %s %u,%u %s", (unsigned) pick (r, W), (unsigned) pick (r, H),
+            pick (r, 8) ? ">" : "=", (unsigned) pick (r, W), (unsigned) pick (r, H), flags[pick (r, 8)]);
+  CHECK (celd_session_put_relation (session, id, list[(*n)++].text, NULL) == CELD_OK);
+}
+
+static void
+compare_orders (CeldSession *edited, const State *state, const Single *list, size_t n)
+{
+  CeldSession     *fresh = celd_session_new ();
+  const CeldOrder *order, *wanted;
+  CeldLabels       labels, wanted_labels;
+
+  apply (fresh, state);
+  for (size_t k = 0; k < n; k++)
+    CHECK (celd_session_put_relation (fresh, list[k].id, list[k].text, NULL) == CELD_OK);
+  CHECK (celd_session_order (fresh, NULL, &wanted) == CELD_OK && celd_session_order (edited, NULL, &order) == CELD_OK);
+  CHECK (celd_session_labels (fresh, NULL, &wanted_labels, NULL) == CELD_OK);
+  CHECK (celd_session_labels (edited, NULL, &labels, NULL) == CELD_OK);
+  if (check_bad)
+    return;
+  CHECK (!memcmp (labels.data, wanted_labels.data, W * H * sizeof *labels.data));
+  CHECK (same_palette (celd_session_palette (edited), celd_session_palette (fresh)));
+  CHECK (same_order (order, wanted));
+  CHECK (same_problems (celd_session_problems (edited), celd_session_problems (fresh)));
+  celd_session_free (fresh);
+}
+
+/* Relations are kept up one by one, or with all of the labels; what comes of it must be the same. */
+static void
+relations_one_by_one (void)
+{
+  for (uint32_t seed = 1; seed <= 60 && !check_bad; seed++)
+    {
+      Single       list[MOST_SINGLE + 1];
+      size_t       n = 0;
+      State        state;
+      CeldSession *edited = celd_session_new ();
+      uint32_t     r = 577 * seed;
+
+      start (&state, &r);
+      new_drawing (&state, &r);
+      for (int i = 0; i < 3; i++)
+        draw_frame (state.luma, random_box (&r, 9, 20), 0);
+      new_scribbles (&state, &r);
+      state.has_scribbles = true;
+      state.relation = false;
+      state.settings.seeds = seed % 3 ? CELD_SEEDS_SCRIBBLES : CELD_SEEDS_AUTO;
+      state.settings.same_colour = seed % 2 ? CELD_SAME_COLOUR_SEPARATE : CELD_SAME_COLOUR_ONE;
+      state.settings.on_cycle = (CeldOnCycle) (seed % 4 ? CELD_ON_CYCLE_REPORT
+                                                        : pick (&r, 2) ? CELD_ON_CYCLE_SPLIT
+                                                                       : CELD_ON_CYCLE_DROP_WEAKEST);
+      apply (edited, &state);
+      for (int step = 0; step < 40 && !check_bad; step++)
+        {
+          change_relation (edited, list, &n, &r);
+          if (pick (&r, 4))
+            compare_orders (edited, &state, list, n);
+          if (check_bad)
+            fprintf (stderr, "  seed %u, step %d\n", (unsigned) seed, step);
+        }
+      celd_session_free (edited);
+    }
+}
+
 /* ------------------------------------------------------------------ cancelled edits */
 
 /* An edit is cancelled at each of its reports; then another one follows, and all is as if nothing had happened. */
@@ -179,7 +288,8 @@ finished (State *s)
 #define ALL ((1u << N_STAGES) - 1)
 #define STAGE(name) (1u << STAGE_##name)
 #define DEPTHS      (STAGE (PREVIEW) | STAGE (DEPTH))
-#define FROM_ORDER  (STAGE (ORDER) | STAGE (FLAT) | STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
+#define FROM_LEVELS (STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
+#define FROM_ORDER  (STAGE (ORDER) | STAGE (FLAT) | STAGE (OWNERSHIP) | FROM_LEVELS)
 #define FROM_LABELS (STAGE (LABELS) | STAGE (SUGGESTIONS) | FROM_ORDER)
 #define FROM_NODES  (STAGE (NODES) | STAGE (EXACT))
 #define FROM_INK    (STAGE (INK) | FROM_LABELS | STAGE (WEIGHTS) | FROM_NODES)
@@ -219,9 +329,9 @@ a_setting_redoes_what_reads_it (void)
   REDOES (settings.keep_necks = false, FROM_LABELS);
   REDOES (settings.hardness = 1, FROM_LABELS);
   REDOES (settings.ink_threshold = 0.5f, FROM_LABELS);
-  REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_LABELS | STAGE (EXACT));
-  REDOES (settings.encoding = CELD_ENCODING_RANK, (FROM_ORDER & ~STAGE (ORDER)) | STAGE (EXACT));
-  REDOES (settings.near_level = 3, (FROM_ORDER & ~STAGE (ORDER)) | STAGE (EXACT));
+  REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_ORDER | STAGE (EXACT));
+  REDOES (settings.encoding = CELD_ENCODING_RANK, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
+  REDOES (settings.near_level = 3, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
   REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (NORMALS) | STAGE (SHADING) | STAGE (EXACT));
   REDOES (settings.anchors = CELD_ANCHORS_CORE, DEPTHS);
   REDOES (settings.bulge = 2, STAGE (NORMALS) | STAGE (SHADING));
@@ -345,6 +455,7 @@ int
 main (void)
 {
   RUN (edits_make_what_a_fresh_session_makes);
+  RUN (relations_one_by_one);
   RUN (cancelled_edits_do_no_harm);
   RUN (a_setting_redoes_what_reads_it);
   RUN (layers_redo_what_is_made_of_them);

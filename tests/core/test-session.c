@@ -49,6 +49,34 @@ scene (void)
   return s;
 }
 
+/* A stroke in the colour of what is behind takes the outline away; without it, the sheet has it back. */
+static void
+corrections_give_ink (void)
+{
+  CeldSession   *s = scene ();
+  uint8_t        on[4 * W * H] = { 0 };
+  CeldPaint      paint = { W, H, W, on };
+  CeldOwnership  own;
+  CeldPlane      levels;
+  CeldRect       changed;
+  const uint8_t  stroke[4] = { 0, 0, 255, 255 };
+
+  CHECK (celd_session_ownership (s, NULL, &own, &changed) == CELD_OK && changed.width == W);
+  CHECK (CELD_AT (&own.owner, 12, 16) == CELD_AT (&own.owner, 24, 16));
+  memcpy (CELD_RGBA (&paint, 12, 16), stroke, 4);
+  CHECK (celd_session_set_corrections (s, &paint) == CELD_OK);
+  CHECK (celd_session_ownership (s, NULL, &own, &changed) == CELD_OK && changed.width > 0 && changed.width < W);
+  CHECK (CELD_AT (&own.owner, 12, 16) == CELD_AT (&own.owner, 2, 28));
+  CHECK (CELD_AT (&own.owner, 13, 18) == CELD_AT (&own.owner, 2, 28)); /* the piece of line, not the pixel */
+  CHECK (celd_session_levels (s, NULL, &levels, NULL) == CELD_OK && CELD_AT (&levels, 12, 18) == 0);
+  CHECK (celd_session_set_corrections (s, &paint) == CELD_OK);
+  CHECK (celd_session_ownership (s, NULL, &own, &changed) == CELD_OK && changed.width == 0);
+  CHECK (celd_session_set_corrections (s, NULL) == CELD_OK);
+  CHECK (celd_session_ownership (s, NULL, &own, &changed) == CELD_OK && changed.width > 0);
+  CHECK (CELD_AT (&own.owner, 12, 16) == CELD_AT (&own.owner, 24, 16));
+  celd_session_free (s);
+}
+
 static void
 whole_route (void)
 {
@@ -339,6 +367,7 @@ int
 main (void)
 {
   RUN (whole_route);
+  RUN (corrections_give_ink);
   RUN (edits_say_what_changed);
   RUN (single_relations);
   RUN (anchors_keep_their_level);

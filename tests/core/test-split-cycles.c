@@ -300,6 +300,29 @@ check_same (CeldSession *a, CeldSession *b)
     CHECK (fabsf (depth[0].data[i] - depth[1].data[i]) < 1e-3f);
 }
 
+/* A split is told, with a point of the part that is new; it goes with its cause. */
+static void
+splits_are_told (void)
+{
+  CeldSession        *s = session_of_bars (3);
+  const CeldProblems *problems;
+  CeldLabels          labels;
+  char                text[400];
+
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  problems = celd_session_problems (s);
+  CHECK (problems->n == 1 && problems->item[0].kind == CELD_PROBLEM_REGION_SPLIT);
+  CHECK (problems->n && problems->item[0].other == 5 &&
+         CELD_AT (&labels, problems->item[0].x, problems->item[0].y) == 5);
+  CHECK (problems->n && problems->item[0].label != 5);
+  if (problems->n)
+    celd_problem_text (&problems->item[0], celd_session_palette (s), celd_session_relations (s), text, sizeof text);
+  CHECK (strstr (text, "split"));
+  CHECK (celd_session_remove_relation (s, 3) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK && celd_session_problems (s)->n == 0);
+  celd_session_free (s);
+}
+
 static void
 edits_equal_a_fresh_session (void)
 {
@@ -345,6 +368,7 @@ main (void)
   RUN (parts_beyond_go_along);
   RUN (refused);
   RUN (random_scenes);
+  RUN (splits_are_told);
   RUN (edits_equal_a_fresh_session);
   RUN (the_sheet_bends);
   return DONE;

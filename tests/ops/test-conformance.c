@@ -23,20 +23,15 @@ static float result[4 * PIXELS];
 /* ------------------------------------------------------------------ core */
 
 static CeldStatus
-make_order (const CeldSettings *settings, CeldLabels *ranks)
+make_order (const CeldSettings *settings)
 {
   CeldOrder  order = { 0 };
   CeldStatus status = celd_order (&labels, &palette, &relations, &ink, NULL, NULL, &order, NULL);
 
   for (int i = 0; status == CELD_OK && i < PIXELS; i++)
-    {
-      ranks->data[i] = order.level[labels.data[i] - 1];
-      flat.data[i]   = celd_encode_level (ranks->data[i], order.levels, settings);
-    }
+    flat.data[i] = celd_encode_level (order.level[labels.data[i] - 1], order.levels, settings);
   if (status == CELD_OK)
-    status = celd_expand (&ink, ranks, NULL, ranks);
-  for (int i = 0; status == CELD_OK && i < PIXELS; i++)
-    levels.data[i] = celd_encode_level (ranks->data[i], order.levels, settings);
+    status = celd_expand_levels (&ink, &flat, NULL, NULL, CELD_EXPANSION_OUTLINES, NULL, &levels);
   celd_order_clear (&order);
   return status;
 }
@@ -45,7 +40,6 @@ static void
 core_makes_the_page (void)
 {
   CeldSettings settings = celd_settings ();
-  CeldLabels   ranks = { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
   CeldMask     anchors = { WIDTH, HEIGHT, WIDTH, malloc (PIXELS) };
 
   CHECK (celd_ink (&page_drawing, CELD_INK_AUTO, NULL, &ink) == CELD_OK);
@@ -57,12 +51,11 @@ core_makes_the_page (void)
   CHECK (celd_segment (&ink, &labels, &relations, &settings, NULL, &labels, &palette, NULL) == CELD_OK);
   CHECK (palette.n == 3);
   CHECK (celd_labels_paint (&labels, &palette, &colours) == CELD_OK);
-  CHECK (make_order (&settings, &ranks) == CELD_OK);
+  CHECK (make_order (&settings) == CELD_OK);
   CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
   CHECK (celd_normals (&ink, &levels, &settings, NULL, &normals) == CELD_OK);
   CHECK (celd_shade (&normals, &settings, &shading) == CELD_OK);
   NEAR (range (flat.data, PIXELS), 1, 0);
-  free (ranks.data);
   free (anchors.data);
 }
 
@@ -145,6 +138,23 @@ order_is_that_of_core (void)
   g_object_unref (input);
 }
 
+/* Depth from elsewhere that knows the order better than the shapes do: it counts only if asked for. */
+static void
+order_takes_a_depth_hint (void)
+{
+  GeglBuffer *input = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+  GeglBuffer *hint = page_buffer ("Y float", "Y float", flat.data);
+
+  operate ("celdepth:depth-order", (Pads) { { input, NULL, drawing, hint } }, "Y float", result, "suggest",
+           CELD_SUGGEST_OFF, NULL);
+  CHECK (difference (flat.data, result, PIXELS) > 0);
+  operate ("celdepth:depth-order", (Pads) { { input, NULL, NULL, hint } }, "Y float", result, "suggest",
+           CELD_SUGGEST_ALL, "relations", "#ff0000 < #00ff00", NULL);
+  CHECK (difference (flat.data, result, PIXELS) > 0); /* the artist's relation, which the hint is against */
+  g_object_unref (hint);
+  g_object_unref (input);
+}
+
 static void
 levels_are_those_of_core (void)
 {
@@ -154,6 +164,157 @@ levels_are_those_of_core (void)
   SAME (levels.data, 1);
   CHECK (difference (flat.data, levels.data, PIXELS) > 0);
   g_object_unref (input);
+}
+
+/* Each layer over the one before, in linear light: the drawing again, complete or not. */
+static void
+layers_are_the_drawing (void)
+{
+  static float  wanted[4 * PIXELS];
+  static double sum[4 * PIXELS];
+  GeglBuffer   *input = page_buffer ("Y float", "Y float", flat.data);
+  GeglBuffer   *regions = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+
+  babl_process (babl_fish (babl_format ("Y' float"), babl_format ("RGBA float")), page_luma, wanted, PIXELS);
+  for (int complete = 0; complete < 2; complete++)
+    for (int parted = 0; parted < 2; parted++)
+      {
+        int filled = 0;
+
+        memset (sum, 0, sizeof sum);
+        for (int layer = 0; layer < 5; layer++)
+          {
+            operate ("celdepth:depth-expand", (Pads) { { input, drawing, parted ? regions : NULL } }, "RGBA float",
+                     result, "result", 1, "layer", layer, "complete", complete, NULL);
+            filled += result[0] > 0 || range (result, 4 * PIXELS) > 0;
+            for (int i = 0; i < 4 * PIXELS; i++)
+              {
+                double alpha = (double) result[i / 4 * 4 + 3];
+
+                sum[i] = (i % 4 < 3 ? alpha * (double) result[i] : alpha) + (1 - alpha) * sum[i];
+              }
+          }
+        CHECK (filled == 3);
+        for (int i = 0; i < 4 * PIXELS; i++)
+          result[i] = (float) sum[i];
+        SAME (wanted, 4);
+      }
+  g_object_unref (input);
+  g_object_unref (regions);
+}
+
+/* What core says of the page's labels, without the way over levels and colours. */
+static void
+own_the_page (const CeldLabels *strokes, CeldOwnership *own)
+{
+  CeldOrder order = { 0 };
+
+  own->owner = (CeldLabels) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
+  own->under = (CeldLabels) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
+  own->share = (CeldPlane) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (float)) };
+  CHECK (celd_order (&labels, &palette, &relations, &ink, NULL, NULL, &order, NULL) == CELD_OK);
+  CHECK (celd_own (&ink, &labels, order.level, order.n, strokes, CELD_EXPANSION_OUTLINES, NULL, own) == CELD_OK);
+  celd_order_clear (&order);
+}
+
+static void
+drop_ownership (CeldOwnership *own)
+{
+  free (own->owner.data);
+  free (own->under.data);
+  free (own->share.data);
+}
+
+/* The owners' colours, as opaque as they cover the pixel. */
+static const float *
+matte_of (const CeldOwnership *own)
+{
+  static float matte[4 * PIXELS];
+  CeldPaint    paint = { WIDTH, HEIGHT, WIDTH, malloc (4 * PIXELS) };
+
+  CHECK (celd_labels_paint (&own->owner, &palette, &paint) == CELD_OK);
+  babl_process (babl_fish (babl_format ("R'G'B'A u8"), babl_format ("RGBA float")), paint.data, matte, PIXELS);
+  for (int i = 0; i < PIXELS; i++)
+    matte[4 * i + 3] = own->share.data[i];
+  free (paint.data);
+  return matte;
+}
+
+/* By a table of each label's level on the page. */
+static const float *
+levels_of (const CeldOwnership *own, bool of_owner)
+{
+  static float owned[PIXELS], level[4];
+
+  for (int i = 0; i < PIXELS; i++)
+    level[labels.data[i]] = flat.data[i];
+  for (int i = 0; i < PIXELS; i++)
+    owned[i] = level[(of_owner || own->share.data[i] >= 0.5f ? own->owner : own->under).data[i]];
+  return owned;
+}
+
+/* Owner and alpha: in colours, or without regions the levels as greys, which part the page no less. */
+static void
+matte_is_owner_and_share (void)
+{
+  GeglBuffer   *input = page_buffer ("Y float", "Y float", flat.data);
+  GeglBuffer   *regions = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+  CeldOwnership own;
+  int           soft = 0;
+  const float  *level;
+
+  own_the_page (NULL, &own);
+  operate ("celdepth:depth-expand", (Pads) { { input, drawing, regions } }, "RGBA float", result, "result", 2, NULL);
+  SAME (matte_of (&own), 4);
+  operate ("celdepth:depth-expand", (Pads) { { input, drawing } }, "RGBA float", result, "result", 2, NULL);
+  level = levels_of (&own, true);
+  for (int i = 0; i < PIXELS; i++)
+    {
+      result[4 * i] -= level[i];
+      result[4 * i + 1] -= level[i];
+      result[4 * i + 2] -= level[i];
+      result[4 * i + 3] -= own.share.data[i];
+      soft += own.share.data[i] < 1;
+    }
+  NEAR (range (result, 4 * PIXELS), 0, 1e-5);
+  CHECK (soft > 100); /* the outlines are antialiased */
+  drop_ownership (&own);
+  g_object_unref (input);
+  g_object_unref (regions);
+}
+
+/* A stroke in the background's colour over the outline of the left disc. */
+static void
+corrections_give_ink (void)
+{
+  static uint8_t  stroke[4 * PIXELS];
+  static uint32_t given[PIXELS];
+  CeldLabels      strokes = { WIDTH, HEIGHT, WIDTH, given };
+  GeglBuffer     *input = page_buffer ("Y float", "Y float", flat.data), *corrections;
+  GeglBuffer     *regions = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+  CeldOwnership   before, after;
+  Pads            pads;
+
+  paint_line (stroke, 20, 38, 20, 42, 2, 0x0000ff);
+  for (int i = 0; i < PIXELS; i++)
+    given[i] = stroke[4 * i + 3] ? labels.data[0] : 0;
+  own_the_page (NULL, &before);
+  own_the_page (&strokes, &after);
+  CHECK (before.owner.data[40 * WIDTH + 21] == labels.data[40 * WIDTH + 45]);
+  CHECK (after.owner.data[40 * WIDTH + 21] == labels.data[0]);
+  corrections = page_buffer ("R'G'B'A u8", "R'G'B'A u8", stroke);
+  pads = (Pads) { { input, drawing, regions, corrections } };
+  operate ("celdepth:depth-expand", pads, "RGBA float", result, "result", 2, NULL);
+  SAME (matte_of (&after), 4);
+  operate ("celdepth:depth-expand", pads, "Y float", result, NULL);
+  SAME (levels_of (&after, false), 1);
+  operate ("celdepth:depth-expand", pads, "RGBA float", result, "result", 1, "layer", 2, NULL);
+  CHECK (result[4 * (40 * WIDTH + 21) + 3] < 0.5f && result[4 * (40 * WIDTH + 45) + 3] > 0.5f);
+  drop_ownership (&before);
+  drop_ownership (&after);
+  g_object_unref (input);
+  g_object_unref (regions);
+  g_object_unref (corrections);
 }
 
 static void
@@ -193,6 +354,41 @@ exact_depth_is_that_of_core (void)
   SAME (wanted, 1);
   NEAR (range (wanted, PIXELS), 1, 0);
   celd_palette_clear (&painted);
+}
+
+static void
+shadows_are_those_of_core (void)
+{
+  GeglBuffer  *input = page_buffer ("Y float", "Y float", levels.data);
+  Pads         pads = { { drawing, input } };
+  CeldSettings settings = celd_settings ();
+  float       *shadow = malloc (PIXELS * sizeof (float)), *wanted = malloc (4 * PIXELS * sizeof (float));
+  CeldPlane    change = { WIDTH, HEIGHT, WIDTH, shadow }, view = { WIDTH, HEIGHT, WIDTH, wanted };
+  CeldColours  art = { WIDTH, HEIGHT, WIDTH, wanted };
+
+  settings.shadow_offset = 0.01f;
+  settings.light_azimuth = 30;
+  CHECK (celd_enhance (&levels, &settings, NULL, &change) == CELD_OK);
+  operate ("celdepth:depth-enhance", pads, "RGBA float", result, "shadow-offset", 0.01, "light-azimuth", 30.0, NULL);
+  gegl_buffer_get (drawing, NULL, 1, babl_format ("RGBA float"), wanted, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  CHECK (celd_enhance_colours (&change, &art) == CELD_OK);
+  SAME (wanted, 4);
+  operate ("celdepth:depth-enhance", pads, "RGBA float", result, "shadow-offset", 0.01, "light-azimuth", 30.0,
+           "result", 1, NULL);
+  CHECK (celd_enhance_layer (&change, &art) == CELD_OK);
+  SAME (wanted, 4);
+  operate ("celdepth:depth-enhance", pads, "Y float", result, "shadow-offset", 0.01, "light-azimuth", 30.0,
+           "result", 2, NULL);
+  CHECK (celd_enhance_view (&levels, &change, &view) == CELD_OK);
+  SAME (wanted, 1);
+  settings.enhance = CELD_ENHANCE_CONTRAST;
+  CHECK (celd_enhance (&levels, &settings, NULL, &change) == CELD_OK);
+  CHECK (celd_enhance_view (&levels, &change, &view) == CELD_OK);
+  operate ("celdepth:depth-enhance", pads, "Y float", result, "enhance", CELD_ENHANCE_CONTRAST, "result", 2, NULL);
+  SAME (wanted, 1);
+  free (shadow);
+  free (wanted);
+  g_object_unref (input);
 }
 
 static void
@@ -379,9 +575,14 @@ main (int argc, char **argv)
   RUN (contours_are_those_of_core);
   RUN (labels_are_those_of_core);
   RUN (order_is_that_of_core);
+  RUN (order_takes_a_depth_hint);
   RUN (levels_are_those_of_core);
+  RUN (layers_are_the_drawing);
+  RUN (matte_is_owner_and_share);
+  RUN (corrections_give_ink);
   RUN (depth_is_that_of_core);
   RUN (exact_depth_is_that_of_core);
+  RUN (shadows_are_those_of_core);
   RUN (light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (method_is_that_of_core);

@@ -21,6 +21,7 @@ missing_pads_are_named (void)
   static const struct { const char *operation, *pad; } cases[] = {
     { "celdepth:virtual-contours", "Contours" }, { "celdepth:depth-expand", "Drawing" },
     { "celdepth:depth-smooth", "Drawing" }, { "celdepth:lumo-shade", "Drawing" },
+    { "celdepth:depth-enhance", "Levels" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
@@ -47,6 +48,28 @@ nothing_to_go_by_is_said (void)
   operate ("celdepth:depth-exact", (Pads) { { drawing } }, "RGBA float", result, NULL);
   PASSES_THROUGH ();
   CHECK (SAYS ("Depth Exact: ") && SAYS ("scribble"));
+}
+
+/* Strokes in a colour that no region has, and none to look colours up in; a layer without a stroke is no mistake. */
+static void
+foreign_corrections_are_refused (void)
+{
+  GeglBuffer *blank = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH, HEIGHT), babl_format ("R'G'B'A u8"));
+
+  be_quiet ();
+  operate ("celdepth:depth-expand", (Pads) { { drawing, drawing, scribbles, arrows } }, "RGBA float", result,
+           "result", 2, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Corrections") && SAYS ("colour"));
+  be_quiet ();
+  operate ("celdepth:depth-expand", (Pads) { { drawing, drawing, NULL, scribbles } }, "RGBA float", result,
+           "result", 2, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Corrections") && SAYS ("aux2"));
+  be_quiet ();
+  operate ("celdepth:depth-expand", (Pads) { { drawing, drawing, scribbles, blank } }, "Y float", result, NULL);
+  CHECK (times_said == 0 && warnings == 0);
+  g_object_unref (blank);
 }
 
 static void
@@ -162,7 +185,8 @@ empty_and_single_pixels_do_no_harm (void)
 {
   static const char *const operations[] = {
     "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
-    "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:popup",
+    "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:depth-enhance",
+    "celdepth:popup",
   };
   GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
   GeglBuffer *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
@@ -262,6 +286,7 @@ main (int argc, char **argv)
   start_to_listen ();
   RUN (missing_pads_are_named);
   RUN (nothing_to_go_by_is_said);
+  RUN (foreign_corrections_are_refused);
   RUN (unreadable_relations_are_located);
   RUN (unreadable_arrow_paths_are_located);
   RUN (layers_elsewhere_are_refused);

@@ -11,10 +11,10 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:lazybrush-segment", "aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds relations "
     "arrow-path arrow-style" },
-  { "celdepth:depth-order", "aux2 aux input",
+  { "celdepth:depth-order", "aux3 aux2 aux input",
     "relations arrow-path arrow-style on-cycle suggest same-colour background background-colour encoding near-level "
     "far-level ink" },
-  { "celdepth:depth-expand", "aux input", "ink" },
+  { "celdepth:depth-expand", "aux3 aux2 aux input", "result layer complete method ink" },
   { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
@@ -22,10 +22,12 @@ static const struct { const char *name; const char *pads; const char *properties
     "tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux2 aux input",
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
+  { "celdepth:depth-enhance", "aux input",
+    "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
-    "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level anchors hold-rest "
-    "tolerance bulge light-azimuth light-elevation ambient directx" },
+    "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
+    "hold-rest tolerance bulge light-azimuth light-elevation ambient directx" },
 };
 
 static bool
@@ -107,8 +109,11 @@ static void
 choices_have_the_nicks_of_the_contract (void)
 {
   static const struct { const char *operation, *property, *nicks; } cases[] = {
+    { "celdepth:depth-expand", "result", "levels layer matte" },
     { "celdepth:popup", "result", "labels order levels depth normals shading problems suggestions" },
     { "celdepth:lazybrush-segment", "result", "labels closures problems" },
+    { "celdepth:depth-enhance", "result", "art layer view" },
+    { "celdepth:depth-enhance", "enhance", "stack darken contrast" },
     { "celdepth:popup", "ink", "auto dark light alpha" },
     { "celdepth:popup", "method", "basins exact walker" },
     { "celdepth:popup", "background", "auto none colour" },

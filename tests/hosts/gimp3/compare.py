@@ -3,16 +3,18 @@
 
 compare.py OUT
 
-8 bits: within 1/255 of the encoded value; 32 bits: within 1e-4 of the linear one.
+8 bits: within 1/255 of the encoded value; 32 bits: within 1e-4 of the linear one.  Layers together are the drawing.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import json
 import os
 import sys
 
 import numpy as np
 from PIL import Image
 
+EXAMPLES = os.environ['CELDEPTH_EXAMPLES']
 RESULTS = ['labels', 'order', 'levels', 'depth', 'normals', 'shading']
 WANTED = {name: name for name in RESULTS}
 WANTED.update({'popup-' + name: name for name in RESULTS})
@@ -50,9 +52,23 @@ def compare(out, bits, name, wanted):
     return good
 
 
+def compare_layers(out, drawing):
+    """GIMP shows the drawing within 1/255, in a layer a label, the front one first."""
+    path = os.path.join(out, 'layers-' + drawing)
+    wanted = np.array(Image.open(os.path.join(EXAMPLES, drawing, 'drawing.png')).convert('RGBA')).astype(int)
+    with open(path + '.json') as report, open(path + '.txt') as names:
+        labels = sorted((label['layer'], label['colour']) for label in json.load(report)['labels'])
+        found = names.read().split()
+    difference = np.abs(np.load(path + '.npy').astype(int) - wanted).max()
+    good = difference <= 1 and found[::-1] == [c.replace('transparent', 'background') for _, c in labels]
+    print(f'{"ok  " if good else "FAIL"} {len(found)} layers of {drawing} differ by {difference}/255')
+    return good
+
+
 def main():
     out = sys.argv[1]
     results = [compare(out, bits, name, reference(out, wanted)) for name, wanted in WANTED.items() for bits in (8, 32)]
+    results += [compare_layers(out, drawing) for drawing in ('people', 'monkey', 'frog')]
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')
     return 0 if all(results) else 1
 

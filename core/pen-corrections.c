@@ -1,0 +1,116 @@
+/* What the artist corrects: a stroke in a region's colour over ink gives that ink, the whole piece of line, to the
+ * region.
+ *
+ * A piece of line lies beside the edges that see the stroke through the ink, on as far as they run without a corner.
+ * Only ink of the owner below the stroke changes hands, so that lines which cross the piece stay whose they are.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "pens.h"
+
+#include <math.h>
+
+#define STEP  0.5f  /* pixels between the places of a ray */
+#define LINES 3     /* pen widths that a piece of line may be thick */
+
+typedef struct { uint32_t from, to; } Gift; /* ink of label `from` goes to `to`; 0: none */
+
+typedef struct
+{
+  const CeldPens   *pens;
+  const CeldPlane  *ink;
+  const CeldLabels *corrections;
+  CeldLabels       *owner;
+  Gift             *gift;        /* of each place */
+} Hand;
+
+/* The pixel so far behind an edge, as an index; -1 if it is no ink. */
+static ptrdiff_t
+ink_behind (const Hand *h, const CeldEdgePoint *p, float depth)
+{
+  int x = (int) floorf (p->x + depth * p->nx), y = (int) floorf (p->y + depth * p->ny);
+
+  if (x < 0 || y < 0 || x >= h->ink->width || y >= h->ink->height || celd_is_paper (CELD_AT (h->ink, x, y)))
+    return -1;
+  return (ptrdiff_t) y * h->ink->width + x;
+}
+
+static float
+reach_of (const Hand *h, size_t i)
+{
+  return fminf (h->pens->edges->point[i].through, LINES * h->pens->pen[i].width + 2);
+}
+
+/* What the place sees of a stroke. */
+static Gift
+look_for_stroke (const Hand *h, size_t i)
+{
+  const CeldEdgePoint *p = &h->pens->edges->point[i];
+  float                reach = reach_of (h, i);
+
+  for (float depth = STEP / 2; depth < reach; depth += STEP)
+    {
+      ptrdiff_t at = ink_behind (h, p, depth);
+      int       x = (int) (at % h->ink->width), y = (int) (at / h->ink->width);
+
+      if (at >= 0 && CELD_AT (h->corrections, x, y))
+        return (Gift) { CELD_AT (h->owner, x, y), CELD_AT (h->corrections, x, y) };
+    }
+  return (Gift) { 0, 0 };
+}
+
+/* Places without a gift take that of their neighbour, up to a corner. */
+static void
+hand_on (const Hand *h, const CeldEdgeLoop *loop)
+{
+  const CeldPen *pen = &h->pens->pen[loop->first];
+  Gift          *gift = &h->gift[loop->first];
+  size_t         n = loop->n;
+
+  for (int back = 0; back < 2; back++)
+    for (size_t i = 1; i < 2 * n; i++)
+      {
+        size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
+
+        if (gift[a].to && !gift[b].to && !pen[a].corner && !pen[b].corner)
+          gift[b] = gift[a];
+      }
+}
+
+static void
+give_behind (const Hand *h, size_t i)
+{
+  const CeldEdgePoint *p = &h->pens->edges->point[i];
+  float                reach = reach_of (h, i);
+
+  for (float depth = STEP / 2; depth < reach && h->gift[i].to; depth += STEP)
+    {
+      ptrdiff_t at = ink_behind (h, p, depth);
+      uint32_t *owner = at < 0 ? NULL : &CELD_AT (h->owner, (int) (at % h->ink->width), (int) (at / h->ink->width));
+
+      if (owner && *owner == h->gift[i].from)
+        *owner = h->gift[i].to;
+    }
+}
+
+CeldStatus
+celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections, CeldLabels *owner)
+{
+  size_t n = pens->edges->n_points;
+  Hand   h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.gift) };
+
+  if (!h.gift)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < n; i++)
+    h.gift[i] = look_for_stroke (&h, i);
+  for (size_t k = 0; k < pens->edges->n_loops; k++)
+    hand_on (&h, &pens->edges->loop[k]);
+  for (size_t i = 0; i < n; i++)
+    give_behind (&h, i);
+  for (int y = 0; y < ink->height; y++)
+    for (int x = 0; x < ink->width; x++)
+      if (CELD_AT (corrections, x, y) && !celd_is_paper (CELD_AT (ink, x, y)))
+        CELD_AT (owner, x, y) = CELD_AT (corrections, x, y);
+  celd_free (h.gift);
+  return CELD_OK;
+}

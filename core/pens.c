@@ -1,0 +1,166 @@
+/* Which pen drew the ink: each shape of a cartoon is outlined with a pen of its own, over whatever lies behind it.
+ *
+ * Of two regions with ink between them the nearer one drew it.  Where the ink is thicker than its pen (pen-widths.c)
+ * other lines are in it, too.  Then the line next to the paper is the one that lay there where it could be told, as
+ * long as the edge runs on without a corner; and if nobody can tell, the nearer region's.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "pens.h"
+
+#include <math.h>
+
+#define PURE     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
+#define ROUNDING 0.5f    /* pixels */
+#define CORNER   0.82f   /* cosine of the turn that an edge makes at a corner */
+#define REACH    4       /* places to either side that a turn is measured over */
+#define SKEW     3       /* places beside a corner whose normals go askew */
+#define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
+
+float
+celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
+{
+  return hypotf (a->x - b->x, a->y - b->y);
+}
+
+static void
+read_labels (const CeldLabels *labels, CeldPens *pens)
+{
+  for (size_t i = 0; i < pens->edges->n_points; i++)
+    {
+      const CeldEdgePoint *p = &pens->edges->point[i];
+      CeldPen             *pen = &pens->pen[i];
+
+      if (p->paper >= 0)
+        pen->near = CELD_AT (labels, p->paper % labels->width, p->paper / labels->width);
+      if (p->across >= 0)
+        pen->far = CELD_AT (labels, p->across % labels->width, p->across / labels->width);
+    }
+}
+
+/* ------------------------------------------------------------------ corners */
+
+/* Does the edge turn sharply at place i? */
+static bool
+turns (const CeldEdgePoint *point, size_t n, size_t i)
+{
+  const CeldEdgePoint *a = &point[(i + n - REACH % n) % n], *p = &point[i], *b = &point[(i + REACH) % n];
+  float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
+
+  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER * before * after;
+}
+
+static void
+find_corners (const CeldEdgeLoop *loop, CeldPens *pens)
+{
+  CeldPen *pen = &pens->pen[loop->first];
+  size_t   n = loop->n;
+
+  for (size_t i = 0; i < n; i++)
+    if (turns (&pens->edges->point[loop->first], n, i))
+      {
+        pen[i].corner = true;
+        for (size_t k = 0; k <= SKEW; k++)
+          pen[(i + k) % n].askew = pen[(i + n - k % n) % n].askew = true;
+      }
+}
+
+/* ------------------------------------------------------------------ owners */
+
+/* Whose ink is next to the place, as far as the place itself tells; 0 if other lines are in it. */
+static uint32_t
+plain_owner (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  if (!pen->near || pen->near == pen->far)
+    return 0;
+  if (front)
+    return p->through <= PURE * pen->width + ROUNDING ? front : 0;
+  return pen->far && p->through > 2 * pen->width + ROUNDING ? 0 : pen->near; /* a tie, or ink that leaves the picture */
+}
+
+/* May a place take the owner of another so far away along the edge?  A line inside a region is its own, but for the
+ * tip where both sides of a nearer region's outline meet. */
+static bool
+may_take (const CeldPen *pen, const CeldPen *from, float way)
+{
+  return pen->near != pen->far || way < TIP * from->width;
+}
+
+/* Places that cannot tell take the owner from the nearest one along the edge that can, up to a corner. */
+static void
+hand_on (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldPen             *pen = &pens->pen[loop->first];
+  size_t               n = loop->n;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      pen[i].owner = plain_owner (pens, &point[i], &pen[i]);
+      way[i]       = pen[i].owner ? 0 : INFINITY;
+    }
+  for (int back = 0; back < 2; back++)
+    for (size_t i = 1; i < 2 * n; i++)
+      {
+        size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
+        float  there = way[a] + celd_edge_distance (&point[a], &point[b]);
+
+        if (!pen[a].corner && pen[a].owner && there < way[b] && may_take (&pen[b], &pen[a], there))
+          {
+            way[b]       = there;
+            pen[b].owner = pen[a].owner;
+            pen[b].width = pen[a].width;
+          }
+      }
+  for (size_t i = 0; i < n; i++)
+    if (!pen[i].owner)
+      pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
+}
+
+static CeldStatus
+find_owners (CeldPens *pens)
+{
+  float *way = celd_alloc (pens->edges->n_points + 1, sizeof *way);
+
+  for (size_t k = 0; way && k < pens->edges->n_loops; k++)
+    hand_on (&pens->edges->loop[k], pens, way);
+  celd_free (way);
+  return way ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldPens *pens)
+{
+  CeldPens   made = { .edges = edges, .level = level, .n = n };
+  CeldStatus status;
+
+  made.pen   = celd_alloc0 (edges->n_points + 1, sizeof *made.pen);
+  made.usual = celd_alloc0 (n, sizeof *made.usual);
+  made.most  = celd_alloc0 (n, sizeof *made.most);
+  status     = made.pen && made.usual && made.most ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      read_labels (labels, &made);
+      for (size_t k = 0; k < edges->n_loops; k++)
+        find_corners (&edges->loop[k], &made);
+      status = celd_pens_measure (&made);
+    }
+  if (status == CELD_OK)
+    status = find_owners (&made);
+  if (status == CELD_OK)
+    *pens = made;
+  else
+    celd_pens_clear (&made);
+  return status;
+}
+
+void
+celd_pens_clear (CeldPens *pens)
+{
+  celd_free (pens->pen);
+  celd_free (pens->usual);
+  celd_free (pens->most);
+  *pens = (CeldPens) { 0 };
+}

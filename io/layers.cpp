@@ -1,0 +1,202 @@
+// Layers of a picture as OpenRaster (open-raster.cpp), as an EXR of several parts, or as PNG files in a folder.
+//
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "layers.hpp"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/strutil.h>
+
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+
+using OIIO::ImageSpec;
+
+static CeldIoStackKind
+kind_of (const std::string &path)
+{
+  const std::string ending = std::filesystem::path (path).extension ().string ();
+
+  return ending.empty () ? CELD_IO_FOLDER :
+         OIIO::Strutil::iequals (ending, ".ora") ? CELD_IO_OPEN_RASTER :
+         OIIO::Strutil::iequals (ending, ".exr") ? CELD_IO_EXR_PARTS : CELD_IO_NO_STACK;
+}
+
+// ------------------------------------------------------------------ pixels
+
+CeldRect
+layer_box (const CeldIoLayer &layer)
+{
+  return layer.box.width ? layer.box : CeldRect { 0, 0, 1, 1 };
+}
+
+std::vector<float>
+layer_pixels (const CeldIoStack &stack, size_t layer)
+{
+  const CeldRect     box = layer_box (stack.layer[layer]);
+  std::vector<float> rgba (4 * size_t (box.width) * size_t (box.height));
+
+  if (!stack.paint (stack.host, layer, rgba.data ()))
+    throw IoGivenUp ();
+  return rgba;
+}
+
+static ImageSpec
+make_spec (int width, int height, OIIO::TypeDesc sample)
+{
+  ImageSpec spec (width, height, 4, sample);
+
+  spec.channelnames  = { "R", "G", "B", "A" };
+  spec.alpha_channel = 3;
+  return spec;
+}
+
+Bytes
+encode_png (int width, int height, const float *rgba)
+{
+  ImageSpec                        spec = make_spec (width, height, OIIO::TypeUInt8);
+  OIIO::Filesystem::IOVecOutput    memory;
+  OIIO::Filesystem::IOProxy       *proxy = &memory;
+  std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create ("png");
+
+  if (!output)
+    throw IoFailure (OIIO::geterror ());
+  spec.attribute ("oiio:UnassociatedAlpha", 1);
+  spec.attribute ("oiio:ColorSpace", "sRGB");
+  spec.attribute ("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  if (!output->open ("layer.png", spec) || !output->write_image (OIIO::TypeFloat, rgba) || !output->close ())
+    throw IoFailure (output->geterror ());
+  return Bytes (memory.buffer ());
+}
+
+// ------------------------------------------------------------------ EXR
+
+static void
+write_exr (const std::string &path, const CeldIoStack &stack)
+{
+  std::vector<ImageSpec> specs;
+  NewFile                file (path);
+  auto                   output = OIIO::ImageOutput::create ("openexr");
+
+  if (!output)
+    throw IoFailure (OIIO::geterror ());
+  for (size_t i = 0; i < stack.layers; i++)
+    {
+      const CeldRect box = layer_box (stack.layer[i]);
+      ImageSpec      spec = make_spec (box.width, box.height, OIIO::TypeFloat);
+
+      spec.x           = box.x;
+      spec.y           = box.y;
+      spec.full_width  = stack.width;
+      spec.full_height = stack.height;
+      spec.attribute ("oiio:subimagename", stack.layer[i].name);
+      specs.push_back (spec);
+    }
+  for (size_t i = 0; i < stack.layers; i++)
+    {
+      bool good = i ? output->open (file.name (), specs[i], OIIO::ImageOutput::AppendSubimage) :
+                      output->open (file.name (), int (specs.size ()), specs.data ());
+
+      if (!good)
+        throw IoFailure (output->geterror ());
+
+      std::vector<float> rgba = layer_pixels (stack, i);
+
+      for (size_t p = 0; p < rgba.size (); p += 4)
+        for (size_t c = 0; c < 3; c++)
+          rgba[p + c] *= rgba[p + 3];
+      if (!output->write_image (OIIO::TypeFloat, rgba.data ()))
+        throw IoFailure (output->geterror ());
+    }
+  if (!output->close ())
+    throw IoFailure (output->geterror ());
+  output.reset ();
+  file.commit ();
+}
+
+// ------------------------------------------------------------------ a folder
+
+// "07-ff0000.png": what may be trouble in the name of a file is left out.
+static std::string
+file_name (const CeldIoStack &stack, size_t layer)
+{
+  const size_t digits = std::max (std::to_string (stack.layers - 1).size (), size_t (2));
+  std::string  number = std::to_string (layer), name;
+
+  for (const char *c = stack.layer[layer].name; *c && name.size () < 64; c++)
+    if (std::isalnum (static_cast<unsigned char> (*c)) && static_cast<unsigned char> (*c) < 0x80)
+      name += *c;
+    else if (!name.empty () && name.back () != '-')
+      name += '-';
+  while (!name.empty () && name.back () == '-')
+    name.pop_back ();
+  return std::string (digits - number.size (), '0') + number + (name.empty () ? "" : "-" + name) + ".png";
+}
+
+static void
+write_folder (const std::string &path, const CeldIoStack &stack)
+{
+  NewFile            folder (path, true);
+  const size_t       row = 4 * size_t (stack.width);
+  std::vector<float> canvas (row * size_t (stack.height));
+
+  for (size_t i = 0; i < stack.layers; i++)
+    {
+      const CeldRect           box = layer_box (stack.layer[i]);
+      const std::vector<float> rgba = layer_pixels (stack, i);
+      const size_t             part = 4 * size_t (box.width);
+
+      std::fill (canvas.begin (), canvas.end (), 0.f);
+      for (int y = 0; y < box.height; y++)
+        std::copy_n (&rgba[size_t (y) * part], part, &canvas[size_t (y + box.y) * row + 4 * size_t (box.x)]);
+
+      const Bytes   bytes = encode_png (stack.width, stack.height, canvas.data ());
+      std::ofstream file (folder.name () + "/" + file_name (stack, i), std::ios::binary);
+
+      file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
+      file.close ();
+      if (!file)
+        throw IoFailure ("there is no room for it.");
+    }
+  folder.commit ();
+}
+
+// ------------------------------------------------------------------ the C face
+
+CeldIoStackKind
+celd_io_stack_kind (const char *path)
+{
+  CeldIoError     ignored;
+  CeldIoStackKind kind = CELD_IO_NO_STACK;
+
+  guarded ("write", path, &ignored, [&] { kind = kind_of (path); });
+  return kind;
+}
+
+bool
+celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error)
+{
+  bool given_up = false;
+  bool good = guarded ("write", path, error, [&] {
+    try
+      {
+        switch (kind_of (path))
+          {
+          case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
+          case CELD_IO_EXR_PARTS:   write_exr (path, *stack); break;
+          case CELD_IO_FOLDER:      write_folder (path, *stack); break;
+          case CELD_IO_NO_STACK:    throw IoFailure ("its ending is neither .ora nor .exr.");
+          }
+      }
+    catch (const IoGivenUp &)
+      {
+        given_up = true;
+      }
+  });
+
+  if (given_up)
+    error->text[0] = 0;
+  return good && !given_up;
+}

@@ -1,0 +1,65 @@
+/* enhance: shadows from levels, over art, as a layer, and over a view of depth.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+static bool
+read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
+{
+  if (!options->art)
+    return true;
+  if (!cli_read_colours (options->art, art))
+    return false;
+  return (art->width == levels->width && art->height == levels->height) ||
+         cli_error ("%s is %d x %d, but %s is %d x %d.", options->art, art->width, art->height, options->input,
+                    levels->width, levels->height);
+}
+
+static bool
+write_results (const CliOptions *options, const CeldPlane *levels, const CeldPlane *change, CeldColours *art)
+{
+  CeldColours layer = { 0 };
+  CeldPlane   view = { 0 };
+  bool        good = true;
+
+  if (options->enhanced)
+    good = cli_check (celd_enhance_colours (change, art)) && cli_write_colours (options->enhanced, art);
+  if (good && options->shadow)
+    good = cli_colours_new (change->width, change->height, &layer) && cli_check (celd_enhance_layer (change, &layer)) &&
+           cli_write_colours (options->shadow, &layer);
+  if (good && options->view)
+    good = cli_plane_new (change->width, change->height, &view) &&
+           cli_check (celd_enhance_view (levels, change, &view)) && cli_write_shading (options->view, &view);
+  g_free (layer.data);
+  g_free (view.data);
+  return good;
+}
+
+int
+cli_enhance (const CliOptions *options)
+{
+  CeldPlane   levels = { 0 }, change = { 0 };
+  CeldColours art = { 0 };
+  CliRun      run;
+  bool        good;
+
+  cli_run_begin (&run, options->quiet);
+  good = cli_read_levels (options->input, &levels) && read_art (options, &levels, &art) &&
+         cli_plane_new (levels.width, levels.height, &change);
+  if (good)
+    {
+      CeldStatus status;
+
+      cli_run_stage (&run, "shadows");
+      status = celd_enhance (&levels, &options->settings, &run.run, &change);
+      cli_run_stage (&run, NULL);
+      good = cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status) &&
+             write_results (options, &levels, &change, &art);
+    }
+  g_free (levels.data);
+  g_free (change.data);
+  g_free (art.data);
+  cli_run_end (&run);
+  return good ? CLI_DONE : CLI_FAILED;
+}
