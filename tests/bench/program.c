@@ -186,6 +186,8 @@ main (int argc, char **argv)
   print_number ("nodes", program->bases.n);
   print_number ("energy", exact.energy);
   print_number ("violation", exact.violation);
+  print_number ("rounds", exact.solve.iterations);
+  print_number ("error", exact.solve.error);
   print_inequalities (&page, program);
   if (argc > 6)
     {
