@@ -21,7 +21,8 @@ from scipy import sparse
 from pages import CASES, make_page, pin, processor, save, table, version
 
 LAPLACE = ['frog', 'bee', 'caterpillar', 'bee-gappy', 'caterpillar-pencil']
-PROGRAM = ['frog', 'bee', 'caterpillar']
+PROGRAM = ['frog', 'bee', 'caterpillar', 'campfire']
+SESSION = ['frog', 'bee', 'monkey-gappy']
 SIDES = [48, 128, 256]  # of pictures for general solvers; drawings keep their shape
 HIGHS = """
 const fs = require('fs');
@@ -149,6 +150,14 @@ def measure_program(name, megapixels, options, rivals):
     return result
 
 
+def measure_session(name, megapixels, options):
+    folder = os.path.join(options.build, 'pages')
+    drawing, scribbles, _ = make_page(name, megapixels, folder)
+    relations = make_relations(name, drawing, folder)
+    return {'case': name, 'megapixels': megapixels,
+            **run('bench-session', options, drawing, scribbles, relations, options.strokes)}
+
+
 # ------------------------------------------------------------------ tables
 
 def milliseconds(key):
@@ -208,11 +217,25 @@ PROGRAM_TABLES = [
         ('violation', '.0e', figure('violation')),
         ('cvxopt', '.0f', milliseconds('cvxopt')),
         ('x', '.0f', times('cvxopt', 'cold')),
+        ('rounds', '.0f', figure('rounds')),
+        ('error', '.0e', figure('error')),
         ('x edit', '.0f', times('cvxopt', 'edit')),
         ('excess', '.0e', figure('energy excess')),
         ('HiGHS', '.0f', milliseconds('highs')),
         ('x', '.0f', times('highs', 'cold')),
         ('excess', '.0e', figure('highs excess'))]),
+]
+
+SESSION_TABLES = [
+    ('A session: milliseconds from an edit on, and to the exact depth', [
+        ('preview', '.0f', milliseconds('depth preview')),
+        ('worst', '.0f', milliseconds('depth preview, worst')),
+        ('depth', '.0f', milliseconds('depth')),
+        ('worst', '.0f', milliseconds('depth, worst')),
+        ('exact pre', '.0f', milliseconds('exact preview')),
+        ('exact', '.0f', milliseconds('exact, after it')),
+        ('edit', '.1f', milliseconds('exact edit')),
+        ('worst', '.1f', milliseconds('exact edit, worst'))]),
 ]
 
 
@@ -226,6 +249,9 @@ def main():
     parser.add_argument('--programs', type=names, default=PROGRAM, metavar='NAME,...', help='for the exact program')
     parser.add_argument('--sides', type=lambda text: [int(s) for s in text.split(',') if s], default=SIDES,
                         metavar='PIXELS,...', help='of pictures for general solvers (48,128,256)')
+    parser.add_argument('--session-sizes', type=lambda text: [float(s) for s in text.split(',') if s], default=[1, 8.3],
+                        metavar='MP,...', help='of the pages that sessions are measured on (1,8.3)')
+    parser.add_argument('--strokes', type=int, default=10, metavar='N', help='random ones in a session (10)')
     parser.add_argument('--highs', action='store_true', help="HiGHS's active set too, at 48 x 48; needs npm")
     parser.add_argument('--runs', type=int, default=5, metavar='N', help='of which medians are taken (5)')
     parser.add_argument('--cholmod', type=float, default=1, metavar='MP',
@@ -247,11 +273,18 @@ def main():
         for name in options.programs:
             print(f'{name}, exact program, {size:g} MP', file=sys.stderr)
             programs.append(measure_program(name, size, options, rivals))
+    sessions = []
+    for size in options.session_sizes:
+        for name in SESSION:
+            print(f'{name}, session, {size:g} MP', file=sys.stderr)
+            sessions.append(measure_session(name, size, options))
     if options.json:
-        print(json.dumps({'systems': systems, 'distances': distances, 'programs': programs}, indent=1))
+        print(json.dumps({'systems': systems, 'distances': distances, 'programs': programs,
+                          'sessions': sessions}, indent=1))
         return
     lines = [f'celdepth {version()}, one core of {processor()}; medians of {options.runs} runs', '']
-    for tables, results in (LAPLACE_TABLES, systems), (DISTANCE_TABLES, distances), (PROGRAM_TABLES, programs):
+    for tables, results in (LAPLACE_TABLES, systems), (DISTANCE_TABLES, distances), (PROGRAM_TABLES, programs), \
+            (SESSION_TABLES, sessions):
         for title, columns in tables:
             lines += table(title, columns, results)
     save(lines, None if options.no_save else 'solvers')
