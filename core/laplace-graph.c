@@ -2,10 +2,10 @@
  *
  * A node of level l is one strongly connected component of pixels inside one cell of 2^l x 2^l pixels: no wall, however
  * thin, is averaged over.  A node whose links are all weak beside those of its strongest neighbour hangs on that
- * neighbour's aggregate as a leaf and joins nothing else.  Only on a small island among weak links it must not hang
- * before all of that is in the cell.  Prolongation is constant on aggregates, so that coarse
- * weights are plain sums, never differences.  Nodes without an edge have no coarser node: relaxation solves them; nor
- * have those that the ground holds (laplace-ground.c).
+ * neighbour's aggregate as a leaf and joins nothing else, as soon as all of that is in the cell.  Where cells join too
+ * little, nodes pair up instead (laplace-pairs.c).  Prolongation is constant on aggregates, so that coarse weights are
+ * plain sums, never differences.  Nodes without an edge have no coarser node: relaxation solves them; nor have those
+ * that the ground holds (laplace-ground.c).
  *
  * Aggregates lie within one cell, so rows of cells are independent of each other and go to the host's threads.
  *
@@ -15,8 +15,7 @@
 #include "unions.h"
 
 #define STRONG      0.5f /* of the strongest link of either end: a strong link */
-#define FEWER       0.6  /* share of nodes that a new level may keep at most */
-#define SMALL       1024 /* pixels of an island at most */
+#define FEWER       0.6  /* share of nodes that cells may leave at most */
 #define WHOLE       15   /* doublings after which every cell is the whole picture: 2^15 > CELD_MAX_SIDE */
 
 void
@@ -27,7 +26,7 @@ celd_weights_clear (CeldWeights *g)
   celd_free (g->sink);
   celd_free (g->cell);
   celd_free (g->row_extra);
-  celd_free (g->island);
+  celd_free (g->part);
   celd_free (g->start);
   celd_free (g->neighbour);
   celd_free (g->weight);
@@ -42,12 +41,11 @@ typedef struct
   const CeldWeights *graph;
   CeldWeights       *coarse;
   const CeldRun     *run;
-  float              strong;
   float              most;        /* weight of the strongest link of all */
   float             *best;        /* weight of the strongest link */
   uint32_t          *link;        /* the node at its other end; in the end the aggregate */
   uint32_t          *parent;
-  uint8_t           *open;        /* of islands: does it go on beyond its coarse cell? */
+  uint8_t           *open;        /* does what it is part of go on beyond its coarse cell? */
   uint32_t          *row_most;    /* of each fine row: bits of the strongest link */
   uint32_t          *row_count;   /* of each fine row: nodes with a link; of each coarse row: aggregates */
   uint8_t           *mixed;       /* of each coarse cell: are its nodes not one aggregate? */
@@ -149,7 +147,7 @@ see_edges (Aggregation *a)
 static inline bool
 is_leaf (const Aggregation *a, uint32_t i)
 {
-  return a->best[i] < a->strong * a->best[a->link[i]];
+  return a->best[i] < STRONG * a->best[a->link[i]];
 }
 
 static bool
@@ -162,23 +160,23 @@ same_cell (const Aggregation *a, uint32_t i, uint32_t j)
          celd_weights_above (g, j < n ? j : g->cell[j - n], a->coarse);
 }
 
-/* Must this leaf not hang on its strongest neighbour, because that is part of an island? */
+/* Must this leaf not hang on its strongest neighbour, because that goes on beyond the cell? */
 static inline bool
 waits (const Aggregation *a, uint32_t i)
 {
   uint32_t host = a->link[i];
 
-  return a->graph->island && a->graph->island[host] &&
+  return a->graph->part && a->graph->part[host] &&
          (!same_cell (a, i, host) || a->open[celd_root (a->parent, host)]);
 }
 
 /* An edge within a coarse cell.  The first sweep joins what it links strongly; the second one leaves, which hang on
- * their strongest neighbours.  An island that goes on beyond the cell is moved as one only on a coarser level, and
- * what hung on it could not move against it on any: its leaves are like other nodes.  Returns whether there are any. */
+ * their strongest neighbours.  What goes on beyond the cell is moved as one only on a coarser level, and what hung on
+ * it could not move against it on any: its leaves are like other nodes.  Returns whether there are any. */
 static inline bool
 join_edge (Aggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
 {
-  bool leaf_i, leaf_j, wait_i, wait_j, strong = w >= a->strong * a->most; /* for whomever */
+  bool leaf_i, leaf_j, wait_i, wait_j, strong = w >= STRONG * a->most; /* for whomever */
 
   if (strong && w > 0 && !leaves)
     celd_join (a->parent, i, j);
@@ -186,7 +184,7 @@ join_edge (Aggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
     return false;
   leaf_i = is_leaf (a, i);
   leaf_j = is_leaf (a, j);
-  strong = w >= a->strong * a->best[i] && w >= a->strong * a->best[j];
+  strong = w >= STRONG * a->best[i] && w >= STRONG * a->best[j];
   if (!leaves)
     {
       if (!leaf_i && !leaf_j && strong)
@@ -226,7 +224,7 @@ join_pair_of_rows (Aggregation *a, bool leaves, uint32_t y)
   const CeldWeights *g = a->graph;
   uint32_t           w = (uint32_t) g->width, i = y * w, *parent = a->parent;
   const float       *east = g->east, *south = g->south;
-  float              strong = a->strong * a->most;
+  float              strong = STRONG * a->most;
   bool               found = false;
 
   for (uint32_t x = 0; x + 1 < w; x += 2, i += 2)
@@ -277,14 +275,14 @@ join_nodes (Aggregation *a, bool leaves, const CeldNodes *nodes)
   return found;
 }
 
-/* Marks the parts of islands in a row that go on beyond their cells; edges of extra nodes have been seen. */
+/* Marks what goes on beyond its cell in a row; edges of extra nodes have been seen. */
 static void
 mark_open (Aggregation *a, const CeldNodes *nodes)
 {
   const CeldWeights *g = a->graph;
   uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), side = 1u << a->coarse->doublings;
 
-#define OPENS(weight) (g->island[i] && (weight) > 0 && (weight) >= a->strong * a->best[i])
+#define OPENS(weight) (g->part[i] && (weight) > 0 && (weight) >= STRONG * a->best[i])
   for (uint32_t y = nodes->from; y < nodes->to; y++)
     for (uint32_t x = 0, i = y * w; x < w; x++, i++)
       if ((x % side == 0 && x > 0 && OPENS (g->east[i - 1])) || ((x + 1) % side == 0 && OPENS (g->east[i])) ||
@@ -299,15 +297,15 @@ mark_open (Aggregation *a, const CeldNodes *nodes)
       a->open[celd_root (a->parent, i)] = 1;
 }
 
-/* Marks parts of islands that edges of extra nodes lead beyond their cells. */
+/* Marks what edges of extra nodes lead beyond their cells. */
 static void
 mark_open_extra (Aggregation *a)
 {
   const CeldWeights *g = a->graph;
   uint32_t           n = celd_weights_cells (g);
 
-  memset (a->open, 0, g->island ? (size_t) n + g->n_extra : 0);
-  for (uint32_t k = 0; k < g->n_extra && g->island; k++)
+  memset (a->open, 0, g->part ? (size_t) n + g->n_extra : 0);
+  for (uint32_t k = 0; k < g->n_extra && g->part; k++)
     for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
       {
         uint32_t i = n + k, j = g->neighbour[e];
@@ -315,8 +313,8 @@ mark_open_extra (Aggregation *a)
 
         if (!(w > 0) || same_cell (a, i, j))
           continue;
-        a->open[i] |= g->island[i] && w >= a->strong * a->best[i];
-        a->open[j] |= g->island[j] && w >= a->strong * a->best[j];
+        a->open[i] |= g->part[i] && w >= STRONG * a->best[i];
+        a->open[j] |= g->part[j] && w >= STRONG * a->best[j];
       }
 }
 
@@ -335,7 +333,7 @@ aggregate_row (void *data, int row)
     a->parent[n + k] = n + k;
   if (join_nodes (a, false, &nodes))
     {
-      if (g->island)
+      if (g->part)
         mark_open (a, &nodes);
       join_nodes (a, true, &nodes);
     }
@@ -346,26 +344,30 @@ aggregate_row (void *data, int row)
   a->row_count[row] = count;
 }
 
-static int
-halved (int size, int doublings)
-{
-  return (int) (((uint32_t) size + (1u << doublings) - 1) >> doublings);
-}
-
-/* Aggregates in cells of so many doublings; returns how many there are. */
+/* Aggregates in cells of 2 x 2; returns how many there are. */
 static uint32_t
-aggregate (Aggregation *a, int doublings)
+aggregate (Aggregation *a)
 {
   uint32_t count = 0;
 
-  a->coarse->doublings = doublings;
-  a->coarse->width  = halved (a->graph->width, doublings);
-  a->coarse->height = halved (a->graph->height, doublings);
+  a->coarse->doublings = 1;
+  a->coarse->width  = (a->graph->width + 1) / 2;
+  a->coarse->height = (a->graph->height + 1) / 2;
   mark_open_extra (a);
   celd_each (a->run, a->coarse->height, aggregate_row, a);
   for (int row = 0; row < a->coarse->height; row++)
     count += a->row_count[row];
   return count;
+}
+
+/* In pairs, without regard to cells: the whole picture is one. */
+static CeldStatus
+pair_up (Aggregation *a, uint32_t most)
+{
+  a->coarse->doublings = WHOLE;
+  a->coarse->width = a->coarse->height = 1;
+  memset (a->open, 0, (size_t) celd_weights_cells (a->graph) + a->graph->n_extra);
+  return celd_weights_pair (a->graph, most, a->parent);
 }
 
 /* ------------------------------------------------------------------ numbers */
@@ -457,7 +459,7 @@ shift_row (void *data, int row)
     a->link[i] += a->link[i] >= cells && a->link[i] != CELD_NO_NODE ? before : 0;
 }
 
-/* Parts of islands stay so on the coarse level as long as they are not whole. */
+/* What is not whole yet has parts on the coarse level, too. */
 static void
 carry_row (void *data, int row)
 {
@@ -467,10 +469,10 @@ carry_row (void *data, int row)
 
   for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
     if (a->open[i] && a->link[i] != CELD_NO_NODE)
-      a->coarse->island[a->link[i]] = 1;
+      a->coarse->part[a->link[i]] = 1;
   for (uint32_t i = n + nodes.extra; i < n + nodes.extra_end; i++)
     if (a->open[i] && a->link[i] != CELD_NO_NODE)
-      a->coarse->island[a->link[i]] = 1;
+      a->coarse->part[a->link[i]] = 1;
 }
 
 /* Turns a->link into the number of each node's aggregate: the first one of a coarse cell takes the number of the cell,
@@ -485,44 +487,15 @@ number_aggregates (Aggregation *a)
     coarse->row_extra[row + 1] = coarse->row_extra[row] + a->row_count[row];
   coarse->n_extra = coarse->row_extra[coarse->height];
   celd_each (a->run, coarse->height, shift_row, a);
-  if (!a->graph->island)
+  if (!a->graph->part)
     return CELD_OK;
-  if (!(coarse->island = celd_alloc0 ((size_t) celd_weights_cells (coarse) + coarse->n_extra, 1)))
+  if (!(coarse->part = celd_alloc0 ((size_t) celd_weights_cells (coarse) + coarse->n_extra, 1)))
     return CELD_NO_MEMORY;
   celd_each (a->run, coarse->height, carry_row, a);
   return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ coarsening */
-
-/* The pixels of small components of strong links. */
-static CeldStatus
-find_islands (Aggregation *a, CeldWeights *g)
-{
-  uint32_t  w = (uint32_t) g->width, n = celd_weights_cells (g), *size = celd_alloc0 (n, sizeof *size);
-  float     strong = a->strong * a->most;
-
-  g->island = celd_alloc (n, 1);
-  if (!size || !g->island)
-    {
-      celd_free (size);
-      return CELD_NO_MEMORY;
-    }
-  celd_roots (a->parent, n);
-  for (uint32_t i = 0; i < n; i++)
-    {
-      if (g->east[i] > 0 && g->east[i] >= strong)
-        celd_join (a->parent, i, i + 1);
-      if (g->south[i] > 0 && g->south[i] >= strong)
-        celd_join (a->parent, i, i + w);
-    }
-  for (uint32_t i = 0; i < n; i++)
-    size[celd_root (a->parent, i)]++;
-  for (uint32_t i = 0; i < n; i++)
-    g->island[i] = size[celd_root (a->parent, i)] <= SMALL;
-  celd_free (size);
-  return CELD_OK;
-}
 
 static CeldStatus
 aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *run, Aggregation *a)
@@ -531,7 +504,7 @@ aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *ru
 
   *coarse = (CeldWeights) { 0 };
   *a = (Aggregation) {
-    .graph = fine, .coarse = coarse, .run = run, .strong = STRONG,
+    .graph = fine, .coarse = coarse, .run = run,
     .best = celd_alloc (n, sizeof *a->best),
     .link = celd_alloc (n, sizeof *a->link),
     .parent = celd_alloc (n, sizeof *a->parent),
@@ -545,30 +518,36 @@ aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *ru
   return CELD_OK;
 }
 
+/* Pixels are parts of whatever they belong to. */
+static CeldStatus
+begin_parts (CeldWeights *pixels)
+{
+  uint32_t n = celd_weights_cells (pixels);
+
+  if (!(pixels->part = celd_alloc (n, 1)))
+    return CELD_NO_MEMORY;
+  memset (pixels->part, 1, n);
+  return CELD_OK;
+}
+
 CeldStatus
-celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, int *doubled, CeldWeights *coarse, uint32_t **coarser)
+celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse, uint32_t **coarser)
 {
   Aggregation a;
   CeldStatus  status = aggregation_new (fine, coarse, run, &a);
-  int         doublings = 1;
-  double      most;
+  uint32_t    most;
 
+  if (status == CELD_OK && fine->weak)
+    status = begin_parts (fine);
   if (status == CELD_OK)
     status = celd_weights_ground (fine, run);
   if (status != CELD_OK)
     goto done;
-  most   = FEWER * see_edges (&a);
-  status = fine->weak ? find_islands (&a, fine) : CELD_OK;
+  most = (uint32_t) (FEWER * see_edges (&a));
+  if (celd_weights_cells (fine) == 1 || aggregate (&a) > most)
+    status = pair_up (&a, most);
   if (status != CELD_OK)
     goto done;
-  while (aggregate (&a, doublings) > most)
-    if (*doubled + doublings < WHOLE)
-      doublings++;
-    else if (a.strong > 0)
-      a.strong = a.strong > 1e-9f ? 0.1f * a.strong : 0;
-    else
-      break;
-  *doubled = *doubled + doublings < WHOLE ? *doubled + doublings : WHOLE;
   a.mixed  = celd_alloc (celd_weights_cells (coarse), 1);
   coarse->row_extra = celd_alloc0 ((size_t) coarse->height + 1, sizeof *coarse->row_extra);
   status = a.mixed && coarse->row_extra ? CELD_OK : CELD_NO_MEMORY;

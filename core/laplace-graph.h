@@ -39,6 +39,11 @@ celd_weights_nodes (const CeldWeights *fine, const CeldWeights *coarse, int row)
 /* Cuts the edges of nodes that their sinks hold far more; what is at the other ends is held by these edges. */
 CeldStatus celd_weights_ground (CeldWeights *graph, const CeldRun *run);
 
+/* ------------------------------------------------------------------ laplace-pairs.c */
+
+/* Aggregates of all nodes, wherever they lie, at most so many if that can be: parent as in unions.h. */
+CeldStatus celd_weights_pair (const CeldWeights *graph, uint32_t most, uint32_t *parent);
+
 /* ------------------------------------------------------------------ laplace-contract.c */
 
 #define CELD_MIXED 0x80 /* a cell that is not of a piece */

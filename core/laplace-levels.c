@@ -367,12 +367,12 @@ done:
 
 /* The next graph, and the way there. */
 static CeldStatus
-coarsen (CeldWeights *graph, const CeldRun *run, int *doubled, CeldLevel *level)
+coarsen (CeldWeights *graph, const CeldRun *run, CeldLevel *level)
 {
   CeldWeights coarse;
   CeldLevel   next;
   uint32_t   *coarser = NULL;
-  CeldStatus  status  = celd_weights_coarsen (graph, run, doubled, &coarse, &coarser);
+  CeldStatus  status  = celd_weights_coarsen (graph, run, &coarse, &coarser);
 
   if (status != CELD_OK)
     return status;
@@ -387,23 +387,24 @@ coarsen (CeldWeights *graph, const CeldRun *run, int *doubled, CeldLevel *level)
 CeldStatus
 celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels)
 {
-  int        doubled = 0;
-  bool       last    = false;
+  bool       last = false;
+  double     left = 1;          /* each level is about half of what is left */
   uint32_t   linked;
-  CeldStatus status  = CELD_OK;
+  CeldStatus status = CELD_OK;
 
   *levels = (CeldLevels) { 0 };
   while (status == CELD_OK && !last)
     {
       CeldLevel *level = &levels->level[levels->n++];
 
-      status = celd_step (run, doubled / 15.);
+      status = celd_step (run, 1 - left);
+      left  /= 2;
       if (status == CELD_OK)
         status = lay_out (graph, run, level, &linked);
       if (status != CELD_OK)
         break;
       last   = levels->n == CELD_MAX_LEVELS || (levels->n > 1 && linked <= BOTTOM);
-      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, run, &doubled, level);
+      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, run, level);
     }
   if (status != CELD_OK)
     celd_levels_clear (levels);

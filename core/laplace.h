@@ -45,15 +45,14 @@ typedef struct
   uint32_t *cell;               /* of each extra node, row by row */
   uint32_t *row_extra;          /* where the extra nodes of each row begin; NULL for pixels */
   bool      weak;               /* of pixels: do weights differ very much? */
-  uint8_t  *island;             /* of each node: part of a small island among weak links, parted by cells; or NULL */
+  uint8_t  *part;               /* of each node: has what it belongs to more of them?  NULL: weights are alike */
   uint32_t *start, *neighbour;
   float    *weight;
 } CeldWeights;
 
 /* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge and for those that
- * their sink holds, whose edges `fine` loses.  *doubled counts how often cells have been doubled since the pixels. */
-CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, int *doubled, CeldWeights *coarse,
-                                 uint32_t **coarser);
+ * their sink holds, whose edges `fine` loses. */
+CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse, uint32_t **coarser);
 void       celd_weights_clear (CeldWeights *graph);                           /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ laplace-levels.c: what is solved on */

@@ -32,10 +32,10 @@ no_aggregate_reaches_over_a_wall_or_its_cell (void)
 {
   CeldWeights graph = walled (1e-3f), coarse;
   uint32_t *node = NULL;
-  int      *first = malloc (W * H * sizeof *first), doubled = 0;
+  int      *first = malloc (W * H * sizeof *first);
 
-  CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
-  CHECK (doubled == 1 && coarse.width == W / 2 && coarse.height == H / 2 && coarse.n_extra == H / 2);
+  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+  CHECK (coarse.width == W / 2 && coarse.height == H / 2 && coarse.n_extra == H / 2);
   for (int c = 0; c < W * H; c++)
     first[c] = -1;
   for (int i = 0; i < W * H; i++)
@@ -59,7 +59,6 @@ a_leaf_joins_nothing (void)
 {
   CeldWeights graph = random_graph (4, 2, 1), coarse;
   uint32_t *node = NULL;
-  int       doubled = 0;
 
   for (int i = 0; i < 8; i++)
     graph.east[i] = graph.south[i] = 0;
@@ -69,7 +68,7 @@ a_leaf_joins_nothing (void)
   graph.south[0] = 0;
   graph.east[5] = graph.east[2] = graph.south[2] = 1;
   graph.east[4] = 0;
-  CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
+  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
   CHECK (node[0] != node[5] && (node[1] == node[0] || node[1] == node[5] || node[1] != node[2]));
   CHECK (node[4] == CELD_NO_NODE);
   celd_weights_clear (&graph);
@@ -88,11 +87,10 @@ weights_and_sinks_are_sums (void)
       CeldWeights  graph = k < 3 ? walled (wall[k]) : random_graph (W, H, 3), coarse;
       CeldLevels levels;
       uint32_t  *node = NULL;
-      int        doubled = 0;
       double     sink = 0, crossing = 0, edges = 0;
       LevelEdge *edge;
 
-      CHECK (celd_weights_coarsen (&graph, NULL, &doubled, &coarse, &node) == CELD_OK);
+      CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
       for (int i = 0; i < W * H; i++)
         {
           sink += (double) graph.sink[i];
