@@ -72,7 +72,7 @@ colour_between (const CeldTrail *trail, const CeldArrowLayer *layer, double from
   for (size_t i = 0; i < trail->n; i++)
     {
       int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
-      const uint8_t *p = CELD_RGBA (layer->paint, x, y);
+      const uint8_t *p = celd_arrow_pixel (layer, x, y);
       double         a = celd_arrow_opacity (layer, x, y);
 
       if (trail->distance[trail->pixel[i]] < from || trail->distance[trail->pixel[i]] > to)

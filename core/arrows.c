@@ -20,16 +20,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEAST_STROKE  6    /* pixels; fewer are a speck */
 #define LEAST_OPACITY 128  /* of paint */
 #define THIN_OPACITY  48   /* the thin end of a taper covers its pixels in part; */
 #define FADED_OPACITY 16   /* a fading stroke reaches on to this */
-#define CONTRAST      32   /* least difference from the paper's colour, in a layer without alpha */
+
+const uint8_t *
+celd_arrow_pixel (const CeldArrowLayer *layer, int x, int y)
+{
+  int u = x - layer->left, v = y - layer->top;
+
+  if (layer->other.data && u >= 0 && v >= 0 && u < layer->other.width && v < layer->other.height)
+    return CELD_RGBA (&layer->other, u, v);
+  return CELD_RGBA (layer->paint, x, y);
+}
 
 int
 celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y)
 {
-  const uint8_t *c = CELD_RGBA (layer->paint, x, y);
+  const uint8_t *c = celd_arrow_pixel (layer, x, y);
   int            contrast = 0;
 
   if (!layer->opaque)
@@ -38,29 +46,6 @@ celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y)
     if (abs (c[i] - layer->paper[i]) > contrast)
       contrast = abs (c[i] - layer->paper[i]);
   return contrast;
-}
-
-/* Is there an arrowhead, and at the nearer end? */
-static bool
-head_disagrees (CeldTrail *trail, const CeldEnds *ends)
-{
-  CeldEnds found;
-
-  return celd_arrowhead (trail, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
-                                                  hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
-}
-
-static bool
-read_stroke (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldEnds *ends)
-{
-  CeldEnds found;
-
-  if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
-    return celd_arrow_slope (trail, layer, style, ends) && !head_disagrees (trail, ends);
-  if (!celd_arrowhead (trail, style == CELD_ARROW_DOT, &found))
-    return false;
-  *ends = style == CELD_ARROW_DOT ? (CeldEnds) { found.tip, found.tail } : found;
-  return true;
 }
 
 /* The commonest colour of a layer without alpha, found by a vote on 5 bits a channel; else the layer has alpha. */
@@ -90,45 +75,6 @@ look_at_layer (const CeldPaint *paint, CeldArrowLayer *layer)
   return CELD_OK;
 }
 
-/* Strokes whose mean colour is blue are cracks: hue 195 to 265 degrees, not greyish. */
-static bool
-is_blue (const CeldTrail *trail, const CeldArrowLayer *layer)
-{
-  double red = 0, green = 0, blue = 0, most, least, hue;
-
-  for (size_t i = 0; i < trail->n; i++)
-    {
-      int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
-      const uint8_t *c = CELD_RGBA (layer->paint, x, y);
-      int            a = celd_arrow_opacity (layer, x, y);
-
-      red   += c[0] * a;
-      green += c[1] * a;
-      blue  += c[2] * a;
-    }
-  most  = fmax (blue, fmax (red, green));
-  least = fmin (blue, fmin (red, green));
-  if (blue < most || most - least < 0.25 * most)
-    return false;
-  hue = 240 + 60 * (red - green) / (most - least);
-  return hue >= 195 && hue <= 265;
-}
-
-static CeldStatus
-add_arrow (const CeldEnds *ends, bool crack, CeldRelations *relations)
-{
-  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
-
-  if (!item)
-    return CELD_NO_MEMORY;
-  relations->item      = item;
-  item[relations->n++] = (CeldRelation) {
-    .nearer = { .x = ends->tail.x, .y = ends->tail.y }, .farther = { .x = ends->tip.x, .y = ends->tip.y },
-    .crack = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
-  };
-  return CELD_OK;
-}
-
 /* What one pass over the strokes needs.  `strokes` are components: strokes that cross are one. */
 typedef struct
 {
@@ -154,7 +100,7 @@ static CeldStatus
 find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run, Strokes *s)
 {
   const CeldPaint *paint = layer->paint;
-  int              least = layer->opaque ? CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
+  int              least = layer->opaque ? CELD_PAPER_CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
                                           : style == CELD_ARROW_TAPER ? THIN_OPACITY : LEAST_OPACITY;
   CeldLabels       mask;
   CeldStatus       status = celd_labels_new (paint->width, paint->height, &mask);
@@ -210,97 +156,8 @@ gather_pixels (Strokes *s)
   return CELD_OK;
 }
 
-/* The pixel in the middle of a stroke. */
-static CeldProblem
-unclear_arrow (const CeldTrail *trail)
-{
-  uint32_t middle = trail->pixel[trail->n / 2];
-
-  return (CeldProblem) {
-    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
-    .x = celd_trail_x (trail, middle), .y = celd_trail_y (trail, middle),
-  };
-}
-
-/* Appends the arrow that a stroke is; *clear becomes false if it is none.  What it leaves in the plane of distances is
- * wiped off: strands share pixels. */
 static CeldStatus
-read_one (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations, bool *clear)
-{
-  CeldEnds   ends = { { 0, 0 }, { 0, 0 } };
-  CeldStatus status = CELD_OK;
-
-  if (read_stroke (trail, layer, style, &ends))
-    status = add_arrow (&ends, is_blue (trail, layer), relations);
-  else
-    *clear = false;
-  for (size_t i = 0; i < trail->n; i++)
-    trail->distance[trail->pixel[i]] = INFINITY;
-  return status;
-}
-
-/* The strand k, as a stroke of its own. */
-static void
-take_strand (const CeldStrands *strands, size_t k, CeldTrail *trail)
-{
-  trail->pixel = strands->pixel + strands->first[k];
-  trail->n     = strands->first[k + 1] - strands->first[k];
-}
-
-/* Strokes that cross: all of them are arrows, or none counts.  What looks like a crossing may be part of a figure that
- * is none, and then some strand of it is no arrow. */
-static CeldStatus
-read_strands (CeldTrail *trail, const CeldStrands *strands, const CeldArrowLayer *layer, CeldArrowStyle style,
-              CeldRelations *relations, bool *clear)
-{
-  size_t     before = relations->n;
-  CeldStatus status = CELD_OK;
-
-  for (size_t k = 0; k < strands->n && status == CELD_OK && *clear; k++)
-    {
-      take_strand (strands, k, trail);
-      status = read_one (trail, layer, style, relations, clear);
-    }
-  if (!*clear)
-    relations->n = before;
-  return status;
-}
-
-/* A component: one stroke, or several that cross. */
-static CeldStatus
-read_component (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
-                CeldProblems *problems)
-{
-  CeldTrail   whole = *trail;
-  CeldStrands strands = { 0 };
-  bool        clear = true;
-  CeldStatus  status;
-
-  if (trail->n < LEAST_STROKE)
-    return CELD_OK;
-  status = celd_strands_find (trail, &strands);
-  if (status == CELD_OK && strands.n)
-    status = read_strands (trail, &strands, layer, style, relations, &clear);
-  if (status == CELD_OK && (!strands.n || !clear))
-    {
-      *trail = whole;
-      clear  = true;
-      status = read_one (trail, layer, style, relations, &clear);
-    }
-  if (status == CELD_OK && !clear && !strands.n)
-    status = celd_problem_add (problems, unclear_arrow (trail));
-  for (size_t k = 0; k < strands.n && status == CELD_OK && !clear; k++)
-    {
-      take_strand (&strands, k, trail);
-      if (trail->n >= LEAST_STROKE)
-        status = celd_problem_add (problems, unclear_arrow (trail));
-    }
-  celd_strands_clear (&strands);
-  return status;
-}
-
-static CeldStatus
-read_components (Strokes *s, const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run,
+read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run,
                  CeldRelations *relations, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
@@ -313,7 +170,7 @@ read_components (Strokes *s, const CeldArrowLayer *layer, CeldArrowStyle style, 
       s->trail.pixel = s->pixel + done;
       s->trail.n     = s->component[k].area;
       done += s->trail.n;
-      status = read_component (&s->trail, layer, style, relations, problems);
+      status = celd_arrow_strokes_read (&s->trail, layer, style, relations, problems);
       if (status == CELD_OK)
         status = celd_step (run, (double) done / (double) all);
     }

@@ -24,60 +24,67 @@ typedef struct
 static void
 knot_end (Knot *k)
 {
-  celd_free (k->cutting.painted);
-  celd_free (k->cutting.squared);
+  celd_cutting_clear (&k->cutting);
   celd_free (k->crossing);
   celd_free (k->pieces.data);
   celd_free (k->piece);
   celd_free (k->parent);
 }
 
-/* The box round the component, and how deep in the paint each pixel lies. */
-static CeldStatus
-cut_out (Knot *k)
+CeldStatus
+celd_cutting_new (const CeldTrail *trail, CeldCutting *cutting)
 {
-  const CeldTrail *trail = k->trail;
-  CeldCutting     *c = &k->cutting;
-  int              right = 0, bottom = 0;
-  uint8_t         *bare;
-  size_t           n;
-  CeldStatus       status = CELD_NO_MEMORY;
+  CeldCutting c = { .left = trail->width, .top = trail->height };
+  int         right = 0, bottom = 0;
+  uint8_t    *bare;
+  size_t      n;
+  CeldStatus  status = CELD_NO_MEMORY;
 
-  c->left = trail->width;
-  c->top  = trail->height;
   for (size_t i = 0; i < trail->n; i++)
     {
       int x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
 
-      c->left = x < c->left ? x : c->left;
-      c->top  = y < c->top ? y : c->top;
-      right   = x > right ? x : right;
-      bottom  = y > bottom ? y : bottom;
+      c.left = x < c.left ? x : c.left;
+      c.top  = y < c.top ? y : c.top;
+      right  = x > right ? x : right;
+      bottom = y > bottom ? y : bottom;
     }
-  c->left--;
-  c->top--;
-  c->width   = right - c->left + 2;
-  c->height  = bottom - c->top + 2;
-  n          = (size_t) c->width * (size_t) c->height;
-  c->painted = celd_alloc0 (n, 1);
-  c->squared = celd_alloc (n, sizeof *c->squared);
-  bare       = celd_alloc (n, 1);
-  if (c->painted && c->squared && bare)
+  c.left--;
+  c.top--;
+  c.width   = right - c.left + 2;
+  c.height  = bottom - c.top + 2;
+  n         = (size_t) c.width * (size_t) c.height;
+  c.painted = celd_alloc0 (n, 1);
+  c.squared = celd_alloc (n, sizeof *c.squared);
+  bare      = celd_alloc (n, 1);
+  if (c.painted && c.squared && bare)
     {
       memset (bare, 1, n);
       for (size_t i = 0; i < trail->n; i++)
         {
-          int    x = celd_trail_x (trail, trail->pixel[i]) - c->left;
-          int    y = celd_trail_y (trail, trail->pixel[i]) - c->top;
-          size_t p = (size_t) y * (size_t) c->width + (size_t) x;
+          int    x = celd_trail_x (trail, trail->pixel[i]) - c.left;
+          int    y = celd_trail_y (trail, trail->pixel[i]) - c.top;
+          size_t p = (size_t) y * (size_t) c.width + (size_t) x;
 
-          c->painted[p] = 1;
-          bare[p]       = 0;
+          c.painted[p] = 1;
+          bare[p]      = 0;
         }
-      status = celd_distance (c->width, c->height, bare, NULL, c->squared);
+      status = celd_distance (c.width, c.height, bare, NULL, c.squared);
     }
   celd_free (bare);
+  if (status == CELD_OK)
+    *cutting = c;
+  else
+    celd_cutting_clear (&c);
   return status;
+}
+
+void
+celd_cutting_clear (CeldCutting *cutting)
+{
+  celd_free (cutting->painted);
+  celd_free (cutting->squared);
+  *cutting = (CeldCutting) { 0 };
 }
 
 static bool
@@ -200,7 +207,7 @@ celd_strands_find (const CeldTrail *trail, CeldStrands *strands)
 {
   Knot        knot = { .trail = trail };
   CeldStrands made = { 0 };
-  CeldStatus  status = cut_out (&knot);
+  CeldStatus  status = celd_cutting_new (trail, &knot.cutting);
 
   if (status == CELD_OK)
     status = celd_crossings_find (&knot.cutting, &knot.crossing, &knot.n_crossings);

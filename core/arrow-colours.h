@@ -1,0 +1,59 @@
+/* What the files share that tell strokes apart by their colours.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_ARROW_COLOURS_H
+#define CELD_ARROW_COLOURS_H
+
+#include "arrows.h"
+
+#define CELD_ALIKE     0.65 /* colours that differ less are one, */
+#define CELD_UNLIKE    1.0  /* those that differ more are two; in between it is not clear */
+#define CELD_NOISE     16   /* of a pixel, on paper: a codec's echoes; */
+#define CELD_LESS_NOISE 5   /* of a mean */
+
+/* ------------------------------------------------------------------ arrow-tints.c */
+
+/* A colour, in layers without alpha its difference from the paper, and how opaque it is, 0 .. 255. */
+typedef struct { float c[3], strength; } CeldTint;
+
+CeldTint celd_tint_at (const CeldArrowLayer *layer, int x, int y);
+CeldTint celd_tint_between (const CeldTint *a, const CeldTint *b, double t);
+double   celd_tints_differ (const CeldArrowLayer *layer, const CeldTint *a, const CeldTint *b, double noise);
+void     celd_tint_paint (const CeldArrowLayer *layer, const CeldTint *t, uint8_t rgba[4]);
+
+/* ------------------------------------------------------------------ colour-pieces.c */
+
+/* A component, and its pieces of one colour each.  Painted pixels are numbered in reading order. */
+typedef struct
+{
+  CeldCutting cutting;
+  uint32_t   *number;   /* of each place of the cutting: 1 + its pixel; 0 = not painted */
+  uint32_t   *place;    /* of each pixel: its place in the cutting */
+  CeldTint   *tint;     /* the mean round each pixel */
+  uint32_t   *piece;    /* of each pixel: from 1; 0 = of no clear colour */
+  uint32_t   *like;     /* of each pixel in a piece: one well inside whose tint it has */
+  size_t      n_pixels, n;
+  double      width;    /* of its lines, roughly */
+} CeldPieces;
+
+/* n < 2 if the component has one colour, or none that are clearly two. */
+CeldStatus celd_colour_pieces_find (const CeldTrail *trail, const CeldArrowLayer *layer, CeldPieces *pieces);
+void       celd_colour_pieces_clear (CeldPieces *pieces);
+
+/* ------------------------------------------------------------------ strand-colours.c */
+
+/* Strokes that are told apart by colour.  Of each pixel its R'G'B'A, or what it would have if nothing crossed there. */
+typedef struct
+{
+  CeldStrands strands;
+  uint8_t    *rgba;
+  CeldPoint  *touch;        /* pixels of strand k that others touch without crossing: from first_touch[k] on */
+  size_t     *first_touch;
+} CeldColourStrands;
+
+/* strands.n = 0 if there is one stroke at most, or what there is cannot be told apart. */
+CeldStatus celd_strand_colours_find (const CeldTrail *trail, const CeldArrowLayer *layer, CeldColourStrands *found);
+void       celd_strand_colours_clear (CeldColourStrands *found);
+
+#endif
