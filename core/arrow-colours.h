@@ -34,7 +34,8 @@ typedef struct
   uint32_t   *piece;    /* of each pixel: from 1; 0 = of no clear colour */
   uint32_t   *like;     /* of each pixel in a piece: one well inside whose tint it has */
   size_t      n_pixels, n;
-  double      width;    /* of its lines, roughly */
+  double      width;    /* of its lines, roughly; */
+  double     *widths;   /* of those of each piece */
 } CeldPieces;
 
 /* n < 2 if the component has one colour, or none that are clearly two. */

@@ -43,6 +43,13 @@ beside (const CeldCutting *c, size_t p, int k)
     }
 }
 
+/* Of a long straight line whose pixels lie so deep in the paint, in the mean of squares. */
+static double
+width_of (double squared)
+{
+  return fmax (1, sqrt (12 * squared) - 1);
+}
+
 static CeldStatus
 number_pixels (CeldPieces *s, size_t n)
 {
@@ -64,7 +71,7 @@ number_pixels (CeldPieces *s, size_t n)
         s->place[s->n_pixels++] = (uint32_t) p;
         s->number[p] = (uint32_t) s->n_pixels;
       }
-  s->width = fmax (1, sqrt (12 * sum / (double) s->n_pixels) - 1); /* exact for a long straight line */
+  s->width = width_of (sum / (double) s->n_pixels);
   return CELD_OK;
 }
 
@@ -294,6 +301,25 @@ join_alike (CeldPieces *s, const CeldArrowLayer *layer, bool *clear)
   return status;
 }
 
+/* The widths of pieces, by their insides: there nothing else makes the paint wider. */
+static CeldStatus
+find_widths (CeldPieces *s)
+{
+  double *n = celd_alloc0 (s->n + 1, sizeof *n);
+
+  s->widths = celd_alloc0 (s->n + 1, sizeof *s->widths);
+  for (size_t i = 0; n && s->widths && i < s->n_pixels; i++)
+    if (s->like[i] == i && s->piece[i])
+      {
+        s->widths[s->piece[i]] += s->cutting.squared[s->place[i]];
+        n[s->piece[i]]++;
+      }
+  for (size_t k = 1; n && s->widths && k <= s->n; k++)
+    s->widths[k] = width_of (s->widths[k] / fmax (1, n[k]));
+  celd_free (n);
+  return n && s->widths ? CELD_OK : CELD_NO_MEMORY;
+}
+
 /* A pixel of the only piece within two pixels; 0 if there is none or another one, too. */
 static uint32_t
 only_piece_near (const CeldPieces *s, size_t pixel)
@@ -372,6 +398,8 @@ celd_colour_pieces_find (const CeldTrail *trail, const CeldArrowLayer *layer, Ce
   for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
     grow_pieces (&made, layer, steps[i], queue);
   status = join_alike (&made, layer, &clear);
+  if (status == CELD_OK)
+    status = find_widths (&made);
   for (int i = 0; i < RIMS && status == CELD_OK; i++)
     take_rims (&made, queue);
 
@@ -396,5 +424,6 @@ celd_colour_pieces_clear (CeldPieces *pieces)
   celd_free (pieces->tint);
   celd_free (pieces->piece);
   celd_free (pieces->like);
+  celd_free (pieces->widths);
   *pieces = (CeldPieces) { 0 };
 }

@@ -29,7 +29,7 @@ typedef struct
 {
   CeldPoint at, back;      /* middles of the contact, and of the arm some way behind it */
   CeldPoint way;           /* of length 1, out of the arm */
-  double    width, reach;  /* of the arm; of the contact along it */
+  double    width, reach;  /* of the arm; of the contact along it, from its middle */
   bool      is_arm;
   CeldTint  tint;
   uint32_t  piece;
@@ -145,13 +145,30 @@ find_contacts (Joints *j, bool *many)
   return status;
 }
 
+/* How far a contact reaches from its middle, along a way or at all. */
+static double
+reach_along (const Joints *j, const Contact *c, uint32_t index, const CeldPoint *way)
+{
+  double most = 0;
+
+  for (size_t i = 0; i < j->pieces.n_pixels; i++)
+    if (j->contact[i] == index + 1)
+      {
+        CeldPoint p = middle_of (&j->pieces, i);
+        double    dx = p.x - c->at.x, dy = p.y - c->at.y;
+
+        most = fmax (most, way ? fabs (dx * way->x + dy * way->y) : hypot (dx, dy));
+      }
+  return most;
+}
+
 /* What the piece is like some way behind a contact: on a ring round it, where an arm lies on one side only. */
 static void
 measure_arm (const Joints *j, Contact *c, uint32_t index)
 {
   const CeldPieces *s = &j->pieces;
-  double            near = 0.75 * s->width + 2, far = near + s->width + 6, n = 0, weights = 0, squares = 0;
-  double            sum[3] = { 0 }, length;
+  double            wide = s->widths[c->piece], near = fmax (0.75 * wide, reach_along (j, c, index, NULL)) + 2;
+  double            far = near + wide + 6, n = 0, weights = 0, squares = 0, sum[3] = { 0 }, length;
   CeldPoint         way = { 0, 0 }, back = { 0, 0 };
 
   for (size_t i = 0; i < s->n_pixels; i++)
@@ -183,13 +200,7 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
   for (int k = 0; k < 3; k++)
     c->tint.c[k] = (float) (sum[k] / weights);
   c->tint.strength = (float) (squares / weights);
-  for (size_t i = 0; i < s->n_pixels; i++)
-    if (j->contact[i] == index + 1)
-      {
-        CeldPoint p = middle_of (s, i);
-
-        c->reach = fmax (c->reach, fabs ((p.x - c->at.x) * c->way.x + (p.y - c->at.y) * c->way.y));
-      }
+  c->reach = reach_along (j, c, index, &c->way);
 }
 
 /* ------------------------------------------------------------------ which contacts face each other */
