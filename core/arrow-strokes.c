@@ -2,7 +2,8 @@
  *
  * Strokes of different colours are told apart by them (strand-colours.c), others by following them straight on
  * (strands.c).  A stroke that ends where another colour touches it may go on below, and is not clear.  Where some
- * stroke is not, the colours may have been those of one stroke: if the component as a whole is an arrow, it is that.
+ * stroke is not, the colours may have been those of one stroke: if the component as a whole is an arrow it is that,
+ * unless a part of it is another arrow by its form.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,6 +14,7 @@
 #define LEAST_STROKE 6   /* pixels; fewer are a speck */
 #define ROUND_END    1.2 /* of a stroke's width: what touches it nearer to its end than this may hide it, */
 #define NEAR_END     2   /* and pixels */
+#define SAME_END     0.1 /* of an arrow's length, and NEAR_END: ends of the same arrow are no farther apart */
 
 /* Is there an arrowhead, and at the nearer end? */
 static bool
@@ -183,10 +185,11 @@ end_is_touched (const CeldColourStrands *found, size_t k, const CeldRelation *ar
   return false;
 }
 
-/* The stroke k of those told apart by colour, as if it were alone in the layer. */
+/* The stroke k of those told apart by colour, as if it were alone in the layer.  What it would be but for what touches
+ * it is appended to `doubtful`. */
 static CeldStatus
 read_coloured (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, const CeldColourStrands *found, size_t k,
-               CeldRelations *relations, CeldProblems *problems, bool *clear)
+               CeldRelations *relations, CeldRelations *doubtful, CeldProblems *problems, bool *clear)
 {
   size_t     before = relations->n, n_problems = problems ? problems->n : 0;
   CeldStatus status;
@@ -201,9 +204,13 @@ read_coloured (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, co
     *clear = !end_is_touched (found, k, &relations->item[i]);
   if (status != CELD_OK || *clear)
     return status;
+  for (size_t i = before; i < relations->n && status == CELD_OK; i++)
+    status = celd_relation_add (doubtful, relations->item[i]);
   relations->n = before;
   take_strand (&found->strands, k, trail);
-  return problems && problems->n == n_problems ? celd_problem_add (problems, unclear_arrow (trail)) : CELD_OK;
+  if (status == CELD_OK && problems && problems->n == n_problems)
+    status = celd_problem_add (problems, unclear_arrow (trail));
+  return status;
 }
 
 /* A picture of the size of the component, to lay strokes of it into. */
@@ -233,7 +240,7 @@ lay_above (const CeldTrail *trail, CeldArrowLayer *layer)
 /* All strokes that are told apart by colour. */
 static CeldStatus
 read_colours (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, const CeldColourStrands *found,
-              CeldRelations *relations, CeldProblems *problems, bool *clear)
+              CeldRelations *relations, CeldRelations *doubtful, CeldProblems *problems, bool *clear)
 {
   CeldTrail  whole = *trail;
   CeldStatus status = lay_above (trail, layer);
@@ -243,7 +250,7 @@ read_colours (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, con
     {
       bool one = true;
 
-      status = read_coloured (trail, layer, style, found, k, relations, problems, &one);
+      status = read_coloured (trail, layer, style, found, k, relations, doubtful, problems, &one);
       *clear &= one;
     }
   celd_free (layer->other.data);
@@ -252,27 +259,65 @@ read_colours (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, con
   return status;
 }
 
+/* Are some arrows among others? */
+static bool
+are_among (const CeldRelation *some, size_t n_some, const CeldRelation *others, size_t n_others)
+{
+  for (size_t i = 0; i < n_some; i++)
+    {
+      const CeldRelation *a = &some[i];
+      double near  = SAME_END * hypot (a->farther.x - a->nearer.x, a->farther.y - a->nearer.y) + NEAR_END;
+      bool   found = false;
+
+      for (size_t k = 0; k < n_others; k++)
+        found |= hypot (others[k].nearer.x - a->nearer.x, others[k].nearer.y - a->nearer.y) <= near &&
+                 hypot (others[k].farther.x - a->farther.x, others[k].farther.y - a->farther.y) <= near;
+      if (!found)
+        return false;
+    }
+  return true;
+}
+
+/* Strokes that are told apart by colour, or all of it in one if that is more. */
+static CeldStatus
+read_apart (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, const CeldColourStrands *found,
+            CeldRelations *relations, CeldProblems *problems)
+{
+  CeldRelations doubtful = { 0 };
+  size_t        before = relations->n, n_problems = problems ? problems->n : 0, n, more;
+  bool          clear = false, whole = false;
+  CeldStatus    status = read_colours (trail, layer, style, found, relations, &doubtful, problems, &clear);
+
+  n = relations->n;
+  if (status == CELD_OK && !clear)
+    status = read_by_form (trail, layer, style, relations, NULL, &whole);
+  more = relations->n - n;
+  if (status == CELD_OK && whole && are_among (relations->item + before, n - before, relations->item + n, more) &&
+      are_among (doubtful.item, doubtful.n, relations->item + n, more))
+    {
+      memmove (relations->item + before, relations->item + n, more * sizeof *relations->item);
+      relations->n = before + more;
+      if (problems)
+        problems->n = n_problems;
+    }
+  else
+    relations->n = n;
+  celd_relations_clear (&doubtful);
+  return status;
+}
+
 CeldStatus
 celd_arrow_strokes_read (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
                          CeldProblems *problems)
 {
   CeldColourStrands found = { 0 };
-  size_t            before = relations->n, n_problems = problems ? problems->n : 0, n;
-  bool              clear = false;
+  bool              clear;
   CeldStatus        status = trail->n < LEAST_STROKE ? CELD_OK : celd_strand_colours_find (trail, layer, &found);
 
   if (status == CELD_OK && found.strands.n)
-    status = read_colours (trail, layer, style, &found, relations, problems, &clear);
-  n = relations->n;
-  if (status == CELD_OK && !clear)
-    status = read_by_form (trail, layer, style, relations, found.strands.n ? NULL : problems, &clear);
-  if (status == CELD_OK && found.strands.n && clear && relations->n > n) /* after all it is one */
-    {
-      memmove (relations->item + before, relations->item + n, (relations->n - n) * sizeof *relations->item);
-      relations->n -= n - before;
-      if (problems)
-        problems->n = n_problems;
-    }
+    status = read_apart (trail, layer, style, &found, relations, problems);
+  else if (status == CELD_OK)
+    status = read_by_form (trail, layer, style, relations, problems, &clear);
   celd_strand_colours_clear (&found);
   return status;
 }
