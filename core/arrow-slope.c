@@ -16,6 +16,7 @@
 #define SLACK        0.1  /* the middle third may leave their range by this share: ends are round and soft */
 #define MOST_PIECES  12
 #define MOST_RISE    0.25 /* of a later piece above an earlier one: a share of the whole fall, */
+#define LAST_RISE    0.12 /* the same of the last two: the weak end is the weakest of all */
 #define NOISE        0.05 /* and of the largest value */
 #define SHORTEST     6    /* pixels */
 #define TELLING      64   /* opacity of pieces whose colour can be told */
@@ -180,6 +181,8 @@ falls (const CeldTrail *trail, const double *value, int n, bool back, double mar
       most  = fmax (most, value[i]);
       least = fmin (least, value[i]);
     }
+  if (fmin (value[back ? 0 : n - 1], value[back ? 1 : n - 2]) - least > LAST_RISE * (most - least) + NOISE * most)
+    return false;
   allowed = MOST_RISE * (most - least) + NOISE * most;
   rise    = largest_rise (value, n, back, &from);
   for (int side = -1; side <= 1 && rise > LEAST_RISE * allowed; side++)

@@ -66,16 +66,10 @@ is_blue (const CeldTrail *trail, const CeldArrowLayer *layer)
 static CeldStatus
 add_arrow (const CeldEnds *ends, bool crack, CeldRelations *relations)
 {
-  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
-
-  if (!item)
-    return CELD_NO_MEMORY;
-  relations->item      = item;
-  item[relations->n++] = (CeldRelation) {
+  return celd_relation_add (relations, (CeldRelation) {
     .nearer = { .x = ends->tail.x, .y = ends->tail.y }, .farther = { .x = ends->tip.x, .y = ends->tip.y },
     .crack = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
-  };
-  return CELD_OK;
+  });
 }
 
 /* The pixel in the middle of a stroke. */
