@@ -49,6 +49,7 @@ typedef struct
 {
   CeldStrands strands;
   uint8_t    *rgba;
+  bool       *is_cut;       /* may part of strand k be hidden? */
   CeldPoint  *touch;        /* pixels of strand k that others touch without crossing: from first_touch[k] on */
   size_t     *first_touch;
 } CeldColourStrands;

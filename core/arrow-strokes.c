@@ -1,7 +1,7 @@
 /* A connected component of an arrows layer: the arrow that it is, or those whose strokes cross in it.
  *
  * Strokes of different colours are told apart by them (strand-colours.c), others by following them straight on
- * (strands.c).  A stroke that ends where another colour touches it may go on below, and is not clear.  Where some
+ * (strands.c).  A stroke of which another one may hide a part is not clear.  Where some
  * stroke is not, the colours may have been those of one stroke: if the component as a whole is an arrow it is that,
  * unless a part of it is another arrow by its form.
  *
@@ -194,6 +194,7 @@ read_coloured (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, co
                        celd_trail_y (trail, trail->pixel[i]) - layer->top),
             found->rgba + 4 * (found->strands.first[k] + i), 4);
   status = read_by_form (trail, layer, style, relations, problems, clear);
+  *clear &= !found->is_cut[k];
   for (size_t i = before; i < relations->n && status == CELD_OK && *clear; i++)
     *clear = !end_is_touched (found, k, &relations->item[i]);
   if (status != CELD_OK || *clear)
@@ -286,8 +287,10 @@ read_apart (CeldTrail *trail, CeldArrowLayer *layer, CeldArrowStyle style, const
   if (status == CELD_OK && !clear)
     status = read_by_form (trail, layer, style, relations, NULL, &whole);
   more = relations->n - n;
-  if (status == CELD_OK && whole && are_among (relations->item + before, n - before, relations->item + n, more) &&
-      are_among (doubtful.item, doubtful.n, relations->item + n, more))
+  whole &= are_among (relations->item + before, n - before, relations->item + n, more);
+  if (style == CELD_ARROW_HEAD || style == CELD_ARROW_DOT) /* the other styles look at the colours of the whole */
+    whole &= are_among (doubtful.item, doubtful.n, relations->item + n, more);
+  if (status == CELD_OK && whole)
     {
       memmove (relations->item + before, relations->item + n, more * sizeof *relations->item);
       relations->n = before + more;

@@ -3,8 +3,8 @@
  * A piece of one colour (colour-pieces.c) ends where another one lies above it.  The places where it is next to other
  * paint are its contacts.  Two contacts of like colour that face each other, with their arms in one line and paint all
  * the way between, are where one stroke passes under another, or through it where both are translucent: the straight
- * band between is part of both strokes, and gets what its ends have.  Contacts that face none are handed on: a stroke
- * which ends there may go on below.
+ * band between is part of both strokes, and gets what its ends have.  Where a contact faces none and the stroke does
+ * not pass by, part of it may be hidden: it is cut.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,8 @@
 
 #define MOST_CONTACTS 128  /* more are no arrows */
 #define GATHERED      2    /* pixels of one contact are no farther apart */
-#define ALONG         0.8  /* length of the mean direction of an arm's pixels: less is no arm */
+#define ALONG         0.8  /* length of the mean direction of an arm's pixels: less is no arm, */
+#define ACROSS        0.5  /* and less than this a stroke that goes on both ways */
 #define MOST_TURN     0.76 /* cosine of the turn that a stroke may take where it is hidden: 0.7 radians */
 #define ASIDE         0.5  /* of an arm's width, that the other one may lie off its line, */
 #define AWAY          0.25 /* and of the distance */
@@ -30,7 +31,7 @@ typedef struct
   CeldPoint at, back;      /* middles of the contact, and of the arm some way behind it */
   CeldPoint way;           /* of length 1, out of the arm */
   double    width, reach;  /* of the arm; of the contact along it, from its middle */
-  bool      is_arm;
+  bool      is_arm, passes; /* does an arm end here, or does the stroke go on both ways? */
   CeldTint  tint;
   uint32_t  piece;
   size_t    n, mate;       /* pixels; the contact that it faces */
@@ -190,16 +191,19 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
       back.y += p.y;
       n++;
     }
-  length = hypot (way.x, way.y);
-  c->is_arm = n > 0 && weights > 0 && length >= ALONG * n;
+  if (!(weights > 0))
+    return;
+  for (int k = 0; k < 3; k++)
+    c->tint.c[k] = (float) (sum[k] / weights);
+  c->tint.strength = (float) (squares / weights);
+  length    = hypot (way.x, way.y);
+  c->is_arm = length >= ALONG * n;
+  c->passes = length < ACROSS * n;
   if (!c->is_arm)
     return;
   c->way   = (CeldPoint) { way.x / length, way.y / length };
   c->back  = (CeldPoint) { back.x / n, back.y / n };
   c->width = n / (far - near);
-  for (int k = 0; k < 3; k++)
-    c->tint.c[k] = (float) (sum[k] / weights);
-  c->tint.strength = (float) (squares / weights);
   c->reach = reach_along (j, c, index, &c->way);
 }
 
@@ -348,7 +352,7 @@ colours_are_clear (const Joints *j)
         uint32_t       s = celd_root (j->parent, one->piece), u = celd_root (j->parent, two->piece);
         double         near = FARTHEST * j->pieces.width + 12, differ;
 
-        if (s == u || j->dropped[s] || j->dropped[u] || !one->is_arm || !two->is_arm ||
+        if (s == u || j->dropped[s] || j->dropped[u] || !(one->tint.strength > 0 && two->tint.strength > 0) ||
             hypot (one->at.x - two->at.x, one->at.y - two->at.y) > near)
           continue;
         differ = celd_tints_differ (j->layer, &one->tint, &two->tint, CELD_LESS_NOISE);
@@ -446,6 +450,7 @@ append (const Joints *j, const CeldTrail *trail, uint32_t strand, const CeldLabe
 
           if (!touch)
             return CELD_NO_MEMORY;
+          to->is_cut[all->n] |= !j->item[j->contact[i] - 1].passes;
           to->touch        = touch;
           touch[n_touch++] = (CeldPoint) { x + 0.5, y + 0.5 };
         }
@@ -485,7 +490,8 @@ add_strands (Joints *j, const CeldTrail *trail, CeldColourStrands *to)
 
   to->strands.first = celd_alloc0 (j->pieces.n + 1, sizeof *to->strands.first);
   to->first_touch   = celd_alloc0 (j->pieces.n + 1, sizeof *to->first_touch);
-  if (!to->strands.first || !to->first_touch)
+  to->is_cut          = celd_alloc0 (j->pieces.n + 1, sizeof *to->is_cut);
+  if (!to->strands.first || !to->first_touch || !to->is_cut)
     return CELD_NO_MEMORY;
   for (uint32_t k = 1; k <= j->pieces.n && status == CELD_OK && clear; k++)
     if (celd_root (j->parent, k) == k && !j->dropped[k])
@@ -539,5 +545,6 @@ celd_strand_colours_clear (CeldColourStrands *found)
   celd_free (found->rgba);
   celd_free (found->touch);
   celd_free (found->first_touch);
+  celd_free (found->is_cut);
   *found = (CeldColourStrands) { 0 };
 }
