@@ -182,7 +182,7 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
         continue;
       t = celd_tint_at (j->layer, s->cutting.left + (int) p.x, s->cutting.top + (int) p.y);
       for (int k = 0; k < 3; k++)
-        sum[k] += (double) s->tint[i].c[k] * t.strength;
+        sum[k] += (double) s->tint[s->like[i]].c[k] * t.strength;
       weights += t.strength;
       squares += (double) t.strength * t.strength;
       way.x += (c->at.x - p.x) / d;
@@ -444,7 +444,8 @@ append (const Joints *j, const CeldTrail *trail, uint32_t strand, const CeldLabe
       else
         memcpy (rgba + 4 * n, celd_arrow_pixel (j->layer, x, y), 4);
       n++;
-      if (j->contact[i] && j->item[j->contact[i] - 1].mate == CELD_NO_INDEX)
+      if (j->contact[i] && celd_root (j->parent, s->piece[i]) == strand &&
+          j->item[j->contact[i] - 1].mate == CELD_NO_INDEX)
         {
           CeldPoint *touch = celd_grow (to->touch, n_touch + 1, sizeof *touch);
 
