@@ -15,6 +15,7 @@
 
 #define MOST_CONTACTS 128  /* more are no arrows */
 #define GATHERED      2    /* pixels of one contact are no farther apart */
+#define SQUARE        (2 * GATHERED + 1)
 #define ALONG         0.8  /* length of the mean direction of an arm's pixels: less is no arm, */
 #define ACROSS        0.5  /* and less than this a stroke that goes on both ways */
 #define MOST_TURN     0.76 /* cosine of the turn that a stroke may take where it is hidden: 0.7 radians */
@@ -113,9 +114,9 @@ find_contacts (Joints *j, bool *many)
     j->contact[i] = s->piece[i] && touches_other (s, i);
   celd_roots (parent, s->n_pixels + 1);
   for (uint32_t i = 0; i < s->n_pixels; i++)
-    for (int k = 0; k < (2 * GATHERED + 1) * (2 * GATHERED + 1) && j->contact[i]; k++)
+    for (int k = 0; k < SQUARE * SQUARE && j->contact[i]; k++)
       {
-        uint32_t other = pixel_near (s, i, k % (2 * GATHERED + 1) - GATHERED, k / (2 * GATHERED + 1) - GATHERED);
+        uint32_t other = pixel_near (s, i, k % SQUARE - GATHERED, k / SQUARE - GATHERED);
 
         if (other && j->contact[other - 1] && s->piece[other - 1] == s->piece[i])
           celd_join (parent, i, other - 1);
@@ -169,7 +170,7 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
 {
   const CeldPieces *s = &j->pieces;
   double            wide = s->widths[c->piece], near = fmax (0.75 * wide, reach_along (j, c, index, NULL)) + 2;
-  double            far = near + wide + 6, n = 0, weights = 0, squares = 0, sum[3] = { 0 }, length;
+  double            far = near + wide + 6, n = 0, all = 0, weights = 0, squares = 0, sum[3] = { 0 }, length;
   CeldPoint         way = { 0, 0 }, back = { 0, 0 };
 
   for (size_t i = 0; i < s->n_pixels; i++)
@@ -181,8 +182,9 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
       if (s->piece[i] != c->piece || d < near || d >= far)
         continue;
       t = celd_tint_at (j->layer, s->cutting.left + (int) p.x, s->cutting.top + (int) p.y);
-      for (int k = 0; k < 3; k++)
-        sum[k] += (double) s->tint[s->like[i]].c[k] * t.strength;
+      for (int k = 0; k < 3; k++) /* the other stroke's colour comes near */
+        sum[k] += (double) s->tint[s->like[i]].c[k] * t.strength * (d - near + 0.1);
+      all     += t.strength * (d - near + 0.1);
       weights += t.strength;
       squares += (double) t.strength * t.strength;
       way.x += (c->at.x - p.x) / d;
@@ -194,7 +196,7 @@ measure_arm (const Joints *j, Contact *c, uint32_t index)
   if (!(weights > 0))
     return;
   for (int k = 0; k < 3; k++)
-    c->tint.c[k] = (float) (sum[k] / weights);
+    c->tint.c[k] = (float) (sum[k] / all);
   c->tint.strength = (float) (squares / weights);
   length    = hypot (way.x, way.y);
   c->is_arm = length >= ALONG * n;
@@ -341,22 +343,38 @@ drop_overlaps (Joints *j)
   return status;
 }
 
+/* Are two contacts of different strands clearly of different colours?  Such as are not next to each other may be alike:
+ * two strokes of one colour may cross a third. */
+static bool
+is_clear (const Joints *j, const Contact *a, const Contact *b, bool next)
+{
+  uint32_t s = celd_root (j->parent, a->piece), u = celd_root (j->parent, b->piece);
+  double   differ;
+
+  if (s == u || j->dropped[s] || j->dropped[u] || !(a->tint.strength > 0 && b->tint.strength > 0))
+    return true;
+  differ = celd_tints_differ (j->layer, &a->tint, &b->tint, CELD_LESS_NOISE);
+  return differ >= CELD_UNLIKE || (!next && differ < CELD_ALIKE);
+}
+
 /* Are strands that meet clearly of different colours? */
 static bool
 colours_are_clear (const Joints *j)
 {
+  double near = FARTHEST * j->pieces.width + 12;
+
   for (size_t a = 0; a < j->n; a++)
     for (size_t b = a + 1; b < j->n; b++)
+      if (hypot (j->item[a].at.x - j->item[b].at.x, j->item[a].at.y - j->item[b].at.y) <= near &&
+          !is_clear (j, &j->item[a], &j->item[b], false))
+        return false;
+  for (size_t i = 0; i < j->pieces.n_pixels; i++)
+    for (int k = 0; k < SQUARE * SQUARE && j->contact[i]; k++)
       {
-        const Contact *one = &j->item[a], *two = &j->item[b];
-        uint32_t       s = celd_root (j->parent, one->piece), u = celd_root (j->parent, two->piece);
-        double         near = FARTHEST * j->pieces.width + 12, differ;
+        uint32_t other = pixel_near (&j->pieces, i, k % SQUARE - GATHERED, k / SQUARE - GATHERED);
 
-        if (s == u || j->dropped[s] || j->dropped[u] || !(one->tint.strength > 0 && two->tint.strength > 0) ||
-            hypot (one->at.x - two->at.x, one->at.y - two->at.y) > near)
-          continue;
-        differ = celd_tints_differ (j->layer, &one->tint, &two->tint, CELD_LESS_NOISE);
-        if (differ >= CELD_ALIKE && differ < CELD_UNLIKE)
+        if (other && j->contact[other - 1] &&
+            !is_clear (j, &j->item[j->contact[i] - 1], &j->item[j->contact[other - 1] - 1], true))
           return false;
       }
   return true;
