@@ -11,6 +11,7 @@
 /* ------------------------------------------------------------------ the scene */
 
 Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels, lossy_pixels, crossing_pixels;
+Pixels colour_pixels;
 
 static Pixels        ink_pixels, seed_pixels, level_pixels, expanded_pixels, normal_pixels;
 static CeldPalette   seed_palette, label_palette;
@@ -30,7 +31,8 @@ fill_box (Pixels *p, int left, int top, int right, int bottom, float luma, uint3
 }
 
 /* Two overlapping sheets with outlines; a stroke in each and behind them; an arrow; a virtual contour of each kind;
- * a pale, uneven stroke in a tinted block of white paper, as loss leaves it. */
+ * arrows that cross in one colour, and in two; a pale, uneven stroke in a tinted block of white paper, as loss leaves
+ * it. */
 static void
 draw_scene (void)
 {
@@ -56,6 +58,14 @@ draw_scene (void)
     {
       fill_box (&crossing_pixels, 52 - k, 20 - k, 53 - k, 22 + k, 0, 0x202020ff);
       fill_box (&crossing_pixels, 20 - k, 42 - k, 22 + k, 43 - k, 0, 0x202020ff);
+    }
+  fill_box (&colour_pixels, 4, 12, 56, 16, 0, 0x202020ff); /* this one begins where a bar ends */
+  fill_box (&colour_pixels, 2, 6, 6, 26, 0, 0xe02020ff);
+  fill_box (&colour_pixels, 28, 0, 31, 38, 0, 0xe08020ff);
+  for (int k = 0; k < 8; k++)
+    {
+      fill_box (&colour_pixels, 60 - k, 14 - k, 61 - k, 14 + k, 0, 0x202020ff);
+      fill_box (&colour_pixels, 29 - k, 41 - k, 30 + k, 42 - k, 0, 0xe08020ff);
     }
   fill_box (l, 0, 0, W, H, 0, 0xffffffff);
   fill_box (l, 0, 16, 32, 32, 0, 0xfff0f0ff);
@@ -133,6 +143,14 @@ static CeldStatus
 crossing_step (const CeldRun *run, Results *r)
 {
   CeldPaint arrows = paint_of (&crossing_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+coloured_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&colour_pixels);
 
   return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
 }
@@ -684,6 +702,7 @@ const Step steps[] = {
   { "arrow-path", path_step, NULL, false },
   { "arrows", arrows_step, NULL, true },
   { "crossing arrows", crossing_step, NULL, true },
+  { "arrows of two colours", coloured_step, NULL, true },
   { "basins", basins_step, NULL, true },
   { "segment", segment_step, &seed_palette, true },
   { "flats", flats_step, &seed_palette, true },

@@ -186,7 +186,7 @@ two_that_cross (void)
   for (size_t s = 0; s < 4; s++)
     for (int paper = 0; paper < 3; paper++)
       {
-        int right = 0, n = 20;
+        int right = 0, n = 8;
 
         for (int i = 0; i < n; i++)
           {
@@ -224,7 +224,7 @@ one_colour_is_one (void)
   uint32_t state = 11;
   int      right = 0;
 
-  for (int i = 0; i < 120; i++)
+  for (int i = 0; i < 72; i++)
     {
       double    w = random_between (&state, 3, 12), angle = random_between (&state, 0, 6.28);
       Arrow     a = through ((Point) { 100, 100 }, angle, 120, 0.5, w, STYLES[i % 4]);
@@ -233,12 +233,13 @@ one_colour_is_one (void)
       bool      good;
 
       lay (&paint, &a, i % 3 ? ORANGE : MAGENTA);
-      if (i / 4 % 3 == 0) /* rims as pale as they are thin: resampled with the white that lies under transparency */
+      if (i / 4 % 3 == 0 && STYLES[i % 4] != CELD_ARROW_FADE)
+        /* rims as pale as they are thin: resampled with the white that lies under transparency */
         for (size_t k = 0; k < paint.stride * (size_t) paint.height; k++)
           for (int c = 0; c < 3; c++)
             paint.data[4 * k + (size_t) c] =
               (uint8_t) (255 - (255 - paint.data[4 * k + (size_t) c]) * paint.data[4 * k + 3] / 255);
-      else
+      else if (i / 4 % 3 > 0)
         flatten (&paint);
       if (i / 4 % 3 == 2)
         spoil (&paint, random_between (&state, 0, 14), &state);
@@ -251,9 +252,9 @@ one_colour_is_one (void)
       forget (&answer);
       free (paint.data);
     }
-  if (right < 114)
-    printf ("%d of 120 read\n", right);
-  CHECK (right >= 114);
+  if (right < 70)
+    printf ("%d of 72 read\n", right);
+  CHECK (right >= 70);
 }
 
 /* A brush that changes its colour on the way, smoothly, in stripes along it, or all at once: an arrow by its form is one
@@ -264,7 +265,7 @@ many_colours_may_be_one (void)
   uint32_t state = 13;
   int      read[3] = { 0 };
 
-  for (int i = 0; i < 120; i++)
+  for (int i = 0; i < 72; i++)
     {
       double    w = random_between (&state, 4, 12), angle = random_between (&state, 0, 6.28);
       CeldArrowStyle style = STYLES[i % 4];
@@ -294,14 +295,14 @@ many_colours_may_be_one (void)
       forget (&answer);
       free (paint.data);
     }
-  CHECK (read[0] >= 18 && read[1] >= 18); /* heads and dots */
+  CHECK (read[0] >= 11 && read[1] >= 11); /* heads and dots */
 }
 
 /* Between 40 and 60 steps of 255 it is not clear whether colours are one: nothing is read from one to the other. */
 static void
 close_colours_stay_together (void)
 {
-  for (int i = 0; i < 60; i++)
+  for (int i = 0; i < 60; i += 3)
     {
       uint8_t   close[3] = { (uint8_t) (ORANGE[0] - i), ORANGE[1], (uint8_t) (ORANGE[2] + i / 2) };
       CeldArrowStyle style = STYLES[i % 4];
@@ -331,12 +332,10 @@ hidden_ends_are_unclear (void)
       {
         double    turn = degrees * 0.0174532925;
         Arrow     a = through ((Point) { 100, 100 }, 0.3, 160, 0.5, 7, STYLES[s]);
-        Arrow     b = through ((Point) { 100, 100 }, 0.3 + turn, 80, STYLES[s] == CELD_ARROW_DOT ? 1 : 0, 5, STYLES[s]);
+        Arrow     b = through ((Point) { 100, 100 }, 0.3 + turn, 80, 0, 5, STYLES[s]);
         CeldPaint paint = blank (SIZE, SIZE);
         Answer    answer;
 
-        if (STYLES[s] == CELD_ARROW_DOT) /* its tail lies there, too */
-          b = through ((Point) { 100, 100 }, 0.3 + turn, 80, 0, 5, STYLES[s]);
         lay (&paint, &b, BLUE);
         lay (&paint, &a, ORANGE);
         answer = read_paint (&paint, STYLES[s]);
