@@ -1,9 +1,9 @@
 /* A connected component of an arrows layer: the arrow that it is, or those whose strokes cross in it.
  *
  * Strokes of different colours are told apart by them (strand-colours.c), others by following them straight on
- * (strands.c).  A stroke of which another one may hide a part is not clear.  Where some
- * stroke is not, the colours may have been those of one stroke: if the component as a whole is an arrow it is that,
- * unless a part of it is another arrow by its form.
+ * (strands.c).  A stroke of which another one may hide a part is not clear.  Where some stroke is not, the colours may
+ * have been those of one stroke: if the component as a whole is an arrow it is that, unless a part of it is another one
+ * by its form.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

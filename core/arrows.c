@@ -1,8 +1,8 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
  * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
- * commonest colour) is one arrow; where strokes cross, they are followed straight on (strands.c).  Its form decides,
- * its colour only says whether registration may tear there (blue).
+ * commonest colour) is one arrow; where strokes cross, they are told apart by colour (strand-colours.c), or followed
+ * straight on (strands.c).  Its form decides, its colour only says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)
