@@ -22,7 +22,7 @@ CeldTint celd_tint_between (const CeldTint *a, const CeldTint *b, double t);
 double   celd_tints_differ (const CeldArrowLayer *layer, const CeldTint *a, const CeldTint *b, double noise);
 void     celd_tint_paint (const CeldArrowLayer *layer, const CeldTint *t, uint8_t rgba[4]);
 
-/* ------------------------------------------------------------------ colour-pieces.c */
+/* ------------------------------------------------------------------ colour-insides.c */
 
 /* A component, and its pieces of one colour each.  Painted pixels are numbered in reading order. */
 typedef struct
@@ -38,9 +38,59 @@ typedef struct
   double     *widths;   /* of those of each piece */
 } CeldPieces;
 
+/* Fills in all but `widths`; n < 2 if there are no two insides.  What was made is to be cleared also after failure. */
+CeldStatus celd_colour_insides_find (const CeldTrail *trail, const CeldArrowLayer *layer, CeldPieces *pieces);
+
+/* The width of lines whose pixels have this mean of squared depths in the paint. */
+double celd_lines_width (double squared);
+
+CeldPoint celd_pieces_middle (const CeldPieces *pieces, size_t pixel); /* in the cutting */
+CeldTint  celd_pieces_tint (const CeldPieces *pieces, const CeldArrowLayer *layer, size_t pixel); /* its own */
+
+/* The pixel at an offset, counted from 1; 0 if none is painted there. */
+uint32_t celd_pieces_near (const CeldPieces *pieces, size_t pixel, int dx, int dy);
+
+/* ------------------------------------------------------------------ colour-pieces.c */
+
 /* n < 2 if the component has one colour, or none that are clearly two. */
 CeldStatus celd_colour_pieces_find (const CeldTrail *trail, const CeldArrowLayer *layer, CeldPieces *pieces);
 void       celd_colour_pieces_clear (CeldPieces *pieces);
+
+/* ------------------------------------------------------------------ colour-contacts.c */
+
+#define CELD_MOST_CONTACTS 128 /* more are no arrows */
+#define CELD_GATHERED      2   /* pixels of one contact are no farther apart */
+#define CELD_SQUARE        (2 * CELD_GATHERED + 1)
+#define CELD_FARTHEST      8   /* widths of the thicker stroke, and a few pixels, that a stroke is hidden at most */
+
+/* Where a strand is next to other paint, and the arm that ends there. */
+typedef struct
+{
+  CeldPoint at, back;       /* middles of the contact, and of the arm some way behind it: in the cutting */
+  CeldPoint way;            /* of length 1, out of the arm */
+  double    width, reach;   /* of the arm; of the contact along it, from its middle */
+  bool      is_arm, passes; /* does an arm end here, or does the stroke go on both ways? */
+  CeldTint  tint;
+  uint32_t  piece;
+  size_t    n, mate;        /* pixels; the contact that it faces, CELD_NO_INDEX if none */
+} CeldContact;
+
+typedef struct
+{
+  const CeldArrowLayer *layer;
+  CeldPieces            pieces;
+  uint32_t             *parent;     /* of pieces: union-find of strands */
+  uint32_t             *contact_of; /* of each pixel: from 1; 0 = none */
+  CeldContact          *contact;
+  size_t                n_contacts;
+  size_t                band[CELD_MOST_CONTACTS / 2]; /* the contacts, with their mates, between which bands lie */
+  size_t                n_bands;
+  uint64_t             *bands;      /* of each pixel: a bit for every band that it is in */
+  bool                 *dropped;    /* strands that are only where others overlap */
+} CeldJoints;
+
+/* Fills in contacts, and joins the strands of those that face each other; *many is true if there are too many. */
+CeldStatus celd_colour_contacts_find (CeldJoints *joints, bool *many);
 
 /* ------------------------------------------------------------------ strand-colours.c */
 
