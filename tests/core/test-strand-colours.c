@@ -177,16 +177,18 @@ strands_are_whole (void)
     }
 }
 
-/* In every style, at angles from 20 degrees on, with alpha, on paper, and on paper that is spoiled. */
+/* In every style, at angles from 20 degrees on, with alpha, on paper, and on paper that is spoiled: most are read, and
+ * none wrongly. */
 static void
 two_that_cross (void)
 {
   uint32_t state = 5;
+  int      all = 0;
 
   for (size_t s = 0; s < 4; s++)
     for (int paper = 0; paper < 3; paper++)
       {
-        int right = 0, n = 8;
+        int right = 0, n = 10;
 
         for (int i = 0; i < n; i++)
           {
@@ -211,10 +213,12 @@ two_that_cross (void)
             forget (&answer);
             free (paint.data);
           }
-        if (right < 1.8 * n)
+        if (right < 1.7 * n)
           printf ("style %d, paper %d: %d of %d read\n", (int) STYLES[s], paper, right, 2 * n);
-        CHECK (right >= 1.8 * n);
+        CHECK (right >= 1.7 * n);
+        all += right;
       }
+  CHECK (all >= 0.95 * 240);
 }
 
 /* Soft, fading, pale at its rims, on rough paper, or spoiled: a stroke of one colour is one. */
