@@ -61,7 +61,6 @@ void       celd_colour_pieces_clear (CeldPieces *pieces);
 #define CELD_MOST_CONTACTS 128 /* more are no arrows */
 #define CELD_GATHERED      2   /* pixels of one contact are no farther apart */
 #define CELD_SQUARE        (2 * CELD_GATHERED + 1)
-#define CELD_FARTHEST      8   /* widths of the thicker stroke, and a few pixels, that a stroke is hidden at most */
 
 /* Where a strand is next to other paint, and the arm that ends there. */
 typedef struct

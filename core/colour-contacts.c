@@ -17,6 +17,7 @@
 #define ASIDE      0.5  /* of an arm's width, that the other one may lie off its line, */
 #define AWAY       0.25 /* and of the distance */
 #define MOST_RATIO 2.2  /* of the widths of both arms */
+#define FARTHEST   8    /* widths of the thicker stroke, and a few pixels, that a stroke is hidden at most */
 
 static bool
 touches_other (const CeldPieces *s, size_t pixel)
@@ -177,7 +178,7 @@ face (const CeldJoints *j, const CeldContact *a, const CeldContact *b, double *t
   double far = hypot (b->at.x - a->at.x, b->at.y - a->at.y);
 
   if (!a->is_arm || !b->is_arm || cosine < MOST_TURN || widest > MOST_RATIO * fmin (a->width, b->width) + 1 ||
-      far > CELD_FARTHEST * fmax (widest, j->pieces.width) + 12 ||
+      far > FARTHEST * fmax (widest, j->pieces.width) + 12 ||
       !lies_ahead (a, b->at, &off[0]) || !lies_ahead (b, a->at, &off[1]) ||
       celd_tints_differ (j->layer, &a->tint, &b->tint, CELD_LESS_NOISE) >= CELD_ALIKE ||
       !is_painted_between (&j->pieces.cutting, a->at, b->at))

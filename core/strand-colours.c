@@ -124,39 +124,25 @@ drop_overlaps (CeldJoints *j)
   return status;
 }
 
-/* Are two contacts of different strands clearly of different colours?  Such as are not next to each other may be alike:
- * two strokes of one colour may cross a third. */
-static bool
-is_clear (const CeldJoints *j, const CeldContact *a, const CeldContact *b, bool next)
-{
-  uint32_t s = celd_root (j->parent, a->piece), u = celd_root (j->parent, b->piece);
-  double   differ;
-
-  if (s == u || j->dropped[s] || j->dropped[u] || !(a->tint.strength > 0 && b->tint.strength > 0))
-    return true;
-  differ = celd_tints_differ (j->layer, &a->tint, &b->tint, CELD_LESS_NOISE);
-  return differ >= CELD_UNLIKE || (!next && differ < CELD_ALIKE);
-}
-
-/* Are strands that meet clearly of different colours? */
+/* Are strands that touch clearly of different colours? */
 static bool
 colours_are_clear (const CeldJoints *j)
 {
-  double near = CELD_FARTHEST * j->pieces.width + 12;
-
-  for (size_t a = 0; a < j->n_contacts; a++)
-    for (size_t b = a + 1; b < j->n_contacts; b++)
-      if (hypot (j->contact[a].at.x - j->contact[b].at.x, j->contact[a].at.y - j->contact[b].at.y) <= near &&
-          !is_clear (j, &j->contact[a], &j->contact[b], false))
-        return false;
   for (size_t i = 0; i < j->pieces.n_pixels; i++)
     for (int k = 0; k < CELD_SQUARE * CELD_SQUARE && j->contact_of[i]; k++)
       {
-        int      dx = k % CELD_SQUARE - CELD_GATHERED, dy = k / CELD_SQUARE - CELD_GATHERED;
-        uint32_t other = celd_pieces_near (&j->pieces, i, dx, dy);
+        int                dx = k % CELD_SQUARE - CELD_GATHERED, dy = k / CELD_SQUARE - CELD_GATHERED;
+        uint32_t           other = celd_pieces_near (&j->pieces, i, dx, dy), s, u;
+        const CeldContact *a, *b;
 
-        if (other && j->contact_of[other - 1] &&
-            !is_clear (j, &j->contact[j->contact_of[i] - 1], &j->contact[j->contact_of[other - 1] - 1], true))
+        if (!other || !j->contact_of[other - 1])
+          continue;
+        a = &j->contact[j->contact_of[i] - 1];
+        b = &j->contact[j->contact_of[other - 1] - 1];
+        s = celd_root (j->parent, a->piece);
+        u = celd_root (j->parent, b->piece);
+        if (s != u && !j->dropped[s] && !j->dropped[u] && a->tint.strength > 0 && b->tint.strength > 0 &&
+            celd_tints_differ (j->layer, &a->tint, &b->tint, CELD_LESS_NOISE) < CELD_UNLIKE)
           return false;
       }
   return true;
