@@ -152,7 +152,8 @@ strands_are_whole (void)
             bool           orange = c[1] > 45;
 
             n[orange]++;
-            mixed += hypot (c[0] - (orange ? 230 : 200), hypot (c[1] - (orange ? 90 : 0), c[2] - (orange ? 0 : 120))) > 20;
+            mixed += hypot (c[0] - (orange ? 230 : 200), hypot (c[1] - (orange ? 90 : 0), c[2] - (orange ? 0 : 120))) >
+                     20;
             CHECK (c[3] >= 128);
           }
       for (int y = 0; y < SIZE; y++) /* hidden pixels of the orange bar are in its strand */
@@ -261,8 +262,8 @@ one_colour_is_one (void)
   CHECK (right >= 70);
 }
 
-/* A brush that changes its colour on the way, smoothly, in stripes along it, or all at once: an arrow by its form is one
- * arrow or unclear, never two. */
+/* A brush that changes its colour on the way, smoothly, in stripes along it, or all at once: an arrow by its form is
+ * one arrow or unclear, never two. */
 static void
 many_colours_may_be_one (void)
 {
