@@ -100,6 +100,7 @@ typedef enum
   CELD_STEREO_OVER_UNDER, CELD_STEREO_INTERLACED, CELD_STEREO_GREY, CELD_STEREO_COLOUR, CELD_STEREO_HALF_COLOUR,
   CELD_STEREO_DUBOIS
 } CeldStereo;
+typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -160,6 +161,11 @@ typedef struct
   float disparity;              /* between depth 1 and 0, of both eyes, as a share of the width, [0,0.2]; 0.02 */
   CeldStereo stereo;            /* how two views come in one picture; side by side */
   float convergence;            /* which depth lies on the screen, from 0 farthest to 1 nearest; 0.5 */
+
+  /* relief, which also has the bulge */
+  CeldReliefFrom relief_from;   /* parts bulge by inflation, or as their normals say */
+  float relief_depth;           /* how far the nearest part stands before the farthest, as a share of the diagonal,
+                                 * [0,1]; 0.1 */
 } CeldSettings;
 
 CELD_API CeldSettings celd_settings (void);
@@ -568,6 +574,23 @@ CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSetti
 CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);
 CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
                                       CeldColours *joined);
+
+/* A surface over the picture, in pixels; larger = nearer, depth 0 is at 0. */
+#define CELD_CUT_RIGHT 1
+#define CELD_CUT_BELOW 2
+typedef struct
+{
+  int      width, height;
+  float   *z;                   /* of each pixel */
+  float   *outline;             /* and where the surface would end in front of something behind it */
+  uint8_t *cut;                 /* of each pixel, towards which neighbours the surface does not go on; also at the frame */
+} CeldRelief;
+
+/* Each part as round as the bulge says, as far in front as its depth says, and farther where it would run through
+ * something behind it; cut only where depth is.  `depth` is smooth; NULL: celd_smooth makes it.  Replaces `relief`. */
+CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                 const CeldSettings *settings, const CeldRun *run, CeldRelief *relief);
+CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ the session: the route, kept between edits */
 

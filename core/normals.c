@@ -22,8 +22,6 @@
 #define SPREAD   2.75   /* deviation of the Gaussian in pixels */
 #define COUPLING 2.f    /* of a pixel with its outline, 1 / distance */
 
-#define WINDOW   (2 * REACH + 1)
-
 #define FLAT     1.f    /* coupling of a pixel that shall face the viewer */
 
 /* What the outline of the picture's parts is made of. */
@@ -71,45 +69,6 @@ outward (const Outline *o, float near, int x, int y, int east, int south, double
   *ny    = length > 0 ? -my / length : 0;
 }
 
-/* Is the pixel (x,y) joined to its neighbour in the direction 0 right, 1 down, 2 left, 3 up? */
-static bool
-joined (const Outline *o, int x, int y, int direction)
-{
-  size_t i = (size_t) y * (size_t) o->width + (size_t) x;
-
-  switch (direction)
-    {
-    case 0:  return x + 1 < o->width && o->east[i] > 0;
-    case 1:  return y + 1 < o->height && o->south[i] > 0;
-    case 2:  return x > 0 && o->east[i - 1] > 0;
-    default: return y > 0 && o->south[i - (size_t) o->width] > 0;
-    }
-}
-
-/* Does the cut between the pixel (x,y) and its right or lower neighbour end nearby, so that there is a way round? */
-static bool
-way_round (const Outline *o, int x, int y, int east, int south)
-{
-  static const int step[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
-  bool             seen[WINDOW][WINDOW] = { { false } };
-  int              queue[WINDOW * WINDOW][2] = { { REACH, REACH } }, last = 1; /* places in the window round (x,y) */
-
-  seen[REACH][REACH] = true;
-  for (int first = 0; first < last && !seen[REACH + south][REACH + east]; first++)
-    for (int k = 0; k < 4; k++)
-      {
-        int u = queue[first][0], v = queue[first][1], s = u + step[k][0], t = v + step[k][1];
-
-        if (s < 0 || t < 0 || s >= WINDOW || t >= WINDOW || seen[t][s] || !joined (o, x + u - REACH, y + v - REACH, k))
-          continue;
-        seen[t][s]     = true;
-        queue[last][0] = s;
-        queue[last][1] = t;
-        last++;
-      }
-  return seen[REACH + south][REACH + east];
-}
-
 /* The edge from pixel (x,y) to its right or lower neighbour as outline of its nearer side. */
 static void
 hold_edge (const Outline *o, int x, int y, int east, int south, float *diagonal, float *b)
@@ -119,7 +78,7 @@ hold_edge (const Outline *o, int x, int y, int east, int south, float *diagonal,
   size_t near = o->level[p] > o->level[q] ? p : q;
   double nx, ny;
 
-  if (way_round (o, x, y, east, south))
+  if (celd_way_round (o->width, o->height, o->east, o->south, x, y, east))
     return;
   o->front[o->region.data[near]]                = 1;
   o->behind[o->region.data[near == p ? q : p]] = 1;

@@ -278,4 +278,8 @@ CeldStatus celd_depth_regions (int width, int height, const float *level, const 
 CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
                                float *east, float *south);
 
+/* way-round.c: is there a short way from the pixel (x,y) to its right, or else its lower neighbour, where pixels are
+ * joined by weights above 0, as in celd_lap_setup? */
+bool celd_way_round (int width, int height, const float *east, const float *south, int x, int y, bool right);
+
 #endif

@@ -29,6 +29,7 @@ celd_settings (void)
     .disparity       = 0.02f,
     .stereo          = CELD_STEREO_SIDE_BY_SIDE,
     .convergence     = 0.5f,
+    .relief_depth    = 0.1f,
   };
 }
 
@@ -59,7 +60,8 @@ celd_settings_check (const CeldSettings *s)
               within (s->shadow_size, 0.0005f, 0.2f) && within (s->shadow_strength, 0, 1) &&
               within (s->shadow_offset, 0, 0.2f) && within (s->shadow_range, 0, 1) &&
               within (s->disparity, 0, 0.2f) && within (s->convergence, 0, 1) &&
-              (unsigned) s->stereo <= CELD_STEREO_DUBOIS;
+              (unsigned) s->stereo <= CELD_STEREO_DUBOIS &&
+              (unsigned) s->relief_from <= CELD_RELIEF_NORMALS && within (s->relief_depth, 0, 1);
 
   return good ? CELD_OK : CELD_BAD_VALUE;
 }
