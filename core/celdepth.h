@@ -101,6 +101,7 @@ typedef enum
   CELD_STEREO_DUBOIS
 } CeldStereo;
 typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
+typedef enum { CELD_MESH_SURFACE, CELD_MESH_BODY } CeldMeshKind;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -166,6 +167,13 @@ typedef struct
   CeldReliefFrom relief_from;   /* parts bulge by inflation, or as their normals say */
   float relief_depth;           /* how far the nearest part stands before the farthest, as a share of the diagonal,
                                  * [0,1]; 0.1 */
+
+  /* mesh */
+  CeldMeshKind mesh;            /* a surface with cracks, or a closed body on a plate; a surface */
+  float mesh_size;              /* of the picture's longer side, in millimetres, [1,10000]; 100 */
+  float mesh_plate;             /* thickness of the plate, in millimetres, [0.1,1000]; 2 */
+  float mesh_error;             /* how far the mesh may be from the surface, in pixels, [0.01,100]; 0.5 */
+  float mesh_vertices;          /* at most; else the error grows; [1000,16000000]; 1000000 */
 } CeldSettings;
 
 CELD_API CeldSettings celd_settings (void);
@@ -576,14 +584,17 @@ CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours
                                       CeldColours *joined);
 
 /* A surface over the picture, in pixels; larger = nearer, depth 0 is at 0. */
-#define CELD_CUT_RIGHT 1
-#define CELD_CUT_BELOW 2
+#define CELD_CUT_RIGHT  1
+#define CELD_CUT_BELOW  2
+#define CELD_NEAR_RIGHT 4
+#define CELD_NEAR_BELOW 8
 typedef struct
 {
   int      width, height;
   float   *z;                   /* of each pixel */
   float   *outline;             /* and where the surface would end in front of something behind it */
-  uint8_t *cut;                 /* of each pixel, towards which neighbours the surface does not go on; also at the frame */
+  uint8_t *cut;                 /* of each pixel, towards which neighbours the surface does not go on, and which of them
+                                 * it is in front of */
 } CeldRelief;
 
 /* Each part as round as the bulge says, as far in front as its depth says, and farther where it would run through
@@ -591,6 +602,22 @@ typedef struct
 CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                  const CeldSettings *settings, const CeldRun *run, CeldRelief *relief);
 CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
+
+/* Triangles over the picture, which has its middle at x = y = 0, and depth 0 at z = 0. */
+typedef struct
+{
+  size_t    vertices, triangles;
+  float    *place;              /* of each vertex x, y, z: to the right, up, to the viewer, in millimetres */
+  float    *normal;             /* as many, unit length */
+  float    *art;                /* where it is in the picture: 0 .. 1 to the right and down */
+  uint32_t *corner;             /* three vertices of each triangle, counter-clockwise seen from outside */
+  double    error;              /* how far it is from the surface at most, in pixels */
+} CeldReliefMesh;
+
+/* CELD_BAD_VALUE also if settings->mesh_vertices are too few for the borders alone.  Replaces `mesh`. */
+CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run,
+                               CeldReliefMesh *mesh);
+CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ the session: the route, kept between edits */
 

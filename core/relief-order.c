@@ -7,7 +7,7 @@
  * minimizing  sum (u_p - u_q)^2 over what is not cut  +  sum u^2 / reach^2.  So parts move as a whole where nothing
  * holds them, and bend where they hang together with others; what is out of the way keeps its place.
  *
- * The shift is found for cells of some pixels (relief-cells.c), and smoothed over the surface.
+ * The shift is found for tiles of some pixels (relief-tiles.c), and smoothed over the surface.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 
 #define REACH  0.5   /* of a shift, as a share of the diagonal */
-#define SPREAD 0.75  /* deviation of the Gaussian that smooths it, in sides of a cell */
+#define SPREAD 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
 #define PASSES 3
 
 typedef struct
@@ -25,21 +25,21 @@ typedef struct
   const CeldSurface *surface;
   const float       *z, *depth;
   double             step;
-  CeldCells          cells;
-  CeldCellPair      *cut;
+  CeldTiles          tiles;
+  CeldTilePair      *cut;
   size_t             cuts;
   CeldStatus         status;
 } Order;
 
-/* ------------------------------------------------------------------ cuts between cells */
+/* ------------------------------------------------------------------ cuts between tiles */
 
 static void
 add_cut (void *data, size_t near, size_t far, bool right)
 {
   Order        *o = data;
   double        ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
-  uint32_t      a = o->cells.cell[near], b = o->cells.cell[far];
-  CeldCellPair *cut;
+  uint32_t      a = o->tiles.tile[near], b = o->tiles.tile[far];
+  CeldTilePair *cut;
 
   (void) right;
   if (a == b || o->status != CELD_OK)
@@ -50,21 +50,21 @@ add_cut (void *data, size_t near, size_t far, bool right)
       o->status = CELD_NO_MEMORY;
       return;
     }
-  cut[o->cuts++] = (CeldCellPair) { a, b, 1, (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
+  cut[o->cuts++] = (CeldTilePair) { a, b, 1, (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
   o->cut         = cut;
 }
 
 static int
 compare_cuts (const void *first, const void *second)
 {
-  const CeldCellPair *p = first, *q = second;
+  const CeldTilePair *p = first, *q = second;
 
   if (p->a != q->a)
     return p->a < q->a ? -1 : 1;
   return (p->b > q->b) - (p->b < q->b);
 }
 
-/* One cut for each pair of cells, which asks for the most. */
+/* One cut for each pair of tiles, which asks for the most. */
 static void
 merge_cuts (Order *o)
 {
@@ -83,9 +83,9 @@ merge_cuts (Order *o)
   o->cuts = n;
 }
 
-/* ------------------------------------------------------------------ from cells to pixels */
+/* ------------------------------------------------------------------ from tiles to pixels */
 
-/* Sums over the links of a cell, of which the slope follows by least squares. */
+/* Sums over the links of a tile, of which the slope follows by least squares. */
 typedef struct { double xx, xy, yy, xu, yu; } Slope;
 
 static void
@@ -98,9 +98,9 @@ add_slope (Slope *s, double weight, double x, double y, double u)
   s->yu += weight * y * u;
 }
 
-/* The slope of the shift in each cell, from the cells that it is linked with; as x in xu and y in yu. */
+/* The slope of the shift in each tile, from the tiles that it is linked with; as x in xu and y in yu. */
 static void
-find_slopes (const CeldCells *c, const double *shift, Slope *slope)
+find_slopes (const CeldTiles *c, const double *shift, Slope *slope)
 {
   for (size_t i = 0; i < c->links; i++)
     {
@@ -113,7 +113,7 @@ find_slopes (const CeldCells *c, const double *shift, Slope *slope)
   for (uint32_t k = 0; k < c->n; k++)
     {
       Slope *s = &slope[k];
-      double least = 0.01 * (s->xx + s->yy) + 1e-9; /* cells in a row tell nothing of the slope across */
+      double least = 0.01 * (s->xx + s->yy) + 1e-9; /* tiles in a row tell nothing of the slope across */
       double xx = s->xx + least, yy = s->yy + least, by = xx * yy - s->xy * s->xy, x = s->xu;
 
       s->xu = (yy * x - s->xy * s->yu) / by;
@@ -121,17 +121,17 @@ find_slopes (const CeldCells *c, const double *shift, Slope *slope)
     }
 }
 
-/* What cells shift by, each with its slope. */
+/* What tiles shift by, each with its slope. */
 static void
-spread_shift (const CeldSurface *s, const CeldCells *c, const double *of_cell, const Slope *slope, float *shift)
+spread_shift (const CeldSurface *s, const CeldTiles *c, const double *of_tile, const Slope *slope, float *shift)
 {
   size_t n = (size_t) s->width * (size_t) s->height, w = (size_t) s->width;
 
   for (size_t p = 0; p < n; p++)
     {
-      uint32_t k = c->cell[p];
+      uint32_t k = c->tile[p];
 
-      shift[p] = (float) (of_cell[k] + slope[k].xu * ((double) (p % w) - (double) c->x[k]) +
+      shift[p] = (float) (of_tile[k] + slope[k].xu * ((double) (p % w) - (double) c->x[k]) +
                           slope[k].yu * ((double) (p / w) - (double) c->y[k]));
     }
 }
@@ -175,23 +175,23 @@ smooth_shift (const CeldSurface *s, double deviation, float *shift)
     }
 }
 
-/* Shifts of cells, and from them those of pixels. */
+/* Shifts of tiles, and from them those of pixels. */
 static CeldStatus
 find_shift (const Order *o, double reach, const CeldRun *run, float *shift)
 {
-  size_t     n = o->cells.n;
-  double    *of_cell = celd_alloc (n, sizeof *of_cell);
+  size_t     n = o->tiles.n;
+  double    *of_tile = celd_alloc (n, sizeof *of_tile);
   Slope     *slope = celd_alloc0 (n, sizeof *slope);
-  CeldStatus status = of_cell && slope ? celd_shift_cells (&o->cells, o->cut, o->cuts, reach, run, of_cell)
+  CeldStatus status = of_tile && slope ? celd_shift_tiles (&o->tiles, o->cut, o->cuts, reach, run, of_tile)
                                        : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
-      find_slopes (&o->cells, of_cell, slope);
-      spread_shift (o->surface, &o->cells, of_cell, slope, shift);
-      smooth_shift (o->surface, SPREAD * o->cells.side, shift);
+      find_slopes (&o->tiles, of_tile, slope);
+      spread_shift (o->surface, &o->tiles, of_tile, slope, shift);
+      smooth_shift (o->surface, SPREAD * o->tiles.side, shift);
     }
-  celd_free (of_cell);
+  celd_free (of_tile);
   celd_free (slope);
   return status;
 }
@@ -214,7 +214,7 @@ celd_keep_order (const CeldSurface *surface, const float *z, const float *depth,
   Order o = { .surface = surface, .z = z, .depth = depth, .step = step };
 
   memset (shift, 0, (size_t) surface->width * (size_t) surface->height * sizeof *shift);
-  o.status = celd_cells_new (surface, &o.cells);
+  o.status = celd_tiles_new (surface, &o.tiles);
   if (o.status == CELD_OK)
     celd_surface_cuts (surface, add_cut, &o);
   if (o.status == CELD_OK)
@@ -223,7 +223,7 @@ celd_keep_order (const CeldSurface *surface, const float *z, const float *depth,
       if (!is_kept (&o))
         o.status = find_shift (&o, REACH * hypot (surface->width, surface->height), run, shift);
     }
-  celd_cells_clear (&o.cells);
+  celd_tiles_clear (&o.tiles);
   celd_free (o.cut);
   return o.status;
 }

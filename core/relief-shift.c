@@ -1,4 +1,4 @@
-/* The shifts of cells that keep what is nearer in front: minimizes over u
+/* The shifts of tiles that keep what is nearer in front: minimizes over u
  *
  *     sum over links  edges/side (u_a - u_b)^2  +  sum over pixels  u^2 / reach^2, or u^2 where it shall stay flat,
  *       +  STIFF sum over cuts  edges max (0, least - (u_a - u_b))^2,
@@ -20,8 +20,8 @@
 
 typedef struct
 {
-  const CeldCells    *cells;
-  const CeldCellPair *cut;
+  const CeldTiles    *tiles;
+  const CeldTilePair *cut;
   size_t              cuts;
   double              hold;     /* of a pixel at its place, unless it shall stay flat */
   uint8_t            *active;   /* of each cut */
@@ -34,11 +34,11 @@ lack (const Shift *s, const double *u, size_t i)
   return (double) s->cut[i].least - (u[s->cut[i].a] - u[s->cut[i].b]);
 }
 
-/* How strongly a cell is held at its place. */
+/* How strongly a tile is held at its place. */
 static double
 hold_of (const Shift *s, uint32_t k)
 {
-  return s->hold * (double) s->cells->area[k] + (double) s->cells->flat[k];
+  return s->hold * (double) s->tiles->area[k] + (double) s->tiles->flat[k];
 }
 
 static double
@@ -55,7 +55,7 @@ dot (const double *a, const double *b, size_t n)
 static void
 apply (const Shift *s, const double *v, bool with_cuts, double *to)
 {
-  const CeldCells *c = s->cells;
+  const CeldTiles *c = s->tiles;
 
   for (uint32_t k = 0; k < c->n; k++)
     to[k] = hold_of (s, k) * v[k];
@@ -80,7 +80,7 @@ apply (const Shift *s, const double *v, bool with_cuts, double *to)
 static void
 look (Shift *s)
 {
-  const CeldCells *c = s->cells;
+  const CeldTiles *c = s->tiles;
 
   apply (s, s->u, false, s->gradient);
   for (uint32_t k = 0; k < c->n; k++)
@@ -108,7 +108,7 @@ look (Shift *s)
 static void
 find_step (Shift *s)
 {
-  size_t n = s->cells->n;
+  size_t n = s->tiles->n;
   double left = 0, first;
 
   for (size_t k = 0; k < n; k++)
@@ -157,7 +157,7 @@ change_at (const Shift *s, double t, double slope, double bend)
 static double
 find_length (Shift *s)
 {
-  size_t n = s->cells->n;
+  size_t n = s->tiles->n;
   double low = 0, high = 1, slope, bend;
 
   apply (s, s->u, false, s->q);
@@ -184,7 +184,7 @@ find_length (Shift *s)
 static CeldStatus
 descend (Shift *s, const CeldRun *run)
 {
-  size_t n = s->cells->n;
+  size_t n = s->tiles->n;
   double first = 0;
 
   for (int i = 0; i < MOST_STEPS; i++)
@@ -209,12 +209,12 @@ descend (Shift *s, const CeldRun *run)
 }
 
 CeldStatus
-celd_shift_cells (const CeldCells *cells, const CeldCellPair *cut, size_t cuts, double reach, const CeldRun *run,
+celd_shift_tiles (const CeldTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach, const CeldRun *run,
                   double *shift)
 {
-  size_t     n = cells->n;
+  size_t     n = tiles->n;
   double    *space = celd_alloc0 (n, 6 * sizeof *space);
-  Shift      s = { .cells = cells, .cut = cut, .cuts = cuts, .hold = 1 / (reach * reach), .u = shift };
+  Shift      s = { .tiles = tiles, .cut = cut, .cuts = cuts, .hold = 1 / (reach * reach), .u = shift };
   CeldStatus status = CELD_NO_MEMORY;
 
   s.active = celd_alloc0 (cuts, 1);

@@ -60,6 +60,16 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
   return status;
 }
 
+static void
+mark_cut (void *data, size_t near, size_t far, bool right)
+{
+  CeldRelief *relief = data;
+  uint8_t    *cut = &relief->cut[near < far ? near : far];
+
+  *cut = (uint8_t) (*cut | (right ? CELD_CUT_RIGHT : CELD_CUT_BELOW) |
+                    (near > far ? 0 : right ? CELD_NEAR_RIGHT : CELD_NEAR_BELOW));
+}
+
 /* All of `relief`, of which there are the planes. */
 static CeldStatus
 make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
@@ -75,9 +85,9 @@ make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *
     {
       relief->outline[i] = (float) (scale * (double) p->depth[i]);
       relief->z[i]       = p->z[i] + relief->outline[i];
-      relief->cut[i]     = (uint8_t) ((surface->east[i] > 0 ? 0 : CELD_CUT_RIGHT) |
-                                      (surface->south[i] > 0 ? 0 : CELD_CUT_BELOW));
+      relief->cut[i]     = 0;
     }
+  celd_surface_cuts (surface, mark_cut, relief);
   if (status == CELD_OK)
     status = celd_keep_order (surface, relief->z, p->depth, STEP * scale, &ordering, p->shift);
   for (size_t i = 0; i < n; i++)

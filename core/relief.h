@@ -3,7 +3,7 @@
  *   relief-surface.c   where the surface is cut, which side ends there, what stays flat
  *   relief-round.c     how far it bulges
  *   relief-order.c     what is nearer stays in front,
- *   relief-cells.c     by shifts of cells,
+ *   relief-tiles.c     by shifts of tiles,
  *   relief-shift.c     which are a convex problem
  *   relief.c           the step
  *
@@ -42,31 +42,31 @@ CeldStatus celd_round_inflate (const CeldSurface *surface, double tolerance, con
 CeldStatus celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
                                  const CeldRun *run, float *height);
 
-/* ------------------------------------------------------------------ relief-cells.c */
+/* ------------------------------------------------------------------ relief-tiles.c */
 
-/* Two cells, with how many edges of pixels between them; across a cut, a in front of b, by how much the shift of a has
+/* Two tiles, with how many edges of pixels between them; across a cut, a in front of b, by how much the shift of a has
  * to be larger than that of b. */
-typedef struct { uint32_t a, b; float edges, least; } CeldCellPair;
+typedef struct { uint32_t a, b; float edges, least; } CeldTilePair;
 
 typedef struct
 {
   int           side;           /* of a block, in pixels */
-  uint32_t     *cell;           /* of each pixel */
+  uint32_t     *tile;           /* of each pixel */
   uint32_t      n;
-  float        *area;           /* of each cell, in pixels, */
+  float        *area;           /* of each tile, in pixels, */
   float        *flat;           /* and how many of them stay flat */
   float        *x, *y;          /* its middle */
-  CeldCellPair *link;           /* where the surface goes on; a pair may come several times */
+  CeldTilePair *link;           /* where the surface goes on; a pair may come several times */
   size_t        links;
-} CeldCells;
+} CeldTiles;
 
-CeldStatus celd_cells_new (const CeldSurface *surface, CeldCells *cells);
-void       celd_cells_clear (CeldCells *cells);               /* also what was made by half */
+CeldStatus celd_tiles_new (const CeldSurface *surface, CeldTiles *tiles);
+void       celd_tiles_clear (CeldTiles *tiles);               /* also what was made by half */
 
 /* ------------------------------------------------------------------ relief-shift.c */
 
-/* Shifts of the cells, the smallest and smoothest that keep the cuts, as relief-order.c has it. */
-CeldStatus celd_shift_cells (const CeldCells *cells, const CeldCellPair *cut, size_t cuts, double reach,
+/* Shifts of the tiles, the smallest and smoothest that keep the cuts, as relief-order.c has it. */
+CeldStatus celd_shift_tiles (const CeldTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach,
                              const CeldRun *run, double *shift);
 
 /* ------------------------------------------------------------------ relief-order.c */

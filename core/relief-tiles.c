@@ -1,6 +1,6 @@
-/* A surface in cells: blocks of the picture, parted further where the surface is cut.
+/* A surface in tiles: blocks of the picture, parted further where the surface is cut.
  *
- * What is smooth over the surface, as is a shift that keeps the order, needs no more than a value a cell.
+ * What is smooth over the surface, as is a shift that keeps the order, needs no more than a value a tile.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,7 +18,7 @@ end_of (int from, int side, int size)
   return from + side < size ? from + side : size;
 }
 
-/* ------------------------------------------------------------------ cells */
+/* ------------------------------------------------------------------ tiles */
 
 /* Does the surface go on everywhere in the block x .. end_x - 1, y .. end_y - 1? */
 static bool
@@ -60,53 +60,53 @@ join_block (const CeldSurface *s, int x, int y, int end_x, int end_y, uint32_t *
 }
 
 static void
-number_cells (const CeldSurface *s, CeldCells *cells)
+number_tiles (const CeldSurface *s, CeldTiles *tiles)
 {
   size_t    n = (size_t) s->width * (size_t) s->height;
-  uint32_t *cell = cells->cell;
+  uint32_t *tile = tiles->tile;
 
-  celd_roots (cell, n);
-  for (int y = 0; y < s->height; y += cells->side)
-    for (int x = 0; x < s->width; x += cells->side)
-      join_block (s, x, y, end_of (x, cells->side, s->width), end_of (y, cells->side, s->height), cell);
+  celd_roots (tile, n);
+  for (int y = 0; y < s->height; y += tiles->side)
+    for (int x = 0; x < s->width; x += tiles->side)
+      join_block (s, x, y, end_of (x, tiles->side, s->width), end_of (y, tiles->side, s->height), tile);
   for (size_t p = 0; p < n; p++) /* the parent comes before its child, so it has its number */
-    cell[p] = cell[p] == p ? cells->n++ : cell[cell[p]];
+    tile[p] = tile[p] == p ? tiles->n++ : tile[tile[p]];
 }
 
 static CeldStatus
-measure_cells (const CeldSurface *s, CeldCells *cells)
+measure_tiles (const CeldSurface *s, CeldTiles *tiles)
 {
-  const uint32_t *cell = cells->cell;
+  const uint32_t *tile = tiles->tile;
 
-  cells->area = celd_alloc0 (cells->n, sizeof *cells->area);
-  cells->flat = celd_alloc0 (cells->n, sizeof *cells->flat);
-  cells->x    = celd_alloc0 (cells->n, sizeof *cells->x);
-  cells->y    = celd_alloc0 (cells->n, sizeof *cells->y);
-  if (!cells->area || !cells->flat || !cells->x || !cells->y)
+  tiles->area = celd_alloc0 (tiles->n, sizeof *tiles->area);
+  tiles->flat = celd_alloc0 (tiles->n, sizeof *tiles->flat);
+  tiles->x    = celd_alloc0 (tiles->n, sizeof *tiles->x);
+  tiles->y    = celd_alloc0 (tiles->n, sizeof *tiles->y);
+  if (!tiles->area || !tiles->flat || !tiles->x || !tiles->y)
     return CELD_NO_MEMORY;
   for (int y = 0; y < s->height; y++)
-    for (int x = 0; x < s->width; x++, cell++)
+    for (int x = 0; x < s->width; x++, tile++)
       {
-        cells->area[*cell] += 1;
-        cells->flat[*cell] += s->flat[cell - cells->cell];
-        cells->x[*cell]    += (float) x;
-        cells->y[*cell]    += (float) y;
+        tiles->area[*tile] += 1;
+        tiles->flat[*tile] += s->flat[tile - tiles->tile];
+        tiles->x[*tile]    += (float) x;
+        tiles->y[*tile]    += (float) y;
       }
-  for (uint32_t k = 0; k < cells->n; k++)
+  for (uint32_t k = 0; k < tiles->n; k++)
     {
-      cells->x[k] /= cells->area[k];
-      cells->y[k] /= cells->area[k];
+      tiles->x[k] /= tiles->area[k];
+      tiles->y[k] /= tiles->area[k];
     }
   return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ what is between them */
 
-/* One more edge between two cells; it may belong to the pair before. */
+/* One more edge between two tiles; it may belong to the pair before. */
 static CeldStatus
-add_edge (CeldCellPair **list, size_t *n, uint32_t a, uint32_t b)
+add_edge (CeldTilePair **list, size_t *n, uint32_t a, uint32_t b)
 {
-  CeldCellPair *pair;
+  CeldTilePair *pair;
 
   if (*n && (*list)[*n - 1].a == a && (*list)[*n - 1].b == b)
     {
@@ -116,14 +116,14 @@ add_edge (CeldCellPair **list, size_t *n, uint32_t a, uint32_t b)
   pair = celd_grow (*list, *n + 1, sizeof *pair);
   if (!pair)
     return CELD_NO_MEMORY;
-  pair[(*n)++] = (CeldCellPair) { a, b, 1, 0 };
+  pair[(*n)++] = (CeldTilePair) { a, b, 1, 0 };
   *list        = pair;
   return CELD_OK;
 }
 
 /* Links of the block x .. end_x - 1, y .. end_y - 1 to the next ones. */
 static CeldStatus
-link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldCells *cells)
+link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldTiles *tiles)
 {
   size_t     w = (size_t) s->width;
   CeldStatus status = CELD_OK;
@@ -133,44 +133,44 @@ link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldCells 
       size_t p = (size_t) v * w + (size_t) end_x - 1;
 
       if (s->east[p] > 0)
-        status = add_edge (&cells->link, &cells->links, cells->cell[p], cells->cell[p + 1]);
+        status = add_edge (&tiles->link, &tiles->links, tiles->tile[p], tiles->tile[p + 1]);
     }
   for (int u = x; u < end_x && end_y < s->height && status == CELD_OK; u++)
     {
       size_t p = (size_t) (end_y - 1) * w + (size_t) u;
 
       if (s->south[p] > 0)
-        status = add_edge (&cells->link, &cells->links, cells->cell[p], cells->cell[p + w]);
+        status = add_edge (&tiles->link, &tiles->links, tiles->tile[p], tiles->tile[p + w]);
     }
   return status;
 }
 
 CeldStatus
-celd_cells_new (const CeldSurface *s, CeldCells *cells)
+celd_tiles_new (const CeldSurface *s, CeldTiles *tiles)
 {
   double     side = hypot (s->width, s->height) / BLOCKS;
   CeldStatus status;
 
-  *cells      = (CeldCells) { .side = side > LEAST ? (int) side : LEAST };
-  cells->cell = celd_alloc ((size_t) s->width * (size_t) s->height, sizeof *cells->cell);
-  if (!cells->cell)
+  *tiles      = (CeldTiles) { .side = side > LEAST ? (int) side : LEAST };
+  tiles->tile = celd_alloc ((size_t) s->width * (size_t) s->height, sizeof *tiles->tile);
+  if (!tiles->tile)
     return CELD_NO_MEMORY;
-  number_cells (s, cells);
-  status = measure_cells (s, cells);
-  for (int y = 0; y < s->height && status == CELD_OK; y += cells->side)
-    for (int x = 0; x < s->width && status == CELD_OK; x += cells->side)
-      status = link_block (s, x, y, end_of (x, cells->side, s->width), end_of (y, cells->side, s->height), cells);
+  number_tiles (s, tiles);
+  status = measure_tiles (s, tiles);
+  for (int y = 0; y < s->height && status == CELD_OK; y += tiles->side)
+    for (int x = 0; x < s->width && status == CELD_OK; x += tiles->side)
+      status = link_block (s, x, y, end_of (x, tiles->side, s->width), end_of (y, tiles->side, s->height), tiles);
   return status;
 }
 
 void
-celd_cells_clear (CeldCells *cells)
+celd_tiles_clear (CeldTiles *tiles)
 {
-  celd_free (cells->cell);
-  celd_free (cells->area);
-  celd_free (cells->flat);
-  celd_free (cells->x);
-  celd_free (cells->y);
-  celd_free (cells->link);
-  *cells = (CeldCells) { .side = 0 };
+  celd_free (tiles->tile);
+  celd_free (tiles->area);
+  celd_free (tiles->flat);
+  celd_free (tiles->x);
+  celd_free (tiles->y);
+  celd_free (tiles->link);
+  *tiles = (CeldTiles) { .side = 0 };
 }
