@@ -101,7 +101,7 @@ typedef enum
   CELD_STEREO_DUBOIS
 } CeldStereo;
 typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
-typedef enum { CELD_MESH_SURFACE, CELD_MESH_BODY } CeldMeshKind;
+typedef enum { CELD_MESH_AUTO, CELD_MESH_SURFACE, CELD_MESH_SOLID } CeldMeshKind;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -169,11 +169,11 @@ typedef struct
                                  * [0,1]; 0.1 */
 
   /* mesh */
-  CeldMeshKind mesh;            /* a surface with cracks, or a closed body on a plate; a surface */
+  CeldMeshKind mesh;            /* a surface with cracks (so is automatic in core), or a closed body on a plate */
   float mesh_size;              /* of the picture's longer side, in millimetres, [1,10000]; 100 */
   float mesh_plate;             /* thickness of the plate, in millimetres, [0.1,1000]; 2 */
   float mesh_error;             /* how far the mesh may be from the surface, in pixels, [0.01,100]; 0.5 */
-  float mesh_vertices;          /* at most; else the error grows; [1000,16000000]; 1000000 */
+  float most_vertices;          /* at most; else the error grows; [1000,16000000]; 1000000 */
 } CeldSettings;
 
 CELD_API CeldSettings celd_settings (void);
@@ -614,7 +614,7 @@ typedef struct
   double    error;              /* how far it is from the surface at most, in pixels */
 } CeldReliefMesh;
 
-/* CELD_BAD_VALUE also if settings->mesh_vertices are too few for the borders alone.  Replaces `mesh`. */
+/* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone.  Replaces `mesh`. */
 CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run,
                                CeldReliefMesh *mesh);
 CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */

@@ -249,7 +249,7 @@ choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldRun *run,
       status = celd_blocks_new (m->corners, m->relief, error / 2, blocks->width ? &others : &first, blocks);
       if (status == CELD_OK)
         status = mark_points (m, &others, n);
-      if (status != CELD_OK || (double) *n <= (double) settings->mesh_vertices)
+      if (status != CELD_OK || (double) *n <= (double) settings->most_vertices)
         break;
       if (error > COARSEST * (double) settings->mesh_error)
         return CELD_BAD_VALUE;
@@ -324,7 +324,7 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
   CeldBlocks  blocks = { .width = 0 };
   CeldPart    part[2];
   CeldRun     cornering = celd_run_part (&part[0], run, 0, 0.2), making = celd_run_part (&part[1], run, 0.2, 1);
-  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks, .solid = settings->mesh == CELD_MESH_BODY };
+  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks, .solid = settings->mesh == CELD_MESH_SOLID };
   CeldStatus  status = celd_corners_new (relief, &cornering, &corners);
 
   m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);

@@ -33,7 +33,7 @@ celd_settings (void)
     .mesh_size       = 100,
     .mesh_plate      = 2,
     .mesh_error      = 0.5f,
-    .mesh_vertices   = 1e6f,
+    .most_vertices   = 1e6f,
   };
 }
 
@@ -66,9 +66,9 @@ celd_settings_check (const CeldSettings *s)
               within (s->disparity, 0, 0.2f) && within (s->convergence, 0, 1) &&
               (unsigned) s->stereo <= CELD_STEREO_DUBOIS &&
               (unsigned) s->relief_from <= CELD_RELIEF_NORMALS && within (s->relief_depth, 0, 1) &&
-              (unsigned) s->mesh <= CELD_MESH_BODY && within (s->mesh_size, 1, 10000) &&
+              (unsigned) s->mesh <= CELD_MESH_SOLID && within (s->mesh_size, 1, 10000) &&
               within (s->mesh_plate, 0.1f, 1000) && within (s->mesh_error, 0.01f, 100) &&
-              within (s->mesh_vertices, 1000, 16e6f);
+              within (s->most_vertices, 1000, 16e6f);
 
   return good ? CELD_OK : CELD_BAD_VALUE;
 }

@@ -138,6 +138,23 @@ CeldIoStackKind celd_io_stack_kind (const char *path);
 /* Layers are asked for one by one, each once.  If paint gives up, nothing is written and the error is empty. */
 bool celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error);
 
+/* ------------------------------------------------------------------ meshes and heights */
+
+/* Heights in any unit: .exr (channel Y) and .tif as they are, floats; .png in 16 bits from the least, black, to
+ * the largest, white, which the header has as notes "celdepth:farthest" and "celdepth:nearest". */
+bool celd_io_write_heights (const char *path, const CeldPlane *heights, CeldIoError *error);
+
+/* By the ending of the name:
+ *   .glb   glTF 2.0, binary, metres; the art is its texture
+ *   .obj   Wavefront, millimetres; with NAME.mtl and the art as NAME-texture.png beside it
+ *   .ply   binary, millimetres; each vertex has the colour of the art there
+ *   .stl   binary, millimetres, without the art */
+typedef enum { CELD_IO_NO_MESH, CELD_IO_GLB, CELD_IO_OBJ, CELD_IO_PLY, CELD_IO_STL } CeldIoMeshKind;
+CeldIoMeshKind celd_io_mesh_kind (const char *path);
+
+/* The art is encoded as sRGB, straight alpha, and comes over white; NULL: none. */
+bool celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error);
+
 #ifdef __cplusplus
 }
 #endif

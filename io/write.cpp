@@ -278,6 +278,33 @@ write_light (const std::string &path, const CeldPlane &light)
   write_file (path, &picture, 1, nullptr, 0);
 }
 
+static void
+write_heights (const std::string &path, const CeldPlane &heights)
+{
+  const bool         png = format_of (path) == Format::png;
+  const size_t       width = size_t (heights.width), n = width * size_t (heights.height);
+  std::vector<float> shown (png ? n : 0);
+  float              low = heights.data[0], high = low;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      float value = heights.data[i / width * heights.stride + i % width];
+
+      low  = std::min (low, value);
+      high = std::max (high, value);
+    }
+  for (size_t i = 0; i < shown.size (); i++)
+    shown[i] = (heights.data[i / width * heights.stride + i % width] - low) / (high > low ? high - low : 1);
+
+  const CeldIoChannel channel = { "Y", png ? shown.data () : heights.data, 1,
+                                  png ? width : heights.stride };
+  const CeldIoNote    notes[] = { { note_farthest, nullptr, low }, { note_nearest, nullptr, high } };
+  const CeldIoPicture picture = { nullptr, heights.width, heights.height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, false,
+                                  &channel, 1 };
+
+  write_file (path, &picture, 1, notes, png ? 2 : 0);
+}
+
 // ------------------------------------------------------------------ the C face
 
 bool
@@ -300,6 +327,12 @@ bool
 celd_io_write_depth (const char *path, const CeldPlane *depth, float farthest, float nearest, CeldIoError *error)
 {
   return guarded ("write", path, error, [&] { write_depth (path, *depth, farthest, nearest); });
+}
+
+bool
+celd_io_write_heights (const char *path, const CeldPlane *heights, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_heights (path, *heights); });
 }
 
 bool

@@ -40,6 +40,10 @@ static const CliCommand commands[] = {
     "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
     "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png --right right.png \\\n"
     "      --disparity 0.03", cli_stereo },
+  { "relief", CLI_RELIEF, "LEVELS", "Rounds the parts of a drawing, as heights or as a mesh to look at or to print.",
+    "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr\n"
+    "  celdepth relief levels.npy --drawing bee.png --colours art.png --mesh bee.glb\n"
+    "  celdepth relief levels.npy --drawing bee.png --mesh bee.stl --bulge 0.3 --mesh-size 80", cli_relief },
   { "exact", CLI_EXACT, "DRAWING|LAYERED",
     "The smoothest depth that keeps every relation exactly, by the paper's quadratic program.",
     "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"

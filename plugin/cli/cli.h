@@ -6,7 +6,8 @@
  *   exact.c     exact                          report.c    --report
  *   enhance.c   enhance                        stereo.c    stereo
  *   stack.c     layers
- *   steps.c     order, expand, smooth, shade   messages.c  sentences on stderr
+ *   steps.c     order, expand, smooth, shade, relief
+ *   messages.c  sentences on stderr
  *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -27,7 +28,7 @@ enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 typedef enum
 {
   CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32,
-  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512
+  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024
 } CliSteps;
 
 /* File names are NULL where not given. */
@@ -39,7 +40,7 @@ typedef struct
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo;
-  char        *colours, *output, *light;
+  char        *colours, *output, *light, *smooth_depth, *height, *mesh;
   bool         quiet, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -117,6 +118,8 @@ bool cli_write_layer   (const char *path, const CeldPaint *layer);
 bool cli_write_normals (const char *path, const CeldVectors *normals);
 bool cli_write_shading (const char *path, const CeldPlane *shading);
 bool cli_write_colours (const char *path, const CeldColours *colours);
+bool cli_write_heights (const char *path, const CeldPlane *heights);
+bool cli_write_mesh    (const char *path, const CeldReliefMesh *mesh, const CeldColours *art);
 
 bool cli_plane_new (int width, int height, CeldPlane *plane);   /* end with g_free (data) */
 bool cli_labels_new (int width, int height, CeldLabels *labels);
@@ -200,5 +203,6 @@ int cli_exact   (const CliOptions *options);
 int cli_enhance (const CliOptions *options);
 int cli_stereo  (const CliOptions *options);
 int cli_layers  (const CliOptions *options);
+int cli_relief  (const CliOptions *options);
 
 #endif

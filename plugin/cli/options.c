@@ -15,11 +15,12 @@
 #define GIVES_LABELS   (CLI_POPUP | CLI_SEGMENT)
 #define MADE_OF_LABELS (GIVES_LABELS | CLI_LAYERS | CLI_STEREO)
 #define WITH_LAYERS    (MADE_OF_LABELS | CLI_EXACT)
-#define WITH_INK       (WITH_LAYERS | CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE)
+#define OF_LEVELS      (CLI_EXPAND | CLI_SMOOTH | CLI_SHADE | CLI_RELIEF)
+#define WITH_INK       (WITH_LAYERS | CLI_ORDER | OF_LEVELS)
 
 /* ------------------------------------------------------------------ files */
 
-typedef enum { INPUT, TEXT, OUTPUT, REPORT, STACK } FileKind; /* from OUTPUT on they are written */
+typedef enum { INPUT, TEXT, OUTPUT, REPORT, STACK, MESH } FileKind; /* from OUTPUT on they are written */
 
 typedef struct
 {
@@ -34,8 +35,8 @@ typedef struct
 #define MEMBER(name) offsetof (CliOptions, name)
 
 static const FileOption files[] = {
-  { "drawing", CLI_ORDER | CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, CLI_EXPAND | CLI_SMOOTH | CLI_SHADE, INPUT,
-    MEMBER (drawing), "DRAWING", "the drawing that belongs to it" },
+  { "drawing", CLI_ORDER | OF_LEVELS, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
+    "the drawing that belongs to it" },
   { "scribbles", WITH_LAYERS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour a region" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
     "virtual contours: red cuts, blue cuts regions only, green erases ink" },
@@ -74,11 +75,16 @@ static const FileOption files[] = {
   { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
   { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
   { "joined", CLI_STEREO, 0, OUTPUT, MEMBER (stereo), "OUT", "write both in one picture, see --stereo" },
-  { "colours", CLI_LAYERS | CLI_STEREO, 0, INPUT, MEMBER (colours), "PICTURE", "what is cut instead of the drawing" },
+  { "colours", CLI_LAYERS | CLI_STEREO | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
+    "what is cut, or laid over the mesh, instead of the drawing" },
   { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
     "what the layers are composited in: encoded colours (Krita), linear light (GIMP 3); encoded, but for .exr" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
     "write layers: .ora (OpenRaster), .exr (a part each), or a folder of PNG files" },
+  { "depth", CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "PICTURE",
+    "smooth depth as popup or smooth wrote it; without: made of the levels" },
+  { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT", "write heights, in pixels; .png from least to largest" },
+  { "mesh", CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT", "write a mesh: .glb, .obj, .ply, or .stl for printing" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT", "write what was found, as JSON" },
 };
 
@@ -107,7 +113,7 @@ typedef struct
 
 static const SettingOption settings[] = {
   { "ink", WITH_INK, CHOICE, MEMBER (ink), "auto|dark|light|alpha", "what is ink" },
-  { "ink-threshold", MADE_OF_LABELS | CLI_SMOOTH | CLI_SHADE, NUMBER, MEMBER (ink_threshold), "0-0.99",
+  { "ink-threshold", MADE_OF_LABELS | CLI_SMOOTH | CLI_SHADE | CLI_RELIEF, NUMBER, MEMBER (ink_threshold), "0-0.99",
     "ink at or below this is full ink; 0.25" },
   { "method", MADE_OF_LABELS, CHOICE, MEMBER (method), "basins|exact|walker",
     "find regions at the speed of the brush, by slow exact cuts, or a random walker" },
@@ -147,13 +153,13 @@ static const SettingOption settings[] = {
     "which pixels keep their level in smooth depth" },
   { "hold-rest", CLI_POPUP | CLI_STEREO | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
     "regions without an anchor keep their level in their core; yes" },
-  { "tolerance", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, NUMBER, MEMBER (tolerance), "0-0.1",
+  { "tolerance", CLI_POPUP | CLI_SMOOTH | CLI_EXACT | CLI_RELIEF, NUMBER, MEMBER (tolerance), "0-0.1",
     "largest error of smooth depth; 0.0001" },
   { "contrast", CLI_EXACT, NUMBER, MEMBER (contrast), "0.01-100",
     "how large a step of the ink parts depths, as a factor of the mean; 1" },
   { "weight-floor", CLI_EXACT, NUMBER, MEMBER (weight_floor), "0.000001-1",
     "how strongly neighbours hold together at least; 0.000001" },
-  { "bulge", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
+  { "bulge", CLI_POPUP | CLI_SHADE | CLI_RELIEF, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
   { "light-azimuth", CLI_POPUP | CLI_SHADE | CLI_ENHANCE, NUMBER, MEMBER (light_azimuth), "DEGREES",
     "0 from the right, 90 from above; 135" },
   { "light-elevation", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_elevation), "DEGREES", "90 from the viewer; 45" },
@@ -174,6 +180,19 @@ static const SettingOption settings[] = {
     "how far shadows fall away from the light, as a share of the diagonal; 0" },
   { "shadow-range", CLI_ENHANCE, NUMBER, MEMBER (shadow_range), "0-1",
     "from this share of all depth on shadows are full; 0" },
+  { "from", CLI_RELIEF, CHOICE, MEMBER (relief_from), "inflation|normals",
+    "parts bulge by inflation, or as their normals say; inflation" },
+  { "relief-depth", CLI_RELIEF, NUMBER, MEMBER (relief_depth), "0-1",
+    "how far the nearest level stands before the farthest, as a share of the diagonal; 0.1" },
+  { "mesh-kind", CLI_RELIEF, CHOICE, MEMBER (mesh), "auto|surface|solid",
+    "a surface with cracks where depth jumps, or closed, on a plate; auto: solid for .stl" },
+  { "mesh-size", CLI_RELIEF, NUMBER, MEMBER (mesh_size), "1-10000",
+    "length of the picture's longer side in millimetres; 100" },
+  { "mesh-plate", CLI_RELIEF, NUMBER, MEMBER (mesh_plate), "0.1-1000", "thickness of the plate in millimetres; 2" },
+  { "mesh-error", CLI_RELIEF, NUMBER, MEMBER (mesh_error), "0.01-100",
+    "how far the mesh may be from the heights, in pixels; 0.5" },
+  { "most-vertices", CLI_RELIEF, NUMBER, MEMBER (most_vertices), "1000-16000000",
+    "with more, the mesh is made coarser; 1000000" },
 };
 
 /* The place of a word in "a|b|c"; -1 if it is not there. */
@@ -338,6 +357,8 @@ check_files (const CliCommand *command, CliOptions *options)
         return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
       if (files[i].kind == STACK && !celd_io_stack_kind (name))
         return cli_error ("--%s %s: the ending must be .ora or .exr, or none for a folder.", files[i].name, name);
+      if (files[i].kind == MESH && !celd_io_mesh_kind (name))
+        return cli_error ("--%s %s: the ending must be .glb, .obj, .ply or .stl.", files[i].name, name);
       if (same_file (name, options->input))
         return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
       for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
@@ -354,6 +375,7 @@ check_files (const CliCommand *command, CliOptions *options)
                                command->step == CLI_SHADE ? "shading"
                                : command->step == CLI_ENHANCE ? "enhanced"
                                : command->step == CLI_STEREO ? "joined"
+                               : command->step == CLI_RELIEF ? "mesh"
                                : command->step == CLI_SEGMENT ? "labels" : "depth");
 }
 

@@ -284,3 +284,21 @@ cli_write_colours (const char *path, const CeldColours *colours)
     return cli_npy_write (path, colours->width, colours->height, 4, 4 * colours->stride, colours->data);
   return check_written (celd_io_write_colours (path, colours, &error), &error);
 }
+
+bool
+cli_write_heights (const char *path, const CeldPlane *heights)
+{
+  CeldIoError error;
+
+  if (cli_is_npy (path))
+    return cli_npy_write (path, heights->width, heights->height, 0, heights->stride, heights->data);
+  return check_written (celd_io_write_heights (path, heights, &error), &error);
+}
+
+bool
+cli_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art)
+{
+  CeldIoError error;
+
+  return check_written (celd_io_write_mesh (path, mesh, art, &error), &error);
+}

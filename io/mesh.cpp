@@ -1,0 +1,74 @@
+// Meshes in files, by the ending of the name.
+//
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "mesh.hpp"
+
+#include <OpenImageIO/strutil.h>
+
+static CeldIoMeshKind
+kind_of (const std::string &path)
+{
+  const std::string ending = std::filesystem::path (path).extension ().string ();
+
+  if (OIIO::Strutil::iequals (ending, ".glb"))
+    return CELD_IO_GLB;
+  if (OIIO::Strutil::iequals (ending, ".obj"))
+    return CELD_IO_OBJ;
+  if (OIIO::Strutil::iequals (ending, ".ply"))
+    return CELD_IO_PLY;
+  return OIIO::Strutil::iequals (ending, ".stl") ? CELD_IO_STL : CELD_IO_NO_MESH;
+}
+
+Bytes
+encode_texture (const CeldColours &art)
+{
+  const size_t       w = size_t (art.width);
+  std::vector<float> rgba (4 * w * size_t (art.height));
+
+  for (size_t i = 0; i < rgba.size () / 4; i++)
+    {
+      const float *from = art.data + 4 * (i / w * art.stride + i % w);
+
+      for (size_t k = 0; k < 3; k++)
+        rgba[4 * i + k] = from[k] * from[3] + 1 - from[3];
+      rgba[4 * i + 3] = 1;
+    }
+  return encode_png (art.width, art.height, rgba.data ());
+}
+
+static void
+write_mesh (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art)
+{
+  switch (kind_of (path))
+    {
+    case CELD_IO_GLB:
+      return write_gltf (path, mesh, art);
+    case CELD_IO_OBJ:
+      return write_obj (path, mesh, art);
+    case CELD_IO_PLY:
+      return write_ply (path, mesh, art);
+    case CELD_IO_STL:
+      return write_stl (path, mesh);
+    case CELD_IO_NO_MESH:
+      break;
+    }
+  throw IoFailure ("its ending is none of .glb .obj .ply .stl.");
+}
+
+// ------------------------------------------------------------------ the C face
+
+CeldIoMeshKind
+celd_io_mesh_kind (const char *path)
+{
+  CeldIoError    ignored;
+  CeldIoMeshKind kind = CELD_IO_NO_MESH;
+
+  guarded ("write", path, &ignored, [&] { kind = kind_of (path); });
+  return kind;
+}
+
+bool
+celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error)
+{
+  return guarded ("write", path, error, [&] { write_mesh (path, *mesh, art); });
+}
