@@ -334,7 +334,10 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
       status   = m.vertex ? make_mesh (&m, settings, &making, &blocks) : CELD_NO_MEMORY;
     }
   if (status == CELD_OK)
-    *mesh = m.mesh;
+    {
+      celd_relief_mesh_clear (mesh);
+      *mesh = m.mesh;
+    }
   else
     celd_relief_mesh_clear (&m.mesh);
   celd_corners_clear (&corners);

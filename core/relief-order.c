@@ -19,6 +19,8 @@
 #define REACH  0.5   /* of a shift, as a share of the diagonal */
 #define SPREAD 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
 #define PASSES 3
+#define SLACK  0.25f /* pixels that a nearer side may be behind, after smoothing */
+#define MOST_TURNS 6
 
 typedef struct
 {
@@ -26,8 +28,10 @@ typedef struct
   const float       *z, *depth;
   double             step;
   CeldTiles          tiles;
-  CeldTilePair      *cut;
+  CeldTilePair      *cut;       /* in order of a and b once they are merged */
   size_t             cuts;
+  const float       *shift;
+  bool               kept;
   CeldStatus         status;
 } Order;
 
@@ -50,7 +54,8 @@ add_cut (void *data, size_t near, size_t far, bool right)
       o->status = CELD_NO_MEMORY;
       return;
     }
-  cut[o->cuts++] = (CeldTilePair) { a, b, 1, (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
+  cut[o->cuts++] = (CeldTilePair) { .a = a, .b = b, .edges = 1,
+                                      .least = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
   o->cut         = cut;
 }
 
@@ -207,6 +212,48 @@ is_kept (const Order *o)
   return true;
 }
 
+/* What smoothing has put out of order is asked for on top. */
+static void
+ask_for_more (void *data, size_t near, size_t far, bool right)
+{
+  Order       *o = data;
+  float        behind = o->z[far] + o->shift[far] - (o->z[near] + o->shift[near]);
+  CeldTilePair pair = { .a = o->tiles.tile[near], .b = o->tiles.tile[far] }, *found;
+
+  (void) right;
+  if (behind <= SLACK || pair.a == pair.b)
+    return;
+  found        = bsearch (&pair, o->cut, o->cuts, sizeof pair, compare_cuts);
+  found->more  = fmaxf (found->more, behind);
+  o->kept      = false;
+}
+
+/* Shifts until the order is kept. */
+static CeldStatus
+keep_cuts (Order *o, const CeldRun *run, float *shift)
+{
+  double     reach = REACH * hypot (o->surface->width, o->surface->height);
+  CeldStatus status = CELD_OK;
+
+  o->kept  = is_kept (o);
+  o->shift = shift;
+  for (int i = 0; i < MOST_TURNS && !o->kept && status == CELD_OK; i++)
+    {
+      CeldPart part;
+      CeldRun  turn = celd_run_part (&part, run, (double) i / MOST_TURNS, (double) (i + 1) / MOST_TURNS);
+
+      status  = find_shift (o, reach, &turn, shift);
+      o->kept = true;
+      celd_surface_cuts (o->surface, ask_for_more, o);
+      for (size_t k = 0; k < o->cuts; k++)
+        {
+          o->cut[k].least += o->cut[k].more;
+          o->cut[k].more = 0;
+        }
+    }
+  return status;
+}
+
 CeldStatus
 celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldRun *run,
                  float *shift)
@@ -220,8 +267,7 @@ celd_keep_order (const CeldSurface *surface, const float *z, const float *depth,
   if (o.status == CELD_OK)
     {
       merge_cuts (&o);
-      if (!is_kept (&o))
-        o.status = find_shift (&o, REACH * hypot (surface->width, surface->height), run, shift);
+      o.status = keep_cuts (&o, run, shift);
     }
   celd_tiles_clear (&o.tiles);
   celd_free (o.cut);

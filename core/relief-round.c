@@ -4,8 +4,7 @@
  * which it goes on, behind something nearer, behind the frame or over a virtual border; the height is sqrt f.  Of a
  * disc that makes a hemisphere, of an ellipse an ellipsoid, and from part to part through a virtual border it is smooth.
  *
- * From normals: the height whose slopes are nearest to theirs, -n_x / n_z and n_y / n_z, 0 at the same outlines.  There
- * slopes have no end, so n_z counts as 0.15 at least.
+ * From normals: the height whose slopes are nearest to theirs, -n_x / n_z and n_y / n_z, 0 at the same outlines.
  *
  * What is flat is held at 0.  Outlines run on edges of pixels, half a pixel from the centres that they hold.
  *
@@ -16,7 +15,7 @@
 #include <math.h>
 
 #define COUPLING   2.f /* of a pixel with its outline: 1 / distance */
-#define LEAST_NZ   0.15f
+#define LEAST_NZ   0.1f /* of the sum of two */
 #define ROUGH      1e-5 /* of the largest f: heights are roots, and small parts count as much as large ones */
 
 /* A system on its way. */
@@ -27,18 +26,25 @@ typedef struct
   float             *diagonal, *b;
 } Round;
 
-/* Slope of the surface at pixel i, to the right or down. */
+/* Slope between two points with these normals, to the right or down.  On a circle, the line through two of its points
+ * is at right angles to the sum of their normals. */
 static float
-slope_at (const CeldVectors *normals, size_t i, bool right)
+slope_of (const float *p, const float *q, bool right)
 {
-  size_t       w = (size_t) normals->width;
-  const float *n = CELD_XYZ (normals, i % w, i / w);
-  float        nz = n[2] > LEAST_NZ ? n[2] : LEAST_NZ;
+  float nz = fmaxf (p[2] + q[2], LEAST_NZ);
 
-  return right ? -n[0] / nz : n[1] / nz;
+  return right ? -(p[0] + q[0]) / nz : (p[1] + q[1]) / nz;
 }
 
-/* The nearer side's outline is at height 0, and half a pixel of slope away. */
+static const float *
+normal_at (const Round *r, size_t i)
+{
+  size_t w = (size_t) r->normals->width;
+
+  return CELD_XYZ (r->normals, i % w, i / w);
+}
+
+/* The nearer side's outline is at height 0 and half a pixel away, with a normal that lies in the picture. */
 static void
 hold_outline (void *data, size_t near, size_t far, bool right)
 {
@@ -48,14 +54,21 @@ hold_outline (void *data, size_t near, size_t far, bool right)
     return;
   r->diagonal[near] += COUPLING;
   if (r->normals)
-    r->b[near] += COUPLING * 0.5f * slope_at (r->normals, near, right) * (near < far ? -1.f : 1.f);
+    {
+      const float *n = normal_at (r, near);
+      float        flat = hypotf (n[0], n[1]), end[3] = { 0, 0, 0 };
+
+      for (int k = 0; k < 2 && flat > 0; k++)
+        end[k] = n[k] / flat;
+      r->b[near] += COUPLING * 0.5f * slope_of (n, end, right) * (near < far ? -1.f : 1.f);
+    }
 }
 
 /* What the neighbours p and q should differ by goes to both equations. */
 static void
 want_rise (Round *r, size_t p, size_t q, bool right)
 {
-  float rise = 0.5f * (slope_at (r->normals, p, right) + slope_at (r->normals, q, right));
+  float rise = slope_of (normal_at (r, p), normal_at (r, q), right);
 
   r->b[p] -= rise;
   r->b[q] += rise;

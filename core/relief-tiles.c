@@ -116,7 +116,7 @@ add_edge (CeldTilePair **list, size_t *n, uint32_t a, uint32_t b)
   pair = celd_grow (*list, *n + 1, sizeof *pair);
   if (!pair)
     return CELD_NO_MEMORY;
-  pair[(*n)++] = (CeldTilePair) { a, b, 1, 0 };
+  pair[(*n)++] = (CeldTilePair) { .a = a, .b = b, .edges = 1 };
   *list        = pair;
   return CELD_OK;
 }

@@ -136,7 +136,10 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
   if (status == CELD_OK)
     status = make_relief (&surface, ink, levels, settings, &making, &p, &made);
   if (status == CELD_OK)
-    *relief = made;
+    {
+      celd_relief_clear (relief);
+      *relief = made;
+    }
   else
     celd_relief_clear (&made);
   celd_surface_clear (&surface);

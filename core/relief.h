@@ -45,8 +45,8 @@ CeldStatus celd_round_integrate (const CeldSurface *surface, const CeldVectors *
 /* ------------------------------------------------------------------ relief-tiles.c */
 
 /* Two tiles, with how many edges of pixels between them; across a cut, a in front of b, by how much the shift of a has
- * to be larger than that of b. */
-typedef struct { uint32_t a, b; float edges, least; } CeldTilePair;
+ * to be larger than that of b, and how much more that will have to be. */
+typedef struct { uint32_t a, b; float edges, least, more; } CeldTilePair;
 
 typedef struct
 {

@@ -90,6 +90,14 @@ ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
            { CELD_LUMO_SHADING, "Shading", "shading" },
            { CELD_LUMO_NORMALS, "Normals", "normals" })
 
+ENUM_TYPE (celd_relief_from_get_type, "CeldReliefFrom",
+           { CELD_RELIEF_INFLATION, "Inflation", "inflation" },
+           { CELD_RELIEF_NORMALS, "Normals", "normals" })
+
+ENUM_TYPE (celd_relief_unit_get_type, "CeldReliefUnit",
+           { CELD_RELIEF_RELATIVE, "From 0 to 1", "relative" },
+           { CELD_RELIEF_PIXELS, "In pixels", "pixels" })
+
 ENUM_TYPE (celd_expand_result_get_type, "CeldExpandResult",
            { CELD_EXPAND_LEVELS, "Levels: ink given to its owner", "levels" },
            { CELD_EXPAND_LAYER, "Layer: the drawing cut up, one layer of it", "layer" },

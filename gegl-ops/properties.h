@@ -23,9 +23,11 @@ GType celd_purpose_get_type     (void);
 GType celd_suggest_get_type     (void);
 GType celd_enhance_get_type     (void);
 GType celd_expansion_get_type   (void);
+GType celd_relief_from_get_type (void);
 
 typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
 typedef enum { CELD_ENHANCED_ART, CELD_ENHANCED_LAYER, CELD_ENHANCED_VIEW } CeldEnhanceResult;
+typedef enum { CELD_RELIEF_RELATIVE, CELD_RELIEF_PIXELS } CeldReliefUnit;
 typedef enum { CELD_EXPAND_LEVELS, CELD_EXPAND_LAYER, CELD_EXPAND_MATTE } CeldExpandResult;
 typedef enum { CELD_SEGMENT_LABELS, CELD_SEGMENT_CLOSURES, CELD_SEGMENT_PROBLEMS } CeldSegmentResult;
 typedef enum
@@ -36,6 +38,7 @@ typedef enum
 
 GType celd_lumo_result_get_type    (void);
 GType celd_enhance_result_get_type (void);
+GType celd_relief_unit_get_type    (void);
 GType celd_expand_result_get_type  (void);
 GType celd_segment_result_get_type (void);
 GType celd_popup_result_get_type   (void);

@@ -392,6 +392,32 @@ shadows_are_those_of_core (void)
 }
 
 static void
+heights_are_those_of_core (void)
+{
+  GeglBuffer  *input = page_buffer ("Y float", "Y float", levels.data);
+  GeglBuffer  *smooth = page_buffer ("Y float", "Y float", depth.data);
+  Pads         pads = { { input, drawing, smooth } }, without = { { input, drawing } };
+  CeldSettings settings = celd_settings ();
+  CeldRelief   relief = { 0 };
+
+  settings.bulge = 0.5f;
+  CHECK (celd_relief (&ink, &levels, &depth, &settings, NULL, &relief) == CELD_OK);
+  operate ("celdepth:relief", pads, "Y float", result, "unit", 1, "bulge", 0.5, NULL);
+  SAME (relief.z, 1);
+  operate ("celdepth:relief", pads, "Y float", result, "bulge", 0.5, NULL);
+  NEAR (range (result, PIXELS), 1, 1e-6);
+  settings.relief_from  = CELD_RELIEF_NORMALS;
+  settings.relief_depth = 0.3f;
+  CHECK (celd_relief (&ink, &levels, NULL, &settings, NULL, &relief) == CELD_OK);
+  operate ("celdepth:relief", without, "Y float", result, "unit", 1, "bulge", 0.5, "from", CELD_RELIEF_NORMALS,
+           "relief-depth", 0.3, NULL);
+  SAME (relief.z, 1);
+  celd_relief_clear (&relief);
+  g_object_unref (input);
+  g_object_unref (smooth);
+}
+
+static void
 light_is_that_of_core (void)
 {
   GeglBuffer *input = page_buffer ("Y float", "Y float", levels.data);
@@ -583,6 +609,7 @@ main (int argc, char **argv)
   RUN (depth_is_that_of_core);
   RUN (exact_depth_is_that_of_core);
   RUN (shadows_are_those_of_core);
+  RUN (heights_are_those_of_core);
   RUN (light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (method_is_that_of_core);

@@ -21,7 +21,7 @@ missing_pads_are_named (void)
   static const struct { const char *operation, *pad; } cases[] = {
     { "celdepth:virtual-contours", "Contours" }, { "celdepth:depth-expand", "Drawing" },
     { "celdepth:depth-smooth", "Drawing" }, { "celdepth:lumo-shade", "Drawing" },
-    { "celdepth:depth-enhance", "Levels" },
+    { "celdepth:depth-enhance", "Levels" }, { "celdepth:relief", "Drawing" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
@@ -186,7 +186,7 @@ empty_and_single_pixels_do_no_harm (void)
   static const char *const operations[] = {
     "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
     "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:depth-enhance",
-    "celdepth:popup",
+    "celdepth:relief", "celdepth:popup",
   };
   GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
   GeglBuffer *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));

@@ -24,6 +24,7 @@ static const struct { const char *name; const char *pads; const char *properties
     "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
+  { "celdepth:relief", "aux2 aux input", "unit from bulge relief-depth ink ink-threshold tolerance" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
     "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
@@ -114,6 +115,8 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:lazybrush-segment", "result", "labels closures problems" },
     { "celdepth:depth-enhance", "result", "art layer view" },
     { "celdepth:depth-enhance", "enhance", "stack darken contrast" },
+    { "celdepth:relief", "unit", "relative pixels" },
+    { "celdepth:relief", "from", "inflation normals" },
     { "celdepth:popup", "ink", "auto dark light alpha" },
     { "celdepth:popup", "method", "basins exact walker" },
     { "celdepth:popup", "background", "auto none colour" },
