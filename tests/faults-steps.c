@@ -633,6 +633,60 @@ unsharp_step (const CeldRun *run, Results *r)
   return celd_enhance (&levels, &unsharp, run, &change);
 }
 
+/* All of a relief as its heights. */
+static CeldStatus
+make_relief (const CeldSettings *how, const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldRelief relief = { 0 };
+  CeldStatus status = celd_relief (&ink, &levels, NULL, how, run, &relief);
+
+  if (status == CELD_OK)
+    memcpy (r->pixels->plane, relief.z, sizeof r->pixels->plane);
+  celd_relief_clear (&relief);
+  return status;
+}
+
+static CeldStatus
+relief_step (const CeldRun *run, Results *r)
+{
+  return make_relief (&settings, run, r);
+}
+
+static CeldStatus
+relief_of_normals_step (const CeldRun *run, Results *r)
+{
+  CeldSettings of_normals = settings;
+
+  of_normals.relief_from = CELD_RELIEF_NORMALS;
+  return make_relief (&of_normals, run, r);
+}
+
+/* A body of two levels, of which the pixels' own heights are the first. */
+static CeldStatus
+relief_mesh_step (const CeldRun *run, Results *r)
+{
+  static float   z[W * H];
+  static uint8_t cut[W * H];
+  CeldRelief     relief = { W, H, z, z, cut };
+  CeldSettings   solid = settings;
+  CeldReliefMesh mesh = { 0 };
+  CeldStatus     status;
+
+  solid.mesh = CELD_MESH_SOLID;
+  for (int p = 0; p < W * H; p++)
+    {
+      z[p]   = p % W > 20 ? (float) (p / W) : 0;
+      cut[p] = p % W == 20 ? CELD_CUT_RIGHT : 0;
+    }
+  status = celd_relief_mesh (&relief, &solid, run, &mesh);
+  if (status == CELD_OK)
+    for (int p = 0; p < W * H; p++)
+      r->pixels->plane[p] = mesh.place[(size_t) p % (3 * mesh.vertices)];
+  celd_relief_mesh_clear (&mesh);
+  return status;
+}
+
 /* A grid of 8 x 6 nodes, of which four labels hold the corners and quarrel about the rest. */
 static size_t
 draw_graph (CeldLink *link, CeldVote *vote)
@@ -730,6 +784,9 @@ const Step steps[] = {
   { "stereo", stereo_step, NULL, true },
   { "enhance", enhance_step, NULL, true },
   { "unsharp", unsharp_step, NULL, true },
+  { "relief", relief_step, NULL, true },
+  { "relief of normals", relief_of_normals_step, NULL, true },
+  { "relief mesh", relief_mesh_step, NULL, true },
   { "flow", flow_step, NULL, true },
   { "partition", partition_step, NULL, true },
   { "quadratic", quadratic_step, NULL, false },
