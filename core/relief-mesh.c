@@ -206,7 +206,8 @@ cross (const float *a, const float *b, const float *c, double normal[3])
     normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
 }
 
-/* Of each vertex the mean of its triangles, by their areas. */
+/* Of each vertex the mean of the surface's triangles, by their areas.  Walls do not count, for the surface would look
+ * bent at every border; the bottom looks down. */
 static void
 find_normals (CeldReliefMesh *mesh)
 {
@@ -216,7 +217,7 @@ find_normals (CeldReliefMesh *mesh)
       double          normal[3];
 
       cross (mesh->place + 3 * v[0], mesh->place + 3 * v[1], mesh->place + 3 * v[2], normal);
-      for (int k = 0; k < 3; k++)
+      for (int k = 0; k < 3 && normal[2] > 0; k++)
         for (int j = 0; j < 3; j++)
           mesh->normal[3 * v[k] + (uint32_t) j] += (float) normal[j];
     }
@@ -226,7 +227,10 @@ find_normals (CeldReliefMesh *mesh)
       double x = (double) n[0], y = (double) n[1], z = (double) n[2], length = sqrt (x * x + y * y + z * z);
 
       if (!(length > 0))
-        z = length = 1;
+        {
+          z      = -1;
+          length = 1;
+        }
       n[0] = (float) (x / length);
       n[1] = (float) (y / length);
       n[2] = (float) (z / length);
