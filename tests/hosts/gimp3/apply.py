@@ -75,7 +75,8 @@ def people(bits):
     labels = step(drawing, 'lazybrush-segment', 'labels', {'aux': scribbles, 'aux2': arrows})
     order = step(labels, 'depth-order', 'order', {'aux': arrows, 'aux2': drawing})
     levels = step(order, 'depth-expand', 'levels', {'aux': drawing, 'aux2': labels})
-    step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
+    depth = step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
+    step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
     for result in ('shading', 'normals'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)
     step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows})
