@@ -43,7 +43,7 @@ celd_corner_point (const CeldCorners *corners, int x, int y, int direction)
 {
   size_t c = celd_corner_at (corners, x, y);
 
-  return corners->first[c] + (corners->piece[c] >> 2 * direction & 3u);
+  return corners->first[c] + (uint32_t) (corners->piece[c] >> 2 * direction & 3);
 }
 
 /* ------------------------------------------------------------------ relief-blocks.c */
