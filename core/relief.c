@@ -21,7 +21,7 @@ depth_scale (const CeldSurface *surface, const CeldSettings *settings)
   double most = 1;
 
   for (size_t p = 0; p < n; p++)
-    most = fmax (most, (double) surface->level[p]);
+    most = fmax (most, fabs ((double) surface->level[p]));
   return (double) settings->relief_depth * hypot (surface->width, surface->height) / most;
 }
 
