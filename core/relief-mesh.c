@@ -328,7 +328,8 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
   CeldBlocks  blocks = { .width = 0 };
   CeldPart    part[2];
   CeldRun     cornering = celd_run_part (&part[0], run, 0, 0.2), making = celd_run_part (&part[1], run, 0.2, 1);
-  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks, .solid = settings->mesh == CELD_MESH_SOLID };
+  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks,
+                        .solid = settings->mesh == CELD_MESH_SOLID };
   CeldStatus  status = celd_corners_new (relief, &cornering, &corners);
 
   m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);

@@ -165,6 +165,7 @@ static void
 smooth_shift (const CeldSurface *s, double deviation, float *shift)
 {
   size_t w = (size_t) s->width;
+  float *end = shift + w * (size_t) s->height;
 
   for (int i = 0; i < PASSES; i++)
     {
@@ -173,10 +174,10 @@ smooth_shift (const CeldSurface *s, double deviation, float *shift)
 
       for (int y = 0; y < s->height; y++)
         smooth_row (s->east + (size_t) y * w, s->width, share, shift + (size_t) y * w);
-      for (int y = 1; y < s->height; y++)
-        mix_rows (shift + (size_t) (y - 1) * w, s->south + (size_t) (y - 1) * w, s->width, share, shift + (size_t) y * w);
-      for (int y = s->height - 2; y >= 0; y--)
-        mix_rows (shift + (size_t) (y + 1) * w, s->south + (size_t) y * w, s->width, share, shift + (size_t) y * w);
+      for (float *v = shift; v + w < end; v += w)
+        mix_rows (v, s->south + (v - shift), s->width, share, v + w);
+      for (float *v = end - w; v > shift; v -= w)
+        mix_rows (v, s->south + (v - shift) - w, s->width, share, v - w);
     }
 }
 

@@ -2,7 +2,7 @@
  *
  * Inflation: f with  laplacian f = -4,  f = 0 where a region ends in front of another, and no slope across borders at
  * which it goes on, behind something nearer, behind the frame or over a virtual border; the height is sqrt f.  Of a
- * disc that makes a hemisphere, of an ellipse an ellipsoid, and from part to part through a virtual border it is smooth.
+ * disc that makes a hemisphere, of an ellipse an ellipsoid, and it is smooth from part to part across a virtual border.
  *
  * From normals: the height whose slopes are nearest to theirs, -n_x / n_z and n_y / n_z, 0 at the same outlines.
  *
@@ -96,7 +96,8 @@ solve (Round *r, double tolerance, const CeldRun *run, float *x)
   const CeldSurface *s = r->surface;
   size_t             n = (size_t) s->width * (size_t) s->height;
   CeldPart           part[2];
-  CeldRun            setting_up = celd_run_part (&part[0], run, 0, 0.3), solving = celd_run_part (&part[1], run, 0.3, 1);
+  CeldRun            setting_up = celd_run_part (&part[0], run, 0, 0.3);
+  CeldRun            solving = celd_run_part (&part[1], run, 0.3, 1);
   CeldLaplace       *laplace = NULL;
   CeldStatus         status = CELD_NO_MEMORY;
 

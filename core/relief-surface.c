@@ -11,7 +11,7 @@
 #include "relief.h"
 #include "unions.h"
 
-#define JOINED (-1.f) /* of a cut that will be none: the cuts that others look at stay as they are until all are found */
+#define JOINED (-1.f) /* of a cut that will be none; others see a cut until all are found */
 
 /* ------------------------------------------------------------------ regions */
 
@@ -80,12 +80,20 @@ round_up (float *weight, size_t n)
     weight[p] = weight[p] > 0 ? 1.f : 0.f;
 }
 
-/* Cuts of which both sides hang together may have a way round. */
+/* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
+static bool
+is_end (const CeldSurface *s, Regions *r, int x, int y, bool right)
+{
+  const uint32_t *region = &CELD_AT (&r->region, x, y);
+
+  return celd_root (r->parent, region[0]) == celd_root (r->parent, region[right ? 1 : s->width]) &&
+         celd_way_round (s->width, s->height, s->east, s->south, x, y, right);
+}
+
 static CeldStatus
 join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
 {
-  size_t          w = (size_t) s->width, n = w * (size_t) s->height;
-  const uint32_t *region = r->region.data;
+  size_t w = (size_t) s->width, n = w * (size_t) s->height;
 
   for (int y = 0; y < s->height; y++)
     {
@@ -95,11 +103,9 @@ join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
         {
           size_t p = (size_t) y * w + (size_t) x;
 
-          if (x + 1 < s->width && s->east[p] == 0 &&
-              celd_root (r->parent, region[p]) == celd_root (r->parent, region[p + 1]) && celd_way_round (s->width, s->height, s->east, s->south, x, y, true))
+          if (x + 1 < s->width && s->east[p] == 0 && is_end (s, r, x, y, true))
             s->east[p] = JOINED;
-          if (y + 1 < s->height && s->south[p] == 0 &&
-              celd_root (r->parent, region[p]) == celd_root (r->parent, region[p + w]) && celd_way_round (s->width, s->height, s->east, s->south, x, y, false))
+          if (y + 1 < s->height && s->south[p] == 0 && is_end (s, r, x, y, false))
             s->south[p] = JOINED;
         }
     }

@@ -21,7 +21,7 @@ typedef struct
 {
   int      width, height;
   float   *level;               /* of every pixel, finite */
-  float   *east, *south;        /* to the right and the lower neighbour: 1 where the surface goes on, 0 where it is cut */
+  float   *east, *south;        /* to the right and to the lower neighbour: 1 where it goes on, 0 where it is cut */
   uint8_t *flat;                /* does the pixel's region end nowhere, so that it stays flat? */
 } CeldSurface;
 

@@ -42,7 +42,8 @@ write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColour
     header += std::string ("property float ") + name + "\n";
   for (const char *name : { "red", "green", "blue" })
     header += std::string ("property uchar ") + name + "\n";
-  header += "element face " + std::to_string (mesh.triangles) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  header += "element face " + std::to_string (mesh.triangles) + "\n";
+  header += "property list uchar int vertex_indices\nend_header\n";
   writer.put (header);
   for (size_t i = 0; i < mesh.vertices; i++)
     {

@@ -11,8 +11,8 @@ static Picture
 picture (int w, int h)
 {
   size_t  n = (size_t) w * (size_t) h;
-  Picture p = { w, h, { w, h, (size_t) w, malloc (n * sizeof (float)) }, { w, h, (size_t) w, calloc (n, sizeof (float)) },
-                { 0 } };
+  Picture p = { w, h, { w, h, (size_t) w, malloc (n * sizeof (float)) },
+                { w, h, (size_t) w, calloc (n, sizeof (float)) }, { 0 } };
 
   for (size_t i = 0; i < n; i++)
     p.ink.data[i] = 1;
