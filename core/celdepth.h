@@ -93,6 +93,8 @@ typedef enum { CELD_ANCHORS_SCRIBBLES, CELD_ANCHORS_ARROWS, CELD_ANCHORS_BOTH, C
 typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED } CeldEncoding;
 typedef enum { CELD_SUGGEST_OFF, CELD_SUGGEST_FILL_GAPS, CELD_SUGGEST_ALL } CeldSuggest;
 typedef enum { CELD_EXPANSION_OUTLINES, CELD_EXPANSION_THICKNESS } CeldExpansion;
+typedef enum { CELD_LIGHT_DIRECTION, CELD_LIGHT_POINT } CeldLight;
+typedef enum { CELD_SHADING_LAMBERT, CELD_SHADING_HALF_LAMBERT, CELD_SHADING_TOON, CELD_SHADING_MATCAP } CeldShading;
 typedef enum { CELD_ENHANCE_STACK, CELD_ENHANCE_DARKEN, CELD_ENHANCE_CONTRAST } CeldEnhance;
 typedef enum
 {
@@ -144,11 +146,26 @@ typedef struct
   float contrast;               /* how large a step of the ink parts depths, as a factor of the mean, [0.01,100]; 1 */
   float weight_floor;           /* how strongly neighbours hold together at least, [1e-6,1]; 1e-6 */
 
-  /* normals and shading */
+  /* normals */
   float bulge;                  /* 0 flat .. 1 hemisphere .. 4 */
+  float bevel;                  /* parts bend so far from their outlines, as a share of the diagonal, [0,0.5]; 0: they are
+                                 * round all over */
+  float quilt;                  /* how much both sides of a stroke inside a part bend, [0,1]; 0 */
+  bool  frame_outline;          /* is the frame of the picture an outline, too? false */
+
+  /* shading */
+  CeldShading shading;
+  CeldLight   light;
   float light_azimuth;          /* degrees, 0 = from the right, 90 = from above */
   float light_elevation;        /* degrees above the picture, 90 = from the viewer */
+  float light_x, light_y;       /* of a point of light, in shares of the width and height, [-10,10]; 0.3, 0.2 */
+  float light_height;           /* how far before the picture it is, as a share of the diagonal, (0,10]; 0.3 */
   float ambient;                /* share of light that reaches every pixel, [0,1] */
+  int   toon_steps;             /* 2 .. 5; 3 */
+  float specular;               /* how bright highlights are, [0,1]; 0 */
+  float shininess;              /* how small they are, [1,1000]; 30 */
+  float rim;                    /* how bright rims are, [0,1]; 0 */
+  float rim_power;              /* how narrow they are, [0.1,20]; 3 */
 
   /* depth enhancement */
   CeldEnhance enhance;          /* regions cast shadows on those behind them, or unsharp masking of depth, which darkens
@@ -552,8 +569,29 @@ CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *se
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldRun *run, CeldVectors *normals);
 
-/* Lambert shading of normals by the light of the settings, in [0,1], linear light. */
+/* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends, if
+ * settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends its
+ * side, black does not, grey bends both. */
+CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                         const CeldPaint *hints, const CeldSettings *settings, const CeldRun *run,
+                                         CeldVectors *normals);
+
+/* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
+ * white the `gloss` of highlights and rims adds.  `matcap` is the picture of a lit ball that fills it, of any size, and is
+ * needed by CELD_SHADING_MATCAP alone, which is CELD_BAD_VALUE without. */
+CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSettings *settings,
+                                const CeldRun *run, CeldColours *tone, CeldPlane *gloss);
+/* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
+CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
+CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
+
+/* The same light on white art, in [0,1].  CELD_BAD_VALUE for CELD_SHADING_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
+
+/* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such
+ * pixel; farther away `blank` where the picture has no alpha at all.  Alpha stays: a game engine that blends
+ * neighbours then finds no seam. */
+CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldRun *run, CeldColours *picture);
 
 /* Depth enhancement (section 5, Figures 1d and 5c): the share of light that is taken from the art, or added, from -1
  * (black) over 0 (nothing) to 1 (twice as bright), linear.  `levels` are expanded; for the stack at most 256 of them are

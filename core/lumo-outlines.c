@@ -1,0 +1,328 @@
+/* Which sides of which edges bend, and where to.
+ *
+ * At a depth discontinuity the nearer side ends: there its normal lies in the picture and points outward.  The farther
+ * side goes on behind and gets nothing, unless a painted hint says otherwise.  Virtual borders neither cut nor give
+ * normals; nor do their ends, where they run into the ink of another contour: both sides of an outline must be apart
+ * all around.  What has no outline of its own faces the viewer: the paper stays flat behind a figure, also where a gap
+ * in the figure's contour joins both.
+ *
+ * The direction of an outline comes from the first moment of the matte "at least as near" under a Gaussian round the
+ * edge's middle: steps of pixels average out, and the outline goes on straight where something nearer hides it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "lumo.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define REACH  7      /* pixels round an edge that tell its direction, and whether there is a way round it */
+#define SPREAD 2.75   /* deviation of the Gaussian in pixels */
+#define WINDOW (2 * REACH + 1)
+
+typedef struct
+{
+  CeldLumo *lumo;
+  size_t    words;              /* of a row of bits */
+  uint64_t *east, *south;       /* a bit a pixel: is it joined to its neighbour? */
+  uint8_t  *front, *behind;     /* of each region: has it an outline, is it behind one? */
+  double    gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
+} Outlines;
+
+/* ------------------------------------------------------------------ ways round */
+
+static void
+set_bits (const float *weight, int n, uint64_t *bits)
+{
+  for (int x = 0; x < n; x += 64)
+    {
+      uint64_t word = 0;
+
+      for (int k = 0; k < 64 && x + k < n; k++)
+        word |= (uint64_t) (weight[x + k] > 0) << k;
+      bits[x / 64] = word;
+    }
+}
+
+/* The bits of the pixels x - REACH .. x + REACH of row y; 0 outside the picture. */
+static inline uint32_t
+window_row (const Outlines *o, const uint64_t *bits, int x, int y)
+{
+  const uint64_t *row = bits + (size_t) y * o->words;
+  int             from = x - REACH, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
+  uint64_t        low = word >= 0 ? row[word] : 0, high = (size_t) (word + 1) < o->words ? row[word + 1] : 0;
+
+  return (uint32_t) ((low >> shift) | (shift ? high << (64 - shift) : 0)) & ((1u << WINDOW) - 1);
+}
+
+/* What of a row can be reached from what is seen of it. */
+static inline uint32_t
+spread (uint32_t seen, uint32_t east)
+{
+  for (uint32_t before = 0; before != seen;)
+    {
+      before = seen;
+      seen |= (seen & east) << 1;
+      seen |= (seen >> 1) & east;
+    }
+  return seen & ((1u << WINDOW) - 1);
+}
+
+/* Does the cut between the pixel (x,y) and its right or lower neighbour end nearby, so that there is a way round? */
+static bool
+way_round (const Outlines *o, int x, int y, bool down)
+{
+  uint32_t east[WINDOW], south[WINDOW], seen[WINDOW] = { 0 };
+  bool     grown = true;
+  int      height = o->lumo->height;
+
+  for (int r = 0; r < WINDOW; r++)
+    {
+      int  v = y + r - REACH;
+      bool inside = v >= 0 && v < height;
+
+      east[r]  = inside ? window_row (o, o->east, x, v) & ((1u << (WINDOW - 1)) - 1) : 0;
+      south[r] = inside && r + 1 < WINDOW ? window_row (o, o->south, x, v) : 0;
+    }
+  seen[REACH] = 1u << REACH;
+  while (grown)
+    {
+      grown = false;
+      for (int k = 0; k < 2 * WINDOW; k++)
+        {
+          int      r = k < WINDOW ? k : 2 * WINDOW - 1 - k;
+          uint32_t now = seen[r];
+
+          now |= r > 0 ? seen[r - 1] & south[r - 1] : 0;
+          now |= r + 1 < WINDOW ? seen[r + 1] & south[r] : 0;
+          now   = now == seen[r] && r != REACH ? now : spread (now, east[r]);
+          grown = grown || now != seen[r];
+          seen[r] = now;
+        }
+      if (down ? seen[REACH + 1] >> REACH & 1 : seen[REACH] >> (REACH + 1) & 1)
+        return true;
+    }
+  return false;
+}
+
+/* ------------------------------------------------------------------ directions */
+
+static int
+clamp (int x, int size)
+{
+  return x < 0 ? 0 : x < size ? x : size - 1;
+}
+
+/* From the part of level `near` outwards, y down, at the edge from (x,y) to (x+east,y+south). */
+static void
+outward (const Outlines *o, float near, int x, int y, int east, int south, double *nx, double *ny)
+{
+  const CeldLumo *l = o->lumo;
+  double          mx = 0, my = 0, length;
+
+  for (int v = y - REACH + south; v <= y + REACH; v++)
+    {
+      const float *row = l->level + celd_lumo_pixel (l, 0, clamp (v, l->height));
+
+      for (int u = x - REACH + east; u <= x + REACH; u++)
+        if (row[clamp (u, l->width)] >= near)
+          {
+            int    du = 2 * (u - x) - east, dv = 2 * (v - y) - south; /* half pixels from the edge's middle */
+            double weight = o->gauss[abs (du)][abs (dv)];
+
+            mx += weight * du;
+            my += weight * dv;
+          }
+    }
+  length = hypot (mx, my);
+  *nx    = length > 0 ? -mx / length : 0;
+  *ny    = length > 0 ? -my / length : 0;
+}
+
+/* ------------------------------------------------------------------ holds */
+
+static CeldStatus
+add_hold (CeldLumo *l, size_t pixel, double x, double y)
+{
+  CeldHold *hold = celd_grow (l->hold, l->n_holds + 1, sizeof *hold);
+
+  if (!hold)
+    return CELD_NO_MEMORY;
+  hold[l->n_holds++] = (CeldHold) { pixel, (float) x, (float) y };
+  l->hold            = hold;
+  return CELD_OK;
+}
+
+static uint32_t
+region_of (const CeldLumo *l, size_t pixel)
+{
+  int    x = (int) (pixel % (size_t) l->width);
+  size_t y = pixel / (size_t) l->width, low = l->regions.row[y], high = l->regions.row[y + 1];
+
+  while (high - low > 1)
+    {
+      size_t middle = low + (high - low) / 2;
+
+      if (l->regions.stretch[middle].x <= x)
+        low = middle;
+      else
+        high = middle;
+    }
+  return l->regions.stretch[low].part;
+}
+
+/* A depth discontinuity: its nearer side bends, unless hints say otherwise. */
+static CeldStatus
+hold_edge (Outlines *o, int x, int y, bool down)
+{
+  CeldLumo  *l = o->lumo;
+  size_t     p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
+  size_t     near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
+  CeldSide   over = CELD_UNPAINTED, under = CELD_UNPAINTED;
+  double     nx, ny;
+  CeldStatus status = CELD_OK;
+
+  if (way_round (o, x, y, down))
+    return CELD_OK;
+  outward (o, l->level[near], x, y, !down, down, &nx, &ny);
+  if (l->hints)
+    {
+      double mx = x + (down ? 0.5 : 1), my = y + (down ? 1 : 0.5);
+
+      over  = celd_lumo_side (l, mx, my, -nx, -ny);
+      under = celd_lumo_side (l, mx, my, nx, ny);
+    }
+  o->behind[region_of (l, far)] = 1;
+  if (over != CELD_UNDER || under == CELD_BOTH)
+    {
+      o->front[region_of (l, near)] = 1;
+      status = add_hold (l, near, nx, -ny);
+    }
+  if (status == CELD_OK && (under == CELD_OVER || under == CELD_BOTH || over == CELD_BOTH))
+    {
+      o->front[region_of (l, far)] = 1;
+      status = add_hold (l, far, -nx, ny);
+    }
+  return status;
+}
+
+static CeldStatus
+hold_edges (Outlines *o, const CeldRun *run)
+{
+  CeldLumo  *l = o->lumo;
+  CeldStatus status = CELD_OK;
+  size_t     i = 0;
+
+  for (int y = 0; y < l->height && status == CELD_OK; y++)
+    {
+      status = y % 16 ? CELD_OK : celd_step (run, (double) y / l->height);
+      for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
+        {
+          if (x + 1 < l->width && l->east[i] <= 0 && !(l->level[i] >= l->level[i + 1] && l->level[i] <= l->level[i + 1]))
+            status = hold_edge (o, x, y, false);
+          if (status == CELD_OK && y + 1 < l->height && l->south[i] <= 0 &&
+              !(l->level[i] >= l->level[i + (size_t) l->width] && l->level[i] <= l->level[i + (size_t) l->width]))
+            status = hold_edge (o, x, y, true);
+        }
+    }
+  return status;
+}
+
+/* Both sides of strokes inside a part. */
+static CeldStatus
+hold_seams (Outlines *o)
+{
+  CeldLumo  *l = o->lumo;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < l->n_seams && status == CELD_OK; i++)
+    {
+      const CeldSeam *seam = &l->seam[i];
+      size_t          p = seam->pixel, q = p + (seam->down ? (size_t) l->width : 1);
+
+      if (way_round (o, (int) (p % (size_t) l->width), (int) (p / (size_t) l->width), seam->down))
+        continue;
+      o->front[region_of (l, p)] = 1;
+      for (int side = 0; side < 2 && status == CELD_OK; side++)
+        {
+          float s = side ? -seam->strength[1] : seam->strength[0];
+
+          if (seam->strength[side] > 0)
+            status = add_hold (l, side ? q : p, (double) (s * seam->x), (double) (-s * seam->y));
+        }
+    }
+  return status;
+}
+
+/* Where the frame cuts off what is not flat. */
+static CeldStatus
+hold_frame (CeldLumo *l)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < l->height; y++)
+    for (int x = 0; x < l->width; x += y > 0 && y + 1 < l->height && x == 0 && l->width > 1 ? l->width - 1 : 1)
+      {
+        size_t p = celd_lumo_pixel (l, x, y);
+
+        if (l->flat[region_of (l, p)])
+          continue;
+        if (status == CELD_OK && (x == 0 || x + 1 == l->width))
+          status = add_hold (l, p, (x + 1 == l->width) - (x == 0), 0);
+        if (status == CELD_OK && (y == 0 || y + 1 == l->height))
+          status = add_hold (l, p, 0, (y == 0) - (y + 1 == l->height));
+      }
+  return status;
+}
+
+/* ------------------------------------------------------------------ */
+
+static CeldStatus
+outlines_new (CeldLumo *l, Outlines *o)
+{
+  *o = (Outlines) { .lumo = l, .words = ((size_t) l->width + 63) / 64 };
+  o->east   = celd_alloc ((size_t) l->height * o->words, sizeof *o->east);
+  o->south  = celd_alloc ((size_t) l->height * o->words, sizeof *o->south);
+  o->front  = celd_alloc0 (l->regions.n + 1, 1);
+  o->behind = celd_alloc0 (l->regions.n + 1, 1);
+  if (!o->east || !o->south || !o->front || !o->behind)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < l->height; y++)
+    {
+      set_bits (l->east + celd_lumo_pixel (l, 0, y), l->width - 1, o->east + (size_t) y * o->words);
+      set_bits (l->south + celd_lumo_pixel (l, 0, y), l->width, o->south + (size_t) y * o->words);
+    }
+  for (int i = 0; i < 2 * REACH + 2; i++)
+    for (int j = 0; j < 2 * REACH + 2; j++)
+      o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (SPREAD * SPREAD));
+  return CELD_OK;
+}
+
+CeldStatus
+celd_lumo_outlines (CeldLumo *l, const CeldRun *run)
+{
+  Outlines   o = { 0 };
+  CeldPart   part[2];
+  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.3), holding = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus status = celd_parts_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
+
+  if (status != CELD_OK)
+    return status;
+  l->flat = celd_alloc0 (l->regions.n + 1, 1);
+  status  = l->flat ? outlines_new (l, &o) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = hold_edges (&o, &holding);
+  if (status == CELD_OK)
+    status = hold_seams (&o);
+  if (status == CELD_OK)
+    {
+      for (size_t k = 0; k < l->regions.n; k++)
+        l->flat[k] = o.behind[k] && !o.front[k];
+      status = l->settings->frame_outline ? hold_frame (l) : CELD_OK;
+    }
+  celd_free (o.east);
+  celd_free (o.south);
+  celd_free (o.front);
+  celd_free (o.behind);
+  return status;
+}
