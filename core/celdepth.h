@@ -94,7 +94,7 @@ typedef enum { CELD_ENCODING_NORMALIZED, CELD_ENCODING_RANK, CELD_ENCODING_FIXED
 typedef enum { CELD_SUGGEST_OFF, CELD_SUGGEST_FILL_GAPS, CELD_SUGGEST_ALL } CeldSuggest;
 typedef enum { CELD_EXPANSION_OUTLINES, CELD_EXPANSION_THICKNESS } CeldExpansion;
 typedef enum { CELD_LIGHT_DIRECTION, CELD_LIGHT_POINT } CeldLight;
-typedef enum { CELD_SHADING_LAMBERT, CELD_SHADING_HALF_LAMBERT, CELD_SHADING_TOON, CELD_SHADING_MATCAP } CeldShading;
+typedef enum { CELD_MODEL_LAMBERT, CELD_MODEL_HALF_LAMBERT, CELD_MODEL_TOON, CELD_MODEL_MATCAP } CeldLightModel;
 typedef enum { CELD_ENHANCE_STACK, CELD_ENHANCE_DARKEN, CELD_ENHANCE_CONTRAST } CeldEnhance;
 typedef enum
 {
@@ -154,8 +154,8 @@ typedef struct
   bool  frame_outline;          /* is the frame of the picture an outline, too? false */
 
   /* shading */
-  CeldShading shading;
-  CeldLight   light;
+  CeldLightModel light_model;   /* how surfaces take light */
+  CeldLight      light;
   float light_azimuth;          /* degrees, 0 = from the right, 90 = from above */
   float light_elevation;        /* degrees above the picture, 90 = from the viewer */
   float light_x, light_y;       /* of a point of light, in shares of the width and height, [-10,10]; 0.3, 0.2 */
@@ -164,7 +164,7 @@ typedef struct
   int   toon_steps;             /* 2 .. 5; 3 */
   float specular;               /* how bright highlights are, [0,1]; 0 */
   float shininess;              /* how small they are, [1,1000]; 30 */
-  float rim;                    /* how bright rims are, [0,1]; 0 */
+  float rim_light;              /* how bright rims are, [0,1]; 0 */
   float rim_power;              /* how narrow they are, [0.1,20]; 3 */
 
   /* depth enhancement */
@@ -578,14 +578,14 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
 
 /* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
  * white the `gloss` of highlights and rims adds.  `matcap` is the picture of a lit ball that fills it, of any size, and is
- * needed by CELD_SHADING_MATCAP alone, which is CELD_BAD_VALUE without. */
+ * needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSettings *settings,
                                 const CeldRun *run, CeldColours *tone, CeldPlane *gloss);
 /* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
 CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
 
-/* The same light on white art, in [0,1].  CELD_BAD_VALUE for CELD_SHADING_MATCAP. */
+/* The same light on white art, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
 /* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such
@@ -598,6 +598,10 @@ CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const Cel
  * told apart.  Not a number reads as 0.  CELD_BAD_VALUE for bad settings. */
 CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
                                   CeldPlane *change);
+/* Ambient occlusion: the share of light that the stack leaves, from 1 (all) down to 1 - shadow_strength, without an
+ * offset whatever the settings say. */
+CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+                                    CeldPlane *occlusion);
 /* Such a change applied to art; what it takes, as a black layer to put over the art; and applied to a grey picture of
  * the levels, the nearest white: what an artist sees of depth while drawing (Figure 5c).  Linear light. */
 CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);

@@ -146,3 +146,18 @@ celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldR
   return settings->enhance == CELD_ENHANCE_STACK ? celd_shadows (levels, deviation, settings, run, change)
                                                  : unsharp_mask (levels, deviation, settings, run, change);
 }
+
+CeldStatus
+celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run, CeldPlane *occlusion)
+{
+  CeldSettings even = *settings;
+  CeldStatus   status;
+
+  even.enhance       = CELD_ENHANCE_STACK;
+  even.shadow_offset = 0;
+  status             = celd_enhance (levels, &even, run, occlusion);
+  for (int y = 0; y < occlusion->height && status == CELD_OK; y++)
+    for (int x = 0; x < occlusion->width; x++)
+      CELD_AT (occlusion, x, y) += 1;
+  return status;
+}

@@ -228,6 +228,23 @@ hold_edges (Outlines *o, const CeldRun *run)
   return status;
 }
 
+static bool
+is_open (const Outlines *o, const CeldSeam *seam)
+{
+  size_t w = (size_t) o->lumo->width;
+
+  return way_round (o, (int) (seam->pixel % w), (int) (seam->pixel / w), seam->down);
+}
+
+/* Strokes that are painted to bend are outlines of their region. */
+static void
+mark_painted_seams (Outlines *o)
+{
+  for (size_t i = 0; i < o->lumo->n_seams; i++)
+    if (o->lumo->seam[i].painted && !is_open (o, &o->lumo->seam[i]))
+      o->front[region_of (o->lumo, o->lumo->seam[i].pixel)] = 1;
+}
+
 /* Both sides of strokes inside a part. */
 static CeldStatus
 hold_seams (Outlines *o)
@@ -240,9 +257,8 @@ hold_seams (Outlines *o)
       const CeldSeam *seam = &l->seam[i];
       size_t          p = seam->pixel, q = p + (seam->down ? (size_t) l->width : 1);
 
-      if (way_round (o, (int) (p % (size_t) l->width), (int) (p / (size_t) l->width), seam->down))
+      if (l->flat[region_of (l, p)] || is_open (o, seam))
         continue;
-      o->front[region_of (l, p)] = 1;
       for (int side = 0; side < 2 && status == CELD_OK; side++)
         {
           float s = side ? -seam->strength[1] : seam->strength[0];
@@ -313,13 +329,14 @@ celd_lumo_outlines (CeldLumo *l, const CeldRun *run)
   if (status == CELD_OK)
     status = hold_edges (&o, &holding);
   if (status == CELD_OK)
-    status = hold_seams (&o);
-  if (status == CELD_OK)
     {
+      mark_painted_seams (&o);
       for (size_t k = 0; k < l->regions.n; k++)
         l->flat[k] = o.behind[k] && !o.front[k];
-      status = l->settings->frame_outline ? hold_frame (l) : CELD_OK;
+      status = hold_seams (&o);
     }
+  if (status == CELD_OK && l->settings->frame_outline)
+    status = hold_frame (l);
   celd_free (o.east);
   celd_free (o.south);
   celd_free (o.front);

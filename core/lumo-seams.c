@@ -1,7 +1,7 @@
 /* Strokes inside a part: wrinkles, folds, seams, which need not end what they are drawn on.
  *
  * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a seam of a quilt, or of
- * smooth depth that differs there the higher side alone.  Painted hints come before that, as in [Joh02]: white beside a
+ * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come before that, as in [Joh02]: white beside a
  * line makes its side bend ("over"), black lets it run on ("under"), grey bends both sides; at outlines, too.
  *
  * The middle of a stroke runs where the nearest paper changes from one side to the other: on the medial axis.  Its
@@ -113,8 +113,8 @@ across (const CeldLumo *l, const Flank *p, const Flank *q, double *nx, double *n
 
 /* ------------------------------------------------------------------ what bends */
 
-/* How much both sides bend. */
-static void
+/* How much both sides bend; is that painted? */
+static bool
 strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny, float strength[2])
 {
   const CeldLumo *l = s->lumo;
@@ -132,7 +132,7 @@ strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny,
 
       strength[0] = both || side[0] == CELD_OVER ? 1 : 0;
       strength[1] = both || side[1] == CELD_OVER ? 1 : 0;
-      return;
+      return true;
     }
   strength[0] = strength[1] = l->settings->quilt;
   if (l->depth)
@@ -146,6 +146,7 @@ strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny,
       if (a - b > s->slight)
         strength[1] = 0;
     }
+  return false;
 }
 
 static CeldStatus
@@ -154,13 +155,13 @@ look_at_edge (Seams *s, int x, int y, bool down)
   CeldLumo *l = s->lumo;
   size_t    i = celd_lumo_pixel (l, x, y);
   Flank     p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
-  CeldSeam  seam = { (uint32_t) i, down, 0, 0, { 0, 0 } }, *grown;
+  CeldSeam  seam = { (uint32_t) i, down, false, 0, 0, { 0, 0 } }, *grown;
   double    nx, ny;
 
   if (!is_middle (s, &p, &q))
     return CELD_OK;
   across (l, &p, &q, &nx, &ny);
-  strengths (s, &p, &q, nx, ny, seam.strength);
+  seam.painted = strengths (s, &p, &q, nx, ny, seam.strength);
   if (!(seam.strength[0] > 0) && !(seam.strength[1] > 0))
     return CELD_OK;
   grown = celd_grow (l->seam, l->n_seams + 1, sizeof *grown);

@@ -23,7 +23,7 @@ typedef enum { CELD_UNPAINTED, CELD_UNDER, CELD_BOTH, CELD_OVER } CeldSide;
 typedef struct
 {
   uint32_t pixel;
-  bool     down;
+  bool     down, painted;       /* painted: a hint says so */
   float    x, y;                /* unit vector across, from the pixel to its neighbour; y down */
   float    strength[2];         /* how much the pixel and its neighbour bend there, 0 .. 1 */
 } CeldSeam;

@@ -66,11 +66,11 @@ celd_settings_check (const CeldSettings *s)
               s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->contrast, 0.01f, 100) &&
               within (s->weight_floor, 1e-6f, 1) && within (s->bulge, 0, 4) &&
               within (s->bevel, 0, 0.5f) && within (s->quilt, 0, 1) &&
-              (unsigned) s->shading <= CELD_SHADING_MATCAP && (unsigned) s->light <= CELD_LIGHT_POINT &&
+              (unsigned) s->light_model <= CELD_MODEL_MATCAP && (unsigned) s->light <= CELD_LIGHT_POINT &&
               within (s->light_azimuth, -360, 360) && within (s->light_elevation, -90, 90) &&
               within (s->light_x, -10, 10) && within (s->light_y, -10, 10) && within (s->light_height, 0.001f, 10) &&
               within (s->ambient, 0, 1) && s->toon_steps >= 2 && s->toon_steps <= 5 &&
-              within (s->specular, 0, 1) && within (s->shininess, 1, 1000) && within (s->rim, 0, 1) &&
+              within (s->specular, 0, 1) && within (s->shininess, 1, 1000) && within (s->rim_light, 0, 1) &&
               within (s->rim_power, 0.1f, 20) && (unsigned) s->enhance <= CELD_ENHANCE_CONTRAST &&
               within (s->shadow_size, 0.0005f, 0.2f) && within (s->shadow_strength, 0, 1) &&
               within (s->shadow_offset, 0, 0.2f) && within (s->shadow_range, 0, 1) &&

@@ -142,10 +142,10 @@ bands (const Scene *s, Measure measure, int steps, int x, int y)
 static double
 lit_at (const Scene *s, int x, int y)
 {
-  switch (s->settings->shading)
+  switch (s->settings->light_model)
     {
-    case CELD_SHADING_HALF_LAMBERT: return half_lambert (s, x, y);
-    case CELD_SHADING_TOON:         return bands (s, lambert, s->settings->toon_steps, x, y);
+    case CELD_MODEL_HALF_LAMBERT: return half_lambert (s, x, y);
+    case CELD_MODEL_TOON:         return bands (s, lambert, s->settings->toon_steps, x, y);
     default:                        return lambert (s, x, y);
     }
 }
@@ -153,13 +153,13 @@ lit_at (const Scene *s, int x, int y)
 static double
 gloss_at (const Scene *s, int x, int y)
 {
-  bool   toon = s->settings->shading == CELD_SHADING_TOON;
+  bool   toon = s->settings->light_model == CELD_MODEL_TOON;
   double sum = 0;
 
   if (s->settings->specular > 0)
     sum += (double) s->settings->specular * (toon ? bands (s, highlight, 2, x, y) : highlight (s, x, y));
-  if (s->settings->rim > 0)
-    sum += (double) s->settings->rim * (toon ? bands (s, rim, 2, x, y) : rim (s, x, y));
+  if (s->settings->rim_light > 0)
+    sum += (double) s->settings->rim_light * (toon ? bands (s, rim, 2, x, y) : rim (s, x, y));
   return fmin (sum, 1);
 }
 
@@ -212,7 +212,7 @@ light_row (void *data, int y)
     {
       float *tone = CELD_RGBA (s->tone, x, y);
 
-      if (s->settings->shading == CELD_SHADING_MATCAP)
+      if (s->settings->light_model == CELD_MODEL_MATCAP)
         matcap_at (s, x, y, tone);
       else
         tone[0] = tone[1] = tone[2] = (float) (ambient + (1 - ambient) * lit_at (s, x, y));
@@ -229,7 +229,7 @@ celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSet
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-  if (settings->shading == CELD_SHADING_MATCAP && (!matcap || !CELD_SAME_SIZE (matcap, matcap)))
+  if (settings->light_model == CELD_MODEL_MATCAP && (!matcap || !CELD_SAME_SIZE (matcap, matcap)))
     return CELD_BAD_VALUE;
 
   Scene s = scene (normals, settings);
@@ -280,7 +280,7 @@ celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane 
 {
   if (!CELD_SAME_SIZE (normals, shading))
     return CELD_BAD_SIZE;
-  if (celd_settings_check (settings) != CELD_OK || settings->shading == CELD_SHADING_MATCAP)
+  if (celd_settings_check (settings) != CELD_OK || settings->light_model == CELD_MODEL_MATCAP)
     return CELD_BAD_VALUE;
 
   Scene  s = scene (normals, settings);

@@ -253,6 +253,16 @@ tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
   add_to_message (op, text);
 }
 
+/* A picture that is no layer. */
+static gboolean
+check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
+{
+  if (gegl_rectangle_is_infinite_plane (r) || r->width > CELD_MAX_SIDE || r->height > CELD_MAX_SIDE)
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is too large. Scale it down, or crop it.", pad->label,
+                         pad->name);
+  return TRUE;
+}
+
 /* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
 static gboolean
 check_pad (CeldOp *op, const CeldPad *pad)
@@ -263,15 +273,17 @@ check_pad (CeldOp *op, const CeldPad *pad)
   if (is_open_picker (op, pad->name))
     {
       op->choosing = TRUE;
-      return !pad->required;
+      return pad->required != TRUE;
     }
   if (!r)
-    return !pad->required ||
+    return pad->required != TRUE ||
            celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);
   if (!r->width || !r->height)
     return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or see whether its "
                              "file can be read.",
                          pad->label, pad->name);
+  if (pad->required == CELD_PAD_SAMPLE)
+    return check_sample (op, pad, r);
   if (!gegl_rectangle_intersect (NULL, r, p))
     return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
                          "Move it over the picture, or give it the picture's size.",

@@ -33,12 +33,15 @@
 
 typedef struct _CeldOp CeldOp;
 
+/* TRUE: an operation cannot do without this pad.  A sample may be missing, has a size of its own, and lies nowhere. */
+enum { CELD_PAD_SAMPLE = 2 };
+
 /* An input pad as the host shows it. */
 typedef struct
 {
-  const char *name;                /* "input", "aux", "aux2", "aux3" */
+  const char *name;                /* "input", "aux", "aux2", ... */
   const char *label, *description;
-  gboolean    required;
+  gboolean    required;            /* or CELD_PAD_SAMPLE */
 } CeldPad;
 
 typedef struct
@@ -111,6 +114,7 @@ gboolean celd_op_read_paint   (CeldOp *op, const char *pad, CeldPaint *paint);  
 gboolean celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing);
 gboolean celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours);  /* linear */
 gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink);
+gboolean celd_op_read_sample  (CeldOp *op, const char *pad, CeldColours *colours);  /* linear, its own size */
 
 /* Pictures of the size of the call; not cleared. */
 gboolean celd_op_new_plane   (CeldOp *op, CeldPlane *plane);
@@ -135,7 +139,6 @@ void celd_op_get_colour (GeglColor *colour, uint8_t rgb[3]);
 gboolean celd_op_write         (CeldOp *op, const void *pixels);
 gboolean celd_op_write_drawing (CeldOp *op, const CeldDrawing *drawing);
 gboolean celd_op_write_paint   (CeldOp *op, const CeldLabels *labels, const CeldPalette *palette);
-gboolean celd_op_write_lit     (CeldOp *op, const char *pad, const CeldPlane *light);             /* art under light */
 gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean directx); /* 0.5 + 0.5 n */
 
 /* ------------------------------------------------------------------ session.c */

@@ -152,6 +152,18 @@ celd_op_read_ink (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink)
 }
 
 gboolean
+celd_op_read_sample (CeldOp *op, const char *pad, CeldColours *colours)
+{
+  const GeglRectangle *r = gegl_buffer_get_extent (buffer_of (op, pad));
+
+  *colours = (CeldColours) { r->width, r->height, (size_t) r->width,
+                             celd_op_alloc (op, 4 * (gsize) r->width * (gsize) r->height * sizeof (float)) };
+  if (colours->data)
+    get (op, pad, r, "RGBA float", GEGL_ABYSS_NONE, colours->data);
+  return colours->data != NULL;
+}
+
+gboolean
 celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *settings, CeldLabels *seeds)
 {
   CeldPaint paint;
@@ -222,19 +234,6 @@ celd_op_write_paint (CeldOp *op, const CeldLabels *labels, const CeldPalette *pa
   return celd_op_new_paint (op, &paint) &&
          celd_op_try (op, celd_labels_paint (labels, palette, &paint)) &&
          celd_op_write (op, paint.data);
-}
-
-gboolean
-celd_op_write_lit (CeldOp *op, const char *pad, const CeldPlane *light)
-{
-  CeldColours art;
-
-  if (!celd_op_read_colours (op, pad, &art))
-    return FALSE;
-  for (gsize i = 0; i < count (op); i++)
-    for (int c = 0; c < 3; c++)
-      art.data[4 * i + (gsize) c] *= light->data[i];
-  return celd_op_write (op, art.data);
 }
 
 gboolean

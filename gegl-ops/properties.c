@@ -88,7 +88,20 @@ ENUM_TYPE (celd_enhance_result_get_type, "CeldEnhanceResult",
 ENUM_TYPE (celd_lumo_result_get_type, "CeldLumoResult",
            { CELD_LUMO_ART, "Shaded art", "art" },
            { CELD_LUMO_SHADING, "Shading", "shading" },
-           { CELD_LUMO_NORMALS, "Normals", "normals" })
+           { CELD_LUMO_NORMALS, "Normals", "normals" },
+           { CELD_LUMO_TONE, "Tone: to multiply art by", "tone" },
+           { CELD_LUMO_RIM, "Rim: highlights and rims, to put over that", "rim" },
+           { CELD_LUMO_OCCLUSION, "Occlusion", "occlusion" })
+
+ENUM_TYPE (celd_light_model_get_type, "CeldLightModel",
+           { CELD_MODEL_LAMBERT, "Soft", "lambert" },
+           { CELD_MODEL_HALF_LAMBERT, "Softer", "half-lambert" },
+           { CELD_MODEL_TOON, "In steps", "toon" },
+           { CELD_MODEL_MATCAP, "Like a lit ball", "matcap" })
+
+ENUM_TYPE (celd_light_get_type, "CeldLight",
+           { CELD_LIGHT_DIRECTION, "From far away", "direction" },
+           { CELD_LIGHT_POINT, "From a point", "point" })
 
 ENUM_TYPE (celd_relief_from_get_type, "CeldReliefFrom",
            { CELD_RELIEF_INFLATION, "Inflation", "inflation" },

@@ -24,8 +24,13 @@ GType celd_suggest_get_type     (void);
 GType celd_enhance_get_type     (void);
 GType celd_expansion_get_type   (void);
 GType celd_relief_from_get_type (void);
+GType celd_light_model_get_type     (void);
+GType celd_light_get_type       (void);
 
-typedef enum { CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS } CeldLumoResult;
+typedef enum
+{
+  CELD_LUMO_ART, CELD_LUMO_SHADING, CELD_LUMO_NORMALS, CELD_LUMO_TONE, CELD_LUMO_RIM, CELD_LUMO_OCCLUSION
+} CeldLumoResult;
 typedef enum { CELD_ENHANCED_ART, CELD_ENHANCED_LAYER, CELD_ENHANCED_VIEW } CeldEnhanceResult;
 typedef enum { CELD_RELIEF_RELATIVE, CELD_RELIEF_PIXELS } CeldReliefUnit;
 typedef enum { CELD_EXPAND_LEVELS, CELD_EXPAND_LAYER, CELD_EXPAND_MATTE } CeldExpandResult;
@@ -192,6 +197,90 @@ GType celd_popup_result_get_type   (void);
     description ("The share of light that reaches every pixel") \
     value_range (0.0, 1.0) \
     ui_digits (2)
+
+#define CELD_PROPERTY_SHAPE \
+  property_double (bevel, "Bevel", 0.0) \
+    description ("How far parts bend from their outlines, as a share of the picture's diagonal; beyond that they are " \
+                 "flat. At 0 they are round all over") \
+    value_range (0.0, 0.5) \
+    ui_range (0.0, 0.1) \
+    ui_steps (0.001, 0.01) \
+    ui_digits (4) \
+  property_double (quilt, "Quilting", 0.0) \
+    description ("How much parts bend on both sides of strokes inside them, such as wrinkles and folds; where smooth " \
+                 "depth is given, on the higher side") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+  property_boolean (frame_outline, "Frame is an outline", FALSE) \
+    description ("Parts that run out of the picture bend at its frame")
+
+#define CELD_PROPERTY_SHADING \
+  property_enum (light_model, "Shading", CeldLightModel, celd_light_model, CELD_MODEL_LAMBERT) \
+    description ("Soft light, softer light that reaches round the parts, light in steps, or the picture of a lit ball " \
+                 "(matcap) on pad aux5") \
+  property_int (toon_steps, "Steps", 3) \
+    description ("How many steps toon shading has") \
+    value_range (2, 5) \
+    ui_meta ("visible", "light-model {toon}") \
+  property_enum (light, "Light", CeldLight, celd_light, CELD_LIGHT_DIRECTION) \
+    description ("Light from far away, or from a point before the picture")
+
+#define CELD_PROPERTY_POINT_LIGHT \
+  property_double (light_x, "Light X", 0.3) \
+    description ("Where the point of light is: 0 is the left edge, 1 the right one") \
+    value_range (-10.0, 10.0) \
+    ui_range (0.0, 1.0) \
+    ui_meta ("unit", "relative-coordinate") \
+    ui_meta ("axis", "x") \
+    ui_meta ("visible", "light {point}") \
+  property_double (light_y, "Light Y", 0.2) \
+    description ("Where the point of light is: 0 is the upper edge, 1 the lower one") \
+    value_range (-10.0, 10.0) \
+    ui_range (0.0, 1.0) \
+    ui_meta ("unit", "relative-coordinate") \
+    ui_meta ("axis", "y") \
+    ui_meta ("visible", "light {point}") \
+  property_double (light_height, "Light height", 0.3) \
+    description ("How far before the picture the point of light is, as a share of the picture's diagonal") \
+    value_range (0.001, 10.0) \
+    ui_range (0.05, 1.0) \
+    ui_meta ("visible", "light {point}")
+
+#define CELD_PROPERTY_GLOSS \
+  property_double (specular, "Highlights", 0.0) \
+    description ("How bright highlights are") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+  property_double (shininess, "Shininess", 30.0) \
+    description ("How small highlights are") \
+    value_range (1.0, 1000.0) \
+    ui_range (1.0, 200.0) \
+    ui_gamma (2.0) \
+    ui_digits (1) \
+  property_double (rim_light, "Rim light", 0.0) \
+    description ("How bright rims are, where parts turn away from the viewer") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+  property_double (rim_power, "Rim narrowness", 3.0) \
+    description ("How narrow rims are") \
+    value_range (0.1, 20.0) \
+    ui_range (0.5, 10.0) \
+    ui_gamma (2.0) \
+    ui_digits (1)
+
+#define CELD_PROPERTY_OCCLUSION \
+  property_double (shadow_size, "Occlusion size", 0.012) \
+    description ("How far parts keep light from those behind them, as a share of the picture's diagonal") \
+    value_range (0.0005, 0.2) \
+    ui_range (0.002, 0.05) \
+    ui_steps (0.001, 0.01) \
+    ui_digits (4) \
+    ui_meta ("visible", "result {occlusion}") \
+  property_double (shadow_strength, "Occlusion strength", 0.6) \
+    description ("How much light they keep away at most") \
+    value_range (0.0, 1.0) \
+    ui_digits (2) \
+    ui_meta ("visible", "result {occlusion}")
 
 #define CELD_PROPERTY_DIRECTX \
   property_boolean (directx, "DirectX normals", FALSE) \

@@ -31,7 +31,10 @@ static const CliCommand commands[] = {
     "  celdepth smooth levels.npy --drawing bee.png --anchors strokes.png --depth depth.exr", cli_smooth },
   { "shade", CLI_SHADE, "LEVELS", "Bends normals at the contours of expanded levels, and shades them.",
     "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
-    "      --light-azimuth 45", cli_shade },
+    "      --light-azimuth 45\n"
+    "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png --light-model toon \\\n"
+    "      --specular 0.4 --rim-light 0.3\n"
+    "  celdepth shade levels.npy --drawing walk.png --maps walk.png --grid 8x1", cli_shade },
   { "enhance", CLI_ENHANCE, "LEVELS", "Sets parts off against what is behind them, by soft shadows.",
     "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
     "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"

@@ -6,8 +6,8 @@
  *   exact.c     exact                          report.c    --report
  *   enhance.c   enhance                        stereo.c    stereo
  *   stack.c     layers
- *   steps.c     order, expand, smooth, shade, relief
- *   messages.c  sentences on stderr
+ *   steps.c     order, expand, smooth, relief
+ *   shade.c     shade                          messages.c  sentences on stderr
  *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -40,8 +40,10 @@ typedef struct
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo;
-  char        *colours, *output, *light, *smooth_depth, *height, *mesh;
-  bool         quiet, background_colour; /* was a background colour given? */
+  char        *colours, *output, *light;
+  char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid, *padding_text;
+  int          columns, rows, padding;   /* of --grid and --padding */
+  bool         quiet, directx, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
 
@@ -120,6 +122,11 @@ bool cli_write_shading (const char *path, const CeldPlane *shading);
 bool cli_write_colours (const char *path, const CeldColours *colours);
 bool cli_write_heights (const char *path, const CeldPlane *heights);
 bool cli_write_mesh    (const char *path, const CeldReliefMesh *mesh, const CeldColours *art);
+/* Numbers in [0,1], which no program should take for colours: of floats, or for a map in 8 bits with alpha. */
+bool cli_write_values  (const char *path, const CeldPlane *values);
+bool cli_write_map     (const char *path, const CeldColours *map);
+/* n pixels from linear light to sRGB. */
+void cli_encode        (const float *linear, int n, float *encoded);
 
 bool cli_plane_new (int width, int height, CeldPlane *plane);   /* end with g_free (data) */
 bool cli_labels_new (int width, int height, CeldLabels *labels);
@@ -190,6 +197,12 @@ bool cli_write_relations (const char *path, const CeldRelations *relations);
 
 /* Hands the input of the options over to the session, by way of the layers. */
 bool cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers);
+
+/* ------------------------------------------------------------------ shade.c */
+
+#define CLI_MAPS 3
+/* The file of a map for --maps: "hero_n.png" for "hero.png", then _o and _s; free with g_free. */
+char *cli_map_name (const char *path, int map);
 
 /* ------------------------------------------------------------------ the sub-commands */
 

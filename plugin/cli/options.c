@@ -66,12 +66,26 @@ static const FileOption files[] = {
     "write smooth depth" },
   { "regions", CLI_EXPAND, 0, INPUT, MEMBER (regions), "PICTURE",
     "regions as segment wrote them: tells parts of one level apart" },
-  { "art", CLI_ENHANCE, 0, INPUT, MEMBER (art), "PICTURE", "the picture that shadows fall on" },
+  { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture that shadows or light fall on" },
+  { "depth", CLI_SHADE, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
+    "smooth depth: of strokes inside a part the higher side bends, see --quilt" },
+  { "hints", CLI_SHADE, 0, INPUT, MEMBER (hints), "PICTURE",
+    "paint beside lines: a white side bends, a black one does not, at grey both do" },
+  { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE", "the picture of a lit ball, to shade like it" },
+  { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS", "a sheet of sprites, each of which is shaded by itself" },
   { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with its shadows" },
   { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
   { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
   { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
   { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
+  { "shaded", CLI_SHADE, 0, OUTPUT, MEMBER (shaded), "OUT", "write the art, or the drawing, as the light falls on it" },
+  { "tone", CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write the layer that art is multiplied by" },
+  { "rim", CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT", "write highlights and rims, as a white layer to put over that" },
+  { "occlusion", CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT", "write how much light parts leave to those behind" },
+  { "maps", CLI_SHADE, 0, TEXT, MEMBER (maps), "NAME.png",
+    "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
+  { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
+    "how many transparent pixels round a sprite its maps fill; 4" },
   { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
   { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
   { "joined", CLI_STEREO, 0, OUTPUT, MEMBER (stereo), "OUT", "write both in one picture, see --stereo" },
@@ -96,7 +110,7 @@ file_name (CliOptions *options, const FileOption *file)
 
 /* ------------------------------------------------------------------ settings */
 
-typedef enum { CHOICE, NUMBER, SWITCH, TRUTH, COLOUR } SettingKind; /* a switch is on when it is there */
+typedef enum { CHOICE, NUMBER, INTEGER, SWITCH, TRUTH, COLOUR } SettingKind; /* a switch is on when it is there */
 
 typedef struct
 {
@@ -160,6 +174,23 @@ static const SettingOption settings[] = {
   { "weight-floor", CLI_EXACT, NUMBER, MEMBER (weight_floor), "0.000001-1",
     "how strongly neighbours hold together at least; 0.000001" },
   { "bulge", CLI_POPUP | CLI_SHADE | CLI_RELIEF, NUMBER, MEMBER (bulge), "0-4", "0 flat, 1 round" },
+  { "bevel", CLI_SHADE, NUMBER, MEMBER (bevel), "0-0.5",
+    "how far parts bend from their outlines, as a share of the diagonal; 0: they are round all over" },
+  { "quilt", CLI_SHADE, NUMBER, MEMBER (quilt), "0-1", "how much parts bend at strokes inside them; 0" },
+  { "frame-outline", CLI_SHADE, TRUTH, MEMBER (frame_outline), "no|yes",
+    "parts that run out of the picture bend at its frame; no" },
+  { "light-model", CLI_SHADE, CHOICE, MEMBER (light_model), "lambert|half-lambert|toon|matcap",
+    "soft, softer, in steps, or like the ball of --matcap; lambert" },
+  { "toon-steps", CLI_SHADE, INTEGER, MEMBER (toon_steps), "2-5", "steps of toon shading; 3" },
+  { "light", CLI_SHADE, CHOICE, MEMBER (light), "direction|point", "light from far away, or from a point; direction" },
+  { "light-x", CLI_SHADE, NUMBER, MEMBER (light_x), "-10-10", "of a point of light: 0 left, 1 right edge; 0.3" },
+  { "light-y", CLI_SHADE, NUMBER, MEMBER (light_y), "-10-10", "of a point of light: 0 upper, 1 lower edge; 0.2" },
+  { "light-height", CLI_SHADE, NUMBER, MEMBER (light_height), "0.001-10",
+    "how far a point of light is before the picture, as a share of the diagonal; 0.3" },
+  { "specular", CLI_SHADE, NUMBER, MEMBER (specular), "0-1", "how bright highlights are; 0" },
+  { "shininess", CLI_SHADE, NUMBER, MEMBER (shininess), "1-1000", "how small highlights are; 30" },
+  { "rim-light", CLI_SHADE, NUMBER, MEMBER (rim_light), "0-1", "how bright rims are; 0" },
+  { "rim-power", CLI_SHADE, NUMBER, MEMBER (rim_power), "0.1-20", "how narrow rims are; 3" },
   { "light-azimuth", CLI_POPUP | CLI_SHADE | CLI_ENHANCE, NUMBER, MEMBER (light_azimuth), "DEGREES",
     "0 from the right, 90 from above; 135" },
   { "light-elevation", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (light_elevation), "DEGREES", "90 from the viewer; 45" },
@@ -173,9 +204,9 @@ static const SettingOption settings[] = {
     "how --joined has both views; the last four are for red and cyan glasses; side-by-side" },
   { "enhance", CLI_ENHANCE, CHOICE, MEMBER (enhance), "stack|darken|contrast",
     "soft shadows on what is behind; or darker behind borders of depth, or also lighter before them" },
-  { "shadow-size", CLI_ENHANCE, NUMBER, MEMBER (shadow_size), "0.0005-0.2",
+  { "shadow-size", CLI_ENHANCE | CLI_SHADE, NUMBER, MEMBER (shadow_size), "0.0005-0.2",
     "how far shadows spread, as a share of the diagonal; 0.012" },
-  { "shadow-strength", CLI_ENHANCE, NUMBER, MEMBER (shadow_strength), "0-1", "how dark shadows are; 0.6" },
+  { "shadow-strength", CLI_ENHANCE | CLI_SHADE, NUMBER, MEMBER (shadow_strength), "0-1", "how dark shadows are; 0.6" },
   { "shadow-offset", CLI_ENHANCE, NUMBER, MEMBER (shadow_offset), "0-0.2",
     "how far shadows fall away from the light, as a share of the diagonal; 0" },
   { "shadow-range", CLI_ENHANCE, NUMBER, MEMBER (shadow_range), "0-1",
@@ -244,6 +275,9 @@ set_setting (const SettingOption *setting, const char *value, CeldSettings *to)
       number = g_ascii_strtod (value, &end);
       *(float *) place = (float) number;
       return end != value && !*end;
+    case INTEGER:
+      *(int *) place = (int) CLAMP (g_ascii_strtoll (value, &end, 10), -9999, 9999);
+      return end != value && !*end;
     case SWITCH:
       *(bool *) place = true;
       return true;
@@ -303,11 +337,14 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
   char           *description = g_strdup_printf ("Examples:\n%s\n", command->examples);
   char           *program = g_strdup_printf ("celdepth %s", command->name);
-  gboolean        quiet = FALSE;
+  gboolean        quiet = FALSE, directx = FALSE;
   GError         *error = NULL;
   bool            good;
 
   append_entries (command, options, entries);
+  if (command->step == CLI_SHADE)
+    g_array_append_val (entries, ((GOptionEntry) {
+      "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green of normals points down, as DirectX wants it", NULL }));
   g_array_append_val (entries, ((GOptionEntry) {
     "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "neither progress nor remarks", NULL }));
   g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
@@ -316,7 +353,8 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   g_option_context_set_description (context, description);
   g_set_prgname (program);
   good = g_option_context_parse (context, argc, argv, &error);
-  options->quiet = quiet;
+  options->quiet   = quiet;
+  options->directx = directx;
   if (!good)
     cli_say ("%s", error->message);
   g_clear_error (&error);
@@ -371,7 +409,7 @@ check_files (const CliCommand *command, CliOptions *options)
     }
   if (options->enhanced && !options->art)
     return cli_error ("--enhanced needs --art.");
-  return outputs || cli_error ("Nothing to write: name at least one output, such as --%s.",
+  return outputs || options->maps || cli_error ("Nothing to write: name at least one output, such as --%s.",
                                command->step == CLI_SHADE ? "shading"
                                : command->step == CLI_ENHANCE ? "enhanced"
                                : command->step == CLI_STEREO ? "joined"
@@ -429,7 +467,49 @@ check_places (CliOptions *options)
 
       good = !name || files[i].kind < OUTPUT || check_place (name, files[i].kind);
     }
+  for (int map = 0; good && options->maps && map < CLI_MAPS; map++)
+    {
+      char *name = cli_map_name (options->maps, map);
+
+      good = (!same_file (name, options->input) && !same_file (name, options->drawing)) ||
+             cli_error ("--maps would overwrite %s.", name);
+      good = good && check_place (name, OUTPUT);
+      g_free (name);
+    }
   return good;
+}
+
+/* A whole number behind *text, which moves on. */
+static bool
+read_number (char **text, int least, int most, int *number)
+{
+  char  *end = *text;
+  gint64 read = g_ascii_isdigit (**text) ? g_ascii_strtoll (*text, &end, 10) : -1;
+
+  *text   = end;
+  *number = (int) CLAMP (read, 0, CELD_MAX_SIDE);
+  return read >= least && read <= most;
+}
+
+/* Maps, the sheet that they are of, and the ball. */
+static bool
+check_shade (CliOptions *options)
+{
+  char *grid = options->grid, *padding = options->padding_text;
+
+  options->columns = options->rows = 1;
+  options->padding = 4;
+  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->columns) && *grid++ == 'x' &&
+                read_number (&grid, 1, CELD_MAX_SIDE, &options->rows) && !*grid))
+    return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
+  if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
+    return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
+  if (options->maps && !celd_io_can_write (options->maps))
+    return cli_error ("--maps %s: the ending must be .png, .exr or .tif.", options->maps);
+  if (options->matcap)
+    options->settings.light_model = CELD_MODEL_MATCAP;
+  return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||
+         cli_error ("--light-model matcap needs --matcap.");
 }
 
 static bool
@@ -449,7 +529,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
     return cli_error ("--near-level must be above --far-level.");
-  return check_files (command, options);
+  return check_shade (options) && check_files (command, options);
 }
 
 int

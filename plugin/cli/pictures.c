@@ -184,6 +184,12 @@ cli_read_levels (const char *path, CeldPlane *levels)
   return good;
 }
 
+void
+cli_encode (const float *linear, int n, float *encoded)
+{
+  babl_process (babl_fish (babl_format ("RGBA float"), babl_format ("R'G'B'A float")), linear, encoded, n);
+}
+
 /* ------------------------------------------------------------------ writing, by the ending of the name */
 
 bool
@@ -301,4 +307,29 @@ cli_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours 
   CeldIoError error;
 
   return check_written (celd_io_write_mesh (path, mesh, art, &error), &error);
+}
+
+bool
+cli_write_values (const char *path, const CeldPlane *values)
+{
+  bool          png = g_str_has_suffix (path, ".png") || g_str_has_suffix (path, ".PNG");
+  CeldIoChannel channel = { "Y", values->data, 1, values->stride };
+  CeldIoPicture picture = { NULL, values->width, values->height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, false, &channel, 1 };
+  CeldIoError   error;
+
+  if (cli_is_npy (path))
+    return cli_npy_write (path, values->width, values->height, 0, values->stride, values->data);
+  return check_written (celd_io_write (path, &picture, 1, NULL, 0, &error), &error);
+}
+
+bool
+cli_write_map (const char *path, const CeldColours *map)
+{
+  size_t        row = 4 * map->stride;
+  CeldIoChannel channels[] = { { "R", map->data, 4, row }, { "G", map->data + 1, 4, row },
+                               { "B", map->data + 2, 4, row }, { "A", map->data + 3, 4, row } };
+  CeldIoPicture picture = { NULL, map->width, map->height, CELD_IO_8_BIT, false, channels, 4 };
+  CeldIoError   error;
+
+  return check_written (celd_io_write (path, &picture, 1, NULL, 0, &error), &error);
 }

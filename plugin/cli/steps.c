@@ -32,7 +32,7 @@ make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, Cli
   return finish (run, status);
 }
 
-/* Levels and the ink of their drawing: what expand, smooth and shade start from. */
+/* Levels and the ink of their drawing: what expand and smooth start from. */
 typedef struct
 {
   CeldPlane levels, ink;
@@ -296,33 +296,6 @@ cli_smooth (const CliOptions *options)
       cli_say_problems (&(CeldProblems) { &problem, 1 }, NULL, NULL);
     }
   g_free (anchors.data);
-  return end_step (&step, good);
-}
-
-/* ------------------------------------------------------------------ shade */
-
-int
-cli_shade (const CliOptions *options)
-{
-  Step        step;
-  CeldVectors normals = { 0 };
-  CeldPlane   shading = { 0 };
-  bool        good = begin_step (options, &step);
-
-  if (good)
-    {
-      normals = (CeldVectors) { step.levels.width, step.levels.height, step.levels.stride,
-                                g_try_new (float, 3 * (gsize) step.levels.width * (gsize) step.levels.height) };
-      cli_run_stage (&step.run, "normals");
-      good = cli_check (normals.data ? CELD_OK : CELD_NO_MEMORY) &&
-             finish (&step.run, celd_normals (&step.ink, &step.levels, &options->settings, &step.run.run, &normals)) &&
-             cli_plane_new (step.levels.width, step.levels.height, &shading) &&
-             cli_check (celd_shade (&normals, &options->settings, &shading)) &&
-             (!options->normals || cli_write_normals (options->normals, &normals)) &&
-             (!options->shading || cli_write_shading (options->shading, &shading));
-    }
-  g_free (normals.data);
-  g_free (shading.data);
   return end_step (&step, good);
 }
 

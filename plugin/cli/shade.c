@@ -1,0 +1,311 @@
+/* celdepth shade: normals and light from levels, cell by cell of a sheet, and maps for game engines.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <string.h>
+
+/* data NULL: not read, or not asked for. */
+typedef struct
+{
+  CeldPlane   levels, depth;
+  CliLayers   layers;
+  CeldPaint   hints;
+  CeldColours art, matcap;
+  CeldVectors normals;
+  CeldPlane   ink, shading, gloss, occlusion;
+  CeldColours tone, maps[CLI_MAPS];
+} Shade;
+
+static const char *const suffixes[CLI_MAPS] = { "_n", "_o", "_s" };
+
+char *
+cli_map_name (const char *path, int map)
+{
+  const char *ending = strrchr (path, '.'), *slash = strrchr (path, '/');
+  int         stem = ending && (!slash || ending > slash) ? (int) (ending - path) : (int) strlen (path);
+
+  return g_strdup_printf ("%.*s%s%s", stem, path, suffixes[map], path + stem);
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static bool
+read_depth (const CliOptions *options, Shade *s)
+{
+  return !options->smooth_depth || cli_hint_read (options->smooth_depth, &s->layers, &s->depth);
+}
+
+static bool
+read_hints (const CliOptions *options, Shade *s)
+{
+  return !options->hints || cli_layer_read (options->hints, "hints", &s->layers, &s->hints);
+}
+
+/* The light falls on the drawing if on nothing else. */
+static bool
+read_art (const CliOptions *options, Shade *s)
+{
+  if (!options->shaded && !options->maps)
+    return true;
+  if (!options->art)
+    return cli_art_read (options->drawing, NULL, true, &s->layers, &s->art);
+  return cli_art_read (options->art, options->art, true, &s->layers, &s->art);
+}
+
+static bool
+check_grid (const CliOptions *options, const CeldPlane *levels)
+{
+  return (levels->width % options->columns == 0 && levels->height % options->rows == 0) ||
+         cli_error ("%s has %d x %d pixels, which are not %d x %d cells of one size.", options->input, levels->width,
+                    levels->height, options->columns, options->rows);
+}
+
+static bool
+read_all (const CliOptions *options, Shade *s)
+{
+  if (!cli_read_levels (options->input, &s->levels) || !check_grid (options, &s->levels))
+    return false;
+  s->layers.width  = s->levels.width;
+  s->layers.height = s->levels.height;
+  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &s->layers) && read_depth (options, s) &&
+         read_hints (options, s) && read_art (options, s) &&
+         (!options->matcap || cli_read_colours (options->matcap, &s->matcap));
+}
+
+/* ------------------------------------------------------------------ room for results */
+
+static bool
+new_results (const CliOptions *options, Shade *s)
+{
+  int  w = s->levels.width, h = s->levels.height;
+  bool grey = options->shading && !options->matcap, good = cli_plane_new (w, h, &s->ink);
+  bool lit = options->shaded || options->tone || options->rim || (options->shading && !grey);
+
+  s->normals = (CeldVectors) { w, h, (size_t) w, g_try_new (float, 3 * (gsize) w * (gsize) h) };
+  good       = good && cli_check (s->normals.data ? CELD_OK : CELD_NO_MEMORY);
+  good       = good && (!grey || cli_plane_new (w, h, &s->shading));
+  good       = good && (!lit || (cli_colours_new (w, h, &s->tone) && cli_plane_new (w, h, &s->gloss)));
+  good       = good && (!(options->occlusion || options->maps) || cli_plane_new (w, h, &s->occlusion));
+  for (int map = 0; options->maps && map < CLI_MAPS; map++)
+    good = good && cli_colours_new (w, h, &s->maps[map]);
+  return good;
+}
+
+static void
+clear (Shade *s)
+{
+  float *all[] = { s->levels.data, s->depth.data, s->art.data, s->matcap.data, s->normals.data, s->ink.data,
+                   s->shading.data, s->gloss.data, s->occlusion.data, s->tone.data };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (all); i++)
+    g_free (all[i]);
+  for (int map = 0; map < CLI_MAPS; map++)
+    g_free (s->maps[map].data);
+  g_free (s->hints.data);
+  cli_layers_clear (&s->layers);
+}
+
+/* ------------------------------------------------------------------ one cell */
+
+#define CROP(view, cell, channels) \
+  do \
+    if ((view)->data) \
+      { \
+        (view)->data  += (size_t) (channels) * ((size_t) (cell)->y * (view)->stride + (size_t) (cell)->x); \
+        (view)->width  = (cell)->width; \
+        (view)->height = (cell)->height; \
+      } \
+  while (0)
+
+static Shade
+crop (const Shade *whole, const CeldRect *cell)
+{
+  Shade s = *whole;
+
+  CROP (&s.levels, cell, 1);
+  CROP (&s.depth, cell, 1);
+  CROP (&s.layers.drawing.luma, cell, 1);
+  CROP (&s.layers.drawing.alpha, cell, 1);
+  CROP (&s.layers.contours, cell, 4);
+  CROP (&s.hints, cell, 4);
+  CROP (&s.art, cell, 4);
+  CROP (&s.normals, cell, 3);
+  CROP (&s.ink, cell, 1);
+  CROP (&s.shading, cell, 1);
+  CROP (&s.gloss, cell, 1);
+  CROP (&s.occlusion, cell, 1);
+  CROP (&s.tone, cell, 4);
+  for (int map = 0; map < CLI_MAPS; map++)
+    CROP (&s.maps[map], cell, 4);
+  return s;
+}
+
+static CeldStatus
+make_ink (const CeldSettings *settings, const CeldRun *run, Shade *s)
+{
+  CeldDrawing *drawing = &s->layers.drawing;
+  CeldStatus   status = CELD_OK;
+
+  if (s->layers.contours.data)
+    status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_DEPTH, settings->ink, run, drawing);
+  return status == CELD_OK ? celd_ink (drawing, settings->ink, run, &s->ink) : status;
+}
+
+/* What maps hold: normals as 0.5 + 0.5 n, occlusion, and the brightness of the art, from which engines make highlights;
+ * each with the alpha of the art. */
+static void
+fill_maps (const Shade *s, float *encoded)
+{
+  for (int y = 0; y < s->art.height; y++)
+    {
+      size_t       row = (size_t) y * s->art.stride; /* all have one stride */
+      const float *art = s->art.data + 4 * row, *n = s->normals.data + 3 * row, *open = s->occlusion.data + row;
+      float       *map[CLI_MAPS];
+
+      for (int m = 0; m < CLI_MAPS; m++)
+        map[m] = s->maps[m].data + 4 * row;
+      cli_encode (art, s->art.width, encoded);
+      for (size_t x = 0; x < (size_t) s->art.width; x++)
+        {
+          for (size_t c = 0; c < 3; c++)
+            {
+              map[0][4 * x + c] = 0.5f + 0.5f * n[3 * x + c];
+              map[1][4 * x + c] = open[x];
+              celd_luma (encoded + 4 * x, 1, &map[2][4 * x + c], NULL);
+            }
+          for (int m = 0; m < CLI_MAPS; m++)
+            map[m][4 * x + 3] = art[4 * x + 3];
+        }
+    }
+}
+
+static CeldStatus
+make_maps (const CliOptions *options, const CeldRun *run, Shade *s)
+{
+  static const float blank[CLI_MAPS][3] = { { 0.5f, 0.5f, 1 }, { 1, 1, 1 }, { 0, 0, 0 } };
+  float             *row = g_try_new (float, 4 * (gsize) s->art.width);
+  CeldStatus         status = row ? CELD_OK : CELD_NO_MEMORY;
+
+  if (row)
+    fill_maps (s, row);
+  g_free (row);
+  for (int map = 0; map < CLI_MAPS && status == CELD_OK; map++)
+    status = celd_pad_colours (options->padding, blank[map], run, &s->maps[map]);
+  return status;
+}
+
+static CeldStatus
+shade_cell (const CliOptions *options, const CeldRun *run, Shade *s)
+{
+  const CeldSettings *settings = &options->settings;
+  CeldStatus          status = make_ink (settings, run, s);
+
+  if (status == CELD_OK)
+    status = celd_normals_hinted (&s->ink, &s->levels, s->depth.data ? &s->depth : NULL,
+                                  s->hints.data ? &s->hints : NULL, settings, run, &s->normals);
+  if (status == CELD_OK && s->shading.data)
+    status = celd_shade (&s->normals, settings, &s->shading);
+  if (status == CELD_OK && s->tone.data)
+    status = celd_light (&s->normals, s->matcap.data ? &s->matcap : NULL, settings, run, &s->tone, &s->gloss);
+  if (status == CELD_OK && s->occlusion.data)
+    status = celd_occlusion (&s->levels, settings, run, &s->occlusion);
+  if (status == CELD_OK && options->directx)
+    for (int y = 0; y < s->normals.height; y++)
+      for (int x = 0; x < s->normals.width; x++)
+        s->normals.data[3 * ((size_t) y * s->normals.stride + (size_t) x) + 1] *= -1;
+  return status == CELD_OK && options->maps ? make_maps (options, run, s) : status;
+}
+
+/* Cells know nothing of each other. */
+static bool
+shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
+{
+  CeldRect   cell = { 0, 0, s->levels.width / options->columns, s->levels.height / options->rows };
+  bool       one = options->columns * options->rows == 1;
+  CeldRun    quiet = { NULL, run->run.each, run->run.host };
+  CeldStatus status = CELD_OK;
+
+  cli_run_stage (run, "shade");
+  for (cell.y = 0; cell.y < s->levels.height && status == CELD_OK; cell.y += cell.height)
+    for (cell.x = 0; cell.x < s->levels.width && status == CELD_OK; cell.x += cell.width)
+      {
+        Shade part = crop (s, &cell);
+
+        status = cli_run_cancelled () ? CELD_CANCELLED : shade_cell (options, one ? &run->run : &quiet, &part);
+      }
+  cli_run_stage (run, NULL);
+  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* The light on art, or on white. */
+static bool
+write_lit (const char *path, const Shade *s, CeldColours *on)
+{
+  return cli_check (celd_light_colours (&s->tone, &s->gloss, on)) && cli_write_colours (path, on);
+}
+
+static bool
+write_light (const CliOptions *options, Shade *s)
+{
+  CeldColours layer = { 0 };
+  size_t      n = 4 * (size_t) s->levels.width * (size_t) s->levels.height;
+  bool        good = (!options->shaded || write_lit (options->shaded, s, &s->art)) &&
+                     (!options->tone || cli_write_colours (options->tone, &s->tone));
+
+  if (good && (options->rim || (options->shading && s->tone.data)))
+    good = cli_colours_new (s->levels.width, s->levels.height, &layer);
+  if (good && options->rim)
+    good = cli_check (celd_light_layer (&s->gloss, &layer)) && cli_write_colours (options->rim, &layer);
+  if (good && options->shading && !s->shading.data)
+    {
+      for (size_t i = 0; i < n; i++)
+        layer.data[i] = 1;
+      good = write_lit (options->shading, s, &layer);
+    }
+  g_free (layer.data);
+  return good;
+}
+
+static bool
+write_maps (const CliOptions *options, const Shade *s)
+{
+  bool good = true;
+
+  for (int map = 0; map < CLI_MAPS && good; map++)
+    {
+      char *name = cli_map_name (options->maps, map);
+
+      good = cli_write_map (name, &s->maps[map]);
+      g_free (name);
+    }
+  return good;
+}
+
+static bool
+write_all (const CliOptions *options, Shade *s)
+{
+  return (!options->normals || cli_write_normals (options->normals, &s->normals)) &&
+         (!s->shading.data || cli_write_shading (options->shading, &s->shading)) &&
+         (!s->tone.data || write_light (options, s)) &&
+         (!options->occlusion || cli_write_values (options->occlusion, &s->occlusion)) &&
+         (!options->maps || write_maps (options, s));
+}
+
+int
+cli_shade (const CliOptions *options)
+{
+  Shade  s = { 0 };
+  CliRun run;
+  bool   good;
+
+  cli_run_begin (&run, options->quiet);
+  good = read_all (options, &s) && new_results (options, &s) && shade_cells (options, &run, &s) &&
+         write_all (options, &s);
+  clear (&s);
+  cli_run_end (&run);
+  return good ? CLI_DONE : CLI_FAILED;
+}
