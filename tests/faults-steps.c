@@ -578,6 +578,45 @@ normals_step (const CeldRun *run, Results *r)
   return celd_normals (&ink, &levels, &settings, run, &normals);
 }
 
+/* With strokes that fold, a bevel, hints at a border, and the frame. */
+static CeldStatus
+hints_step (const CeldRun *run, Results *r)
+{
+  static uint8_t paint[4 * W * H];
+  CeldPlane      ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldVectors    normals = vectors_of (r->pixels);
+  CeldPaint      hints = { W, H, W, paint };
+  CeldSettings   all = settings;
+
+  for (int i = 0; i < W * H; i++)
+    paint[4 * i + 3] = i % W < W / 2 ? 255 : 0;
+  all.quilt = 1;
+  all.bevel = 0.1f;
+  all.frame_outline = true;
+  return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, run, &normals);
+}
+
+static CeldStatus
+occlusion_step (const CeldRun *run, Results *r)
+{
+  CeldPlane levels = plane_of (&expanded_pixels), occlusion = plane_of (r->pixels);
+
+  return celd_occlusion (&levels, &settings, run, &occlusion);
+}
+
+static CeldStatus
+padding_step (const CeldRun *run, Results *r)
+{
+  static const float blank[3] = { 0, 0, 0 };
+  static float       data[4 * W * H];
+  CeldColours        picture = { W, H, W, data };
+
+  (void) r;
+  for (int i = 0; i < W * H; i++)
+    data[4 * i + 3] = i % 7 == 0;
+  return celd_pad_colours (4, blank, run, &picture);
+}
+
 static CeldStatus
 shade_step (const CeldRun *run, Results *r)
 {
@@ -780,6 +819,9 @@ const Step steps[] = {
   { "exact depth", exact_depth_step, NULL, true },
   { "program", program_step, NULL, true },
   { "normals", normals_step, NULL, true },
+  { "hints", hints_step, NULL, true },
+  { "occlusion", occlusion_step, NULL, true },
+  { "padding", padding_step, NULL, true },
   { "shade", shade_step, NULL, false },
   { "stereo", stereo_step, NULL, true },
   { "enhance", enhance_step, NULL, true },

@@ -305,6 +305,27 @@ the_view_is_brighter_where_it_is_nearer (void)
   CHECK (grey[3] > 0 && grey[3] < grey[0] && grey[0] < grey[2] && grey[2] < 1); /* no number is the farthest here */
 }
 
+/* The stack without an offset, whatever method and offset the settings have. */
+static void
+occlusion_is_what_the_stack_leaves (void)
+{
+  static float open[W * H];
+  CeldPlane    occlusion = { W, H, W, open };
+  CeldSettings s = blur_of (3, CELD_ENHANCE_STACK), other = s;
+
+  draw_discs (11, 6);
+  other.enhance       = CELD_ENHANCE_CONTRAST;
+  other.shadow_offset = 0.1f;
+  CHECK (celd_enhance (&level_plane, &s, NULL, &change_plane) == CELD_OK);
+  CHECK (celd_occlusion (&level_plane, &other, NULL, &occlusion) == CELD_OK);
+  for (int i = 0; i < W * H; i++)
+    {
+      NEAR (open[i], 1 + change[i], 1e-6);
+      CHECK (open[i] > 0 && open[i] <= 1);
+    }
+  CHECK (celd_occlusion (&level_plane, &s, NULL, &(CeldPlane) { W, H - 1, W, open }) == CELD_BAD_SIZE);
+}
+
 static void
 one_pixel_will_do (void)
 {
@@ -336,6 +357,7 @@ main (void)
   RUN (ink_stays_ink_and_white_white);
   RUN (the_layer_laid_over_the_art_is_the_enhanced_art);
   RUN (the_view_is_brighter_where_it_is_nearer);
+  RUN (occlusion_is_what_the_stack_leaves);
   RUN (one_pixel_will_do);
   return DONE;
 }

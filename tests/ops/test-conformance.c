@@ -434,6 +434,80 @@ light_is_that_of_core (void)
   g_object_unref (input);
 }
 
+/* Every setting, pad and result of light at once. */
+static void
+all_light_is_that_of_core (void)
+{
+  static uint8_t painted[4 * PIXELS];
+  static float   normal[3 * PIXELS], shine[PIXELS], colour[4 * PIXELS], wanted[4 * PIXELS], ball[4 * 5 * 7];
+  GeglBuffer    *input = page_buffer ("Y float", "Y float", levels.data), *deep, *hints;
+  GeglBuffer    *art = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
+  GeglBuffer    *sample = gegl_buffer_new (GEGL_RECTANGLE (3, -2, 5, 7), babl_format ("RGBA float"));
+  CeldPaint      paint = { WIDTH, HEIGHT, WIDTH, painted };
+  CeldVectors    bent = { WIDTH, HEIGHT, WIDTH, normal };
+  CeldPlane      gloss = { WIDTH, HEIGHT, WIDTH, shine }, open = { WIDTH, HEIGHT, WIDTH, shine };
+  CeldColours    tone = { WIDTH, HEIGHT, WIDTH, colour }, out = { WIDTH, HEIGHT, WIDTH, wanted };
+  CeldColours    matcap = { 5, 7, 5, ball };
+  CeldSettings   s = celd_settings ();
+
+  paint_line (painted, 20, 38, 20, 42, 2, 0xffffff);
+  for (int i = 0; i < 4 * 5 * 7; i++)
+    ball[i] = i % 4 == 3 ? 1 : (float) (i % 11) / 11;
+  gegl_buffer_set (sample, NULL, 0, babl_format ("RGBA float"), ball, GEGL_AUTO_ROWSTRIDE);
+  deep  = page_buffer ("Y float", "Y float", depth.data);
+  hints = page_buffer ("R'G'B'A u8", "R'G'B'A u8", painted);
+  s.quilt         = 0.7f;
+  s.bevel         = 0.1f;
+  s.frame_outline = true;
+  s.light         = CELD_LIGHT_POINT;
+  s.light_x       = 0.75f;
+  s.light_y       = 0.25f;
+  s.light_height  = 0.5f;
+  s.specular      = 0.5f;
+  s.shininess     = 8;
+  s.rim_light     = 0.25f;
+  s.rim_power     = 2;
+  CHECK (celd_normals_hinted (&ink, &levels, &depth, &paint, &s, NULL, &bent) == CELD_OK);
+  CHECK (difference (normal, normals.data, 3 * PIXELS) > 0.1);
+  for (int model = CELD_MODEL_LAMBERT; model <= CELD_MODEL_MATCAP; model++)
+    for (int result_of = 0; result_of <= 4; result_of++)
+      {
+        if (result_of == 2 || (result_of == 1 && model != CELD_MODEL_MATCAP))
+          continue;
+        s.light_model = (CeldLightModel) model;
+        CHECK (celd_light (&bent, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
+        operate ("celdepth:lumo-shade", (Pads) { { input, drawing, art, deep, hints, sample } },
+                 "RGBA float", result, "result", result_of, "light-model", model, "quilt", 0.7, "bevel", 0.1,
+                 "frame-outline", TRUE, "light", CELD_LIGHT_POINT, "light-x", 0.75, "light-y", 0.25,
+                 "light-height", 0.5, "specular", 0.5, "shininess", 8.0, "rim-light", 0.25, "rim-power", 2.0, NULL);
+        if (result_of == 4)
+          CHECK (celd_light_layer (&gloss, &out) == CELD_OK);
+        else if (result_of != 3)
+          {
+            for (int i = 0; i < 4 * PIXELS; i++)
+              wanted[i] = 1;
+            if (result_of == 0)
+              babl_process (babl_fish (babl_format ("R'G'B'A u8"), babl_format ("RGBA float")), colours.data,
+                            wanted, PIXELS);
+            CHECK (celd_light_colours (&tone, &gloss, &out) == CELD_OK);
+          }
+        SAME (result_of == 3 ? colour : wanted, 4);
+      }
+  s = celd_settings ();
+  s.shadow_size     = 0.05f;
+  s.shadow_strength = 0.9f;
+  CHECK (celd_occlusion (&levels, &s, NULL, &open) == CELD_OK);
+  operate ("celdepth:lumo-shade", (Pads) { { input, drawing } }, "Y float", result, "result", 5, "shadow-size", 0.05,
+           "shadow-strength", 0.9, NULL);
+  SAME (shine, 1);
+  CHECK (range (shine, PIXELS) > 0.2);
+  g_object_unref (input);
+  g_object_unref (art);
+  g_object_unref (deep);
+  g_object_unref (hints);
+  g_object_unref (sample);
+}
+
 static void
 popup_is_the_steps_of_core (void)
 {
@@ -611,6 +685,7 @@ main (int argc, char **argv)
   RUN (shadows_are_those_of_core);
   RUN (heights_are_those_of_core);
   RUN (light_is_that_of_core);
+  RUN (all_light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (method_is_that_of_core);
   RUN (popup_follows_its_properties);

@@ -4,6 +4,8 @@
  */
 #include "check.h"
 
+#include "celdepth.h"
+
 #include <gegl-plugin.h>
 
 static const struct { const char *name; const char *pads; const char *properties; } operations[] = {
@@ -20,8 +22,10 @@ static const struct { const char *name; const char *pads; const char *properties
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
     "far-level "
     "tolerance contrast weight-floor" },
-  { "celdepth:lumo-shade", "aux2 aux input",
-    "result bulge light-azimuth light-elevation ambient directx ink ink-threshold" },
+  { "celdepth:lumo-shade", "aux5 aux4 aux3 aux2 aux input",
+    "result bulge bevel quilt frame-outline light-model toon-steps light light-azimuth light-elevation ambient "
+    "light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
+    "ink ink-threshold" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
   { "celdepth:relief", "aux2 aux input", "unit from bulge relief-depth ink ink-threshold tolerance" },
@@ -113,6 +117,9 @@ choices_have_the_nicks_of_the_contract (void)
     { "celdepth:depth-expand", "result", "levels layer matte" },
     { "celdepth:popup", "result", "labels order levels depth normals shading problems suggestions" },
     { "celdepth:lazybrush-segment", "result", "labels closures problems" },
+    { "celdepth:lumo-shade", "result", "art shading normals tone rim occlusion" },
+    { "celdepth:lumo-shade", "light-model", "lambert half-lambert toon matcap" },
+    { "celdepth:lumo-shade", "light", "direction point" },
     { "celdepth:depth-enhance", "result", "art layer view" },
     { "celdepth:depth-enhance", "enhance", "stack darken contrast" },
     { "celdepth:relief", "unit", "relative pixels" },
@@ -169,6 +176,34 @@ defaults_are_those_of_core (void)
   g_object_unref (graph);
 }
 
+static void
+defaults_of_light_are_those_of_core (void)
+{
+  static const struct { const char *name; size_t offset; } numbers[] = {
+#define MEMBER(name, member) { name, offsetof (CeldSettings, member) }
+    MEMBER ("bulge", bulge), MEMBER ("bevel", bevel), MEMBER ("quilt", quilt), MEMBER ("light-x", light_x),
+    MEMBER ("light-y", light_y), MEMBER ("light-height", light_height), MEMBER ("specular", specular),
+    MEMBER ("shininess", shininess), MEMBER ("rim-light", rim_light), MEMBER ("rim-power", rim_power),
+    MEMBER ("shadow-size", shadow_size), MEMBER ("shadow-strength", shadow_strength),
+  };
+  CeldSettings s = celd_settings ();
+  GeglNode    *graph = gegl_node_new ();
+  GeglNode    *node = gegl_node_new_child (graph, "operation", "celdepth:lumo-shade", NULL);
+  gint         model = -1, light = -1, steps = -1;
+  gboolean     frame = -1;
+
+  gegl_node_get (node, "light-model", &model, "light", &light, "toon-steps", &steps, "frame-outline", &frame, NULL);
+  CHECK (model == (gint) s.light_model && light == (gint) s.light && steps == s.toon_steps && frame == s.frame_outline);
+  for (size_t i = 0; i < G_N_ELEMENTS (numbers); i++)
+    {
+      gdouble value = -1;
+
+      gegl_node_get (node, numbers[i].name, &value, NULL);
+      NEAR (value, *(const float *) (const void *) ((const char *) &s + numbers[i].offset), 1e-6);
+    }
+  g_object_unref (graph);
+}
+
 int
 main (int argc, char **argv)
 {
@@ -178,6 +213,7 @@ main (int argc, char **argv)
   RUN (properties_are_complete);
   RUN (choices_have_the_nicks_of_the_contract);
   RUN (defaults_are_those_of_core);
+  RUN (defaults_of_light_are_those_of_core);
   gegl_exit ();
   return DONE;
 }
