@@ -50,6 +50,25 @@ nothing_to_go_by_is_said (void)
   CHECK (SAYS ("Depth Exact: ") && SAYS ("scribble"));
 }
 
+/* Shading like a ball needs one, which may be of any size and lie anywhere. */
+static void
+a_ball_is_asked_for (void)
+{
+  GeglBuffer *ball = gegl_buffer_new (GEGL_RECTANGLE (-500, 900, 3, 4), babl_format ("RGBA float"));
+
+  be_quiet ();
+  operate ("celdepth:lumo-shade", (Pads) { { drawing, drawing } }, "RGBA float", result, "light-model",
+           CELD_MODEL_MATCAP, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Matcap") && SAYS ("aux5"));
+  be_quiet ();
+  operate ("celdepth:lumo-shade", (Pads) { { drawing, drawing, NULL, NULL, NULL, ball } }, "RGBA float", result,
+           "light-model", CELD_MODEL_MATCAP, NULL);
+  CHECK (times_said == 0 && warnings == 0);
+  NEAR (result[4 * PIXELS / 2], 0, 0); /* it is black */
+  g_object_unref (ball);
+}
+
 /* Strokes in a colour that no region has, and none to look colours up in; a layer without a stroke is no mistake. */
 static void
 foreign_corrections_are_refused (void)
@@ -286,6 +305,7 @@ main (int argc, char **argv)
   start_to_listen ();
   RUN (missing_pads_are_named);
   RUN (nothing_to_go_by_is_said);
+  RUN (a_ball_is_asked_for);
   RUN (foreign_corrections_are_refused);
   RUN (unreadable_relations_are_located);
   RUN (unreadable_arrow_paths_are_located);
