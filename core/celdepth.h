@@ -148,8 +148,8 @@ typedef struct
 
   /* normals */
   float bulge;                  /* 0 flat .. 1 hemisphere .. 4 */
-  float bevel;                  /* parts bend so far from their outlines, as a share of the diagonal, [0,0.5]; 0: they are
-                                 * round all over */
+  float bevel;                  /* parts bend so far from their outlines, as a share of the diagonal, [0,0.5]; 0: they
+                                 * are round all over */
   float quilt;                  /* how much both sides of a stroke inside a part bend, [0,1]; 0 */
   bool  frame_outline;          /* is the frame of the picture an outline, too? false */
 
@@ -569,16 +569,16 @@ CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *se
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldRun *run, CeldVectors *normals);
 
-/* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends, if
- * settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends its
- * side, black does not, grey bends both. */
+/* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends,
+ * if settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends
+ * its side, black does not, grey bends both. */
 CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                          const CeldPaint *hints, const CeldSettings *settings, const CeldRun *run,
                                          CeldVectors *normals);
 
 /* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
- * white the `gloss` of highlights and rims adds.  `matcap` is the picture of a lit ball that fills it, of any size, and is
- * needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
+ * white the `gloss` of highlights and rims adds.  `matcap` is the picture of a lit ball that fills it, of any size, and
+ * is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSettings *settings,
                                 const CeldRun *run, CeldColours *tone, CeldPlane *gloss);
 /* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */

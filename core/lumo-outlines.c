@@ -218,10 +218,10 @@ hold_edges (Outlines *o, const CeldRun *run)
       status = y % 16 ? CELD_OK : celd_step (run, (double) y / l->height);
       for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
         {
-          if (x + 1 < l->width && l->east[i] <= 0 && !(l->level[i] >= l->level[i + 1] && l->level[i] <= l->level[i + 1]))
+          if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_level (l, i, i + 1))
             status = hold_edge (o, x, y, false);
           if (status == CELD_OK && y + 1 < l->height && l->south[i] <= 0 &&
-              !(l->level[i] >= l->level[i + (size_t) l->width] && l->level[i] <= l->level[i + (size_t) l->width]))
+              !celd_lumo_level (l, i, i + (size_t) l->width))
             status = hold_edge (o, x, y, true);
         }
     }

@@ -1,8 +1,9 @@
 /* Strokes inside a part: wrinkles, folds, seams, which need not end what they are drawn on.
  *
  * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a seam of a quilt, or of
- * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come before that, as in [Joh02]: white beside a
- * line makes its side bend ("over"), black lets it run on ("under"), grey bends both sides; at outlines, too.
+ * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come
+ * before that, as in [Joh02]: white beside a line makes its side bend ("over"), black lets it run on ("under"), grey
+ * bends both sides; at outlines, too.
  *
  * The middle of a stroke runs where the nearest paper changes from one side to the other: on the medial axis.  Its
  * direction comes from the second moments of the ink under a Gaussian.  What is wider than two strokes is an area.
@@ -62,12 +63,11 @@ flank_of (const Seams *s, int x, int y)
 static bool
 is_middle (const Seams *s, const Flank *p, const Flank *q)
 {
-  const float *level = s->lumo->level;
-  double       a = hypot (p->dx, p->dy), b = hypot (q->dx, q->dy);
-  size_t       i = celd_lumo_pixel (s->lumo, p->x, p->y);
+  double a = hypot (p->dx, p->dy), b = hypot (q->dx, q->dy);
+  size_t i = celd_lumo_pixel (s->lumo, p->x, p->y);
 
-  if (level[i] < level[p->paper] || level[i] > level[p->paper] || level[i] < level[q->paper] ||
-      level[i] > level[q->paper] || a > s->lumo->stroke + 1 || b > s->lumo->stroke + 1)
+  if (!celd_lumo_level (s->lumo, i, p->paper) || !celd_lumo_level (s->lumo, i, q->paper) ||
+      a > s->lumo->stroke + 1 || b > s->lumo->stroke + 1)
     return false;
   if (!(a > 0) && !(b > 0))
     return false;
@@ -190,10 +190,10 @@ find_seams (Seams *s, const CeldRun *run)
           bool ink = !celd_is_paper (CELD_AT (l->ink, x, y));
 
           if (x + 1 < l->width && (ink || !celd_is_paper (CELD_AT (l->ink, x + 1, y))) &&
-              l->level[i] >= l->level[i + 1] && l->level[i] <= l->level[i + 1])
+              celd_lumo_level (l, i, i + 1))
             status = look_at_edge (s, x, y, false);
           if (status == CELD_OK && y + 1 < l->height && (ink || !celd_is_paper (CELD_AT (l->ink, x, y + 1))) &&
-              l->level[i] >= l->level[i + (size_t) l->width] && l->level[i] <= l->level[i + (size_t) l->width])
+              celd_lumo_level (l, i, i + (size_t) l->width))
             status = look_at_edge (s, x, y, true);
         }
     }

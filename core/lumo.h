@@ -53,6 +53,13 @@ celd_lumo_pixel (const CeldLumo *lumo, int x, int y)
   return (size_t) y * (size_t) lumo->width + (size_t) x;
 }
 
+/* Have two pixels one level? */
+static inline bool
+celd_lumo_level (const CeldLumo *lumo, size_t p, size_t q)
+{
+  return lumo->level[p] >= lumo->level[q] && lumo->level[p] <= lumo->level[q];
+}
+
 /* Round this place, a few pixels away along (dx,dy), y down: what is painted beside the line. */
 CeldSide celd_lumo_side (const CeldLumo *lumo, double x, double y, double dx, double dy);
 

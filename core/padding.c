@@ -1,5 +1,5 @@
-/* Colours under transparency, for textures: a game engine blends neighbouring pixels, and what lies beside the edge of a
- * sprite must look like the sprite.
+/* Colours under transparency, for textures: a game engine blends neighbouring pixels, and what lies beside the edge of
+ * a sprite must look like the sprite.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +8,8 @@
 #define SOLID 0.5f /* alpha from which a pixel's colour counts */
 
 static void
-pad_pixel (const CeldColours *picture, int64_t most, const float blank[3], int32_t squared, int32_t nearest, float *rgba)
+pad_pixel (const CeldColours *picture, int64_t most, const float blank[3], int32_t squared, int32_t nearest,
+           float *rgba)
 {
   const float *from = CELD_RGBA (picture, nearest < 0 ? 0 : nearest % picture->width,
                                  nearest < 0 ? 0 : nearest / picture->width);

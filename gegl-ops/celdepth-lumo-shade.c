@@ -109,8 +109,8 @@ write_light (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
   CeldPlane       gloss;
 
   if (by_matcap && !celd_op_has (op, "aux5"))
-    return celd_op_fail (op, "There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or another "
-                             "shading.");
+    return celd_op_fail (op, "There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or "
+                             "another shading.");
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
       !celd_op_try (op, celd_light (normals, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))

@@ -216,8 +216,8 @@ GType celd_popup_result_get_type   (void);
 
 #define CELD_PROPERTY_SHADING \
   property_enum (light_model, "Shading", CeldLightModel, celd_light_model, CELD_MODEL_LAMBERT) \
-    description ("Soft light, softer light that reaches round the parts, light in steps, or the picture of a lit ball " \
-                 "(matcap) on pad aux5") \
+    description ("Soft light, softer light that reaches round the parts, light in steps, or the picture of a lit " \
+                 "ball (matcap) on pad aux5") \
   property_int (toon_steps, "Steps", 3) \
     description ("How many steps toon shading has") \
     value_range (2, 5) \

@@ -200,6 +200,9 @@ bool cli_session_load (CeldSession *session, const CliOptions *options, CliLayer
 
 /* ------------------------------------------------------------------ shade.c */
 
+/* Options that say more than what is within their range; says which one is wrong. */
+bool cli_shade_check (CliOptions *options);
+
 #define CLI_MAPS 3
 /* The file of a map for --maps: "hero_n.png" for "hero.png", then _o and _s; free with g_free. */
 char *cli_map_name (const char *path, int map);

@@ -72,7 +72,8 @@ static const FileOption files[] = {
   { "hints", CLI_SHADE, 0, INPUT, MEMBER (hints), "PICTURE",
     "paint beside lines: a white side bends, a black one does not, at grey both do" },
   { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE", "the picture of a lit ball, to shade like it" },
-  { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS", "a sheet of sprites, each of which is shaded by itself" },
+  { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS",
+    "a sheet of sprites, each of which is shaded by itself" },
   { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with its shadows" },
   { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
   { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
@@ -455,6 +456,24 @@ check_place (const char *name, FileKind kind)
   return good;
 }
 
+/* Maps are named after another file than those that they are written to. */
+static bool
+check_maps (const CliOptions *options)
+{
+  bool good = true;
+
+  for (int map = 0; good && options->maps && map < CLI_MAPS; map++)
+    {
+      char *name = cli_map_name (options->maps, map);
+
+      if (same_file (name, options->input) || same_file (name, options->drawing))
+        good = cli_error ("--maps would overwrite %s.", name);
+      good = good && check_place (name, OUTPUT);
+      g_free (name);
+    }
+  return good;
+}
+
 /* Before the work rather than after it. */
 static bool
 check_places (CliOptions *options)
@@ -467,49 +486,7 @@ check_places (CliOptions *options)
 
       good = !name || files[i].kind < OUTPUT || check_place (name, files[i].kind);
     }
-  for (int map = 0; good && options->maps && map < CLI_MAPS; map++)
-    {
-      char *name = cli_map_name (options->maps, map);
-
-      good = (!same_file (name, options->input) && !same_file (name, options->drawing)) ||
-             cli_error ("--maps would overwrite %s.", name);
-      good = good && check_place (name, OUTPUT);
-      g_free (name);
-    }
-  return good;
-}
-
-/* A whole number behind *text, which moves on. */
-static bool
-read_number (char **text, int least, int most, int *number)
-{
-  char  *end = *text;
-  gint64 read = g_ascii_isdigit (**text) ? g_ascii_strtoll (*text, &end, 10) : -1;
-
-  *text   = end;
-  *number = (int) CLAMP (read, 0, CELD_MAX_SIDE);
-  return read >= least && read <= most;
-}
-
-/* Maps, the sheet that they are of, and the ball. */
-static bool
-check_shade (CliOptions *options)
-{
-  char *grid = options->grid, *padding = options->padding_text;
-
-  options->columns = options->rows = 1;
-  options->padding = 4;
-  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->columns) && *grid++ == 'x' &&
-                read_number (&grid, 1, CELD_MAX_SIDE, &options->rows) && !*grid))
-    return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
-  if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
-    return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
-  if (options->maps && !celd_io_can_write (options->maps))
-    return cli_error ("--maps %s: the ending must be .png, .exr or .tif.", options->maps);
-  if (options->matcap)
-    options->settings.light_model = CELD_MODEL_MATCAP;
-  return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||
-         cli_error ("--light-model matcap needs --matcap.");
+  return good && check_maps (options);
 }
 
 static bool
@@ -529,7 +506,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
     return cli_error ("--near-level must be above --far-level.");
-  return check_shade (options) && check_files (command, options);
+  return (command->step != CLI_SHADE || cli_shade_check (options)) && check_files (command, options);
 }
 
 int

@@ -314,7 +314,8 @@ cli_write_values (const char *path, const CeldPlane *values)
 {
   bool          png = g_str_has_suffix (path, ".png") || g_str_has_suffix (path, ".PNG");
   CeldIoChannel channel = { "Y", values->data, 1, values->stride };
-  CeldIoPicture picture = { NULL, values->width, values->height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, false, &channel, 1 };
+  CeldIoPicture picture = { NULL, values->width, values->height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, false, &channel,
+                            1 };
   CeldIoError   error;
 
   if (cli_is_npy (path))

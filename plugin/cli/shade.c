@@ -29,6 +29,40 @@ cli_map_name (const char *path, int map)
   return g_strdup_printf ("%.*s%s%s", stem, path, suffixes[map], path + stem);
 }
 
+/* ------------------------------------------------------------------ options */
+
+/* A whole number at *text, which moves on. */
+static bool
+read_number (const char **text, int least, int most, int *number)
+{
+  char  *end = NULL;
+  gint64 read = g_ascii_isdigit (**text) ? g_ascii_strtoll (*text, &end, 10) : -1;
+
+  *text   = end ? end : *text;
+  *number = (int) CLAMP (read, 0, CELD_MAX_SIDE);
+  return read >= least && read <= most;
+}
+
+bool
+cli_shade_check (CliOptions *options)
+{
+  const char *grid = options->grid, *padding = options->padding_text;
+
+  options->columns = options->rows = 1;
+  options->padding = 4;
+  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->columns) && *grid++ == 'x' &&
+                read_number (&grid, 1, CELD_MAX_SIDE, &options->rows) && !*grid))
+    return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
+  if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
+    return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
+  if (options->maps && !celd_io_can_write (options->maps))
+    return cli_error ("--maps %s: the ending must be .png, .exr or .tif.", options->maps);
+  if (options->matcap)
+    options->settings.light_model = CELD_MODEL_MATCAP;
+  return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||
+         cli_error ("--light-model matcap needs --matcap.");
+}
+
 /* ------------------------------------------------------------------ reading */
 
 static bool

@@ -1,5 +1,5 @@
-/* Normals and shading, in milliseconds a megapixel of processor time, from the line art of a drawing and the levels that
- * its scribbles and relations make.
+/* Normals and shading, in milliseconds a megapixel of processor time, from the line art of a drawing and the levels
+ * that its scribbles and relations make.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -47,7 +47,8 @@ class Shade(Test):
         art, tone, rim, shading = (self.load(name) for name in ('a.npy', 't.npy', 'r.npy', 's.npy'))
         linear = ((np.array([180, 90, 40]) / 255 + 0.055) / 1.055) ** 2.4
         alpha = rim[:, :, 3:]
-        np.testing.assert_allclose(art[:, :, :3], (1 - alpha) * linear * tone[:, :, :3] + alpha * rim[:, :, :3], atol=1e-5)
+        np.testing.assert_allclose(art[:, :, :3], (1 - alpha) * linear * tone[:, :, :3] + alpha * rim[:, :, :3],
+                                   atol=1e-5)
         np.testing.assert_allclose(shading, (1 - alpha[:, :, 0]) * tone[:, :, 0] + alpha[:, :, 0], atol=1e-5)
         self.assertGreater(alpha.max(), 0.4)
         occlusion = self.load('o.npy')
@@ -142,7 +143,8 @@ class Shade(Test):
         self.fails('shade', *SPRITE, '--normals', 'n.npy', '--grid', '3x1', naming='3 x 1 cells')
         np.save(self.path('small.npy'), np.zeros((4, 4), np.float32))
         self.fails('shade', *SPRITE, '--normals', 'n.npy', '--depth', 'small.npy', naming='small.npy')
-        for words, naming in ((('--grid', '3'), '--grid'), (('--grid', '0x2'), '--grid'), (('--grid', '2x2x'), '--grid'),
+        for words, naming in ((('--grid', '3'), '--grid'), (('--grid', '0x2'), '--grid'),
+                              (('--grid', '2x2x'), '--grid'),
                               (('--padding', '65'), '--padding'), (('--padding', 'x'), '--padding'),
                               (('--maps', 'hero.npy'), '--maps'), (('--toon-steps', '6'), '--toon-steps'),
                               (('--toon-steps', '3.5'), '--toon-steps'), (('--light', 'encoded'), '--light'),

@@ -417,8 +417,9 @@ static void
 hints_say_which_side_folds (void)
 {
   static const struct { int left, right; bool folds[2]; } cases[] = { /* -1: nothing is painted */
-    { 255, -1, { true, false } }, { -1, 255, { false, true } }, { 255, 0, { true, false } }, { 128, -1, { true, true } },
-    { -1, 128, { true, true } }, { 0, -1, { false, false } }, { 255, 255, { true, true } }, { -1, -1, { false, false } },
+    { 255, -1, { true, false } }, { -1, 255, { false, true } }, { 255, 0, { true, false } },
+    { 128, -1, { true, true } }, { -1, 128, { true, true } }, { 255, 255, { true, true } },
+    { 0, -1, { false, false } }, { -1, -1, { false, false } },
   };
   Picture      p = disc_with_stroke ();
   CeldPaint    hints = { 200, 160, 200, malloc (4 * 200 * 160) };
