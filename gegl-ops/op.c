@@ -4,6 +4,8 @@
  */
 #include "op.h"
 
+#include <string.h>
+
 #define MOST_PROBLEMS 8 /* in one message */
 
 G_DEFINE_DYNAMIC_TYPE_EXTENDED (CeldOperation, celd_operation, GEGL_TYPE_OPERATION, G_TYPE_FLAG_ABSTRACT, {})
@@ -56,9 +58,17 @@ get_cached_region (GeglOperation *operation, const GeglRectangle *roi)
   return finite_picture (operation, roi);
 }
 
+/* A sample is needed wherever it lies. */
 static GeglRectangle
-get_required_for_output (GeglOperation *operation, const gchar *pad, const GeglRectangle *roi)
+get_required_for_output (GeglOperation *operation, const gchar *name, const GeglRectangle *roi)
 {
+  for (const CeldPad *pad = GET_CLASS (operation)->pads; pad->name; pad++)
+    if (pad->required == CELD_PAD_SAMPLE && !strcmp (pad->name, name))
+      {
+        const GeglRectangle *whole = gegl_operation_source_get_bounding_box (operation, name);
+
+        return whole && !gegl_rectangle_is_infinite_plane (whole) ? *whole : *roi;
+      }
   return finite_picture (operation, roi);
 }
 
