@@ -577,15 +577,16 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
                                          CeldVectors *normals);
 
 /* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
- * white the `gloss` of highlights and rims adds.  `matcap` is the picture of a lit ball that fills it, of any size, and
- * is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
-CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSettings *settings,
-                                const CeldRun *run, CeldColours *tone, CeldPlane *gloss);
+ * white the `gloss` of highlights and rims adds; what is `ink` (may be NULL) does not shine.  `matcap` is the picture of
+ * a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
+CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
+                                const CeldSettings *settings, const CeldRun *run, CeldColours *tone,
+                                CeldPlane *gloss);
 /* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
 CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
 
-/* The same light on white art, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
+/* The same light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
 /* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such

@@ -25,6 +25,7 @@ typedef struct { double x, y, z; } Vector;
 typedef struct
 {
   const CeldVectors  *normals;
+  const CeldPlane    *ink;         /* NULL: none */
   const CeldColours  *matcap;
   const CeldSettings *settings;
   Vector              light, half; /* of a light far away */
@@ -202,6 +203,15 @@ matcap_at (const Scene *s, int x, int y, float rgb[3])
 
 /* ------------------------------------------------------------------ */
 
+/* Ink does not shine, so that lines stay lines; not a number is paper. */
+static double
+paper_at (const Scene *s, int x, int y)
+{
+  double ink = s->ink ? (double) CELD_AT (s->ink, x, y) : 1;
+
+  return ink < 1 ? fmax (ink, 0) : 1;
+}
+
 static void
 light_row (void *data, int y)
 {
@@ -217,15 +227,15 @@ light_row (void *data, int y)
       else
         tone[0] = tone[1] = tone[2] = (float) (ambient + (1 - ambient) * lit_at (s, x, y));
       tone[3] = 1;
-      CELD_AT (s->gloss, x, y) = (float) gloss_at (s, x, y);
+      CELD_AT (s->gloss, x, y) = (float) (paper_at (s, x, y) * gloss_at (s, x, y));
     }
 }
 
 CeldStatus
-celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSettings *settings, const CeldRun *run,
-            CeldColours *tone, CeldPlane *gloss)
+celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap, const CeldSettings *settings,
+            const CeldRun *run, CeldColours *tone, CeldPlane *gloss)
 {
-  if (!CELD_SAME_SIZE (normals, tone) || !CELD_SAME_SIZE (normals, gloss))
+  if (!CELD_SAME_SIZE (normals, tone) || !CELD_SAME_SIZE (normals, gloss) || (ink && !CELD_SAME_SIZE (normals, ink)))
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
@@ -234,6 +244,7 @@ celd_light (const CeldVectors *normals, const CeldColours *matcap, const CeldSet
 
   Scene s = scene (normals, settings);
 
+  s.ink    = ink;
   s.matcap = matcap;
   s.tone   = tone;
   s.gloss  = gloss;

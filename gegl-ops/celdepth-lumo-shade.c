@@ -101,7 +101,7 @@ write_lit (CeldOp *op, const CeldColours *tone, const CeldPlane *gloss)
 }
 
 static gboolean
-write_light (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
+write_light (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, const CeldVectors *normals)
 {
   GeglProperties *o = GEGL_PROPERTIES (op->operation);
   gboolean        by_matcap = o->light_model == CELD_MODEL_MATCAP;
@@ -113,7 +113,7 @@ write_light (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
                              "another shading.");
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
-      !celd_op_try (op, celd_light (normals, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
+      !celd_op_try (op, celd_light (normals, ink, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
     return FALSE;
   if (o->result == CELD_LUMO_TONE)
     return celd_op_write (op, tone.data);
@@ -125,7 +125,7 @@ write_light (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
 }
 
 static gboolean
-write_result (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
+write_result (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, const CeldVectors *normals)
 {
   GeglProperties *o = GEGL_PROPERTIES (op->operation);
   CeldPlane       shading;
@@ -133,7 +133,7 @@ write_result (CeldOp *op, const CeldSettings *s, const CeldVectors *normals)
   if (o->result == CELD_LUMO_NORMALS)
     return celd_op_write_normals (op, normals, o->directx);
   if (o->result != CELD_LUMO_SHADING || o->light_model == CELD_MODEL_MATCAP)
-    return write_light (op, s, normals);
+    return write_light (op, s, ink, normals);
   return celd_op_new_plane (op, &shading) &&
          celd_op_try (op, celd_shade (normals, s, &shading)) &&
          celd_op_write (op, shading.data);
@@ -169,7 +169,7 @@ render (CeldOp *op)
          celd_op_new_vectors (op, &normals) &&
          celd_op_try (op, celd_normals_hinted (&ink, &levels, deep ? &depth : NULL, hinted ? &hints : NULL, &s,
                                                &op->run, &normals)) &&
-         write_result (op, &s, &normals);
+         write_result (op, &s, &ink, &normals);
 }
 
 static void

@@ -242,7 +242,7 @@ shade_cell (const CliOptions *options, const CeldRun *run, Shade *s)
   if (status == CELD_OK && s->shading.data)
     status = celd_shade (&s->normals, settings, &s->shading);
   if (status == CELD_OK && s->tone.data)
-    status = celd_light (&s->normals, s->matcap.data ? &s->matcap : NULL, settings, run, &s->tone, &s->gloss);
+    status = celd_light (&s->normals, &s->ink, s->matcap.data ? &s->matcap : NULL, settings, run, &s->tone, &s->gloss);
   if (status == CELD_OK && s->occlusion.data)
     status = celd_occlusion (&s->levels, settings, run, &s->occlusion);
   if (status == CELD_OK && options->directx)

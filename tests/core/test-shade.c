@@ -90,7 +90,7 @@ light_one (const CeldSettings *settings, const CeldColours *matcap, float x, flo
   CeldColours t = { 1, 1, 1, tone };
   CeldPlane   g = { 1, 1, 1, gloss };
 
-  CHECK (celd_light (&normals, matcap, settings, NULL, &t, &g) == CELD_OK);
+  CHECK (celd_light (&normals, NULL, matcap, settings, NULL, &t, &g) == CELD_OK);
 }
 
 static void
@@ -134,7 +134,7 @@ toon_bands_have_soft_edges (void)
       double sum = 0, wanted = 0;
 
       settings.toon_steps = steps;
-      CHECK (celd_light (&normals, NULL, &settings, NULL, &t, &g) == CELD_OK);
+      CHECK (celd_light (&normals, NULL, NULL, &settings, NULL, &t, &g) == CELD_OK);
       for (int x = 0; x < W; x++)
         {
           double band = (double) tone[4 * x] * (steps - 1);
@@ -193,6 +193,27 @@ rims_shine_where_parts_turn_away (void)
   settings.light_elevation = 0;
   light_one (&settings, NULL, 1, 0, 0, tone, &gloss);
   CHECK (gloss <= 1);
+}
+
+/* Ink takes light like all else, but does not shine. */
+static void
+ink_does_not_shine (void)
+{
+  float        n[12] = { 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 }, art[4] = { 0, 0.25f, 1, NAN }, tone[16], gloss[4];
+  CeldVectors  normals = { 4, 1, 4, n };
+  CeldPlane    ink = { 4, 1, 4, art }, g = { 4, 1, 4, gloss };
+  CeldColours  t = { 4, 1, 4, tone };
+  CeldSettings settings = from (0, 90);
+
+  settings.specular = 0.8f;
+  CHECK (celd_light (&normals, &ink, NULL, &settings, NULL, &t, &g) == CELD_OK);
+  NEAR (tone[0], 1, 1e-6);
+  NEAR (gloss[0], 0, 0);
+  NEAR (gloss[1], 0.2, 1e-6);
+  NEAR (gloss[2], 0.8, 1e-6);
+  NEAR (gloss[3], 0.8, 1e-6);
+  ink.width = 3;
+  CHECK (celd_light (&normals, &ink, NULL, &settings, NULL, &t, &g) == CELD_BAD_SIZE);
 }
 
 /* A point of light over a wall: brightest below it, as far as it is high by cos 45 degrees. */
@@ -276,7 +297,7 @@ layers_are_the_shaded_art (void)
   settings.specular  = 0.4f;
   settings.rim_light = 0.7f;
   memcpy (lit, art, sizeof lit);
-  CHECK (celd_light (&normals, NULL, &settings, NULL, &t, &g) == CELD_OK);
+  CHECK (celd_light (&normals, NULL, NULL, &settings, NULL, &t, &g) == CELD_OK);
   CHECK (celd_light_colours (&t, &g, &out) == CELD_OK);
   CHECK (celd_light_layer (&g, &l) == CELD_OK);
   CHECK (celd_shade (&normals, &settings, &s) == CELD_OK);
@@ -310,7 +331,7 @@ bad_input_does_no_harm (void)
   settings = celd_settings ();
   settings.light_model = CELD_MODEL_MATCAP; /* without a ball */
   CHECK (celd_shade (&normals, &settings, &shading) == CELD_BAD_VALUE);
-  CHECK (celd_light (&normals, NULL, &settings, NULL, &(CeldColours) { 2, 2, 2, (float[16]) { 0 } }, &shading) ==
+  CHECK (celd_light (&normals, NULL, NULL, &settings, NULL, &(CeldColours) { 2, 2, 2, (float[16]) { 0 } }, &shading) ==
          CELD_BAD_VALUE);
   settings.light_model = CELD_MODEL_TOON;
   settings.specular = settings.rim_light = 1;
@@ -330,6 +351,7 @@ main (void)
   RUN (toon_bands_have_soft_edges);
   RUN (highlights_are_where_mirrors_shine);
   RUN (rims_shine_where_parts_turn_away);
+  RUN (ink_does_not_shine);
   RUN (a_point_of_light_is_near);
   RUN (a_matcap_is_read_by_the_normal);
   RUN (layers_are_the_shaded_art);

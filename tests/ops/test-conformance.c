@@ -475,7 +475,7 @@ all_light_is_that_of_core (void)
         if (result_of == 2 || (result_of == 1 && model != CELD_MODEL_MATCAP))
           continue;
         s.light_model = (CeldLightModel) model;
-        CHECK (celd_light (&bent, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
+        CHECK (celd_light (&bent, &ink, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
         operate ("celdepth:lumo-shade", (Pads) { { input, drawing, art, deep, hints, sample } },
                  "RGBA float", result, "result", result_of, "light-model", model, "quilt", 0.7, "bevel", 0.1,
                  "frame-outline", TRUE, "light", CELD_LIGHT_POINT, "light-x", 0.75, "light-y", 0.25,
