@@ -75,6 +75,13 @@ def measure_distance(name, megapixels, options):
     return {'case': name, 'megapixels': megapixels, **run('bench-distance', options, drawing, options.runs)}
 
 
+def measure_shade(name, megapixels, options):
+    drawing, scribbles, _ = make_page(name, megapixels, os.path.join(options.build, 'pages'))
+    relations = make_relations(name, drawing, os.path.join(options.build, 'pages'))
+    return {'case': name, 'megapixels': megapixels,
+            **run('bench-shade', options, drawing, scribbles, relations, options.runs)}
+
+
 # ------------------------------------------------------------------ the exact program, for general solvers
 
 def contracted(figures, prefix):
@@ -207,6 +214,12 @@ DISTANCE_TABLES = [
         ('different', '.0f', lambda r: r['near, different pixels'] + r['far, different pixels'])]),
 ]
 
+SHADE_TABLES = [
+    ('Normals and shading: milliseconds a megapixel', [
+        ('normals', '.1f', figure('normals')),
+        ('shading', '.1f', figure('shading'))]),
+]
+
 PROGRAM_TABLES = [
     ('The exact program: milliseconds from line art to depth, and after another gap for one relation', [
         ('nodes', '.0f', figure('nodes')),
@@ -262,12 +275,13 @@ def main():
     parser.add_argument('--no-save', action='store_true', help='writes no file')
     options = parser.parse_args()
 
-    systems, programs, distances = [], [], []
+    systems, programs, distances, shades = [], [], [], []
     for size in options.sizes:
         for name in options.cases:
             print(f'{name}, {size:g} MP', file=sys.stderr)
             systems.append(measure_laplace(name, size, options))
             distances.append(measure_distance(name, size, options))
+            shades.append(measure_shade(name, size, options))
     pages = [(side * side / 1e6, True) for side in options.sides] + [(size, False) for size in options.sizes]
     for size, rivals in pages:
         for name in options.programs:
@@ -279,12 +293,12 @@ def main():
             print(f'{name}, session, {size:g} MP', file=sys.stderr)
             sessions.append(measure_session(name, size, options))
     if options.json:
-        print(json.dumps({'systems': systems, 'distances': distances, 'programs': programs,
-                          'sessions': sessions}, indent=1))
+        print(json.dumps({'systems': systems, 'distances': distances, 'shades': shades,
+                          'programs': programs, 'sessions': sessions}, indent=1))
         return
     lines = [f'celdepth {version()}, one core of {processor()}; medians of {options.runs} runs', '']
-    for tables, results in (LAPLACE_TABLES, systems), (DISTANCE_TABLES, distances), (PROGRAM_TABLES, programs), \
-            (SESSION_TABLES, sessions):
+    for tables, results in (LAPLACE_TABLES, systems), (DISTANCE_TABLES, distances), (SHADE_TABLES, shades), \
+            (PROGRAM_TABLES, programs), (SESSION_TABLES, sessions):
         for title, columns in tables:
             lines += table(title, columns, results)
     save(lines, None if options.no_save else 'solvers')

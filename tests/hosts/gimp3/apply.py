@@ -77,8 +77,9 @@ def people(bits):
     levels = step(order, 'depth-expand', 'levels', {'aux': drawing, 'aux2': labels})
     depth = step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
     step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
-    for result in ('shading', 'normals', 'tone', 'rim', 'occlusion'):
+    for result in ('shading', 'normals', 'occlusion'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)
+    step(levels, 'lumo-shade', 'tone', {'aux': drawing}, result='tone', **{'light-model': 'half-lambert'})
     step(drawing, 'depth-exact', 'exact', {'aux': scribbles, 'aux2': arrows})
     for result in ('labels', 'order', 'levels', 'depth', 'normals', 'shading', 'problems'):
         step(drawing, 'popup', 'popup-' + result, {'aux': scribbles, 'aux2': arrows}, result=result)
