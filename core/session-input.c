@@ -48,6 +48,23 @@ same_relations (const CeldRelations *a, const CeldRelations *b)
   return a->n == b->n;
 }
 
+/* Do normals, and does the light on them? */
+static bool
+shape_differs (const CeldSettings *a, const CeldSettings *b)
+{
+  return a->bulge != b->bulge || a->bevel != b->bevel || a->quilt != b->quilt || a->frame_outline != b->frame_outline;
+}
+
+static bool
+light_differs (const CeldSettings *a, const CeldSettings *b)
+{
+  return a->light_model != b->light_model || a->light != b->light || a->light_azimuth != b->light_azimuth ||
+         a->light_elevation != b->light_elevation || a->light_x != b->light_x || a->light_y != b->light_y ||
+         a->light_height != b->light_height || a->ambient != b->ambient || a->toon_steps != b->toon_steps ||
+         a->specular != b->specular || a->shininess != b->shininess || a->rim_light != b->rim_light ||
+         a->rim_power != b->rim_power;
+}
+
 /* Each stage that reads a setting forgets its result; what is made from it goes with it. */
 CeldStatus
 celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
@@ -101,9 +118,9 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
     celd_session_forget (session, STAGE_NODES);
   if (encoding || tolerance || a->on_cycle != b->on_cycle)
     celd_session_forget (session, STAGE_EXACT);
-  if (a->bulge != b->bulge || tolerance || threshold)
+  if (threshold || shape_differs (a, b))
     celd_session_forget (session, STAGE_NORMALS);
-  if (a->light_azimuth != b->light_azimuth || a->light_elevation != b->light_elevation || a->ambient != b->ambient)
+  if (light_differs (a, b))
     celd_session_forget (session, STAGE_SHADING);
   session->settings = *settings;
   return CELD_OK;

@@ -332,14 +332,27 @@ a_setting_redoes_what_reads_it (void)
   REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_ORDER | STAGE (EXACT));
   REDOES (settings.encoding = CELD_ENCODING_RANK, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
   REDOES (settings.near_level = 3, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
-  REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (NORMALS) | STAGE (SHADING) | STAGE (EXACT));
+  REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (EXACT));
   REDOES (settings.anchors = CELD_ANCHORS_CORE, DEPTHS);
   REDOES (settings.bulge = 2, STAGE (NORMALS) | STAGE (SHADING));
   REDOES (settings.contrast = 2, STAGE (WEIGHTS) | FROM_NODES);
   REDOES (settings.weight_floor = 1e-3f, STAGE (WEIGHTS) | FROM_NODES);
   REDOES (settings.same_colour = CELD_SAME_COLOUR_SEPARATE, FROM_LABELS | FROM_NODES);
   REDOES (settings.background = CELD_BACKGROUND_NONE, FROM_LABELS | FROM_NODES);
+  REDOES (settings.bevel = 0.1f, STAGE (NORMALS) | STAGE (SHADING));
+  REDOES (settings.quilt = 1, STAGE (NORMALS) | STAGE (SHADING));
+  REDOES (settings.frame_outline = true, STAGE (NORMALS) | STAGE (SHADING));
   REDOES (settings.ambient = 0.5f, STAGE (SHADING));
+  REDOES (settings.light_model = CELD_MODEL_TOON, STAGE (SHADING));
+  REDOES (settings.toon_steps = 5, STAGE (SHADING));
+  REDOES (settings.light = CELD_LIGHT_POINT, STAGE (SHADING));
+  REDOES (settings.light_x = 0.5f, STAGE (SHADING));
+  REDOES (settings.light_y = 0.5f, STAGE (SHADING));
+  REDOES (settings.light_height = 0.5f, STAGE (SHADING));
+  REDOES (settings.specular = 0.5f, STAGE (SHADING));
+  REDOES (settings.shininess = 5, STAGE (SHADING));
+  REDOES (settings.rim_light = 0.5f, STAGE (SHADING));
+  REDOES (settings.rim_power = 5, STAGE (SHADING));
 }
 
 static void

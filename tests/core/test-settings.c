@@ -22,6 +22,15 @@ ranges_are_kept (void)
     { &s.hardness, 1, 0, 1.01f },
     { &s.tolerance, 0.1f, 0, 0.2f },
     { &s.bulge, 4, -0.1f, 5 },
+    { &s.bevel, 0.5f, -0.1f, 0.6f },
+    { &s.quilt, 1, -0.1f, 1.1f },
+    { &s.light_x, -10, -11, 11 },
+    { &s.light_y, 10, -11, 11 },
+    { &s.light_height, 10, 0, 11 },
+    { &s.specular, 1, -0.1f, 1.1f },
+    { &s.shininess, 1000, 0, 1001 },
+    { &s.rim_light, 1, -0.1f, 1.1f },
+    { &s.rim_power, 20, 0, 21 },
     { &s.light_azimuth, -360, -361, 361 },
     { &s.light_elevation, 90, -91, 91 },
     { &s.ambient, 1, -0.1f, 1.1f },
@@ -47,6 +56,15 @@ ranges_are_kept (void)
       CHECK (celd_settings_check (&s) == CELD_BAD_VALUE);
       *range[i].member = usual;
     }
+}
+
+static void
+toon_has_two_to_five_steps (void)
+{
+  CeldSettings s = celd_settings ();
+
+  for (s.toon_steps = 0; s.toon_steps < 8; s.toon_steps++)
+    CHECK ((celd_settings_check (&s) == CELD_OK) == (s.toon_steps >= 2 && s.toon_steps <= 5));
 }
 
 static void
@@ -122,6 +140,7 @@ main (void)
 {
   RUN (defaults_are_legal);
   RUN (ranges_are_kept);
+  RUN (toon_has_two_to_five_steps);
   RUN (fixed_levels_need_a_span);
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
