@@ -297,8 +297,8 @@ static CeldStatus
 outlines_new (CeldLumo *l, Outlines *o)
 {
   *o = (Outlines) { .lumo = l, .words = ((size_t) l->width + 63) / 64 };
-  o->east   = celd_alloc ((size_t) l->height * o->words, sizeof *o->east);
-  o->south  = celd_alloc ((size_t) l->height * o->words, sizeof *o->south);
+  o->east   = celd_alloc0 ((size_t) l->height * o->words, sizeof *o->east);
+  o->south  = celd_alloc0 ((size_t) l->height * o->words, sizeof *o->south);
   o->front  = celd_alloc0 (l->regions.n + 1, 1);
   o->behind = celd_alloc0 (l->regions.n + 1, 1);
   if (!o->east || !o->south || !o->front || !o->behind)

@@ -333,6 +333,35 @@ a_bevel_leaves_the_middle_flat (void)
   picture_free (&p);
 }
 
+/* A contour is closed or not, wherever it lies and however wide the picture is: cut ends are looked for in words of
+ * 64 pixels. */
+static void
+places_do_not_matter (void)
+{
+  double wanted[2] = { 0, 0 };
+
+  for (int width = 60; width < 200; width += width < 70 || width > 124 ? 1 : 27)
+    for (int gap = 0; gap < 2; gap++)
+      {
+        Disc    d = { width - 26, 26, 20 };
+        Picture p = picture (width, 52);
+        double  sum = 0;
+
+        put_disc (&p, d, 3, 1);
+        for (int y = 22; gap && y < 30; y++)
+          for (int x = width - 12; x < width; x++)
+            p.ink.data[y * width + x] = 1;
+        make (&p, 1);
+        for (int y = 0; y < 52; y++)
+          for (int x = width - 52; x < width; x++)
+            sum += (double) CELD_XYZ (&p.normals, x, y)[2];
+        wanted[gap] = width == 60 ? sum : wanted[gap];
+        NEAR (sum, wanted[gap], 0.002 * wanted[gap]);
+        picture_free (&p);
+      }
+  CHECK (wanted[1] - wanted[0] > 20);
+}
+
 /* ------------------------------------------------------------------ strokes inside a part */
 
 /* A disc with a stroke down its middle, of which both ends lie inside it, and one on the paper. */
@@ -545,6 +574,7 @@ main (void)
   RUN (the_farther_side_runs_under);
   RUN (a_virtual_border_neither_cuts_nor_bends);
   RUN (paper_stays_flat_behind_a_gap);
+  RUN (places_do_not_matter);
   RUN (bulge_scales_the_slope);
   RUN (a_bevel_leaves_the_middle_flat);
   RUN (quilting_folds_both_sides);
