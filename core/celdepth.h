@@ -577,8 +577,9 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
                                          CeldVectors *normals);
 
 /* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
- * white the `gloss` of highlights and rims adds; what is `ink` (may be NULL) does not shine.  `matcap` is the picture of
- * a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE without. */
+ * white the `gloss` of highlights and rims adds; what is `ink` (may be NULL) does not shine.  `matcap` is the picture
+ * of a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE
+ * without. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
                                 const CeldSettings *settings, const CeldRun *run, CeldColours *tone,
                                 CeldPlane *gloss);

@@ -1,8 +1,8 @@
 /* Normals of a blobby surface, Lumo [Joh02], with depth discontinuities (section 5).
  *
  * At an outline the normal lies in the picture and points outward.  n_x and n_y are harmonic in between, each by
- * itself, and n_z follows from unit length; on a disc that is exactly a hemisphere, and on an ellipse nearly an ellipsoid
- * whose third half axis is the harmonic mean of the others.
+ * itself, and n_z follows from unit length; on a disc that is exactly a hemisphere, and on an ellipse nearly an
+ * ellipsoid whose third half axis is the harmonic mean of the others.
  *
  *   [Joh02]  S. F. Johnston: Lumo: Illumination for Cel Animation.  NPAR 2002.
  *

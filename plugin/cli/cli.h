@@ -113,6 +113,7 @@ bool cli_colours_new  (int width, int height, CeldColours *colours);
 bool cli_read_levels  (const char *path, CeldPlane *levels);
 
 bool cli_is_device     (const char *path); /* neither a file nor a folder: a terminal, a pipe, /dev/null */
+bool cli_is_png        (const char *path);
 bool cli_can_write     (const char *path);
 bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
 bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPalette *palette);

@@ -6,6 +6,7 @@
 #include "cli.h"
 
 #include <babl/babl.h>
+#include <string.h>
 
 bool
 cli_plane_new (int width, int height, CeldPlane *plane)
@@ -193,6 +194,14 @@ cli_encode (const float *linear, int n, float *encoded)
 /* ------------------------------------------------------------------ writing, by the ending of the name */
 
 bool
+cli_is_png (const char *path)
+{
+  size_t length = strlen (path);
+
+  return length > 4 && !g_ascii_strcasecmp (path + length - 4, ".png");
+}
+
+bool
 cli_can_write (const char *path)
 {
   return cli_is_npy (path) || celd_io_can_write (path);
@@ -312,7 +321,7 @@ cli_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours 
 bool
 cli_write_values (const char *path, const CeldPlane *values)
 {
-  bool          png = g_str_has_suffix (path, ".png") || g_str_has_suffix (path, ".PNG");
+  bool          png = cli_is_png (path);
   CeldIoChannel channel = { "Y", values->data, 1, values->stride };
   CeldIoPicture picture = { NULL, values->width, values->height, png ? CELD_IO_16_BIT : CELD_IO_FLOAT, false, &channel,
                             1 };

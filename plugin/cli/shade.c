@@ -55,8 +55,8 @@ cli_shade_check (CliOptions *options)
     return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
   if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
     return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
-  if (options->maps && !celd_io_can_write (options->maps))
-    return cli_error ("--maps %s: the ending must be .png, .exr or .tif.", options->maps);
+  if (options->maps && !cli_is_png (options->maps)) /* others multiply colours by alpha, or know no 8 bits */
+    return cli_error ("--maps %s: the ending must be .png.", options->maps);
   if (options->matcap)
     options->settings.light_model = CELD_MODEL_MATCAP;
   return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||

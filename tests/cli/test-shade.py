@@ -148,7 +148,7 @@ class Shade(Test):
         for words, naming in ((('--grid', '3'), '--grid'), (('--grid', '0x2'), '--grid'),
                               (('--grid', '2x2x'), '--grid'),
                               (('--padding', '65'), '--padding'), (('--padding', 'x'), '--padding'),
-                              (('--maps', 'hero.npy'), '--maps'), (('--toon-steps', '6'), '--toon-steps'),
+                              (('--maps', 'hero.exr'), '--maps'), (('--toon-steps', '6'), '--toon-steps'),
                               (('--toon-steps', '3.5'), '--toon-steps'), (('--light', 'encoded'), '--light'),
                               (('--quilt', '2'), '--quilt')):
             with self.subTest(words):
