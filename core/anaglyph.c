@@ -1,4 +1,5 @@
-/* A left and a right view in one picture: side by side, one over the other, row by row, or for coloured glasses.
+/* A left and a right view in one picture: side by side, one over the other, in turns of rows or columns, or for coloured
+ * glasses.
  *
  * Anaglyphs are linear maps of the two colours in linear light, and keep white and greys as they are.  Dubois's weights
  * for red and cyan glasses make what each eye sees through its glass most like the view meant for it [Dub01].
@@ -38,18 +39,22 @@ glasses_of (CeldStereo format)
     }
 }
 
+/* What one view does not cover adds nothing. */
 static void
 see (const Glasses *g, const float *left, const float *right, float *to)
 {
+  float alpha = fmaxf (left[3], right[3]);
+  float one = alpha > 0 ? left[3] / alpha : 0, other = alpha > 0 ? right[3] / alpha : 0;
+
   for (int c = 0; c < 3; c++)
     {
       float sum = 0;
 
       for (int k = 0; k < 3; k++)
-        sum += g->left[c][k] * left[k] + g->right[c][k] * right[k];
+        sum += g->left[c][k] * one * left[k] + g->right[c][k] * other * right[k];
       to[c] = fmaxf (0, fminf (sum, 1));
     }
-  to[3] = fmaxf (left[3], right[3]);
+  to[3] = alpha;
 }
 
 void
@@ -76,7 +81,7 @@ average (const float *a, const float *b, float *to)
 static void
 join_pixel (const CeldColours *left, const CeldColours *right, CeldStereo format, int x, int y, float *to)
 {
-  int                w = left->width, h = left->height, half = (w + 1) / 2;
+  int                w = left->width, h = left->height, half = (w + 1) / 2, low = (h + 1) / 2;
   const CeldColours *view = left;
 
   switch (format)
@@ -94,8 +99,16 @@ join_pixel (const CeldColours *left, const CeldColours *right, CeldStereo format
     case CELD_STEREO_OVER_UNDER:
       memcpy (to, CELD_RGBA (y >= h ? right : left, x, y % h), 4 * sizeof *to);
       break;
+    case CELD_STEREO_HALF_OVER_UNDER:
+      view = y >= low ? right : left;
+      y    = 2 * (y >= low ? y - low : y);
+      average (CELD_RGBA (view, x, y), CELD_RGBA (view, x, y + 1 < h ? y + 1 : y), to);
+      break;
     case CELD_STEREO_INTERLACED:
       memcpy (to, CELD_RGBA (y % 2 ? right : left, x, y), 4 * sizeof *to);
+      break;
+    case CELD_STEREO_COLUMNS:
+      memcpy (to, CELD_RGBA (x % 2 ? right : left, x, y), 4 * sizeof *to);
       break;
     case CELD_STEREO_LEFT:
     case CELD_STEREO_RIGHT:

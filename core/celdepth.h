@@ -99,11 +99,12 @@ typedef enum { CELD_ENHANCE_STACK, CELD_ENHANCE_DARKEN, CELD_ENHANCE_CONTRAST } 
 typedef enum
 {
   CELD_STEREO_LEFT, CELD_STEREO_RIGHT, CELD_STEREO_SIDE_BY_SIDE, CELD_STEREO_HALF_SIDE_BY_SIDE, CELD_STEREO_CROSSED,
-  CELD_STEREO_OVER_UNDER, CELD_STEREO_INTERLACED, CELD_STEREO_GREY, CELD_STEREO_COLOUR, CELD_STEREO_HALF_COLOUR,
-  CELD_STEREO_DUBOIS
+  CELD_STEREO_OVER_UNDER, CELD_STEREO_HALF_OVER_UNDER, CELD_STEREO_INTERLACED, CELD_STEREO_COLUMNS, CELD_STEREO_GREY,
+  CELD_STEREO_COLOUR, CELD_STEREO_HALF_COLOUR, CELD_STEREO_DUBOIS
 } CeldStereo;
 typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
 typedef enum { CELD_MESH_AUTO, CELD_MESH_SURFACE, CELD_MESH_SOLID } CeldMeshKind;
+typedef enum { CELD_PATH_SWAY, CELD_PATH_CIRCLE, CELD_PATH_TURNTABLE } CeldPath;
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 typedef struct
@@ -179,6 +180,9 @@ typedef struct
   float disparity;              /* between depth 1 and 0, of both eyes, as a share of the width, [0,0.2]; 0.02 */
   CeldStereo stereo;            /* how two views come in one picture; side by side */
   float convergence;            /* which depth lies on the screen, from 0 farthest to 1 nearest; 0.5 */
+  bool  floating_window;        /* bars at the sides bring the frame before what it cuts in front of the screen */
+  float screen_width;           /* of the whole picture as it is shown, in mm, [0,1e6]; 0: not known */
+  CeldPath path;                /* of the camera: from side to side, in a circle, or as if the drawing turned */
 
   /* relief, which also has the bulge */
   CeldReliefFrom relief_from;   /* parts bulge by inflation, or as their normals say */
@@ -610,17 +614,41 @@ CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
 
-/* The layers from the side (section 5, Figure 1g), each moved by its own depth, which goes on where it is hidden:
- * `eye` -1 for the left one, 1 for the right one, 0 gives the art back, between for parallax.  `ownership` is what they
- * were cut by.  Completed layers leave no holes.  Colours are those that the layers were cut in. */
-CELD_API CeldStatus celd_stereo_view (const CeldLayers *layers, const CeldOwnership *ownership,
-                                      const CeldPlane *depth, double eye, const CeldSettings *settings,
-                                      const CeldRun *run, CeldColours *view);
-/* How strong that will be: disparities in front of and behind the screen, in shares of the width, and whether something
- * in front of the screen is cut by the frame at the left or right, which the eyes cannot put together. */
-typedef struct { double front, behind; bool cut_left, cut_right; } CeldComfort;
+/* A drawing that can be seen from the side (section 5, Figure 1g).  Nothing that it was made from is kept. */
+typedef struct CeldScene CeldScene;
+
+/* Of layers, each of which moves by its own depth, which goes on where it is hidden: completed ones leave no holes.
+ * `ownership` is what they were cut by.  Views are in the colours that the layers were cut in. */
+CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
+                                          const CeldPlane *depth, const CeldRun *run, CeldScene **scene);
+/* Of depth alone, from wherever: what comes into sight is filled from its farther side, in the colour of the paper
+ * there, without its ink.  For views from the sides, no further than settings->disparity. */
+CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
+                                         const CeldSettings *settings, const CeldRun *run, CeldScene **scene);
+CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
+
+/* Where it is seen from: x -1 the left eye, 1 the right one; y -1 as far above, 1 below; 0,0 the drawing as it is.
+ * `squeeze` is how wide the picture looks, (0,1]: less than 1 when it is turned. */
+typedef struct { double x, y, squeeze; } CeldCamera;
+CELD_API CeldCamera celd_camera_eye (double eye);
+/* `frame` of `frames` of a path that ends where it begins. */
+CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
+
+/* A point of depth d moves by disparity / 2 of the width times d's distance from the screen, away from the camera. */
+CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
+                                     const CeldRun *run, CeldColours *view);
+
+/* How strong that will be for two eyes: disparities in front of and behind the screen, in shares of the width; whether
+ * something in front of the screen is cut by the frame at the left or right, which the eyes cannot put together; and
+ * whether on a screen of settings->screen_width the eyes would have to look apart. */
+typedef struct { double front, behind; bool cut_left, cut_right, diverges; } CeldComfort;
 #define CELD_STEREO_COMFORT (1.0 / 30) /* of the width: more disparity from front to back strains the eyes */
+#define CELD_EYE_DISTANCE   65.0       /* mm: more behind the screen, and the eyes look apart */
 CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
+/* Black bars at the left of the left view and the right of the right one, as wide as it takes to bring the frame before
+ * what it cuts: a floating window.  Nothing where nothing is cut. */
+CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,
+                                        CeldColours *right);
 /* Two views in one picture, whose size celd_stereo_size tells from theirs; anaglyphs for red glasses on the left and
  * cyan ones on the right, in linear light. */
 CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);

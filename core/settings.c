@@ -75,7 +75,8 @@ celd_settings_check (const CeldSettings *s)
               within (s->shadow_size, 0.0005f, 0.2f) && within (s->shadow_strength, 0, 1) &&
               within (s->shadow_offset, 0, 0.2f) && within (s->shadow_range, 0, 1) &&
               within (s->disparity, 0, 0.2f) && within (s->convergence, 0, 1) &&
-              (unsigned) s->stereo <= CELD_STEREO_DUBOIS &&
+              (unsigned) s->stereo <= CELD_STEREO_DUBOIS && within (s->screen_width, 0, 1e6f) &&
+              (unsigned) s->path <= CELD_PATH_TURNTABLE &&
               (unsigned) s->relief_from <= CELD_RELIEF_NORMALS && within (s->relief_depth, 0, 1) &&
               (unsigned) s->mesh <= CELD_MESH_SOLID && within (s->mesh_size, 1, 10000) &&
               within (s->mesh_plate, 0.1f, 1000) && within (s->mesh_error, 0.01f, 100) &&

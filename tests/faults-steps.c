@@ -638,6 +638,9 @@ stereo_step (const CeldRun *run, Results *r)
   CeldColours     colours = { W, H, W, art }, to = { W, H, W, view };
   uint32_t        level[2] = { 0, 1 };
   CeldLayers     *layers = NULL;
+  CeldScene      *scene = NULL;
+  CeldPart        part[2];
+  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
   CeldStatus      status;
 
   for (int p = 0; p < W * H; p++)
@@ -647,10 +650,36 @@ stereo_step (const CeldRun *run, Results *r)
     }
   status = celd_layers_cut (&ink, &own, level, 2, &colours, 1, 0, false, NULL, &layers);
   if (status == CELD_OK)
-    status = celd_stereo_view (layers, &own, &depth, 0.7, &settings, run, &to);
+    status = celd_scene_of_layers (layers, &own, &depth, &first, &scene);
+  if (status == CELD_OK)
+    status = celd_scene_view (scene, (CeldCamera) { 0.7, -0.3, 1 }, &settings, &second, &to);
   if (status == CELD_OK)
     memcpy (r->pixels->vectors, view, sizeof r->pixels->vectors);
+  celd_scene_free (scene);
   celd_layers_free (layers);
+  return status;
+}
+
+/* The same of depth alone. */
+static CeldStatus
+scene_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H], view[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
+  CeldColours  colours = { W, H, W, art }, to = { W, H, W, view };
+  CeldScene   *scene = NULL;
+  CeldPart     part[2];
+  CeldRun      first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldStatus   status;
+
+  for (int i = 0; i < 4 * W * H; i++)
+    art[i] = 1;
+  status = celd_scene_of_depth (&colours, &ink, &depth, &settings, &first, &scene);
+  if (status == CELD_OK)
+    status = celd_scene_view (scene, celd_camera_eye (-1), &settings, &second, &to);
+  if (status == CELD_OK)
+    memcpy (r->pixels->vectors, view, sizeof r->pixels->vectors);
+  celd_scene_free (scene);
   return status;
 }
 
@@ -824,6 +853,7 @@ const Step steps[] = {
   { "padding", padding_step, NULL, true },
   { "shade", shade_step, NULL, false },
   { "stereo", stereo_step, NULL, true },
+  { "scene", scene_step, NULL, true },
   { "enhance", enhance_step, NULL, true },
   { "unsharp", unsharp_step, NULL, true },
   { "relief", relief_step, NULL, true },

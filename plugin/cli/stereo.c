@@ -4,7 +4,7 @@
  */
 #include "cli.h"
 
-typedef struct { CeldOwnership own; CeldPlane depth; CeldLayers *layers; CeldColours view[2]; } Stereo;
+typedef struct { CeldOwnership own; CeldPlane depth; CeldLayers *layers; CeldScene *scene; CeldColours view[2]; } Stereo;
 
 static CeldStatus
 make_layers (CeldSession *session, const CeldColours *art, CliRun *run, Stereo *s)
@@ -22,6 +22,8 @@ make_layers (CeldSession *session, const CeldColours *art, CliRun *run, Stereo *
     status = celd_session_layers (session, art, 0, &run->run, &s->layers);
   if (status == CELD_OK)
     status = celd_session_ownership (session, &run->run, &s->own, NULL);
+  if (status == CELD_OK)
+    status = celd_scene_of_layers (s->layers, &s->own, &s->depth, &run->run, &s->scene);
   return status;
 }
 
@@ -33,7 +35,7 @@ make_views (const CeldSettings *settings, CliRun *run, Stereo *s)
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
       cli_run_stage (run, i ? "right" : "left");
-      status = celd_stereo_view (s->layers, &s->own, &s->depth, i ? 1 : -1, settings, &run->run, &s->view[i]);
+      status = celd_scene_view (s->scene, celd_camera_eye (i ? 1 : -1), settings, &run->run, &s->view[i]);
     }
   cli_run_stage (run, NULL);
   return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
@@ -118,6 +120,7 @@ cli_stereo (const CliOptions *options)
     }
   cli_run_end (&run);
   celd_layers_free (s.layers);
+  celd_scene_free (s.scene);
   celd_session_free (session);
   g_free (s.view[0].data);
   g_free (s.view[1].data);

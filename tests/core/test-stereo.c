@@ -1,42 +1,13 @@
-/* Views from the side: how far what moves, what comes into sight, and two views in one picture.
+/* Two eyes: what strains them, the floating window, camera paths, and two views in one picture.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "layer-scene.h"
+#include "check.h"
+#include "private.h"
+
+#include <math.h>
 
 enum { W = 80, H = 30 };
-
-/* A sheet (label 2, depth 1) from x = 30 to 49 with an outline, before paper of depth 0; random greys on both. */
-static LayerScene
-draw_sheet (CeldPlane *depth)
-{
-  LayerScene s = layer_scene (W, H);
-  uint32_t   seed = 5;
-
-  CHECK (celd_plane_new (W, H, depth) == CELD_OK);
-  for (int y = 0; y < H; y++)
-    for (int x = 0; x < W; x++)
-      {
-        bool  sheet = x >= 30 && x < 50 && y >= 6 && y < 24, line = sheet && (x < 32 || x >= 48 || y < 8 || y >= 22);
-        float grey = line ? 0 : (sheet ? 0.3f : 0.7f) + 0.25f * (float) check_random (&seed, 1000) / 1000;
-
-        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = sheet ? 2 : 1;
-        CELD_AT (&s.ink, x, y) = !line;
-        CELD_AT (depth, x, y) = sheet;
-        for (int c = 0; c < 3; c++)
-          art_at (&s, x, y)[c] = grey;
-      }
-  return s;
-}
-
-static CeldLayers *
-cut (const LayerScene *s)
-{
-  CeldLayers *layers = NULL;
-
-  CHECK (celd_layers_cut (&s->ink, &s->own, s->level, 2, &s->art, 1, 0, true, NULL, &layers) == CELD_OK);
-  return layers;
-}
 
 static CeldColours
 new_colours (int width, int height)
@@ -46,190 +17,23 @@ new_colours (int width, int height)
   return (CeldColours) { width, height, (size_t) width, calloc (n, sizeof (float)) };
 }
 
-/* A view with so many pixels between depth 1 and 0. */
-static CeldColours
-look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, double convergence, const CeldRun *run)
+/* A sheet of depth 1 from x = 30 to 49 before paper of depth 0. */
+static CeldPlane
+sheet_depth (void)
 {
-  CeldColours  view = new_colours (s->width, s->height);
-  CeldSettings settings = celd_settings ();
-  CeldLayers  *layers = cut (s);
-
-  settings.disparity   = (float) (pixels / s->width);
-  settings.convergence = (float) convergence;
-  CHECK (celd_stereo_view (layers, &s->own, depth, eye, &settings, run, &view) == CELD_OK);
-  celd_layers_free (layers);
-  return view;
-}
-
-/* Crossed disparity: what is nearer lies further to the right for the left eye, by half of what was asked for. */
-static void
-sheets_move_by_what_is_asked_for (void)
-{
-  CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
-
-  for (int eye = -1; eye <= 1; eye += 2)
-    {
-      CeldColours view = look (&s, &depth, eye, 12, 0, NULL);
-      int         moved = -6 * eye;
-
-      for (int y = 0; y < H; y++)
-        for (int x = 0; x < W; x++)
-          {
-            bool sheet = x - moved >= 30 && x - moved < 50 && y >= 6 && y < 24;
-            bool hidden = x >= 30 && x < 50 && y >= 6 && y < 24;
-
-            if (sheet)
-              NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x - moved, y)[0], 1e-5);
-            else if (!hidden)
-              NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x, y)[0], 1e-5);
-            NEAR (CELD_RGBA (&view, x, y)[3], 1, 1e-5);
-          }
-      free (view.data);
-    }
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-/* What comes into sight is paper, not a ghost of the outline that was before it. */
-static void
-what_comes_into_sight_is_paper (void)
-{
-  CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
-  CeldColours view = look (&s, &depth, -1, 16, 0, NULL);
-
-  for (int y = 6; y < 24; y++)
-    for (int x = 30; x < 38; x++)
-      CHECK (CELD_RGBA (&view, x, y)[0] >= 0.69f);
-  free (view.data);
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-/* The middle of a dark bar, to a hundredth of a pixel. */
-static void
-disparity_is_right_between_pixels (void)
-{
-  CeldPlane  depth;
-  LayerScene s = layer_scene (W, H);
+  CeldPlane depth;
 
   CHECK (celd_plane_new (W, H, &depth) == CELD_OK);
   for (int y = 0; y < H; y++)
     for (int x = 0; x < W; x++)
-      {
-        bool sheet = x >= 20 && x < 60;
-
-        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = sheet ? 2 : 1;
-        CELD_AT (&depth, x, y) = sheet;
-        for (int c = 0; c < 3; c++)
-          art_at (&s, x, y)[c] = x == 39 || x == 40 ? 0 : x == 38 || x == 41 ? 0.5f : 1;
-      }
-  for (int k = 0; k <= 10; k++)
-    {
-      CeldColours view = look (&s, &depth, -1, k, 0, NULL);
-      double      sum = 0, all = 0;
-
-      for (int x = 30; x < 56; x++)
-        {
-          double dark = 1 - (double) CELD_RGBA (&view, x, 15)[1];
-
-          sum += dark * (x + 0.5);
-          all += dark;
-        }
-      NEAR (sum / all, 40 + 0.5 * k, 0.01);
-      free (view.data);
-    }
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-/* One depth everywhere, and no disparity, and the eye in the middle: the art. */
-static void
-without_depth_views_are_the_art (void)
-{
-  CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
-
-  for (int way = 0; way < 3; way++)
-    {
-      CeldColours view;
-
-      for (int i = 0; i < W * H && way == 2; i++)
-        depth.data[i] = 0.7f;
-      view = look (&s, &depth, way ? 1 : 0, way == 1 ? 0 : 15, 0.3, NULL);
-      for (int i = 0; i < 4 * W * H; i++)
-        NEAR (view.data[i], s.art.data[i], 1e-5);
-      free (view.data);
-    }
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-/* The depth on the screen stays where it is; paper beyond the frame goes on. */
-static void
-convergence_says_what_stays (void)
-{
-  CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
-  CeldColours view = look (&s, &depth, 1, 12, 1, NULL);
-
-  for (int y = 6; y < 24; y++)
-    for (int x = 30; x < 50; x++)
-      NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x, y)[0], 1e-5);
-  for (int y = 0; y < H; y++)
-    {
-      for (int x = 0; x < 20; x++)
-        NEAR (CELD_RGBA (&view, x + 6, y)[0], art_at (&s, x, y)[0], 1e-5);
-      for (int x = 0; x < 6; x++)
-        NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, 0, y)[0], 1e-5);
-    }
-  free (view.data);
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-/* A slope stretches without cracks, and folds without losing what is near. */
-static void
-slopes_have_no_cracks (void)
-{
-  CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
-
-  for (int i = 0; i < W * H; i++)
-    depth.data[i] = (float) (i % W) / W;
-  for (int eye = -1; eye <= 1; eye += 2)
-    {
-      CeldColours view = look (&s, &depth, eye, 0.2 * W, 0.5, NULL);
-
-      for (int i = 3; i < 4 * W * H; i += 4)
-        NEAR (view.data[i], 1, 1e-4);
-      free (view.data);
-    }
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
-static void
-the_order_of_jobs_does_not_matter (void)
-{
-  CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
-  CeldRun     backwards = { NULL, check_backwards, NULL };
-  CeldColours one = look (&s, &depth, 0.7, 9, 0.4, NULL), other = look (&s, &depth, 0.7, 9, 0.4, &backwards);
-
-  CHECK (!memcmp (one.data, other.data, 4 * W * H * sizeof (float)));
-  free (one.data);
-  free (other.data);
-  free (depth.data);
-  layer_scene_close (&s);
+      CELD_AT (&depth, x, y) = x >= 30 && x < 50 && y >= 6 && y < 24;
+  return depth;
 }
 
 static void
 comfort_is_told (void)
 {
-  CeldPlane    depth;
-  LayerScene   s = draw_sheet (&depth);
+  CeldPlane    depth = sheet_depth ();
   CeldSettings settings = celd_settings ();
   CeldComfort  comfort;
 
@@ -246,10 +50,79 @@ comfort_is_told (void)
   CHECK (celd_stereo_comfort (&depth, &settings, &comfort) == CELD_OK);
   CHECK (!comfort.cut_left && !comfort.cut_right);
   NEAR (comfort.front, 0, 1e-9);
+  CHECK (!comfort.diverges);
+  settings.screen_width = 649; /* a tenth of it is behind the screen */
+  CHECK (celd_stereo_comfort (&depth, &settings, &comfort) == CELD_OK);
+  CHECK (!comfort.diverges);
+  settings.screen_width = 651;
+  CHECK (celd_stereo_comfort (&depth, &settings, &comfort) == CELD_OK);
+  CHECK (comfort.diverges);
+  settings.screen_width = -1;
+  CHECK (celd_stereo_comfort (&depth, &settings, &comfort) == CELD_BAD_VALUE);
+  settings.screen_width = 0;
   settings.convergence = 2;
   CHECK (celd_stereo_comfort (&depth, &settings, &comfort) == CELD_BAD_VALUE);
   free (depth.data);
-  layer_scene_close (&s);
+}
+
+/* Bars only where something is cut, as wide as its disparity, one at the left of the left view, one at the right of the
+ * right one; the last pixel by its share. */
+static void
+windows_float_before_what_they_cut (void)
+{
+  CeldPlane    depth = sheet_depth ();
+  CeldColours  view[2] = { new_colours (W, H), new_colours (W, H) };
+  CeldSettings settings = celd_settings ();
+
+  settings.disparity   = 0.1f; /* 8 pixels */
+  settings.convergence = 0.25f;
+  CELD_AT (&depth, 0, 3) = 0.7f;
+  CELD_AT (&depth, W - 1, 9) = 1;
+  for (int i = 0; i < 4 * W * H; i++)
+    view[0].data[i] = view[1].data[i] = i % 4 == 3 ? 1 : 0.5f;
+  CHECK (celd_stereo_window (&depth, &settings, &view[0], &view[1]) == CELD_OK);
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      {
+        double left = fmax (0, fmin (8 * 0.45 - x, 1)), right = fmax (0, fmin (8 * 0.75 - (W - 1 - x), 1));
+
+        NEAR (CELD_RGBA (&view[0], x, y)[1], 0.5 * (1 - left), 1e-5);
+        NEAR (CELD_RGBA (&view[1], x, y)[1], 0.5 * (1 - right), 1e-5);
+        NEAR (CELD_RGBA (&view[0], x, y)[3], 1, 0);
+      }
+  depth.width--;
+  CHECK (celd_stereo_window (&depth, &settings, &view[0], &view[1]) == CELD_BAD_SIZE);
+  free (depth.data);
+  free (view[0].data);
+  free (view[1].data);
+}
+
+/* Every path ends where it begins, by small steps, and goes as far as both eyes. */
+static void
+paths_are_closed (void)
+{
+  for (int path = CELD_PATH_SWAY; path <= (int) CELD_PATH_TURNTABLE; path++)
+    for (int frames = 4; frames <= 400; frames *= 10)
+      {
+        CeldCamera first = celd_camera_on_path ((CeldPath) path, 0, frames), before = first;
+        double     least = 0, most = 0;
+
+        for (int k = 1; k <= frames; k++)
+          {
+            CeldCamera next = celd_camera_on_path ((CeldPath) path, k, frames);
+
+            CHECK (hypot (next.x - before.x, next.y - before.y) < 7.0 / frames);
+            CHECK (next.squeeze > 0.9 && next.squeeze <= 1);
+            CHECK (fabs (next.x) <= 1 && fabs (next.y) <= 1);
+            least  = fmin (least, next.x);
+            most   = fmax (most, next.x);
+            before = next;
+          }
+        NEAR (before.x, first.x, 1e-9);
+        NEAR (before.y, first.y, 1e-9);
+        NEAR (least, -1, 1e-6);
+        NEAR (most, 1, 1e-6);
+      }
 }
 
 /* ------------------------------------------------------------------ two views in one picture */
@@ -286,6 +159,19 @@ the_left_view_is_red (void)
     }
 }
 
+/* Where one eye sees nothing of a transparent drawing, the other's view is as opaque as it was. */
+static void
+glasses_see_through_what_is_transparent (void)
+{
+  float       white[4] = { 1, 1, 1, 0.5f }, nothing[4] = { 0.9f, 0.9f, 0.9f, 0 }, to[4];
+  CeldColours one = { 1, 1, 1, white }, other = { 1, 1, 1, nothing }, joined = { 1, 1, 1, to };
+
+  CHECK (celd_stereo_join (&one, &other, CELD_STEREO_COLOUR, &joined) == CELD_OK);
+  CHECK (to[0] == 1 && to[1] == 0 && to[2] == 0 && to[3] == 0.5f);
+  CHECK (celd_stereo_join (&other, &other, CELD_STEREO_DUBOIS, &joined) == CELD_OK);
+  CHECK (to[0] == 0 && to[1] == 0 && to[2] == 0 && to[3] == 0);
+}
+
 /* Pixels of the left view are 1, 2, 3, ...; those of the right one 101, 102, 103, ... */
 static void
 views_lie_where_the_format_says (void)
@@ -298,7 +184,9 @@ views_lie_where_the_format_says (void)
     { CELD_STEREO_CROSSED, 2 * w, h, { 101, 102, 103, 1, 2, 3, 104, 105, 106, 4, 5, 6 } },
     { CELD_STEREO_HALF_SIDE_BY_SIDE, w, h, { 1.5f, 3, 101.5f, 4.5f, 6, 104.5f } },
     { CELD_STEREO_OVER_UNDER, w, 2 * h, { 1, 2, 3, 4, 5, 6, 101, 102, 103, 104, 105, 106 } },
+    { CELD_STEREO_HALF_OVER_UNDER, w, h, { 2.5f, 3.5f, 4.5f, 102.5f, 103.5f, 104.5f } },
     { CELD_STEREO_INTERLACED, w, h, { 1, 2, 3, 104, 105, 106 } },
+    { CELD_STEREO_COLUMNS, w, h, { 1, 102, 3, 4, 105, 6 } },
   };
   CeldColours left = new_colours (w, h), right = new_colours (w, h);
 
@@ -326,48 +214,15 @@ views_lie_where_the_format_says (void)
   free (right.data);
 }
 
-static void
-bad_input_is_refused (void)
-{
-  CeldPlane    depth;
-  LayerScene   s = draw_sheet (&depth);
-  CeldColours  view = new_colours (W, H);
-  CeldSettings settings = celd_settings ();
-  CeldLayers  *layers = cut (&s);
-  CeldRun      refuses = { check_refuse, NULL, NULL };
-
-  depth.data[77] = NAN;
-  CHECK (celd_stereo_view (layers, &s.own, &depth, 1, &settings, &refuses, &view) == CELD_CANCELLED);
-  CHECK (celd_stereo_view (layers, &s.own, &depth, 1.1, &settings, NULL, &view) == CELD_BAD_VALUE);
-  CHECK (celd_stereo_view (layers, &s.own, &depth, NAN, &settings, NULL, &view) == CELD_BAD_VALUE);
-  settings.disparity = -1;
-  CHECK (celd_stereo_view (layers, &s.own, &depth, 1, &settings, NULL, &view) == CELD_BAD_VALUE);
-  settings.disparity = 0.1f;
-  CHECK (celd_stereo_view (layers, &s.own, &depth, 1, &settings, NULL, &view) == CELD_OK);
-  for (int i = 0; i < 4 * W * H; i++)
-    CHECK (view.data[i] >= 0 && view.data[i] <= 1.0001f);
-  view.height--;
-  CHECK (celd_stereo_view (layers, &s.own, &depth, 1, &settings, NULL, &view) == CELD_BAD_SIZE);
-  celd_layers_free (layers);
-  free (view.data);
-  free (depth.data);
-  layer_scene_close (&s);
-}
-
 int
 main (void)
 {
-  RUN (sheets_move_by_what_is_asked_for);
-  RUN (what_comes_into_sight_is_paper);
-  RUN (disparity_is_right_between_pixels);
-  RUN (without_depth_views_are_the_art);
-  RUN (convergence_says_what_stays);
-  RUN (slopes_have_no_cracks);
-  RUN (the_order_of_jobs_does_not_matter);
   RUN (comfort_is_told);
+  RUN (windows_float_before_what_they_cut);
+  RUN (paths_are_closed);
   RUN (glasses_keep_white_and_greys);
   RUN (the_left_view_is_red);
+  RUN (glasses_see_through_what_is_transparent);
   RUN (views_lie_where_the_format_says);
-  RUN (bad_input_is_refused);
   return DONE;
 }
