@@ -89,6 +89,20 @@ put_beyond (Line *line, const CeldSpan *s, int i, int first, int end)
     put (line, s, i, k, 0, s->near[i]);
 }
 
+/* The pixels from k to before `end` lie between the places of the pixels i and i + 1. */
+static inline void
+put_between (Line *line, const CeldSpan *s, int i, int k, int end, double place, double next)
+{
+  float scale = 1 / (float) (next - place), rise = s->near[i + 1] - s->near[i];
+
+  for (; k < end; k++)
+    {
+      float t = (float) (k + 0.5 - place) * scale;
+
+      put (line, s, i, k, t, s->near[i] + t * rise);
+    }
+}
+
 CELD_CLONES static void
 move_piece (const Move *m, const CeldSpan *s, Line *line)
 {
@@ -107,12 +121,8 @@ move_piece (const Move *m, const CeldSpan *s, Line *line)
 
       line->first = k < line->first ? k : line->first;
       line->end   = end > line->end ? end : line->end;
-      for (; k < end; k++)
-        {
-          float t = (float) ((k + 0.5 - place) / (next - place));
-
-          put (line, s, i, k, t, s->near[i] + t * (s->near[i + 1] - s->near[i]));
-        }
+      if (k < end)
+        put_between (line, s, i, k, end, place, next);
       place = next;
       k     = end;
     }
@@ -153,14 +163,20 @@ lay_group (Line *line)
   for (int k = line->first; k < line->end; k++)
     {
       const CeldSpan *s = line->span[k];
+      const float    *from;
       float          *to = line->colour + 4 * k, colour[4];
 
       if (!s)
         continue;
-      blend (s->colour + 4 * line->at[k], line->t[k], colour);
-      for (int c = 0; c < 4; c++)
-        to[c] = colour[c] + (1 - colour[3]) * to[c];
       line->span[k] = NULL;
+      from = s->colour + 4 * line->at[k];
+      if (memcmp (from, from + 4, sizeof colour)) /* most neighbours in drawings are the same */
+        {
+          blend (from, line->t[k], colour);
+          from = colour;
+        }
+      for (int c = 0; c < 4; c++)
+        to[c] = from[c] + (1 - from[3]) * to[c];
     }
   line->first = line->width;
   line->end   = 0;
@@ -185,6 +201,18 @@ draw_row (const View *v, int y, Line *line)
     }
 }
 
+/* With straight alpha. */
+static void
+deliver (const float *from, int n, float *to)
+{
+  for (int x = 0; x < n; x++, from += 4, to += 4)
+    {
+      memcpy (to, from, 4 * sizeof *to);
+      for (int c = 0; c < 3 && from[3] > 0 && from[3] < 1; c++)
+        to[c] /= from[3];
+    }
+}
+
 static void
 draw_band (void *data, int band)
 {
@@ -196,15 +224,8 @@ draw_band (void *data, int band)
   line.first = width;
   for (int y = band * BAND; y < end && y < v->scene->height; y++)
     {
-      float *to = CELD_RGBA (v->view, 0, y);
-
       draw_row (v, y, &line);
-      for (int i = 0; i < 4 * width; i++)
-        {
-          float alpha = line.colour[i | 3];
-
-          to[i] = (i & 3) == 3 || !(alpha > 0) || alpha == 1 ? line.colour[i] : line.colour[i] / alpha;
-        }
+      deliver (line.colour, width, CELD_RGBA (v->view, 0, y));
     }
 }
 
