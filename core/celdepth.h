@@ -621,6 +621,10 @@ typedef struct CeldScene CeldScene;
  * `ownership` is what they were cut by.  Views are in the colours that the layers were cut in. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
                                           const CeldPlane *depth, const CeldRun *run, CeldScene **scene);
+/* The same from levels, expanded or not, each of which becomes a completed layer. */
+CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                          const CeldColours *art, CeldExpansion method, const CeldRun *run,
+                                          CeldScene **scene);
 /* Of depth alone, from wherever: what comes into sight is filled from its farther side, in the colour of the paper
  * there, without its ink.  For views from the sides, no further than settings->disparity. */
 CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
@@ -645,6 +649,9 @@ typedef struct { double front, behind; bool cut_left, cut_right, diverges; } Cel
 #define CELD_STEREO_COMFORT (1.0 / 30) /* of the width: more disparity from front to back strains the eyes */
 #define CELD_EYE_DISTANCE   65.0       /* mm: more behind the screen, and the eyes look apart */
 CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
+/* What strains the eyes, in English sentences that say what to do, one a line, cut to `size` bytes; "" if nothing. */
+CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings, char *text,
+                                         size_t size);
 /* Black bars at the left of the left view and the right of the right one, as wide as it takes to bring the frame before
  * what it cuts: a floating window.  Nothing where nothing is cut. */
 CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,

@@ -35,6 +35,17 @@ find_background (const CeldOwnLevels *made, uint32_t *background)
 }
 
 CeldStatus
+celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
+                     bool complete, const CeldRun *run, CeldLayers **layers)
+{
+  uint32_t   background = 0;
+  CeldStatus status = find_background (made, &background);
+
+  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, run,
+                                            layers);
+}
+
+CeldStatus
 celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                        const CeldLabels *corrections, const CeldColours *art, CeldExpansion method, CeldStore store,
                        bool complete, const CeldRun *run, CeldLayers **layers)
@@ -42,13 +53,10 @@ celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
   CeldOwnLevels made;
   CeldPart      part[2];
   CeldRun       first = celd_run_part (&part[0], run, 0, 0.6), second = celd_run_part (&part[1], run, 0.6, 1);
-  uint32_t      background = 0;
   CeldStatus    status = celd_own_levels_new (ink, levels, regions, corrections, method, &first, &made);
 
   if (!status)
-    status = find_background (&made, &background);
-  if (!status)
-    status = celd_layers_cut (ink, &made.own, made.order, made.n, art, background, store, complete, &second, layers);
+    status = celd_own_levels_cut (&made, ink, art, store, complete, &second, layers);
   celd_own_levels_clear (&made);
   return status;
 }

@@ -1,6 +1,7 @@
 /* The inside of CeldScene: what there is to see, as pieces of rows that move sideways.
  *
  *   scene.c        the pieces, and those of layers
+ *   scene-levels.c those of a picture with levels and depth
  *   scene-depth.c  those of a picture with depth alone
  *   scene-view.c   how they look from the side
  *

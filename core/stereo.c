@@ -7,6 +7,8 @@
  */
 #include "scene.h"
 
+#include <stdio.h>
+
 #define PI           3.14159265358979
 #define TURNED       20.0 /* degrees, either way, on a turntable */
 #define CIRCLE_RATIO 0.6  /* a circle is flatter than wide: eyes lie side by side */
@@ -78,6 +80,37 @@ celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldC
   };
   comfort->diverges = comfort->behind * (double) settings->screen_width > CELD_EYE_DISTANCE;
   return CELD_OK;
+}
+
+/* What may be asked for instead is rounded down to what helps. */
+void
+celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, char *text, size_t size)
+{
+  double whole = comfort->front + comfort->behind, disparity = (double) settings->disparity;
+  size_t used = 0;
+
+  if (size)
+    text[0] = 0;
+  if (whole > CELD_STEREO_COMFORT)
+    used += (size_t) snprintf (text, size, "From front to back there is %.1f %% of the width, which strains the eyes: try "
+                               "a disparity of %.3f.\n", 100 * whole,
+                               floor (1000 * disparity * CELD_STEREO_COMFORT / whole) / 1000);
+  if (comfort->diverges && used < size)
+    {
+      double behind = comfort->behind * (double) settings->screen_width;
+
+      used += (size_t) snprintf (text + used, size - used, "On a screen of %.0f mm what is farthest lies %.0f mm apart, more "
+                                 "than the eyes do (%.0f mm), which would have to look apart: try a disparity of %.3f, or a "
+                                 "convergence nearer to 0.\n", (double) settings->screen_width, behind, CELD_EYE_DISTANCE,
+                                 floor (1000 * disparity * CELD_EYE_DISTANCE / behind) / 1000);
+    }
+  if ((comfort->cut_left || comfort->cut_right) && !settings->floating_window && used < size)
+    used += (size_t) snprintf (text + used, size - used, "Parts in front of the screen are cut by the frame at the %s: try "
+                               "a convergence of 1, or the floating window.\n",
+                               comfort->cut_left && comfort->cut_right ? "left and the right"
+                               : comfort->cut_left ? "left" : "right");
+  if (used && used < size)
+    text[used - 1] = 0;
 }
 
 /* ------------------------------------------------------------------ floating window */

@@ -14,6 +14,7 @@
   _ (celdepth_lumo_shade) \
   _ (celdepth_depth_enhance) \
   _ (celdepth_relief) \
+  _ (celdepth_stereo) \
   _ (celdepth_popup)
 
 #define DECLARE(name) void gegl_op_ ## name ## _register_type (GTypeModule *module);

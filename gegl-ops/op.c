@@ -156,6 +156,13 @@ celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palet
 }
 
 gboolean
+celd_op_remark (CeldOp *op, const char *text)
+{
+  add_to_message (op, text);
+  return TRUE;
+}
+
+gboolean
 celd_op_tell_solve (CeldOp *op, const CeldSolve *solve)
 {
   CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };

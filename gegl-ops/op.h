@@ -98,6 +98,9 @@ gboolean celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *e
 gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
                        const CeldRelations *relations, const CeldOrder *order);
 
+/* A remark of one operation's own, likewise. */
+gboolean celd_op_remark (CeldOp *op, const char *text);
+
 /* The same for a solve that was less exact than asked for. */
 gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);
 

@@ -80,6 +80,21 @@ ENUM_TYPE (celd_enhance_get_type, "CeldEnhance",
            { CELD_ENHANCE_DARKEN, "Darker behind borders of depth", "darken" },
            { CELD_ENHANCE_CONTRAST, "Also lighter before them", "contrast" })
 
+ENUM_TYPE (celd_stereo_get_type, "CeldStereo",
+           { CELD_STEREO_LEFT, "Left view", "left" },
+           { CELD_STEREO_RIGHT, "Right view", "right" },
+           { CELD_STEREO_SIDE_BY_SIDE, "Side by side", "side-by-side" },
+           { CELD_STEREO_HALF_SIDE_BY_SIDE, "Side by side, half as wide", "half-side-by-side" },
+           { CELD_STEREO_CROSSED, "Side by side, for crossed eyes", "crossed" },
+           { CELD_STEREO_OVER_UNDER, "One over the other", "over-under" },
+           { CELD_STEREO_HALF_OVER_UNDER, "One over the other, half as high", "half-over-under" },
+           { CELD_STEREO_INTERLACED, "In turns of rows", "interlaced" },
+           { CELD_STEREO_COLUMNS, "In turns of columns", "columns" },
+           { CELD_STEREO_GREY, "Red and cyan glasses, grey", "grey" },
+           { CELD_STEREO_COLOUR, "Red and cyan glasses, colours", "colour" },
+           { CELD_STEREO_HALF_COLOUR, "Red and cyan glasses, half colours", "half-colour" },
+           { CELD_STEREO_DUBOIS, "Red and cyan glasses, by Dubois", "dubois" })
+
 ENUM_TYPE (celd_enhance_result_get_type, "CeldEnhanceResult",
            { CELD_ENHANCED_ART, "Art", "art" },
            { CELD_ENHANCED_LAYER, "Shadow layer alone", "layer" },

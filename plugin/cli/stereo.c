@@ -61,16 +61,13 @@ static void
 say_comfort (const CeldPlane *depth, const CeldSettings *settings)
 {
   CeldComfort comfort;
+  char        text[800];
 
   if (celd_stereo_comfort (depth, settings, &comfort) != CELD_OK)
     return;
-  if (comfort.front + comfort.behind > CELD_STEREO_COMFORT)
-    cli_say ("From front to back there is %.1f %% of the width, which strains the eyes: try --disparity %.3f.",
-             100 * (comfort.front + comfort.behind),
-             (double) settings->disparity * CELD_STEREO_COMFORT / (comfort.front + comfort.behind));
-  if (comfort.cut_left || comfort.cut_right)
-    cli_say ("Parts in front of the screen are cut by the frame at the %s: try --convergence 1.",
-             comfort.cut_left && comfort.cut_right ? "left and the right" : comfort.cut_left ? "left" : "right");
+  celd_comfort_text (&comfort, settings, text, sizeof text);
+  if (text[0])
+    cli_say ("%s", text);
 }
 
 /* Options that make layers whole: else there would be holes. */

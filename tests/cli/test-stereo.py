@@ -49,7 +49,7 @@ class Stereo(Test):
         self.assertGreater(joined[:3, :, :3].min(), 0.99)  # paper stays white
 
     def test_strain_is_told(self):
-        self.assertIn('--disparity 0.033', self.stereo('--left', 'l.npy', '--disparity', '0.05'))
+        self.assertIn('disparity of 0.033', self.stereo('--left', 'l.npy', '--disparity', '0.05'))
         self.assertNotIn('disparity', self.stereo('--left', 'l.npy', '--disparity', '0.05', '--quiet'))
         self.assertNotIn('disparity', self.stereo('--left', 'l.npy'))
 

@@ -391,6 +391,74 @@ shadows_are_those_of_core (void)
   g_object_unref (input);
 }
 
+/* All that the operation gives, which must be as large as `like`. */
+static void
+look (Pads pads, int format, const CeldSettings *settings, const CeldColours *like, float *got)
+{
+  GeglNode     *graph = gegl_node_new (), *node = add_operation (graph, "celdepth:stereo", pads);
+  GeglRectangle whole;
+
+  gegl_node_set (node, "stereo", format, "disparity", (double) settings->disparity, "convergence",
+                 (double) settings->convergence, "floating-window", settings->floating_window, NULL);
+  whole = gegl_node_get_bounding_box (node);
+  CHECK (whole.x == 0 && whole.y == 0 && whole.width == like->width && whole.height == like->height);
+  gegl_node_blit (node, 1.0, GEGL_RECTANGLE (0, 0, like->width, like->height), babl_format ("RGBA float"), got,
+                  GEGL_AUTO_ROWSTRIDE, GEGL_BLIT_DEFAULT);
+  g_object_unref (graph);
+}
+
+/* By layers and by depth alone; all arrangements, of which some are larger than the page. */
+static void
+views_are_those_of_core (void)
+{
+  GeglBuffer  *deep = page_buffer ("Y float", "Y float", depth.data);
+  GeglBuffer  *flats = page_buffer ("Y float", "Y float", levels.data);
+  float       *got = malloc (8 * PIXELS * sizeof (float)), *wanted = malloc (8 * PIXELS * sizeof (float));
+  CeldSettings settings = celd_settings ();
+  CeldColours  art = { WIDTH, HEIGHT, WIDTH, malloc (4 * PIXELS * sizeof (float)) }, view[2] = { art, art };
+
+  gegl_buffer_get (drawing, NULL, 1, babl_format ("RGBA float"), art.data, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  settings.disparity       = 0.05f;
+  settings.convergence     = 0.25f;
+  settings.floating_window = true;
+  for (int layers = 0; layers < 2; layers++)
+    {
+      Pads       pads = { { drawing, deep, layers ? flats : NULL, layers ? drawing : NULL } };
+      CeldScene *scene = NULL;
+
+      CHECK ((layers ? celd_scene_of_levels (&ink, &levels, &depth, &art, CELD_EXPANSION_OUTLINES, NULL, &scene)
+                     : celd_scene_of_depth (&art, &ink, &depth, &settings, NULL, &scene)) == CELD_OK);
+      for (int eye = 0; eye < 2; eye++)
+        {
+          view[eye].data = malloc (4 * PIXELS * sizeof (float));
+          CHECK (celd_scene_view (scene, celd_camera_eye (2 * eye - 1), &settings, NULL, &view[eye]) == CELD_OK);
+        }
+      CHECK (celd_stereo_window (&depth, &settings, &view[0], &view[1]) == CELD_OK);
+      CHECK (difference (view[0].data, view[1].data, 4 * PIXELS) > 0.5);
+      for (int format = 0; format <= (int) CELD_STEREO_DUBOIS; format++)
+        {
+          CeldColours joined = { WIDTH, HEIGHT, 0, wanted };
+
+          celd_stereo_size ((CeldStereo) format, &joined.width, &joined.height);
+          joined.stride = (size_t) joined.width;
+          CHECK (celd_stereo_join (&view[0], &view[1], (CeldStereo) format, &joined) == CELD_OK);
+          look (pads, format, &settings, &joined, got);
+          NEAR (difference (got, wanted, 4 * (size_t) joined.width * (size_t) joined.height), 0, 1e-5);
+        }
+      celd_scene_free (scene);
+      free (view[0].data);
+      free (view[1].data);
+    }
+  operate ("celdepth:stereo", (Pads) { { drawing, drawing } }, "RGBA float", result, "disparity", 0.0, "stereo",
+           CELD_STEREO_RIGHT, NULL);
+  SAME (art.data, 4);
+  free (art.data);
+  free (got);
+  free (wanted);
+  g_object_unref (deep);
+  g_object_unref (flats);
+}
+
 static void
 heights_are_those_of_core (void)
 {
@@ -684,6 +752,7 @@ main (int argc, char **argv)
   RUN (exact_depth_is_that_of_core);
   RUN (shadows_are_those_of_core);
   RUN (heights_are_those_of_core);
+  RUN (views_are_those_of_core);
   RUN (light_is_that_of_core);
   RUN (all_light_is_that_of_core);
   RUN (popup_is_the_steps_of_core);

@@ -21,7 +21,7 @@ missing_pads_are_named (void)
   static const struct { const char *operation, *pad; } cases[] = {
     { "celdepth:virtual-contours", "Contours" }, { "celdepth:depth-expand", "Drawing" },
     { "celdepth:depth-smooth", "Drawing" }, { "celdepth:lumo-shade", "Drawing" },
-    { "celdepth:depth-enhance", "Levels" }, { "celdepth:relief", "Drawing" },
+    { "celdepth:depth-enhance", "Levels" }, { "celdepth:relief", "Drawing" }, { "celdepth:stereo", "Depth" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
@@ -67,6 +67,20 @@ a_ball_is_asked_for (void)
   CHECK (times_said == 0 && warnings == 0);
   NEAR (result[4 * PIXELS / 2], 0, 0); /* it is black */
   g_object_unref (ball);
+}
+
+/* Too much disparity: delivered all the same, and said. */
+static void
+strain_is_said (void)
+{
+  be_quiet ();
+  operate ("celdepth:stereo", (Pads) { { drawing, drawing } }, "RGBA float", result, "disparity", 0.1, "screen-width",
+           3000.0, NULL);
+  CHECK (difference (result, input_light, 4 * PIXELS) > 0.1);
+  CHECK (SAYS ("Stereo: ") && SAYS ("disparity of 0.03") && SAYS ("3000 mm") && SAYS ("150 mm"));
+  be_quiet ();
+  operate ("celdepth:stereo", (Pads) { { drawing, drawing } }, "RGBA float", result, "convergence", 1.0, NULL);
+  CHECK (times_said == 0 && warnings == 0);
 }
 
 /* Strokes in a colour that no region has, and none to look colours up in; a layer without a stroke is no mistake. */
@@ -306,6 +320,7 @@ main (int argc, char **argv)
   RUN (missing_pads_are_named);
   RUN (nothing_to_go_by_is_said);
   RUN (a_ball_is_asked_for);
+  RUN (strain_is_said);
   RUN (foreign_corrections_are_refused);
   RUN (unreadable_relations_are_located);
   RUN (unreadable_arrow_paths_are_located);

@@ -29,6 +29,8 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
   { "celdepth:relief", "aux2 aux input", "unit from bulge relief-depth ink ink-threshold tolerance" },
+  { "celdepth:stereo", "aux3 aux2 aux input",
+    "stereo disparity convergence floating-window screen-width expansion ink" },
   { "celdepth:popup", "aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
     "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
