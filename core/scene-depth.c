@@ -18,7 +18,9 @@
 #define LOOK_FOR    24    /* pixels: paper next to a cut */
 #define ENOUGH      4     /* pixels of paper */
 #define OVERLAP     2     /* pixels that a filling lies under what it goes on from */
-#define WHITE       0.95f /* ink above this is paper */
+#define WHITE       0.98f /* ink above this is paper */
+#define PALE        0.8f  /* and so it is above this, where it rises by less than a step: paper need not be clean */
+#define STEP        0.02f
 
 typedef struct
 {
@@ -59,7 +61,7 @@ soft_edge (const Maker *m, int x, int way)
       ink = CELD_AT (m->ink, at, m->y);
       if (ink < last)
         return 0; /* a line of its own */
-      if (ink > WHITE)
+      if (ink > WHITE || (ink > PALE && ink - last < STEP))
         return k - 1;
       last = ink;
     }
@@ -76,9 +78,10 @@ premultiplied (const Maker *m, int x, float colour[4])
     colour[c] = fabsf (rgba[c]) <= FLT_MAX ? rgba[c] * colour[3] : 0;
 }
 
-/* The paper of a piece, from x on; its lightest pixel if there is none. */
-static void
-paper_of (const Maker *m, int x, int way, float colour[4])
+/* The paper of a piece, from x on; where that is nothing but a line, of what lies beyond it, if that is no nearer
+ * than `most`.  False: there is none; the lightest pixel. */
+static bool
+look_for_paper (const Maker *m, int x, int way, float most, float colour[4])
 {
   float lightest = -1, sum[4] = { 0 }, one[4];
   int   n = 0;
@@ -88,19 +91,27 @@ paper_of (const Maker *m, int x, int way, float colour[4])
       int   at = x + k * way;
       float ink;
 
-      if (at < 0 || at >= m->scene->width || (k > 0 && is_cut (m, at, at - way)))
+      if (at < 0 || at >= m->scene->width || m->near[at] > most || (n && is_cut (m, at, at - way)))
         break;
       ink = CELD_AT (m->ink, at, m->y);
       premultiplied (m, at, one);
       if (ink > lightest)
         memcpy (colour, one, sizeof one);
       lightest = fmaxf (lightest, ink);
-      for (int c = 0; c < 4 && ink > WHITE; c++)
+      for (int c = 0; c < 4 && ink > PALE; c++)
         sum[c] += one[c];
-      n += ink > WHITE;
+      n += ink > PALE;
     }
   for (int c = 0; c < 4 && n; c++)
     colour[c] = sum[c] / (float) n;
+  return n > 0;
+}
+
+static void
+paper_of (const Maker *m, int x, int way, float colour[4])
+{
+  if (!look_for_paper (m, x, way, m->near[x] + m->cut, colour))
+    look_for_paper (m, x, way, FLT_MAX, colour);
 }
 
 /* ------------------------------------------------------------------ pieces */
@@ -148,7 +159,7 @@ fill (Maker *m, int x, int way, int soft, int length, double group_depth)
   s     = take (m, first, n, group_depth, true);
   if (!s)
     return;
-  paper_of (m, x + soft * way, way, paper);
+  paper_of (m, soft + 1 < length ? x + (soft + 1) * way : x, way, paper); /* the next pixel may not be clean */
   for (int k = 0; k < n; k++)
     {
       int inside = (first + k - x) * way; /* pixels into the piece */
@@ -184,9 +195,9 @@ lay_piece (Maker *m, int first, int end, const int soft[2], double group_depth)
   if (!s)
     return;
   if (soft[0])
-    paper_of (m, first - soft[0] - 1, -1, paper[0]);
+    paper_of (m, first - soft[0] > 1 ? first - soft[0] - 2 : 0, -1, paper[0]);
   if (soft[1])
-    paper_of (m, end + soft[1], 1, paper[1]);
+    paper_of (m, end + soft[1] + 1 < m->scene->width ? end + soft[1] + 1 : end + soft[1], 1, paper[1]);
   for (int k = 0; k < s->n; k++)
     {
       int x = s->x + k;
