@@ -155,6 +155,27 @@ CeldIoMeshKind celd_io_mesh_kind (const char *path);
 /* The art is encoded as sRGB, straight alpha, and comes over white; NULL: none. */
 bool celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error);
 
+/* ------------------------------------------------------------------ several pictures of one size */
+
+typedef struct
+{
+  int          width, height;
+  size_t       frames;
+  double       per_second;             /* how fast a GIF moves */
+  bool       (*paint) (void *host, size_t frame, float *rgba); /* linear light, straight alpha; false: give up */
+  void        *host;
+} CeldIoFrames;
+
+/* By the ending of the name:
+ *   .gif    moves, again and again; 256 colours a picture, on white paper
+ *   .mpo    views from left to right (CIPA DC-007), JPEGs on white paper
+ *   none    a folder that is empty or does not exist: 000.png, 001.png, ...; 8 bits, sRGB, with alpha */
+typedef enum { CELD_IO_NO_FRAMES, CELD_IO_GIF, CELD_IO_MPO, CELD_IO_PNG_FRAMES } CeldIoFramesKind;
+CeldIoFramesKind celd_io_frames_kind (const char *path);
+
+/* Frames are asked for one by one, each once.  If paint gives up, nothing is written and the error is empty. */
+bool celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError *error);
+
 #ifdef __cplusplus
 }
 #endif

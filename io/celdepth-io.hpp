@@ -25,6 +25,9 @@ struct IoFailure : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+// IEC 61966-2-1.
+float encode_srgb (float value);
+
 // Does the work; turns whatever it throws into the sentence "Cannot read "page.psd": ...".
 template <typename Work>
 bool

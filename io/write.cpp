@@ -208,7 +208,7 @@ decode_srgb (float v)
   return v <= 0.04045f ? v / 12.92f : std::pow ((v + 0.055f) / 1.055f, 2.4f);
 }
 
-static float
+float
 encode_srgb (float v)
 {
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow (v, 1 / 2.4f) - 0.055f;

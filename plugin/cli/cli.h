@@ -5,9 +5,9 @@
  *   popup.c     popup and segment              npy.c       numpy files
  *   exact.c     exact                          report.c    --report
  *   enhance.c   enhance                        stereo.c    stereo
- *   stack.c     layers
- *   steps.c     order, expand, smooth, relief
- *   shade.c     shade                          messages.c  sentences on stderr
+ *   stack.c     layers                         wiggle.c    wiggle
+ *   shade.c     shade                          scene.c     what these two share
+ *   steps.c     order, expand, smooth, relief  messages.c  sentences on stderr
  *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -28,7 +28,7 @@ enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 typedef enum
 {
   CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32,
-  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024
+  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024, CLI_WIGGLE = 2048
 } CliSteps;
 
 /* File names are NULL where not given. */
@@ -39,10 +39,12 @@ typedef struct
   char        *drawing, *scribbles, *contours, *corrections, *arrows, *anchors, *depth_hint;
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
-  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo;
+  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt;
   char        *colours, *output, *light;
-  char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid, *padding_text;
-  int          columns, rows, padding;   /* of --grid and --padding */
+  char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid;
+  char        *padding_text;
+  int          grid_columns, grid_rows, padding; /* of --grid and --padding */
+  int          views, columns, frames, fps;
   bool         quiet, directx, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -208,6 +210,29 @@ bool cli_shade_check (CliOptions *options);
 /* The file of a map for --maps: "hero_n.png" for "hero.png", then _o and _s; free with g_free. */
 char *cli_map_name (const char *path, int map);
 
+/* ------------------------------------------------------------------ scene.c */
+
+/* A drawing to be seen from the side. */
+typedef struct
+{
+  CeldSession        *session;
+  CeldScene          *scene;
+  CeldPlane           depth;       /* the session's, and so is the order */
+  const CeldOrder    *order;
+  const CeldSettings *settings;    /* borrowed from the options */
+  CliRun             *run;
+  int                 frames;
+} CliScene;
+
+/* To be cleared whatever it returns. */
+bool cli_scene_new   (const CliOptions *options, CliRun *run, CliScene *s);
+void cli_scene_clear (CliScene *s);
+/* Views from the cameras of all frames, in a file or folder. */
+bool cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame),
+                      int frames, int per_second);
+/* The report and the remarks; the exit code. */
+int  cli_scene_tell  (const CliOptions *options, const char *command, const CliScene *s);
+
 /* ------------------------------------------------------------------ the sub-commands */
 
 int cli_popup   (const CliOptions *options);
@@ -219,6 +244,7 @@ int cli_shade   (const CliOptions *options);
 int cli_exact   (const CliOptions *options);
 int cli_enhance (const CliOptions *options);
 int cli_stereo  (const CliOptions *options);
+int cli_wiggle  (const CliOptions *options);
 int cli_layers  (const CliOptions *options);
 int cli_relief  (const CliOptions *options);
 

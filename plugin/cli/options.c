@@ -12,15 +12,19 @@
 #include <string.h>
 #include <unistd.h>
 
+#define WIGGLE_DISPARITY 0.05f /* for one eye, which needs more to see it */
+
 #define GIVES_LABELS   (CLI_POPUP | CLI_SEGMENT)
-#define MADE_OF_LABELS (GIVES_LABELS | CLI_LAYERS | CLI_STEREO)
+#define FROM_THE_SIDE  (CLI_STEREO | CLI_WIGGLE)
+#define MADE_OF_LABELS (GIVES_LABELS | CLI_LAYERS | FROM_THE_SIDE)
 #define WITH_LAYERS    (MADE_OF_LABELS | CLI_EXACT)
 #define OF_LEVELS      (CLI_EXPAND | CLI_SMOOTH | CLI_SHADE | CLI_RELIEF)
 #define WITH_INK       (WITH_LAYERS | CLI_ORDER | OF_LEVELS)
 
 /* ------------------------------------------------------------------ files */
 
-typedef enum { INPUT, TEXT, OUTPUT, REPORT, STACK, MESH } FileKind; /* from OUTPUT on they are written */
+/* From OUTPUT on they are written; a joined picture may also be an MPO. */
+typedef enum { INPUT, TEXT, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH } FileKind;
 
 typedef struct
 {
@@ -89,8 +93,14 @@ static const FileOption files[] = {
     "how many transparent pixels round a sprite its maps fill; 4" },
   { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
   { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
-  { "joined", CLI_STEREO, 0, OUTPUT, MEMBER (stereo), "OUT", "write both in one picture, see --stereo" },
-  { "colours", CLI_LAYERS | CLI_STEREO | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
+  { "joined", CLI_STEREO, 0, JOINED, MEMBER (stereo), "OUT",
+    "write both in one picture, see --stereo; or in one .mpo file" },
+  { "quilt", CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT", "write --views as tiles of one picture, see --columns" },
+  { "sequence", CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
+    "write --views one by one: .mpo, .gif, or a folder of PNG files" },
+  { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (sequence), "OUT",
+    "write the moving picture: .gif, or a folder of PNG files" },
+  { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
     "what is cut, or laid over the mesh, instead of the drawing" },
   { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
     "what the layers are composited in: encoded colours (Krita), linear light (GIMP 3); encoded, but for .exr" },
@@ -146,10 +156,10 @@ static const SettingOption settings[] = {
   { "seeds", MADE_OF_LABELS, CHOICE, MEMBER (seeds), "auto|scribbles", "may arrows make regions of their own?" },
   { "same-colour", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (same_colour), "one|separate",
     "regions of one colour have one depth, or each its own" },
-  { "on-cycle", CLI_POPUP | CLI_LAYERS | CLI_STEREO | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (on_cycle),
+  { "on-cycle", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_ORDER | CLI_EXACT, CHOICE, MEMBER (on_cycle),
     "report|drop-weakest|split",
     "of relations that contradict, leave out lighter and later ones, or the least weight in sum; or split regions" },
-  { "suggest", CLI_POPUP | CLI_LAYERS | CLI_STEREO | CLI_ORDER, CHOICE, MEMBER (suggest), "off|fill-gaps|all",
+  { "suggest", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_ORDER, CHOICE, MEMBER (suggest), "off|fill-gaps|all",
     "order by suggestions, too: none, where relations leave it open, all; off" },
   { "arrow-style", WITH_LAYERS | CLI_ORDER, CHOICE, MEMBER (arrow_style), "head|dot|fade|taper",
     "how arrows are painted" },
@@ -160,13 +170,13 @@ static const SettingOption settings[] = {
   { "far-level", CLI_POPUP | CLI_ORDER | CLI_EXACT, NUMBER, MEMBER (far_level), "N",
     "with fixed encoding, the level that becomes 0" },
   { "complete", CLI_LAYERS, TRUTH, MEMBER (complete), "no|yes", "layers have what nearer ones hide, too; no" },
-  { "expansion", CLI_POPUP | CLI_LAYERS | CLI_STEREO, CHOICE, MEMBER (expansion), "outlines|thickness",
+  { "expansion", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE, CHOICE, MEMBER (expansion), "outlines|thickness",
     "who gets the ink: outlines of one pen each, or by the thickness of contours" },
   { "method", CLI_EXPAND, CHOICE, MEMBER (expansion), "outlines|thickness",
     "outlines of one pen each, or by the thickness of contours" },
-  { "anchors", CLI_POPUP | CLI_STEREO, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
+  { "anchors", CLI_POPUP | FROM_THE_SIDE, CHOICE, MEMBER (anchors), "scribbles|arrows|both|core",
     "which pixels keep their level in smooth depth" },
-  { "hold-rest", CLI_POPUP | CLI_STEREO | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
+  { "hold-rest", CLI_POPUP | FROM_THE_SIDE | CLI_SMOOTH, TRUTH, MEMBER (hold_rest), "no|yes",
     "regions without an anchor keep their level in their core; yes" },
   { "tolerance", CLI_POPUP | CLI_SMOOTH | CLI_EXACT | CLI_RELIEF, NUMBER, MEMBER (tolerance), "0-0.1",
     "largest error of smooth depth; 0.0001" },
@@ -198,11 +208,20 @@ static const SettingOption settings[] = {
   { "ambient", CLI_POPUP | CLI_SHADE, NUMBER, MEMBER (ambient), "0-1", "light that reaches every pixel; 0.25" },
   { "disparity", CLI_STEREO, NUMBER, MEMBER (disparity), "0-0.2",
     "how far the nearest and the farthest lie apart for two eyes, as a share of the width; 0.02" },
-  { "convergence", CLI_STEREO, NUMBER, MEMBER (convergence), "0-1",
-    "which depth lies on the screen, 1 the nearest; 0.5" },
+  { "disparity", CLI_WIGGLE, NUMBER, MEMBER (disparity), "0-0.2",
+    "how far the nearest moves before the farthest, as a share of the width; 0.05" },
+  { "convergence", FROM_THE_SIDE, NUMBER, MEMBER (convergence), "0-1",
+    "which depth lies on the screen, and stays where it is: 1 the nearest; 0.5" },
+  { "floating-window", CLI_STEREO, TRUTH, MEMBER (floating_window), "no|yes",
+    "bars at the sides before what the frame cuts in front of the screen; no" },
+  { "screen-width", CLI_STEREO, NUMBER, MEMBER (screen_width), "MM",
+    "how wide the picture will be shown: warns where eyes would have to look apart" },
   { "stereo", CLI_STEREO, CHOICE, MEMBER (stereo),
-    "left|right|side-by-side|half-side-by-side|crossed|over-under|interlaced|grey|colour|half-colour|dubois",
+    "left|right|side-by-side|half-side-by-side|crossed|over-under|half-over-under|interlaced|columns|"
+    "grey|colour|half-colour|dubois",
     "how --joined has both views; the last four are for red and cyan glasses; side-by-side" },
+  { "path", CLI_WIGGLE, CHOICE, MEMBER (path), "sway|circle|turntable",
+    "how the camera moves: from side to side, in a circle, or as if the drawing turned; sway" },
   { "enhance", CLI_ENHANCE, CHOICE, MEMBER (enhance), "stack|darken|contrast",
     "soft shadows on what is behind; or darker behind borders of depth, or also lighter before them" },
   { "shadow-size", CLI_ENHANCE | CLI_SHADE, NUMBER, MEMBER (shadow_size), "0.0005-0.2",
@@ -226,6 +245,65 @@ static const SettingOption settings[] = {
   { "most-vertices", CLI_RELIEF, NUMBER, MEMBER (most_vertices), "1000-16000000",
     "with more, the mesh is made coarser; 1000000" },
 };
+
+/* ------------------------------------------------------------------ whole numbers */
+
+typedef struct
+{
+  const char *name;
+  int         steps;
+  size_t      offset;      /* in CliOptions */
+  int         least, most, usual;
+  const char *value, *help;
+} CountOption;
+
+#undef MEMBER
+#define MEMBER(name) offsetof (CliOptions, name)
+
+static const CountOption counts[] = {
+  { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000", "how many there are from the left eye to the right one; 8" },
+  { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000", "tiles of a quilt beside each other; as many as rows" },
+  { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000", "pictures of one round; 24" },
+  { "fps", FROM_THE_SIDE, MEMBER (fps), 1, 50, 12, "1-50", "pictures a second of a .gif; 12" },
+};
+
+static int *
+count_of (CliOptions *options, const CountOption *count)
+{
+  return (int *) (void *) ((char *) options + count->offset);
+}
+
+static gboolean
+take_count (const char *name, const char *value, gpointer data, GError **error)
+{
+  const CountOption *count = counts;
+  gint64             number;
+
+  while (strcmp (count->name, name + 2))
+    count++;
+  if (g_ascii_string_to_signed (value, 10, count->least, count->most, &number, NULL))
+    {
+      *count_of (data, count) = (int) number;
+      return TRUE;
+    }
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value,
+               count->value);
+  return FALSE;
+}
+
+/* Those that were not given. */
+static void
+complete_counts (CliOptions *options)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
+    if (!*count_of (options, &counts[i]))
+      *count_of (options, &counts[i]) = counts[i].usual;
+  for (int i = 1; !options->columns; i++) /* a square */
+    if (i * i >= options->views)
+      options->columns = i;
+}
+
+/* ------------------------------------------------------------------ words and values */
 
 /* The place of a word in "a|b|c"; -1 if it is not there. */
 static int
@@ -327,6 +405,10 @@ append_entries (const CliCommand *command, CliOptions *options, GArray *entries)
       g_array_append_val (entries, ((GOptionEntry) {
         settings[i].name, 0, settings[i].kind == SWITCH ? G_OPTION_FLAG_NO_ARG : 0, G_OPTION_ARG_CALLBACK,
         (gpointer) take_setting, settings[i].help, settings[i].value }));
+  for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
+    if (counts[i].steps & (int) command->step)
+      g_array_append_val (entries, ((GOptionEntry) {
+        counts[i].name, 0, 0, G_OPTION_ARG_CALLBACK, (gpointer) take_count, counts[i].help, counts[i].value }));
 }
 
 /* GOption's part. */
@@ -394,6 +476,10 @@ check_files (const CliCommand *command, CliOptions *options)
       outputs++;
       if (files[i].kind == OUTPUT && !cli_can_write (name))
         return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
+      if (files[i].kind == JOINED && !cli_can_write (name) && celd_io_frames_kind (name) != CELD_IO_MPO)
+        return cli_error ("--%s %s: the ending must be .png, .exr, .tif, .npy or .mpo.", files[i].name, name);
+      if (files[i].kind == FRAMES && !celd_io_frames_kind (name))
+        return cli_error ("--%s %s: the ending must be .gif or .mpo, or none for a folder.", files[i].name, name);
       if (files[i].kind == STACK && !celd_io_stack_kind (name))
         return cli_error ("--%s %s: the ending must be .ora or .exr, or none for a folder.", files[i].name, name);
       if (files[i].kind == MESH && !celd_io_mesh_kind (name))
@@ -443,7 +529,9 @@ check_place (const char *name, FileKind kind)
   char *plain = g_canonicalize_filename (name, NULL), *folder = g_path_get_dirname (plain); /* without a last slash */
   bool  device = cli_is_device (name), good = true;
 
-  if (kind == STACK && celd_io_stack_kind (name) == CELD_IO_FOLDER && g_file_test (name, G_FILE_TEST_IS_DIR))
+  if (g_file_test (name, G_FILE_TEST_IS_DIR) &&
+      ((kind == STACK && celd_io_stack_kind (name) == CELD_IO_FOLDER) ||
+       (kind == FRAMES && celd_io_frames_kind (name) == CELD_IO_PNG_FRAMES)))
     good = is_empty (name) || cli_error ("Cannot write \"%s\": it is a folder that is not empty.", name);
   else if (g_file_test (name, G_FILE_TEST_IS_DIR))
     good = cli_error ("Cannot write \"%s\": it is a folder.", name);
@@ -495,6 +583,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
   if (argc != 2)
     return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
   options->input = g_strdup (argv[1]);
+  complete_counts (options);
   if (options->light && find_word ("encoded|linear", options->light) < 0)
     return cli_error ("--light cannot be '%s'; it takes encoded|linear.", options->light);
   if (options->light && !strcmp (options->light, "encoded") && options->output &&
@@ -513,6 +602,8 @@ int
 cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
   *options = (CliOptions) { .step = command->step, .settings = celd_settings () };
+  if (command->step == CLI_WIGGLE)
+    options->settings.disparity = WIGGLE_DISPARITY;
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
     return check_places (options) ? CLI_DONE : CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);

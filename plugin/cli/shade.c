@@ -48,10 +48,10 @@ cli_shade_check (CliOptions *options)
 {
   const char *grid = options->grid, *padding = options->padding_text;
 
-  options->columns = options->rows = 1;
+  options->grid_columns = options->grid_rows = 1;
   options->padding = 4;
-  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->columns) && *grid++ == 'x' &&
-                read_number (&grid, 1, CELD_MAX_SIDE, &options->rows) && !*grid))
+  if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_columns) && *grid++ == 'x' &&
+                read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_rows) && !*grid))
     return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
   if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
     return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
@@ -91,9 +91,9 @@ read_art (const CliOptions *options, Shade *s)
 static bool
 check_grid (const CliOptions *options, const CeldPlane *levels)
 {
-  return (levels->width % options->columns == 0 && levels->height % options->rows == 0) ||
+  return (levels->width % options->grid_columns == 0 && levels->height % options->grid_rows == 0) ||
          cli_error ("%s has %d x %d pixels, which are not %d x %d cells of one size.", options->input, levels->width,
-                    levels->height, options->columns, options->rows);
+                    levels->height, options->grid_columns, options->grid_rows);
 }
 
 static bool
@@ -256,8 +256,8 @@ shade_cell (const CliOptions *options, const CeldRun *run, Shade *s)
 static bool
 shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 {
-  CeldRect   cell = { 0, 0, s->levels.width / options->columns, s->levels.height / options->rows };
-  bool       one = options->columns * options->rows == 1;
+  CeldRect   cell = { 0, 0, s->levels.width / options->grid_columns, s->levels.height / options->grid_rows };
+  bool       one = options->grid_columns * options->grid_rows == 1;
   CeldRun    quiet = { NULL, run->run.each, run->run.host };
   CeldStatus status = CELD_OK;
 

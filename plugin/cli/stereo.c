@@ -1,126 +1,157 @@
-/* celdepth stereo: what two eyes see, from completed layers and smooth depth.
+/* celdepth stereo: what two eyes see, or several, from completed layers and smooth depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
-typedef struct { CeldOwnership own; CeldPlane depth; CeldLayers *layers; CeldScene *scene; CeldColours view[2]; } Stereo;
+#include <string.h>
 
-static CeldStatus
-make_layers (CeldSession *session, const CeldColours *art, CliRun *run, Stereo *s)
-{
-  CeldLabels labels;
-  CeldStatus status;
+/* ------------------------------------------------------------------ two views */
 
-  cli_run_stage (run, "labels");
-  status = celd_session_labels (session, &run->run, &labels, NULL);
-  cli_run_stage (run, "depth");
-  if (status == CELD_OK)
-    status = celd_session_depth (session, &run->run, &s->depth, NULL);
-  cli_run_stage (run, "layers");
-  if (status == CELD_OK)
-    status = celd_session_layers (session, art, 0, &run->run, &s->layers);
-  if (status == CELD_OK)
-    status = celd_session_ownership (session, &run->run, &s->own, NULL);
-  if (status == CELD_OK)
-    status = celd_scene_of_layers (s->layers, &s->own, &s->depth, &run->run, &s->scene);
-  return status;
-}
-
-static CeldStatus
-make_views (const CeldSettings *settings, CliRun *run, Stereo *s)
+static bool
+make_pair (const CliScene *s, CeldColours view[2])
 {
   CeldStatus status = CELD_OK;
 
+  for (int i = 0; i < 2; i++)
+    if (!cli_colours_new (s->depth.width, s->depth.height, &view[i]))
+      return false;
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
-      cli_run_stage (run, i ? "right" : "left");
-      status = celd_scene_view (s->scene, celd_camera_eye (i ? 1 : -1), settings, &run->run, &s->view[i]);
+      cli_run_stage (s->run, i ? "right" : "left");
+      status = celd_scene_view (s->scene, celd_camera_eye (i ? 1 : -1), s->settings, &s->run->run, &view[i]);
     }
-  cli_run_stage (run, NULL);
-  return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
+  if (status == CELD_OK && s->settings->floating_window)
+    status = celd_stereo_window (&s->depth, s->settings, &view[0], &view[1]);
+  cli_run_stage (s->run, NULL);
+  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+}
+
+/* Both as they are; of one file. */
+static bool
+paint_view (void *host, size_t frame, float *rgba)
+{
+  const CeldColours *view = (const CeldColours *) host + frame;
+
+  memcpy (rgba, view->data, 4 * sizeof *rgba * (size_t) view->width * (size_t) view->height);
+  return true;
 }
 
 static bool
-write_joined (const CliOptions *options, const Stereo *s)
+write_both (const char *path, CeldColours view[2])
 {
-  int         width = s->view[0].width, height = s->view[0].height;
+  CeldIoFrames frames = { view[0].width, view[0].height, 2, 1, paint_view, view };
+  CeldIoError  error;
+
+  return celd_io_write_frames (path, &frames, &error) || cli_error ("%s", error.text);
+}
+
+static bool
+write_joined (const CliOptions *options, CeldColours view[2])
+{
+  int         width = view[0].width, height = view[0].height;
   CeldColours joined = { 0 };
   bool        good;
 
+  if (celd_io_frames_kind (options->stereo) == CELD_IO_MPO)
+    return write_both (options->stereo, view);
   celd_stereo_size (options->settings.stereo, &width, &height);
   good = cli_colours_new (width, height, &joined) &&
-         cli_check (celd_stereo_join (&s->view[0], &s->view[1], options->settings.stereo, &joined)) &&
+         cli_check (celd_stereo_join (&view[0], &view[1], options->settings.stereo, &joined)) &&
          cli_write_colours (options->stereo, &joined);
   g_free (joined.data);
   return good;
 }
 
+static bool
+write_pair (const CliOptions *options, const CliScene *s)
+{
+  CeldColours view[2] = { 0 };
+  bool        good = !(options->left || options->right || options->stereo) ||
+                     (make_pair (s, view) &&
+                      (!options->left || cli_write_colours (options->left, &view[0])) &&
+                      (!options->right || cli_write_colours (options->right, &view[1])) &&
+                      (!options->stereo || write_joined (options, view)));
+
+  g_free (view[0].data);
+  g_free (view[1].data);
+  return good;
+}
+
+/* ------------------------------------------------------------------ many views */
+
+/* From the left eye to the right one. */
+static CeldCamera
+camera (const CliScene *s, int view)
+{
+  return celd_camera_eye (2.0 * view / (s->frames - 1) - 1);
+}
+
+/* Tiles of one picture, as displays of light fields take them: the first at the left of the lowest row. */
+static bool
+write_quilt (const CliOptions *options, const CliScene *s)
+{
+  int         columns = MIN (options->columns, s->frames), rows = (s->frames + columns - 1) / columns;
+  int         w = s->depth.width, h = s->depth.height;
+  CeldColours quilt = { 0 };
+  CeldStatus  status = CELD_OK;
+  bool        good = (gint64) w * columns <= G_MAXUINT16 && (gint64) h * rows <= G_MAXUINT16
+                       ? cli_colours_new (w * columns, h * rows, &quilt)
+                       : cli_error ("The quilt would be %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " pixels large: take fewer "
+                                    "views, or a smaller drawing.", (gint64) w * columns, (gint64) h * rows);
+
+  if (good)
+    memset (quilt.data, 0, 4 * sizeof *quilt.data * quilt.stride * (size_t) quilt.height);
+  cli_run_stage (s->run, "views");
+  for (int i = 0; good && i < s->frames && status == CELD_OK; i++)
+    {
+      CeldRun     quiet = { NULL, s->run->run.each, s->run->run.host };
+      size_t      first = (size_t) ((rows - 1 - i / columns) * h) * quilt.stride + (size_t) (i % columns * w);
+      CeldColours tile = { w, h, quilt.stride, quilt.data + 4 * first };
+
+      status = s->run->run.progress (s->run->run.host, (double) i / s->frames)
+                 ? celd_scene_view (s->scene, camera (s, i), s->settings, &quiet, &tile) : CELD_CANCELLED;
+    }
+  cli_run_stage (s->run, NULL);
+  good = good && cli_check (status) && cli_write_colours (options->quilt, &quilt);
+  g_free (quilt.data);
+  return good;
+}
+
+/* ------------------------------------------------------------------ */
+
 /* What strains the eyes. */
 static void
-say_comfort (const CeldPlane *depth, const CeldSettings *settings)
+say_comfort (const CliScene *s)
 {
   CeldComfort comfort;
   char        text[800];
 
-  if (celd_stereo_comfort (depth, settings, &comfort) != CELD_OK)
+  if (celd_stereo_comfort (&s->depth, s->settings, &comfort) != CELD_OK)
     return;
-  celd_comfort_text (&comfort, settings, text, sizeof text);
-  if (text[0])
-    cli_say ("%s", text);
-}
-
-/* Options that make layers whole: else there would be holes. */
-static CliOptions
-with_completion (const CliOptions *options)
-{
-  CliOptions o = *options;
-
-  o.settings.complete = true;
-  return o;
+  celd_comfort_text (&comfort, s->settings, text, sizeof text);
+  for (char *line = strtok (text, "\n"); line; line = strtok (NULL, "\n"))
+    cli_say ("%s", line);
 }
 
 int
 cli_stereo (const CliOptions *options)
 {
-  CliOptions   whole = with_completion (options);
-  CeldSession *session = celd_session_new ();
-  CliLayers    input = { 0 };
-  CeldColours  art = { 0 };
-  Stereo       s = { 0 };
-  CliRun       run;
-  int          code = CLI_FAILED;
-  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input) &&
-                      cli_art_read (options->input, options->colours, true, &input, &art);
+  CliScene s;
+  CliRun   run;
+  int      code = CLI_FAILED;
 
-  cli_layers_clear (&input);
   cli_run_begin (&run, options->quiet);
-  good = good && cli_check (make_layers (session, &art, &run, &s)) &&
-         cli_colours_new (art.width, art.height, &s.view[0]) && cli_colours_new (art.width, art.height, &s.view[1]) &&
-         cli_check (make_views (&options->settings, &run, &s)) &&
-         (!options->left || cli_write_colours (options->left, &s.view[0])) &&
-         (!options->right || cli_write_colours (options->right, &s.view[1])) &&
-         (!options->stereo || write_joined (options, &s));
-  if (good)
+  if (cli_scene_new (options, &run, &s))
     {
-      const CeldOrder *order = NULL;
-
-      code = celd_session_order (session, NULL, &order) == CELD_OK && order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
-      if (code == CLI_CONTRADICTED)
-        cli_say_cycles (order, celd_session_relations (session));
-      if (!options->quiet)
-        {
-          say_comfort (&s.depth, &options->settings);
-          cli_say_problems (celd_session_problems (session), celd_session_palette (session),
-                            celd_session_relations (session));
-        }
+      s.frames = options->views;
+      if (write_pair (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
+          (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options->fps)))
+        code = cli_scene_tell (options, "stereo", &s);
+      if (code != CLI_FAILED && !options->quiet)
+        say_comfort (&s);
     }
+  cli_scene_clear (&s);
   cli_run_end (&run);
-  celd_layers_free (s.layers);
-  celd_scene_free (s.scene);
-  celd_session_free (session);
-  g_free (s.view[0].data);
-  g_free (s.view[1].data);
-  g_free (art.data);
   return code;
 }

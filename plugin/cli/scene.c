@@ -1,0 +1,117 @@
+/* What stereo and wiggle share: a drawing as a scene of completed layers, and its views in files.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+/* ------------------------------------------------------------------ the scene */
+
+static CeldStatus
+make (const CeldColours *art, CliRun *run, CliScene *s)
+{
+  CeldOwnership own;
+  CeldLabels    labels;
+  CeldLayers   *layers = NULL;
+  CeldStatus    status;
+
+  cli_run_stage (run, "labels");
+  status = celd_session_labels (s->session, &run->run, &labels, NULL);
+  cli_run_stage (run, "order");
+  if (status == CELD_OK)
+    status = celd_session_order (s->session, &run->run, &s->order);
+  cli_run_stage (run, "depth");
+  if (status == CELD_OK)
+    status = celd_session_depth (s->session, &run->run, &s->depth, NULL);
+  cli_run_stage (run, "layers");
+  if (status == CELD_OK)
+    status = celd_session_layers (s->session, art, CELD_STORE_FLOAT, &run->run, &layers);
+  cli_run_stage (run, "scene");
+  if (status == CELD_OK)
+    status = celd_session_ownership (s->session, &run->run, &own, NULL);
+  if (status == CELD_OK)
+    status = celd_scene_of_layers (layers, &own, &s->depth, &run->run, &s->scene);
+  celd_layers_free (layers);
+  cli_run_stage (run, NULL);
+  return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
+}
+
+/* Layers must be whole: else there would be holes. */
+bool
+cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
+{
+  CliOptions  whole = *options;
+  CliLayers   input = { 0 };
+  CeldColours art = { 0 };
+  bool        good;
+
+  whole.settings.complete = true;
+  *s   = (CliScene) { .session = celd_session_new (), .settings = &options->settings, .run = run };
+  good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input) &&
+         cli_art_read (options->input, options->colours, true, &input, &art);
+  cli_layers_clear (&input);
+  good = good && cli_check (make (&art, run, s));
+  g_free (art.data);
+  return good;
+}
+
+int
+cli_scene_tell (const CliOptions *options, const char *command, const CliScene *s)
+{
+  CliReport report = {
+    .command   = command,
+    .width     = s->depth.width,
+    .height    = s->depth.height,
+    .palette   = celd_session_palette (s->session),
+    .relations = celd_session_relations (s->session),
+    .order     = s->order,
+    .problems  = celd_session_problems (s->session),
+    .settings  = &options->settings,
+    .timings   = s->run->timings,
+  };
+
+  if (options->report && !cli_report_write (options->report, &report))
+    return CLI_FAILED;
+  cli_say_cycles (s->order, report.relations);
+  if (!options->quiet)
+    cli_say_problems (report.problems, report.palette, report.relations);
+  return s->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
+}
+
+void
+cli_scene_clear (CliScene *s)
+{
+  celd_scene_free (s->scene);
+  celd_session_free (s->session);
+}
+
+/* ------------------------------------------------------------------ views */
+
+typedef struct { const CliScene *scene; CeldCamera (*camera) (const CliScene *s, int frame); int frames; } Frames;
+
+static bool
+paint (void *host, size_t frame, float *rgba)
+{
+  const Frames   *f = host;
+  const CliScene *s = f->scene;
+  CeldColours     view = { s->depth.width, s->depth.height, (size_t) s->depth.width, rgba };
+  CeldRun         quiet = { NULL, s->run->run.each, s->run->run.host };
+  bool            going = s->run->run.progress (s->run->run.host, (double) frame / f->frames);
+
+  return going && celd_scene_view (s->scene, f->camera (s, (int) frame), s->settings, &quiet, &view) == CELD_OK;
+}
+
+bool
+cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame), int frames,
+                 int per_second)
+{
+  Frames       f = { s, camera, frames };
+  CeldIoFrames out = { s->depth.width, s->depth.height, (size_t) frames, per_second, paint, &f };
+  CeldIoError  error;
+  bool         good;
+
+  cli_run_stage (s->run, "views");
+  good = celd_io_write_frames (path, &out, &error);
+  cli_run_stage (s->run, NULL);
+  return good || (error.text[0] ? cli_error ("%s", error.text)
+                                : cli_check (cli_run_cancelled () ? CELD_CANCELLED : CELD_NO_MEMORY));
+}
