@@ -162,6 +162,7 @@ typedef struct
   int          width, height;
   size_t       frames;
   double       per_second;             /* how fast a GIF moves */
+  int          most_side;              /* a larger GIF is reduced; 0: none is */
   bool       (*paint) (void *host, size_t frame, float *rgba); /* linear light, straight alpha; false: give up */
   void        *host;
 } CeldIoFrames;

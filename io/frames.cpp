@@ -7,6 +7,8 @@
 #include "layers.hpp"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
@@ -28,17 +30,36 @@ kind_of (const std::string &path)
 
 // ------------------------------------------------------------------ pixels
 
+// sRGB of linear light, fine enough for 8 bits.
+static const std::vector<float> &
+encoded ()
+{
+  static const std::vector<float> table = [] {
+    std::vector<float> codes (1 << 16);
+
+    for (size_t i = 0; i < codes.size (); i++)
+      codes[i] = encode_srgb (float (i) / float (codes.size () - 1));
+    return codes;
+  }();
+
+  return table;
+}
+
 // Encoded as sRGB, with straight alpha.
 static std::vector<float>
 frame_pixels (const CeldIoFrames &frames, size_t frame)
 {
+  const std::vector<float> &code = encoded ();
   std::vector<float> rgba (4 * size_t (frames.width) * size_t (frames.height));
 
   if (!frames.paint (frames.host, frame, rgba.data ()))
     throw IoGivenUp ();
   for (size_t i = 0; i < rgba.size (); i++)
-    if (i % 4 < 3)
-      rgba[i] = encode_srgb (rgba[i]);
+    {
+      const float value = rgba[i] > 0 ? std::min (rgba[i], 1.f) : 0; // NaN is 0
+
+      rgba[i] = i % 4 < 3 ? code[size_t (value * float (code.size () - 1) + 0.5f)] : value;
+    }
   return rgba;
 }
 
@@ -77,6 +98,35 @@ make_output (const char *format)
 
 // ------------------------------------------------------------------ GIF
 
+// As large as the file, which may be smaller than the frames.
+static std::vector<float>
+reduced (const CeldIoFrames &frames, size_t frame, const ImageSpec &spec)
+{
+  std::vector<float> rgb = frame_on_paper (frames, frame), small;
+  OIIO::ImageBuf     whole (ImageSpec (frames.width, frames.height, 3, OIIO::TypeFloat), rgb.data ()), part;
+
+  if (spec.width == frames.width)
+    return rgb;
+  small.resize (3 * size_t (spec.width) * size_t (spec.height));
+  if (!OIIO::ImageBufAlgo::resize (part, whole, "", 0, OIIO::ROI (0, spec.width, 0, spec.height, 0, 1, 0, 3), 1) ||
+      !part.get_pixels (part.roi (), OIIO::TypeFloat, small.data ()))
+    throw IoFailure (part.geterror ());
+  return small;
+}
+
+// The width and height of the file.
+static void
+reduce (const CeldIoFrames &frames, ImageSpec &spec)
+{
+  const double side = std::max (frames.width, frames.height), scale = frames.most_side / side;
+
+  if (frames.most_side > 0 && scale < 1)
+    {
+      spec.width  = std::max (1, int (std::lround (frames.width * scale)));
+      spec.height = std::max (1, int (std::lround (frames.height * scale)));
+    }
+}
+
 static void
 write_gif (const std::string &path, const CeldIoFrames &frames)
 {
@@ -88,13 +138,16 @@ write_gif (const std::string &path, const CeldIoFrames &frames)
 
   spec.attribute ("FramesPerSecond", OIIO::TypeRational, speed);
   spec.attribute ("gif:LoopCount", 0); // for ever
+  reduce (frames, spec);
+  spec.full_width  = spec.width;
+  spec.full_height = spec.height;
   specs.assign (frames.frames, spec);
   for (size_t i = 0; i < frames.frames; i++)
     {
       bool good = i ? output->open (file.name (), spec, OIIO::ImageOutput::AppendSubimage) :
                       output->open (file.name (), int (specs.size ()), specs.data ());
 
-      if (!good || !output->write_image (OIIO::TypeFloat, frame_on_paper (frames, i).data ()))
+      if (!good || !output->write_image (OIIO::TypeFloat, reduced (frames, i, spec).data ()))
         throw IoFailure (output->geterror ());
     }
   if (!output->close ())

@@ -39,12 +39,12 @@ typedef struct
   char        *drawing, *scribbles, *contours, *corrections, *arrows, *anchors, *depth_hint;
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
-  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt;
+  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt, *wiggle;
   char        *colours, *output, *light;
   char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid;
   char        *padding_text;
   int          grid_columns, grid_rows, padding; /* of --grid and --padding */
-  int          views, columns, frames, fps;
+  int          views, columns, frames, fps, size;
   bool         quiet, directx, background_colour; /* was a background colour given? */
   CeldSettings settings;
 } CliOptions;
@@ -229,7 +229,7 @@ bool cli_scene_new   (const CliOptions *options, CliRun *run, CliScene *s);
 void cli_scene_clear (CliScene *s);
 /* Views from the cameras of all frames, in a file or folder. */
 bool cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame),
-                      int frames, int per_second);
+                      int frames, const CliOptions *options);
 /* The report and the remarks; the exit code. */
 int  cli_scene_tell  (const CliOptions *options, const char *command, const CliScene *s);
 

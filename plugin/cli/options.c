@@ -98,7 +98,7 @@ static const FileOption files[] = {
   { "quilt", CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT", "write --views as tiles of one picture, see --columns" },
   { "sequence", CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
     "write --views one by one: .mpo, .gif, or a folder of PNG files" },
-  { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (sequence), "OUT",
+  { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the moving picture: .gif, or a folder of PNG files" },
   { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
     "what is cut, or laid over the mesh, instead of the drawing" },
@@ -264,6 +264,8 @@ static const CountOption counts[] = {
   { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000", "how many there are from the left eye to the right one; 8" },
   { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000", "tiles of a quilt beside each other; as many as rows" },
   { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000", "pictures of one round; 24" },
+  { "size", FROM_THE_SIDE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
+    "the longer side of a .gif: larger ones are reduced; 640" },
   { "fps", FROM_THE_SIDE, MEMBER (fps), 1, 50, 12, "1-50", "pictures a second of a .gif; 12" },
 };
 

@@ -102,10 +102,11 @@ paint (void *host, size_t frame, float *rgba)
 
 bool
 cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame), int frames,
-                 int per_second)
+                 const CliOptions *options)
 {
   Frames       f = { s, camera, frames };
-  CeldIoFrames out = { s->depth.width, s->depth.height, (size_t) frames, per_second, paint, &f };
+  CeldIoFrames out = { s->depth.width, s->depth.height, (size_t) frames, options->fps, options->size,
+                       paint, &f };
   CeldIoError  error;
   bool         good;
 

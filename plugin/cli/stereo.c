@@ -40,7 +40,7 @@ paint_view (void *host, size_t frame, float *rgba)
 static bool
 write_both (const char *path, CeldColours view[2])
 {
-  CeldIoFrames frames = { view[0].width, view[0].height, 2, 1, paint_view, view };
+  CeldIoFrames frames = { view[0].width, view[0].height, 2, 1, 0, paint_view, view };
   CeldIoError  error;
 
   return celd_io_write_frames (path, &frames, &error) || cli_error ("%s", error.text);
@@ -146,7 +146,7 @@ cli_stereo (const CliOptions *options)
     {
       s.frames = options->views;
       if (write_pair (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
-          (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options->fps)))
+          (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options)))
         code = cli_scene_tell (options, "stereo", &s);
       if (code != CLI_FAILED && !options->quiet)
         say_comfort (&s);

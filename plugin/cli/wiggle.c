@@ -21,7 +21,7 @@ cli_wiggle (const CliOptions *options)
   if (cli_scene_new (options, &run, &s))
     {
       s.frames = options->frames;
-      if (cli_scene_write (options->sequence, &s, camera, options->frames, options->fps))
+      if (cli_scene_write (options->wiggle, &s, camera, options->frames, options))
         code = cli_scene_tell (options, "wiggle", &s);
     }
   cli_scene_clear (&s);

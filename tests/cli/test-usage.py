@@ -14,7 +14,7 @@ from PIL import Image
 
 from pictures import COMMAND, RELATIONS, Test
 
-STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo')
+STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle')
 
 
 class Usage(Test):
