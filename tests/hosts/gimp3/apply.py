@@ -76,6 +76,8 @@ def people(bits):
     order = step(labels, 'depth-order', 'order', {'aux': arrows, 'aux2': drawing})
     levels = step(order, 'depth-expand', 'levels', {'aux': drawing, 'aux2': labels})
     depth = step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
+    if bits == 32:  # depth of 8 bits moves by other parts of a pixel
+        step(drawing, 'stereo', 'stereo', {'aux': depth, 'aux2': levels})
     step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
     for result in ('shading', 'normals', 'occlusion'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)

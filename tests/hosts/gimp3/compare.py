@@ -73,6 +73,7 @@ def main():
     out = sys.argv[1]
     results = [compare(out, bits, name, reference(out, wanted)) for name, wanted in WANTED.items() for bits in (8, 32)]
     results.append(compare(out, 32, 'relief', reference(out, 'relief'), 1e-3))
+    results += [compare(out, 32, 'stereo', reference(out, 'stereo')[:, :, :3])]
     results += [compare_layers(out, drawing) for drawing in ('people', 'monkey', 'frog')]
     print(f'{sum(results)} passed, {len(results) - sum(results)} failed')
     return 0 if all(results) else 1
