@@ -660,6 +660,24 @@ stereo_step (const CeldRun *run, Results *r)
   return status;
 }
 
+/* The same of levels. */
+static CeldStatus
+levels_scene_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldColours  colours = { W, H, W, art };
+  CeldScene   *scene = NULL;
+  CeldStatus   status;
+
+  for (int i = 0; i < 4 * W * H; i++)
+    art[i] = 1;
+  status = celd_scene_of_levels (&ink, &levels, &levels, &colours, CELD_EXPANSION_OUTLINES, run, &scene);
+  r->pixels->vectors[0] = scene ? 1 : 0;
+  celd_scene_free (scene);
+  return status;
+}
+
 /* The same of depth alone. */
 static CeldStatus
 scene_step (const CeldRun *run, Results *r)
@@ -853,6 +871,7 @@ const Step steps[] = {
   { "padding", padding_step, NULL, true },
   { "shade", shade_step, NULL, false },
   { "stereo", stereo_step, NULL, true },
+  { "scene of levels", levels_scene_step, NULL, true },
   { "scene", scene_step, NULL, true },
   { "enhance", enhance_step, NULL, true },
   { "unsharp", unsharp_step, NULL, true },

@@ -65,6 +65,29 @@ comfort_is_told (void)
   free (depth.data);
 }
 
+/* Every reason to worry is named with what to do, in as much room as there is. */
+static void
+comfort_is_put_in_words (void)
+{
+  CeldComfort  all = { .front = 0.06, .behind = 0.04, .cut_left = true, .cut_right = true, .diverges = true };
+  CeldSettings settings = celd_settings ();
+  char         text[800], little[20];
+
+  settings.disparity    = 0.1f;
+  settings.screen_width = 2000;
+  celd_comfort_text (&(CeldComfort) { .front = 0.02 }, &settings, text, sizeof text);
+  CHECK (!text[0]);
+  celd_comfort_text (&all, &settings, text, sizeof text);
+  CHECK (strstr (text, "10.0 %") && strstr (text, "disparity of 0.033"));
+  CHECK (strstr (text, "2000 mm") && strstr (text, "80 mm apart") && strstr (text, "disparity of 0.081"));
+  CHECK (strstr (text, "left and the right") && text[strlen (text) - 1] == '.');
+  settings.floating_window = true;
+  celd_comfort_text (&all, &settings, text, sizeof text);
+  CHECK (!strstr (text, "frame"));
+  celd_comfort_text (&all, &settings, little, sizeof little);
+  CHECK (strlen (little) == sizeof little - 1);
+}
+
 /* Bars only where something is cut, as wide as its disparity, one at the left of the left view, one at the right of the
  * right one; the last pixel by its share. */
 static void
@@ -218,6 +241,7 @@ int
 main (void)
 {
   RUN (comfort_is_told);
+  RUN (comfort_is_put_in_words);
   RUN (windows_float_before_what_they_cut);
   RUN (paths_are_closed);
   RUN (glasses_keep_white_and_greys);
