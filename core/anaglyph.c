@@ -1,5 +1,5 @@
-/* A left and a right view in one picture: side by side, one over the other, in turns of rows or columns, or for coloured
- * glasses.
+/* A left and a right view in one picture: side by side, one over the other, in turns of rows or columns, or for
+ * coloured glasses.
  *
  * Anaglyphs are linear maps of the two colours in linear light, and keep white and greys as they are.  Dubois's weights
  * for red and cyan glasses make what each eye sees through its glass most like the view meant for it [Dub01].

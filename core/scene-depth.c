@@ -211,7 +211,7 @@ lay_piece (Maker *m, int first, int end, const int soft[2], double group_depth)
   celd_span_close (s, m->scene->width);
 }
 
-/* The piece from `first` to before `end`: nearer than its neighbours it has soft ends, farther it goes on below them. */
+/* The piece from `first` to before `end`: nearer than its neighbours it has soft ends, farther it goes on below. */
 static void
 make_piece (Maker *m, int first, int end)
 {

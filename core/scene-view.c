@@ -134,8 +134,8 @@ move_piece (const Move *m, const CeldSpan *s, Line *line)
     }
 }
 
-/* Between two pixels: a cubic through their neighbours, too (Catmull and Rom), that stays within the two; straight where
- * one covers less than the other, so that colours and alpha go on fitting each other. */
+/* Between two pixels: a cubic through their neighbours, too (Catmull and Rom), that stays within the two; straight
+ * where one covers less than the other, so that colours and alpha go on fitting each other. */
 static inline void
 blend (const float *a, float t, float colour[4])
 {

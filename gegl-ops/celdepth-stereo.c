@@ -23,8 +23,8 @@ CELD_PROPERTY_INK
 static const CeldPad pads[] = {
   { "input", "Art", "The picture that is to be seen", TRUE },
   { "aux", "Depth", "Smooth depth, near is bright", TRUE },
-  { "aux2", "Levels", "Depth levels: the picture is cut into completed layers by them; without, what comes into sight is "
-                      "filled from what is farther", FALSE },
+  { "aux2", "Levels", "Depth levels: the picture is cut into completed layers by them; without, what comes into sight "
+                      "is filled from what is farther", FALSE },
   { "aux3", "Drawing", "The line drawing, where the art is coloured: it tells ink from paint", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
@@ -168,7 +168,8 @@ gegl_op_class_init (GeglOpClass *klass)
     "title",           "Stereo",
     "categories",      "artistic",
     "description",     "Shows a picture with depth to two eyes, each from its own side",
-    "reference",       CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. ICASSP 2001.",
+    "reference",       CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. "
+                       "ICASSP 2001.",
     "gimp:menu-path",  CELD_MENU,
     "gimp:menu-label", "Stereo...",
     NULL);

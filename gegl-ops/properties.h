@@ -329,12 +329,12 @@ GType celd_popup_result_get_type   (void);
 
 #define CELD_PROPERTY_DISPARITY \
   property_enum (stereo, "Arrangement", CeldStereo, celd_stereo, CELD_STEREO_DUBOIS) \
-    description ("How two views come in one picture: for red and cyan glasses, beside or over each other, in turns of " \
-                 "rows or columns for a screen that parts them, or one view alone. Whole views beside or over each " \
-                 "other make the picture larger") \
+    description ("How two views come in one picture: for red and cyan glasses, beside or over each other, in turns " \
+                 "of rows or columns for a screen that parts them, or one view alone. Whole views beside or over " \
+                 "each other make the picture larger") \
   property_double (disparity, "Disparity", 0.02) \
-    description ("How far depths 1 and 0 lie apart for two eyes, as a share of the width. More than 0.033 strains the " \
-                 "eyes") \
+    description ("How far depths 1 and 0 lie apart for two eyes, as a share of the width. More than 0.033 strains " \
+                 "the eyes") \
     value_range (0.0, 0.2) \
     ui_range (0.0, 0.05) \
     ui_steps (0.001, 0.005) \
@@ -345,8 +345,8 @@ GType celd_popup_result_get_type   (void);
     value_range (0.0, 1.0) \
     ui_digits (2) \
   property_boolean (floating_window, "Floating window", FALSE) \
-    description ("Black bars at the sides, where the frame cuts something in front of the screen: they bring the frame " \
-                 "before it") \
+    description ("Black bars at the sides, where the frame cuts something in front of the screen: they bring the " \
+                 "frame before it") \
   property_double (screen_width, "Screen width", 0.0) \
     description ("How wide the picture will be shown, in mm, to warn where the eyes would have to look apart; 0 does " \
                  "not warn") \

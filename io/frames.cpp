@@ -169,8 +169,8 @@ encode_jpeg (const CeldIoFrames &frames, size_t frame)
   spec.attribute ("CompressionQuality", 95);
   spec.attribute ("jpeg:subsampling", "4:4:4"); // colours of thin lines
   spec.attribute ("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  if (!output->open ("view.jpg", spec) || !output->write_image (OIIO::TypeFloat, frame_on_paper (frames, frame).data ()) ||
-      !output->close ())
+  if (!output->open ("view.jpg", spec) ||
+      !output->write_image (OIIO::TypeFloat, frame_on_paper (frames, frame).data ()) || !output->close ())
     throw IoFailure (output->geterror ());
   return Bytes (memory.buffer ());
 }

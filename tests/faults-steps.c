@@ -673,7 +673,8 @@ levels_scene_step (const CeldRun *run, Results *r)
   for (int i = 0; i < 4 * W * H; i++)
     art[i] = 1;
   status = celd_scene_of_levels (&ink, &levels, &levels, &colours, CELD_EXPANSION_OUTLINES, run, &scene);
-  r->pixels->vectors[0] = scene ? 1 : 0;
+  if (status == CELD_OK)
+    r->pixels->vectors[0] = 1;
   celd_scene_free (scene);
   return status;
 }

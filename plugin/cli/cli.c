@@ -45,7 +45,8 @@ static const CliCommand commands[] = {
     "      --disparity 0.03\n"
     "  celdepth stereo page.psd --joined page.mpo\n"
     "  celdepth stereo page.psd --views 45 --columns 5 --quilt page_qs5x9a0.75.png", cli_stereo },
-  { "wiggle", CLI_WIGGLE, "DRAWING|LAYERED", "The camera moves before the drawing: depth at a glance, as GIF or PNG files.",
+  { "wiggle", CLI_WIGGLE, "DRAWING|LAYERED",
+    "The camera moves before the drawing: depth at a glance, as GIF or PNG files.",
     "  celdepth wiggle bee.png --scribbles strokes.png --arrows arrows.png --output bee.gif\n"
     "  celdepth wiggle page.psd --path circle --frames 48 --output frames      (a folder of PNG files)", cli_wiggle },
   { "relief", CLI_RELIEF, "LEVELS", "Rounds the parts of a drawing, as heights or as a mesh to look at or to print.",

@@ -261,9 +261,12 @@ typedef struct
 #define MEMBER(name) offsetof (CliOptions, name)
 
 static const CountOption counts[] = {
-  { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000", "how many there are from the left eye to the right one; 8" },
-  { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000", "tiles of a quilt beside each other; as many as rows" },
-  { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000", "pictures of one round; 24" },
+  { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
+    "how many there are from the left eye to the right one; 8" },
+  { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
+    "tiles of a quilt beside each other; as many as rows" },
+  { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
+    "pictures of one round; 24" },
   { "size", FROM_THE_SIDE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
     "the longer side of a .gif: larger ones are reduced; 640" },
   { "fps", FROM_THE_SIDE, MEMBER (fps), 1, 50, 12, "1-50", "pictures a second of a .gif; 12" },

@@ -97,8 +97,8 @@ write_quilt (const CliOptions *options, const CliScene *s)
   CeldStatus  status = CELD_OK;
   bool        good = (gint64) w * columns <= G_MAXUINT16 && (gint64) h * rows <= G_MAXUINT16
                        ? cli_colours_new (w * columns, h * rows, &quilt)
-                       : cli_error ("The quilt would be %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " pixels large: take fewer "
-                                    "views, or a smaller drawing.", (gint64) w * columns, (gint64) h * rows);
+                       : cli_error ("The quilt would be %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " pixels large: take "
+                                    "fewer views, or a smaller drawing.", (gint64) w * columns, (gint64) h * rows);
 
   if (good)
     memset (quilt.data, 0, 4 * sizeof *quilt.data * quilt.stride * (size_t) quilt.height);
