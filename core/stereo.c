@@ -94,14 +94,14 @@ celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, cha
     text[0] = 0;
   if (whole > CELD_STEREO_COMFORT)
     used += (size_t) snprintf (text, size,
-                               "From front to back there is %.1f %% of the width, which strains the eyes: try a disparity "
-                               "of %.3f.\n",
+                               "From front to back there is %.1f %% of the width, which strains the eyes: try a "
+                               "disparity of %.3f.\n",
                                100 * whole, floor (1000 * disparity * CELD_STEREO_COMFORT / whole) / 1000);
   if (comfort->diverges && used < size)
     used += (size_t) snprintf (text + used, size - used,
                                "On a screen of %.0f mm what is farthest lies %.0f mm apart, more than the eyes do (%.0f "
-                               "mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer to "
-                               "0.\n",
+                               "mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer "
+                               "to 0.\n",
                                (double) settings->screen_width, behind, CELD_EYE_DISTANCE,
                                floor (1000 * disparity * CELD_EYE_DISTANCE / behind) / 1000);
   if ((comfort->cut_left || comfort->cut_right) && !settings->floating_window && used < size)

@@ -59,6 +59,20 @@ def make_page(name, megapixels, folder):
     return list(pages)
 
 
+def make_relations(name, page, folder):
+    """A file with a case's relations, at the size of the page."""
+    with open(page, 'rb') as f:
+        head = dict(line.split() for line in f.read(100).split(b'\n') if line.count(b' ') == 1)
+    with Image.open(os.path.join(CASES, name, 'drawing.png')) as drawing:
+        scale = int(head[b'WIDTH']) / drawing.width, int(head[b'HEIGHT']) / drawing.height
+    path = os.path.join(folder, os.path.basename(page)[:-4] + '.txt')
+    with open(os.path.join(CASES, name, 'arrows.txt')) as arrows, open(path, 'w') as relations:
+        for line in filter(str.strip, arrows):
+            x0, y0, x1, y1 = (float(v) * scale[k % 2] for k, v in enumerate(line.split()))
+            relations.write(f'{x0:.2f},{y0:.2f} > {x1:.2f},{y1:.2f}\n')
+    return path
+
+
 # ------------------------------------------------------------------ runs
 
 def pin():
