@@ -35,7 +35,14 @@ typedef struct
   int             width, first, end; /* pixels that the group may have reached */
 } Line;
 
-#define LINE_BYTES (2 * sizeof (float) + sizeof (CeldSpan *) + sizeof (int) + 4 * sizeof (float)) /* a pixel */
+/* What a line takes, rounded up so that several may lie one behind the other. */
+static size_t
+line_bytes (int width)
+{
+  size_t pixel = 2 * sizeof (float) + sizeof (CeldSpan *) + sizeof (int) + 4 * sizeof (float);
+
+  return ((size_t) width * pixel + sizeof (CeldSpan *) - 1) / sizeof (CeldSpan *) * sizeof (CeldSpan *);
+}
 
 static Line
 line_in (char *scratch, int width)
@@ -218,7 +225,7 @@ draw_band (void *data, int band)
 {
   const View *v = data;
   int         width = v->scene->width, end = (band + 1) * BAND;
-  Line        line = line_in (v->scratch + (size_t) band * (size_t) width * LINE_BYTES, width);
+  Line        line = line_in (v->scratch + (size_t) band * line_bytes (width), width);
 
   memset (line.span, 0, (size_t) width * sizeof *line.span);
   line.first = width;
@@ -233,7 +240,7 @@ static CeldStatus
 draw (const CeldScene *scene, Move move, const CeldRun *run, CeldColours *view)
 {
   int  bands = (scene->height + BAND - 1) / BAND;
-  View v = { scene, move, view, celd_alloc ((size_t) bands * (size_t) scene->width, LINE_BYTES) };
+  View v = { scene, move, view, celd_alloc ((size_t) bands, line_bytes (scene->width)) };
 
   if (!v.scratch)
     return CELD_NO_MEMORY;
@@ -304,7 +311,7 @@ turn_scene (const CeldScene *scene, Move move, const CeldRun *run, CeldScene **t
 {
   size_t     n = (size_t) scene->width * (size_t) scene->height;
   uint32_t   groups = count_groups (scene);
-  char      *scratch = celd_alloc ((size_t) scene->width, LINE_BYTES);
+  char      *scratch = celd_alloc (1, line_bytes (scene->width));
   View       v = { scene, move, NULL, scratch };
   Turn       t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
   CeldStatus status = celd_scene_new (scene->height, scene->width, groups, turned);

@@ -430,6 +430,37 @@ depth_alone_leaves_no_holes (void)
   layer_scene_close (&s);
 }
 
+/* Any width and height, of several bands of rows: without depth they are the art, both ways. */
+static void
+odd_sizes_are_fine (void)
+{
+  uint32_t seed = 3;
+
+  for (int size = 1; size < 90; size += 1 + size / 7)
+    {
+      LayerScene s = layer_scene (size, 90 - size);
+      CeldPlane  depth;
+
+      CHECK (celd_plane_new (s.width, s.height, &depth) == CELD_OK);
+      for (int i = 0; i < s.width * s.height; i++)
+        {
+          depth.data[i] = 0.5f;
+          for (int c = 0; c < 3; c++)
+            s.art.data[4 * i + c] = (float) check_random (&seed, 100) / 100;
+        }
+      for (int way = 0; way < 2; way++)
+        {
+          CeldColours view = look_at_depth (&s, &depth, (CeldCamera) { 0, way ? 1 : 0, 1 }, 0.1 * size);
+
+          for (int i = 0; i < 4 * s.width * s.height; i++)
+            NEAR (view.data[i], s.art.data[i], 1e-6);
+          free (view.data);
+        }
+      free (depth.data);
+      layer_scene_close (&s);
+    }
+}
+
 /* One depth everywhere: both eyes see the art, bit by bit the same. */
 static void
 constant_depth_is_flat (void)
@@ -524,6 +555,7 @@ main (void)
   RUN (depth_alone_leaves_no_ghost);
   RUN (depth_alone_moves_by_what_is_asked_for);
   RUN (depth_alone_leaves_no_holes);
+  RUN (odd_sizes_are_fine);
   RUN (constant_depth_is_flat);
   RUN (bad_input_is_refused);
   return DONE;
