@@ -6,8 +6,9 @@
  *   exact.c     exact                          report.c    --report
  *   enhance.c   enhance                        stereo.c    stereo
  *   stack.c     layers                         wiggle.c    wiggle
- *   shade.c     shade                          scene.c     what these two share
- *   steps.c     order, expand, smooth, relief  messages.c  sentences on stderr
+ *   scene.c     what these two share           shade.c     shade
+ *   steps.c     order, expand, smooth, relief  counts.c    options that are whole numbers
+ *   messages.c  sentences on stderr
  *   run.c       progress, cancel, timings      threads.c   the cores of the machine
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -61,6 +62,13 @@ typedef struct
 /* CLI_DONE, or the exit code of the mistake, which was said.  `options` must be cleared in every case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
+
+/* ------------------------------------------------------------------ counts.c */
+
+/* GOptionEntry for each whole number of a command; their data are the CliOptions. */
+void cli_counts_append   (const CliCommand *command, GArray *entries);
+/* Those that were not given. */
+void cli_counts_complete (CliOptions *options);
 
 /* ------------------------------------------------------------------ messages.c */
 

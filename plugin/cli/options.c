@@ -246,68 +246,6 @@ static const SettingOption settings[] = {
     "with more, the mesh is made coarser; 1000000" },
 };
 
-/* ------------------------------------------------------------------ whole numbers */
-
-typedef struct
-{
-  const char *name;
-  int         steps;
-  size_t      offset;      /* in CliOptions */
-  int         least, most, usual;
-  const char *value, *help;
-} CountOption;
-
-#undef MEMBER
-#define MEMBER(name) offsetof (CliOptions, name)
-
-static const CountOption counts[] = {
-  { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
-    "how many there are from the left eye to the right one; 8" },
-  { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
-    "tiles of a quilt beside each other; as many as rows" },
-  { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
-    "pictures of one round; 24" },
-  { "size", FROM_THE_SIDE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
-    "the longer side of a .gif: larger ones are reduced; 640" },
-  { "fps", FROM_THE_SIDE, MEMBER (fps), 1, 50, 12, "1-50", "pictures a second of a .gif; 12" },
-};
-
-static int *
-count_of (CliOptions *options, const CountOption *count)
-{
-  return (int *) (void *) ((char *) options + count->offset);
-}
-
-static gboolean
-take_count (const char *name, const char *value, gpointer data, GError **error)
-{
-  const CountOption *count = counts;
-  gint64             number;
-
-  while (strcmp (count->name, name + 2))
-    count++;
-  if (g_ascii_string_to_signed (value, 10, count->least, count->most, &number, NULL))
-    {
-      *count_of (data, count) = (int) number;
-      return TRUE;
-    }
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value,
-               count->value);
-  return FALSE;
-}
-
-/* Those that were not given. */
-static void
-complete_counts (CliOptions *options)
-{
-  for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
-    if (!*count_of (options, &counts[i]))
-      *count_of (options, &counts[i]) = counts[i].usual;
-  for (int i = 1; !options->columns; i++) /* a square */
-    if (i * i >= options->views)
-      options->columns = i;
-}
-
 /* ------------------------------------------------------------------ words and values */
 
 /* The place of a word in "a|b|c"; -1 if it is not there. */
@@ -410,10 +348,7 @@ append_entries (const CliCommand *command, CliOptions *options, GArray *entries)
       g_array_append_val (entries, ((GOptionEntry) {
         settings[i].name, 0, settings[i].kind == SWITCH ? G_OPTION_FLAG_NO_ARG : 0, G_OPTION_ARG_CALLBACK,
         (gpointer) take_setting, settings[i].help, settings[i].value }));
-  for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
-    if (counts[i].steps & (int) command->step)
-      g_array_append_val (entries, ((GOptionEntry) {
-        counts[i].name, 0, 0, G_OPTION_ARG_CALLBACK, (gpointer) take_count, counts[i].help, counts[i].value }));
+  cli_counts_append (command, entries);
 }
 
 /* GOption's part. */
@@ -588,7 +523,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
   if (argc != 2)
     return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
   options->input = g_strdup (argv[1]);
-  complete_counts (options);
+  cli_counts_complete (options);
   if (options->light && find_word ("encoded|linear", options->light) < 0)
     return cli_error ("--light cannot be '%s'; it takes encoded|linear.", options->light);
   if (options->light && !strcmp (options->light, "encoded") && options->output &&
