@@ -27,12 +27,14 @@ typedef struct
 /* Labels and what they are about. */
 typedef struct { uint32_t *label; CeldPalette palette; } Answer;
 
-/* ------------------------------------------------------------------ watch.c: memory, calls within core */
+/* ------------------------------------------------------------------ memory.c */
 
 /* Bytes that are allocated, as the C library rounds them, and the most there have been since memory_mark. */
 typedef struct { size_t live, peak; } Memory;
 void   memory_mark (void);
 Memory memory_now (void);
+
+/* ------------------------------------------------------------------ watch.c: calls within core */
 
 /* Steps within core whose time is taken. */
 typedef enum
