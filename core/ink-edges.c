@@ -14,6 +14,9 @@
 #define SEEN    2    /* the edge above it has been followed */
 #define SMOOTH  3    /* places to either side that the normal is taken over */
 #define FARTHEST 512 /* pixels: ink is no contour where it is thicker */
+#define CORNER  0.82f /* cosine of the turn that an edge makes at a corner */
+#define REACH   4    /* places to either side that a turn is measured over */
+#define SKEW    3    /* places beside a corner whose normals go askew */
 
 /* The picture with a margin of one pixel. */
 typedef struct
@@ -132,6 +135,38 @@ follow_all (Tracer *t, const CeldRun *run)
   return status;
 }
 
+/* ------------------------------------------------------------------ corners */
+
+float
+celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
+{
+  return hypotf (a->x - b->x, a->y - b->y);
+}
+
+/* Does the edge turn sharply at place i? */
+static bool
+turns (const CeldEdgePoint *point, size_t n, size_t i)
+{
+  const CeldEdgePoint *a = &point[(i + n - REACH % n) % n], *p = &point[i], *b = &point[(i + REACH) % n];
+  float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
+
+  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER * before * after;
+}
+
+static void
+find_corners (CeldEdgePoint *point, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    point[i].step = celd_edge_distance (&point[i], &point[(i + 1) % n]);
+  for (size_t i = 0; i < n; i++)
+    if (turns (point, n, i))
+      {
+        point[i].corner = true;
+        for (size_t k = 0; k <= SKEW; k++)
+          point[(i + k) % n].askew = point[(i + n - k % n) % n].askew = true;
+      }
+}
+
 /* ------------------------------------------------------------------ what lies behind the ink */
 
 static void
@@ -154,12 +189,17 @@ find_normals (CeldEdgePoint *point, size_t n)
     }
 }
 
+static float
+clamp (float value, int last)
+{
+  return value < 0 ? 0 : value > (float) last ? (float) last : value;
+}
+
 /* The ink at a place, between the centres of pixels. */
 static float
 ink_at (const CeldPlane *ink, float x, float y)
 {
-  float u = fminf (fmaxf (x - 0.5f, 0), (float) (ink->width - 1));
-  float v = fminf (fmaxf (y - 0.5f, 0), (float) (ink->height - 1));
+  float u = clamp (x - 0.5f, ink->width - 1), v = clamp (y - 0.5f, ink->height - 1);
   int   left = (int) u, top = (int) v, right = left + (left + 1 < ink->width), below = top + (top + 1 < ink->height);
   float a = u - (float) left, b = v - (float) top;
   float above = CELD_AT (ink, left, top) * (1 - a) + CELD_AT (ink, right, top) * a;
@@ -188,7 +228,7 @@ look_through (const Tracer *t, CeldEdgePoint *p)
 {
   for (float s = 1; s < FARTHEST; s++)
     {
-      int x = (int) floorf (p->x + s * p->nx), y = (int) floorf (p->y + s * p->ny);
+      int x = celd_round_down (p->x + s * p->nx), y = celd_round_down (p->y + s * p->ny);
 
       if (!inside (t->ink, x, y))
         return;
@@ -208,6 +248,7 @@ look_through_all (const Tracer *t, const CeldRun *run)
 
   for (size_t k = 0; k < e->n_loops; k++)
     {
+      find_corners (&e->point[e->loop[k].first], e->loop[k].n);
       find_normals (&e->point[e->loop[k].first], e->loop[k].n);
       for (size_t i = 0; i < e->loop[k].n; i++)
         look_through (t, &e->point[e->loop[k].first + i]);

@@ -28,32 +28,51 @@ look_around (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool b
 static void
 share_row (const CeldPlane *ink, int y, CeldOwnership *own)
 {
+  const float    *value = &CELD_AT (ink, 0, y);
+  const uint32_t *owner = &CELD_AT (&own->owner, 0, y);
+  uint32_t       *under = &CELD_AT (&own->under, 0, y);
+  float          *share = &CELD_AT (&own->share, 0, y);
+
+  memcpy (under, owner, (size_t) ink->width * sizeof *under);
   for (int x = 0; x < ink->width; x++)
     {
-      float    value = CELD_AT (ink, x, y), part = celd_is_paper (value) ? value : 1 - value;
-      uint32_t owner = CELD_AT (&own->owner, x, y), other = owner;
+      float part = celd_is_paper (value[x]) ? value[x] : 1 - value[x];
 
-      if (part < 1)
-        other = look_around (ink, &own->owner, x, y, !celd_is_paper (value));
-      CELD_AT (&own->under, x, y) = other;
-      CELD_AT (&own->share, x, y) = other == owner ? 1 : part;
+      share[x] = 1;
+      if (!(part < 1))
+        continue;
+      under[x] = look_around (ink, &own->owner, x, y, !celd_is_paper (value[x]));
+      if (under[x] != owner[x])
+        share[x] = part;
     }
+}
+
+/* The nearer label as owner. */
+static void
+sort_row (const uint32_t *level, int y, CeldOwnership *own)
+{
+  uint32_t *owner = &CELD_AT (&own->owner, 0, y), *under = &CELD_AT (&own->under, 0, y);
+  float    *share = &CELD_AT (&own->share, 0, y);
+
+  for (int x = 0; x < own->owner.width; x++)
+    if (owner[x] != under[x] && level[under[x] - 1] > level[owner[x] - 1])
+      {
+        uint32_t larger = owner[x];
+
+        owner[x] = under[x];
+        under[x] = larger;
+        share[x] = 1 - share[x];
+      }
 }
 
 void
 celd_share_edges (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
 {
   for (int y = 0; y < ink->height; y++)
-    share_row (ink, y, own);
-  for (int y = 0; y < ink->height; y++)
-    for (int x = 0; x < ink->width; x++)
-      {
-        uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y), larger = *owner;
-
-        if (level[*under - 1] <= level[*owner - 1])
-          continue;
-        *owner = *under;
-        *under = larger;
-        CELD_AT (&own->share, x, y) = 1 - CELD_AT (&own->share, x, y);
-      }
+    {
+      share_row (ink, y, own);
+      if (y > 0)
+        sort_row (level, y - 1, own); /* a row looks around in the next one */
+    }
+  sort_row (level, ink->height - 1, own);
 }

@@ -63,16 +63,16 @@ look_for_stroke (const Hand *h, size_t i)
 static void
 hand_on (const Hand *h, const CeldEdgeLoop *loop)
 {
-  const CeldPen *pen = &h->pens->pen[loop->first];
-  Gift          *gift = &h->gift[loop->first];
-  size_t         n = loop->n;
+  const CeldEdgePoint *point = &h->pens->edges->point[loop->first];
+  Gift                *gift = &h->gift[loop->first];
+  size_t               n = loop->n;
 
   for (int back = 0; back < 2; back++)
     for (size_t i = 1; i < 2 * n; i++)
       {
         size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
 
-        if (gift[a].to && !gift[b].to && !pen[a].corner && !pen[b].corner)
+        if (gift[a].to && !gift[b].to && !point[a].corner && !point[b].corner)
           gift[b] = gift[a];
       }
 }

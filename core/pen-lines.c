@@ -15,7 +15,6 @@
 #define ROUNDED 12    /* places that a corner may be rounded over */
 #define LONGEST 8.f   /* pen widths that a line runs on at most */
 #define CONVEX  0.3f  /* sine of the turn at a corner that has a tip */
-#define STEP    0.7f  /* pixels between the rays of a band */
 
 /* Along the loop (1) or against it (-1). */
 static size_t
@@ -27,7 +26,7 @@ next_place (const CeldEdgeLoop *loop, size_t i, int way)
 /* The straight line on which the places up to place i lie, coming that way: place i, and the normal.  False if there
  * are too few of one owner. */
 static bool
-find_line (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, int way, CeldEdgePoint *line)
+find_line (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, int way, CeldRay *line)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first], *p = &point[i], *q = p;
   const CeldPen       *pen = &pens->pen[loop->first];
@@ -38,9 +37,9 @@ find_line (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, int way, Ce
     {
       size_t back = next_place (loop, k, -way);
 
-      if (pen[back].owner != pen[i].owner || pen[back].corner || back == i)
+      if (pen[back].owner != pen[i].owner || point[back].corner || back == i)
         break;
-      along += celd_edge_distance (&point[back], &point[k]);
+      along += point[way > 0 ? back : k].step;
       k      = back;
       q      = &point[k];
     }
@@ -49,102 +48,61 @@ find_line (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, int way, Ce
   norm = hypotf (x, y);
   if (norm < LEAST)
     return false;
-  *line = (CeldEdgePoint) { .x = p->x, .y = p->y, .nx = y / norm, .ny = -x / norm };
+  *line = (CeldRay) { p->x, p->y, y / norm, -x / norm };
   return true;
 }
 
-/* The place so far on along a line. */
-static CeldEdgePoint
-place_on (const CeldEdgePoint *line, int way, float along)
+static CeldClaim
+line_of (uint32_t label, const CeldRay *from, int way, float width, float length, bool guess)
 {
-  CeldEdgePoint at = *line;
-
-  at.x -= (float) way * along * line->ny;
-  at.y += (float) way * along * line->nx;
-  return at;
-}
-
-static bool
-is_ink (const CeldClaims *c, float x, float y)
-{
-  int u = (int) floorf (x), v = (int) floorf (y);
-
-  return u >= 0 && v >= 0 && u < c->ink->width && v < c->ink->height && !celd_is_paper (CELD_AT (c->ink, u, v));
-}
-
-/* A band along a line, from its place on; a guess goes on only as long as its middle is ink. */
-static void
-claim_line (const CeldClaims *c, uint32_t label, const CeldEdgePoint *line, int way, float width, float length,
-            bool guess)
-{
-  for (float s = 0; s < length; s += STEP)
-    {
-      CeldEdgePoint at = place_on (line, way, s);
-
-      if (guess && !is_ink (c, at.x + at.nx * width / 2, at.y + at.ny * width / 2))
-        break;
-      celd_claim_ray (c, label, &at, width, width, guess);
-    }
+  return (CeldClaim) { CELD_CLAIM_LINE, label, *from, *from, width, length, way, guess };
 }
 
 /* ------------------------------------------------------------------ tips */
 
-static void
-claim_disc (const CeldClaims *c, uint32_t label, float x, float y, float radius)
-{
-  for (int v = (int) floorf (y - radius); v <= (int) floorf (y + radius); v++)
-    for (int u = (int) floorf (x - radius); u <= (int) floorf (x + radius); u++)
-      {
-        float away = hypotf ((float) u + 0.5f - x, (float) v + 0.5f - y);
-
-        if (away <= radius)
-          celd_claim_pixel (c, label, u, v, away - radius, false);
-      }
-}
-
 /* The corner between the places before and after it.  Its tip is where the middles of both sides meet:
  * in + half n + s t = out + half n' - u t', with the tangents t and t' along the loop. */
-static void
-claim_tip (const CeldClaims *c, const CeldEdgeLoop *loop, size_t before, size_t after)
+static size_t
+claim_tip (const CeldPens *pens, const CeldEdgeLoop *loop, size_t before, size_t after, CeldClaim *claim)
 {
-  const CeldPen *pen = &c->pens->pen[loop->first];
+  const CeldPen *pen = &pens->pen[loop->first];
   uint32_t       owner = pen[before].owner;
   float          width = (pen[before].width + pen[after].width) / 2, half = width / 2, cross, x, y, s, u;
-  CeldEdgePoint  in, out, tip;
+  CeldRay        in, out, tip;
 
-  if (!owner || owner != pen[after].owner || !find_line (c->pens, loop, before, 1, &in) ||
-      !find_line (c->pens, loop, after, -1, &out))
-    return;
+  if (!owner || owner != pen[after].owner || !find_line (pens, loop, before, 1, &in) ||
+      !find_line (pens, loop, after, -1, &out))
+    return 0;
   cross = in.nx * out.ny - in.ny * out.nx;
   if (!(cross > CONVEX))
-    return;
+    return 0;
   x = out.x + half * out.nx - in.x - half * in.nx;
   y = out.y + half * out.ny - in.y - half * in.ny;
   s = (x * out.nx + y * out.ny) / cross;
   u = -(x * in.nx + y * in.ny) / cross;
   if (!(s >= 0 && u >= 0 && s < LONGEST * width && u < LONGEST * width))
-    return;
-  claim_line (c, owner, &in, 1, width, s, false);
-  claim_line (c, owner, &out, -1, width, u, false);
-  tip = place_on (&in, 1, s);
-  claim_disc (c, owner, tip.x + half * tip.nx, tip.y + half * tip.ny, half);
+    return 0;
+  claim[0] = line_of (owner, &in, 1, width, s, false);
+  claim[1] = line_of (owner, &out, -1, width, u, false);
+  tip      = celd_claim_place (&claim[0], s);
+  tip.x   += half * tip.nx;
+  tip.y   += half * tip.ny;
+  claim[2] = (CeldClaim) { CELD_CLAIM_DISC, owner, tip, tip, half, 0, 1, 0 };
+  return 3;
 }
 
-/* Corners are several places long. */
-static void
-claim_tips (const CeldClaims *c, const CeldEdgeLoop *loop)
+/* Corners are several places long: the first one has the tip. */
+static size_t
+claim_corner (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim)
 {
-  const CeldPen *pen = &c->pens->pen[loop->first];
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  size_t               last = i;
 
-  for (size_t i = 0; i < loop->n; i++)
-    if (pen[i].corner && !pen[next_place (loop, i, -1)].corner)
-      {
-        size_t last = i;
-
-        while (pen[next_place (loop, last, 1)].corner)
-          last = next_place (loop, last, 1);
-        claim_tip (c, loop, next_place (loop, i, -1), next_place (loop, last, 1));
-      }
+  if (!point[i].corner || point[next_place (loop, i, -1)].corner)
+    return 0;
+  while (point[next_place (loop, last, 1)].corner)
+    last = next_place (loop, last, 1);
+  return claim_tip (pens, loop, next_place (loop, i, -1), next_place (loop, last, 1), claim);
 }
 
 /* ------------------------------------------------------------------ lines that run on */
@@ -157,35 +115,31 @@ is_outline (const CeldPen *pen)
 }
 
 /* From place i on, the last one of its owner that way. */
-static void
-run_on (const CeldClaims *c, const CeldEdgeLoop *loop, size_t i, int way)
+static size_t
+run_on (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, int way, CeldClaim *claim)
 {
-  const CeldPen *pen = &c->pens->pen[loop->first];
+  const CeldPen *pen = &pens->pen[loop->first];
   uint32_t       owner = pen[i].owner;
-  CeldEdgePoint  line;
+  CeldRay        line;
 
   if (!is_outline (&pen[i]))
-    return;
-  for (int k = 0; k < ROUNDED && pen[i].corner; k++)
+    return 0;
+  for (int k = 0; k < ROUNDED && pens->edges->point[loop->first + i].corner; k++)
     i = next_place (loop, i, -way);
-  if (pen[i].owner == owner && find_line (c->pens, loop, i, way, &line))
-    claim_line (c, owner, &line, way, pen[i].width, LONGEST * pen[i].width, true);
+  if (pen[i].owner != owner || !find_line (pens, loop, i, way, &line))
+    return 0;
+  *claim = line_of (owner, &line, way, pen[i].width, LONGEST * pen[i].width, true);
+  return 1;
 }
 
-void
-celd_claim_lines (const CeldClaims *c, const CeldEdgeLoop *loop)
+size_t
+celd_line_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim)
 {
-  const CeldPen *pen = &c->pens->pen[loop->first];
+  const CeldPen *pen = &pens->pen[loop->first];
+  size_t         next = next_place (loop, i, 1), n = claim_corner (pens, loop, i, claim);
 
-  claim_tips (c, loop);
-  for (size_t i = 0; i < loop->n; i++)
-    {
-      size_t next = next_place (loop, i, 1);
-
-      if (pen[i].owner != pen[next].owner)
-        {
-          run_on (c, loop, i, 1);
-          run_on (c, loop, next, -1);
-        }
-    }
+  if (pen[i].owner == pen[next].owner)
+    return n;
+  n += run_on (pens, loop, i, 1, claim + n);
+  return n + run_on (pens, loop, next, -1, claim + n);
 }

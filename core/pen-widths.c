@@ -83,7 +83,7 @@ smooth_thickness (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i)
   size_t               at = (i + loop->n - SAMPLES * stride % loop->n) % loop->n;
 
   for (int k = -SAMPLES; k <= SAMPLES; k++, at = (at + stride) % loop->n)
-    if (!pen[at].askew && celd_pen_front (pens, &pen[at]) == front)
+    if (!point[at].askew && celd_pen_front (pens, &pen[at]) == front)
       {
         size_t place = n++;
 
@@ -106,12 +106,16 @@ shared_width (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
 
 /* No steeper than a pen, from place a to b. */
 static void
-limit_slope (const CeldPens *pens, const CeldEdgePoint *point, size_t a, size_t b, CeldPen *pen)
+limit_slope (const CeldPens *pens, float step, size_t a, size_t b, CeldPen *pen)
 {
   uint32_t front = celd_pen_front (pens, &pen[a]);
 
   if (front && front == celd_pen_front (pens, &pen[b]))
-    pen[b].width = fminf (pen[b].width, pen[a].width + SLOPE * celd_edge_distance (&point[a], &point[b]));
+    {
+      float most = pen[a].width + SLOPE * step;
+
+      pen[b].width = most < pen[b].width ? most : pen[b].width;
+    }
 }
 
 static void
@@ -131,9 +135,9 @@ follow_width (const CeldEdgeLoop *loop, CeldPens *pens)
         pen[i].width = pen[i].near ? shared_width (pens, &point[i], &pen[i]) : 0;
     }
   for (size_t i = 1; i < 2 * n; i++)
-    limit_slope (pens, point, (i - 1) % n, i % n, pen);
+    limit_slope (pens, point[(i - 1) % n].step, (i - 1) % n, i % n, pen);
   for (size_t i = 2 * n; i-- > 1;)
-    limit_slope (pens, point, i % n, (i - 1) % n, pen);
+    limit_slope (pens, point[(i - 1) % n].step, i % n, (i - 1) % n, pen);
 }
 
 CeldStatus

@@ -12,16 +12,7 @@
 
 #define PURE     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
 #define ROUNDING 0.5f    /* pixels */
-#define CORNER   0.82f   /* cosine of the turn that an edge makes at a corner */
-#define REACH    4       /* places to either side that a turn is measured over */
-#define SKEW     3       /* places beside a corner whose normals go askew */
 #define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
-
-float
-celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
-{
-  return hypotf (a->x - b->x, a->y - b->y);
-}
 
 static void
 read_labels (const CeldLabels *labels, CeldPens *pens)
@@ -36,33 +27,6 @@ read_labels (const CeldLabels *labels, CeldPens *pens)
       if (p->across >= 0)
         pen->far = CELD_AT (labels, p->across % labels->width, p->across / labels->width);
     }
-}
-
-/* ------------------------------------------------------------------ corners */
-
-/* Does the edge turn sharply at place i? */
-static bool
-turns (const CeldEdgePoint *point, size_t n, size_t i)
-{
-  const CeldEdgePoint *a = &point[(i + n - REACH % n) % n], *p = &point[i], *b = &point[(i + REACH) % n];
-  float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
-
-  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER * before * after;
-}
-
-static void
-find_corners (const CeldEdgeLoop *loop, CeldPens *pens)
-{
-  CeldPen *pen = &pens->pen[loop->first];
-  size_t   n = loop->n;
-
-  for (size_t i = 0; i < n; i++)
-    if (turns (&pens->edges->point[loop->first], n, i))
-      {
-        pen[i].corner = true;
-        for (size_t k = 0; k <= SKEW; k++)
-          pen[(i + k) % n].askew = pen[(i + n - k % n) % n].askew = true;
-      }
 }
 
 /* ------------------------------------------------------------------ owners */
@@ -105,9 +69,9 @@ hand_on (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
     for (size_t i = 1; i < 2 * n; i++)
       {
         size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
-        float  there = way[a] + celd_edge_distance (&point[a], &point[b]);
+        float  there = way[a] + point[back ? b : a].step;
 
-        if (!pen[a].corner && pen[a].owner && there < way[b] && may_take (&pen[b], &pen[a], there))
+        if (!point[a].corner && pen[a].owner && there < way[b] && may_take (&pen[b], &pen[a], there))
           {
             way[b]       = there;
             pen[b].owner = pen[a].owner;
@@ -143,8 +107,6 @@ celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32
   if (status == CELD_OK)
     {
       read_labels (labels, &made);
-      for (size_t k = 0; k < edges->n_loops; k++)
-        find_corners (&edges->loop[k], &made);
       status = celd_pens_measure (&made);
     }
   if (status == CELD_OK)

@@ -1,9 +1,9 @@
 /* Which region's pen drew the ink behind each place on its edges, how wide that pen is, and what it covers.
  *
- *   pens.c         corners of the edges, and owners of the ink next to them
+ *   pens.c         owners of the ink next to the edges
  *   pen-widths.c   how wide each pen is
- *   pen-claims.c   ink goes to the pens, edge by edge
  *   pen-lines.c    where lines run on below others, and the tips of corners
+ *   pen-claims.c   ink goes to the pens, edge by edge
  *   pen-corrections.c  what the artist gives to whom
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -19,8 +19,6 @@ typedef struct
   uint32_t near, far;           /* labels of the paper here and across; 0 = none */
   uint32_t owner;               /* whose pen drew the ink next to it; 0 = not known */
   float    width;               /* of that ink */
-  bool     corner;              /* the edge turns sharply here */
-  bool     askew;               /* or so close by that the normal does not tell how thick the ink is */
 } CeldPen;
 
 /* The pens of a labelling: pen[i] is for edges->point[i].  Labels 1 .. n. */
@@ -46,9 +44,6 @@ celd_pen_front (const CeldPens *pens, const CeldPen *pen)
   return pens->level[pen->near - 1] > pens->level[pen->far - 1] ? pen->near : pen->far;
 }
 
-/* Pixels between two places. */
-float celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b);
-
 /* ------------------------------------------------------------------ pen-widths.c */
 
 /* Fills in the widths, from labels and corners. */
@@ -56,33 +51,50 @@ CeldStatus celd_pens_measure (CeldPens *pens);
 
 /* ------------------------------------------------------------------ pen-claims.c */
 
-/* Who has claimed which ink. */
+/* A place, and the unit vector along which ink is claimed from there. */
+typedef struct { float x, y, nx, ny; } CeldRay;
+
+/* What one place of an edge claims for its pen.  All members take four bytes, so that equal ones are equal bytes. */
 typedef struct
 {
-  const CeldPens  *pens;
-  const CeldPlane *ink;
-  CeldLabels      *owner;       /* 0 = ink that nobody has claimed */
-  CeldPlane       *over;        /* of ink: by how much its owner's pen misses it, <= 0 not at all; of paper -INFINITY */
-} CeldClaims;
+  enum { CELD_CLAIM_BAND, CELD_CLAIM_LINE, CELD_CLAIM_DISC } shape;
+  uint32_t label;
+  CeldRay  from, to;            /* a band: its sides; a line: where it begins, and the same; a disc: its middle, the same */
+  float    width;               /* of the pen; half of it for a disc */
+  float    length;              /* how far a band goes behind the edge, and a line along it */
+  int      way;                 /* in which direction a line goes: along the loop (1) or against it (-1) */
+  uint32_t guess;               /* 1: only what is not known otherwise */
+} CeldClaim;
+
+#define CELD_CLAIMS 6           /* of one place at most */
+
+/* The claims of place i; their number. */
+size_t celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim claim[CELD_CLAIMS]);
 
 /* Ink goes to the pens.  In: `owner` holds the labels; out: the owners.  `over` is workspace. */
 CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldRun *run, CeldLabels *owner,
                             CeldPlane *over);
 
-/* The band that a pen covers beside one place of an edge. */
-void celd_claim_ray (const CeldClaims *claims, uint32_t label, const CeldEdgePoint *from, float width, float length,
-                     bool guess);
-/* The pixel at (x,y), with so much of the pen left round it. */
-void celd_claim_pixel (const CeldClaims *claims, uint32_t label, int x, int y, float over, bool guess);
+/* ------------------------------------------------------------------ pen-lines.c */
+
+/* The claims of place i where a line runs on, up to five. */
+size_t celd_line_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim);
+
+/* The place so far on along a line. */
+static inline CeldRay
+celd_claim_place (const CeldClaim *line, float along)
+{
+  CeldRay at = line->from;
+
+  at.x -= (float) line->way * along * at.ny;
+  at.y += (float) line->way * along * at.nx;
+  return at;
+}
 
 /* ------------------------------------------------------------------ pen-corrections.c */
 
 /* Gives the ink below strokes, 0 where there is none, and the pieces of line that they touch, to their labels. */
 CeldStatus celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
                               CeldLabels *owner);
-
-/* ------------------------------------------------------------------ pen-lines.c */
-
-void celd_claim_lines (const CeldClaims *claims, const CeldEdgeLoop *loop);
 
 #endif
