@@ -27,14 +27,14 @@ typedef struct
 } Claims;
 
 /* The pixel at (x,y), with so much of the pen left round it.  Whose claim is best does not depend on their order: of
- * those that cover the pixel the nearest region's, else that which misses it by least.  Without branches, since nobody
- * can foretell them. */
+ * those that cover the pixel the nearest region's, as of those that guess so, else that which misses it by least.
+ * Without branches, since nobody can foretell them. */
 static inline void
 claim_pixel (const Claims *c, const CeldClaim *claim, uint32_t rank, int x, int y, float over)
 {
   uint32_t *owner, other;
   float    *best;
-  bool      wins, behind;
+  bool      wins, depth;
 
   if ((unsigned) x >= (unsigned) c->ink->width || (unsigned) y >= (unsigned) c->ink->height)
     return;
@@ -43,8 +43,8 @@ claim_pixel (const Claims *c, const CeldClaim *claim, uint32_t rank, int x, int 
   if (*best == -INFINITY)
     return;
   other  = c->pens->level[*owner - (*owner > 0)];
-  behind = (*owner > 0) & (over <= 0) & (*best <= 0) & (rank != other);
-  wins   = behind ? rank > other : (over < *best) | ((over == *best) & (claim->label < *owner));
+  depth  = (((over <= 0) & (*best <= 0)) | ((over == GUESS) & (*best == GUESS))) & (*owner > 0) & (rank != other);
+  wins   = depth ? rank > other : (over < *best) | ((over == *best) & (claim->label < *owner));
   *owner = wins ? claim->label : *owner;
   *best  = wins ? over : *best;
 }
@@ -92,7 +92,7 @@ claim_ray (const Claims *c, const CeldClaim *claim, const CeldRay *from, float l
           float over = at.depth[i] - claim->width;
 
           if (claim->guess)
-            over = over <= 0 ? GUESS / (2 + (float) rank) : over + 1;
+            over = over <= 0 ? GUESS : over + 1;
           claim_pixel (c, claim, rank, at.x[i], at.y[i], over);
         }
     }

@@ -9,36 +9,72 @@
 #include "pens.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define USUAL    0.35    /* share of a pen's places that are thinner than its usual width */
 #define THIN     0.125   /* and of those that tell how much it varies */
 #define SPREAD   3.f     /* a pen may be thicker in places by so much of what it is thinner in others */
+#define GRAIN    16.f    /* parts of a pixel */
 #define STEADY   1.04f   /* and by so much in any case; */
 #define SWELL    1.25f   /* but by no more than this */
 #define SLOPE    0.05f   /* how fast its width changes along the line */
 #define SAMPLES  4       /* places to either side that a width is the median of */
 #define ALONG    2.5f    /* pen widths that a line may be thick */
 
-static int
-compare_widths (const void *a, const void *b)
+/* What would stand at place k if the widths were sorted; orders them around it [Hoare 1961]. */
+static float
+find_place (float *width, size_t n, size_t k)
 {
-  float p = *(const float *) a, q = *(const float *) b;
+  size_t from = 0, end = n;
 
-  return (p > q) - (p < q);
+  while (end - from > 1)
+    {
+      float  pivot = width[from + (end - from) / 2];
+      size_t low = from, same = from, high = end;
+
+      while (same < high)
+        {
+          float here = width[same];
+
+          if (here < pivot)
+            {
+              width[same++] = width[low];
+              width[low++]  = here;
+            }
+          else if (here > pivot)
+            {
+              width[same]   = width[--high];
+              width[high]   = here;
+            }
+          else
+            same++;
+        }
+      if (k < low)
+        end = low;
+      else if (k >= high)
+        from = high;
+      else
+        return pivot;
+    }
+  return width[k];
 }
 
-/* Widths in rising order. */
-static void
-sum_up (const float *width, size_t n, float *usual, float *most)
+/* Rounded to what edges are found to, so that an edit far off does not change every width by a hair. */
+static float
+rounded_place (float *width, size_t n, double share)
 {
-  float thin = width[(size_t) (THIN * (double) n)];
+  return roundf (GRAIN * find_place (width, n, (size_t) (share * (double) n))) / GRAIN;
+}
 
-  *usual = width[(size_t) (USUAL * (double) n)];
+static void
+sum_up (float *width, size_t n, float *usual, float *most)
+{
+  float thin = rounded_place (width, n, THIN);
+
+  *usual = rounded_place (width, n, USUAL);
   *most  = fminf (SPREAD * (*usual - thin) + STEADY * *usual, SWELL * *usual);
 }
 
-/* Sorts the widths by label, then each label's by size. */
+/* Lists the widths by label. */
 static CeldStatus
 find_usual_widths (CeldPens *pens)
 {
@@ -60,7 +96,6 @@ find_usual_widths (CeldPens *pens)
     {
       size_t n = from[k + 1] - from[k];
 
-      qsort (width + from[k], n, sizeof *width, compare_widths);
       if (n)
         sum_up (width + from[k], n, &pens->usual[k - 1], &pens->most[k - 1]);
     }
