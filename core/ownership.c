@@ -74,6 +74,19 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
 
 /* ------------------------------------------------------------------ by outlines */
 
+static CeldStatus
+own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldRun *run,
+                 CeldOwnership *own)
+{
+  bool      *solid = celd_alloc (pens->n, sizeof *solid);
+  CeldStatus status = solid ? celd_solid_find (ink, labels, pens->n, solid) : CELD_NO_MEMORY;
+
+  if (!status)
+    status = celd_pens_claim (pens, ink, labels, solid, run, &own->owner, &own->share);
+  celd_free (solid);
+  return status;
+}
+
 /* Either method, and then the corrections, which go by pieces of line.  The thickness has no use for pens by itself. */
 static CeldStatus
 own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n, const CeldLabels *corrections,
@@ -92,11 +105,7 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
         status = celd_pens_new (&edges, labels, level, n, &pens);
     }
   if (!status && method == CELD_EXPANSION_OUTLINES)
-    {
-      for (int y = 0; y < labels->height; y++)
-        memmove (&CELD_AT (&own->owner, 0, y), &CELD_AT (labels, 0, y), (size_t) labels->width * sizeof (uint32_t));
-      status = celd_pens_claim (&pens, ink, &second, &own->owner, &own->share);
-    }
+    status = own_by_outlines (&pens, ink, labels, &second, own);
   else if (!status)
     status = own_by_thickness (ink, labels, level, &second, &own->owner);
   if (!status && corrections)

@@ -1,7 +1,7 @@
 /* Ink goes to the pens: each edge claims the ink that its pen covers from there, and the nearest region's claim wins.
  *
  * A claim is a band along the edge, as wide as the pen.  Ink that no pen covers goes to the pen that misses it by
- * least, and what is beyond all, like areas filled with black, to the nearest ink that is claimed.
+ * least; what is beyond all is in pen-rest.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,24 +13,14 @@
 #define STEP   0.5f     /* pixels between the places of a ray */
 #define APART  0.7f     /* and between rays at most */
 #define BEYOND 3        /* pen widths that a band may reach: where a line turns sharply, its tip is so far away */
-#define SOLID  10       /* a label is ink throughout if less than a tenth of it is paper */
 #define GUESS  1e-3f    /* by how much a guess misses what it covers: less than any pen that does miss it */
 #define CHUNK   32      /* places of a ray at a time */
-
-/* Who has claimed which ink. */
-typedef struct
-{
-  const CeldPens  *pens;
-  const CeldPlane *ink;
-  CeldLabels      *owner;       /* 0 = ink that nobody has claimed */
-  CeldPlane       *over;        /* of ink: by how much its owner's pen misses it, <= 0 not at all; of paper -INFINITY */
-} Claims;
 
 /* The pixel at (x,y), with so much of the pen left round it.  Whose claim is best does not depend on their order: of
  * those that cover the pixel the nearest region's, as of those that guess so, else that which misses it by least.
  * Without branches, since nobody can foretell them. */
 static inline void
-claim_pixel (const Claims *c, const CeldClaim *claim, uint32_t rank, int x, int y, float over)
+claim_pixel (const CeldClaims *c, const CeldClaim *claim, uint32_t rank, int x, int y, float over)
 {
   uint32_t *owner, other;
   float    *best;
@@ -69,7 +59,7 @@ follow_claim_ray (const CeldRay *from, int k, int n, Places *at)
 
 /* Two or three places lie in a pixel, to which they say the same: the last of them does it. */
 static void
-claim_ray (const Claims *c, const CeldClaim *claim, const CeldRay *from, float length)
+claim_ray (const CeldClaims *c, const CeldClaim *claim, const CeldRay *from, float length)
 {
   uint32_t rank = c->pens->level[claim->label - 1];
   int      n = length > STEP / 2 ? (int) ceilf ((length - STEP / 2) / STEP) : 0;
@@ -102,7 +92,7 @@ claim_ray (const Claims *c, const CeldClaim *claim, const CeldRay *from, float l
 
 /* From one place to the next. */
 static void
-claim_band (const Claims *c, const CeldClaim *claim)
+claim_band (const CeldClaims *c, const CeldClaim *claim)
 {
   const CeldRay *a = &claim->from, *b = &claim->to;
   float          length = claim->length;
@@ -121,7 +111,7 @@ claim_band (const Claims *c, const CeldClaim *claim)
 }
 
 static bool
-is_ink (const Claims *c, float x, float y)
+is_ink (const CeldClaims *c, float x, float y)
 {
   int u = celd_round_down (x), v = celd_round_down (y);
 
@@ -130,7 +120,7 @@ is_ink (const Claims *c, float x, float y)
 
 /* A guess goes on only as long as its middle is ink. */
 static void
-claim_line (const Claims *c, const CeldClaim *claim)
+claim_line (const CeldClaims *c, const CeldClaim *claim)
 {
   for (float s = 0; s < claim->length; s += APART)
     {
@@ -143,7 +133,7 @@ claim_line (const Claims *c, const CeldClaim *claim)
 }
 
 static void
-claim_disc (const Claims *c, const CeldClaim *claim)
+claim_disc (const CeldClaims *c, const CeldClaim *claim)
 {
   float x = claim->from.x, y = claim->from.y, radius = claim->width;
 
@@ -157,8 +147,8 @@ claim_disc (const Claims *c, const CeldClaim *claim)
       }
 }
 
-static void
-make_claim (const Claims *c, const CeldClaim *claim)
+void
+celd_claim_make (const CeldClaims *c, const CeldClaim *claim)
 {
   switch (claim->shape)
     {
@@ -199,159 +189,15 @@ celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldC
   return n + celd_line_claims (pens, loop, i, claim + n);
 }
 
-/* ------------------------------------------------------------------ the rest */
-
-#define WAITING UINT32_MAX /* in place of an owner */
-
-/* Ink that nobody has claimed, and whose it is to be. */
-typedef struct { int32_t pixel; uint32_t owner; } Rest;
-
-/* The up to four neighbours of a pixel. */
-static int
-neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2])
-{
-  static const int step[4][2] = { { 0, -1 }, { -1, 0 }, { 1, 0 }, { 0, 1 } };
-  int              x = pixel % ink->width, y = pixel / ink->width, n = 0;
-
-  for (int k = 0; k < 4; k++)
-    {
-      int u = x + step[k][0], v = y + step[k][1];
-
-      if (u >= 0 && v >= 0 && u < ink->width && v < ink->height)
-        {
-          near[n][0]   = u;
-          near[n++][1] = v;
-        }
-    }
-  return n;
-}
-
-/* The first neighbour that has an owner; 0: none has. */
-static uint32_t
-owner_beside (const Claims *c, int32_t pixel)
-{
-  int near[4][2], n = neighbours (c->ink, pixel, near);
-
-  for (int k = 0; k < n; k++)
-    {
-      uint32_t owner = CELD_AT (c->owner, near[k][0], near[k][1]);
-
-      if (owner && owner != WAITING)
-        return owner;
-    }
-  return 0;
-}
-
-/* The pixels without an owner: beside those that have one first, and how many of these there are. */
-static CeldStatus
-list_rest (const Claims *c, Rest **list, size_t *n, size_t *first)
-{
-  size_t room = 0;
-
-  *n = *first = 0;
-  for (int y = 0; y < c->ink->height; y++)
-    for (int x = 0; x < c->ink->width; x++)
-      room += !CELD_AT (c->owner, x, y);
-  *list = celd_alloc (room, sizeof **list);
-  if (!*list)
-    return CELD_NO_MEMORY;
-  for (int y = 0; y < c->ink->height && *n < room; y++)
-    for (int x = 0; x < c->ink->width; x++)
-      if (!CELD_AT (c->owner, x, y))
-        {
-          int32_t pixel = (int32_t) (y * c->ink->width + x);
-          Rest    rest = { pixel, owner_beside (c, pixel) };
-
-          (*list)[(*n)++] = rest;
-          if (rest.owner)
-            {
-              (*list)[*n - 1]     = (*list)[*first];
-              (*list)[(*first)++] = rest;
-            }
-        }
-  return CELD_OK;
-}
-
-/* Ink that nobody has claimed goes to the nearest pixel that has an owner, from neighbour to neighbour; of several the
- * first in reading order, ring by ring. */
-static CeldStatus
-settle_rest (const Claims *c)
-{
-  Rest      *rest;
-  size_t     n, from = 0, end;
-  CeldStatus status = list_rest (c, &rest, &n, &end);
-
-  if (status != CELD_OK)
-    return status;
-  while (from < end)
-    {
-      size_t next = end;
-
-      for (size_t i = from; i < end; i++)
-        CELD_AT (c->owner, rest[i].pixel % c->ink->width, rest[i].pixel / c->ink->width) = rest[i].owner;
-      for (size_t i = from; i < end; i++)
-        {
-          int near[4][2], k = neighbours (c->ink, rest[i].pixel, near);
-
-          for (int j = 0; j < k; j++)
-            if (!CELD_AT (c->owner, near[j][0], near[j][1]))
-              {
-                CELD_AT (c->owner, near[j][0], near[j][1]) = WAITING;
-                rest[next++].pixel = (int32_t) (near[j][1] * c->ink->width + near[j][0]);
-              }
-        }
-      for (size_t i = end; i < next; i++)
-        rest[i].owner = owner_beside (c, rest[i].pixel);
-      from = end;
-      end  = next;
-    }
-  celd_free (rest);
-  return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ whose the pixels are to begin with */
-
-/* Paper, and all of a label that is hardly anything but ink, like a black shoe with a scribble of its own, is settled;
- * so is everything if there is nothing to go by. */
-static CeldStatus
-settle_paper (const Claims *c)
-{
-  size_t *all = celd_alloc0 (c->pens->n, sizeof *all), *paper = celd_alloc0 (c->pens->n, sizeof *paper);
-
-  for (int y = 0; all && paper && y < c->ink->height; y++)
-    for (int x = 0, end; x < c->ink->width; x = end)
-      {
-        const uint32_t *label = &CELD_AT (c->owner, 0, y);
-        const float    *ink = &CELD_AT (c->ink, 0, y);
-        size_t          bright = 0;
-
-        for (end = x; end < c->ink->width && label[end] == label[x]; end++)
-          bright += celd_is_paper (ink[end]);
-        all[label[x] - 1]   += (size_t) (end - x);
-        paper[label[x] - 1] += bright;
-      }
-  for (int y = 0; all && paper && y < c->ink->height; y++)
-    for (int x = 0; x < c->ink->width; x++)
-      {
-        uint32_t *owner = &CELD_AT (c->owner, x, y);
-        bool      settled = celd_is_paper (CELD_AT (c->ink, x, y)) || SOLID * paper[*owner - 1] < all[*owner - 1];
-
-        CELD_AT (c->over, x, y) = settled ? -INFINITY : INFINITY;
-        if (!settled)
-          *owner = 0;
-      }
-  celd_free (all);
-  celd_free (paper);
-  return all && paper ? CELD_OK : CELD_NO_MEMORY;
-}
-
 CeldStatus
-celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldRun *run, CeldLabels *owner, CeldPlane *over)
+celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
+                 const CeldRun *run, CeldLabels *owner, CeldPlane *over)
 {
   const CeldInkEdges *edges = pens->edges;
-  Claims              c = { pens, ink, owner, over };
-  CeldStatus          status = settle_paper (&c);
+  CeldClaims          c = { pens, ink, owner, over };
+  CeldStatus          status = CELD_OK;
 
+  celd_claims_begin (&c, labels, solid, (CeldRect) { 0, 0, ink->width, ink->height });
   for (size_t k = 0; k < edges->n_loops && status == CELD_OK; k++)
     {
       for (size_t i = 0; i < edges->loop[k].n; i++)
@@ -360,9 +206,9 @@ celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldRun *run,
           size_t    n = celd_pen_claims (pens, &edges->loop[k], i, claim);
 
           for (size_t j = 0; j < n; j++)
-            make_claim (&c, &claim[j]);
+            celd_claim_make (&c, &claim[j]);
         }
       status = celd_step (run, (double) (edges->loop[k].first + edges->loop[k].n) / (double) edges->n_points);
     }
-  return status == CELD_OK ? settle_rest (&c) : status;
+  return status == CELD_OK ? celd_claims_end (&c) : status;
 }

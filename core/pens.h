@@ -4,6 +4,7 @@
  *   pen-widths.c   how wide each pen is
  *   pen-lines.c    where lines run on below others, and the tips of corners
  *   pen-claims.c   ink goes to the pens, edge by edge
+ *   pen-rest.c     and what no pen explains
  *   pen-corrections.c  what the artist gives to whom
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -71,9 +72,42 @@ typedef struct
 /* The claims of place i; their number. */
 size_t celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim claim[CELD_CLAIMS]);
 
-/* Ink goes to the pens.  In: `owner` holds the labels; out: the owners.  `over` is workspace. */
-CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldRun *run, CeldLabels *owner,
-                            CeldPlane *over);
+/* Who has claimed which ink. */
+typedef struct
+{
+  const CeldPens  *pens;
+  const CeldPlane *ink;
+  CeldLabels      *owner;       /* 0 = ink that nobody has claimed */
+  CeldPlane       *over;        /* of ink: by how much its owner's pen misses it, <= 0 not at all, INFINITY as long as
+                                 * nobody has claimed it; of what is settled without claims -INFINITY */
+} CeldClaims;
+
+/* Whoever claims first: the same claims come to the same, also if some are made twice. */
+void celd_claim_make (const CeldClaims *claims, const CeldClaim *claim);
+
+/* All steps from labels to owners; `owner` may alias `labels`. */
+CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
+                            const CeldRun *run, CeldLabels *owner, CeldPlane *over);
+
+/* ------------------------------------------------------------------ pen-rest.c */
+
+/* Which labels are ink throughout: of label k at k - 1. */
+CeldStatus celd_solid_find (const CeldPlane *ink, const CeldLabels *labels, size_t n, bool *solid);
+
+/* As if nothing were claimed within the rectangle. */
+void celd_claims_begin (const CeldClaims *claims, const CeldLabels *labels, const bool *solid, CeldRect rect);
+
+/* A pixel that nobody has claimed, as y * width + x, and room for its owner. */
+typedef struct { int32_t pixel; uint32_t owner; } CeldRest;
+
+#define CELD_WAITING UINT32_MAX /* in place of an owner: a pixel of a list */
+
+/* Gives owners to all pixels without one, which are listed in any order. */
+void       celd_claims_settle (const CeldClaims *claims, CeldRest *rest, size_t n);
+CeldStatus celd_claims_end (const CeldClaims *claims);  /* lists them, too */
+
+/* The up to four neighbours of a pixel; their number. */
+int celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2]);
 
 /* ------------------------------------------------------------------ pen-lines.c */
 
