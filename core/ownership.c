@@ -94,6 +94,7 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
 {
   CeldInkEdges edges = { 0 };
   CeldPens     pens = { 0 };
+  CeldGiven    given = { 0 };
   CeldPart     part[2];
   CeldRun      first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
   CeldStatus   status = CELD_OK;
@@ -109,7 +110,8 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   else if (!status)
     status = own_by_thickness (ink, labels, level, &second, &own->owner);
   if (!status && corrections)
-    status = celd_pens_correct (&pens, ink, corrections, &own->owner);
+    status = celd_pens_correct (&pens, ink, corrections, &own->owner, &given);
+  celd_given_clear (&given);
   celd_pens_clear (&pens);
   celd_ink_edges_clear (&edges);
   return status;

@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "pens.h"
+#include "tiles.h"
 
 #include <math.h>
 
@@ -22,7 +23,39 @@ typedef struct
   const CeldLabels *corrections;
   CeldLabels       *owner;
   Gift             *gift;        /* of each place */
+  CeldTiles         strokes;     /* not 0 where there are any */
+  CeldGiven        *given;
 } Hand;
+
+static CeldStatus
+give (const Hand *h, int x, int y, uint32_t to)
+{
+  uint32_t  *owner = &CELD_AT (h->owner, x, y);
+  CeldOwned *item;
+
+  if (*owner == to)
+    return CELD_OK;
+  item = celd_grow (h->given->item, h->given->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  h->given->item = item;
+  item[h->given->n++] = (CeldOwned) { (int32_t) (y * h->ink->width + x), *owner };
+  *owner = to;
+  return CELD_OK;
+}
+
+/* Where the strokes are. */
+static CeldStatus
+find_strokes (Hand *h)
+{
+  CeldStatus status = celd_tiles_new (h->ink->width, h->ink->height, &h->strokes);
+
+  for (int y = 0; y < h->ink->height && !status; y++)
+    for (int x = 0; x < h->ink->width; x++)
+      if (CELD_AT (h->corrections, x, y))
+        *celd_tile_of (&h->strokes, x, y) = 1;
+  return status;
+}
 
 /* The pixel so far behind an edge, as an index; -1 if it is no ink. */
 static ptrdiff_t
@@ -46,15 +79,18 @@ static Gift
 look_for_stroke (const Hand *h, size_t i)
 {
   const CeldEdgePoint *p = &h->pens->edges->point[i];
-  float                reach = reach_of (h, i);
+  float                reach = reach_of (h, i), x = p->x + reach * p->nx, y = p->y + reach * p->ny;
 
+  if (!celd_tiles_any (&h->strokes, celd_tile_span (&h->strokes, fminf (x, p->x) - 1, fminf (y, p->y) - 1,
+                                                    fmaxf (x, p->x) + 1, fmaxf (y, p->y) + 1), 1))
+    return (Gift) { 0, 0 };
   for (float depth = STEP / 2; depth < reach; depth += STEP)
     {
       ptrdiff_t at = ink_behind (h, p, depth);
-      int       x = (int) (at % h->ink->width), y = (int) (at / h->ink->width);
+      int       u = (int) (at % h->ink->width), v = (int) (at / h->ink->width);
 
-      if (at >= 0 && CELD_AT (h->corrections, x, y))
-        return (Gift) { CELD_AT (h->owner, x, y), CELD_AT (h->corrections, x, y) };
+      if (at >= 0 && CELD_AT (h->corrections, u, v))
+        return (Gift) { CELD_AT (h->owner, u, v), CELD_AT (h->corrections, u, v) };
     }
   return (Gift) { 0, 0 };
 }
@@ -65,9 +101,11 @@ hand_on (const Hand *h, const CeldEdgeLoop *loop)
 {
   const CeldEdgePoint *point = &h->pens->edges->point[loop->first];
   Gift                *gift = &h->gift[loop->first];
-  size_t               n = loop->n;
+  size_t               n = loop->n, seen = 0;
 
-  for (int back = 0; back < 2; back++)
+  for (size_t i = 0; i < n; i++)
+    seen += gift[i].to != 0;
+  for (int back = 0; back < 2 && seen; back++)
     for (size_t i = 1; i < 2 * n; i++)
       {
         size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
@@ -77,40 +115,50 @@ hand_on (const Hand *h, const CeldEdgeLoop *loop)
       }
 }
 
-static void
+static CeldStatus
 give_behind (const Hand *h, size_t i)
 {
   const CeldEdgePoint *p = &h->pens->edges->point[i];
   float                reach = reach_of (h, i);
+  CeldStatus           status = CELD_OK;
 
-  for (float depth = STEP / 2; depth < reach && h->gift[i].to; depth += STEP)
+  for (float depth = STEP / 2; depth < reach && h->gift[i].to && !status; depth += STEP)
     {
       ptrdiff_t at = ink_behind (h, p, depth);
-      uint32_t *owner = at < 0 ? NULL : &CELD_AT (h->owner, (int) (at % h->ink->width), (int) (at / h->ink->width));
+      int       x = (int) (at % h->ink->width), y = (int) (at / h->ink->width);
 
-      if (owner && *owner == h->gift[i].from)
-        *owner = h->gift[i].to;
+      if (at >= 0 && CELD_AT (h->owner, x, y) == h->gift[i].from)
+        status = give (h, x, y, h->gift[i].to);
     }
+  return status;
 }
 
 CeldStatus
-celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections, CeldLabels *owner)
+celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections, CeldLabels *owner,
+                   CeldGiven *given)
 {
-  size_t n = pens->edges->n_points;
-  Hand   h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.gift) };
+  size_t     n = pens->edges->n_points;
+  Hand       h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.gift), { 0 }, given };
+  CeldStatus status = h.gift ? find_strokes (&h) : CELD_NO_MEMORY;
 
-  if (!h.gift)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < n; i++)
+  for (size_t i = 0; i < n && !status; i++)
     h.gift[i] = look_for_stroke (&h, i);
-  for (size_t k = 0; k < pens->edges->n_loops; k++)
+  for (size_t k = 0; k < pens->edges->n_loops && !status; k++)
     hand_on (&h, &pens->edges->loop[k]);
-  for (size_t i = 0; i < n; i++)
-    give_behind (&h, i);
-  for (int y = 0; y < ink->height; y++)
-    for (int x = 0; x < ink->width; x++)
+  for (size_t i = 0; i < n && !status; i++)
+    status = give_behind (&h, i);
+  for (int y = 0; y < ink->height && !status; y++)
+    for (int x = 0; x < ink->width && !status; x++)
       if (CELD_AT (corrections, x, y) && !celd_is_paper (CELD_AT (ink, x, y)))
-        CELD_AT (owner, x, y) = CELD_AT (corrections, x, y);
+        status = give (&h, x, y, CELD_AT (corrections, x, y));
   celd_free (h.gift);
-  return CELD_OK;
+  celd_free (h.strokes.at);
+  return status;
+}
+
+void
+celd_given_clear (CeldGiven *given)
+{
+  celd_free (given->item);
+  *given = (CeldGiven) { 0 };
 }

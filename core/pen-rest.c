@@ -93,13 +93,13 @@ owner_beside (const CeldClaims *c, int32_t pixel)
 
 /* Those beside an owner first; how many they are. */
 static size_t
-part_rest (const CeldClaims *c, CeldRest *rest, size_t n)
+part_rest (const CeldClaims *c, CeldOwned *rest, size_t n)
 {
   size_t first = 0;
 
   for (size_t i = 0; i < n; i++)
     {
-      CeldRest here = { rest[i].pixel, owner_beside (c, rest[i].pixel) };
+      CeldOwned here = { rest[i].pixel, owner_beside (c, rest[i].pixel) };
 
       if (here.owner)
         {
@@ -111,7 +111,7 @@ part_rest (const CeldClaims *c, CeldRest *rest, size_t n)
 }
 
 void
-celd_claims_settle (const CeldClaims *c, CeldRest *rest, size_t n)
+celd_claims_settle (const CeldClaims *c, CeldOwned *rest, size_t n)
 {
   size_t from = 0, end = part_rest (c, rest, n);
 
@@ -143,7 +143,7 @@ CeldStatus
 celd_claims_end (const CeldClaims *c)
 {
   size_t    n = 0, room = 0;
-  CeldRest *rest;
+  CeldOwned *rest;
 
   for (int y = 0; y < c->ink->height; y++)
     for (int x = 0; x < c->ink->width; x++)

@@ -14,18 +14,26 @@
 #define ROUNDING 0.5f    /* pixels */
 #define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
 
-static void
-read_labels (const CeldLabels *labels, CeldPens *pens)
+static uint32_t
+label_at (const CeldLabels *labels, int32_t pixel)
 {
+  return pixel < 0 ? 0 : CELD_AT (labels, pixel % labels->width, pixel / labels->width);
+}
+
+/* Only where labels have changed; whole rows will do. */
+static void
+read_labels (const CeldLabels *labels, CeldRect changed, CeldPens *pens)
+{
+  int32_t first = (int32_t) (changed.y * labels->width), end = first + (int32_t) (changed.height * labels->width);
+
   for (size_t i = 0; i < pens->edges->n_points; i++)
     {
       const CeldEdgePoint *p = &pens->edges->point[i];
-      CeldPen             *pen = &pens->pen[i];
 
-      if (p->paper >= 0)
-        pen->near = CELD_AT (labels, p->paper % labels->width, p->paper / labels->width);
-      if (p->across >= 0)
-        pen->far = CELD_AT (labels, p->across % labels->width, p->across / labels->width);
+      if (p->paper >= first && p->paper < end)
+        pens->pen[i].near = label_at (labels, p->paper);
+      if (p->across >= first && p->across < end)
+        pens->pen[i].far = label_at (labels, p->across);
     }
 }
 
@@ -95,18 +103,25 @@ find_owners (CeldPens *pens)
 }
 
 CeldStatus
-celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldPens *pens)
+celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level, size_t n,
+                 CeldPens *pens)
 {
-  CeldPens   made = { .edges = edges, .level = level, .n = n };
-  CeldStatus status;
+  const CeldInkEdges *edges = old->edges;
+  CeldPens            made = { .edges = edges, .level = level, .n = n };
+  CeldStatus          status;
 
   made.pen   = celd_alloc0 (edges->n_points + 1, sizeof *made.pen);
   made.usual = celd_alloc0 (n, sizeof *made.usual);
   made.most  = celd_alloc0 (n, sizeof *made.most);
   status     = made.pen && made.usual && made.most ? CELD_OK : CELD_NO_MEMORY;
+  for (size_t i = 0; old->pen && i < edges->n_points && status == CELD_OK; i++)
+    {
+      made.pen[i].near = old->pen[i].near;
+      made.pen[i].far  = old->pen[i].far;
+    }
   if (status == CELD_OK)
     {
-      read_labels (labels, &made);
+      read_labels (labels, changed, &made);
       status = celd_pens_measure (&made);
     }
   if (status == CELD_OK)
@@ -116,6 +131,14 @@ celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32
   else
     celd_pens_clear (&made);
   return status;
+}
+
+CeldStatus
+celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldPens *pens)
+{
+  CeldPens none = { .edges = edges };
+
+  return celd_pens_renew (&none, labels, (CeldRect) { 0, 0, labels->width, labels->height }, level, n, pens);
 }
 
 void

@@ -34,6 +34,9 @@ typedef struct
 
 CeldStatus celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n,
                           CeldPens *pens);
+/* The same where an earlier one is known, from which labels differ within a rectangle only. */
+CeldStatus celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level,
+                            size_t n, CeldPens *pens);
 void       celd_pens_clear (CeldPens *pens);    /* accepts a zeroed record */
 
 /* Of the two labels at a place the one whose pen drew the ink between them; 0 if neither is nearer. */
@@ -97,13 +100,13 @@ CeldStatus celd_solid_find (const CeldPlane *ink, const CeldLabels *labels, size
 /* As if nothing were claimed within the rectangle. */
 void celd_claims_begin (const CeldClaims *claims, const CeldLabels *labels, const bool *solid, CeldRect rect);
 
-/* A pixel that nobody has claimed, as y * width + x, and room for its owner. */
-typedef struct { int32_t pixel; uint32_t owner; } CeldRest;
+/* A pixel, as y * width + x, and whose it is. */
+typedef struct { int32_t pixel; uint32_t owner; } CeldOwned;
 
 #define CELD_WAITING UINT32_MAX /* in place of an owner: a pixel of a list */
 
 /* Gives owners to all pixels without one, which are listed in any order. */
-void       celd_claims_settle (const CeldClaims *claims, CeldRest *rest, size_t n);
+void       celd_claims_settle (const CeldClaims *claims, CeldOwned *rest, size_t n);
 CeldStatus celd_claims_end (const CeldClaims *claims);  /* lists them, too */
 
 /* The up to four neighbours of a pixel; their number. */
@@ -127,8 +130,13 @@ celd_claim_place (const CeldClaim *line, float along)
 
 /* ------------------------------------------------------------------ pen-corrections.c */
 
-/* Gives the ink below strokes, 0 where there is none, and the pieces of line that they touch, to their labels. */
+/* What corrections took, in this order, from whom. */
+typedef struct { CeldOwned *item; size_t n; } CeldGiven;
+
+/* Gives the ink below strokes, 0 where there is none, and the pieces of line that they touch, to their labels.  What
+ * they took is appended, also after a failure. */
 CeldStatus celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
-                              CeldLabels *owner);
+                              CeldLabels *owner, CeldGiven *given);
+void       celd_given_clear (CeldGiven *given);
 
 #endif
