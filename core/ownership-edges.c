@@ -76,3 +76,70 @@ celd_share_edges (const CeldPlane *ink, const uint32_t *level, CeldOwnership *ow
     }
   sort_row (level, ink->height - 1, own);
 }
+
+/* ------------------------------------------------------------------ a part of the picture, again */
+
+/* A pixel's part of the record. */
+typedef struct { uint32_t owner, under; float share; } Share;
+
+static Share
+share_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
+{
+  float value = CELD_AT (ink, x, y), part = celd_is_paper (value) ? value : 1 - value;
+  Share s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
+
+  if (part < 1)
+    s.under = look_around (ink, larger, x, y, !celd_is_paper (value));
+  if (s.under != s.owner)
+    s.share = part;
+  return s;
+}
+
+/* Puts it into the record, the nearer label as owner.  Is that something new? */
+static bool
+put_share (Share s, const uint32_t *level, int x, int y, CeldOwnership *own)
+{
+  uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
+  float    *share = &CELD_AT (&own->share, x, y);
+  bool      new;
+
+  if (s.owner != s.under && level[s.under - 1] > level[s.owner - 1])
+    s = (Share) { s.under, s.owner, 1 - s.share };
+  new    = *owner != s.owner || *under != s.under || *share != s.share;
+  *owner = s.owner;
+  *under = s.under;
+  *share = s.share;
+  return new;
+}
+
+CeldRect
+celd_share_again (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
+                  CeldOwnership *own)
+{
+  CeldRect changed = { 0 };
+
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    for (int x = rect.x; x < rect.x + rect.width; x++)
+      if (put_share (share_at (ink, larger, x, y), level, x, y, own))
+        changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
+  return changed;
+}
+
+CeldRect
+celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect, CeldOwnership *own)
+{
+  CeldRect changed = { 0 };
+
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    for (int x = rect.x; x < rect.x + rect.width; x++)
+      {
+        uint32_t first = CELD_AT (&own->owner, x, y), second = CELD_AT (&own->under, x, y);
+        float    share = CELD_AT (&own->share, x, y);
+        bool     kept = first == CELD_AT (larger, x, y);
+
+        if (first != second && put_share (kept ? (Share) { first, second, share } : (Share) { second, first, 1 - share },
+                                          level, x, y, own))
+          changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
+      }
+  return changed;
+}

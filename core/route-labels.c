@@ -357,8 +357,7 @@ static void
 see_labels (CeldSession *s, CeldRect changed)
 {
   celd_session_see (s, STAGE_LABELS, changed);
-  if (changed.width)
-    celd_session_forget_ownership (s);
+  s->new_labels = celd_rect_union (s->new_labels, changed);
 }
 
 /* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
@@ -403,6 +402,7 @@ celd_make_labels (CeldSession *s, const CeldRun *run)
   celd_free (s->splits.item);
   celd_palette_clear (&s->palette);
   celd_problems_clear (&s->problems[STAGE_LABELS]);
+  s->new_corrections |= s->corrections.data != NULL; /* they are read by the palette */
   s->separated = parted.labels;
   s->splits    = parted.splits;
   s->palette   = palette;

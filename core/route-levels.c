@@ -1,7 +1,7 @@
 /* Levels in a session: those of the regions, whose the ink is, and the levels that come of it.
  *
  * Most strokes and relations only say what is so already: then labels, ink and ranks are as they were, and so is
- * whose the ink is.
+ * whose the ink is.  Otherwise, with outlines, only what an edit touches is looked at again (ownership-kept.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -50,6 +50,7 @@ celd_session_forget_ownership (CeldSession *session)
 {
   celd_free (session->rank);
   session->rank = NULL;
+  celd_owners_clear (&session->owners);
 }
 
 void
@@ -59,21 +60,6 @@ celd_session_clear_ownership (CeldSession *session)
   celd_ownership_clear (&session->ownership);
   celd_free (session->value);
   session->value = NULL;
-}
-
-/* Takes the new one, and says where it differs from the old. */
-static void
-replace_ownership (CeldSession *s, CeldOwnership *new)
-{
-  const CeldOwnership *old = &s->ownership;
-  int                  w = new->owner.width, h = new->owner.height;
-
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->owner.data, new->owner.data, w, h, sizeof (uint32_t)));
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->under.data, new->under.data, w, h, sizeof (uint32_t)));
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->share.data, new->share.data, w, h, sizeof (float)));
-  celd_session_clear_ownership (s);
-  s->ownership = *new;
-  *new = (CeldOwnership) { 0 };
 }
 
 /* The labels of the artist's strokes over ink; none without such a layer. */
@@ -90,36 +76,90 @@ read_corrections (const CeldSession *s, CeldLabels *labels)
   return status;
 }
 
+/* Takes the new one, and says where it differs from the old. */
+static void
+replace_ownership (CeldSession *s, CeldOwnership *new)
+{
+  const CeldOwnership *old = &s->ownership;
+  int                  w = new->owner.width, h = new->owner.height;
+
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->owner.data, new->owner.data, w, h, sizeof (uint32_t)));
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->under.data, new->under.data, w, h, sizeof (uint32_t)));
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->share.data, new->share.data, w, h, sizeof (float)));
+  celd_ownership_clear (&s->ownership);
+  s->ownership = *new;
+  *new = (CeldOwnership) { 0 };
+}
+
+/* From the beginning. */
+static CeldStatus
+make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+{
+  CeldOwnership own = { 0 };
+  CeldStatus    status = celd_ownership_new (input->ink->width, input->ink->height, &own);
+
+  if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
+    status = celd_owners_make (input, run, &s->owners, &own);
+  else if (status == CELD_OK)
+    status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
+                       run, &own);
+  if (status == CELD_OK)
+    replace_ownership (s, &own);
+  celd_ownership_clear (&own);
+  return status;
+}
+
+static CeldStatus
+renew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+{
+  CeldRect   changed;
+  CeldStatus status = celd_owners_renew (input, s->new_labels, run, &s->owners, &s->ownership, &changed);
+
+  if (status == CELD_OK)
+    celd_session_see (s, STAGE_OWNERSHIP, changed);
+  return status;
+}
+
+/* The ranks that the ownership has now. */
+static void
+keep_ranks (CeldSession *s, uint32_t *rank)
+{
+  memcpy (rank, s->order.level, s->order.n * sizeof *rank);
+  celd_free (s->rank);
+  celd_free (s->value);
+  s->rank    = rank;
+  s->n_ranks = s->order.n;
+  s->value   = NULL;
+  s->new_labels      = (CeldRect) { 0 };
+  s->new_corrections = false;
+}
+
 CeldStatus
 celd_make_ownership (CeldSession *s, const CeldRun *run)
 {
-  const CeldLabels *labels = celd_session_current_labels (s);
-  CeldOwnership     own = { 0 };
-  CeldLabels        corrections = { 0 };
-  size_t            bytes = s->order.n * sizeof *s->rank;
-  uint32_t         *rank;
-  CeldStatus        status;
+  CeldLabels      corrections = { 0 };
+  CeldOwnersInput input = { celd_session_bent_ink (s), celd_session_current_labels (s), NULL, s->order.level,
+                            s->order.n };
+  uint32_t       *rank;
+  CeldStatus      status;
 
-  if (s->rank && s->n_ranks == s->order.n && !memcmp (s->rank, s->order.level, bytes))
+  if (s->rank && s->n_ranks == s->order.n && !memcmp (s->rank, s->order.level, s->order.n * sizeof *s->rank) &&
+      !s->new_labels.width && !s->new_corrections)
     return CELD_OK;
   rank   = celd_alloc (s->order.n, sizeof *rank);
-  status = rank ? celd_ownership_new (labels->width, labels->height, &own) : CELD_NO_MEMORY;
+  status = rank ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
+  if (corrections.data)
+    input.corrections = &corrections;
   if (status == CELD_OK)
-    status = read_corrections (s, &corrections);
+    status = s->rank && s->owners.level ? renew (s, &input, run) : make_anew (s, &input, run);
   if (status == CELD_OK)
-    status = celd_own (celd_session_bent_ink (s), labels, s->order.level, s->order.n,
-                       corrections.data ? &corrections : NULL, s->settings.expansion, run, &own);
-  if (status == CELD_OK)
+    keep_ranks (s, rank);
+  else
     {
-      replace_ownership (s, &own);
-      memcpy (rank, s->order.level, bytes);
-      s->rank    = rank;
-      s->n_ranks = s->order.n;
-      rank       = NULL;
+      celd_session_forget_ownership (s);
+      celd_free (rank);
     }
-  celd_ownership_clear (&own);
   celd_free (corrections.data);
-  celd_free (rank);
   return status;
 }
 

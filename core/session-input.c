@@ -272,8 +272,7 @@ celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections
   const uint8_t *old = session->corrections.data;
   CeldStatus     status = set_layer (session, corrections, &session->corrections, STAGE_OWNERSHIP);
 
-  if (session->corrections.data != old)
-    celd_session_forget_ownership (session);
+  session->new_corrections |= session->corrections.data != old;
   return status;
 }
 

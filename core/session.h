@@ -16,6 +16,7 @@
 #ifndef CELD_SESSION_H
 #define CELD_SESSION_H
 
+#include "ownership.h"
 #include "program.h"
 #include "order.h"
 #include "segment.h"
@@ -84,9 +85,12 @@ struct CeldSession
   CeldRanks      ranks;                        /* of the order, for one more relation */
   CeldPlane      flat, levels, preview, depth, shading;
   CeldOwnership  ownership;                    /* owned */
-  uint32_t      *rank;                         /* of each label as the ownership has it; NULL: the labels or the ink
-                                                * for depth are not those any more */
+  uint32_t      *rank;                         /* of each label as the ownership has it; NULL: it is of other ink for
+                                                * depth or made in another way, or nobody knows of which labels */
   size_t         n_ranks;
+  CeldOwnersKept owners;                       /* what it was made from, while rank is known */
+  CeldRect       new_labels;                   /* where labels may have changed since then */
+  bool           new_corrections;              /* or what corrections say */
   float         *value;                        /* of each label in the levels; NULL: they are of an older ownership */
   CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
   int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
@@ -138,7 +142,7 @@ CeldStatus celd_make_levels    (CeldSession *session, const CeldRun *run);
 /* Would relation i, behind all others, leave the labels as they are?  For as long as these hold. */
 bool celd_session_spares (const CeldSession *session, const CeldRelation *relation);
 
-/* Says that the labels or the ink for depth change. */
+/* Says that the ink for depth or the method change, or that labels may have changed anywhere. */
 void celd_session_forget_ownership (CeldSession *session);
 void celd_session_clear_ownership (CeldSession *session);
 

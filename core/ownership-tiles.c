@@ -1,0 +1,182 @@
+/* Where an edit touches whose the ink is: only there it is claimed again.
+ *
+ * Pens are measured everywhere, which is soon done, and compared: what a place of an edge claims now, but did not
+ * before, or the other way round, is marked.  So is where labels settle pixels without claims, and where claims meet of
+ * two labels that have changed places in depth.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "ownership.h"
+
+#include <math.h>
+
+#define BOTH   (CELD_TILE_CLAIM | CELD_TILE_SHARE)
+#define NARROW 0.9f     /* cosine between the sides of a band that hardly opens */
+#define BULGE  0.03f    /* of its length that it may then stick out between them */
+
+CeldTileSpan
+celd_claim_tiles (const CeldTiles *tiles, const CeldClaim *claim)
+{
+  const CeldRay *a = &claim->from, *b = &claim->to;
+  float          length = claim->length, margin = claim->width + 1;
+  CeldRay        far_a = *a, far_b = *b;
+
+  if (claim->shape == CELD_CLAIM_BAND)
+    {
+      margin = 1 + (a->nx * b->nx + a->ny * b->ny > NARROW ? BULGE : 1) * length;
+      far_a  = (CeldRay) { a->x + length * a->nx, a->y + length * a->ny, 0, 0 };
+      far_b  = (CeldRay) { b->x + length * b->nx, b->y + length * b->ny, 0, 0 };
+    }
+  else if (claim->shape == CELD_CLAIM_LINE)
+    far_a = celd_claim_place (claim, length);
+  return celd_tile_span (tiles, fminf (fminf (a->x, b->x), fminf (far_a.x, far_b.x)) - margin,
+                         fminf (fminf (a->y, b->y), fminf (far_a.y, far_b.y)) - margin,
+                         fmaxf (fmaxf (a->x, b->x), fmaxf (far_a.x, far_b.x)) + margin,
+                         fmaxf (fmaxf (a->y, b->y), fmaxf (far_a.y, far_b.y)) + margin);
+}
+
+/* ------------------------------------------------------------------ pixels that labels settle */
+
+static void
+compare_pixels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect rect, const bool *solid,
+                CeldTiles *tiles)
+{
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    for (int x = rect.x; x < rect.x + rect.width; x++)
+      {
+        uint32_t label = CELD_AT (in->labels, x, y);
+        bool     was_settled = CELD_AT (&kept->over, x, y) == -INFINITY;
+        bool     settled = celd_is_paper (CELD_AT (in->ink, x, y)) || solid[label - 1];
+
+        if (settled != was_settled || (settled && CELD_AT (&kept->owner, x, y) != label))
+          *celd_tile_of (tiles, x, y) |= BOTH;
+      }
+}
+
+/* Everywhere if a label has become solid or ceased to be. */
+static CeldRect
+changed_labels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect new_labels, const bool *solid)
+{
+  for (size_t k = 0; k < in->n; k++)
+    if (solid[k] != (k < kept->pens.n && kept->solid[k]))
+      return (CeldRect) { 0, 0, in->ink->width, in->ink->height };
+  return new_labels;
+}
+
+/* ------------------------------------------------------------------ claims */
+
+static void
+mark_claims (const CeldClaim *claim, size_t n, CeldTiles *tiles)
+{
+  for (size_t i = 0; i < n; i++)
+    celd_tiles_mark (tiles, celd_claim_tiles (tiles, &claim[i]), BOTH);
+}
+
+static void
+compare_claims (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+{
+  for (size_t k = 0; k < new->edges->n_loops; k++)
+    {
+      const CeldEdgeLoop *loop = &new->edges->loop[k];
+
+      if (!memcmp (old->pen + loop->first, new->pen + loop->first, loop->n * sizeof *new->pen))
+        continue;
+      for (size_t i = 0; i < loop->n; i++)
+        {
+          CeldClaim before[CELD_CLAIMS], after[CELD_CLAIMS];
+          size_t    n = celd_pen_claims (old, loop, i, before), m = celd_pen_claims (new, loop, i, after);
+
+          if (n != m || memcmp (before, after, n * sizeof *after))
+            {
+              mark_claims (before, n, tiles);
+              mark_claims (after, m, tiles);
+            }
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ labels that change places in depth */
+
+/* Labels that claim ink of a tile. */
+typedef struct { uint32_t label[7], n; } Claimants;
+
+#define MANY 7 /* more of them are not told apart */
+
+static int
+compare_levels (const uint32_t *level, uint32_t a, uint32_t b)
+{
+  return (level[a - 1] > level[b - 1]) - (level[a - 1] < level[b - 1]);
+}
+
+static void
+add_claimant (uint32_t label, Claimants *c)
+{
+  for (uint32_t i = 0; i < c->n && i < MANY; i++)
+    if (c->label[i] == label)
+      return;
+  if (c->n < MANY)
+    c->label[c->n] = label;
+  c->n++;
+}
+
+static void
+list_claimants (const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
+{
+  for (size_t k = 0; k < pens->edges->n_loops; k++)
+    for (size_t i = 0; i < pens->edges->loop[k].n; i++)
+      {
+        CeldClaim claim[CELD_CLAIMS];
+        size_t    n = celd_pen_claims (pens, &pens->edges->loop[k], i, claim);
+
+        for (size_t j = 0; j < n; j++)
+          {
+            CeldTileSpan span = celd_claim_tiles (tiles, &claim[j]);
+
+            for (int y = span.top; y <= span.bottom; y++)
+              for (int x = span.left; x <= span.right; x++)
+                add_claimant (claim[j].label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
+          }
+      }
+}
+
+/* Has any of these passed another?  New labels have. */
+static bool
+have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
+{
+  if (c->n > MANY)
+    return true;
+  for (uint32_t i = 0; i < c->n; i++)
+    for (uint32_t j = 0; j < i; j++)
+      if (c->label[i] > old->n || c->label[j] > old->n ||
+          compare_levels (old->level, c->label[i], c->label[j]) != compare_levels (new->level, c->label[i], c->label[j]))
+        return true;
+  return false;
+}
+
+static CeldStatus
+compare_depths (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+{
+  size_t     n = (size_t) tiles->across * (size_t) tiles->down;
+  Claimants *list;
+
+  if (old->n == new->n && !memcmp (old->level, new->level, new->n * sizeof *new->level))
+    return CELD_OK;
+  list = celd_alloc0 (n, sizeof *list);
+  if (!list)
+    return CELD_NO_MEMORY;
+  list_claimants (new, tiles, list);
+  for (size_t i = 0; i < n; i++)
+    if (have_moved (&list[i], old, new))
+      tiles->at[i] |= BOTH;
+  celd_free (list);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_owners_compare (const CeldOwnersKept *kept, const CeldOwnersInput *input, CeldRect new_labels,
+                     const CeldPens *pens, const bool *solid, CeldTiles *tiles)
+{
+  compare_pixels (kept, input, changed_labels (kept, input, new_labels, solid), solid, tiles);
+  compare_claims (&kept->pens, pens, tiles);
+  return compare_depths (&kept->pens, pens, tiles);
+}
