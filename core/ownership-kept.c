@@ -160,7 +160,7 @@ renew_record (const CeldOwnersInput *in, const CeldOwnersKept *kept, bool sort, 
 
         if (*celd_tile_of (tiles, r.x, r.y))
           changed = celd_rect_union (changed, celd_share_again (in->ink, &kept->owner, in->level, round, own));
-        else if (sort)
+        else if (sort && *celd_tile_of (&kept->grey, r.x, r.y))
           changed = celd_rect_union (changed, celd_sort_again (&kept->owner, in->level, r, own));
       }
   return changed;
@@ -184,19 +184,36 @@ replace_pens (CeldOwnersKept *kept, CeldPens *pens, bool **solid)
 
 /* Pens and solid labels; to be cleared with the level whatever is returned. */
 static CeldStatus
-measure (const CeldOwnersInput *in, const CeldPens *old, CeldRect new_labels, CeldPens *pens, bool **solid)
+measure (const CeldOwnersInput *in, const CeldOwnersKept *kept, CeldRect new_labels, CeldPens *pens, bool **solid)
 {
   uint32_t  *level = celd_alloc (in->n, sizeof *level);
   CeldStatus status;
 
   *solid = celd_alloc (in->n, sizeof **solid);
-  if (level)
-    memcpy (level, in->level, in->n * sizeof *level);
-  status = level && *solid ? celd_solid_find (in->ink, in->labels, in->n, *solid) : CELD_NO_MEMORY;
+  status = level && *solid ? CELD_OK : CELD_NO_MEMORY;
   if (!status)
-    status = celd_pens_renew (old, in->labels, new_labels, level, in->n, pens);
+    memcpy (level, in->level, in->n * sizeof *level);
+  if (!status && !new_labels.width && in->n == kept->pens.n)
+    memcpy (*solid, kept->solid, in->n * sizeof **solid);
+  else if (!status)
+    status = celd_solid_find (in->ink, in->labels, in->n, *solid);
+  if (!status)
+    status = celd_pens_renew (&kept->pens, in->labels, new_labels, level, in->n, pens);
   if (status)
     celd_free (level);
+  return status;
+}
+
+/* Where pixels have shares. */
+static CeldStatus
+find_grey (const CeldPlane *ink, CeldTiles *grey)
+{
+  CeldStatus status = celd_tiles_new (ink->width, ink->height, grey);
+
+  for (int y = 0; y < ink->height && !status; y++)
+    for (int x = 0; x < ink->width; x++)
+      if (CELD_AT (ink, x, y) > 0 && CELD_AT (ink, x, y) < 1)
+        *celd_tile_of (grey, x, y) = 1;
   return status;
 }
 
@@ -206,14 +223,17 @@ celd_owners_make (const CeldOwnersInput *input, const CeldRun *run, CeldOwnersKe
   int        w = input->ink->width, h = input->ink->height;
   CeldPart   part[2];
   CeldRun    first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
-  CeldPens   none = { .edges = &kept->edges }, pens = { 0 };
+  CeldPens   pens = { 0 };
   bool      *solid = NULL;
   CeldStatus status;
 
   celd_owners_clear (kept);
-  status = celd_ink_edges_new (input->ink, &first, &kept->edges);
+  kept->pens.edges = &kept->edges;
+  status = find_grey (input->ink, &kept->grey);
   if (!status)
-    status = measure (input, &none, (CeldRect) { 0, 0, w, h }, &pens, &solid);
+    status = celd_ink_edges_new (input->ink, &first, &kept->edges);
+  if (!status)
+    status = measure (input, kept, (CeldRect) { 0, 0, w, h }, &pens, &solid);
   if (!status)
     replace_pens (kept, &pens, &solid);
   if (!status)
@@ -245,7 +265,7 @@ renew_owners (const CeldOwnersInput *in, CeldRect new_labels, const CeldRun *run
   CeldPens   pens = { 0 };
   CeldClaims claims = { &kept->pens, in->ink, &kept->owner, &kept->over };
   bool      *solid = NULL;
-  CeldStatus status = measure (in, &kept->pens, new_labels, &pens, &solid);
+  CeldStatus status = measure (in, kept, new_labels, &pens, &solid);
 
   if (!status)
     status = celd_owners_compare (kept, in, new_labels, &pens, solid, tiles);
@@ -297,5 +317,6 @@ celd_owners_clear (CeldOwnersKept *kept)
   celd_free (kept->solid);
   celd_free (kept->owner.data);
   celd_free (kept->over.data);
+  celd_free (kept->grey.at);
   *kept = (CeldOwnersKept) { 0 };
 }

@@ -14,6 +14,18 @@
 #define NARROW 0.9f     /* cosine between the sides of a band that hardly opens */
 #define BULGE  0.03f    /* of its length that it may then stick out between them */
 
+static float
+least (float a, float b)
+{
+  return a < b ? a : b;
+}
+
+static float
+greatest (float a, float b)
+{
+  return a > b ? a : b;
+}
+
 CeldTileSpan
 celd_claim_tiles (const CeldTiles *tiles, const CeldClaim *claim)
 {
@@ -29,10 +41,10 @@ celd_claim_tiles (const CeldTiles *tiles, const CeldClaim *claim)
     }
   else if (claim->shape == CELD_CLAIM_LINE)
     far_a = celd_claim_place (claim, length);
-  return celd_tile_span (tiles, fminf (fminf (a->x, b->x), fminf (far_a.x, far_b.x)) - margin,
-                         fminf (fminf (a->y, b->y), fminf (far_a.y, far_b.y)) - margin,
-                         fmaxf (fmaxf (a->x, b->x), fmaxf (far_a.x, far_b.x)) + margin,
-                         fmaxf (fmaxf (a->y, b->y), fmaxf (far_a.y, far_b.y)) + margin);
+  return celd_tile_span (tiles, least (least (a->x, b->x), least (far_a.x, far_b.x)) - margin,
+                         least (least (a->y, b->y), least (far_a.y, far_b.y)) - margin,
+                         greatest (greatest (a->x, b->x), greatest (far_a.x, far_b.x)) + margin,
+                         greatest (greatest (a->y, b->y), greatest (far_a.y, far_b.y)) + margin);
 }
 
 /* ------------------------------------------------------------------ pixels that labels settle */

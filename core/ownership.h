@@ -32,6 +32,7 @@ CeldRect celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldR
 typedef struct
 {
   CeldInkEdges edges;
+  CeldTiles    grey;            /* not 0 where the ink has shares of pixels */
   CeldPens     pens;            /* with level and n */
   uint32_t    *level;           /* owned; NULL: nothing is kept */
   bool        *solid;

@@ -48,24 +48,31 @@ give (const Hand *h, int x, int y, uint32_t to)
 static CeldStatus
 find_strokes (Hand *h)
 {
-  CeldStatus status = celd_tiles_new (h->ink->width, h->ink->height, &h->strokes);
+  int        w = h->ink->width;
+  CeldStatus status = celd_tiles_new (w, h->ink->height, &h->strokes);
 
   for (int y = 0; y < h->ink->height && !status; y++)
-    for (int x = 0; x < h->ink->width; x++)
-      if (CELD_AT (h->corrections, x, y))
-        *celd_tile_of (&h->strokes, x, y) = 1;
+    for (int x = 0; x < w; x += CELD_TILE)
+      {
+        const uint32_t *label = &CELD_AT (h->corrections, x, y);
+        int             n = w - x < CELD_TILE ? w - x : CELD_TILE;
+        uint32_t        any = 0;
+
+        for (int i = 0; i < n; i++)
+          any |= label[i];
+        if (any)
+          *celd_tile_of (&h->strokes, x, y) = 1;
+      }
   return status;
 }
 
-/* The pixel so far behind an edge, as an index; -1 if it is no ink. */
-static ptrdiff_t
-ink_behind (const Hand *h, const CeldEdgePoint *p, float depth)
+/* The pixel so far behind an edge.  Is it ink? */
+static bool
+ink_behind (const Hand *h, const CeldEdgePoint *p, float depth, int *x, int *y)
 {
-  int x = (int) floorf (p->x + depth * p->nx), y = (int) floorf (p->y + depth * p->ny);
-
-  if (x < 0 || y < 0 || x >= h->ink->width || y >= h->ink->height || celd_is_paper (CELD_AT (h->ink, x, y)))
-    return -1;
-  return (ptrdiff_t) y * h->ink->width + x;
+  *x = celd_round_down (p->x + depth * p->nx);
+  *y = celd_round_down (p->y + depth * p->ny);
+  return *x >= 0 && *y >= 0 && *x < h->ink->width && *y < h->ink->height && !celd_is_paper (CELD_AT (h->ink, *x, *y));
 }
 
 static float
@@ -86,10 +93,9 @@ look_for_stroke (const Hand *h, size_t i)
     return (Gift) { 0, 0 };
   for (float depth = STEP / 2; depth < reach; depth += STEP)
     {
-      ptrdiff_t at = ink_behind (h, p, depth);
-      int       u = (int) (at % h->ink->width), v = (int) (at / h->ink->width);
+      int u, v;
 
-      if (at >= 0 && CELD_AT (h->corrections, u, v))
+      if (ink_behind (h, p, depth, &u, &v) && CELD_AT (h->corrections, u, v))
         return (Gift) { CELD_AT (h->owner, u, v), CELD_AT (h->corrections, u, v) };
     }
   return (Gift) { 0, 0 };
@@ -124,12 +130,26 @@ give_behind (const Hand *h, size_t i)
 
   for (float depth = STEP / 2; depth < reach && h->gift[i].to && !status; depth += STEP)
     {
-      ptrdiff_t at = ink_behind (h, p, depth);
-      int       x = (int) (at % h->ink->width), y = (int) (at / h->ink->width);
+      int x, y;
 
-      if (at >= 0 && CELD_AT (h->owner, x, y) == h->gift[i].from)
+      if (ink_behind (h, p, depth, &x, &y) && CELD_AT (h->owner, x, y) == h->gift[i].from)
         status = give (h, x, y, h->gift[i].to);
     }
+  return status;
+}
+
+/* The ink below the strokes themselves, within a tile. */
+static CeldStatus
+give_below (const Hand *h, CeldRect tile)
+{
+  CeldStatus status = CELD_OK;
+
+  if (!*celd_tile_of (&h->strokes, tile.x, tile.y))
+    return CELD_OK;
+  for (int y = tile.y; y < tile.y + tile.height && !status; y++)
+    for (int x = tile.x; x < tile.x + tile.width && !status; x++)
+      if (CELD_AT (h->corrections, x, y) && !celd_is_paper (CELD_AT (h->ink, x, y)))
+        status = give (h, x, y, CELD_AT (h->corrections, x, y));
   return status;
 }
 
@@ -147,10 +167,9 @@ celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels 
     hand_on (&h, &pens->edges->loop[k]);
   for (size_t i = 0; i < n && !status; i++)
     status = give_behind (&h, i);
-  for (int y = 0; y < ink->height && !status; y++)
-    for (int x = 0; x < ink->width && !status; x++)
-      if (CELD_AT (corrections, x, y) && !celd_is_paper (CELD_AT (ink, x, y)))
-        status = give (&h, x, y, CELD_AT (corrections, x, y));
+  for (int ty = 0; ty < h.strokes.down && !status; ty++)
+    for (int tx = 0; tx < h.strokes.across && !status; tx++)
+      status = give_below (&h, celd_tile_rect (tx, ty, ink->width, ink->height));
   celd_free (h.gift);
   celd_free (h.strokes.at);
   return status;
