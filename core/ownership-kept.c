@@ -13,6 +13,18 @@
 
 /* ------------------------------------------------------------------ claims */
 
+static bool
+touches (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim)
+{
+  CeldTileSpan span[CELD_SPANS];
+  int          n = celd_claim_tiles (ink, tiles, claim, span);
+
+  for (int i = 0; i < n; i++)
+    if (celd_tiles_any (tiles, span[i], CELD_TILE_CLAIM))
+      return true;
+  return false;
+}
+
 /* Claims again all that may reach a marked tile. */
 static void
 claim_again (const CeldClaims *c, const CeldOwnersInput *in, const bool *solid, const CeldTiles *tiles)
@@ -30,7 +42,7 @@ claim_again (const CeldClaims *c, const CeldOwnersInput *in, const bool *solid, 
         size_t    n = celd_pen_claims (c->pens, &edges->loop[k], i, claim);
 
         for (size_t j = 0; j < n; j++)
-          if (celd_tiles_any (tiles, celd_claim_tiles (tiles, &claim[j]), CELD_TILE_CLAIM))
+          if (touches (c->ink, tiles, &claim[j]))
             celd_claim_make (c, &claim[j]);
       }
 }

@@ -26,25 +26,47 @@ greatest (float a, float b)
   return a > b ? a : b;
 }
 
-CeldTileSpan
-celd_claim_tiles (const CeldTiles *tiles, const CeldClaim *claim)
+/* Round two rays of this length. */
+static CeldTileSpan
+span_of (const CeldTiles *tiles, const CeldRay *a, const CeldRay *b, float length, float margin)
+{
+  float ax = a->x + length * a->nx, ay = a->y + length * a->ny, bx = b->x + length * b->nx, by = b->y + length * b->ny;
+
+  return celd_tile_span (tiles, least (least (a->x, b->x), least (ax, bx)) - margin,
+                         least (least (a->y, b->y), least (ay, by)) - margin,
+                         greatest (greatest (a->x, b->x), greatest (ax, bx)) + margin,
+                         greatest (greatest (a->y, b->y), greatest (ay, by)) + margin);
+}
+
+/* Long lines are taken piece by piece, so that slanting ones do not mark a large square. */
+static int
+line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line, CeldTileSpan span[CELD_SPANS])
+{
+  float reach = celd_claim_reach (ink, line), piece = greatest (CELD_TILE, reach / (CELD_SPANS - 1)), from = 0;
+  int   n = 0;
+
+  for (; from < reach && n < CELD_SPANS; from += piece)
+    {
+      CeldRay a = celd_claim_place (line, from), b = celd_claim_place (line, least (from + piece, reach));
+
+      span[n++] = span_of (tiles, &a, &b, line->width, 1);
+    }
+  return n;
+}
+
+int
+celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldTileSpan span[CELD_SPANS])
 {
   const CeldRay *a = &claim->from, *b = &claim->to;
-  float          length = claim->length, margin = claim->width + 1;
-  CeldRay        far_a = *a, far_b = *b;
+  bool           narrow = a->nx * b->nx + a->ny * b->ny > NARROW;
 
+  if (claim->shape == CELD_CLAIM_LINE)
+    return line_tiles (ink, tiles, claim, span);
   if (claim->shape == CELD_CLAIM_BAND)
-    {
-      margin = 1 + (a->nx * b->nx + a->ny * b->ny > NARROW ? BULGE : 1) * length;
-      far_a  = (CeldRay) { a->x + length * a->nx, a->y + length * a->ny, 0, 0 };
-      far_b  = (CeldRay) { b->x + length * b->nx, b->y + length * b->ny, 0, 0 };
-    }
-  else if (claim->shape == CELD_CLAIM_LINE)
-    far_a = celd_claim_place (claim, length);
-  return celd_tile_span (tiles, least (least (a->x, b->x), least (far_a.x, far_b.x)) - margin,
-                         least (least (a->y, b->y), least (far_a.y, far_b.y)) - margin,
-                         greatest (greatest (a->x, b->x), greatest (far_a.x, far_b.x)) + margin,
-                         greatest (greatest (a->y, b->y), greatest (far_a.y, far_b.y)) + margin);
+    span[0] = span_of (tiles, a, b, claim->length, 1 + (narrow ? BULGE : 1) * claim->length);
+  else
+    span[0] = span_of (tiles, a, a, 0, claim->width + 1);
+  return 1;
 }
 
 /* ------------------------------------------------------------------ pixels that labels settle */
@@ -78,14 +100,20 @@ changed_labels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect 
 /* ------------------------------------------------------------------ claims */
 
 static void
-mark_claims (const CeldClaim *claim, size_t n, CeldTiles *tiles)
+mark_claims (const CeldPlane *ink, const CeldClaim *claim, size_t n, CeldTiles *tiles)
 {
   for (size_t i = 0; i < n; i++)
-    celd_tiles_mark (tiles, celd_claim_tiles (tiles, &claim[i]), BOTH);
+    {
+      CeldTileSpan span[CELD_SPANS];
+      int          m = celd_claim_tiles (ink, tiles, &claim[i], span);
+
+      for (int j = 0; j < m; j++)
+        celd_tiles_mark (tiles, span[j], BOTH);
+    }
 }
 
 static void
-compare_claims (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+compare_claims (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
 {
   for (size_t k = 0; k < new->edges->n_loops; k++)
     {
@@ -98,11 +126,10 @@ compare_claims (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
           CeldClaim before[CELD_CLAIMS], after[CELD_CLAIMS];
           size_t    n = celd_pen_claims (old, loop, i, before), m = celd_pen_claims (new, loop, i, after);
 
-          if (n != m || memcmp (before, after, n * sizeof *after))
-            {
-              mark_claims (before, n, tiles);
-              mark_claims (after, m, tiles);
-            }
+          if (n == m && !memcmp (before, after, n * sizeof *after))
+            continue;
+          mark_claims (ink, before, n, tiles);
+          mark_claims (ink, after, m, tiles);
         }
     }
 }
@@ -132,7 +159,19 @@ add_claimant (uint32_t label, Claimants *c)
 }
 
 static void
-list_claimants (const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
+list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, Claimants *list)
+{
+  CeldTileSpan span[CELD_SPANS];
+  int          n = celd_claim_tiles (ink, tiles, claim, span);
+
+  for (int i = 0; i < n; i++)
+    for (int y = span[i].top; y <= span[i].bottom; y++)
+      for (int x = span[i].left; x <= span[i].right; x++)
+        add_claimant (claim->label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
+}
+
+static void
+list_claimants (const CeldPlane *ink, const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
 {
   for (size_t k = 0; k < pens->edges->n_loops; k++)
     for (size_t i = 0; i < pens->edges->loop[k].n; i++)
@@ -141,13 +180,7 @@ list_claimants (const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
         size_t    n = celd_pen_claims (pens, &pens->edges->loop[k], i, claim);
 
         for (size_t j = 0; j < n; j++)
-          {
-            CeldTileSpan span = celd_claim_tiles (tiles, &claim[j]);
-
-            for (int y = span.top; y <= span.bottom; y++)
-              for (int x = span.left; x <= span.right; x++)
-                add_claimant (claim[j].label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
-          }
+          list_claim (ink, tiles, &claim[j], list);
       }
 }
 
@@ -166,7 +199,7 @@ have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
 }
 
 static CeldStatus
-compare_depths (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+compare_depths (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
 {
   size_t     n = (size_t) tiles->across * (size_t) tiles->down;
   Claimants *list;
@@ -176,7 +209,7 @@ compare_depths (const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
   list = celd_alloc0 (n, sizeof *list);
   if (!list)
     return CELD_NO_MEMORY;
-  list_claimants (new, tiles, list);
+  list_claimants (ink, new, tiles, list);
   for (size_t i = 0; i < n; i++)
     if (have_moved (&list[i], old, new))
       tiles->at[i] |= BOTH;
@@ -189,6 +222,6 @@ celd_owners_compare (const CeldOwnersKept *kept, const CeldOwnersInput *input, C
                      const CeldPens *pens, const bool *solid, CeldTiles *tiles)
 {
   compare_pixels (kept, input, changed_labels (kept, input, new_labels, solid), solid, tiles);
-  compare_claims (&kept->pens, pens, tiles);
-  return compare_depths (&kept->pens, pens, tiles);
+  compare_claims (input->ink, &kept->pens, pens, tiles);
+  return compare_depths (input->ink, &kept->pens, pens, tiles);
 }

@@ -67,7 +67,9 @@ void       celd_owners_clear (CeldOwnersKept *kept);    /* accepts a zeroed reco
 CeldStatus celd_owners_compare (const CeldOwnersKept *kept, const CeldOwnersInput *input, CeldRect new_labels,
                                 const CeldPens *pens, const bool *solid, CeldTiles *tiles);
 
-/* The tiles that a claim may touch. */
-CeldTileSpan celd_claim_tiles (const CeldTiles *tiles, const CeldClaim *claim);
+/* The tiles that a claim may touch; how many spans. */
+#define CELD_SPANS 17
+int celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim,
+                      CeldTileSpan span[CELD_SPANS]);
 
 #endif

@@ -111,23 +111,35 @@ claim_band (const CeldClaims *c, const CeldClaim *claim)
 }
 
 static bool
-is_ink (const CeldClaims *c, float x, float y)
+is_ink (const CeldPlane *ink, float x, float y)
 {
   int u = celd_round_down (x), v = celd_round_down (y);
 
-  return u >= 0 && v >= 0 && u < c->ink->width && v < c->ink->height && !celd_is_paper (CELD_AT (c->ink, u, v));
+  return u >= 0 && v >= 0 && u < ink->width && v < ink->height && !celd_is_paper (CELD_AT (ink, u, v));
 }
 
-/* A guess goes on only as long as its middle is ink. */
+float
+celd_claim_reach (const CeldPlane *ink, const CeldClaim *line)
+{
+  for (float s = 0; s < line->length && line->guess; s += APART)
+    {
+      CeldRay at = celd_claim_place (line, s);
+
+      if (!is_ink (ink, at.x + at.nx * line->width / 2, at.y + at.ny * line->width / 2))
+        return s;
+    }
+  return line->length;
+}
+
 static void
 claim_line (const CeldClaims *c, const CeldClaim *claim)
 {
-  for (float s = 0; s < claim->length; s += APART)
+  float reach = celd_claim_reach (c->ink, claim);
+
+  for (float s = 0; s < reach; s += APART)
     {
       CeldRay at = celd_claim_place (claim, s);
 
-      if (claim->guess && !is_ink (c, at.x + at.nx * claim->width / 2, at.y + at.ny * claim->width / 2))
-        break;
       claim_ray (c, claim, &at, claim->width);
     }
 }

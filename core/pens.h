@@ -85,6 +85,9 @@ typedef struct
                                  * nobody has claimed it; of what is settled without claims -INFINITY */
 } CeldClaims;
 
+/* How far a line goes; a guess only as long as its middle is ink. */
+float celd_claim_reach (const CeldPlane *ink, const CeldClaim *line);
+
 /* Whoever claims first: the same claims come to the same, also if some are made twice. */
 void celd_claim_make (const CeldClaims *claims, const CeldClaim *claim);
 

@@ -7,7 +7,7 @@
 
 #include "private.h"
 
-#define CELD_TILE 32 /* pixels a side */
+#define CELD_TILE 16 /* pixels a side */
 
 typedef struct { int across, down; uint8_t *at; } CeldTiles;
 
