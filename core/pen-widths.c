@@ -75,8 +75,8 @@ sum_up (float *width, size_t n, float *usual, float *most)
 }
 
 /* Lists the widths by label. */
-static CeldStatus
-find_usual_widths (CeldPens *pens)
+CeldStatus
+celd_pens_measure (CeldPens *pens)
 {
   size_t     points = pens->edges->n_points;
   size_t    *from = celd_alloc0 (pens->n + 2, sizeof *from);
@@ -153,8 +153,8 @@ limit_slope (const CeldPens *pens, float step, size_t a, size_t b, CeldPen *pen)
     }
 }
 
-static void
-follow_width (const CeldEdgeLoop *loop, CeldPens *pens)
+void
+celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
   CeldPen             *pen = &pens->pen[loop->first];
@@ -173,14 +173,4 @@ follow_width (const CeldEdgeLoop *loop, CeldPens *pens)
     limit_slope (pens, point[(i - 1) % n].step, (i - 1) % n, i % n, pen);
   for (size_t i = 2 * n; i-- > 1;)
     limit_slope (pens, point[(i - 1) % n].step, i % n, (i - 1) % n, pen);
-}
-
-CeldStatus
-celd_pens_measure (CeldPens *pens)
-{
-  CeldStatus status = find_usual_widths (pens);
-
-  for (size_t k = 0; k < pens->edges->n_loops && status == CELD_OK; k++)
-    follow_width (&pens->edges->loop[k], pens);
-  return status;
 }

@@ -91,15 +91,60 @@ hand_on (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
       pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
 }
 
-static CeldStatus
-find_owners (CeldPens *pens)
-{
-  float *way = celd_alloc (pens->edges->n_points + 1, sizeof *way);
+/* ------------------------------------------------------------------ all of it */
 
-  for (size_t k = 0; way && k < pens->edges->n_loops; k++)
-    hand_on (&pens->edges->loop[k], pens, way);
+/* Which pens may have other widths than before. */
+static bool *
+compare_labels (const CeldPens *old, const CeldPens *new)
+{
+  bool *changed = celd_alloc (new->n + 1, sizeof *changed);
+
+  for (size_t k = 1; changed && k <= new->n; k++)
+    changed[k] = k > old->n || new->usual[k - 1] != old->usual[k - 1] || new->most[k - 1] != old->most[k - 1];
+  if (changed)
+    changed[0] = false;
+  return changed;
+}
+
+/* Do all places of a loop say what they said before? */
+static bool
+same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, const bool *changed)
+{
+  for (size_t i = loop->first; i < loop->first + loop->n; i++)
+    {
+      const CeldPen *a = &old->pen[i], *b = &new->pen[i];
+      uint32_t       front = celd_pen_front (new, b);
+
+      if (a->near != b->near || a->far != b->far || changed[b->near] || changed[front] ||
+          front != celd_pen_front (old, a))
+        return false;
+    }
+  return true;
+}
+
+/* Widths and owners; a loop that is as it was keeps them. */
+static CeldStatus
+find_owners (const CeldPens *old, CeldPens *pens)
+{
+  bool      *changed = compare_labels (old, pens);
+  float     *way = celd_alloc (pens->edges->n_points + 1, sizeof *way);
+  CeldStatus status = changed && way ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; status == CELD_OK && k < pens->edges->n_loops; k++)
+    {
+      const CeldEdgeLoop *loop = &pens->edges->loop[k];
+
+      if (old->pen && same_loop (loop, old, pens, changed))
+        memcpy (pens->pen + loop->first, old->pen + loop->first, loop->n * sizeof *pens->pen);
+      else
+        {
+          celd_pens_follow (loop, pens);
+          hand_on (loop, pens, way);
+        }
+    }
+  celd_free (changed);
   celd_free (way);
-  return way ? CELD_OK : CELD_NO_MEMORY;
+  return status;
 }
 
 CeldStatus
@@ -125,7 +170,7 @@ celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed
       status = celd_pens_measure (&made);
     }
   if (status == CELD_OK)
-    status = find_owners (&made);
+    status = find_owners (old, &made);
   if (status == CELD_OK)
     *pens = made;
   else

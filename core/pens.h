@@ -50,8 +50,9 @@ celd_pen_front (const CeldPens *pens, const CeldPen *pen)
 
 /* ------------------------------------------------------------------ pen-widths.c */
 
-/* Fills in the widths, from labels and corners. */
+/* Fills in how wide the labels' pens are, and then widths along a loop. */
 CeldStatus celd_pens_measure (CeldPens *pens);
+void       celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens);
 
 /* ------------------------------------------------------------------ pen-claims.c */
 
