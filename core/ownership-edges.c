@@ -133,13 +133,18 @@ celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect,
   for (int y = rect.y; y < rect.y + rect.height; y++)
     for (int x = rect.x; x < rect.x + rect.width; x++)
       {
-        uint32_t first = CELD_AT (&own->owner, x, y), second = CELD_AT (&own->under, x, y);
-        float    share = CELD_AT (&own->share, x, y);
-        bool     kept = first == CELD_AT (larger, x, y);
+        uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y), first = *owner, more, less;
 
-        if (first != second && put_share (kept ? (Share) { first, second, share } : (Share) { second, first, 1 - share },
-                                          level, x, y, own))
-          changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
+        if (first == *under)
+          continue;
+        more = CELD_AT (larger, x, y);
+        less = first == more ? *under : first;
+        if (first == (level[less - 1] > level[more - 1] ? less : more))
+          continue;
+        *owner = *under;
+        *under = first;
+        CELD_AT (&own->share, x, y) = 1 - CELD_AT (&own->share, x, y);
+        changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
       }
   return changed;
 }
