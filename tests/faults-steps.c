@@ -4,6 +4,7 @@
  */
 #include "faults.h"
 #include "order.h"
+#include "ownership.h"
 #include "partition.h"
 #include "program.h"
 #include "segment.h"
@@ -513,6 +514,39 @@ own_step (const CeldRun *run, Results *r)
   return status;
 }
 
+/* From the beginning, and after an edit of everything at once. */
+static CeldStatus
+owners_step (const CeldRun *run, Results *r)
+{
+  CeldPart        part[2];
+  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldPlane       ink = plane_of (&ink_pixels);
+  CeldLabels      labels = labels_of (&label_pixels), all = { 0 };
+  uint32_t        level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  CeldOwnersInput input = { &ink, &labels, NULL, level, 8 };
+  CeldOwnersKept  kept = { 0 };
+  CeldOwnership   own = { 0 };
+  CeldRect        changed;
+  CeldStatus      status = celd_ownership_new (W, H, &own);
+
+  if (status == CELD_OK)
+    status = celd_owners_make (&input, &first, &kept, &own);
+  if (status == CELD_OK)
+    status = celd_labels_new (W, H, &all);
+  for (int p = 0; status == CELD_OK && p < W * H; p++)
+    all.data[p] = 1 + labels.data[p] % 3;
+  level[0] = 9;
+  input.labels = input.corrections = &all;
+  if (status == CELD_OK)
+    status = celd_owners_renew (&input, (CeldRect) { 0, 0, W, H }, &second, &kept, &own, &changed);
+  if (status == CELD_OK)
+    memcpy (r->pixels->labels, own.owner.data, W * H * sizeof (uint32_t));
+  celd_free (all.data);
+  celd_owners_clear (&kept);
+  celd_ownership_clear (&own);
+  return status;
+}
+
 static CeldStatus
 smooth_step (const CeldRun *run, Results *r)
 {
@@ -861,6 +895,7 @@ const Step steps[] = {
   { "expand levels", expand_levels_step, NULL, true },
   { "matte", matte_step, NULL, true },
   { "ownership", own_step, NULL, true },
+  { "ownership kept", owners_step, NULL, true },
   { "layers", layers_step, NULL, true },
   { "layers of levels", layers_of_levels_step, NULL, true },
   { "smooth", smooth_step, NULL, true },
