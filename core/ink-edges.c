@@ -259,7 +259,7 @@ look_through_all (const Tracer *t, const CeldRun *run)
 CeldStatus
 celd_ink_edges_new (const CeldPlane *ink, const CeldRun *run, CeldInkEdges *edges)
 {
-  CeldInkEdges made = { .width = ink->width, .height = ink->height };
+  CeldInkEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
   Tracer       t = { .ink = ink, .edges = &made };
   CeldStatus   status = read_chart (&t);
 

@@ -24,7 +24,7 @@ typedef struct { size_t first, n; } CeldEdgeLoop;
 
 typedef struct
 {
-  int            width, height;
+  int            width, height, stroke; /* stroke: how thick lines are, see celd_stroke_width */
   CeldEdgePoint *point;
   size_t         n_points;
   CeldEdgeLoop  *loop;

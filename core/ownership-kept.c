@@ -205,14 +205,17 @@ measure (const CeldOwnersInput *in, const CeldOwnersKept *kept, CeldRect new_lab
   status = level && *solid ? CELD_OK : CELD_NO_MEMORY;
   if (!status)
     memcpy (level, in->level, in->n * sizeof *level);
+  if (!status)
+    status = celd_pens_renew (&kept->pens, in->labels, new_labels, level, in->n, pens);
   if (!status && !new_labels.width && in->n == kept->pens.n)
     memcpy (*solid, kept->solid, in->n * sizeof **solid);
   else if (!status)
-    status = celd_solid_find (in->ink, in->labels, in->n, *solid);
-  if (!status)
-    status = celd_pens_renew (&kept->pens, in->labels, new_labels, level, in->n, pens);
+    status = celd_solid_find (pens, in->ink, in->labels, *solid);
   if (status)
-    celd_free (level);
+    {
+      celd_pens_clear (pens);
+      celd_free (level);
+    }
   return status;
 }
 

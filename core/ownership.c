@@ -79,7 +79,7 @@ own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *l
                  CeldOwnership *own)
 {
   bool      *solid = celd_alloc (pens->n, sizeof *solid);
-  CeldStatus status = solid ? celd_solid_find (ink, labels, pens->n, solid) : CELD_NO_MEMORY;
+  CeldStatus status = solid ? celd_solid_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
 
   if (!status)
     status = celd_pens_claim (pens, ink, labels, solid, run, &own->owner, &own->share);

@@ -11,16 +11,18 @@
 
 #include <math.h>
 
-#define SOLID 10 /* a label is ink throughout if less than a tenth of it is paper */
+#define SOLID   10 /* a label is ink throughout if less than a tenth of it is paper */
+#define CORNERS 4  /* squares of a line's thickness that may lie about the corners of paper */
 
 /* ------------------------------------------------------------------ to begin with */
 
-CeldStatus
-celd_solid_find (const CeldPlane *ink, const CeldLabels *labels, size_t n, bool *solid)
-{
-  size_t *all = celd_alloc0 (n, sizeof *all), *paper = celd_alloc0 (n, sizeof *paper);
+/* How many pixels each label has, of these of paper, and places on edges of its paper; of label k at k - 1. */
+typedef struct { size_t *all, *paper, *places; } Counts;
 
-  for (int y = 0; all && paper && y < ink->height; y++)
+static void
+count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *count)
+{
+  for (int y = 0; y < ink->height; y++)
     for (int x = 0, end; x < ink->width; x = end)
       {
         const uint32_t *label = &CELD_AT (labels, 0, y);
@@ -29,14 +31,38 @@ celd_solid_find (const CeldPlane *ink, const CeldLabels *labels, size_t n, bool 
 
         for (end = x; end < ink->width && label[end] == label[x]; end++)
           bright += celd_is_paper (value[end]);
-        all[label[x] - 1]   += (size_t) (end - x);
-        paper[label[x] - 1] += bright;
+        count->all[label[x] - 1]   += (size_t) (end - x);
+        count->paper[label[x] - 1] += bright;
       }
-  for (size_t k = 0; all && paper && k < n; k++)
-    solid[k] = SOLID * paper[k] < all[k];
-  celd_free (all);
-  celd_free (paper);
-  return all && paper ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* Where lines are thick, a gusset of paper between them has many times as much ink, too, but not more than lies along
+ * its edges and about its corners. */
+static bool
+is_solid (size_t all, size_t paper, size_t places, size_t stroke)
+{
+  return SOLID * paper < all && all - paper > stroke * places + CORNERS * stroke * stroke * (places > 0);
+}
+
+CeldStatus
+celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid)
+{
+  size_t     n = pens->n, stroke = (size_t) pens->edges->stroke;
+  Counts     count = { celd_alloc0 (n, sizeof *count.all), celd_alloc0 (n, sizeof *count.paper),
+                       celd_alloc0 (n, sizeof *count.places) };
+  CeldStatus status = count.all && count.paper && count.places ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    count_pixels (ink, labels, &count);
+  for (size_t i = 0; status == CELD_OK && i < pens->edges->n_points; i++)
+    if (pens->pen[i].near)
+      count.places[pens->pen[i].near - 1]++;
+  for (size_t k = 0; status == CELD_OK && k < n; k++)
+    solid[k] = is_solid (count.all[k], count.paper[k], count.places[k], stroke);
+  celd_free (count.all);
+  celd_free (count.paper);
+  celd_free (count.places);
+  return status;
 }
 
 void

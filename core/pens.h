@@ -99,7 +99,7 @@ CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const Ce
 /* ------------------------------------------------------------------ pen-rest.c */
 
 /* Which labels are ink throughout: of label k at k - 1. */
-CeldStatus celd_solid_find (const CeldPlane *ink, const CeldLabels *labels, size_t n, bool *solid);
+CeldStatus celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid);
 
 /* As if nothing were claimed within the rectangle. */
 void celd_claims_begin (const CeldClaims *claims, const CeldLabels *labels, const bool *solid, CeldRect rect);
