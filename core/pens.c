@@ -60,33 +60,63 @@ may_take (const CeldPen *pen, const CeldPen *from, float way)
   return pen->near != pen->far || way < TIP * from->width;
 }
 
-/* Places that cannot tell take the owner from the nearest one along the edge that can, up to a corner. */
+/* May it have a line between its front's and the paper, that comes round a corner? */
+static bool
+may_lie_between (const CeldPens *pens, const CeldPen *pen, uint32_t label)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return front && front != pen->near && pens->level[label - 1] < pens->level[front - 1] &&
+         pens->level[label - 1] > pens->level[pen->near - 1];
+}
+
+/* Places that cannot tell take the owner from the nearest one along the edge that can: up to a corner, or also round
+ * corners. */
 static void
-hand_on (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
+pass_on (const CeldEdgeLoop *loop, CeldPens *pens, bool round, float *way)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
   CeldPen             *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
-  for (size_t i = 0; i < n; i++)
-    {
-      pen[i].owner = plain_owner (pens, &point[i], &pen[i]);
-      way[i]       = pen[i].owner ? 0 : INFINITY;
-    }
   for (int back = 0; back < 2; back++)
     for (size_t i = 1; i < 2 * n; i++)
       {
         size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
         float  there = way[a] + point[back ? b : a].step;
 
-        if (!point[a].corner && pen[a].owner && there < way[b] && may_take (&pen[b], &pen[a], there))
+        if (pen[a].owner && there < way[b] &&
+            (round ? may_lie_between (pens, &pen[b], pen[a].owner)
+                   : !point[a].corner && may_take (&pen[b], &pen[a], there)))
           {
             way[b]       = there;
             pen[b].owner = pen[a].owner;
             pen[b].width = pen[a].width;
           }
       }
-  for (size_t i = 0; i < n; i++)
+}
+
+static void
+find_loop_owners (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldPen             *pen = &pens->pen[loop->first];
+  size_t               unknown = 0;
+
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      pen[i].owner = plain_owner (pens, &point[i], &pen[i]);
+      way[i]       = pen[i].owner ? 0 : INFINITY;
+    }
+  pass_on (loop, pens, false, way);
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      unknown += !pen[i].owner;
+      way[i]   = pen[i].owner ? 0 : INFINITY;
+    }
+  if (unknown)
+    pass_on (loop, pens, true, way);
+  for (size_t i = 0; i < loop->n; i++)
     if (!pen[i].owner)
       pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
 }
@@ -139,7 +169,7 @@ find_owners (const CeldPens *old, CeldPens *pens)
       else
         {
           celd_pens_follow (loop, pens);
-          hand_on (loop, pens, way);
+          find_loop_owners (loop, pens, way);
         }
     }
   celd_free (changed);
