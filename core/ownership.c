@@ -53,7 +53,7 @@ static CeldStatus
 own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, const CeldRun *run,
                   CeldLabels *owner)
 {
-  CeldLabels levels = { 0 };
+  CeldLabels levels = { 0 }, found = { 0 };
   CeldStatus status = celd_labels_new (labels->width, labels->height, &levels);
 
   if (status)
@@ -63,12 +63,14 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
       CELD_AT (&levels, x, y) = level[CELD_AT (labels, x, y) - 1];
   status = celd_expand (ink, &levels, run, &levels);
   if (!status)
-    status = spread_labels (labels, level, &levels, owner);
+    status = celd_labels_new (labels->width, labels->height, &found);
+  if (!status)
+    status = spread_labels (labels, level, &levels, &found);
   for (int y = 0; y < labels->height && !status; y++)
     for (int x = 0; x < labels->width; x++)
-      if (!CELD_AT (owner, x, y))
-        CELD_AT (owner, x, y) = CELD_AT (labels, x, y);
+      CELD_AT (owner, x, y) = CELD_AT (&found, x, y) ? CELD_AT (&found, x, y) : CELD_AT (labels, x, y);
   celd_free (levels.data);
+  celd_free (found.data);
   return status;
 }
 

@@ -197,7 +197,44 @@ a_stroke_gives_a_piece_of_line (void)
 
 /* ------------------------------------------------------------------ any picture */
 
-/* Paper keeps its label, ink gets one that there is, shares are shares, and the same comes out in place. */
+/* Blocks of ink and labels, in which now and then a level gets ink that is not connected with its labels: the same comes
+ * out in place. */
+static void
+in_place_it_is_the_same (void)
+{
+  enum { SIDE = 40, BLOCK = 5 };
+  CeldPlane     ink;
+  CeldLabels    labels;
+  CeldOwnership own, place;
+
+  CHECK (celd_plane_new (SIDE, SIDE, &ink) == CELD_OK && celd_labels_new (SIDE, SIDE, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (SIDE, SIDE, &own) == CELD_OK && celd_ownership_new (SIDE, SIDE, &place) == CELD_OK);
+  for (uint32_t seed = 1; seed <= 500 && !check_bad; seed++)
+    {
+      uint32_t       r = seed;
+      const uint32_t level[4] = { check_random (&r, 3), check_random (&r, 3), check_random (&r, 3), 1 };
+      size_t         bytes = SIDE * SIDE * sizeof (uint32_t);
+
+      for (int p = 0; p < SIDE * SIDE; p++)
+        {
+          bool first = p % SIDE % BLOCK == 0, top = p / SIDE % BLOCK == 0;
+
+          labels.data[p] = !first ? labels.data[p - 1] : !top ? labels.data[p - SIDE] : 1 + check_random (&r, 4);
+          ink.data[p]    = !first ? ink.data[p - 1] : !top ? ink.data[p - SIDE] : (float) check_random (&r, 2);
+          ink.data[p]   *= first && !check_random (&r, 9) ? 0 : 1;
+        }
+      memcpy (place.owner.data, labels.data, bytes);
+      CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, &place.owner, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &place) == CELD_OK);
+      CHECK (!memcmp (place.owner.data, own.owner.data, bytes) && !memcmp (place.under.data, own.under.data, bytes));
+    }
+  celd_ownership_clear (&own);
+  celd_ownership_clear (&place);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
+/* Paper keeps its label, ink gets one that there is, and shares are shares. */
 static void
 paper_stays (void)
 {
@@ -268,6 +305,7 @@ main (void)
   RUN (a_black_patch_keeps_its_ink);
   RUN (edges_are_shared);
   RUN (a_stroke_gives_a_piece_of_line);
+  RUN (in_place_it_is_the_same);
   RUN (paper_stays);
   RUN (bad_input_does_no_harm);
   return DONE;
