@@ -133,7 +133,8 @@ celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect,
   for (int y = rect.y; y < rect.y + rect.height; y++)
     for (int x = rect.x; x < rect.x + rect.width; x++)
       {
-        uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y), first = *owner, more, less;
+        uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
+        uint32_t  first = *owner, more, less;
 
         if (first == *under)
           continue;

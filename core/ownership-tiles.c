@@ -142,9 +142,9 @@ typedef struct { uint32_t label[7], n; } Claimants;
 #define MANY 7 /* more of them are not told apart */
 
 static int
-compare_levels (const uint32_t *level, uint32_t a, uint32_t b)
+compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
 {
-  return (level[a - 1] > level[b - 1]) - (level[a - 1] < level[b - 1]);
+  return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
 }
 
 static void
@@ -193,7 +193,7 @@ have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
   for (uint32_t i = 0; i < c->n; i++)
     for (uint32_t j = 0; j < i; j++)
       if (c->label[i] > old->n || c->label[j] > old->n ||
-          compare_levels (old->level, c->label[i], c->label[j]) != compare_levels (new->level, c->label[i], c->label[j]))
+          compare_levels (old, c->label[i], c->label[j]) != compare_levels (new, c->label[i], c->label[j]))
         return true;
   return false;
 }

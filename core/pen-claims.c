@@ -195,8 +195,8 @@ celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldC
   if (pen[i].owner && pen[i].owner == pen[next].owner)
     claim[n++] = (CeldClaim) {
       CELD_CLAIM_BAND, pen[i].owner, ray_from (&point[i]), ray_from (&point[next]),
-      (pen[i].width + pen[next].width) / 2, fmaxf (length_of (&point[i], &pen[i]), length_of (&point[next], &pen[next])),
-      1, 0
+      (pen[i].width + pen[next].width) / 2,
+      fmaxf (length_of (&point[i], &pen[i]), length_of (&point[next], &pen[next])), 1, 0
     };
   return n + celd_line_claims (pens, loop, i, claim + n);
 }

@@ -64,7 +64,7 @@ typedef struct
 {
   enum { CELD_CLAIM_BAND, CELD_CLAIM_LINE, CELD_CLAIM_DISC } shape;
   uint32_t label;
-  CeldRay  from, to;            /* a band: its sides; a line: where it begins, and the same; a disc: its middle, the same */
+  CeldRay  from, to;            /* a band: its sides; a line: where it begins, twice; a disc: its middle, twice */
   float    width;               /* of the pen; half of it for a disc */
   float    length;              /* how far a band goes behind the edge, and a line along it */
   int      way;                 /* in which direction a line goes: along the loop (1) or against it (-1) */

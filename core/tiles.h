@@ -68,9 +68,9 @@ celd_tiles_mark (CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
 static inline CeldRect
 celd_tile_rect (int tile_x, int tile_y, int width, int height)
 {
-  int x = tile_x * CELD_TILE, y = tile_y * CELD_TILE;
+  int x = tile_x * CELD_TILE, y = tile_y * CELD_TILE, right = width - x, below = height - y;
 
-  return (CeldRect) { x, y, width - x < CELD_TILE ? width - x : CELD_TILE, height - y < CELD_TILE ? height - y : CELD_TILE };
+  return (CeldRect) { x, y, right < CELD_TILE ? right : CELD_TILE, below < CELD_TILE ? below : CELD_TILE };
 }
 
 #endif
