@@ -53,13 +53,20 @@ celd_session_forget_ownership (CeldSession *session)
   celd_owners_clear (&session->owners);
 }
 
+/* What the levels were made from is not there any more. */
+static void
+forget_values (CeldSession *s)
+{
+  celd_free (s->value);
+  s->value = NULL;
+}
+
 void
 celd_session_clear_ownership (CeldSession *session)
 {
   celd_session_forget_ownership (session);
   celd_ownership_clear (&session->ownership);
-  celd_free (session->value);
-  session->value = NULL;
+  forget_values (session);
 }
 
 /* The labels of the artist's strokes over ink; none without such a layer. */
@@ -86,6 +93,7 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
   celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->owner.data, new->owner.data, w, h, sizeof (uint32_t)));
   celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->under.data, new->under.data, w, h, sizeof (uint32_t)));
   celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->share.data, new->share.data, w, h, sizeof (float)));
+  forget_values (s);
   celd_ownership_clear (&s->ownership);
   s->ownership = *new;
   *new = (CeldOwnership) { 0 };
@@ -116,7 +124,10 @@ renew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
   CeldStatus status = celd_owners_renew (input, s->new_labels, run, &s->owners, &s->ownership, &changed);
 
   if (status == CELD_OK)
-    celd_session_see (s, STAGE_OWNERSHIP, changed);
+    {
+      celd_session_see (s, STAGE_OWNERSHIP, changed);
+      s->new_owners = celd_rect_union (s->new_owners, changed);
+    }
   return status;
 }
 
@@ -126,10 +137,8 @@ keep_ranks (CeldSession *s, uint32_t *rank)
 {
   memcpy (rank, s->order.level, s->order.n * sizeof *rank);
   celd_free (s->rank);
-  celd_free (s->value);
   s->rank    = rank;
   s->n_ranks = s->order.n;
-  s->value   = NULL;
   s->new_labels      = (CeldRect) { 0 };
   s->new_corrections = false;
 }
@@ -165,38 +174,70 @@ celd_make_ownership (CeldSession *s, const CeldRun *run)
 
 /* ------------------------------------------------------------------ after it */
 
-/* Those of the label that covers more of each pixel. */
-static CeldStatus
-choose_levels (const CeldOwnership *own, const float *value, CeldPlane *levels)
+/* That of the label which covers more of the pixel. */
+static float
+level_at (const CeldOwnership *own, const float *value, int x, int y)
 {
-  CeldStatus status = celd_plane_new (own->owner.width, own->owner.height, levels);
+  return value[CELD_AT (CELD_AT (&own->share, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
+}
 
-  for (size_t p = 0; status == CELD_OK && p < (size_t) levels->width * (size_t) levels->height; p++)
-    levels->data[p] = value[(own->share.data[p] >= 0.5f ? own->owner : own->under).data[p] - 1];
+static CeldStatus
+make_all_levels (CeldSession *s, const float *value, const CeldRun *run)
+{
+  CeldPlane  levels;
+  CeldStatus status = celd_plane_new (s->ownership.owner.width, s->ownership.owner.height, &levels);
+
+  for (int y = 0; status == CELD_OK && y < levels.height; y++)
+    for (int x = 0; x < levels.width; x++)
+      CELD_AT (&levels, x, y) = level_at (&s->ownership, value, x, y);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status == CELD_OK)
+    celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
+  celd_free (levels.data);
   return status;
 }
 
+/* Where owners are new. */
+static void
+renew_levels (CeldSession *s, const float *value)
+{
+  CeldRect r = s->new_owners, changed = { 0 };
+
+  for (int y = r.y; y < r.y + r.height; y++)
+    for (int x = r.x; x < r.x + r.width; x++)
+      {
+        float level = level_at (&s->ownership, value, x, y);
+
+        if (CELD_AT (&s->levels, x, y) != level)
+          changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
+        CELD_AT (&s->levels, x, y) = level;
+      }
+  celd_session_see (s, STAGE_LEVELS, changed);
+}
+
+/* Labels that were not there before, or are not there any more, have new owners. */
 CeldStatus
 celd_make_levels (CeldSession *s, const CeldRun *run)
 {
+  size_t     both = s->order.n < s->n_values ? s->order.n : s->n_values;
   float     *value = NULL;
-  CeldPlane  levels = { 0 };
   CeldStatus status = list_values (s, &value);
 
-  if (status == CELD_OK && !(s->value && !memcmp (s->value, value, s->order.n * sizeof *value)))
+  if (status != CELD_OK)
+    return status;
+  if (s->value && !memcmp (s->value, value, both * sizeof *value))
+    renew_levels (s, value);
+  else
+    status = make_all_levels (s, value, run);
+  if (status == CELD_OK)
     {
-      status = choose_levels (&s->ownership, value, &levels);
-      if (status == CELD_OK)
-        status = celd_step (run, 1);
-      if (status == CELD_OK)
-        {
-          celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
-          celd_free (s->value);
-          s->value = value;
-          value    = NULL;
-        }
+      celd_free (s->value);
+      s->value      = value;
+      s->n_values   = s->order.n;
+      s->new_owners = (CeldRect) { 0 };
+      value         = NULL;
     }
   celd_free (value);
-  celd_free (levels.data);
   return status;
 }

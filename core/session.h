@@ -91,7 +91,9 @@ struct CeldSession
   CeldOwnersKept owners;                       /* what it was made from, while rank is known */
   CeldRect       new_labels;                   /* where labels may have changed since then */
   bool           new_corrections;              /* or what corrections say */
-  float         *value;                        /* of each label in the levels; NULL: they are of an older ownership */
+  float         *value;                        /* of each label in the levels; NULL: not known */
+  size_t         n_values;
+  CeldRect       new_owners;                   /* where the ownership is newer than the levels */
   CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
   int            reach;                        /* celd_edge_reach of the ink for depth; 0: not known */
   CeldPlane      block_ink;                    /* of the preview; data NULL: to be made */

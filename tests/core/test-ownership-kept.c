@@ -263,15 +263,36 @@ ask_session (CeldSession *session, const State *state, uint8_t *corrections, boo
   return celd_session_ownership (session, NULL, own, changed);
 }
 
+/* The levels after it, and where they differ from the old ones, which become the new. */
+static void
+compare_levels (CeldSession *edited, CeldSession *fresh, float *old)
+{
+  CeldPlane a, b;
+  CeldRect  changed, seen = { 0 };
+
+  CHECK (celd_session_levels (edited, NULL, &a, &changed) == CELD_OK);
+  CHECK (celd_session_levels (fresh, NULL, &b, NULL) == CELD_OK);
+  CHECK (!memcmp (a.data, b.data, W * H * sizeof (float)));
+  for (int p = 0; p < W * H; p++)
+    if (a.data[p] != old[p])
+      seen = celd_rect_union (seen, (CeldRect) { p % W, p / W, 1, 1 });
+  CHECK (celd_rect_union (seen, changed).width == changed.width);
+  CHECK (celd_rect_union (seen, changed).height == changed.height);
+  memcpy (old, a.data, W * H * sizeof (float));
+}
+
 /* An edited session says what a new one does. */
 static void
 sessions_come_to_the_same (void)
 {
   static uint8_t corrections[4 * W * H];
+  static float   old[W * H];
   uint32_t       r = 99;
   State          state;
   CeldSession   *edited = celd_session_new ();
 
+  for (int p = 0; p < W * H; p++)
+    old[p] = -1;
   start (&state, &r);
   for (int i = 0; i < 200 && !check_bad; i++)
     {
@@ -291,6 +312,8 @@ sessions_come_to_the_same (void)
           CHECK (!memcmp (a.under.data, b.under.data, W * H * sizeof (uint32_t)));
           CHECK (!memcmp (a.share.data, b.share.data, W * H * sizeof (float)));
         }
+      if (status == CELD_OK && pick (&r, 3))
+        compare_levels (edited, fresh, old);
       celd_session_free (fresh);
     }
   celd_session_free (edited);
