@@ -12,6 +12,7 @@
 
 #define PURE     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
 #define ROUNDING 0.5f    /* pixels */
+#define MANY     12      /* labels beside one edge; of more it is not known whether they are in the same order */
 #define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
 
 static uint32_t
@@ -136,6 +137,48 @@ compare_labels (const CeldPens *old, const CeldPens *new)
   return changed;
 }
 
+static int
+compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
+{
+  return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
+}
+
+/* Some labels that are in the same order as before. */
+typedef struct { uint32_t label[MANY]; size_t n; } Ordered;
+
+/* One more; false if it has changed places with another, or if there are too many. */
+static bool
+add_label (uint32_t label, const CeldPens *old, const CeldPens *new, Ordered *ordered)
+{
+  for (size_t k = 0; k < ordered->n; k++)
+    if (ordered->label[k] == label)
+      return true;
+  if (ordered->n == MANY || label > old->n)
+    return false;
+  for (size_t k = 0; k < ordered->n; k++)
+    if (compare_levels (old, label, ordered->label[k]) != compare_levels (new, label, ordered->label[k]))
+      return false;
+  ordered->label[ordered->n++] = label;
+  return true;
+}
+
+/* Are all labels of a loop, any of which may own ink anywhere on it, in the order they had before? */
+static bool
+same_order (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new)
+{
+  Ordered ordered = { .n = 0 };
+
+  for (size_t i = loop->first; i < loop->first + loop->n; i++)
+    {
+      const CeldPen *pen = &new->pen[i];
+
+      if ((pen->near && !add_label (pen->near, old, new, &ordered)) ||
+          (pen->far && !add_label (pen->far, old, new, &ordered)))
+        return false;
+    }
+  return true;
+}
+
 /* Do all places of a loop say what they said before? */
 static bool
 same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, const bool *changed)
@@ -143,13 +186,11 @@ same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, c
   for (size_t i = loop->first; i < loop->first + loop->n; i++)
     {
       const CeldPen *a = &old->pen[i], *b = &new->pen[i];
-      uint32_t       front = celd_pen_front (new, b);
 
-      if (a->near != b->near || a->far != b->far || changed[b->near] || changed[front] ||
-          front != celd_pen_front (old, a))
+      if (a->near != b->near || a->far != b->far || changed[b->near] || changed[celd_pen_front (new, b)])
         return false;
     }
-  return true;
+  return same_order (loop, old, new);
 }
 
 /* Widths and owners; a loop that is as it was keeps them. */
