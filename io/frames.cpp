@@ -256,15 +256,15 @@ put_index (Bytes &to, const std::vector<std::pair<uint32_t, uint32_t>> &place_an
 static Bytes
 make_segment (size_t view, const std::vector<std::pair<uint32_t, uint32_t>> &place_and_size)
 {
-  Bytes body = { 'M', 'P', 'F', 0, 'I', 'I', 42, 0 }, segment = { 0xff, 0xe2 };
+  constexpr size_t marker = 2, head = 8; // what the length does not count; where offsets begin
+  Bytes            segment = { 0xff, 0xe2, 0, 0, 'M', 'P', 'F', 0, 'I', 'I', 42, 0 };
 
-  put (body, first_directory, 4);
+  put (segment, first_directory, 4);
   if (view == 0)
-    put_index (body, place_and_size);
-  put_attributes (body, uint32_t (body.size () - 4), view, view > 0);
-  segment.push_back (static_cast<unsigned char> ((body.size () + 2) >> 8));
-  segment.push_back (static_cast<unsigned char> (body.size () + 2));
-  segment.insert (segment.end (), body.begin (), body.end ());
+    put_index (segment, place_and_size);
+  put_attributes (segment, uint32_t (segment.size () - head), view, view > 0);
+  segment[2] = static_cast<unsigned char> ((segment.size () - marker) >> 8);
+  segment[3] = static_cast<unsigned char> (segment.size () - marker);
   return segment;
 }
 
