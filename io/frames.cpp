@@ -142,6 +142,9 @@ write_gif (const std::string &path, const CeldIoFrames &frames)
   spec.full_width  = spec.width;
   spec.full_height = spec.height;
   specs.assign (frames.frames, spec);
+  // OpenImageIO 2.5 takes the speed from what the same writer wrote before.
+  if (!output->open (file.name (), spec) || !output->close ())
+    throw IoFailure (output->geterror ());
   for (size_t i = 0; i < frames.frames; i++)
     {
       bool good = i ? output->open (file.name (), spec, OIIO::ImageOutput::AppendSubimage) :
