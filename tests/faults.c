@@ -180,7 +180,9 @@ try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
 static void
 every_allocation_fails_once (void)
 {
-  for (const Step *step = steps; step < steps + n_steps && !check_bad; step++)
+  const Step *step;
+
+  for (size_t i = 0; !check_bad && (step = step_at (i)) != NULL; i++)
     {
       size_t   n;
       int      reports;
@@ -194,7 +196,9 @@ every_allocation_fails_once (void)
 static void
 every_report_cancels (void)
 {
-  for (const Step *step = steps; step < steps + n_steps && !check_bad; step++)
+  const Step *step;
+
+  for (size_t i = 0; !check_bad && (step = step_at (i)) != NULL; i++)
     {
       size_t   n;
       int      reports;

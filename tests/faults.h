@@ -1,4 +1,4 @@
-/* What faults.c (memory that fails, hosts that cancel) and faults-steps.c (what they are tried on) share.
+/* What faults.c (memory that fails, hosts that cancel) and faults-*.c (the steps and what they are tried on) share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -35,9 +35,15 @@ typedef struct
   bool               reports;    /* progress */
 } Step;
 
-extern Pixels drawing_pixels;                                 /* plane: luma, alpha */
-extern Pixels scribble_pixels, arrow_pixels, contour_pixels;  /* paint */
-extern Pixels label_pixels;                                   /* labels */
+/* The inputs of the steps: what is painted, and what the steps before made of it. */
+extern Pixels        drawing_pixels;                                                /* plane: luma, alpha */
+extern Pixels        scribble_pixels, arrow_pixels, contour_pixels;                 /* paint */
+extern Pixels        lossy_pixels, crossing_pixels, colour_pixels;
+extern Pixels        ink_pixels, seed_pixels, label_pixels, level_pixels;           /* plane or labels */
+extern Pixels        expanded_pixels, normal_pixels;                                /* both; vectors */
+extern CeldPalette   seed_palette, label_palette;
+extern CeldRelations scene_relations;
+extern CeldSettings  scene_settings;
 
 static inline CeldPlane   plane_of (Pixels *p)   { return (CeldPlane) { W, H, W, p->plane }; }
 static inline CeldLabels  labels_of (Pixels *p)  { return (CeldLabels) { W, H, W, p->labels }; }
@@ -45,8 +51,11 @@ static inline CeldPaint   paint_of (Pixels *p)   { return (CeldPaint) { W, H, W,
 static inline CeldVectors vectors_of (Pixels *p) { return (CeldVectors) { W, H, W, p->vectors }; }
 static inline CeldDrawing drawing_of (Pixels *p) { return (CeldDrawing) { plane_of (p), { W, H, W, p->alpha } }; }
 
-extern const Step   steps[];
-extern const size_t n_steps;
+/* Those of each subject, in the order of the pipeline; the one after the last has no name. */
+extern const Step region_steps[], depth_steps[], use_steps[], solver_steps[];
+
+/* The i-th of all; NULL: there are no more. */
+const Step *step_at (size_t i);
 
 /* Draws the scene and makes the inputs of all steps; false if a step fails, or misses what it is meant to meet. */
 bool make_inputs (void);

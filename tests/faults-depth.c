@@ -1,0 +1,257 @@
+/* The steps from regions and relations to depth: order, suggestions, cycles, expansion, owners, smoothing, the program.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "faults.h"
+#include "order.h"
+#include "ownership.h"
+#include "program.h"
+
+static CeldStatus
+order_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels labels = labels_of (&label_pixels);
+
+  return celd_order (&labels, &label_palette, &scene_relations, &ink, &scene_settings, run, &r->order, &r->problems);
+}
+
+/* A knot of three labels and one of twenty, which is too large to be solved exactly. */
+static CeldStatus
+knots_step (const CeldRun *run, Results *r)
+{
+  enum { SMALL = 3, N = 23 };
+  uint32_t      pixel[N];
+  CeldRegion    region[N] = { 0 };
+  CeldRelation  item[2 * N] = { 0 };
+  CeldSettings  weakest = scene_settings;
+  CeldLabels    labels = { N, 1, N, pixel };
+  CeldPalette   palette = { region, N };
+  CeldRelations circles = { item, 2 * N };
+
+  weakest.on_cycle = CELD_ON_CYCLE_DROP_WEAKEST;
+  for (int k = 0; k < N; k++)
+    {
+      int first = k < SMALL ? 0 : SMALL, n = k < SMALL ? SMALL : N - SMALL;
+
+      pixel[k] = (uint32_t) k + 1;
+      for (int i = 0; i < 2; i++)
+        {
+          item[2 * k + i] = (CeldRelation) { .weight = 1 + k % 3, .gap = 1, .equal = i && k == SMALL };
+          item[2 * k + i].nearer.x  = k;
+          item[2 * k + i].farther.x = first + (k - first + 1 + 7 * i) % n;
+        }
+    }
+  return celd_order (&labels, &palette, &circles, NULL, &weakest, run, &r->order, &r->problems);
+}
+
+/* From the lines and from a picture of depth, and beside the scene_relations; some of it painted. */
+static CeldStatus
+suggest_step (const CeldRun *run, Results *r)
+{
+  CeldLabels    labels = labels_of (&label_pixels);
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (&drawing_pixels);
+  CeldPaint     paint = paint_of (r->pixels);
+  CeldRelations suggested = { 0 }, both = { 0 };
+  CeldSettings  gaps = scene_settings;
+  CeldPart      parts[3];
+  CeldRun       first = celd_run_part (&parts[0], run, 0, 0.4), second = celd_run_part (&parts[1], run, 0.4, 0.8);
+  CeldRun       third = celd_run_part (&parts[2], run, 0.8, 1);
+  CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &first, &suggested);
+
+  gaps.suggest = CELD_SUGGEST_FILL_GAPS;
+  if (status == CELD_OK && !suggested.n)
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  if (status == CELD_OK)
+    status = celd_suggest_from_depth (&labels, &label_palette, &ink, &depth, &second, &suggested);
+  if (status == CELD_OK)
+    status = celd_suggestions_join (&labels, &label_palette, &scene_relations, &suggested, &gaps, &ink, &third, &both);
+  if (status == CELD_OK)
+    status = celd_relations_paint (&suggested, 2, &paint);
+  if (status == CELD_OK)
+    r->relations = both;
+  else
+    celd_relations_clear (&both);
+  celd_relations_clear (&suggested);
+  return status;
+}
+
+/* The two sheets before each other: one of them is split. */
+static CeldStatus
+split_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), bent = plane_of (r->pixels);
+  CeldLabels    known = labels_of (&label_pixels), labels = { 0 };
+  CeldRelations circle = { 0 };
+  CeldSplits    splits = { 0 };
+  CeldStatus    status = celd_relations_parse ("12,12 > 52,36; 28,36 > 12,30", &circle, NULL);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&label_palette, &r->palette);
+  if (status == CELD_OK)
+    status = celd_labels_new (W, H, &labels);
+  for (int y = 0; y < H && status == CELD_OK; y++)
+    memcpy (&CELD_AT (&labels, 0, y), &CELD_AT (&known, 0, y), W * sizeof (uint32_t));
+  if (status == CELD_OK)
+    status = celd_cycles_split (&circle, &ink, &scene_settings, run, &labels, &r->palette, &splits);
+  if (status == CELD_OK && splits.n != 1)
+    status = CELD_BAD_VALUE; /* the test would say nothing */
+  if (status == CELD_OK)
+    celd_splits_erase (&splits, &labels, 3, &bent);
+  if (status != CELD_OK)
+    celd_palette_clear (&r->palette);
+  celd_relations_clear (&circle);
+  celd_free (labels.data);
+  celd_free (splits.item);
+  return status;
+}
+
+static CeldStatus
+expand_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels ranks = labels_of (&label_pixels), expanded = labels_of (r->pixels);
+
+  return celd_expand (&ink, &ranks, run, &expanded);
+}
+
+static CeldStatus
+expand_levels_step (const CeldRun *run, Results *r)
+{
+  CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), expanded = plane_of (r->pixels);
+
+  return celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, run, &expanded);
+}
+
+static CeldStatus
+matte_step (const CeldRun *run, Results *r)
+{
+  static float level[W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), share = plane_of (r->pixels);
+  CeldLabels   regions = labels_of (&label_pixels);
+
+  return celd_matte_of_levels (&ink, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, run,
+                               &(CeldPlane) { W, H, W, level }, NULL, &share);
+}
+
+static CeldStatus
+own_step (const CeldRun *run, Results *r)
+{
+  CeldPlane      ink = plane_of (&ink_pixels);
+  CeldLabels     labels = labels_of (&label_pixels), owner = labels_of (r->pixels);
+  CeldOwnership  own = { 0 };
+  const uint32_t level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  CeldStatus     status = celd_ownership_new (W, H, &own);
+
+  if (status == CELD_OK)
+    status = celd_own (&ink, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, run, &own);
+  for (int p = 0; status == CELD_OK && p < W * H; p++)
+    owner.data[p] = own.owner.data[p];
+  celd_ownership_clear (&own);
+  return status;
+}
+
+/* From the beginning, and after an edit of everything at once. */
+static CeldStatus
+owners_step (const CeldRun *run, Results *r)
+{
+  CeldPart        part[2];
+  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldPlane       ink = plane_of (&ink_pixels);
+  CeldLabels      labels = labels_of (&label_pixels), all = { 0 };
+  uint32_t        level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  CeldOwnersInput input = { &ink, &labels, NULL, level, 8 };
+  CeldOwnersKept  kept = { 0 };
+  CeldOwnership   own = { 0 };
+  CeldRect        changed;
+  CeldStatus      status = celd_ownership_new (W, H, &own);
+
+  if (status == CELD_OK)
+    status = celd_owners_make (&input, &first, &kept, &own);
+  if (status == CELD_OK)
+    status = celd_labels_new (W, H, &all);
+  for (int p = 0; status == CELD_OK && p < W * H; p++)
+    all.data[p] = 1 + labels.data[p] % 3;
+  level[0] = 9;
+  input.labels = input.corrections = &all;
+  if (status == CELD_OK)
+    status = celd_owners_renew (&input, (CeldRect) { 0, 0, W, H }, &second, &kept, &own, &changed);
+  if (status == CELD_OK)
+    memcpy (r->pixels->labels, own.owner.data, W * H * sizeof (uint32_t));
+  celd_free (all.data);
+  celd_owners_clear (&kept);
+  celd_ownership_clear (&own);
+  return status;
+}
+
+static CeldStatus
+smooth_step (const CeldRun *run, Results *r)
+{
+  CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), depth = plane_of (r->pixels);
+
+  return celd_smooth (&ink, &levels, NULL, &scene_settings, run, &depth, NULL);
+}
+
+/* The relations of the scene, and one between points off every scribble. */
+static CeldStatus
+exact_depth_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
+  CeldLabels    seeds = labels_of (&seed_pixels);
+  CeldRelations all = { 0 };
+  CeldSettings  apart = scene_settings;
+  CeldStatus    status = celd_relations_parse ("10,30 > 50,35; 4,4 = 60,40", &all, NULL);
+
+  apart.same_colour = CELD_SAME_COLOUR_SEPARATE;
+  for (size_t i = 0; i < scene_relations.n && status == CELD_OK; i++)
+    status = celd_relation_add (&all, scene_relations.item[i]);
+  if (status == CELD_OK)
+    status = celd_depth_exact (&ink, &seeds, &seed_palette, &all, &apart, run, &depth, NULL, &r->problems);
+  celd_relations_clear (&all);
+  return status;
+}
+
+/* A program that is kept: one more point, and a scribble more. */
+static CeldStatus
+program_step (const CeldRun *run, Results *r)
+{
+  CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
+  CeldLabels    seeds = labels_of (&seed_pixels);
+  CeldRelations one = { 0 };
+  CeldProgram  *program = celd_program_new ();
+  CeldExact     exact = { 0 };
+  CeldStatus    status = program ? celd_relations_parse ("10,30 > 50,35", &one, NULL) : CELD_NO_MEMORY;
+  CeldPlane     scratch = { W, H, W, celd_alloc (W * H, sizeof (float)) };
+  CeldPart      part[2];
+  CeldRun       first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+
+  if (status == CELD_OK)
+    status = scratch.data ? celd_program_set_ink (program, &ink, &scene_settings, NULL) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_program_set_seeds (program, &seeds, &seed_palette, CELD_SAME_COLOUR_ONE, NULL);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, &scene_relations, &scene_settings, &first, &scratch, &exact, NULL);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, &one, &scene_settings, &second, &depth, &exact, NULL);
+  celd_relations_clear (&one);
+  celd_exact_clear (&exact);
+  celd_program_free (program);
+  celd_free (scratch.data);
+  return status;
+}
+
+const Step depth_steps[] = {
+  { "order", order_step, NULL, true },
+  { "suggest", suggest_step, NULL, true },
+  { "knots", knots_step, NULL, true },
+  { "split-cycles", split_step, NULL, true },
+  { "expand", expand_step, NULL, true },
+  { "expand levels", expand_levels_step, NULL, true },
+  { "matte", matte_step, NULL, true },
+  { "ownership", own_step, NULL, true },
+  { "ownership kept", owners_step, NULL, true },
+  { "smooth", smooth_step, NULL, true },
+  { "exact depth", exact_depth_step, NULL, true },
+  { "program", program_step, NULL, true },
+  { NULL, NULL, NULL, false },
+};

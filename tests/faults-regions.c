@@ -1,0 +1,273 @@
+/* The steps from a drawing and its paint to regions: ink, contours, scribbles, relations, arrows, segmentation.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "faults.h"
+#include "segment.h"
+
+static CeldStatus
+ink_step (const CeldRun *run, Results *r)
+{
+  CeldDrawing drawing = drawing_of (&drawing_pixels);
+  CeldPlane   ink = plane_of (r->pixels);
+
+  return celd_ink (&drawing, CELD_INK_AUTO, run, &ink);
+}
+
+static CeldStatus
+contours_step (const CeldRun *run, Results *r)
+{
+  CeldDrawing drawing = drawing_of (&drawing_pixels), baked = drawing_of (r->pixels);
+  CeldPaint   contours = paint_of (&contour_pixels);
+
+  return celd_contours_bake (&drawing, &contours, CELD_FOR_DEPTH, CELD_INK_AUTO, run, &baked);
+}
+
+static CeldStatus
+scribbles_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&scribble_pixels);
+  CeldLabels seeds = labels_of (r->pixels);
+
+  return celd_scribbles_read (&scribbles, &scene_settings, run, &seeds, &r->palette);
+}
+
+static CeldStatus
+lossy_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&lossy_pixels);
+  CeldLabels seeds = labels_of (r->pixels);
+
+  return celd_scribbles_read (&scribbles, &scene_settings, run, &seeds, &r->palette);
+}
+
+static CeldStatus
+relations_step (const CeldRun *run, Results *r)
+{
+  (void) run;
+  return celd_relations_parse ("14,30 > 40,35 @2; #2040e0 > #e02020; 1,1 < 14,30; #e02020 = 14,14 !anchor\n"
+                               "3,3 < 4,30 < 40,30; 5,5 = 6,6; 7,7 = 8,8; 9,9 = 10,10", &r->relations, NULL);
+}
+
+static CeldStatus
+path_step (const CeldRun *run, Results *r)
+{
+  (void) run;
+  return celd_arrow_path_parse ("M14,30 40,35 M1 1h13v29m3 3q9-9 1 27z l5 5M5 5 6 6M7 7 8 8M9 9 10 10M1 1 2 2M3 3 4 4",
+                                &r->relations, NULL);
+}
+
+static CeldStatus
+arrows_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&arrow_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+crossing_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&crossing_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+coloured_step (const CeldRun *run, Results *r)
+{
+  CeldPaint arrows = paint_of (&colour_pixels);
+
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+}
+
+static CeldStatus
+segment_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+
+  return celd_segment (&ink, &seeds, &scene_relations, &scene_settings, run, &labels, &r->palette, &r->problems);
+}
+
+/* The same paint as a flat colouring. */
+static CeldStatus
+flats_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    ink = plane_of (&ink_pixels);
+  CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+  CeldSettings flats = scene_settings;
+
+  flats.flats = true;
+  return celd_segment (&ink, &seeds, &scene_relations, &flats, run, &labels, &r->palette, &r->problems);
+}
+
+static CeldStatus
+walker_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    ink = plane_of (&ink_pixels);
+  CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
+  CeldSettings walker = scene_settings;
+
+  walker.method = CELD_METHOD_WALKER;
+  return celd_segment (&ink, &seeds, &scene_relations, &walker, run, &labels, &r->palette, &r->problems);
+}
+
+/* An empty page of one label, and two hard bars of another close to each other: the window is large enough to be cut in
+ * blocks first, and the border between the bars is looked at again. */
+static CeldStatus
+windows_step (const CeldRun *run, Results *r)
+{
+  static float   page[4 * W * H];
+  CeldPlane      ink = { 2 * W, 2 * H, 2 * W, page };
+  CeldSettings   hard = scene_settings;
+  CeldBasins     basins = { 0 };
+  CeldCanvas     canvas = { .settings = &hard, .ink = &ink, .basins = &basins };
+  CeldPatches    patches = { 0 };
+  uint32_t       label[2];
+  CeldStatus     status;
+
+  (void) r;
+  hard.hardness = 1;
+  for (int p = 0; p < 4 * W * H; p++)
+    page[p] = 1;
+  status = celd_basins_new (&ink, scene_settings.ink_threshold, NULL, &basins);
+  if (status == CELD_OK)
+    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+  for (int y = 30; y < 70 && status == CELD_OK; y++)
+    {
+      status = celd_seed_rows_paint (&canvas.seeds, y, 40, 48, 2);
+      if (status == CELD_OK)
+        status = celd_seed_rows_paint (&canvas.seeds, y, 54, 62, 2);
+    }
+  for (int k = 0; k < 2 && status == CELD_OK; k++)
+    status = celd_canvas_add (&canvas, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &label[k]);
+  if (status == CELD_OK && basins.n == 1)
+    status = celd_windows_solve (&canvas, label, run, &patches);
+  if (status == CELD_OK && !patches.n)
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  celd_basins_clear (&basins);
+  celd_seed_rows_clear (&canvas.seeds);
+  celd_palette_clear (&canvas.palette);
+  celd_patches_clear (&patches);
+  return status;
+}
+
+/* A line with a gap, between basins above it and below. */
+static CeldStatus
+closures_step (const CeldRun *run, Results *r)
+{
+  static float    page[4 * W * H];
+  static uint32_t painted[4 * W * H];
+  CeldPlane       ink = { 2 * W, 2 * H, 2 * W, page };
+  CeldLabels      labels = { 2 * W, 2 * H, 2 * W, painted };
+  CeldBasins      basins = { 0 };
+  CeldCanvas      canvas = { .settings = &scene_settings, .ink = &ink, .basins = &basins };
+  CeldPatches     windows = { 0 }, patches = { 0 };
+  CeldClosures    closures = { 0 };
+  uint32_t        label[64] = { 0 };
+  CeldStatus      status;
+
+  (void) r;
+  for (int y = 0; y < 2 * H; y++)
+    for (int x = 0; x < 2 * W; x++)
+      {
+        int line = H + x / 4 - W / 4;
+
+        CELD_AT (&ink, x, y) = y < line || y > line + 3 || (x > W - 9 && x < W + 9);
+      }
+  status = celd_basins_new (&ink, scene_settings.ink_threshold, NULL, &basins);
+  if (status == CELD_OK)
+    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+  if (status == CELD_OK && basins.n > 64)
+    status = CELD_BAD_VALUE;
+  for (size_t k = 0; k < basins.n && status == CELD_OK; k++)
+    label[k] = basins.basin[k].y < H ? 1 : 2;
+  for (int p = 0; p < 4 * W * H && status == CELD_OK; p++)
+    painted[p] = label[celd_basin_at (&basins, p % (2 * W), p / (2 * W))];
+  if (status == CELD_OK)
+    status = celd_closures_find (&canvas, label, &labels, &windows, run, &closures, &patches);
+  if (status == CELD_OK && (!closures.n || !patches.n))
+    status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
+  celd_basins_clear (&basins);
+  celd_seed_rows_clear (&canvas.seeds);
+  celd_patches_clear (&patches);
+  celd_closures_clear (&closures);
+  return status;
+}
+
+/* A wall of cells is broken in one place: most of the basins are kept. */
+static CeldStatus
+basins_step (const CeldRun *run, Results *r)
+{
+  static float page[16 * W * H];
+  CeldPlane    ink = { 4 * W, 4 * H, 4 * W, page };
+  CeldBasins   basins = { 0 };
+  CeldRect     changed = { 58, 70, 6, 4 };
+  CeldPart     parts[2];
+  CeldRun      building = celd_run_part (&parts[0], run, 0, 0.9), renewing = celd_run_part (&parts[1], run, 0.9, 1);
+  CeldStatus   status;
+
+  (void) r;
+  for (int y = 0; y < 4 * H; y++)
+    for (int x = 0; x < 4 * W; x++)
+      CELD_AT (&ink, x, y) = x % 20 > 2 && y % 20 > 2;
+  status = celd_basins_new (&ink, scene_settings.ink_threshold, &building, &basins);
+  for (int y = 70; y < 74; y++)
+    for (int x = 58; x < 64; x++)
+      CELD_AT (&ink, x, y) = 1;
+  if (status == CELD_OK)
+    status = celd_basins_renew (&ink, &changed, &renewing, &basins);
+  celd_basins_clear (&basins);
+  return status;
+}
+
+static CeldStatus
+separate_step (const CeldRun *run, Results *r)
+{
+  CeldLabels labels = labels_of (r->pixels);
+
+  return celd_separate (run, &labels, &r->palette);
+}
+
+static CeldStatus
+labels_step (const CeldRun *run, Results *r)
+{
+  CeldPaint  scribbles = paint_of (&scribble_pixels);
+  CeldLabels labels = labels_of (r->pixels);
+
+  (void) run;
+  return celd_labels_read (&scribbles, &labels, &r->palette);
+}
+
+static CeldStatus
+background_step (const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels);
+  CeldLabels labels = labels_of (&label_pixels);
+
+  (void) run;
+  return celd_background_mark (&labels, &ink, &scene_settings, &r->palette);
+}
+
+const Step region_steps[] = {
+  { "ink", ink_step, NULL, true },
+  { "contours", contours_step, NULL, true },
+  { "scribbles", scribbles_step, NULL, true },
+  { "lossy scribbles", lossy_step, NULL, true },
+  { "relations", relations_step, NULL, false },
+  { "arrow-path", path_step, NULL, false },
+  { "arrows", arrows_step, NULL, true },
+  { "crossing arrows", crossing_step, NULL, true },
+  { "arrows of two colours", coloured_step, NULL, true },
+  { "basins", basins_step, NULL, true },
+  { "segment", segment_step, &seed_palette, true },
+  { "flats", flats_step, &seed_palette, true },
+  { "walker", walker_step, &seed_palette, true },
+  { "windows", windows_step, NULL, true },
+  { "closures", closures_step, NULL, true },
+  { "separate", separate_step, &label_palette, true },
+  { "labels", labels_step, NULL, false },
+  { "background", background_step, &label_palette, false },
+  { NULL, NULL, NULL, false },
+};

@@ -1,0 +1,275 @@
+/* The steps that use depth: layers, shading, views from the side, enhancing, reliefs.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "faults.h"
+#include "ownership.h"
+
+/* The label picture cut up, as if the left part of each shared pixel were the label's and the right part the next
+ * one's: gaps, holes and lines to complete. */
+static CeldStatus
+layers_step (const CeldRun *run, Results *r)
+{
+  static uint32_t under[W * H];
+  static float    share[W * H], art[4 * W * H];
+  CeldPlane       ink = plane_of (&ink_pixels);
+  CeldOwnership   own = { labels_of (&expanded_pixels), { W, H, W, under }, { W, H, W, share } };
+  CeldColours     colours = { W, H, W, art };
+  uint32_t        level[8] = { 1, 2, 0, 3, 4, 5, 6, 7 };
+  CeldLayers     *layers = NULL;
+  CeldStatus      status;
+
+  for (int p = 0; p < W * H; p++)
+    {
+      under[p] = expanded_pixels.labels[(p + 1) % (W * H)];
+      share[p] = under[p] == expanded_pixels.labels[p] ? 1 : 0.5f;
+      for (int c = 0; c < 4; c++)
+        art[4 * p + c] = c == 3 ? 1 : ink_pixels.plane[p] * (float) (p % W) / W;
+    }
+  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, run, &layers);
+  for (size_t k = 0; status == CELD_OK && k < celd_layers_count (layers); k++)
+    r->pixels->labels[k] = (uint32_t) celd_layers_item (layers, k)->box.width;
+  celd_layers_free (layers);
+  return status;
+}
+
+static CeldStatus
+layers_of_levels_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels);
+  CeldLabels   regions = labels_of (&label_pixels);
+  CeldColours  colours = { W, H, W, art };
+  CeldLayers  *layers = NULL;
+  CeldStatus   status = celd_layers_of_levels (&ink, &levels, &regions, &regions, &colours,
+                                               CELD_EXPANSION_THICKNESS, CELD_STORE_FLOAT, false, run, &layers);
+
+  if (status == CELD_OK)
+    r->pixels->labels[0] = (uint32_t) celd_layers_count (layers);
+  celd_layers_free (layers);
+  return status;
+}
+
+static CeldStatus
+normals_step (const CeldRun *run, Results *r)
+{
+  CeldPlane   ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldVectors normals = vectors_of (r->pixels);
+
+  return celd_normals (&ink, &levels, &scene_settings, run, &normals);
+}
+
+/* With strokes that fold, a bevel, hints at a border, and the frame. */
+static CeldStatus
+hints_step (const CeldRun *run, Results *r)
+{
+  static uint8_t paint[4 * W * H];
+  CeldPlane      ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldVectors    normals = vectors_of (r->pixels);
+  CeldPaint      hints = { W, H, W, paint };
+  CeldSettings   all = scene_settings;
+
+  for (int i = 0; i < W * H; i++)
+    paint[4 * i + 3] = i % W < W / 2 ? 255 : 0;
+  all.quilt = 1;
+  all.bevel = 0.1f;
+  all.frame_outline = true;
+  return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, run, &normals);
+}
+
+static CeldStatus
+occlusion_step (const CeldRun *run, Results *r)
+{
+  CeldPlane levels = plane_of (&expanded_pixels), occlusion = plane_of (r->pixels);
+
+  return celd_occlusion (&levels, &scene_settings, run, &occlusion);
+}
+
+static CeldStatus
+padding_step (const CeldRun *run, Results *r)
+{
+  static const float blank[3] = { 0, 0, 0 };
+  static float       data[4 * W * H];
+  CeldColours        picture = { W, H, W, data };
+
+  (void) r;
+  for (int i = 0; i < W * H; i++)
+    data[4 * i + 3] = i % 7 == 0;
+  return celd_pad_colours (4, blank, run, &picture);
+}
+
+static CeldStatus
+shade_step (const CeldRun *run, Results *r)
+{
+  CeldVectors normals = vectors_of (&normal_pixels);
+  CeldPlane   shading = plane_of (r->pixels);
+
+  (void) run;
+  return celd_shade (&normals, &scene_settings, &shading);
+}
+
+/* A sheet before paper, cut beforehand. */
+static CeldStatus
+stereo_step (const CeldRun *run, Results *r)
+{
+  static uint32_t owner[W * H];
+  static float    art[4 * W * H], view[4 * W * H], whole[W * H];
+  CeldPlane       ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
+  CeldOwnership   own = { { W, H, W, owner }, { W, H, W, owner }, { W, H, W, whole } };
+  CeldColours     colours = { W, H, W, art }, to = { W, H, W, view };
+  uint32_t        level[2] = { 0, 1 };
+  CeldLayers     *layers = NULL;
+  CeldScene      *scene = NULL;
+  CeldPart        part[2];
+  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldStatus      status;
+
+  for (int p = 0; p < W * H; p++)
+    {
+      owner[p] = p % W > 20 && p % W < 40 ? 2 : 1;
+      whole[p] = art[4 * p] = art[4 * p + 1] = art[4 * p + 2] = art[4 * p + 3] = 1;
+    }
+  status = celd_layers_cut (&ink, &own, level, 2, &colours, 1, 0, false, NULL, &layers);
+  if (status == CELD_OK)
+    status = celd_scene_of_layers (layers, &own, &depth, &first, &scene);
+  if (status == CELD_OK)
+    status = celd_scene_view (scene, (CeldCamera) { 0.7, -0.3, 1 }, &scene_settings, &second, &to);
+  if (status == CELD_OK)
+    memcpy (r->pixels->vectors, view, sizeof r->pixels->vectors);
+  celd_scene_free (scene);
+  celd_layers_free (layers);
+  return status;
+}
+
+/* The same of levels. */
+static CeldStatus
+levels_scene_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldColours  colours = { W, H, W, art };
+  CeldScene   *scene = NULL;
+  CeldStatus   status;
+
+  for (int i = 0; i < 4 * W * H; i++)
+    art[i] = 1;
+  status = celd_scene_of_levels (&ink, &levels, &levels, &colours, CELD_EXPANSION_OUTLINES, run, &scene);
+  if (status == CELD_OK)
+    r->pixels->vectors[0] = 1;
+  celd_scene_free (scene);
+  return status;
+}
+
+/* The same of depth alone. */
+static CeldStatus
+scene_step (const CeldRun *run, Results *r)
+{
+  static float art[4 * W * H], view[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
+  CeldColours  colours = { W, H, W, art }, to = { W, H, W, view };
+  CeldScene   *scene = NULL;
+  CeldPart     part[2];
+  CeldRun      first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldStatus   status;
+
+  for (int i = 0; i < 4 * W * H; i++)
+    art[i] = 1;
+  status = celd_scene_of_depth (&colours, &ink, &depth, &scene_settings, &first, &scene);
+  if (status == CELD_OK)
+    status = celd_scene_view (scene, celd_camera_eye (-1), &scene_settings, &second, &to);
+  if (status == CELD_OK)
+    memcpy (r->pixels->vectors, view, sizeof r->pixels->vectors);
+  celd_scene_free (scene);
+  return status;
+}
+
+static CeldStatus
+enhance_step (const CeldRun *run, Results *r)
+{
+  CeldPlane levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
+
+  return celd_enhance (&levels, &scene_settings, run, &change);
+}
+
+static CeldStatus
+unsharp_step (const CeldRun *run, Results *r)
+{
+  CeldPlane    levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
+  CeldSettings unsharp = scene_settings;
+
+  unsharp.enhance = CELD_ENHANCE_CONTRAST;
+  return celd_enhance (&levels, &unsharp, run, &change);
+}
+
+/* All of a relief as its heights. */
+static CeldStatus
+make_relief (const CeldSettings *how, const CeldRun *run, Results *r)
+{
+  CeldPlane  ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
+  CeldRelief relief = { 0 };
+  CeldStatus status = celd_relief (&ink, &levels, NULL, how, run, &relief);
+
+  if (status == CELD_OK)
+    memcpy (r->pixels->plane, relief.z, sizeof r->pixels->plane);
+  celd_relief_clear (&relief);
+  return status;
+}
+
+static CeldStatus
+relief_step (const CeldRun *run, Results *r)
+{
+  return make_relief (&scene_settings, run, r);
+}
+
+static CeldStatus
+relief_of_normals_step (const CeldRun *run, Results *r)
+{
+  CeldSettings of_normals = scene_settings;
+
+  of_normals.relief_from = CELD_RELIEF_NORMALS;
+  return make_relief (&of_normals, run, r);
+}
+
+/* A body of two levels, of which the pixels' own heights are the first. */
+static CeldStatus
+relief_mesh_step (const CeldRun *run, Results *r)
+{
+  static float   z[W * H];
+  static uint8_t cut[W * H];
+  CeldRelief     relief = { W, H, z, z, cut };
+  CeldSettings   solid = scene_settings;
+  CeldReliefMesh mesh = { 0 };
+  CeldStatus     status;
+
+  solid.mesh = CELD_MESH_SOLID;
+  for (int p = 0; p < W * H; p++)
+    {
+      z[p]   = p % W > 20 ? (float) (p / W) : 0;
+      cut[p] = p % W == 20 ? CELD_CUT_RIGHT : 0;
+    }
+  status = celd_relief_mesh (&relief, &solid, run, &mesh);
+  if (status == CELD_OK)
+    for (int p = 0; p < W * H; p++)
+      r->pixels->plane[p] = mesh.place[(size_t) p % (3 * mesh.vertices)];
+  celd_relief_mesh_clear (&mesh);
+  return status;
+}
+
+const Step use_steps[] = {
+  { "layers", layers_step, NULL, true },
+  { "layers of levels", layers_of_levels_step, NULL, true },
+  { "normals", normals_step, NULL, true },
+  { "hints", hints_step, NULL, true },
+  { "occlusion", occlusion_step, NULL, true },
+  { "padding", padding_step, NULL, true },
+  { "shade", shade_step, NULL, false },
+  { "stereo", stereo_step, NULL, true },
+  { "scene of levels", levels_scene_step, NULL, true },
+  { "scene", scene_step, NULL, true },
+  { "enhance", enhance_step, NULL, true },
+  { "unsharp", unsharp_step, NULL, true },
+  { "relief", relief_step, NULL, true },
+  { "relief of normals", relief_of_normals_step, NULL, true },
+  { "relief mesh", relief_mesh_step, NULL, true },
+  { NULL, NULL, NULL, false },
+};
