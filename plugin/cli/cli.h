@@ -80,7 +80,6 @@ bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
 bool cli_check (CeldStatus status);
 /* "3,4 > #ff0000 @2 !crack" as the grammar has it; free with g_free. */
 char *cli_relation_text (const CeldRelation *relation);
-void cli_say_cycles (const CeldOrder *order, const CeldRelations *relations);
 /* All but contradictions; a few of them if there are many. */
 void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
 
@@ -104,6 +103,8 @@ typedef struct
 void cli_run_begin (CliRun *run, bool quiet);
 /* The next stage begins, the one before is over; NULL: all stages are over. */
 void cli_run_stage (CliRun *run, const char *stage);
+/* All stages are over: says why they failed, or that they were cancelled; is neither so? */
+bool cli_run_finish (CliRun *run, CeldStatus status);
 void cli_run_end   (CliRun *run);
 bool cli_run_cancelled (void);
 
@@ -179,7 +180,7 @@ const char *cli_relations_name (const CliOptions *options);
 /* Says where such a text, or an arrow path, cannot be read. */
 bool cli_check_text (CeldStatus status, const char *name, const CeldTextError *error);
 
-/* ------------------------------------------------------------------ report.c */
+/* ------------------------------------------------------------------ report.c, messages.c */
 
 /* What a sub-command found; NULL what it did not look for. */
 typedef struct
@@ -198,6 +199,8 @@ typedef struct
 } CliReport;
 
 bool cli_report_write (const char *path, const CliReport *report);
+/* Ends a sub-command that found an order: the report, if one is wanted, contradictions and remarks; the exit code. */
+int  cli_tell (const CliOptions *options, const CliReport *report);
 
 /* A text as a whole or not at all; to a device as it is. */
 bool cli_write_text (const char *path, const char *text);

@@ -53,9 +53,7 @@ cli_enhance (const CliOptions *options)
 
       cli_run_stage (&run, "shadows");
       status = celd_enhance (&levels, &options->settings, &run.run, &change);
-      cli_run_stage (&run, NULL);
-      good = cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status) &&
-             write_results (options, &levels, &change, &art);
+      good = cli_run_finish (&run, status) && write_results (options, &levels, &change, &art);
     }
   g_free (levels.data);
   g_free (change.data);

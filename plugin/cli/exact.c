@@ -4,7 +4,7 @@
  */
 #include "cli.h"
 
-static CeldStatus
+static bool
 make (CeldSession *session, CliRun *run, CeldPlane *depth)
 {
   CeldPlane  ink;
@@ -15,8 +15,7 @@ make (CeldSession *session, CliRun *run, CeldPlane *depth)
   cli_run_stage (run, "depth");
   if (status == CELD_OK)
     status = celd_session_exact (session, &run->run, depth, NULL);
-  cli_run_stage (run, NULL);
-  return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
+  return cli_run_finish (run, status);
 }
 
 /* The near end of the depth as it was encoded. */
@@ -30,11 +29,11 @@ nearest_depth (const CeldPlane *depth, CeldEncoding encoding)
   return nearest > 0 ? nearest : 1;
 }
 
-static bool
-write_report (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldPlane *depth,
-              const CeldOrder *cycles)
+static int
+tell (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldPlane *depth,
+      const CeldOrder *cycles)
 {
-  return !options->report || cli_report_write (options->report, &(CliReport) {
+  return cli_tell (options, &(CliReport) {
     .command   = "exact",
     .width     = depth->width,
     .height    = depth->height,
@@ -61,23 +60,15 @@ cli_exact (const CliOptions *options)
 
   cli_layers_clear (&layers);
   cli_run_begin (&run, options->quiet);
-  good = good && cli_check (make (session, &run, &depth));
+  good = good && make (session, &run, &depth);
   if (good)
     {
       cycles.cycle    = celd_session_exact_report (session)->cycle;
       cycles.n_cycles = celd_session_exact_report (session)->n_cycles;
       cycles.knot     = celd_session_exact_report (session)->knot;
       cycles.n_knots  = celd_session_exact_report (session)->n_knots;
-      good = cli_write_depth (options->depth, &depth, nearest_depth (&depth, options->settings.encoding)) &&
-             write_report (session, options, &run, &depth, &cycles);
-    }
-  if (good)
-    {
-      code = cycles.n_cycles ? CLI_CONTRADICTED : CLI_DONE;
-      cli_say_cycles (&cycles, celd_session_relations (session));
-      if (!options->quiet)
-        cli_say_problems (celd_session_problems (session), celd_session_exact_palette (session),
-                          celd_session_relations (session));
+      if (cli_write_depth (options->depth, &depth, nearest_depth (&depth, options->settings.encoding)))
+        code = tell (session, options, &run, &depth, &cycles);
     }
   cli_run_end (&run);
   celd_session_free (session);

@@ -84,8 +84,8 @@ cli_relation_text (const CeldRelation *relation)
   return g_string_free (text, FALSE);
 }
 
-void
-cli_say_cycles (const CeldOrder *order, const CeldRelations *relations)
+static void
+say_cycles (const CeldOrder *order, const CeldRelations *relations)
 {
   for (size_t i = 0; i < order->n_cycles; i++)
     {
@@ -129,4 +129,16 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
       }
   if (n > MOST_PROBLEMS)
     cli_say ("And %" G_GSIZE_FORMAT " more remarks; --report writes them all.", n - MOST_PROBLEMS);
+}
+
+int
+cli_tell (const CliOptions *options, const CliReport *report)
+{
+  if (options->report && !cli_report_write (options->report, report))
+    return CLI_FAILED;
+  if (report->order)
+    say_cycles (report->order, report->relations);
+  if (!options->quiet)
+    cli_say_problems (report->problems, report->palette, report->relations);
+  return report->order && report->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
 }

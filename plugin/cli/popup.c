@@ -127,11 +127,10 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
          (!options->shading || cli_write_shading (options->shading, &results->shading));
 }
 
-static bool
-write_report (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run,
-              const Results *results)
+static int
+tell (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
 {
-  return !options->report || cli_report_write (options->report, &(CliReport) {
+  return cli_tell (options, &(CliReport) {
     .command   = command,
     .width     = results->labels.width,
     .height    = results->labels.height,
@@ -158,22 +157,9 @@ run_route (const CliOptions *options, const char *command, bool whole_route)
 
   cli_layers_clear (&layers);
   cli_run_begin (&run, options->quiet);
-  if (good)
-    {
-      CeldStatus status = make (session, options, whole_route, &run, &results);
-
-      cli_run_stage (&run, NULL);
-      good = cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
-    }
-  if (good && write_results (session, options, &results) && write_report (session, command, options, &run, &results))
-    {
-      code = results.order && results.order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
-      if (results.order)
-        cli_say_cycles (results.order, celd_session_relations (session));
-      if (!options->quiet)
-        cli_say_problems (celd_session_problems (session), celd_session_palette (session),
-                          celd_session_relations (session));
-    }
+  if (good && cli_run_finish (&run, make (session, options, whole_route, &run, &results)) &&
+      write_results (session, options, &results))
+    code = tell (session, command, options, &run, &results);
   cli_run_end (&run);
   celd_session_free (session);
   return code;

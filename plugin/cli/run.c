@@ -89,6 +89,13 @@ cli_run_stage (CliRun *run, const char *stage)
     g_array_append_val (run->timings, ((CliTiming) { stage, 0 }));
 }
 
+bool
+cli_run_finish (CliRun *run, CeldStatus status)
+{
+  cli_run_stage (run, NULL);
+  return cli_check (status == CELD_OK && interrupted ? CELD_CANCELLED : status);
+}
+
 void
 cli_run_end (CliRun *run)
 {

@@ -6,7 +6,7 @@
 
 /* ------------------------------------------------------------------ the scene */
 
-static CeldStatus
+static bool
 make (const CeldColours *art, CliRun *run, CliScene *s)
 {
   CeldOwnership own;
@@ -31,8 +31,7 @@ make (const CeldColours *art, CliRun *run, CliScene *s)
   if (status == CELD_OK)
     status = celd_scene_of_layers (layers, &own, &s->depth, &run->run, &s->scene);
   celd_layers_free (layers);
-  cli_run_stage (run, NULL);
-  return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
+  return cli_run_finish (run, status);
 }
 
 /* Layers must be whole: else there would be holes. */
@@ -49,7 +48,7 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
   good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input) &&
          cli_art_read (options->input, options->colours, true, &input, &art);
   cli_layers_clear (&input);
-  good = good && cli_check (make (&art, run, s));
+  good = good && make (&art, run, s);
   g_free (art.data);
   return good;
 }
@@ -57,7 +56,7 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
 int
 cli_scene_tell (const CliOptions *options, const char *command, const CliScene *s)
 {
-  CliReport report = {
+  return cli_tell (options, &(CliReport) {
     .command   = command,
     .width     = s->depth.width,
     .height    = s->depth.height,
@@ -67,14 +66,7 @@ cli_scene_tell (const CliOptions *options, const char *command, const CliScene *
     .problems  = celd_session_problems (s->session),
     .settings  = &options->settings,
     .timings   = s->run->timings,
-  };
-
-  if (options->report && !cli_report_write (options->report, &report))
-    return CLI_FAILED;
-  cli_say_cycles (s->order, report.relations);
-  if (!options->quiet)
-    cli_say_problems (report.problems, report.palette, report.relations);
-  return s->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
+  });
 }
 
 void

@@ -269,8 +269,7 @@ shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 
         status = cli_run_cancelled () ? CELD_CANCELLED : shade_cell (options, one ? &run->run : &quiet, &part);
       }
-  cli_run_stage (run, NULL);
-  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+  return cli_run_finish (run, status);
 }
 
 /* ------------------------------------------------------------------ writing */

@@ -92,7 +92,7 @@ write_layers (const char *path, const CeldLayers *layers, const CeldPalette *pal
 
 /* ------------------------------------------------------------------ the command */
 
-static CeldStatus
+static bool
 make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run, const CeldOrder **order,
       CeldLayers **layers)
 {
@@ -107,15 +107,14 @@ make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run
   cli_run_stage (run, "layers");
   if (status == CELD_OK)
     status = celd_session_layers (session, art, store, &run->run, layers);
-  cli_run_stage (run, NULL);
-  return status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status;
+  return cli_run_finish (run, status);
 }
 
-static bool
-write_report (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldOrder *order,
-              const CeldColours *art, const CeldLayers *layers)
+static int
+tell (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldOrder *order,
+      const CeldColours *art, const CeldLayers *layers)
 {
-  return !options->report || cli_report_write (options->report, &(CliReport) {
+  return cli_tell (options, &(CliReport) {
     .command   = "layers",
     .width     = art->width,
     .height    = art->height,
@@ -148,17 +147,10 @@ cli_layers (const CliOptions *options)
 
   cli_layers_clear (&input);
   cli_run_begin (&run, options->quiet);
-  good = good && cli_check (make (session, &art, store, &run, &order, &layers)) &&
-         write_layers (options->output, layers, celd_session_palette (session), linear && !exr, &art, &run) &&
-         write_report (session, options, &run, order, &art, layers);
+  good = good && make (session, &art, store, &run, &order, &layers) &&
+         write_layers (options->output, layers, celd_session_palette (session), linear && !exr, &art, &run);
   if (good)
-    {
-      code = order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;
-      cli_say_cycles (order, celd_session_relations (session));
-      if (!options->quiet)
-        cli_say_problems (celd_session_problems (session), celd_session_palette (session),
-                          celd_session_relations (session));
-    }
+    code = tell (session, options, &run, order, &art, layers);
   cli_run_end (&run);
   celd_layers_free (layers);
   celd_session_free (session);

@@ -6,14 +6,6 @@
 
 /* ------------------------------------------------------------------ shared */
 
-/* Ends a step: says why it failed, if it did. */
-static bool
-finish (CliRun *run, CeldStatus status)
-{
-  cli_run_stage (run, NULL);
-  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
-}
-
 /* Ink of the drawing for one purpose, with virtual contours. */
 static bool
 make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink)
@@ -29,7 +21,7 @@ make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, Cli
     status = celd_contours_bake (drawing, &layers->contours, purpose, mode, &run->run, drawing);
   if (status == CELD_OK)
     status = celd_ink (drawing, mode, &run->run, ink);
-  return finish (run, status);
+  return cli_run_finish (run, status);
 }
 
 /* Levels and the ink of their drawing: what expand and smooth start from. */
@@ -157,19 +149,24 @@ write_ordering (const CliOptions *options, const Ordering *o)
   good = good && cli_write_depth (options->levels, &levels,
                                   ranks ? celd_order_value (&o->order, o->order.levels - 1, settings) : 1);
   g_free (levels.data);
-  good = good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
-  return good && (!options->report || cli_report_write (options->report, &(CliReport) {
+  return good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
+}
+
+static int
+tell_ordering (const CliOptions *options, const Ordering *o)
+{
+  return cli_tell (options, &(CliReport) {
     .command   = "order",
     .width     = o->labels.width,
     .height    = o->labels.height,
     .palette   = &o->palette,
     .relations = &o->relations,
-    .suggestions = options->suggestions || settings->suggest ? &o->suggestions : NULL,
+    .suggestions = options->suggestions || options->settings.suggest ? &o->suggestions : NULL,
     .order     = &o->order,
     .problems  = &o->problems,
-    .settings  = settings,
+    .settings  = &options->settings,
     .timings   = o->run.timings,
-  }));
+  });
 }
 
 static void
@@ -200,15 +197,10 @@ cli_order (const CliOptions *options)
   if (good)
     {
       cli_run_stage (&o.run, "order");
-      good = finish (&o.run, make_order (options, &o));
+      good = cli_run_finish (&o.run, make_order (options, &o));
     }
   if (good && write_ordering (options, &o))
-    {
-      code = o.order.n_cycles ? CLI_CONTRADICTED : CLI_DONE;
-      cli_say_cycles (&o.order, &o.relations);
-      if (!options->quiet)
-        cli_say_problems (&o.problems, &o.palette, &o.relations);
-    }
+    code = tell_ordering (options, &o);
   clear_ordering (&o);
   return code;
 }
@@ -241,8 +233,9 @@ cli_expand (const CliOptions *options)
   if (good)
     {
       cli_run_stage (&step.run, "levels");
-      good = finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL, NULL,
-                                                    options->settings.expansion, &step.run.run, &step.levels)) &&
+      good = cli_run_finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL,
+                                                            NULL, options->settings.expansion, &step.run.run,
+                                                            &step.levels)) &&
              cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
     }
   g_free (regions.data);
@@ -285,8 +278,8 @@ cli_smooth (const CliOptions *options)
       float nearest = nearest_level (&step.levels);
 
       cli_run_stage (&step.run, "depth");
-      good = finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL,
-                                             &options->settings, &step.run.run, &step.levels, &solve)) &&
+      good = cli_run_finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL,
+                                                     &options->settings, &step.run.run, &step.levels, &solve)) &&
              cli_write_depth (options->depth, &step.levels, nearest);
     }
   if (good && !solve.converged && !options->quiet)
@@ -330,7 +323,7 @@ make_mesh (const CliOptions *options, const CeldRelief *relief, CliRun *run)
       return cli_error ("The borders alone have more than %.0f vertices: raise --most-vertices.",
                         (double) s.most_vertices);
     }
-  good = finish (run, status) && cli_art_read (options->drawing, options->colours, false, &layers, &art) &&
+  good = cli_run_finish (run, status) && cli_art_read (options->drawing, options->colours, false, &layers, &art) &&
          cli_write_mesh (options->mesh, &mesh, &art);
   if (good && !options->quiet && mesh.error > 1.01 * (double) s.mesh_error)
     cli_say ("To have no more than %.0f vertices the mesh is up to %.1f pixels from the heights; --most-vertices "
@@ -365,8 +358,8 @@ cli_relief (const CliOptions *options)
   if (good)
     {
       cli_run_stage (&step.run, "relief");
-      good = finish (&step.run, celd_relief (&step.ink, &step.levels, depth.data ? &depth : NULL, &options->settings,
-                                             &step.run.run, &relief));
+      good = cli_run_finish (&step.run, celd_relief (&step.ink, &step.levels, depth.data ? &depth : NULL,
+                                                     &options->settings, &step.run.run, &relief));
     }
   if (good && options->height)
     good = cli_write_heights (options->height, &(CeldPlane) { relief.width, relief.height, (size_t) relief.width,

@@ -23,8 +23,7 @@ make_pair (const CliScene *s, CeldColours view[2])
     }
   if (status == CELD_OK && s->settings->floating_window)
     status = celd_stereo_window (&s->depth, s->settings, &view[0], &view[1]);
-  cli_run_stage (s->run, NULL);
-  return cli_check (status == CELD_OK && cli_run_cancelled () ? CELD_CANCELLED : status);
+  return cli_run_finish (s->run, status);
 }
 
 /* Both as they are; of one file. */
