@@ -182,13 +182,16 @@ GType celd_popup_result_get_type   (void);
     ui_range (0.0, 2.0) \
     ui_digits (2)
 
-#define CELD_PROPERTY_LIGHT \
+#define CELD_PROPERTY_AZIMUTH \
   property_double (light_azimuth, "Light azimuth", 135.0) \
     description ("Where the light comes from: 0 from the right, 90 from above, 180 from the left") \
     value_range (-360.0, 360.0) \
     ui_range (0.0, 360.0) \
     ui_meta ("unit", "degree") \
-    ui_meta ("direction", "ccw") \
+    ui_meta ("direction", "ccw")
+
+#define CELD_PROPERTY_LIGHT \
+  CELD_PROPERTY_AZIMUTH \
   property_double (light_elevation, "Light elevation", 45.0) \
     description ("How high the light stands: 0 beside the picture, 90 before it") \
     value_range (-90.0, 90.0) \
@@ -311,12 +314,7 @@ GType celd_popup_result_get_type   (void);
     ui_steps (0.001, 0.01) \
     ui_digits (4) \
     ui_meta ("visible", "enhance {stack}") \
-  property_double (light_azimuth, "Light azimuth", 135.0) \
-    description ("Where the light comes from: 0 from the right, 90 from above, 180 from the left") \
-    value_range (-360.0, 360.0) \
-    ui_range (0.0, 360.0) \
-    ui_meta ("unit", "degree") \
-    ui_meta ("direction", "ccw") \
+  CELD_PROPERTY_AZIMUTH \
     ui_meta ("visible", "enhance {stack}") \
   property_double (shadow_range, "Full from", 0.0) \
     description ("From this difference of depth on a shadow is full, as a share of all depth; nearer parts cast " \
