@@ -2,9 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "private.h"
-
-#include <math.h>
+#include "shadows.h"
 
 #define FAR_GREY 0.3f  /* encoded; darker paper would hide the shadows on it */
 
@@ -43,12 +41,6 @@ celd_enhance_layer (const CeldPlane *change, CeldColours *layer)
   return CELD_OK;
 }
 
-static float
-depth_at (const CeldPlane *levels, int x, int y)
-{
-  return isfinite (CELD_AT (levels, x, y)) ? CELD_AT (levels, x, y) : 0;
-}
-
 CeldStatus
 celd_enhance_view (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view)
 {
@@ -56,17 +48,11 @@ celd_enhance_view (const CeldPlane *levels, const CeldPlane *change, CeldPlane *
 
   if (!CELD_SAME_SIZE (levels, change) || !CELD_SAME_SIZE (levels, view))
     return CELD_BAD_SIZE;
-  least = most = depth_at (levels, 0, 0);
+  celd_level_range (levels, &least, &most);
   for (int y = 0; y < levels->height; y++)
     for (int x = 0; x < levels->width; x++)
       {
-        least = fminf (least, depth_at (levels, x, y));
-        most  = fmaxf (most, depth_at (levels, x, y));
-      }
-  for (int y = 0; y < levels->height; y++)
-    for (int x = 0; x < levels->width; x++)
-      {
-        float near = most > least ? (depth_at (levels, x, y) - least) / (most - least) : 1;
+        float near = most > least ? (celd_level_at (levels, x, y) - least) / (most - least) : 1;
         float grey = powf (FAR_GREY + (1 - FAR_GREY) * near, 2.2f);
 
         CELD_AT (view, x, y) = changed (grey, CELD_AT (change, x, y));

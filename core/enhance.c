@@ -9,8 +9,6 @@
 #include "blur.h"
 #include "shadows.h"
 
-#include <math.h>
-
 /* ------------------------------------------------------------------ unsharp masking */
 
 typedef struct
@@ -25,26 +23,12 @@ typedef struct
   bool             darken;         /* only */
 } Unsharp;
 
-static float
-depth_at (const Unsharp *u, int x, int y)
-{
-  float depth = CELD_AT (u->depth, x, y);
-
-  return isfinite (depth) ? depth : 0;
-}
-
 static void
 measure_range (Unsharp *u)
 {
-  float most = depth_at (u, 0, 0);
+  float most;
 
-  u->least = most;
-  for (int y = 0; y < u->depth->height; y++)
-    for (int x = 0; x < u->depth->width; x++)
-      {
-        u->least = fminf (u->least, depth_at (u, x, y));
-        most     = fmaxf (most, depth_at (u, x, y));
-      }
+  celd_level_range (u->depth, &u->least, &most);
   u->range = most > u->least ? most - u->least : 1;
 }
 
@@ -62,7 +46,7 @@ average_cells (void *data, int row)
 
       for (int y = row * side; y < bottom; y++)
         for (int x = column * side; x < right; x++)
-          sum += (depth_at (u, x, y) - u->least) / u->range;
+          sum += (celd_level_at (u->depth, x, y) - u->least) / u->range;
       u->mean[(size_t) row * (size_t) u->cells.width + (size_t) column]
         = sum / (float) ((right - column * side) * (bottom - row * side));
     }
@@ -82,7 +66,7 @@ change_row (void *data, int y)
       float       left = (1 - row.share) * above[column.one] + row.share * below[column.one];
       float       right = (1 - row.share) * above[column.other] + row.share * below[column.other];
       float       mean = (1 - column.share) * left + column.share * right;
-      float       change = u->strength * ((depth_at (u, x, y) - u->least) / u->range - mean);
+      float       change = u->strength * ((celd_level_at (u->depth, x, y) - u->least) / u->range - mean);
 
       CELD_AT (u->change, x, y) = u->darken && change > 0 ? 0 : fmaxf (-1, fminf (change, 1));
     }

@@ -14,8 +14,6 @@
 
 #include "blur.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdlib.h>
 
 #define MOST_LEVELS 256              /* levels beyond are put together with their neighbours */
@@ -50,14 +48,6 @@ typedef struct
 
 /* ------------------------------------------------------------------ levels of the pixels */
 
-static float
-value_at (const CeldPlane *levels, int x, int y)
-{
-  float value = CELD_AT (levels, x, y);
-
-  return isfinite (value) ? value : 0;
-}
-
 /* The place of a value among the known ones, or where it would stand. */
 static int
 find_value (const Stack *s, float value)
@@ -86,7 +76,7 @@ list_values (Stack *s)
   for (int y = 0; y < s->levels->height; y++)
     for (int x = 0; x < s->levels->width; x++)
       {
-        float value = value_at (s->levels, x, y);
+        float value = celd_level_at (s->levels, x, y);
         int   place;
 
         if (value == last)
@@ -108,15 +98,9 @@ list_values (Stack *s)
 static void
 spread_values (Stack *s)
 {
-  float most = -FLT_MAX;
+  float most;
 
-  s->least = FLT_MAX;
-  for (int y = 0; y < s->levels->height; y++)
-    for (int x = 0; x < s->levels->width; x++)
-      {
-        s->least = fminf (s->least, value_at (s->levels, x, y));
-        most     = fmaxf (most, value_at (s->levels, x, y));
-      }
+  celd_level_range (s->levels, &s->least, &most);
   s->step     = most / (MOST_LEVELS - 1) - s->least / (MOST_LEVELS - 1);
   s->n_levels = MOST_LEVELS;
   for (int k = 0; k < MOST_LEVELS; k++)
@@ -136,7 +120,7 @@ number_pixels (Stack *s)
   for (int y = 0; y < s->levels->height; y++)
     for (int x = 0; x < s->levels->width; x++)
       {
-        float value = value_at (s->levels, x, y);
+        float value = celd_level_at (s->levels, x, y);
 
         if (s->step > 0)
           s->level[n++] = (uint8_t) fminf ((value - s->least) / s->step + 0.5f, MOST_LEVELS - 1);

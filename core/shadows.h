@@ -1,4 +1,4 @@
-/* What depth enhancement (enhance.c) shares with the stack of shadows (shadows.c).
+/* What depth enhancement (enhance.c, enhance-layer.c) shares with the stack of shadows (shadows.c, shadow-levels.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,6 +6,19 @@
 #define CELD_SHADOWS_H
 
 #include "private.h"
+
+#include <math.h>
+
+/* A pixel's level or depth; what is not a number is 0. */
+static inline float
+celd_level_at (const CeldPlane *levels, int x, int y)
+{
+  float level = CELD_AT (levels, x, y);
+
+  return isfinite (level) ? level : 0;
+}
+
+void celd_level_range (const CeldPlane *levels, float *least, float *most);
 
 /* Soft shadows that nearer levels cast on farther ones: of each pixel, the negative share of light that they take.
  * `deviation` in pixels, > 0. */
