@@ -16,7 +16,6 @@
 
 #include <stdlib.h>
 
-#define MOST_LEVELS 256              /* levels beyond are put together with their neighbours */
 #define FAINT       (1.0f / 1024)    /* a matte below this counts as none */
 #define RADIANS     (3.14159265358979323846 / 180)
 
@@ -30,105 +29,18 @@ typedef struct
   const CeldPlane    *levels;
   const CeldSettings *settings;
   CeldPlane          *change;
-  int                 n_levels;
-  float               value[MOST_LEVELS];  /* rising */
-  float               least, step;         /* of values put together; step 0: they are not */
+  CeldLevelNumbers    number;
   float               full;                /* from this difference on shadows are full */
-  uint8_t            *level;               /* of each pixel */
 
   CeldCells           cells;
   CeldKernel          along, down;
   CeldBetween        *column, *row;
   Shares              cover;               /* before the blur, by cell */
-  Shares              blurred[MOST_LEVELS];
-  CeldStatus          status[MOST_LEVELS];
+  Shares              blurred[CELD_MOST_LEVELS];
+  CeldStatus          status[CELD_MOST_LEVELS];
   size_t             *first;               /* of each cell's shares, and one more; its levels rise */
   Share              *share;
 } Stack;
-
-/* ------------------------------------------------------------------ levels of the pixels */
-
-/* The place of a value among the known ones, or where it would stand. */
-static int
-find_value (const Stack *s, float value)
-{
-  int low = 0, high = s->n_levels;
-
-  while (low < high)
-    {
-      int middle = (low + high) / 2;
-
-      if (s->value[middle] < value)
-        low = middle + 1;
-      else
-        high = middle;
-    }
-  return low;
-}
-
-/* All values that there are; false if they are too many. */
-static bool
-list_values (Stack *s)
-{
-  float last = NAN;
-
-  s->n_levels = 0;
-  for (int y = 0; y < s->levels->height; y++)
-    for (int x = 0; x < s->levels->width; x++)
-      {
-        float value = celd_level_at (s->levels, x, y);
-        int   place;
-
-        if (value == last)
-          continue;
-        last  = value;
-        place = find_value (s, value);
-        if (place < s->n_levels && s->value[place] == value)
-          continue;
-        if (s->n_levels == MOST_LEVELS)
-          return false;
-        memmove (s->value + place + 1, s->value + place, (size_t) (s->n_levels - place) * sizeof *s->value);
-        s->value[place] = value;
-        s->n_levels++;
-      }
-  return true;
-}
-
-/* Of too many values, as many evenly spread ones. */
-static void
-spread_values (Stack *s)
-{
-  float most;
-
-  celd_level_range (s->levels, &s->least, &most);
-  s->step     = most / (MOST_LEVELS - 1) - s->least / (MOST_LEVELS - 1);
-  s->n_levels = MOST_LEVELS;
-  for (int k = 0; k < MOST_LEVELS; k++)
-    s->value[k] = s->least + (float) k * s->step;
-}
-
-static CeldStatus
-number_pixels (Stack *s)
-{
-  size_t n = 0;
-
-  s->level = celd_alloc ((size_t) s->levels->width * (size_t) s->levels->height, 1);
-  if (!s->level)
-    return CELD_NO_MEMORY;
-  if (!list_values (s))
-    spread_values (s);
-  for (int y = 0; y < s->levels->height; y++)
-    for (int x = 0; x < s->levels->width; x++)
-      {
-        float value = celd_level_at (s->levels, x, y);
-
-        if (s->step > 0)
-          s->level[n++] = (uint8_t) fminf ((value - s->least) / s->step + 0.5f, MOST_LEVELS - 1);
-        else
-          s->level[n++] = (uint8_t) find_value (s, value);
-      }
-  return CELD_OK;
-}
 
 /* ------------------------------------------------------------------ mattes, as cells see them */
 
@@ -140,13 +52,13 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
   int     right = (column + 1) * side < width ? (column + 1) * side : width;
   int     bottom = (row + 1) * side < s->levels->height ? (row + 1) * side : s->levels->height;
   float   area = (float) ((right - column * side) * (bottom - row * side));
-  uint8_t met[MOST_LEVELS];
+  uint8_t met[CELD_MOST_LEVELS];
   int     n = 0;
 
   for (int y = row * side; y < bottom; y++)
     for (int x = column * side; x < right; x++)
       {
-        uint8_t level = s->level[(size_t) y * (size_t) width + (size_t) x];
+        uint8_t level = s->number.level[(size_t) y * (size_t) width + (size_t) x];
 
         if (!count[level]++)
           met[n++] = level;
@@ -168,7 +80,7 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
 static CeldStatus
 cover_cells (Stack *s)
 {
-  uint32_t   count[MOST_LEVELS] = { 0 };
+  uint32_t   count[CELD_MOST_LEVELS] = { 0 };
   CeldStatus status = CELD_OK;
 
   for (int row = 0; row < s->cells.height; row++)
@@ -287,7 +199,7 @@ join_levels (Stack *s)
   size_t cells = (size_t) s->cells.width * (size_t) s->cells.height;
   Shares all = { NULL, 0 };
 
-  for (int k = 1; k < s->n_levels; k++)
+  for (int k = 1; k < s->number.n; k++)
     all.n += s->blurred[k].n;
   all.item = celd_alloc (all.n, sizeof *all.item);
   s->first = celd_alloc (cells + 1, sizeof *s->first);
@@ -298,7 +210,7 @@ join_levels (Stack *s)
       return CELD_NO_MEMORY;
     }
   all.n = 0;
-  for (int k = 1; k < s->n_levels; k++)
+  for (int k = 1; k < s->number.n; k++)
     {
       if (s->blurred[k].n)
         memcpy (all.item + all.n, s->blurred[k].item, s->blurred[k].n * sizeof *all.item);
@@ -314,18 +226,18 @@ join_levels (Stack *s)
 static CeldStatus
 blur_mattes (Stack *s, const CeldRun *run)
 {
-  size_t     first[MOST_LEVELS + 1];
+  size_t     first[CELD_MOST_LEVELS + 1];
   Share     *share = celd_alloc (s->cover.n, sizeof *share);
   Blurring   blurring = { s, share, first };
   CeldStatus status;
 
   if (!share)
     return CELD_NO_MEMORY;
-  sort_shares (&s->cover, false, MOST_LEVELS, first, share);
-  celd_each (run, s->n_levels - 1, blur_level, &blurring);
+  sort_shares (&s->cover, false, CELD_MOST_LEVELS, first, share);
+  celd_each (run, s->number.n - 1, blur_level, &blurring);
   celd_free (share);
   status = celd_step (run, 0.5);
-  for (int k = 1; k < s->n_levels && status == CELD_OK; k++)
+  for (int k = 1; k < s->number.n && status == CELD_OK; k++)
     status = s->status[k];
   return status == CELD_OK ? join_levels (s) : status;
 }
@@ -340,7 +252,7 @@ light_in_cell (const Stack *s, size_t cell, uint8_t level)
 
   for (size_t i = s->first[cell + 1]; i-- > s->first[cell] && s->share[i].level > level;)
     {
-      float before = s->value[s->share[i].level] - s->value[level];
+      float before = s->number.value[s->share[i].level] - s->number.value[level];
       float falling = before < s->full ? before / s->full : 1;
 
       light *= 1 - s->settings->shadow_strength * falling * s->share[i].matte;
@@ -361,7 +273,7 @@ light_row (void *data, int y)
   for (int x = 0; x < width; x++)
     {
       CeldBetween column = s->column[x];
-      uint8_t     level = s->level[(size_t) y * (size_t) width + (size_t) x];
+      uint8_t     level = s->number.level[(size_t) y * (size_t) width + (size_t) x];
 
       if (column.one != last_column || level != last_level)
         {
@@ -395,15 +307,15 @@ prepare (Stack *s, double deviation)
       celd_kernel_new (&s->cells, deviation, distance * cos (azimuth), &s->along) != CELD_OK ||
       celd_kernel_new (&s->cells, deviation, -distance * sin (azimuth), &s->down) != CELD_OK)
     return CELD_NO_MEMORY;
-  return number_pixels (s);
+  return celd_level_numbers (s->levels, &s->number);
 }
 
 static void
 clear (Stack *s)
 {
-  for (int k = 0; k < MOST_LEVELS; k++)
+  for (int k = 0; k < CELD_MOST_LEVELS; k++)
     celd_free (s->blurred[k].item);
-  celd_free (s->level);
+  celd_free (s->number.level);
   celd_free (s->along.weight);
   celd_free (s->down.weight);
   celd_free (s->column);
@@ -426,7 +338,7 @@ celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *set
   s->settings = settings;
   s->change   = change;
   status = prepare (s, deviation);
-  s->full = settings->shadow_range * (s->value[s->n_levels ? s->n_levels - 1 : 0] - s->value[0]);
+  s->full = settings->shadow_range * (s->number.value[s->number.n ? s->number.n - 1 : 0] - s->number.value[0]);
   if (status == CELD_OK)
     status = celd_step (run, 0.2);
   if (status == CELD_OK)
