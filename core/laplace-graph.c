@@ -33,125 +33,17 @@ celd_weights_clear (CeldWeights *g)
   *g = (CeldWeights) { 0 };
 }
 
-/* ------------------------------------------------------------------ links */
-
-/* What aggregation knows of the nodes. */
-typedef struct
-{
-  const CeldWeights *graph;
-  CeldWeights       *coarse;
-  const CeldRun     *run;
-  float              most;        /* weight of the strongest link of all */
-  float             *best;        /* weight of the strongest link */
-  uint32_t          *link;        /* the node at its other end; in the end the aggregate */
-  uint32_t          *parent;
-  uint8_t           *open;        /* does what it is part of go on beyond its coarse cell? */
-  uint32_t          *row_most;    /* of each fine row: bits of the strongest link */
-  uint32_t          *row_count;   /* of each fine row: nodes with a link; of each coarse row: aggregates */
-  uint8_t           *mixed;       /* of each coarse cell: are its nodes not one aggregate? */
-} Aggregation;
-
-/* The strongest of the four edges of each first node of a row; `north` is NULL above the first row.  The edges that
- * lead out of the grid have weight 0. */
-CELD_CLONES static void
-see_row (uint32_t first, uint32_t w, const float *north, const float *south, const float *east, float *best,
-         uint32_t *link)
-{
-  for (uint32_t x = 0; x < w; x++)
-    {
-      float    up = north ? north[x] : 0, left = x ? east[x - 1] : 0, most = east[x];
-      uint32_t i = first + x, j = i + 1;
-
-      j    = south[x] > most ? i + w : j;
-      most = south[x] > most ? south[x] : most;
-      j    = left > most ? i - 1 : j;
-      most = left > most ? left : most;
-      j    = up > most ? i - w : j;
-      most = up > most ? up : most;
-      best[x] = most;
-      link[x] = j;
-    }
-}
-
-CELD_CLONES static void
-measure_links (uint32_t w, const CeldBits *best, uint32_t *most, uint32_t *count)
-{
-  uint32_t largest = 0, linked = 0;
-
-  for (uint32_t x = 0; x < w; x++)
-    {
-      largest = best[x] > largest ? best[x] : largest;
-      linked += best[x] > 0;
-    }
-  *most  = largest;
-  *count = linked;
-}
-
-static void
-see_strip (void *data, int strip)
-{
-  Aggregation       *a = data;
-  const CeldWeights *g = a->graph;
-  uint32_t           w = (uint32_t) g->width;
-  int                end = (strip + 1) * CELD_STRIP < g->height ? (strip + 1) * CELD_STRIP : g->height;
-
-  for (int y = strip * CELD_STRIP; y < end; y++)
-    {
-      uint32_t i = (uint32_t) y * w;
-
-      see_row (i, w, y ? g->south + i - w : NULL, g->south + i, g->east + i, a->best + i, a->link + i);
-      measure_links (w, (const CeldBits *) (a->best + i), &a->row_most[y], &a->row_count[y]);
-    }
-}
-
-/* A link of node i; returns whether it is the first one. */
-static inline bool
-see_link (Aggregation *a, uint32_t i, uint32_t j, float w)
-{
-  bool first = !(a->best[i] > 0);
-
-  if (!(w > a->best[i]))
-    return false;
-  a->best[i] = w;
-  a->link[i] = j;
-  return first;
-}
-
-/* The strongest link of every node; returns how many have one. */
-static uint32_t
-see_edges (Aggregation *a)
-{
-  const CeldWeights *g = a->graph;
-  uint32_t           n = celd_weights_cells (g), linked = 0, most = 0;
-
-  celd_each (a->run, (g->height + CELD_STRIP - 1) / CELD_STRIP, see_strip, a);
-  for (int y = 0; y < g->height; y++)
-    {
-      most = a->row_most[y] > most ? a->row_most[y] : most;
-      linked += a->row_count[y];
-    }
-  memcpy (&a->most, &most, sizeof most);
-  for (uint32_t k = 0; k < g->n_extra; k++)
-    for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
-      {
-        linked += see_link (a, n + k, g->neighbour[e], g->weight[e]);
-        linked += see_link (a, g->neighbour[e], n + k, g->weight[e]);
-        a->most = g->weight[e] > a->most ? g->weight[e] : a->most;
-      }
-  return linked;
-}
-
 /* ------------------------------------------------------------------ aggregates */
 
 /* Are all links of node i weak beside those of its strongest neighbour? */
 static inline bool
-is_leaf (const Aggregation *a, uint32_t i)
+is_leaf (const CeldAggregation *a, uint32_t i)
 {
   return a->best[i] < STRONG * a->best[a->link[i]];
 }
 
 static bool
-same_cell (const Aggregation *a, uint32_t i, uint32_t j)
+same_cell (const CeldAggregation *a, uint32_t i, uint32_t j)
 {
   const CeldWeights *g = a->graph;
   uint32_t           n = celd_weights_cells (g);
@@ -162,7 +54,7 @@ same_cell (const Aggregation *a, uint32_t i, uint32_t j)
 
 /* Must this leaf not hang on its strongest neighbour, because that goes on beyond the cell? */
 static inline bool
-waits (const Aggregation *a, uint32_t i)
+waits (const CeldAggregation *a, uint32_t i)
 {
   uint32_t host = a->link[i];
 
@@ -174,7 +66,7 @@ waits (const Aggregation *a, uint32_t i)
  * their strongest neighbours.  What goes on beyond the cell is moved as one only on a coarser level, and what hung on
  * it could not move against it on any: its leaves are like other nodes.  Returns whether there are any. */
 static inline bool
-join_edge (Aggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
+join_edge (CeldAggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
 {
   bool leaf_i, leaf_j, wait_i, wait_j, strong = w >= STRONG * a->most; /* for whomever */
 
@@ -201,7 +93,7 @@ join_edge (Aggregation *a, bool leaves, uint32_t i, uint32_t j, float w)
 
 /* Joins the first nodes of a fine row with their neighbours in the same cells. */
 static inline bool
-join_row (Aggregation *a, bool leaves, uint32_t y)
+join_row (CeldAggregation *a, bool leaves, uint32_t y)
 {
   const CeldWeights *g = a->graph;
   uint32_t           w = (uint32_t) g->width, i = y * w, side = 1u << a->coarse->doublings;
@@ -219,7 +111,7 @@ join_row (Aggregation *a, bool leaves, uint32_t y)
 
 /* The same for two rows of cells of 2 x 2 nodes, nearly all of which are of a piece. */
 static inline bool
-join_pair_of_rows (Aggregation *a, bool leaves, uint32_t y)
+join_pair_of_rows (CeldAggregation *a, bool leaves, uint32_t y)
 {
   const CeldWeights *g = a->graph;
   uint32_t           w = (uint32_t) g->width, i = y * w, *parent = a->parent;
@@ -247,7 +139,7 @@ join_pair_of_rows (Aggregation *a, bool leaves, uint32_t y)
 
 /* Joins an extra node with its neighbours in its coarse cell. */
 static inline bool
-join_extra (Aggregation *a, bool leaves, uint32_t k)
+join_extra (CeldAggregation *a, bool leaves, uint32_t k)
 {
   const CeldWeights *g = a->graph;
   uint32_t           n = celd_weights_cells (g);
@@ -261,7 +153,7 @@ join_extra (Aggregation *a, bool leaves, uint32_t k)
 
 /* One sweep over the nodes of a row of coarse cells. */
 static inline bool
-join_nodes (Aggregation *a, bool leaves, const CeldNodes *nodes)
+join_nodes (CeldAggregation *a, bool leaves, const CeldNodes *nodes)
 {
   bool found = false;
 
@@ -277,7 +169,7 @@ join_nodes (Aggregation *a, bool leaves, const CeldNodes *nodes)
 
 /* Marks what goes on beyond its cell in a row; edges of extra nodes have been seen. */
 static void
-mark_open (Aggregation *a, const CeldNodes *nodes)
+mark_open (CeldAggregation *a, const CeldNodes *nodes)
 {
   const CeldWeights *g = a->graph;
   uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), side = 1u << a->coarse->doublings;
@@ -299,7 +191,7 @@ mark_open (Aggregation *a, const CeldNodes *nodes)
 
 /* Marks what edges of extra nodes lead beyond their cells. */
 static void
-mark_open_extra (Aggregation *a)
+mark_open_extra (CeldAggregation *a)
 {
   const CeldWeights *g = a->graph;
   uint32_t           n = celd_weights_cells (g);
@@ -322,7 +214,7 @@ mark_open_extra (Aggregation *a)
 static void
 aggregate_row (void *data, int row)
 {
-  Aggregation       *a = data;
+  CeldAggregation   *a = data;
   const CeldWeights *g = a->graph;
   CeldNodes          nodes = celd_weights_nodes (g, a->coarse, row);
   uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), count = 0;
@@ -346,7 +238,7 @@ aggregate_row (void *data, int row)
 
 /* Aggregates in cells of 2 x 2; returns how many there are. */
 static uint32_t
-aggregate (Aggregation *a)
+aggregate (CeldAggregation *a)
 {
   uint32_t count = 0;
 
@@ -362,7 +254,7 @@ aggregate (Aggregation *a)
 
 /* In pairs, without regard to cells: the whole picture is one. */
 static CeldStatus
-pair_up (Aggregation *a, uint32_t most)
+pair_up (CeldAggregation *a, uint32_t most)
 {
   a->coarse->doublings = WHOLE;
   a->coarse->width = a->coarse->height = 1;
@@ -370,140 +262,15 @@ pair_up (Aggregation *a, uint32_t most)
   return celd_weights_pair (a->graph, most, a->parent);
 }
 
-/* ------------------------------------------------------------------ numbers */
-
-/* Numbers the aggregate of node i, which lies in a coarse cell; *count is the next number of an extra one. */
-static inline void
-number_node (Aggregation *a, uint32_t i, uint32_t cell, uint8_t *taken, uint32_t *count)
-{
-  uint32_t root = celd_root (a->parent, i);
-
-  if (!(a->best[i] > 0))
-    a->link[i] = CELD_NO_NODE;
-  else if (root != i)
-    a->link[i] = a->link[root]; /* a root comes before its members */
-  else if (!taken[cell])
-    {
-      taken[cell] = 1;
-      a->link[i]  = cell;
-    }
-  else
-    a->link[i] = (*count)++;
-}
-
-/* First nodes of a cell of 2 x 2, if they are one aggregate. */
-static inline bool
-number_four (Aggregation *a, uint32_t i, uint32_t w, uint32_t cell)
-{
-  const uint32_t *parent = a->parent;
-
-  if (parent[i] != i || parent[i + 1] != i || parent[i + w] != i || parent[i + w + 1] != i)
-    return false;
-  a->link[i] = a->link[i + 1] = a->link[i + w] = a->link[i + w + 1] = cell;
-  return true;
-}
-
-/* The nodes of a row of coarse cells.  What is taken is marked in `mixed` for the time being.  Extra aggregates count
- * from the first one of the row. */
-static void
-number_row (void *data, int row)
-{
-  Aggregation       *a = data;
-  const CeldWeights *g = a->graph;
-  CeldWeights       *coarse = a->coarse;
-  CeldNodes          nodes = celd_weights_nodes (g, coarse, row);
-  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), cells = celd_weights_cells (coarse);
-  uint32_t           cell = (uint32_t) row * (uint32_t) coarse->width, side = 1u << coarse->doublings, count = cells;
-  bool               pair = side == 2 && nodes.to - nodes.from == 2;
-
-  for (uint32_t x0 = 0, c = cell; x0 < w; x0 += side, c++)
-    {
-      bool done = pair && x0 + 1 < w && number_four (a, nodes.from * w + x0, w, c);
-
-      a->mixed[c] = done;
-      for (uint32_t y = nodes.from; y < nodes.to && !done; y++)
-        for (uint32_t x = x0; x < x0 + side && x < w; x++)
-          number_node (a, y * w + x, c, a->mixed, &count);
-    }
-  for (uint32_t k = nodes.extra; k < nodes.extra_end; k++)
-    number_node (a, n + k, celd_weights_above (g, g->cell[k], coarse), a->mixed, &count);
-  a->row_count[row] = count - cells;
-  if (coarse->doublings > 1)
-    return;
-  for (uint32_t x = 0; x < (uint32_t) coarse->width; x++)
-    {
-      uint32_t i = nodes.from * w + 2 * x, c = cell + x;
-
-      bool four = nodes.to - nodes.from == 2 && 2 * x + 1 < w && a->link[i] == c && a->link[i + 1] == c &&
-                  a->link[i + w] == c && a->link[i + w + 1] == c;
-
-      a->mixed[c] = four ? 0 : CELD_MIXED;
-    }
-}
-
-/* Extra aggregates of a row come after those of the rows before. */
-static void
-shift_row (void *data, int row)
-{
-  Aggregation       *a = data;
-  const CeldWeights *g = a->graph;
-  CeldNodes          nodes = celd_weights_nodes (g, a->coarse, row);
-  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), cells = celd_weights_cells (a->coarse);
-  uint32_t           before = a->coarse->row_extra[row];
-
-  if (!before || before == a->coarse->row_extra[row + 1])
-    return;
-  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
-    a->link[i] += a->link[i] >= cells && a->link[i] != CELD_NO_NODE ? before : 0;
-  for (uint32_t i = n + nodes.extra; i < n + nodes.extra_end; i++)
-    a->link[i] += a->link[i] >= cells && a->link[i] != CELD_NO_NODE ? before : 0;
-}
-
-/* What is not whole yet has parts on the coarse level, too. */
-static void
-carry_row (void *data, int row)
-{
-  Aggregation *a = data;
-  CeldNodes    nodes = celd_weights_nodes (a->graph, a->coarse, row);
-  uint32_t     w = (uint32_t) a->graph->width, n = celd_weights_cells (a->graph);
-
-  for (uint32_t i = nodes.from * w; i < nodes.to * w; i++)
-    if (a->open[i] && a->link[i] != CELD_NO_NODE)
-      a->coarse->part[a->link[i]] = 1;
-  for (uint32_t i = n + nodes.extra; i < n + nodes.extra_end; i++)
-    if (a->open[i] && a->link[i] != CELD_NO_NODE)
-      a->coarse->part[a->link[i]] = 1;
-}
-
-/* Turns a->link into the number of each node's aggregate: the first one of a coarse cell takes the number of the cell,
- * others follow behind the cells, row by row. */
-static CeldStatus
-number_aggregates (Aggregation *a)
-{
-  CeldWeights *coarse = a->coarse;
-
-  celd_each (a->run, coarse->height, number_row, a);
-  for (int row = 0; row < coarse->height; row++)
-    coarse->row_extra[row + 1] = coarse->row_extra[row] + a->row_count[row];
-  coarse->n_extra = coarse->row_extra[coarse->height];
-  celd_each (a->run, coarse->height, shift_row, a);
-  if (!a->graph->part)
-    return CELD_OK;
-  if (!(coarse->part = celd_alloc0 ((size_t) celd_weights_cells (coarse) + coarse->n_extra, 1)))
-    return CELD_NO_MEMORY;
-  celd_each (a->run, coarse->height, carry_row, a);
-  return CELD_OK;
-}
-
 /* ------------------------------------------------------------------ coarsening */
 
 static CeldStatus
-aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *run, Aggregation *a)
+aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *run, CeldAggregation *a)
 {
   uint32_t n = celd_weights_cells (fine) + fine->n_extra;
 
   *coarse = (CeldWeights) { 0 };
-  *a = (Aggregation) {
+  *a = (CeldAggregation) {
     .graph = fine, .coarse = coarse, .run = run,
     .best = celd_alloc (n, sizeof *a->best),
     .link = celd_alloc (n, sizeof *a->link),
@@ -533,9 +300,9 @@ begin_parts (CeldWeights *pixels)
 CeldStatus
 celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse, uint32_t **coarser)
 {
-  Aggregation a;
-  CeldStatus  status = aggregation_new (fine, coarse, run, &a);
-  uint32_t    most;
+  CeldAggregation a;
+  CeldStatus      status = aggregation_new (fine, coarse, run, &a);
+  uint32_t        most;
 
   if (status == CELD_OK && fine->weak)
     status = begin_parts (fine);
@@ -543,7 +310,7 @@ celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse
     status = celd_weights_ground (fine, run);
   if (status != CELD_OK)
     goto done;
-  most = (uint32_t) (FEWER * see_edges (&a));
+  most = (uint32_t) (FEWER * celd_weights_see (&a));
   if (celd_weights_cells (fine) == 1 || aggregate (&a) > most)
     status = pair_up (&a, most);
   if (status != CELD_OK)
@@ -552,7 +319,7 @@ celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse
   coarse->row_extra = celd_alloc0 ((size_t) coarse->height + 1, sizeof *coarse->row_extra);
   status = a.mixed && coarse->row_extra ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = number_aggregates (&a);
+    status = celd_weights_number (&a);
   if (status == CELD_OK)
     status = celd_weights_contract (fine, a.link, a.mixed, run, coarse);
 

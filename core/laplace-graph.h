@@ -34,6 +34,27 @@ celd_weights_nodes (const CeldWeights *fine, const CeldWeights *coarse, int row)
   return (CeldNodes) { from, to, fine->n_extra ? fine->row_extra[from] : 0, fine->n_extra ? fine->row_extra[to] : 0 };
 }
 
+/* What aggregation knows of the nodes. */
+typedef struct
+{
+  const CeldWeights *graph;
+  CeldWeights       *coarse;
+  const CeldRun     *run;
+  float              most;        /* weight of the strongest link of all */
+  float             *best;        /* weight of the strongest link */
+  uint32_t          *link;        /* the node at its other end; in the end the aggregate */
+  uint32_t          *parent;
+  uint8_t           *open;        /* does what it is part of go on beyond its coarse cell? */
+  uint32_t          *row_most;    /* of each fine row: bits of the strongest link */
+  uint32_t          *row_count;   /* of each fine row: nodes with a link; of each coarse row: aggregates */
+  uint8_t           *mixed;       /* of each coarse cell: are its nodes not one aggregate? */
+} CeldAggregation;
+
+/* ------------------------------------------------------------------ laplace-links.c */
+
+/* The strongest link of every node: best and link; returns how many have one. */
+uint32_t celd_weights_see (CeldAggregation *a);
+
 /* ------------------------------------------------------------------ laplace-ground.c */
 
 /* Cuts the edges of nodes that their sinks hold far more; what is at the other ends is held by these edges. */
@@ -43,6 +64,11 @@ CeldStatus celd_weights_ground (CeldWeights *graph, const CeldRun *run);
 
 /* Aggregates of all nodes, wherever they lie, at most so many if that can be: parent as in unions.h. */
 CeldStatus celd_weights_pair (const CeldWeights *graph, uint32_t most, uint32_t *parent);
+
+/* ------------------------------------------------------------------ laplace-number.c */
+
+/* Turns a->link into the number of each node's aggregate. */
+CeldStatus celd_weights_number (CeldAggregation *a);
 
 /* ------------------------------------------------------------------ laplace-contract.c */
 
