@@ -41,6 +41,36 @@ typedef struct
 CeldStatus celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point,
                             size_t n_points, double tolerance, const CeldRun *run, CeldSolve *solve);
 
+/* No nodes any more. */
+void       celd_bases_clear (CeldBases *bases);
+
+/* depth = sum of u_k h_k, within the extremes of u. */
+CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run, CeldPlane *depth);
+
+/* What program-nodes.c shares: the first lane of a basis, not of node 1; groups that so many nodes need. */
+static inline float *
+celd_bases_lane (const CeldBases *b, uint32_t node)
+{
+  return b->group[(node - 2) / CELD_LANES] + (node - 2) % CELD_LANES;
+}
+
+static inline size_t
+celd_bases_groups (uint32_t n)
+{
+  return n > 1 ? (n - 2) / CELD_LANES + 1 : 0;
+}
+
+/* At least so many groups, of which new ones are zero; and at most so many. */
+CeldStatus celd_bases_grow (CeldBases *b, size_t n_groups);
+void       celd_bases_shrink (CeldBases *b, size_t n_groups);
+
+/* The solver that knows the nodes. */
+CeldStatus celd_bases_set_up (const CeldBases *b, const CeldRun *run, CeldLaplace **laplace);
+/* The worst of solutions: with `converged` to begin with. */
+void       celd_solve_join (CeldSolve *worst, const CeldSolve *one);
+
+/* ------------------------------------------------------------------ program-nodes.c: nodes come and go */
+
 /* One more node for each of these pixels, which are in none: one solution each.  After a failure the nodes are those
  * before. */
 CeldStatus celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance,
@@ -48,12 +78,6 @@ CeldStatus celd_bases_add (CeldBases *bases, const size_t *point, size_t n_point
 
 /* Lets go of a single pixel, not node 1, without a solution.  The last node takes its number. */
 void       celd_bases_drop (CeldBases *bases, uint32_t node);
-
-/* No nodes any more. */
-void       celd_bases_clear (CeldBases *bases);
-
-/* depth = sum of u_k h_k, within the extremes of u. */
-CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run, CeldPlane *depth);
 
 /* ------------------------------------------------------------------ program-stiffness.c */
 
