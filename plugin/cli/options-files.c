@@ -1,0 +1,254 @@
+/* The files that each sub-command reads and writes.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "options.h"
+
+#include <errno.h>
+#include <glib/gstdio.h>
+#include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+
+/* From OUTPUT on they are written; a joined picture may also be an MPO. */
+typedef enum { INPUT, TEXT, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH } FileKind;
+
+typedef struct
+{
+  const char *name;
+  int         steps;       /* CliSteps that have this option */
+  int         required;    /* CliSteps that cannot do without */
+  FileKind    kind;
+  size_t      offset;      /* in CliOptions */
+  const char *value, *help;
+} FileOption;
+
+#define MEMBER(name) offsetof (CliOptions, name)
+
+static const FileOption files[] = {
+  { "drawing", CLI_ORDER | OF_LEVELS, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
+    "the drawing that belongs to it" },
+  { "scribbles", WITH_LAYERS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour a region" },
+  { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
+    "virtual contours: red cuts, blue cuts regions only, green erases ink" },
+  { "corrections", CLI_POPUP | CLI_LAYERS, 0, INPUT, MEMBER (corrections), "PICTURE",
+    "strokes over ink that give it to the region of their colour" },
+  { "arrows", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
+  { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
+    "painted pixels keep their level; without: the inner core of each region" },
+  { "relations", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
+    "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
+  { "relations-file", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE", "a file with such text" },
+  { "arrow-path", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
+    "arrows as SVG path data such as 'M 120,80 L 300,90', the nearer end first" },
+  { "depth-hint", GIVES_LABELS | CLI_ORDER, 0, INPUT, MEMBER (depth_hint), "PICTURE",
+    "depth from elsewhere, near = white: suggestions come from it, too" },
+  { "labels", GIVES_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
+  { "closures", GIVES_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
+    "write the gaps that were closed, as red contours on a transparent layer" },
+  { "suggestions", GIVES_LABELS | CLI_ORDER, 0, REPORT, MEMBER (suggestions), "OUT",
+    "write which part seems to be in front, as relations with a confidence" },
+  { "suggested-arrows", GIVES_LABELS, 0, OUTPUT, MEMBER (suggested_arrows), "OUT",
+    "write the same as arrows on a transparent layer" },
+  { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT", "write levels before contours are given to their owners" },
+  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
+    "write levels" },
+  { "depth", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, CLI_SMOOTH | CLI_EXACT, OUTPUT, MEMBER (depth), "OUT",
+    "write smooth depth" },
+  { "regions", CLI_EXPAND, 0, INPUT, MEMBER (regions), "PICTURE",
+    "regions as segment wrote them: tells parts of one level apart" },
+  { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture that shadows or light fall on" },
+  { "depth", CLI_SHADE | CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
+    "smooth depth, as popup or smooth wrote it: where relief has the parts (without, it is made of the levels), which "
+    "side of strokes inside a part shade bends (see --quilt)" },
+  { "hints", CLI_SHADE, 0, INPUT, MEMBER (hints), "PICTURE",
+    "paint beside lines: a white side bends, a black one does not, at grey both do" },
+  { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE", "the picture of a lit ball, to shade like it" },
+  { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS",
+    "a sheet of sprites, each of which is shaded by itself" },
+  { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with its shadows" },
+  { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
+  { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
+  { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
+  { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
+  { "shaded", CLI_SHADE, 0, OUTPUT, MEMBER (shaded), "OUT", "write the art, or the drawing, as the light falls on it" },
+  { "tone", CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write the layer that art is multiplied by" },
+  { "rim", CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT", "write highlights and rims, as a white layer to put over that" },
+  { "occlusion", CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT", "write how much light parts leave to those behind" },
+  { "maps", CLI_SHADE, 0, TEXT, MEMBER (maps), "NAME.png",
+    "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
+  { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
+    "how many transparent pixels round a sprite its maps fill; 4" },
+  { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
+  { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
+  { "joined", CLI_STEREO, 0, JOINED, MEMBER (stereo), "OUT",
+    "write both in one picture, see --stereo; or in one .mpo file" },
+  { "quilt", CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT", "write --views as tiles of one picture, see --columns" },
+  { "sequence", CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
+    "write --views one by one: .mpo, .gif, or a folder of PNG files" },
+  { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
+    "write the moving picture: .gif, or a folder of PNG files" },
+  { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
+    "what is cut, or laid over the mesh, instead of the drawing" },
+  { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
+    "what the layers are composited in: encoded colours (Krita), linear light (GIMP 3); encoded, but for .exr" },
+  { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
+    "write layers: .ora (OpenRaster), .exr (a part each), or a folder of PNG files" },
+  { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT", "write heights, in pixels; .png from least to largest" },
+  { "mesh", CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT", "write a mesh: .glb, .obj, .ply, or .stl for printing" },
+  { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT", "write what was found, as JSON" },
+};
+
+static char **
+file_name (CliOptions *options, const FileOption *file)
+{
+  return (char **) ((char *) options + file->offset);
+}
+
+void
+cli_files_append (const CliCommand *command, CliOptions *options, GArray *entries)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    if (files[i].steps & (int) command->step)
+      g_array_append_val (entries, ((GOptionEntry) {
+        files[i].name, 0, 0, files[i].kind == TEXT ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
+        file_name (options, &files[i]), files[i].help, files[i].value }));
+}
+
+/* ------------------------------------------------------------------ checks */
+
+static bool
+same_file (const char *a, const char *b)
+{
+  char *full_a = g_canonicalize_filename (a, NULL), *full_b = g_canonicalize_filename (b, NULL);
+  bool  same = !strcmp (full_a, full_b);
+
+  g_free (full_a);
+  g_free (full_b);
+  return same;
+}
+
+bool
+cli_files_check (const CliCommand *command, CliOptions *options)
+{
+  int outputs = 0;
+
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    {
+      const char *name = *file_name (options, &files[i]);
+
+      if (!name && files[i].required & (int) command->step)
+        return cli_error ("--%s is missing.", files[i].name);
+      if (!name || files[i].kind < OUTPUT)
+        continue;
+      outputs++;
+      if (files[i].kind == OUTPUT && !cli_can_write (name))
+        return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
+      if (files[i].kind == JOINED && !cli_can_write (name) && celd_io_frames_kind (name) != CELD_IO_MPO)
+        return cli_error ("--%s %s: the ending must be .png, .exr, .tif, .npy or .mpo.", files[i].name, name);
+      if (files[i].kind == FRAMES && !celd_io_frames_kind (name))
+        return cli_error ("--%s %s: the ending must be .gif or .mpo, or none for a folder.", files[i].name, name);
+      if (files[i].kind == STACK && !celd_io_stack_kind (name))
+        return cli_error ("--%s %s: the ending must be .ora or .exr, or none for a folder.", files[i].name, name);
+      if (files[i].kind == MESH && !celd_io_mesh_kind (name))
+        return cli_error ("--%s %s: the ending must be .glb, .obj, .ply or .stl.", files[i].name, name);
+      if (same_file (name, options->input))
+        return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
+      for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
+        {
+          const char *other = *file_name (options, &files[k]);
+
+          if (k != i && other && files[k].kind != TEXT && same_file (name, other))
+            return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
+        }
+    }
+  if (options->enhanced && !options->art)
+    return cli_error ("--enhanced needs --art.");
+  return outputs || options->maps || cli_error ("Nothing to write: name at least one output, such as --%s.",
+                               command->step == CLI_SHADE ? "shading"
+                               : command->step == CLI_ENHANCE ? "enhanced"
+                               : command->step == CLI_STEREO ? "joined"
+                               : command->step == CLI_RELIEF ? "mesh"
+                               : command->step == CLI_SEGMENT ? "labels" : "depth");
+}
+
+bool
+cli_is_device (const char *path)
+{
+  return g_file_test (path, G_FILE_TEST_EXISTS) && !g_file_test (path, G_FILE_TEST_IS_REGULAR) &&
+         !g_file_test (path, G_FILE_TEST_IS_DIR);
+}
+
+static bool
+is_empty (const char *folder)
+{
+  GDir *open = g_dir_open (folder, 0, NULL);
+  bool  empty = open && !g_dir_read_name (open);
+
+  if (open)
+    g_dir_close (open);
+  return empty;
+}
+
+/* Pictures and layers are written beside their name and moved there; a report may go to a device. */
+static bool
+check_place (const char *name, FileKind kind)
+{
+  char *plain = g_canonicalize_filename (name, NULL), *folder = g_path_get_dirname (plain); /* without a last slash */
+  bool  device = cli_is_device (name), good = true;
+
+  if (g_file_test (name, G_FILE_TEST_IS_DIR) &&
+      ((kind == STACK && celd_io_stack_kind (name) == CELD_IO_FOLDER) ||
+       (kind == FRAMES && celd_io_frames_kind (name) == CELD_IO_PNG_FRAMES)))
+    good = is_empty (name) || cli_error ("Cannot write \"%s\": it is a folder that is not empty.", name);
+  else if (g_file_test (name, G_FILE_TEST_IS_DIR))
+    good = cli_error ("Cannot write \"%s\": it is a folder.", name);
+  else if (device && kind != REPORT)
+    good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
+  else if (!device && g_access (folder, W_OK))
+    good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
+  g_free (folder);
+  g_free (plain);
+  return good;
+}
+
+/* Maps are named after another file than those that they are written to. */
+static bool
+check_maps (const CliOptions *options)
+{
+  bool good = true;
+
+  for (int map = 0; good && options->maps && map < CLI_MAPS; map++)
+    {
+      char *name = cli_map_name (options->maps, map);
+
+      if (same_file (name, options->input) || same_file (name, options->drawing))
+        good = cli_error ("--maps would overwrite %s.", name);
+      good = good && check_place (name, OUTPUT);
+      g_free (name);
+    }
+  return good;
+}
+
+bool
+cli_files_check_places (CliOptions *options)
+{
+  bool good = true;
+
+  for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)
+    {
+      const char *name = *file_name (options, &files[i]);
+
+      good = !name || files[i].kind < OUTPUT || check_place (name, files[i].kind);
+    }
+  return good && check_maps (options);
+}
+
+/* ------------------------------------------------------------------ */
+
+void
+cli_files_clear (CliOptions *options)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    g_free (*file_name (options, &files[i]));
+}

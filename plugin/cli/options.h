@@ -1,0 +1,34 @@
+/* What the files of the options share.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CLI_OPTIONS_H
+#define CLI_OPTIONS_H
+
+#include "cli.h"
+
+#define GIVES_LABELS   (CLI_POPUP | CLI_SEGMENT)
+#define FROM_THE_SIDE  (CLI_STEREO | CLI_WIGGLE)
+#define MADE_OF_LABELS (GIVES_LABELS | CLI_LAYERS | FROM_THE_SIDE)
+#define WITH_LAYERS    (MADE_OF_LABELS | CLI_EXACT)
+#define OF_LEVELS      (CLI_EXPAND | CLI_SMOOTH | CLI_SHADE | CLI_RELIEF)
+#define WITH_INK       (WITH_LAYERS | CLI_ORDER | OF_LEVELS)
+
+/* ------------------------------------------------------------------ options-files.c */
+
+/* GOptionEntry for each file of a command. */
+void cli_files_append (const CliCommand *command, CliOptions *options, GArray *entries);
+/* Each output has a name of its own, and an ending that can be written. */
+bool cli_files_check (const CliCommand *command, CliOptions *options);
+/* Can they be written there?  Before the work rather than after it. */
+bool cli_files_check_places (CliOptions *options);
+void cli_files_clear (CliOptions *options);
+
+/* ------------------------------------------------------------------ options-settings.c */
+
+/* GOptionEntry for each setting of a command; their data are the CliOptions. */
+void cli_settings_append (const CliCommand *command, GArray *entries);
+/* The place of a word in "a|b|c"; -1 if it is not there. */
+int  cli_find_word (const char *words, const char *word);
+
+#endif
