@@ -16,94 +16,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define REACH  7      /* pixels round an edge that tell its direction, and whether there is a way round it */
+#define REACH  7      /* pixels round an edge that tell its direction */
 #define SPREAD 2.75   /* deviation of the Gaussian in pixels */
-#define WINDOW (2 * REACH + 1)
 
 typedef struct
 {
-  CeldLumo *lumo;
-  size_t    words;              /* of a row of bits */
-  uint64_t *east, *south;       /* a bit a pixel: is it joined to its neighbour? */
-  uint8_t  *front, *behind;     /* of each region: has it an outline, is it behind one? */
-  double    gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
+  CeldLumo  *lumo;
+  CeldJoined joined;
+  uint8_t   *front, *behind;    /* of each region: has it an outline, is it behind one? */
+  double     gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
 } Outlines;
-
-/* ------------------------------------------------------------------ ways round */
-
-static void
-set_bits (const float *weight, int n, uint64_t *bits)
-{
-  for (int x = 0; x < n; x += 64)
-    {
-      uint64_t word = 0;
-
-      for (int k = 0; k < 64 && x + k < n; k++)
-        word |= (uint64_t) (weight[x + k] > 0) << k;
-      bits[x / 64] = word;
-    }
-}
-
-/* The bits of the pixels x - REACH .. x + REACH of row y; 0 outside the picture. */
-static inline uint32_t
-window_row (const Outlines *o, const uint64_t *bits, int x, int y)
-{
-  const uint64_t *row = bits + (size_t) y * o->words;
-  int             from = x - REACH, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
-  uint64_t        low = word >= 0 ? row[word] : 0, high = (size_t) (word + 1) < o->words ? row[word + 1] : 0;
-
-  return (uint32_t) ((low >> shift) | (shift ? high << (64 - shift) : 0)) & ((1u << WINDOW) - 1);
-}
-
-/* What of a row can be reached from what is seen of it. */
-static inline uint32_t
-spread (uint32_t seen, uint32_t east)
-{
-  for (uint32_t before = 0; before != seen;)
-    {
-      before = seen;
-      seen |= (seen & east) << 1;
-      seen |= (seen >> 1) & east;
-    }
-  return seen & ((1u << WINDOW) - 1);
-}
-
-/* Does the cut between the pixel (x,y) and its right or lower neighbour end nearby, so that there is a way round? */
-static bool
-way_round (const Outlines *o, int x, int y, bool down)
-{
-  uint32_t east[WINDOW], south[WINDOW], seen[WINDOW] = { 0 };
-  bool     grown = true;
-  int      height = o->lumo->height;
-
-  for (int r = 0; r < WINDOW; r++)
-    {
-      int  v = y + r - REACH;
-      bool inside = v >= 0 && v < height;
-
-      east[r]  = inside ? window_row (o, o->east, x, v) & ((1u << (WINDOW - 1)) - 1) : 0;
-      south[r] = inside && r + 1 < WINDOW ? window_row (o, o->south, x, v) : 0;
-    }
-  seen[REACH] = 1u << REACH;
-  while (grown)
-    {
-      grown = false;
-      for (int k = 0; k < 2 * WINDOW; k++)
-        {
-          int      r = k < WINDOW ? k : 2 * WINDOW - 1 - k;
-          uint32_t now = seen[r];
-
-          now |= r > 0 ? seen[r - 1] & south[r - 1] : 0;
-          now |= r + 1 < WINDOW ? seen[r + 1] & south[r] : 0;
-          now   = now == seen[r] && r != REACH ? now : spread (now, east[r]);
-          grown = grown || now != seen[r];
-          seen[r] = now;
-        }
-      if (down ? seen[REACH + 1] >> REACH & 1 : seen[REACH] >> (REACH + 1) & 1)
-        return true;
-    }
-  return false;
-}
 
 /* ------------------------------------------------------------------ directions */
 
@@ -182,7 +104,7 @@ hold_edge (Outlines *o, int x, int y, bool down)
   double     nx, ny;
   CeldStatus status = CELD_OK;
 
-  if (way_round (o, x, y, down))
+  if (celd_way_round (&o->joined, x, y, down))
     return CELD_OK;
   outward (o, l->level[near], x, y, !down, down, &nx, &ny);
   if (l->hints)
@@ -233,7 +155,7 @@ is_open (const Outlines *o, const CeldSeam *seam)
 {
   size_t w = (size_t) o->lumo->width;
 
-  return way_round (o, (int) (seam->pixel % w), (int) (seam->pixel / w), seam->down);
+  return celd_way_round (&o->joined, (int) (seam->pixel % w), (int) (seam->pixel / w), seam->down);
 }
 
 /* Strokes that are painted to bend are outlines of their region. */
@@ -296,18 +218,11 @@ hold_frame (CeldLumo *l)
 static CeldStatus
 outlines_new (CeldLumo *l, Outlines *o)
 {
-  *o = (Outlines) { .lumo = l, .words = ((size_t) l->width + 63) / 64 };
-  o->east   = celd_alloc0 ((size_t) l->height * o->words, sizeof *o->east);
-  o->south  = celd_alloc0 ((size_t) l->height * o->words, sizeof *o->south);
+  *o = (Outlines) { .lumo = l };
   o->front  = celd_alloc0 (l->regions.n + 1, 1);
   o->behind = celd_alloc0 (l->regions.n + 1, 1);
-  if (!o->east || !o->south || !o->front || !o->behind)
+  if (!o->front || !o->behind || celd_joined_new (l->width, l->height, l->east, l->south, &o->joined) != CELD_OK)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < l->height; y++)
-    {
-      set_bits (l->east + celd_lumo_pixel (l, 0, y), l->width - 1, o->east + (size_t) y * o->words);
-      set_bits (l->south + celd_lumo_pixel (l, 0, y), l->width, o->south + (size_t) y * o->words);
-    }
   for (int i = 0; i < 2 * REACH + 2; i++)
     for (int j = 0; j < 2 * REACH + 2; j++)
       o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (SPREAD * SPREAD));
@@ -337,8 +252,7 @@ celd_lumo_outlines (CeldLumo *l, const CeldRun *run)
     }
   if (status == CELD_OK && l->settings->frame_outline)
     status = hold_frame (l);
-  celd_free (o.east);
-  celd_free (o.south);
+  celd_joined_clear (&o.joined);
   celd_free (o.front);
   celd_free (o.behind);
   return status;

@@ -278,8 +278,16 @@ CeldStatus celd_depth_regions (int width, int height, const float *level, const 
 CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
                                float *east, float *south);
 
-/* way-round.c: is there a short way from the pixel (x,y) to its right, or else its lower neighbour, where pixels are
- * joined by weights above 0, as in celd_lap_setup? */
-bool celd_way_round (int width, int height, const float *east, const float *south, int x, int y, bool right);
+/* ------------------------------------------------------------------ way-round.c */
+
+/* Which pixels are joined to their right and lower neighbours: a bit each, rows of so many words. */
+typedef struct { int height; size_t words; uint64_t *east, *south; } CeldJoined;
+
+/* By weights above 0, as in celd_lap_setup. */
+CeldStatus celd_joined_new   (int width, int height, const float *east, const float *south, CeldJoined *joined);
+void       celd_joined_clear (CeldJoined *joined);           /* also what was made by half */
+
+/* Is there a short way from the pixel (x,y) to its right, or else its lower neighbour? */
+bool       celd_way_round    (const CeldJoined *joined, int x, int y, bool down);
 
 #endif

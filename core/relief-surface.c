@@ -11,8 +11,6 @@
 #include "relief.h"
 #include "unions.h"
 
-#define JOINED (-1.f) /* of a cut that will be none; others see a cut until all are found */
-
 /* ------------------------------------------------------------------ regions */
 
 /* Connected regions of one level, and which of them hang together. */
@@ -82,39 +80,35 @@ round_up (float *weight, size_t n)
 
 /* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
 static bool
-is_end (const CeldSurface *s, Regions *r, int x, int y, bool right)
+is_end (const CeldSurface *s, const CeldJoined *joined, Regions *r, int x, int y, bool down)
 {
   const uint32_t *region = &CELD_AT (&r->region, x, y);
 
-  return celd_root (r->parent, region[0]) == celd_root (r->parent, region[right ? 1 : s->width]) &&
-         celd_way_round (s->width, s->height, s->east, s->south, x, y, right);
+  return celd_root (r->parent, region[0]) == celd_root (r->parent, region[down ? s->width : 1]) &&
+         celd_way_round (joined, x, y, down);
 }
 
+/* Ends are told by the cuts as they were. */
 static CeldStatus
 join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
 {
-  size_t w = (size_t) s->width, n = w * (size_t) s->height;
+  CeldJoined joined;
+  CeldStatus status = celd_joined_new (s->width, s->height, s->east, s->south, &joined);
+  size_t     p = 0;
 
-  for (int y = 0; y < s->height; y++)
+  for (int y = 0; y < s->height && status == CELD_OK; y++)
     {
-      if (y % 64 == 0 && celd_step (run, (double) y / s->height) != CELD_OK)
-        return CELD_CANCELLED;
-      for (int x = 0; x < s->width; x++)
+      status = y % 64 ? CELD_OK : celd_step (run, (double) y / s->height);
+      for (int x = 0; x < s->width && status == CELD_OK; x++, p++)
         {
-          size_t p = (size_t) y * w + (size_t) x;
-
-          if (x + 1 < s->width && s->east[p] == 0 && is_end (s, r, x, y, true))
-            s->east[p] = JOINED;
-          if (y + 1 < s->height && s->south[p] == 0 && is_end (s, r, x, y, false))
-            s->south[p] = JOINED;
+          if (x + 1 < s->width && s->east[p] == 0 && is_end (s, &joined, r, x, y, false))
+            s->east[p] = 1;
+          if (y + 1 < s->height && s->south[p] == 0 && is_end (s, &joined, r, x, y, true))
+            s->south[p] = 1;
         }
     }
-  for (size_t p = 0; p < n; p++)
-    {
-      s->east[p]  = s->east[p] == JOINED ? 1 : s->east[p];
-      s->south[p] = s->south[p] == JOINED ? 1 : s->south[p];
-    }
-  return CELD_OK;
+  celd_joined_clear (&joined);
+  return status;
 }
 
 void
