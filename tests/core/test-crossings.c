@@ -6,41 +6,6 @@
 
 #define SIZE 240
 
-/* A stroke through a place, part `share` of its way behind it, in a style. */
-static Arrow
-through (Point p, double angle, double length, double share, double width, CeldArrowStyle style, bool open)
-{
-  Head  head = style == CELD_ARROW_HEAD ? (open ? OPEN : FILLED) : style == CELD_ARROW_DOT ? DOT : BARE;
-  Point tail = { p.x - share * length * cos (angle), p.y - share * length * sin (angle) };
-  Arrow a = arrow_at (tail, angle, length, width, 0.1, 0, head, style == CELD_ARROW_DOT ? 1.6 * width : 3.8 * width);
-
-  if (style == CELD_ARROW_FADE)
-    a.last_alpha = 0.15;
-  if (style == CELD_ARROW_TAPER)
-    a.last_width = 0.3 * width;
-  return a;
-}
-
-/* Is one of the relations this arrow, the right way round? */
-static bool
-is_read (const Answer *answer, const Arrow *a, CeldArrowStyle style)
-{
-  Point  first = style == CELD_ARROW_DOT ? a->tip : a->point[0], last = style == CELD_ARROW_DOT ? a->point[0] : a->tip;
-  double near = 3 + 1.5 * a->width;
-
-  for (size_t i = 0; i < answer->relations.n; i++)
-    {
-      const CeldRelation *r = &answer->relations.item[i];
-
-      if (hypot (r->nearer.x - first.x, r->nearer.y - first.y) < near &&
-          hypot (r->farther.x - last.x, r->farther.y - last.y) < near)
-        return true;
-    }
-  return false;
-}
-
-static const CeldArrowStyle STYLES[] = { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER };
-
 /* Two arrows at angles from 40 to 140 degrees: both are read nearly always, and never wrongly. */
 static void
 two_that_cross (void)

@@ -8,7 +8,6 @@
 #define SIZE 200
 
 static const uint8_t ORANGE[3] = { 230, 90, 0 }, MAGENTA[3] = { 200, 0, 120 }, BLACK[3] = { 0, 0, 0 };
-static const CeldArrowStyle STYLES[] = { CELD_ARROW_HEAD, CELD_ARROW_DOT, CELD_ARROW_FADE, CELD_ARROW_TAPER };
 
 /* Lays an arrow over a picture, as painting programs do. */
 static void
@@ -66,39 +65,6 @@ spoil (CeldPaint *paint, double noise, uint32_t *state)
       }
 }
 
-/* A stroke through a place, part `share` of its way behind it, in a style. */
-static Arrow
-through (Point p, double angle, double length, double share, double width, CeldArrowStyle style)
-{
-  Head  head = style == CELD_ARROW_HEAD ? FILLED : style == CELD_ARROW_DOT ? DOT : BARE;
-  Point tail = { p.x - share * length * cos (angle), p.y - share * length * sin (angle) };
-  Arrow a = arrow_at (tail, angle, length, width, 0.1, 0, head, style == CELD_ARROW_DOT ? 1.6 * width : 3.8 * width);
-
-  if (style == CELD_ARROW_FADE)
-    a.last_alpha = 0.15;
-  if (style == CELD_ARROW_TAPER)
-    a.last_width = 0.3 * width;
-  return a;
-}
-
-/* Is one of the relations this arrow, the right way round? */
-static bool
-is_read (const Answer *answer, const Arrow *a, CeldArrowStyle style)
-{
-  Point  first = style == CELD_ARROW_DOT ? a->tip : a->point[0], last = style == CELD_ARROW_DOT ? a->point[0] : a->tip;
-  double near = 3 + 1.5 * a->width;
-
-  for (size_t i = 0; i < answer->relations.n; i++)
-    {
-      const CeldRelation *r = &answer->relations.item[i];
-
-      if (hypot (r->nearer.x - first.x, r->nearer.y - first.y) < near &&
-          hypot (r->farther.x - last.x, r->farther.y - last.y) < near)
-        return true;
-    }
-  return false;
-}
-
 /* All pixels of alpha 128 and more as one component, told apart; in a layer without alpha, what is not white. */
 static CeldColourStrands
 tell_apart (const CeldPaint *paint, bool opaque)
@@ -133,8 +99,8 @@ strands_are_whole (void)
 {
   for (int degrees = 25; degrees <= 155; degrees += 10)
     {
-      Arrow     a = through ((Point) { 100, 100 }, 0.2, 150, 0.5, 7, CELD_ARROW_HEAD);
-      Arrow     b = through ((Point) { 100, 100 }, 0.2 + degrees * 0.0174532925, 130, 0.5, 5, CELD_ARROW_HEAD);
+      Arrow     a = through ((Point) { 100, 100 }, 0.2, 150, 0.5, 7, CELD_ARROW_HEAD, false);
+      Arrow     b = through ((Point) { 100, 100 }, 0.2 + degrees * 0.0174532925, 130, 0.5, 5, CELD_ARROW_HEAD, false);
       CeldPaint paint = blank (SIZE, SIZE), alone = blank (SIZE, SIZE);
       size_t    n[2] = { 0 }, all = 0, same = 0, mixed = 0;
       CeldColourStrands found;
@@ -195,8 +161,8 @@ two_that_cross (void)
           {
             double    angle = random_between (&state, 0, 6.28), turn = random_between (&state, 0.35, 2.8);
             double    share = random_between (&state, 0.4, 0.6), w = random_between (&state, 3.5, 7);
-            Arrow     a = through ((Point) { 100, 100 }, angle, 150, share, w, STYLES[s]);
-            Arrow     b = through ((Point) { 100, 100 }, angle + turn, 150, share, w, STYLES[s]);
+            Arrow     a = through ((Point) { 100, 100 }, angle, 150, share, w, STYLES[s], false);
+            Arrow     b = through ((Point) { 100, 100 }, angle + turn, 150, share, w, STYLES[s], false);
             CeldPaint paint = blank (SIZE, SIZE);
             Answer    answer;
             int       found;
@@ -232,7 +198,7 @@ one_colour_is_one (void)
   for (int i = 0; i < 72; i++)
     {
       double    w = random_between (&state, 3, 12), angle = random_between (&state, 0, 6.28);
-      Arrow     a = through ((Point) { 100, 100 }, angle, 120, 0.5, w, STYLES[i % 4]);
+      Arrow     a = through ((Point) { 100, 100 }, angle, 120, 0.5, w, STYLES[i % 4], false);
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
       bool      good;
@@ -274,7 +240,7 @@ many_colours_may_be_one (void)
     {
       double    w = random_between (&state, 4, 12), angle = random_between (&state, 0, 6.28);
       CeldArrowStyle style = STYLES[i % 4];
-      Arrow     a = through ((Point) { 100, 100 }, angle, 150, 0.5, w, style);
+      Arrow     a = through ((Point) { 100, 100 }, angle, 150, 0.5, w, style, false);
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
 
@@ -311,8 +277,8 @@ close_colours_stay_together (void)
     {
       uint8_t   close[3] = { (uint8_t) (ORANGE[0] - i), ORANGE[1], (uint8_t) (ORANGE[2] + i / 2) };
       CeldArrowStyle style = STYLES[i % 4];
-      Arrow     a = through ((Point) { 100, 100 }, 0.3, 160, 0.4, 5, style);
-      Arrow     b = through ((Point) { 100, 100 }, 1.2, 160, 0.4, 5, style);
+      Arrow     a = through ((Point) { 100, 100 }, 0.3, 160, 0.4, 5, style, false);
+      Arrow     b = through ((Point) { 100, 100 }, 1.2, 160, 0.4, 5, style, false);
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
 
@@ -336,8 +302,8 @@ hidden_ends_are_unclear (void)
     for (size_t s = 0; s < 4; s++)
       {
         double    turn = degrees * 0.0174532925;
-        Arrow     a = through ((Point) { 100, 100 }, 0.3, 160, 0.5, 7, STYLES[s]);
-        Arrow     b = through ((Point) { 100, 100 }, 0.3 + turn, 80, 0, 5, STYLES[s]);
+        Arrow     a = through ((Point) { 100, 100 }, 0.3, 160, 0.5, 7, STYLES[s], false);
+        Arrow     b = through ((Point) { 100, 100 }, 0.3 + turn, 80, 0, 5, STYLES[s], false);
         CeldPaint paint = blank (SIZE, SIZE);
         Answer    answer;
 
@@ -359,8 +325,8 @@ arrows_end_to_end (void)
     for (size_t s = 0; s < 4; s++)
       {
         Point     middle = { 100, 100 };
-        Arrow     a = through (middle, 0.3, 80, 0, 6, STYLES[s]);
-        Arrow     b = through (middle, 3.44 + 0.1 * turn, 50, 0, 4, STYLES[s]);
+        Arrow     a = through (middle, 0.3, 80, 0, 6, STYLES[s], false);
+        Arrow     b = through (middle, 3.44 + 0.1 * turn, 50, 0, 4, STYLES[s], false);
         CeldPaint paint = blank (SIZE, SIZE);
         Answer    answer;
 
@@ -380,8 +346,8 @@ cracks_that_are_crossed (void)
 {
   for (int below = 0; below < 2; below++)
     {
-      Arrow     a = through ((Point) { 100, 100 }, 0.3, 150, 0.5, 5, CELD_ARROW_HEAD);
-      Arrow     b = through ((Point) { 100, 100 }, 1.7, 150, 0.5, 5, CELD_ARROW_HEAD);
+      Arrow     a = through ((Point) { 100, 100 }, 0.3, 150, 0.5, 5, CELD_ARROW_HEAD, false);
+      Arrow     b = through ((Point) { 100, 100 }, 1.7, 150, 0.5, 5, CELD_ARROW_HEAD, false);
       CeldPaint paint = blank (SIZE, SIZE);
       Answer    answer;
 
