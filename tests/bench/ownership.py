@@ -9,10 +9,9 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import argparse
 import json
 import os
-import subprocess
 import sys
 
-from pages import make_page, make_relations, pin, processor, save, table, version
+from pages import figure, make_page, make_relations, milliseconds, processor, run, save, table, version
 
 CASES = ['folders', 'frog', 'bee', 'house', 'bee-pencil']
 
@@ -20,24 +19,13 @@ CASES = ['folders', 'frog', 'bee', 'house', 'bee-pencil']
 def measure(name, megapixels, options):
     folder = os.path.join(options.build, 'pages')
     drawing, scribbles, _ = make_page(name, megapixels, folder)
-    command = [os.path.join(options.build, 'tests', 'bench', 'bench-ownership'), drawing, scribbles,
-               make_relations(name, drawing, folder), str(options.runs), str(options.edits)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin)
-    if done.returncode:
-        sys.exit(f'{" ".join(command)}: exit status {done.returncode}')
-    return {'case': name, 'megapixels': megapixels, **json.loads(done.stdout)}
+    relations = make_relations(name, drawing, folder)
+    figures = run('bench-ownership', options, drawing, scribbles, relations, options.runs, options.edits)
+    return {'case': name, 'megapixels': megapixels, **figures}
 
 
 def by_megapixel(key):
     return lambda r: 1e9 * r[key] / r['pixels']
-
-
-def milliseconds(key):
-    return lambda r: 1000 * r[key] if key in r else None
-
-
-def figure(key):
-    return lambda r: r.get(key)
 
 
 TABLES = [

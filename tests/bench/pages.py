@@ -7,6 +7,8 @@ import math
 import os
 import platform
 import re
+import subprocess
+import sys
 
 import numpy as np
 from PIL import Image
@@ -79,7 +81,24 @@ def pin():
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
+def run(program, options, *arguments, one_core=True):
+    """The JSON that a program prints."""
+    command = [os.path.join(options.build, 'tests', 'bench', program), *map(str, arguments)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin if one_core else None)
+    if done.returncode:
+        sys.exit(f'{" ".join(command)}: exit status {done.returncode}')
+    return json.loads(done.stdout)
+
+
 # ------------------------------------------------------------------ tables
+
+def milliseconds(*keys):
+    return lambda r: sum(1000 * r[key] for key in keys) if all(key in r for key in keys) else None
+
+
+def figure(key):
+    return lambda r: r.get(key)
+
 
 def row(name, cells):
     return f'{name:24}' + ''.join(f'{cell:>10}' for cell in cells)

@@ -9,10 +9,9 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import argparse
 import json
 import os
-import subprocess
 import sys
 
-from pages import make_page, pin, processor, save, table, version
+from pages import make_page, milliseconds, processor, run, save, table, version
 
 CLEAN = ['frog', 'bee', 'monkey', 'house', 'caterpillar']
 VARIANTS = [f'{name}-{kind}' for kind in ('gappy', 'wide', 'pencil') for name in ('bee', 'monkey', 'caterpillar')]
@@ -23,24 +22,16 @@ BOOST = ['frog', 'monkey-gappy', 'caterpillar-pencil']
 
 def measure(name, megapixels, options):
     """The program's figures, by name."""
-    pages = os.path.join(options.build, 'pages')
-    program = os.path.join(options.build, 'tests', 'bench', 'bench-segmentation')
+    pages = make_page(name, megapixels, os.path.join(options.build, 'pages'))
     numbers = options.runs, options.strokes, options.exact_strokes, int(name in options.boost_cases)
-    command = [program, *make_page(name, megapixels, pages), *map(str, numbers)]
+    kept = []
     if options.keep:
         os.makedirs(options.keep, exist_ok=True)
-        command.append(os.path.join(options.keep, f'{name}-{megapixels:g}-'))
-    run = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin)
-    if run.returncode:
-        sys.exit(f'{" ".join(command)}: exit status {run.returncode}')
-    return {'case': name, 'megapixels': megapixels, **json.loads(run.stdout)}
+        kept.append(os.path.join(options.keep, f'{name}-{megapixels:g}-'))
+    return {'case': name, 'megapixels': megapixels, **run('bench-segmentation', options, *pages, *numbers, *kept)}
 
 
 # ------------------------------------------------------------------ tables
-
-def milliseconds(*keys):
-    return lambda r: sum(1000 * r[key] for key in keys) if all(key in r for key in keys) else None
-
 
 def times(slow, fast):
     return lambda r: r[slow] / r[fast] if slow in r and r.get(fast) else None

@@ -17,7 +17,7 @@ import cvxopt
 import numpy as np
 from scipy import sparse
 
-from pages import make_page, make_relations, pin, processor, save, table, version
+from pages import figure, make_page, make_relations, milliseconds, processor, run, save, table, version
 
 LAPLACE = ['frog', 'bee', 'caterpillar', 'bee-gappy', 'caterpillar-pencil']
 PROGRAM = ['frog', 'bee', 'caterpillar', 'campfire']
@@ -35,15 +35,6 @@ require(process.argv[1] + '/node_modules/highs')().then(highs => {
 
 
 # ------------------------------------------------------------------ pages and runs
-
-def run(program, options, *arguments, one_core=True):
-    """The JSON that a program prints."""
-    command = [os.path.join(options.build, 'tests', 'bench', program), *map(str, arguments)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin if one_core else None)
-    if done.returncode:
-        sys.exit(f'{" ".join(command)}: exit status {done.returncode}')
-    return json.loads(done.stdout)
-
 
 def measure_laplace(name, megapixels, options):
     folder = os.path.join(options.build, 'pages')
@@ -152,16 +143,8 @@ def measure_session(name, megapixels, options):
 
 # ------------------------------------------------------------------ tables
 
-def milliseconds(key):
-    return lambda r: 1000 * r[key] if key in r else None
-
-
 def by_megapixel(key):
     return lambda r: 1000 * r[key] / r['megapixels'] if key in r else None
-
-
-def figure(key):
-    return lambda r: r.get(key)
 
 
 def times(slow, fast):

@@ -7,27 +7,16 @@ are.
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
 import argparse
-import json
 import os
-import subprocess
-import sys
 
-from pages import make_page, make_relations, pin, processor, save, table, version
+from pages import make_page, make_relations, milliseconds, processor, run, save, table, version
 
 
 def measure(name, megapixels, options):
     folder = os.path.join(options.build, 'pages')
     drawing, scribbles, _ = make_page(name, megapixels, folder)
-    command = [os.path.join(options.build, 'tests', 'bench', 'bench-stereo'), drawing, scribbles,
-               make_relations(name, drawing, folder), str(options.runs)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, preexec_fn=pin)
-    if done.returncode:
-        sys.exit(f'{" ".join(command)}: exit status {done.returncode}')
-    return {'case': name, 'megapixels': megapixels, **json.loads(done.stdout)}
-
-
-def milliseconds(name):
-    return lambda r: 1000 * r[name]
+    figures = run('bench-stereo', options, drawing, scribbles, make_relations(name, drawing, folder), options.runs)
+    return {'case': name, 'megapixels': megapixels, **figures}
 
 
 COLUMNS = [
