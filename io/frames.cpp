@@ -327,13 +327,8 @@ write_folder (const std::string &path, const CeldIoFrames &frames)
     {
       const std::string number = std::to_string (i);
       const std::string name = folder.name () + "/" + std::string (digits - number.size (), '0') + number + ".png";
-      const Bytes       bytes = encode_png (frames.width, frames.height, frame_pixels (frames, i).data ());
-      std::ofstream     file (name, std::ios::binary);
 
-      file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
-      file.close ();
-      if (!file)
-        throw IoFailure ("there is no room for it.");
+      write_png (name, frames.width, frames.height, frame_pixels (frames, i).data ());
     }
   folder.commit ();
 }

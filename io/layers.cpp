@@ -71,6 +71,18 @@ encode_png (int width, int height, const float *rgba)
   return Bytes (memory.buffer ());
 }
 
+void
+write_png (const std::string &path, int width, int height, const float *rgba)
+{
+  const Bytes   bytes = encode_png (width, height, rgba);
+  std::ofstream file (path, std::ios::binary);
+
+  file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
+  file.close ();
+  if (!file)
+    throw IoFailure ("there is no room for it.");
+}
+
 // ------------------------------------------------------------------ EXR
 
 static void
@@ -151,14 +163,7 @@ write_folder (const std::string &path, const CeldIoStack &stack)
       std::fill (canvas.begin (), canvas.end (), 0.f);
       for (int y = 0; y < box.height; y++)
         std::copy_n (&rgba[size_t (y) * part], part, &canvas[size_t (y + box.y) * row + 4 * size_t (box.x)]);
-
-      const Bytes   bytes = encode_png (stack.width, stack.height, canvas.data ());
-      std::ofstream file (folder.name () + "/" + file_name (stack, i), std::ios::binary);
-
-      file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
-      file.close ();
-      if (!file)
-        throw IoFailure ("there is no room for it.");
+      write_png (folder.name () + "/" + file_name (stack, i), stack.width, stack.height, canvas.data ());
     }
   folder.commit ();
 }

@@ -23,6 +23,7 @@ std::vector<float> layer_pixels (const CeldIoStack &stack, size_t layer);
 
 // 8 bits, sRGB.
 Bytes encode_png (int width, int height, const float *rgba);
+void write_png (const std::string &path, int width, int height, const float *rgba);
 
 // layers from back to front
 void write_open_raster (const std::string &path, const CeldIoStack &stack);
