@@ -13,7 +13,6 @@ typedef struct
 {
   CeldSolution    *s;
   const CeldLevel *level;
-  bool             begin;       /* what has no edge is done at once */
   bool             deliver;     /* the result, rather than the residual */
   int              phase;
 } Pass;
@@ -105,28 +104,6 @@ residual_row (const Pass *pass, int y, const double *above, const double *here, 
     }
 }
 
-static inline bool
-has_edge (const CeldLevel *level, size_t i)
-{
-  return level->near[i] > 0 || level->far[i] > 0 || level->north[i] > 0 || level->south[i] > 0;
-}
-
-/* Pixels of row y without an edge: their residual goes at once.  Others have no coarser node either. */
-CELD_INLINE void
-settle_row (const Pass *pass, int y, int lanes)
-{
-  const CeldLevel *level = pass->level;
-  float           *x = pass->s->x, *r = pass->s->r;
-  size_t           many = (size_t) lanes, first = (size_t) (y + 1) * level->stride + 1;
-
-  for (size_t i = first; i < first + (size_t) level->half; i++)
-    for (size_t k = i * many; k < (i + 1) * many && !level->coarser[i] && !has_edge (level, i); k++)
-      {
-        x[k] += level->inverse[i] * r[k];
-        r[k] = 0;
-      }
-}
-
 /* The caller's row y. */
 CELD_INLINE void
 deliver_row (const Pass *pass, int y, const double *black, int lanes)
@@ -168,8 +145,6 @@ residual (void *data, int strip, int lanes)
       if (!pass->deliver && y > from)
         residual_row (pass, y - 1, row[0], row[1], row[2], lanes);
     }
-  for (int y = from; y < to && pass->begin; y++)
-    settle_row (pass, y, lanes);
 }
 
 /* The red pixels of a strip, from the caller's. */
@@ -216,6 +191,39 @@ residual_lanes (void *data, int strip)
   residual (data, strip, CELD_LANES);
 }
 
+static inline bool
+has_edge (const CeldLevel *level, size_t i)
+{
+  return level->near[i] > 0 || level->far[i] > 0 || level->north[i] > 0 || level->south[i] > 0;
+}
+
+/* Pixels of row y without an edge: their residual goes at once.  Others have no coarser node either. */
+static void
+settle_row (const Pass *pass, int y)
+{
+  const CeldLevel *level = pass->level;
+  float           *x = pass->s->x, *r = pass->s->r;
+  size_t           many = (size_t) pass->s->lanes, first = (size_t) (y + 1) * level->stride + 1;
+
+  for (size_t i = first; i < first + (size_t) level->half; i++)
+    for (size_t k = i * many; k < (i + 1) * many && !level->coarser[i] && !has_edge (level, i); k++)
+      {
+        x[k] += level->inverse[i] * r[k];
+        r[k] = 0;
+      }
+}
+
+/* Of its own, after the residual: the strips beside this one read its x for that. */
+static void
+settle_strip (void *data, int strip)
+{
+  const Pass *pass = data;
+  int         from = strip * CELD_STRIP, end = from + CELD_STRIP;
+
+  for (int y = from; y < end && y < pass->level->height; y++)
+    settle_row (pass, y);
+}
+
 /* ------------------------------------------------------------------ the passes */
 
 static void
@@ -233,10 +241,11 @@ celd_pixels_refresh (CeldSolution *s)
 void
 celd_pixels_begin (CeldSolution *s)
 {
-  Pass pass = { .s = s, .level = &s->laplace->levels.level[0], .begin = true };
+  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
 
   run (&pass, read_strip_single, read_strip_lanes);
   run (&pass, residual_single, residual_lanes);
+  run (&pass, settle_strip, settle_strip);
 }
 
 void
