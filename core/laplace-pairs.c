@@ -115,67 +115,50 @@ quality (const Links *links, uint32_t i, uint32_t j, float w)
   return d * e / (d + e) / ((double) w + (s > 0 && t > 0 ? s * t / (s + t) : 0));
 }
 
-/* Each node with the free one that makes the best pair of quality `good`, in the order of their numbers. */
-static uint32_t
-pair_nodes (Links *links, double good, uint32_t *parent)
+/* May i join j: as a pair if j is free, or else where j weighs much more? */
+static inline bool
+may_join (const Links *links, bool pairs, uint32_t i, uint32_t j)
 {
-  uint32_t pairs = 0;
-
-  for (uint32_t i = 0; i < links->n; i++)
-    {
-      uint32_t partner = i;
-      double   best = good;
-
-      for (size_t e = links->start[i]; e < links->start[i + 1] && !links->paired[i]; e++)
-        {
-          uint32_t j = links->neighbour[e];
-          double   q = links->paired[j] ? best : quality (links, i, j, links->weight[e]);
-
-          if (q < best)
-            {
-              best    = q;
-              partner = j;
-            }
-        }
-      if (partner == i)
-        continue;
-      celd_join (parent, i, partner);
-      links->paired[i] = links->paired[partner] = 1;
-      pairs++;
-    }
-  return pairs;
+  return pairs ? !links->paired[j] : links->diagonal[j] >= HEAVY * links->diagonal[i];
 }
 
-/* Nodes without a partner join their best neighbour's aggregate. */
+/* The neighbour that makes the best aggregate with i, of quality `good` at most; i itself if there is none. */
 static uint32_t
-hang_nodes (Links *links, double good, uint32_t *parent)
+best_for (const Links *links, bool pairs, double good, uint32_t i)
 {
-  uint32_t hung = 0;
+  uint32_t best = i;
+
+  for (size_t e = links->start[i]; e < links->start[i + 1]; e++)
+    if (may_join (links, pairs, i, links->neighbour[e]))
+      {
+        double q = quality (links, i, links->neighbour[e], links->weight[e]);
+
+        best = q < good ? links->neighbour[e] : best;
+        good = q < good ? q : good;
+      }
+  return best;
+}
+
+/* Free nodes in the order of their numbers: in pairs, or each to its best neighbour's aggregate.  Returns how many
+ * aggregates that makes less. */
+static uint32_t
+join_nodes (Links *links, bool pairs, double good, uint32_t *parent)
+{
+  uint32_t joined = 0;
 
   for (uint32_t i = 0; i < links->n; i++)
     {
-      uint32_t host = i;
-      double   best = good;
+      uint32_t best = links->paired[i] ? i : best_for (links, pairs, good, i);
 
-      for (size_t e = links->start[i]; e < links->start[i + 1] && !links->paired[i]; e++)
-        {
-          uint32_t j = links->neighbour[e];
-          bool     heavy = links->diagonal[j] >= HEAVY * links->diagonal[i];
-          double   q = heavy ? quality (links, i, j, links->weight[e]) : best;
-
-          if (q < best)
-            {
-              best = q;
-              host = j;
-            }
-        }
-      if (host == i)
+      if (best == i)
         continue;
-      celd_join (parent, i, host);
+      celd_join (parent, i, best);
       links->paired[i] = 1;
-      hung++;
+      if (pairs)
+        links->paired[best] = 1;
+      joined++;
     }
-  return hung;
+  return joined;
 }
 
 CeldStatus
@@ -192,8 +175,8 @@ celd_weights_pair (const CeldWeights *graph, uint32_t most, uint32_t *parent)
     }
   for (double good = GOOD; status == CELD_OK && count > most && good < 1e12; good *= 4)
     {
-      count -= pair_nodes (&links, good, parent);
-      count -= hang_nodes (&links, good, parent);
+      count -= join_nodes (&links, true, good, parent);
+      count -= join_nodes (&links, false, good, parent);
     }
   links_clear (&links);
   return status;
