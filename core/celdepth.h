@@ -4,10 +4,10 @@
  * Eurographics 2010 ("the paper").  C11 and libm, no global state, no printing, no threads of its own.
  *
  * What to read first:
- *   celdepth-session.h   the whole route, kept between edits
- *   celdepth-steps.h     the steps, in the order of the route
- *   celdepth-records.h   what travels between them
- *   celdepth-values.h    answers, progress, pictures, settings
+ *   celdepth/session.h  the whole route, kept between edits
+ *   celdepth/steps.h    the steps, in the order of the route
+ *   celdepth/records.h  what travels between them
+ *   celdepth/values.h   answers, progress, pictures, settings
  *
  * Values that every function keeps:
  *   pixels    x to the right, y down; pixel (x,y) covers [x,x+1) x [y,y+1); sizes 1 .. CELD_MAX_SIDE
@@ -27,7 +27,7 @@
 #ifndef CELDEPTH_H
 #define CELDEPTH_H
 
-#include "celdepth-session.h"
-#include "celdepth-steps.h"
+#include "celdepth/session.h"
+#include "celdepth/steps.h"
 
 #endif

@@ -3,9 +3,10 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
-#include "order.h"
-#include "ownership.h"
-#include "program.h"
+#include "depth/program.h"
+#include "image/image.h"
+#include "order/order.h"
+#include "ownership/ownership.h"
 
 static CeldStatus
 order_step (const CeldRun *run, Results *r)

@@ -3,7 +3,10 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
-#include "segment.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "segment/patches.h"
 
 static CeldStatus
 ink_step (const CeldRun *run, Results *r)

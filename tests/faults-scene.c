@@ -4,6 +4,8 @@
  */
 #include "faults.h"
 
+#include <string.h>
+
 /* ------------------------------------------------------------------ the scene */
 
 Pixels drawing_pixels, scribble_pixels, arrow_pixels, contour_pixels, label_pixels, lossy_pixels, crossing_pixels;

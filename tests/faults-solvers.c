@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
-#include "partition.h"
-#include "program.h"
+#include "solve/partition.h"
+#include "solve/quadratic.h"
 
 /* A grid of 8 x 6 nodes, of which four labels hold the corners and quarrel about the rest. */
 static size_t

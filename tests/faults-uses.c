@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "faults.h"
-#include "ownership.h"
+#include "base/base.h"
 
 /* The label picture cut up, as if the left part of each shared pixel were the label's and the right part the next
  * one's: gaps, holes and lines to complete. */

@@ -5,7 +5,7 @@
 #ifndef FAULTS_H
 #define FAULTS_H
 
-#include "private.h"
+#include "celdepth.h"
 
 #define W 64
 #define H 48

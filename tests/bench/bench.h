@@ -5,7 +5,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "private.h"
+#include "celdepth.h"
 
 #ifdef __cplusplus
 extern "C" {

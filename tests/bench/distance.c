@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,9 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
-#include "costs.h"
+#include "image/image.h"
+#include "segment/costs.h"
+#include "solve/maxflow.h"
 
 #include <stdlib.h>
 

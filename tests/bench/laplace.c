@@ -11,7 +11,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "rivals.h"
-#include "smooth.h"
+#include "depth/depth.h"
+#include "solve/laplace.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "rivals.h"
-#include "unions.h"
+#include "base/unions.h"
 
 #include <stdlib.h>
 

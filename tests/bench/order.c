@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "private.h"
+#include "celdepth.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -10,7 +10,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
-#include "basins.h"
+#include "segment/basins.h"
+#include "solve/maxflow.h"
 
 #include <math.h>
 #include <stdio.h>

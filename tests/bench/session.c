@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
+#include "base/base.h"
 
 #include <stdio.h>
 #include <stdlib.h>

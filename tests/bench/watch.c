@@ -3,9 +3,13 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
-#include "painting.h"
-#include "partition.h"
-#include "segment.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "segment/painting.h"
+#include "segment/patches.h"
+#include "solve/maxflow.h"
+#include "solve/partition.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #ifndef BASIN_DRAWINGS_H
 #define BASIN_DRAWINGS_H
 
-#include "basins.h"
+#include "segment/basins.h"
 #include "check.h"
 
 #define THRESHOLD 0.25f /* of the ink */

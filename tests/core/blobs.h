@@ -5,8 +5,8 @@
 #ifndef BLOBS_H
 #define BLOBS_H
 
+#include "base/base.h"
 #include "check.h"
-#include "private.h"
 
 #include <math.h>
 

@@ -5,8 +5,11 @@
 #ifndef CANVAS_H
 #define CANVAS_H
 
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "segment/costs.h"
 #include "check.h"
-#include "segment.h"
 
 typedef struct { CeldPlane ink; CeldSettings settings; CeldBasins basins; CeldCanvas canvas; } Sketch;
 

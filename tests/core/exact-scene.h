@@ -5,8 +5,8 @@
 #ifndef EXACT_SCENE_H
 #define EXACT_SCENE_H
 
+#include "base/base.h"
 #include "check.h"
-#include "program.h"
 
 typedef struct
 {

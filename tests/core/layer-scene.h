@@ -5,8 +5,8 @@
 #ifndef LAYER_SCENE_H
 #define LAYER_SCENE_H
 
+#include "base/base.h"
 #include "check.h"
-#include "layers.h"
 
 #define MOST_LABELS 8
 

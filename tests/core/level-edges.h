@@ -5,8 +5,8 @@
 #ifndef LEVEL_EDGES_H
 #define LEVEL_EDGES_H
 
+#include "solve/laplace-private.h"
 #include "check.h"
-#include "laplace.h"
 
 typedef struct { size_t from, to; double weight; } LevelEdge; /* places */
 

@@ -5,8 +5,8 @@
 #ifndef RANDOM_LEVELS_H
 #define RANDOM_LEVELS_H
 
+#include "depth/depth.h"
 #include "check.h"
-#include "smooth.h"
 
 enum { W = 31, H = 22, N = W * H };
 

@@ -5,8 +5,8 @@
 #ifndef RANDOM_SESSION_H
 #define RANDOM_SESSION_H
 
+#include "session/session.h"
 #include "check.h"
-#include "session.h"
 
 #define W 56
 #define H 40

@@ -5,8 +5,8 @@
 #ifndef READING_H
 #define READING_H
 
+#include "input/scribbles.h"
 #include "check.h"
-#include "scribbles.h"
 
 /* 'A' is colour 1, which has the channels rgb[0], and so on; '.' is colour 0, transparent.  All pixels count as core
  * and opaque. */

@@ -5,8 +5,8 @@
 #ifndef SHEETS_H
 #define SHEETS_H
 
+#include "image/image.h"
 #include "check.h"
-#include "private.h"
 
 #define MOST_SHEETS 32
 

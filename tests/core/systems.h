@@ -5,8 +5,8 @@
 #ifndef SYSTEMS_H
 #define SYSTEMS_H
 
+#include "solve/laplace.h"
 #include "check.h"
-#include "private.h"
 
 /* A system of the test, its start and its right-hand sides. */
 typedef struct

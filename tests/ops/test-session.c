@@ -6,7 +6,7 @@
 #include "listen.h"
 #include "page.h"
 #include "properties.h"
-#include "session.h"
+#include "session/session.h"
 
 #define SEGMENT "celdepth:lazybrush-segment"
 

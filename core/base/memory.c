@@ -1,0 +1,185 @@
+/* Allocation with overflow checks, and the ends of the records of celdepth.h.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+
+#include <stdlib.h>
+
+void *
+celd_alloc (size_t count, size_t size)
+{
+  if (size && count > SIZE_MAX / size)
+    return NULL;
+  return malloc (count && size ? count * size : 1);
+}
+
+void *
+celd_alloc0 (size_t count, size_t size)
+{
+  if (size && count > SIZE_MAX / size)
+    return NULL;
+  return calloc (count ? count : 1, size ? size : 1);
+}
+
+/* The capacity is not stored: it is the next power of two, so that growing one by one stays linear. */
+void *
+celd_grow (void *items, size_t count, size_t size)
+{
+  size_t room = 8;
+
+  if (items && (count <= 8 || ((count - 1) & (count - 2))))
+    return items; /* still fits the power of two of the item before */
+  while (room < count)
+    {
+      if (room > SIZE_MAX / 2)
+        return NULL;
+      room *= 2;
+    }
+  if (size && room > SIZE_MAX / size)
+    return NULL;
+  return realloc (items, room * size);
+}
+
+void
+celd_free (void *memory)
+{
+  free (memory);
+}
+
+CeldStatus
+celd_plane_new (int width, int height, CeldPlane *plane)
+{
+  *plane = (CeldPlane) { width, height, (size_t) width, celd_alloc ((size_t) width * (size_t) height, sizeof (float)) };
+  return plane->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_labels_new (int width, int height, CeldLabels *labels)
+{
+  *labels = (CeldLabels) {
+    width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, sizeof (uint32_t))
+  };
+  return labels->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_mask_new (int width, int height, CeldMask *mask)
+{
+  *mask = (CeldMask) { width, height, (size_t) width, celd_alloc0 ((size_t) width * (size_t) height, 1) };
+  return mask->data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_ownership_new (int width, int height, CeldOwnership *own)
+{
+  CeldOwnership made = { 0 };
+  CeldStatus    status = celd_labels_new (width, height, &made.owner);
+
+  if (status == CELD_OK)
+    status = celd_labels_new (width, height, &made.under);
+  if (status == CELD_OK)
+    status = celd_plane_new (width, height, &made.share);
+  if (status == CELD_OK)
+    *own = made;
+  else
+    celd_ownership_clear (&made);
+  return status;
+}
+
+void
+celd_ownership_clear (CeldOwnership *own)
+{
+  celd_free (own->owner.data);
+  celd_free (own->under.data);
+  celd_free (own->share.data);
+  *own = (CeldOwnership) { 0 };
+}
+
+CeldStatus
+celd_problem_add (CeldProblems *problems, CeldProblem problem)
+{
+  CeldProblem *item;
+
+  if (!problems)
+    return CELD_OK;
+  item = celd_grow (problems->item, problems->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  problems->item = item;
+  item[problems->n++] = problem;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_relation_add (CeldRelations *relations, CeldRelation relation)
+{
+  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  relations->item = item;
+  item[relations->n++] = relation;
+  return CELD_OK;
+}
+
+void
+celd_palette_clear (CeldPalette *palette)
+{
+  celd_free (palette->item);
+  *palette = (CeldPalette) { 0 };
+}
+
+void
+celd_relations_clear (CeldRelations *relations)
+{
+  celd_free (relations->item);
+  *relations = (CeldRelations) { 0 };
+}
+
+void
+celd_problems_clear (CeldProblems *problems)
+{
+  celd_free (problems->item);
+  *problems = (CeldProblems) { 0 };
+}
+
+static void
+clear_cycles (CeldCycle *cycle, size_t n_cycles, CeldKnot *knot, size_t n_knots)
+{
+  for (size_t i = 0; i < n_cycles; i++)
+    celd_free (cycle[i].item);
+  for (size_t i = 0; i < n_knots; i++)
+    {
+      celd_free (knot[i].item);
+      celd_free (knot[i].newest.item);
+    }
+  celd_free (cycle);
+  celd_free (knot);
+}
+
+void
+celd_order_clear (CeldOrder *order)
+{
+  clear_cycles (order->cycle, order->n_cycles, order->knot, order->n_knots);
+  celd_free (order->level);
+  celd_free (order->height);
+  *order = (CeldOrder) { 0 };
+}
+
+void
+celd_exact_clear (CeldExact *exact)
+{
+  clear_cycles (exact->cycle, exact->n_cycles, exact->knot, exact->n_knots);
+  celd_free (exact->node);
+  *exact = (CeldExact) { 0 };
+}
+
+void
+celd_closures_clear (CeldClosures *closures)
+{
+  for (size_t i = 0; i < closures->n; i++)
+    celd_free (closures->item[i].place);
+  celd_free (closures->item);
+  *closures = (CeldClosures) { 0 };
+}

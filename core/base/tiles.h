@@ -1,0 +1,76 @@
+/* A byte for each square of a picture.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_TILES_H
+#define CELD_TILES_H
+
+#include "base/base.h"
+
+#define CELD_TILE 16 /* pixels a side */
+
+typedef struct { int across, down; uint8_t *at; } CeldTiles;
+
+/* All 0; end with celd_free (at). */
+static inline CeldStatus
+celd_tiles_new (int width, int height, CeldTiles *tiles)
+{
+  *tiles    = (CeldTiles) { (width + CELD_TILE - 1) / CELD_TILE, (height + CELD_TILE - 1) / CELD_TILE, NULL };
+  tiles->at = celd_alloc0 ((size_t) tiles->across * (size_t) tiles->down, 1);
+  return tiles->at ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* The tile of pixel (x,y). */
+static inline uint8_t *
+celd_tile_of (const CeldTiles *tiles, int x, int y)
+{
+  return &tiles->at[(size_t) (y / CELD_TILE) * (size_t) tiles->across + (size_t) (x / CELD_TILE)];
+}
+
+/* Tiles left .. right, top .. bottom; none where right < left. */
+typedef struct { int left, top, right, bottom; } CeldTileSpan;
+
+/* Those that a box of places touches. */
+static inline CeldTileSpan
+celd_tile_span (const CeldTiles *tiles, float left, float top, float right, float bottom)
+{
+  float most_x = (float) (tiles->across * CELD_TILE - 1), most_y = (float) (tiles->down * CELD_TILE - 1);
+
+  if (!(left <= most_x && top <= most_y && right >= 0 && bottom >= 0))
+    return (CeldTileSpan) { 0, 0, -1, -1 };
+  return (CeldTileSpan) {
+    left > 0 ? (int) left / CELD_TILE : 0, top > 0 ? (int) top / CELD_TILE : 0,
+    (int) (right < most_x ? right : most_x) / CELD_TILE, (int) (bottom < most_y ? bottom : most_y) / CELD_TILE
+  };
+}
+
+/* Has any of them one of the bits? */
+static inline bool
+celd_tiles_any (const CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
+{
+  for (int y = span.top; y <= span.bottom; y++)
+    for (int x = span.left; x <= span.right; x++)
+      if (tiles->at[(size_t) y * (size_t) tiles->across + (size_t) x] & bits)
+        return true;
+  return false;
+}
+
+/* Gives the bits to all of them. */
+static inline void
+celd_tiles_mark (CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
+{
+  for (int y = span.top; y <= span.bottom; y++)
+    for (int x = span.left; x <= span.right; x++)
+      tiles->at[(size_t) y * (size_t) tiles->across + (size_t) x] |= bits;
+}
+
+/* The pixels of a tile. */
+static inline CeldRect
+celd_tile_rect (int tile_x, int tile_y, int width, int height)
+{
+  int x = tile_x * CELD_TILE, y = tile_y * CELD_TILE, right = width - x, below = height - y;
+
+  return (CeldRect) { x, y, right < CELD_TILE ? right : CELD_TILE, below < CELD_TILE ? below : CELD_TILE };
+}
+
+#endif

@@ -1,0 +1,209 @@
+/* Records that travel between the steps: palette, relations, problems, orders, reports, layers, meshes.
+ *
+ * Part of celdepth.h, which says what values and who owns what.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELDEPTH_RECORDS_H
+#define CELDEPTH_RECORDS_H
+
+#include "celdepth/values.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum { CELD_FROM_SCRIBBLE, CELD_FROM_ARROW, CELD_FROM_BACKGROUND } CeldOrigin;
+
+/* One label and what is known of it. */
+typedef struct
+{
+  uint8_t    colour[4];         /* R'G'B'A of its scribbles; alpha 0 only for the background that celdepth added */
+  CeldOrigin origin;
+  bool       background;        /* weakly behind every other label */
+  bool       hard;              /* its seeds are obeyed whatever the hardness (seeds of arrows) */
+  int        x, y;              /* a pixel of it, well inside */
+  size_t     seeds;             /* painted pixels */
+  size_t     area;              /* pixels after segmentation */
+} CeldRegion;
+
+typedef struct { CeldRegion *item; size_t n; } CeldPalette;
+
+CELD_API void celd_palette_clear (CeldPalette *palette);
+
+/* One end of a relation: a point of the drawing, or every region of a colour. */
+typedef struct { bool by_colour; uint8_t colour[3]; double x, y; } CeldTerm;
+
+typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW, CELD_SOURCE_PATH, CELD_SOURCE_SUGGESTION } CeldSource;
+
+/* `nearer` is in front of `farther`; or both have the same depth. */
+typedef struct
+{
+  CeldTerm   nearer, farther;
+  bool       equal;
+  bool       crack;             /* registration may tear here (the paper's blue arrows) */
+  bool       anchor;            /* both ends keep their level in smooth depth */
+  double     weight;            /* > 0; in a contradiction the lighter relation gives way; 1 */
+  double     gap;               /* least gap in levels, > 0; 1 */
+  CeldSource source;
+  int        line, column;      /* where it stands in the text or path, from 1; 0 for others */
+  uint32_t   id;                /* the host's name for it; 0 unless set through a session */
+} CeldRelation;
+
+typedef struct { CeldRelation *item; size_t n; } CeldRelations;
+
+CELD_API void celd_relations_clear (CeldRelations *relations);
+
+/* Where relations text or path data could not be read. */
+typedef struct { int line, column; char expected[48]; char found[24]; } CeldTextError;
+
+/* Something the artist should know; none of these stops the work. */
+typedef enum
+{
+  CELD_PROBLEM_STROKE_OVERRULED,   /* most of a colour's stroke at (x,y) went to region `other` */
+  CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the closed region round (x,y) */
+  CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
+  CELD_PROBLEM_ARROW_UNCLEAR,      /* the arrow at (x,y) does not say which end is nearer; left out */
+  CELD_PROBLEM_OUTSIDE,            /* relation `relation` names a point outside the drawing; left out */
+  CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
+  CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
+  CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
+  CELD_PROBLEM_NOT_CONVERGED,      /* smooth depth was delivered with a larger error than asked for */
+  CELD_PROBLEM_REGION_SPLIT        /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
+} CeldProblemKind;
+
+#define CELD_NO_INDEX SIZE_MAX
+
+typedef struct
+{
+  CeldProblemKind kind;
+  int             x, y;            /* where to look; -1 if nowhere */
+  uint32_t        label, other;    /* labels concerned; 0 if none */
+  size_t          relation;        /* index into the relations; CELD_NO_INDEX if none */
+} CeldProblem;
+
+typedef struct { CeldProblem *item; size_t n; } CeldProblems;
+
+CELD_API void celd_problems_clear (CeldProblems *problems);
+
+/* Marks the places of problems over whatever is in the picture: a red ring round each, with a dot at the place. */
+CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *paint);
+
+/* One English sentence, cut to `size` bytes with its final 0, saying what, where and what to do.
+ * palette and relations may be NULL: then without colours and line numbers. */
+CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
+                                 char *text, size_t size);
+
+/* Relations that cannot hold together: item[0..n-1] are indices into the relations, in the order of the cycle
+ * (each one's farther region is the next one's nearer region, the last leads back to the first). */
+typedef struct
+{
+  size_t  *item;
+  size_t   n;
+  size_t   knot;                /* of CeldOrder */
+  uint32_t label;               /* whose connected regions it takes to have one depth: without that, as with
+                                 * same_colour = separate, there would be no such cycle; 0: none */
+  uint8_t  colour[3];           /* of that label */
+  int      x[2], y[2];          /* one place in each of two such regions */
+} CeldCycle;
+
+/* All relations that go round in circles with each other: those of a strongly connected component of regions, in the
+ * order given; and a shortest cycle through the newest of them that is on one. */
+typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldKnot;
+
+typedef struct
+{
+  uint32_t  *level;             /* of label k: level[k-1]; 0 = farthest */
+  size_t     n;                 /* labels */
+  uint32_t   levels;            /* one more than the largest level */
+  double    *height;            /* of each level, in gaps of one relation; NULL where that is the level itself */
+  CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
+  size_t     n_cycles;
+  CeldKnot  *knot;
+  size_t     n_knots;
+} CeldOrder;
+
+CELD_API void celd_order_clear (CeldOrder *order);
+
+/* One English sentence that names the partners of the relation which a contradiction left out, cut to `size` bytes. */
+CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size);
+
+/* A gap in a contour as the segmentation closed it: a line from one line's end to another's, between two labels. */
+typedef struct { double x, y; } CeldPlace;
+typedef struct { CeldPlace *place; size_t n; uint32_t label, other; } CeldClosure;
+typedef struct { CeldClosure *item; size_t n; } CeldClosures;
+
+CELD_API void celd_closures_clear (CeldClosures *closures);
+
+/* How well an iterative solve went. */
+typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
+
+/* A node of the exact program: a scribble, or an end of a relation off every scribble. */
+typedef struct
+{
+  uint32_t label;               /* of the scribble; 0 for the end of a relation */
+  int      x, y;                /* a pixel of it; -1,-1 if other paint hides it all */
+  double   depth;               /* in gaps of one relation; the least of all nodes is 0 */
+} CeldNode;
+
+/* What the exact program says beside the depth. */
+typedef struct
+{
+  CeldNode  *node;
+  size_t     n;
+  double     sigma;             /* of eq. (1) */
+  double     energy;            /* 1/2 d'Ld of eq. (2), where the depths of nodes have least gaps of 1 */
+  double     gap;               /* how far that is above the least at most, for the bases as they were solved */
+  double     violation;         /* how much the worst inequality misses; 0 if all hold */
+  size_t     inequalities;      /* between nodes */
+  size_t     active;            /* that hold with equality and push */
+  int        steps;             /* of the active set */
+  CeldSolve  solve;             /* of the harmonic bases */
+  CeldCycle *cycle;             /* contradictions between nodes, as in CeldOrder */
+  size_t     n_cycles;
+  CeldKnot  *knot;
+  size_t     n_knots;
+} CeldExact;
+
+CELD_API void celd_exact_clear (CeldExact *exact);
+
+/* Whose each pixel is, with its ink.  The host gives three pictures of the drawing's size. */
+typedef struct
+{
+  CeldLabels owner;             /* the label whose area or ink the pixel is; where it has parts of two labels, as at an
+                                 * antialiased edge, the nearer one (of equal levels either) */
+  CeldLabels under;             /* the other one, which is seen beside the owner; = owner where there is but one */
+  CeldPlane  share;             /* how much of the pixel the owner covers, above 0; 1 where there is but one.
+                                 * Ink in the pixel is the owner's or, where that has none, under's. */
+} CeldOwnership;
+
+/* A drawing cut into layers, one a region.  Layer 0 is the farthest; each over those before it, by the common `over`
+ * on straight alpha, they are the drawing again. */
+typedef struct CeldLayers CeldLayers;
+
+typedef struct
+{
+  uint32_t label;
+  uint32_t level;
+  CeldRect box;                 /* outside it the layer is transparent; width 0: everywhere */
+} CeldLayer;
+
+/* What layers will be stored in, which counts for their composite. */
+typedef enum
+{
+  CELD_STORE_FLOAT,
+  CELD_STORE_8_BIT,             /* 255ths */
+  CELD_STORE_8_BIT_SRGB         /* linear light, as 255ths of its encoding as sRGB */
+} CeldStore;
+
+CELD_API size_t           celd_layers_count (const CeldLayers *layers);
+CELD_API const CeldLayer *celd_layers_item  (const CeldLayers *layers, size_t layer);
+/* The layer's box as r,g,b,a with straight alpha: 4 x width x height numbers. */
+CELD_API void             celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba);
+CELD_API void             celd_layers_free  (CeldLayers *layers);            /* accepts NULL */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,324 @@
+/* The steps, in the order of the route.
+ *
+ * Part of celdepth.h, which says what values and who owns what.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELDEPTH_STEPS_H
+#define CELDEPTH_STEPS_H
+
+#include "celdepth/records.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Luma, and alpha if it is not NULL, of n pixels R'G'B'A with the values of sRGB: a drawing as every host reads it. */
+CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
+
+/* Line art of a drawing: composited on paper, polarity resolved, contrast normalised against the paper around
+ * (uneven paper and grey pencil become ink 0 and paper 1).  `ink` may not alias the drawing. */
+CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink);
+
+/* Virtual contours (section 4): red strokes become ink, blue strokes ink for segmentation only, green strokes paper;
+ * for `purpose`.  Works on the drawing before celd_ink, keeps its polarity and alpha; `out` may alias the drawing.
+ * Where the drawing has no alpha, out->alpha is not touched. */
+CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
+                                        CeldInkMode mode, const CeldRun *run, CeldDrawing *out);
+
+/* Scribbles as an artist paints them -> seed labels (0 where nothing is painted) and the palette of their colours,
+ * origin CELD_FROM_SCRIBBLE, by falling painted area.  Alpha below one half is none; in a picture without alpha the
+ * commonest colour is none (not with settings->flats); mixed colours of fringes are no label.
+ * No paint at all is CELD_OK with an empty palette. */
+CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
+                                         CeldLabels *seeds, CeldPalette *palette);
+
+/* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is added,
+ * and *error (may be NULL) says where.  Locale-independent. */
+CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
+
+/* Arrows as SVG path data (docs/relations.md): each sub-path becomes one relation from its first to its last point,
+ * appended; errors as above. */
+CELD_API CeldStatus celd_arrow_path_parse (const char *path, CeldRelations *relations, CeldTextError *error);
+
+/* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
+CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *run,
+                                      CeldRelations *relations, CeldProblems *problems);
+
+/* LazyBrush [SDC09b] (section 3.2): every pixel gets a label.  In: seed labels and their palette (both may be empty if
+ * arrows make regions).  Out: labels; `palette` is replaced by one that has the regions that arrows made and the
+ * background behind those given, with area, x, y filled in; `problems` are appended.  `labels` may alias `seeds`;
+ * `relations` and `problems` may be NULL.
+ * CELD_NOTHING_TO_GO_BY if there is neither a seed nor a relation to seed from. */
+CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
+                                  const CeldSettings *settings, const CeldRun *run,
+                                  CeldLabels *labels, CeldPalette *palette, CeldProblems *problems);
+
+/* Draws the closures over whatever is in the picture: an opaque line about as wide as `width`, antialiased, in red. */
+CELD_API void celd_closures_paint (const CeldClosures *closures, double width, CeldPaint *paint);
+
+/* Makes each connected region of a label a label of its own, in place (same_colour = separate).  Specks smaller than
+ * 16 pixels stay with the largest region of their colour. */
+CELD_API CeldStatus celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette);
+
+/* Labels as colours, and back.  Reading: every distinct opaque colour is a label, in the order of falling area;
+ * transparent pixels are the background that celdepth added. */
+CELD_API CeldStatus celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPaint *paint);
+CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels, CeldPalette *palette);
+
+/* The scribble, if any, whose label owns most paper along the frame is the background (settings->background), marked in
+ * the palette.  For label pictures read back by celd_labels_read; ink may be NULL. */
+CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
+                                          CeldPalette *palette);
+
+/* Which of two regions that touch is in front, as far as the drawing tells: one relation a pair, appended, from a point
+ * inside the nearer to one inside the farther, source CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 =
+ * as good as a guess, 1/2 = three times as likely as not.  Suggestions do not contradict each other: the weakest of a
+ * cycle is not made.  `palette` has the areas and the background of the labels; ink may be NULL. */
+CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                  const CeldRun *run, CeldRelations *suggested);
+
+/* The same from a picture of depth, such as a depth estimator makes, in any unit, larger = nearer; not a number is
+ * unknown.  The confidence compares the difference of two regions' medians with the spread inside them. */
+CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                             const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested);
+
+/* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
+ * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
+ * artist's relations do not decide, directly or by way of others.  Suggestions get weights below all of the artist's.
+ * Replaces `both`, which may be `relations`. */
+CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
+                                           const CeldRelations *relations, const CeldRelations *suggested,
+                                           const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,
+                                           CeldRelations *both);
+
+/* Paints relations between points as arrows of the default style over whatever is in the picture, lines about as wide
+ * as `width`: a layer that celd_arrows_read reads.  Green ones weigh 1, orange ones little.  Relations that name
+ * colours, and equalities, are no arrows; of arrows that would touch only the heaviest is painted. */
+CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double width,
+                                          CeldPaint *paint);
+
+/* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
+ * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
+ * contradict are reported as cycles and left out by settings->on_cycle, the rest is ordered.  No other member of the
+ * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else
+ * levels number the heights that there are. */
+CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+                                const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run,
+                                CeldOrder *order, CeldProblems *problems);
+
+/* Levels as they leave, as settings->encoding says: a level's height in gaps of one relation, of `levels` in all (one
+ * more than the largest height); and a level of an order. */
+CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
+CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
+
+/* Whose each pixel is, with its ink: paper is its label's, ink goes to the region that drew it.  Labels are 1 .. n,
+ * level[k - 1] is that of label k.  `corrections` (NULL, or 0 where there is none) are strokes over ink: the piece of
+ * line below each goes to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of its own pen,
+ * over what lies behind it; with CELD_EXPANSION_THICKNESS it is celd_expand.  `owner` may alias `labels`. */
+CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
+                              const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                              CeldOwnership *ownership);
+
+/* Strokes in the colours of regions, as corrections: opaque pixels are the label of their colour, the first of several;
+ * 0 where nothing is painted, or a colour that no region has. */
+CELD_API CeldStatus celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels);
+
+/* celd_own for levels before expansion, of any encoding, larger = nearer; not a number reads as 0.  Every level, or
+ * with `regions` (may be NULL) every region of a level, is a label.  `corrections` (may be NULL) are labels of
+ * `regions`; of a region with several levels they mean the level that has most of it.  CELD_BAD_VALUE for corrections
+ * without regions.
+ * `expanded` is the level that has more of each pixel and may alias `levels`. */
+CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                        const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                        CeldPlane *expanded);
+
+/* The same as a matte: of each pixel's owner its level, its region (`region` may be NULL; 0 without regions) and how
+ * much of the pixel it covers, above 0 (CeldOwnership).  `level` may alias `levels`, `region` may alias `regions`. */
+CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                          const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                          CeldPlane *level, CeldLabels *region, CeldPlane *share);
+
+/* Depth expansion by the thickness of contours (section 3.3).  `ranks` may have any values, larger = nearer; `expanded`
+ * holds the same values and may alias `ranks`. */
+CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run,
+                                 CeldLabels *expanded);
+
+/* Cuts the art, the drawing itself or colours for it, into one layer for each label that has pixels, in the order of
+ * level[label - 1], labels being 1 .. n; of equal levels later labels are in front.  At antialiased edges both layers
+ * get a share of the pixel, in colours of their own.
+ * `art` is in [0,1] and in whatever the layers are to be composited in, encoded colours or linear light.  All numbers
+ * are such as `store` has; in 8 bits the composite is right to one step.
+ * `complete` adds what nearer layers hide: outlines run on smoothly, with the region's own line along them, holes are
+ * closed, and of the label `background` (0: none) everything is there; never where it could be seen.
+ * `ink` is the drawing's, for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *ownership, const uint32_t *level,
+                                     size_t n, const CeldColours *art, uint32_t background, CeldStore store,
+                                     bool complete, const CeldRun *run, CeldLayers **layers);
+
+/* The same from levels before expansion, with the labels of celd_expand_levels: a layer's is its number from the
+ * farthest, from 1.  The background is the farthest label if it has most of the frame. */
+CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                           const CeldLabels *corrections, const CeldColours *art,
+                                           CeldExpansion method, CeldStore store, bool complete, const CeldRun *run,
+                                           CeldLayers **layers);
+
+/* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core
+ * of each region without one, too; an edge is cut where levels differ and the least ink within half a stroke of its two
+ * pixels is at or below ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.
+ * A result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
+CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
+                                 const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
+
+/* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy
+ * sum w_pq (d_p - d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the
+ * contrast in the 3 x 3 pixels round p or q, whichever is less, sigma is contrast times the mean of (I_p - I_q)^2;
+ * `ink` is that for depth.
+ * Each scribble moves as one (with same_colour = separate each of its strokes); an end of a relation off every scribble
+ * is a pixel of its own, so that regions bend where relations go round in a circle between different points of them.
+ * Equalities are exact, gaps may be fractions; a circle between the same nodes is reported, and its lightest and then
+ * latest relation left out.  Scribbles that the palette marks as background lie behind every other scribble unless
+ * relations say otherwise.
+ * `depth` leaves as settings->encoding says; with CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are
+ * appended, *exact is replaced; these two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and
+ * relations. */
+CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
+                                      const CeldRelations *relations, const CeldSettings *settings,
+                                      const CeldRun *run, CeldPlane *depth, CeldExact *exact,
+                                      CeldProblems *problems);
+
+/* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends; a region
+ * without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
+CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
+                                  const CeldRun *run, CeldVectors *normals);
+
+/* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends,
+ * if settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends
+ * its side, black does not, grey bends both. */
+CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                         const CeldPaint *hints, const CeldSettings *settings, const CeldRun *run,
+                                         CeldVectors *normals);
+
+/* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
+ * white the `gloss` of highlights and rims adds; what is `ink` (may be NULL) does not shine.  `matcap` is the picture
+ * of a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE
+ * without. */
+CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
+                                const CeldSettings *settings, const CeldRun *run, CeldColours *tone,
+                                CeldPlane *gloss);
+/* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
+CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
+CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
+
+/* The same light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
+CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
+
+/* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such
+ * pixel; farther away `blank` where the picture has no alpha at all.  Alpha stays: a game engine that blends
+ * neighbours then finds no seam. */
+CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldRun *run, CeldColours *picture);
+
+/* Depth enhancement (section 5, Figures 1d and 5c): the share of light that is taken from the art, or added, from -1
+ * (black) over 0 (nothing) to 1 (twice as bright), linear.  `levels` are expanded; for the stack at most 256 of them
+ * are told apart.  Not a number reads as 0.  CELD_BAD_VALUE for bad settings. */
+CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+                                  CeldPlane *change);
+/* Ambient occlusion: the share of light that the stack leaves, from 1 (all) down to 1 - shadow_strength, without an
+ * offset whatever the settings say. */
+CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+                                    CeldPlane *occlusion);
+/* Such a change applied to art; what it takes, as a black layer to put over the art; and applied to a grey picture of
+ * the levels, the nearest white: what an artist sees of depth while drawing (Figure 5c).  Linear light. */
+CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);
+CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
+CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
+
+/* A drawing that can be seen from the side (section 5, Figure 1g).  Nothing that it was made from is kept. */
+typedef struct CeldScene CeldScene;
+
+/* Of layers, each of which moves by its own depth, which goes on where it is hidden: completed ones leave no holes.
+ * `ownership` is what they were cut by.  Views are in the colours that the layers were cut in. */
+CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
+                                          const CeldPlane *depth, const CeldRun *run, CeldScene **scene);
+/* The same from levels, expanded or not, each of which becomes a completed layer. */
+CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                          const CeldColours *art, CeldExpansion method, const CeldRun *run,
+                                          CeldScene **scene);
+/* Of depth alone, from wherever: what comes into sight is filled from its farther side, in the colour of the paper
+ * there, without its ink.  For views from the sides, no further than settings->disparity. */
+CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
+                                         const CeldSettings *settings, const CeldRun *run, CeldScene **scene);
+CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
+
+/* Where it is seen from: x -1 the left eye, 1 the right one; y -1 as far above, 1 below; 0,0 the drawing as it is.
+ * `squeeze` is how wide the picture looks, (0,1]: less than 1 when it is turned. */
+typedef struct { double x, y, squeeze; } CeldCamera;
+CELD_API CeldCamera celd_camera_eye (double eye);
+/* `frame` of `frames` of a path that ends where it begins. */
+CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
+
+/* A point of depth d moves by disparity / 2 of the width times d's distance from the screen, away from the camera. */
+CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
+                                     const CeldRun *run, CeldColours *view);
+
+/* How strong that will be for two eyes: disparities in front of and behind the screen, in shares of the width; whether
+ * something in front of the screen is cut by the frame at the left or right, which the eyes cannot put together; and
+ * whether on a screen of settings->screen_width the eyes would have to look apart. */
+typedef struct { double front, behind; bool cut_left, cut_right, diverges; } CeldComfort;
+#define CELD_STEREO_COMFORT (1.0 / 30) /* of the width: more disparity from front to back strains the eyes */
+#define CELD_EYE_DISTANCE   65.0       /* mm: more behind the screen, and the eyes look apart */
+CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
+/* What strains the eyes, in English sentences that say what to do, one a line, cut to `size` bytes; "" if nothing. */
+CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings, char *text,
+                                         size_t size);
+/* Black bars at the left of the left view and the right of the right one, as wide as it takes to bring the frame before
+ * what it cuts: a floating window.  Nothing where nothing is cut. */
+CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,
+                                        CeldColours *right);
+/* Two views in one picture, whose size celd_stereo_size tells from theirs; anaglyphs for red glasses on the left and
+ * cyan ones on the right, in linear light. */
+CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);
+CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
+                                      CeldColours *joined);
+
+/* A surface over the picture, in pixels; larger = nearer, depth 0 is at 0. */
+#define CELD_CUT_RIGHT  1
+#define CELD_CUT_BELOW  2
+#define CELD_NEAR_RIGHT 4
+#define CELD_NEAR_BELOW 8
+typedef struct
+{
+  int      width, height;
+  float   *z;                   /* of each pixel */
+  float   *outline;             /* and where the surface would end in front of something behind it */
+  uint8_t *cut;                 /* of each pixel, towards which neighbours the surface does not go on, and which of them
+                                 * it is in front of */
+} CeldRelief;
+
+/* Each part as round as the bulge says, as far in front as its depth says, and farther where it would run through
+ * something behind it; cut only where depth is.  `depth` is smooth; NULL: celd_smooth makes it.  Replaces `relief`. */
+CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
+                                 const CeldSettings *settings, const CeldRun *run, CeldRelief *relief);
+CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
+
+/* Triangles over the picture, which has its middle at x = y = 0, and depth 0 at z = 0. */
+typedef struct
+{
+  size_t    vertices, triangles;
+  float    *place;              /* of each vertex x, y, z: to the right, up, to the viewer, in millimetres */
+  float    *normal;             /* as many, unit length */
+  float    *art;                /* where it is in the picture: 0 .. 1 to the right and down */
+  uint32_t *corner;             /* three vertices of each triangle, counter-clockwise seen from outside */
+  double    error;              /* how far it is from the surface at most, in pixels */
+} CeldReliefMesh;
+
+/* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone.  Replaces `mesh`. */
+CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run,
+                               CeldReliefMesh *mesh);
+CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,168 @@
+/* What holds a region without an anchor: its inner core, the pixels that lie at least half as deep inside it as its
+ * deepest pixel.  Distances count from the region's border, not from the frame.
+ *
+ * Specks are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none:
+ * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.
+ *
+ * A core depends on nothing but its region's pixels, for on the way to a border pixel of another region lies one of its
+ * own that is nearer.  So regions can be measured in any box that they lie in, and only those that changed have to be.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "image/image.h"
+
+typedef struct
+{
+  int          width, height;
+  const float *level;
+  CeldParts    regions;
+  CeldRect    *box;             /* of each region that is to be measured; width 0: the others */
+  int32_t     *deepest;         /* of each region: squared distance of its deepest pixel */
+  uint32_t    *group;
+  uint8_t     *fixed;
+} Cores;
+
+/* ------------------------------------------------------------------ which regions */
+
+/* What is known of a region without looking at its distances. */
+typedef struct { size_t area; bool held, changed, had_core; } Region;
+
+static void
+look_at_regions (const Cores *c, const uint8_t *changed, const uint8_t *last, Region *region)
+{
+  for (int y = 0; y < c->height; y++)
+    for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
+      {
+        const CeldStretch *s = &c->regions.stretch[i];
+        Region            *r = &region[s->part];
+        const size_t       first = (size_t) y * (size_t) c->width + (size_t) s->x, n = (size_t) (s->end - s->x);
+
+        r->area    += n;
+        r->held     = r->held || memchr (c->fixed + first, CELD_ANCHOR, n);
+        r->changed  = r->changed || !changed || celd_stretch_marked (&c->regions, s, y, changed);
+        r->had_core = r->had_core || (changed && memchr (last + first, CELD_CORE, n));
+      }
+}
+
+/* Cores that are as they were are taken over; boxes of the regions whose cores have to be found. */
+static void
+take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *last)
+{
+  for (int y = 0; y < c->height; y++)
+    for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
+      {
+        const CeldStretch *s = &c->regions.stretch[i];
+        const Region      *r = &region[s->part];
+        const size_t       first = (size_t) y * (size_t) c->width;
+
+        if (r->held || r->area < speck)
+          continue;
+        if (r->changed || !r->had_core)
+          celd_box_add (&c->box[s->part], s, y);
+        else
+          memcpy (c->fixed + first + s->x, last + first + s->x, (size_t) (s->end - s->x));
+      }
+}
+
+/* ------------------------------------------------------------------ distances in a box */
+
+/* Does the pixel (x,y) lie beside another region? */
+static bool
+on_border (const Cores *c, int x, int y)
+{
+  const float *here = c->level + (size_t) y * (size_t) c->width + (size_t) x;
+
+  return (x > 0 && here[-1] != here[0]) || (x + 1 < c->width && here[1] != here[0]) ||
+         (y > 0 && here[-c->width] != here[0]) || (y + 1 < c->height && here[c->width] != here[0]);
+}
+
+/* Calls for every stretch of the group's regions. */
+#define EACH_STRETCH(c, bounds, g, y, s) \
+  for (int y = (bounds).y; y < (bounds).y + (bounds).height; y++) \
+    for (const CeldStretch *s = (c)->regions.stretch + (c)->regions.row[y], \
+         *end_ = (c)->regions.stretch + (c)->regions.row[y + 1]; s < end_; s++) \
+      if ((c)->group[s->part] == (g))
+
+/* The cores of one group's regions. */
+static CeldStatus
+measure (const Cores *c, uint32_t g, CeldRect box, const CeldRun *run)
+{
+  size_t     n = (size_t) box.width * (size_t) box.height;
+  uint8_t   *border = celd_alloc0 (n, 1);
+  int32_t   *squared = celd_alloc (n, sizeof *squared);
+  CeldStatus status = border && squared ? CELD_OK : CELD_NO_MEMORY;
+
+#define IN_BOX(x, y) ((size_t) ((y) - box.y) * (size_t) box.width + (size_t) ((x) - box.x))
+  if (status == CELD_OK)
+    {
+      EACH_STRETCH (c, box, g, y, s)
+        for (int x = s->x; x < s->end; x++)
+          border[IN_BOX (x, y)] = on_border (c, x, y);
+      status = celd_distance (box.width, box.height, border, run, squared);
+    }
+  if (status == CELD_OK)
+    {
+      EACH_STRETCH (c, box, g, y, s)
+        for (int x = s->x; x < s->end; x++)
+          if (squared[IN_BOX (x, y)] > c->deepest[s->part])
+            c->deepest[s->part] = squared[IN_BOX (x, y)];
+      EACH_STRETCH (c, box, g, y, s)
+        for (int x = s->x; x < s->end; x++)
+          if (squared[IN_BOX (x, y)] >= c->deepest[s->part] / 4)
+            c->fixed[(size_t) y * (size_t) c->width + (size_t) x] = CELD_CORE;
+    }
+#undef IN_BOX
+  celd_free (border);
+  celd_free (squared);
+  return status;
+}
+
+/* ------------------------------------------------------------------ all of them */
+
+static CeldStatus
+mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last, const CeldRun *run)
+{
+  CeldRect   bounds[CELD_MOST_GROUPS];
+  size_t     groups = 0;
+  Region    *region = celd_alloc0 (c->regions.n, sizeof *region);
+  CeldStatus status;
+
+  c->box     = celd_alloc0 (c->regions.n, sizeof *c->box);
+  c->deepest = celd_alloc0 (c->regions.n, sizeof *c->deepest);
+  c->group   = celd_alloc (c->regions.n, sizeof *c->group);
+  status     = region && c->box && c->deepest && c->group ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      look_at_regions (c, changed, last, region);
+      take_over (c, region, speck, last);
+      groups = celd_boxes_group (c->box, c->regions.n, c->group, bounds);
+    }
+  for (size_t g = 0; g < groups && status == CELD_OK; g++)
+    {
+      CeldPart part;
+      CeldRun  share = celd_run_part (&part, run, (double) g / (double) groups, (double) (g + 1) / (double) groups);
+
+      status = measure (c, (uint32_t) g, bounds[g], &share);
+    }
+  celd_free (region);
+  celd_free (c->box);
+  celd_free (c->deepest);
+  celd_free (c->group);
+  return status;
+}
+
+CeldStatus
+celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
+                 const uint8_t *last, const CeldRun *run, uint8_t *fixed)
+{
+  Cores      c = { .width = width, .height = height, .level = level, .fixed = fixed };
+  CeldPart   part[2];
+  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.3), measuring = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus status  = celd_parts_find (width, height, level, NULL, NULL, &finding, &c.regions);
+
+  if (status == CELD_OK)
+    status = mark_cores (&c, speck, changed, last, &measuring);
+  celd_parts_clear (&c.regions);
+  return status;
+}

@@ -1,0 +1,90 @@
+/* Where depth is cut: the weights of eq. (3).
+ *
+ * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
+ * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink around p and q, as far as
+ * half a stroke is wide, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are expanded
+ * or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
+ * a smooth transition.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "image/image.h"
+
+#define MOST_REACH 12 /* pixels: half a stroke at most, for solid areas are none */
+
+int
+celd_edge_reach (int stroke)
+{
+  int reach = (stroke + 1) / 2;
+
+  return reach < 1 ? 1 : reach > MOST_REACH ? MOST_REACH : reach;
+}
+
+/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
+ * paper. */
+static float
+least_ink (const CeldEdges *b, int x0, int y0, int x1, int y1)
+{
+  float least = 1;
+
+  for (int y = y0 > 0 ? y0 : 0; y <= y1 && y < b->ink->height && least > b->threshold; y++)
+    for (int x = x0 > 0 ? x0 : 0; x <= x1 && x < b->ink->width; x++)
+      if (CELD_AT (b->ink, x, y) < least)
+        least = CELD_AT (b->ink, x, y);
+  return least;
+}
+
+float
+celd_edge_across (const CeldEdges *b, int x, int y, int right, int down)
+{
+  float least = least_ink (b, x, y, x + right, y + down); /* enough on closed contours */
+
+  if (least > b->threshold)
+    least = least_ink (b, x - b->reach, y - b->reach, x + right + b->reach, y + down + b->reach);
+  return least <= b->threshold ? 0 : least;
+}
+
+/* 1 where two rows of levels are equal, else marked for a closer look. */
+CELD_CLONES static void
+compare_levels (const float *restrict a, const float *restrict b, int n, float *restrict weight,
+                uint8_t *restrict differs)
+{
+  for (int x = 0; x < n; x++)
+    {
+      weight[x]  = a[x] == b[x] ? 1.f : 0.f;
+      differs[x] = a[x] == b[x] ? 0 : 0x80;
+    }
+}
+
+static void
+weigh_row (const CeldEdges *b, const float *level, int n, int y, int right, float *weight, uint8_t *differs)
+{
+  compare_levels (level, level + (right ? 1 : b->ink->width), n, weight, differs);
+  for (int x = celd_next_marked (n, differs, 0); x < n; x = celd_next_marked (n, differs, x + 1))
+    weight[x] = celd_edge_across (b, x, y, right, !right);
+}
+
+CeldStatus
+celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
+                    float *east, float *south)
+{
+  CeldEdges b = { ink, threshold, celd_edge_reach (celd_stroke_width (ink)) };
+  size_t     w = (size_t) ink->width;
+  uint8_t   *differs = celd_alloc (w, 1);
+  CeldStatus status = differs ? CELD_OK : CELD_NO_MEMORY;
+
+  for (int y = 0; y < ink->height && status == CELD_OK; y++, level += w, east += w, south += w)
+    {
+      weigh_row (&b, level, ink->width - 1, y, 1, east, differs);
+      east[w - 1] = 0;
+      if (y + 1 < ink->height)
+        weigh_row (&b, level, ink->width, y, 0, south, differs);
+      else
+        memset (south, 0, w * sizeof *south);
+      if (y % 64 == 0)
+        status = celd_step (run, (double) y / ink->height);
+    }
+  celd_free (differs);
+  return status;
+}

@@ -1,0 +1,401 @@
+/* Exact depth, eq. (1) and (2): the depth of least energy that keeps every equality and inequality.
+ *
+ * The paper gives this program up because an active-set method takes tens of seconds for small pictures.  All pixels
+ * but those that relations name follow from these harmonically, so the program is one of a node a scribble, and of
+ * one an end of a relation off every scribble: bases (program-bases.c) and stiffness (program-stiffness.c) once, then
+ * a dense dual active set (quadratic.c) takes microseconds, and the depth is a sum of bases.  Equalities merge nodes.
+ *
+ * It has no solution only if inequalities go round in a circle between the same nodes, which is found on the graph of
+ * the nodes, as in the fast route (links.c, conflicts.c).  A circle between regions, by different points of them, has
+ * one: the regions bend.
+ *
+ * Beyond the paper: gaps of relations are factors of its epsilon; the background lies weakly behind every other
+ * scribble. Points count as they are there: an end of a relation on the background is not in front of it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/unions.h"
+#include "depth/program.h"
+#include "image/image.h"
+#include "order/order.h"
+#include "solve/quadratic.h"
+
+#include <math.h>
+
+#define LEAST_GAP   1e-6 /* of one relation */
+#define LARGEST_GAP 1000
+
+/* The relations between nodes. */
+typedef struct
+{
+  CeldRelations   relations;    /* points on ink moved beside it */
+  size_t         *point;        /* pixels off every scribble; grown one by one */
+  size_t          n_points;
+  CeldPalette     palette;      /* of all nodes, points without a colour */
+  CeldGraph       graph;
+  CeldOrder       order;        /* cycles alone */
+  uint32_t       *class;        /* of each node: nodes of equal depth, from 0 */
+  size_t          n_classes;
+  CeldInequality *inequality;   /* between classes */
+  size_t          n;
+  double         *stiffness;    /* between classes */
+  double         *value, *u;    /* depths of classes and of nodes */
+  CeldCertificate certificate;
+} Problem;
+
+static void
+problem_clear (Problem *q)
+{
+  celd_relations_clear (&q->relations);
+  celd_free (q->point);
+  celd_palette_clear (&q->palette);
+  celd_graph_clear (&q->graph);
+  celd_order_clear (&q->order);
+  celd_free (q->class);
+  celd_free (q->inequality);
+  celd_free (q->stiffness);
+  celd_free (q->value);
+  celd_free (q->u);
+}
+
+/* ------------------------------------------------------------------ nodes */
+
+/* Does the term name a node, or a pixel that can be one?  Moves it off the ink. */
+static bool
+find_term (CeldProgram *p, CeldTerm *term, size_t *pixel)
+{
+  size_t w = (size_t) p->ink->width;
+
+  if (term->by_colour)
+    return celd_palette_find (&p->palette, term->colour) != 0;
+  if (!celd_program_find (p, term->x, term->y, pixel))
+    return false;
+  term->x = (double) (*pixel % w) + 0.5;
+  term->y = (double) (*pixel / w) + 0.5;
+  return true;
+}
+
+static CeldStatus
+add_point (const CeldProgram *p, size_t pixel, Problem *q)
+{
+  size_t *point;
+
+  if (p->nodes.data[pixel])
+    return CELD_OK;
+  for (size_t i = 0; i < q->n_points; i++)
+    if (q->point[i] == pixel)
+      return CELD_OK;
+  point = celd_grow (q->point, q->n_points + 1, sizeof *point);
+  if (!point)
+    return CELD_NO_MEMORY;
+  q->point = point;
+  point[q->n_points++] = pixel;
+  return CELD_OK;
+}
+
+/* Relations between places that can be nodes, and those of them that are off every scribble. */
+static CeldStatus
+find_points (CeldProgram *p, const CeldRelations *relations, Problem *q)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
+    {
+      CeldRelation r = relations->item[i];
+      size_t       near = 0, far = 0;
+      bool         good = find_term (p, &r.nearer, &near);
+
+      good = find_term (p, &r.farther, &far) && good;
+      status = celd_relation_add (&q->relations, r);
+      if (status == CELD_OK && good && !r.nearer.by_colour)
+        status = add_point (p, near, q);
+      if (status == CELD_OK && good && !r.farther.by_colour)
+        status = add_point (p, far, q);
+    }
+  return status;
+}
+
+/* The palette of scribbles and points. */
+static CeldStatus
+name_nodes (const CeldProgram *p, Problem *q)
+{
+  size_t     n = p->bases.n;
+  CeldStatus status = celd_palette_copy (&p->palette, &q->palette);
+
+  while (status == CELD_OK && q->palette.n < n)
+    {
+      CeldRegion *item = celd_grow (q->palette.item, q->palette.n + 1, sizeof *item);
+      size_t      pixel = p->bases.pixel[q->palette.n - p->bases.n_sets], w = (size_t) p->ink->width;
+
+      if (!item)
+        return CELD_NO_MEMORY;
+      q->palette.item = item;
+      item[q->palette.n++] = (CeldRegion) { .x = (int) (pixel % w), .y = (int) (pixel / w), .area = 1 };
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ relations between nodes */
+
+/* What was told of nodes is told of labels; points have none. */
+static void
+rename_labels (const CeldProgram *p, size_t first, CeldProblems *problems)
+{
+  for (size_t i = first; problems && i < problems->n; i++)
+    if (problems->item[i].label)
+      problems->item[i].label = problems->item[i].label <= p->palette.n ? p->label[problems->item[i].label - 1] : 0;
+}
+
+static CeldStatus
+report_cycles (const CeldLabels *nodes, const Problem *q, CeldProblems *problems)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < q->order.n_cycles && status == CELD_OK; i++)
+    {
+      size_t      left    = q->order.cycle[i].item[0];
+      CeldProblem problem = { .kind = CELD_PROBLEM_CONTRADICTION, .other = (uint32_t) i, .relation = left };
+
+      celd_relation_place (nodes, &q->palette, &q->relations.item[left], &problem.x, &problem.y);
+      status = celd_problem_add (problems, problem);
+    }
+  return status;
+}
+
+/* The relations that can hold together. */
+static CeldStatus
+settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldRun *run, Problem *q,
+                  CeldProblems *problems)
+{
+  const CeldBases *b = &p->bases;
+  CeldLabels       nodes = { b->width, b->height, (size_t) b->width, b->node };
+  size_t           before = problems ? problems->n : 0;
+  CeldStatus       status = celd_graph_new (&nodes, &q->palette, &q->relations, NULL, &q->graph, problems);
+
+  if (status != CELD_OK)
+    return status;
+  rename_labels (p, before, problems);
+  status = celd_graph_settle (&q->graph, settings->on_cycle, run, &q->order);
+  return status == CELD_OK ? report_cycles (&nodes, q, problems) : status;
+}
+
+/* Numbers the classes of nodes that equalities make one. */
+static CeldStatus
+merge_nodes (const CeldProgram *p, Problem *q)
+{
+  const CeldGraph *g = &q->graph;
+  uint32_t        *parent = celd_alloc (p->bases.n, sizeof *parent);
+
+  q->class = celd_alloc (p->bases.n, sizeof *q->class);
+  if (!parent || !q->class)
+    {
+      celd_free (parent);
+      return CELD_NO_MEMORY;
+    }
+  celd_roots (parent, p->bases.n);
+  for (size_t i = 0; i < g->n_links; i++)
+    if (g->kept[i] && celd_graph_equal (g, i))
+      for (size_t e = g->first[2 * i] + 1; e < g->first[2 * i + 2]; e++)
+        celd_join (parent, g->end[e - 1], g->end[e]);
+  for (uint32_t k = 0; k < p->bases.n; k++)
+    q->class[k] = parent[k] == k ? (uint32_t) q->n_classes++ : q->class[celd_root (parent, k)];
+  celd_free (parent);
+  return CELD_OK;
+}
+
+/* The inequalities of a link: each nearer node before each farther one. */
+static CeldStatus
+add_inequalities (const CeldProgram *p, size_t link, Problem *q)
+{
+  const CeldGraph *g = &q->graph;
+  const size_t    *f = &g->first[2 * link];
+  bool             weak = link == g->relations->n;
+  double           gap  = weak ? 1 : g->relations->item[link].gap;
+
+  gap = gap > 0 ? fmin (fmax (gap, LEAST_GAP), LARGEST_GAP) : 1; /* NaN: 1 */
+  for (size_t near = f[1]; near < f[2]; near++)
+    for (size_t far = f[0]; far < f[1] && !(weak && g->end[near] >= p->palette.n); far++)
+      {
+        CeldInequality *item = celd_grow (q->inequality, q->n + 1, sizeof *item);
+
+        if (!item)
+          return CELD_NO_MEMORY;
+        q->inequality = item;
+        item[q->n++]  = (CeldInequality) { q->class[g->end[near]], q->class[g->end[far]], gap };
+      }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the program */
+
+static CeldStatus
+solve_program (const CeldProgram *p, Problem *q)
+{
+  size_t     n = p->bases.n, m = q->n_classes;
+  CeldStatus status;
+
+  q->stiffness = celd_alloc0 (m, m * sizeof *q->stiffness);
+  q->value     = celd_alloc (m, sizeof *q->value);
+  q->u         = celd_alloc (n, sizeof *q->u);
+  if (!q->stiffness || !q->value || !q->u)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < n; j++)
+      q->stiffness[q->class[i] * m + q->class[j]] += p->bases.stiffness[i * n + j];
+  status = celd_quadratic (m, q->stiffness, q->n, q->inequality, q->value, NULL, false, &q->certificate);
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    q->u[i] = q->value[q->class[i]];
+  return status;
+}
+
+/* Depths of nodes from the least one on; *range is how far they go.  Nodes that other paint hides do not count. */
+static void
+shift_depths (size_t n, const CeldPalette *palette, double *u, double *range)
+{
+  double low = INFINITY, high = -INFINITY;
+
+  for (size_t k = 0; k < n; k++)
+    if (palette->item[k].area)
+      {
+        low  = fmin (low, u[k]);
+        high = fmax (high, u[k]);
+      }
+  for (size_t k = 0; k < n; k++)
+    u[k] = fmax (u[k] - low, 0);
+  *range = high - low;
+}
+
+/* As the settings ask for it. */
+static double
+encode (double depth, double range, const CeldSettings *s)
+{
+  switch (s->encoding)
+    {
+    case CELD_ENCODING_RANK:  return depth;
+    case CELD_ENCODING_FIXED: return (depth - (double) s->far_level) / ((double) s->near_level - (double) s->far_level);
+    default:                  return range > 0 ? depth / range : 0;
+    }
+}
+
+static double
+worst_violation (const Problem *q)
+{
+  double worst = 0;
+
+  for (size_t i = 0; i < q->n; i++)
+    worst = fmax (worst, q->inequality[i].gap - (q->value[q->inequality[i].a] - q->value[q->inequality[i].b]));
+  return worst;
+}
+
+/* Everything there is to tell; takes the cycles and knots. */
+static CeldStatus
+tell (const CeldProgram *p, Problem *q, CeldExact *exact)
+{
+  size_t    n = p->bases.n;
+  CeldNode *node = celd_alloc (n, sizeof *node);
+
+  if (!node)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < n; k++)
+    node[k] = (CeldNode) { k < p->palette.n ? p->label[k] : 0, q->palette.item[k].x, q->palette.item[k].y, q->u[k] };
+  *exact = (CeldExact) {
+    .node = node, .n = n, .sigma = p->sigma, .energy = q->certificate.energy, .gap = q->certificate.gap,
+    .violation = worst_violation (q), .inequalities = q->n, .active = q->certificate.active,
+    .steps = q->certificate.steps, .solve = p->solve, .cycle = q->order.cycle, .n_cycles = q->order.n_cycles,
+    .knot = q->order.knot, .n_knots = q->order.n_knots,
+  };
+  q->order = (CeldOrder) { 0 };
+  return CELD_OK;
+}
+
+/* The depths of the nodes as they leave, and then of all pixels. */
+static CeldStatus
+compose (const CeldProgram *p, Problem *q, double range, const CeldSettings *settings, const CeldRun *run,
+         CeldPlane *depth)
+{
+  for (size_t k = 0; k < p->bases.n; k++)
+    q->u[k] = encode (q->u[k], range, settings);
+  return celd_bases_compose (&p->bases, q->u, run, depth);
+}
+
+CeldStatus
+celd_program_solve (CeldProgram *program, const CeldRelations *relations, const CeldSettings *settings,
+                    const CeldRun *run, CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
+{
+  CeldProgram *p = program;
+  Problem      q = { 0 };
+  CeldExact    told = { 0 };
+  size_t       before = problems ? problems->n : 0, painted = 0;
+  double       range = 0;
+  CeldPart     part[2];
+  CeldRun      placing = celd_run_part (&part[0], run, 0, 0.97), ordering = celd_run_part (&part[1], run, 0.97, 0.98);
+  CeldStatus   status = find_points (p, relations, &q);
+
+  for (size_t k = 0; k < p->palette.n; k++)
+    painted += p->palette.item[k].area;
+  if (status == CELD_OK && !painted && !q.n_points)
+    status = CELD_NOTHING_TO_GO_BY;
+  if (status == CELD_OK)
+    status = celd_program_place (p, q.point, q.n_points, (double) settings->tolerance, &placing);
+  if (status == CELD_OK)
+    status = name_nodes (p, &q);
+  if (status == CELD_OK)
+    status = settle_relations (p, settings, &ordering, &q, problems);
+  if (status == CELD_OK)
+    status = merge_nodes (p, &q);
+  for (size_t i = 0; i < q.graph.n_links && status == CELD_OK; i++)
+    if (q.graph.kept[i] && !celd_graph_equal (&q.graph, i))
+      status = add_inequalities (p, i, &q);
+  if (status == CELD_OK)
+    status = solve_program (p, &q);
+  if (status == CELD_OK)
+    {
+      shift_depths (p->bases.n, &q.palette, q.u, &range);
+      status = tell (p, &q, &told);
+    }
+  if (status == CELD_OK && !p->solve.converged)
+    status = celd_problem_add (problems, (CeldProblem) {
+      .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX });
+  if (status == CELD_OK)
+    status = celd_step (run, 0.98);
+  if (status == CELD_OK)
+    status = compose (p, &q, range, settings, run, depth);
+  if (status == CELD_OK && exact)
+    {
+      celd_exact_clear (exact);
+      *exact = told;
+      told   = (CeldExact) { 0 };
+    }
+  if (status != CELD_OK && problems)
+    problems->n = before;
+  celd_exact_clear (&told);
+  problem_clear (&q);
+  return status;
+}
+
+CeldStatus
+celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
+                  const CeldRelations *relations, const CeldSettings *settings, const CeldRun *run,
+                  CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
+{
+  const CeldRelations none = { 0 };
+  CeldProgram *program;
+  CeldPart     part[3];
+  CeldRun      weighing = celd_run_part (&part[0], run, 0, 0.04), reading = celd_run_part (&part[1], run, 0.04, 0.05);
+  CeldRun      solving  = celd_run_part (&part[2], run, 0.05, 1);
+  CeldStatus   status;
+
+  if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, depth))
+    return CELD_BAD_SIZE;
+  status = celd_settings_check (settings);
+  if (status != CELD_OK)
+    return status;
+  program = celd_program_new ();
+  status  = program ? celd_program_set_ink (program, ink, settings, &weighing) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_program_set_seeds (program, seeds, palette, settings->same_colour, &reading);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, relations ? relations : &none, settings, &solving, depth, exact, problems);
+  celd_program_free (program);
+  return status;
+}

@@ -1,0 +1,270 @@
+/* Harmonic bases of the nodes: all the Laplacian solutions that the exact program needs.
+ *
+ * One set-up and n - 1 solutions, CELD_LANES at a time, for n nodes.  After that values, inequalities and equalities
+ * of nodes change without a solution, and single pixels become nodes and stop being nodes with one or none
+ * (program-nodes.c).
+ *
+ * Memory: 4 bytes a pixel for each node but one, in steps of CELD_LANES, and 4 for the node of each pixel; the solver's
+ * own is given back as soon as the bases are made.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/program.h"
+#include "solve/laplace.h"
+
+#define BAND 16 /* rows that one thread composes at once */
+
+/* ------------------------------------------------------------------ lanes */
+
+CeldStatus
+celd_bases_grow (CeldBases *b, size_t n_groups)
+{
+  while (b->n_groups < n_groups)
+    {
+      float **group = celd_grow (b->group, b->n_groups + 1, sizeof *group);
+
+      if (!group)
+        return CELD_NO_MEMORY;
+      b->group = group;
+      group[b->n_groups] = celd_alloc0 ((size_t) b->width * (size_t) b->height, CELD_LANES * sizeof (float));
+      if (!group[b->n_groups])
+        return CELD_NO_MEMORY;
+      b->n_groups++;
+    }
+  return CELD_OK;
+}
+
+void
+celd_bases_shrink (CeldBases *b, size_t n_groups)
+{
+  while (b->n_groups > n_groups)
+    celd_free (b->group[--b->n_groups]);
+}
+
+void
+celd_bases_clear (CeldBases *bases)
+{
+  celd_bases_shrink (bases, 0);
+  celd_free (bases->group);
+  celd_free (bases->node);
+  celd_free (bases->pixel);
+  celd_free (bases->stiffness);
+  *bases = (CeldBases) {
+    .width = bases->width, .height = bases->height, .east = bases->east, .south = bases->south
+  };
+}
+
+/* ------------------------------------------------------------------ all nodes at once */
+
+/* From which old node each new one starts: the one that had its first pixel of any; 0 = none. */
+static void
+find_starts (const CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+             uint32_t *start)
+{
+  for (size_t p = 0; b->node && p < (size_t) b->width * (size_t) b->height; p++)
+    if (node[p] && !start[node[p]])
+      start[node[p]] = b->node[p];
+  for (size_t i = 0; b->node && i < n_points; i++)
+    start[n_sets + 1 + i] = b->node[point[i]];
+}
+
+typedef struct
+{
+  CeldBases      *bases;
+  const uint32_t *start;        /* of each new node */
+  uint32_t        n_old, n_new;
+  float          *work;         /* of each row: the old bases of a pixel */
+} Start;
+
+/* Bases that are exact on the nodes and the old ones elsewhere, in the order of the new ones. */
+static void
+start_row (void *data, int y)
+{
+  Start     *s = data;
+  CeldBases *b = s->bases;
+  size_t     w = (size_t) b->width, first = (size_t) y * w;
+  float     *old = s->work + (size_t) y * ((size_t) s->n_old + 1);
+
+  for (size_t p = first; p < first + w; p++)
+    {
+      uint32_t here = b->node[p];
+
+      old[0] = 0;
+      if (s->n_old)
+        old[1] = 1;
+      for (uint32_t k = 2; k <= s->n_old; k++)
+        {
+          old[k] = celd_bases_lane (b, k)[p * CELD_LANES];
+          old[1] -= old[k];
+        }
+      for (size_t k = 0; k < b->n_groups * CELD_LANES; k++)
+        b->group[k / CELD_LANES][p * CELD_LANES + k % CELD_LANES] =
+          here || k + 2 > s->n_new ? here == k + 2 : old[s->start[k + 2]];
+    }
+}
+
+/* Takes over the nodes; the bases are what a solution starts from. */
+static CeldStatus
+place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+             const CeldRun *run)
+{
+  size_t     pixels = (size_t) b->width * (size_t) b->height;
+  uint32_t   n = n_sets + (uint32_t) n_points, n_old = b->n;
+  uint32_t  *start = celd_alloc0 ((size_t) n + 1, sizeof *start), *own = celd_alloc (pixels, sizeof *own);
+  size_t    *pixel = celd_grow (NULL, n_points, sizeof *pixel);
+  Start      s = { b, start, n_old, n, celd_alloc ((size_t) b->height, ((size_t) n_old + 1) * sizeof (float)) };
+  CeldStatus status = start && own && pixel && s.work ? celd_bases_grow (b, celd_bases_groups (n)) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      find_starts (b, node, n_sets, point, n_points, start);
+      memcpy (own, node, pixels * sizeof *own);
+      for (size_t i = 0; i < n_points; i++)
+        own[pixel[i] = point[i]] = n_sets + 1 + (uint32_t) i;
+      celd_free (b->node);
+      celd_free (b->pixel);
+      b->node   = own;
+      b->pixel  = pixel;
+      b->n      = n;
+      b->n_sets = n_sets;
+      celd_each (run, b->height, start_row, &s);
+      celd_bases_shrink (b, celd_bases_groups (n));
+      own   = NULL;
+      pixel = NULL;
+    }
+  celd_free (start);
+  celd_free (own);
+  celd_free (pixel);
+  celd_free (s.work);
+  return status;
+}
+
+CeldStatus
+celd_bases_set_up (const CeldBases *b, const CeldRun *run, CeldLaplace **laplace)
+{
+  size_t     pixels = (size_t) b->width * (size_t) b->height;
+  uint8_t   *fixed = celd_alloc (pixels, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  for (size_t p = 0; fixed && p < pixels; p++)
+    fixed[p] = b->node[p] != 0;
+  if (fixed)
+    status = celd_lap_setup (b->width, b->height, b->east, b->south, NULL, fixed, run, laplace);
+  celd_free (fixed);
+  return status;
+}
+
+/* What a solution leaves a little outside [0,1] goes back; nodes are exact. */
+static void
+clean_group (const CeldBases *b, size_t group)
+{
+  float *h = b->group[group];
+
+  for (size_t p = 0; p < (size_t) b->width * (size_t) b->height; p++)
+    for (size_t k = 0; k < CELD_LANES; k++, h++)
+      *h = b->node[p] ? b->node[p] == group * CELD_LANES + k + 2 : *h > 0 ? *h < 1 ? *h : 1 : 0;
+}
+
+void
+celd_solve_join (CeldSolve *worst, const CeldSolve *one)
+{
+  worst->converged  = worst->converged && one->converged;
+  worst->iterations = one->iterations > worst->iterations ? one->iterations : worst->iterations;
+  worst->error      = one->error > worst->error ? one->error : worst->error;
+}
+
+CeldStatus
+celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+                 double tolerance, const CeldRun *run, CeldSolve *solve)
+{
+  CeldBases   *b = bases;
+  CeldLaplace *laplace = NULL;
+  CeldSolve    worst = { .converged = true };
+  CeldPart     part[2];
+  CeldRun      setting_up = celd_run_part (&part[0], run, 0, 0.1), summing = celd_run_part (&part[1], run, 0.95, 1);
+  CeldStatus   status = place_nodes (b, node, n_sets, point, n_points, run);
+
+  if (status == CELD_OK && b->n_groups)
+    status = celd_bases_set_up (b, &setting_up, &laplace);
+  for (size_t g = 0; g < b->n_groups && status == CELD_OK; g++)
+    {
+      double    from = 0.1 + 0.85 * (double) g / (double) b->n_groups;
+      CeldPart  share;
+      CeldRun   solving = celd_run_part (&share, run, from, from + 0.85 / (double) b->n_groups);
+      CeldSolve one = { 0 };
+
+      status = celd_lap_solve_lanes (laplace, NULL, b->group[g], tolerance, 0, &solving, &one);
+      if (status == CELD_OK)
+        clean_group (b, g);
+      celd_solve_join (&worst, &one);
+    }
+  celd_lap_free (laplace);
+  if (status == CELD_OK)
+    status = celd_stiffness (b, &summing);
+  if (status == CELD_OK)
+    *solve = worst;
+  else
+    celd_bases_clear (b);
+  return status;
+}
+
+/* ------------------------------------------------------------------ depth */
+
+typedef struct
+{
+  const CeldBases *bases;
+  CeldPlane       *depth;
+  float           *value;       /* of each lane: u_k - u_1 */
+  float            base, low, high;
+} Composition;
+
+/* row[x] += sum over the lanes of a group. */
+CELD_CLONES static void
+add_group (int n, const float *restrict h, const float *restrict value, float *restrict row)
+{
+  float v[CELD_LANES];
+
+  memcpy (v, value, sizeof v);
+  for (int x = 0; x < n; x++, h += CELD_LANES)
+    row[x] += ((h[0] * v[0] + h[4] * v[4]) + (h[2] * v[2] + h[6] * v[6])) +
+              ((h[1] * v[1] + h[5] * v[5]) + (h[3] * v[3] + h[7] * v[7]));
+}
+
+static void
+compose_band (void *data, int band)
+{
+  const Composition *c = data;
+  const CeldBases   *b = c->bases;
+
+  for (int y = band * BAND; y < b->height && y < (band + 1) * BAND; y++)
+    {
+      float *row = &CELD_AT (c->depth, 0, y);
+
+      for (int x = 0; x < b->width; x++)
+        row[x] = c->base;
+      for (size_t g = 0; g < b->n_groups; g++)
+        add_group (b->width, b->group[g] + (size_t) y * (size_t) b->width * CELD_LANES, c->value + g * CELD_LANES, row);
+      for (int x = 0; x < b->width; x++)
+        row[x] = row[x] > c->low ? row[x] < c->high ? row[x] : c->high : c->low;
+    }
+}
+
+CeldStatus
+celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run, CeldPlane *depth)
+{
+  Composition c = {
+    bases, depth, celd_alloc0 (bases->n_groups, CELD_LANES * sizeof (float)), (float) u[0], (float) u[0], (float) u[0]
+  };
+
+  if (!c.value)
+    return CELD_NO_MEMORY;
+  for (uint32_t k = 1; k < bases->n; k++)
+    {
+      c.value[k - 1] = (float) (u[k] - u[0]);
+      c.low  = (float) u[k] < c.low ? (float) u[k] : c.low;
+      c.high = (float) u[k] > c.high ? (float) u[k] : c.high;
+    }
+  celd_each (run, (bases->height + BAND - 1) / BAND, compose_band, &c);
+  celd_free (c.value);
+  return CELD_OK;
+}

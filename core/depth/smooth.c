@@ -1,0 +1,260 @@
+/* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors (the paper's U_o).
+ *
+ * Where depth is cut is in depth-weights.c, what holds a region without an anchor in depth-cores.c, and how the rest
+ * follows in depth-solve.c.  Here is what they work on, and what an edit changed of it: a pixel's equation is new if
+ * its level, a neighbour's level, whether one of them is fixed, or the ink round them changed.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "image/image.h"
+
+#include <math.h>
+
+/* ------------------------------------------------------------------ levels */
+
+void
+celd_depth_levels (const CeldPlane *levels, float *level)
+{
+  float least = INFINITY;
+
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      if (isfinite (CELD_AT (levels, x, y)) && CELD_AT (levels, x, y) < least)
+        least = CELD_AT (levels, x, y);
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        float d = CELD_AT (levels, x, y);
+
+        *level++ = isfinite (d) ? d + 0.f : isfinite (least) ? least : 0; /* + 0 makes -0 the same level as 0 */
+      }
+}
+
+CeldStatus
+celd_depth_regions (int width, int height, const float *level, const CeldRun *run, CeldLabels *regions,
+                    CeldComponent **list, size_t *n)
+{
+  CeldLabels bits; /* every distinct level as a label */
+  CeldStatus status = celd_labels_new (width, height, &bits);
+
+  if (status == CELD_OK)
+    {
+      memcpy (bits.data, level, (size_t) width * (size_t) height * sizeof *level);
+      status = celd_components (&bits, UINT32_MAX, false, run, regions, list, n);
+    }
+  celd_free (bits.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ what is new */
+
+/* Marks the pixel and its four neighbours. */
+static void
+mark_round (int width, int height, int x, int y, uint8_t *changed)
+{
+  uint8_t *here = changed + (size_t) y * (size_t) width + (size_t) x;
+
+  here[0] = 1;
+  if (x > 0)
+    here[-1] = 1;
+  if (x + 1 < width)
+    here[1] = 1;
+  if (y > 0)
+    here[-width] = 1;
+  if (y + 1 < height)
+    here[width] = 1;
+}
+
+static void
+mark_levels (const CeldSmoother *old, const float *level, uint8_t *changed)
+{
+  size_t w = (size_t) old->width;
+
+  for (int y = 0; y < old->height; y++)
+    {
+      const float *now = level + (size_t) y * w, *before = old->level + (size_t) y * w;
+
+      if (memcmp (now, before, w * sizeof *now))
+        for (int x = 0; x < old->width; x++)
+          if (now[x] != before[x])
+            mark_round (old->width, old->height, x, y, changed);
+    }
+}
+
+static void
+mark_fixed (const CeldSmoother *old, const uint8_t *fixed, uint8_t *changed)
+{
+  size_t w = (size_t) old->width;
+
+  for (int y = 0; y < old->height; y++)
+    {
+      const uint8_t *now = fixed + (size_t) y * w, *before = old->fixed + (size_t) y * w;
+
+      if (memcmp (now, before, w))
+        for (int x = 0; x < old->width; x++)
+          if (!now[x] != !before[x])
+            mark_round (old->width, old->height, x, y, changed);
+    }
+}
+
+/* Everything whose weights may have seen the new ink. */
+static void
+mark_ink (const CeldSmoother *old, uint8_t *changed)
+{
+  CeldRect ink = old->new_ink;
+  int      far = old->reach + 1;
+
+  for (int y = ink.y - far; ink.width && y < ink.y + ink.height + far; y++)
+    for (int x = ink.x - far; y >= 0 && y < old->height && x < ink.x + ink.width + far; x++)
+      if (x >= 0 && x < old->width)
+        changed[(size_t) y * (size_t) old->width + (size_t) x] = 1;
+}
+
+/* ------------------------------------------------------------------ the step */
+
+/* What the step has to do with. */
+typedef struct
+{
+  int      width, height;
+  float   *level, *depth;
+  uint8_t *fixed, *changed;     /* changed NULL: all is new */
+  double   range;
+} Planes;
+
+static void
+read_anchors (const CeldMask *anchors, uint8_t *fixed)
+{
+  for (int y = 0; y < anchors->height; y++)
+    for (int x = 0; x < anchors->width; x++)
+      *fixed++ = CELD_AT (anchors, x, y) ? CELD_ANCHOR : CELD_FREE;
+}
+
+static double
+range_of (const float *level, size_t n)
+{
+  float low = level[0], high = level[0];
+
+  for (size_t i = 1; i < n; i++)
+    {
+      low  = level[i] < low ? level[i] : low;
+      high = level[i] > high ? level[i] : high;
+    }
+  return (double) high - (double) low;
+}
+
+/* Is what is kept worth comparing with?  Not if it was made less exactly, or cut elsewhere. */
+static bool
+is_of_use (const CeldSmoother *old, const CeldSmoothing *s, const Planes *p)
+{
+  return old && old->level && s->last && old->width == p->width && old->height == p->height &&
+         old->threshold == s->settings->ink_threshold && old->reach == s->reach &&
+         old->error <= (double) s->settings->tolerance * p->range;
+}
+
+static CeldStatus
+planes_new (const CeldSmoother *old, const CeldSmoothing *s, Planes *p)
+{
+  size_t n;
+
+  *p = (Planes) { .width = s->levels->width, .height = s->levels->height };
+  n  = (size_t) p->width * (size_t) p->height;
+  p->level = celd_alloc (n, sizeof *p->level);
+  p->depth = celd_alloc (n, sizeof *p->depth);
+  p->fixed = celd_alloc0 (n, sizeof *p->fixed);
+  if (!p->level || !p->depth || !p->fixed)
+    return CELD_NO_MEMORY;
+  celd_depth_levels (s->levels, p->level);
+  if (s->anchors)
+    read_anchors (s->anchors, p->fixed);
+  p->range = range_of (p->level, n);
+  if (!is_of_use (old, s, p))
+    return CELD_OK;
+  p->changed = celd_alloc0 (n, sizeof *p->changed);
+  if (!p->changed)
+    return CELD_NO_MEMORY;
+  mark_levels (old, p->level, p->changed);
+  return CELD_OK;
+}
+
+/* The smoother takes the planes that it keeps. */
+static void
+remember (CeldSmoother *smoother, const CeldSmoothing *s, const CeldSolve *solve, Planes *p)
+{
+  celd_smoother_clear (smoother);
+  *smoother = (CeldSmoother) { p->width, p->height, p->level, p->fixed, s->settings->ink_threshold,
+                               solve->converged ? (double) s->settings->tolerance * p->range : INFINITY, s->reach,
+                               { 0 } };
+  p->level = NULL;
+  p->fixed = NULL;
+}
+
+CeldStatus
+celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldRun *run, CeldPlane *depth,
+                   CeldSolve *solve)
+{
+  CeldPart   part[2];
+  CeldRun    holding = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  Planes     p;
+  CeldStatus status = planes_new (smoother, s, &p);
+
+  if (status == CELD_OK && (!s->anchors || s->settings->hold_rest))
+    status = celd_cores_mark (p.width, p.height, p.level, s->speck, p.changed, p.changed ? smoother->fixed : NULL,
+                              &holding, p.fixed);
+  if (status == CELD_OK)
+    {
+      CeldSystem system = { p.width, p.height, p.level, p.fixed,
+                            { s->ink, s->settings->ink_threshold, s->reach }, p.changed, s->last,
+                            (double) s->settings->tolerance, p.range };
+
+      if (p.changed)
+        {
+          mark_fixed (smoother, p.fixed, p.changed);
+          mark_ink (smoother, p.changed);
+        }
+      status = celd_system_solve (&system, &solving, p.depth, solve);
+    }
+  if (status == CELD_OK)
+    {
+      *depth  = (CeldPlane) { p.width, p.height, (size_t) p.width, p.depth };
+      p.depth = NULL;
+      if (smoother)
+        remember (smoother, s, solve, &p);
+    }
+  celd_free (p.level);
+  celd_free (p.depth);
+  celd_free (p.fixed);
+  celd_free (p.changed);
+  return status;
+}
+
+void
+celd_smoother_clear (CeldSmoother *smoother)
+{
+  celd_free (smoother->level);
+  celd_free (smoother->fixed);
+  *smoother = (CeldSmoother) { 0 };
+}
+
+CeldStatus
+celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors, const CeldSettings *settings,
+             const CeldRun *run, CeldPlane *depth, CeldSolve *solve)
+{
+  CeldSmoothing smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
+  CeldPlane     made = { 0 };
+  CeldSolve     how;
+  CeldStatus    status;
+
+  if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, depth) || (anchors && !CELD_SAME_SIZE (ink, anchors)))
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+  smoothing.reach = celd_edge_reach (celd_stroke_width (ink));
+  status = celd_smooth_again (NULL, &smoothing, run, &made, &how);
+  for (int y = 0; y < depth->height && status == CELD_OK; y++)
+    memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);
+  if (status == CELD_OK && solve)
+    *solve = how;
+  celd_free (made.data);
+  return status;
+}

@@ -1,0 +1,112 @@
+/* Is there a short way round the end of a cut?  A cut that ends nearby parts nothing.
+ *
+ * Whole rows of a small window are filled at once, a bit a pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+
+#define REACH  7 /* pixels that the way may go away from the cut */
+#define WINDOW (2 * REACH + 1)
+
+/* ------------------------------------------------------------------ bits */
+
+static void
+set_bits (const float *weight, int n, uint64_t *bits)
+{
+  for (int x = 0; x < n; x += 64)
+    {
+      uint64_t word = 0;
+
+      for (int k = 0; k < 64 && x + k < n; k++)
+        word |= (uint64_t) (weight[x + k] > 0) << k;
+      bits[x / 64] = word;
+    }
+}
+
+CeldStatus
+celd_joined_new (int width, int height, const float *east, const float *south, CeldJoined *joined)
+{
+  size_t w = (size_t) width, words = (w + 63) / 64;
+
+  *joined = (CeldJoined) {
+    height, words, celd_alloc0 ((size_t) height * words, sizeof *joined->east),
+    celd_alloc0 ((size_t) height * words, sizeof *joined->south),
+  };
+  if (!joined->east || !joined->south)
+    return CELD_NO_MEMORY;
+  for (size_t y = 0; y < (size_t) height; y++)
+    {
+      set_bits (east + y * w, width - 1, joined->east + y * words);
+      set_bits (south + y * w, y + 1 < (size_t) height ? width : 0, joined->south + y * words);
+    }
+  return CELD_OK;
+}
+
+void
+celd_joined_clear (CeldJoined *joined)
+{
+  celd_free (joined->east);
+  celd_free (joined->south);
+}
+
+/* ------------------------------------------------------------------ ways */
+
+/* The bits of the pixels x - REACH .. x + REACH of row y; 0 outside the picture. */
+static inline uint32_t
+window_row (const CeldJoined *g, const uint64_t *bits, int x, int y)
+{
+  const uint64_t *row = bits + (size_t) y * g->words;
+  int             from = x - REACH, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
+  uint64_t        low = word >= 0 ? row[word] : 0, high = (size_t) (word + 1) < g->words ? row[word + 1] : 0;
+
+  return (uint32_t) ((low >> shift) | (shift ? high << (64 - shift) : 0)) & ((1u << WINDOW) - 1);
+}
+
+/* What of a row can be reached from what is seen of it. */
+static inline uint32_t
+spread (uint32_t seen, uint32_t east)
+{
+  for (uint32_t before = 0; before != seen;)
+    {
+      before = seen;
+      seen |= (seen & east) << 1;
+      seen |= (seen >> 1) & east;
+    }
+  return seen & ((1u << WINDOW) - 1);
+}
+
+bool
+celd_way_round (const CeldJoined *g, int x, int y, bool down)
+{
+  uint32_t east[WINDOW], south[WINDOW], seen[WINDOW] = { 0 };
+  bool     grown = true;
+
+  for (int r = 0; r < WINDOW; r++)
+    {
+      int  v = y + r - REACH;
+      bool inside = v >= 0 && v < g->height;
+
+      east[r]  = inside ? window_row (g, g->east, x, v) & ((1u << (WINDOW - 1)) - 1) : 0;
+      south[r] = inside && r + 1 < WINDOW ? window_row (g, g->south, x, v) : 0;
+    }
+  seen[REACH] = 1u << REACH;
+  while (grown)
+    {
+      grown = false;
+      for (int k = 0; k < 2 * WINDOW; k++)
+        {
+          int      r = k < WINDOW ? k : 2 * WINDOW - 1 - k;
+          uint32_t now = seen[r];
+
+          now |= r > 0 ? seen[r - 1] & south[r - 1] : 0;
+          now |= r + 1 < WINDOW ? seen[r + 1] & south[r] : 0;
+          now   = now == seen[r] && r != REACH ? now : spread (now, east[r]);
+          grown = grown || now != seen[r];
+          seen[r] = now;
+        }
+      if (down ? seen[REACH + 1] >> REACH & 1 : seen[REACH] >> (REACH + 1) & 1)
+        return true;
+    }
+  return false;
+}

@@ -1,0 +1,84 @@
+/* The noise of a drawing on paper: its grain, the echoes of a lossy picture, and a filter against the former.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/ink.h"
+
+#include <math.h>
+
+#define BINS 256
+#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
+
+float
+celd_ink_noise (const CeldPlane *contrast, int step)
+{
+  size_t of[BANKS][BINS] = { { 0 } }, all = 0, below = 0;
+  int    bin = 0;
+
+  for (int y = 0; y < contrast->height; y++)
+    for (int x = step; x < contrast->width - step; x++)
+      {
+        const float *c = &CELD_AT (contrast, x, y);
+
+        if (celd_most (celd_most (c[-step], c[0]), c[step]) >= 0.25f)
+          continue;
+        of[x % BANKS][(int) celd_least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
+        all++;
+      }
+  for (int k = 1; k < BANKS; k++)
+    for (int i = 0; i < BINS; i++)
+      of[0][i] += of[k][i];
+  while (bin < BINS - 1 && 2 * (below += of[0][bin]) < all)
+    bin++;
+  return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
+}
+
+float
+celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
+{
+  size_t of[BINS] = { 0 }, all = 0, above = 0;
+  int    bin = BINS - 1;
+
+  for (int y = 1; y < contrast->height - 1; y++)
+    for (int x = 1; x < contrast->width - 1; x++)
+      {
+        const float *c = &CELD_AT (contrast, x, y), *up = c - contrast->stride, *down = c + contrast->stride;
+        float        beside = celd_most (celd_most (up[-1], up[0]), celd_most (up[1], c[-1]));
+
+        beside = celd_most (beside, celd_most (celd_most (c[1], down[-1]), celd_most (down[0], down[1])));
+        if (CELD_AT (around, x, y) < 0.7f * dark || celd_most (beside, c[0]) > 0.25f * dark)
+          continue;
+        of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
+        all++;
+      }
+  while (bin > 0 && 10 * (above += of[bin]) < all)
+    bin--;
+  return (float) bin / (BINS - 1);
+}
+
+void
+celd_ink_smooth (CeldPlane *plane, CeldPlane *spare)
+{
+  int width = plane->width, height = plane->height;
+
+  for (int y = 0; y < height; y++)
+    {
+      const float *from = &CELD_AT (plane, 0, y);
+      float       *to = &CELD_AT (spare, 0, y);
+
+      to[0] = 0.25f * (from[0] + from[width > 1]) + 0.5f * from[0];
+      for (int x = 1; x < width - 1; x++)
+        to[x] = 0.25f * (from[x - 1] + from[x + 1]) + 0.5f * from[x];
+      to[width - 1] = 0.25f * (from[width > 1 ? width - 2 : 0] + from[width - 1]) + 0.5f * from[width - 1];
+    }
+  for (int y = 0; y < height; y++)
+    {
+      const float *above = &CELD_AT (spare, 0, y > 0 ? y - 1 : 0);
+      const float *below = &CELD_AT (spare, 0, y < height - 1 ? y + 1 : y);
+      const float *from = &CELD_AT (spare, 0, y);
+      float       *to = &CELD_AT (plane, 0, y);
+
+      for (int x = 0; x < width; x++)
+        to[x] = 0.25f * (above[x] + below[x]) + 0.5f * from[x];
+    }
+}

@@ -1,0 +1,363 @@
+/* Line art of a drawing: ink 0, paper 1, whatever the drawing was made with.
+ *
+ * 1. One value a pixel, and its contrast against the paper around (paper.c).
+ * 2. Noise: median second differences at three scales (ink-noise.c).  A drawing without noise is not smoothed, and
+ *    clean black on white comes out as it went in: its antialiasing says where between two pixels a contour lies.
+ * 3. Ink: the contrast, divided by that of the drawing's dark strokes, or of the stroke itself where that is pale:
+ *    LazyBrush [SDC09b] takes the response of a LoG filter for the same end, so that a faint contour is one.  Here a
+ *    stroke is what a grey opening removes, so that flat grey areas stay as grey as they are.
+ * Cost: O(pixels), independent of the width of strokes; 16 bytes a pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "image/ink.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BINS 256
+#define FAINTEST 0.05f        /* least contrast of a stroke; yellow on white has 0.07 */
+#define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
+#define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
+#define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
+#define STRIP 16              /* columns: a strip is a line of the cache wide */
+#define PASSES 16             /* over the picture, of about the same length */
+
+typedef struct
+{
+  const CeldRun *run;
+  int            passes;        /* done so far */
+  size_t         pixels;
+  int            widest;        /* half width of the widest stroke */
+  CeldPlane      contrast;      /* against the paper: 0 .. 1 */
+  CeldPlane      area;          /* contrast without strokes: the grey opening */
+  CeldPlane      level;         /* contrast of the dark core of the stroke here; 0 = not known */
+  CeldPlane      spare;
+  float         *lines;         /* for least_along_rows and least_along_columns */
+  float          noise;         /* of the paper */
+  bool           noisy;         /* by more than rounding */
+  float          faintest;      /* least contrast of a stroke */
+  float          dark;          /* contrast of the dark strokes */
+} Work;
+
+/* One more pass over the picture is done, of the PASSES that the longest way takes. */
+static CeldStatus
+pass_done (Work *w)
+{
+  return celd_step (w->run, (double) ++w->passes / PASSES);
+}
+
+/* ------------------------------------------------------------------ grey morphology with square windows */
+
+/* Each element becomes the least of those at most `radius` away along its row; `line` has room for width + 2 radius. */
+static void
+least_along_rows (CeldPlane *plane, int radius, float *line)
+{
+  int n = plane->width + 2 * radius, window = 2 * radius + 1, span;
+
+  for (int y = 0; y < plane->height; y++)
+    {
+      float *row = &CELD_AT (plane, 0, y);
+
+      for (int i = 0; i < radius; i++)
+        line[i] = line[n - 1 - i] = INFINITY;
+      memcpy (line + radius, row, (size_t) plane->width * sizeof *row);
+      for (span = 1; 2 * span <= window; span *= 2)
+        for (int i = 0; i < n - span; i++)
+          line[i] = celd_least (line[i], line[i + span]);
+      for (int x = 0; x < plane->width; x++)
+        row[x] = celd_least (line[x], line[x + window - span]);
+    }
+}
+
+/* The same along columns, STRIP of them at a time; `lines` has room for STRIP (height + 2 radius). */
+static void
+least_along_columns (CeldPlane *plane, int radius, float *lines)
+{
+  int window = 2 * radius + 1, span;
+
+  for (int left = 0; left < plane->width; left += STRIP)
+    {
+      size_t breadth = plane->width - left < STRIP ? (size_t) (plane->width - left) : STRIP;
+      size_t edge = (size_t) radius * breadth, n = (size_t) plane->height * breadth + 2 * edge;
+
+      for (size_t i = 0; i < edge; i++)
+        lines[i] = lines[n - 1 - i] = INFINITY;
+      for (int y = 0; y < plane->height; y++)
+        memcpy (lines + edge + (size_t) y * breadth, &CELD_AT (plane, left, y), breadth * sizeof *lines);
+      for (span = 1; 2 * span <= window; span *= 2)
+        for (size_t i = 0, step = (size_t) span * breadth; i < n - step; i++)
+          lines[i] = celd_least (lines[i], lines[i + step]);
+      for (int y = 0; y < plane->height; y++)
+        {
+          float       *row = &CELD_AT (plane, left, y);
+          const float *first = lines + (size_t) y * breadth, *second = first + (size_t) (window - span) * breadth;
+
+          for (size_t x = 0; x < breadth; x++)
+            row[x] = celd_least (first[x], second[x]);
+        }
+    }
+}
+
+static CeldStatus
+erode (Work *w, CeldPlane *plane, int radius)
+{
+  CeldStatus status;
+
+  least_along_rows (plane, radius, w->lines);
+  status = pass_done (w);
+  if (status != CELD_OK)
+    return status;
+  least_along_columns (plane, radius, w->lines);
+  return pass_done (w);
+}
+
+static void
+negate (CeldPlane *plane)
+{
+  size_t n = (size_t) plane->width * (size_t) plane->height;
+
+  for (size_t i = 0; i < n; i++)
+    plane->data[i] = -plane->data[i];
+}
+
+static CeldStatus
+dilate (Work *w, CeldPlane *plane, int radius)
+{
+  CeldStatus status;
+
+  negate (plane);
+  status = erode (w, plane, radius);
+  negate (plane);
+  return status;
+}
+
+/* ------------------------------------------------------------------ ink */
+
+/* The contrast that a fiftieth of the inked pixels exceed, exact where these have one value; 1 if there is no ink. */
+static float
+dark_level (const CeldPlane *contrast, float faintest)
+{
+  size_t of[BINS] = { 0 }, all = 0, above = 0;
+  double sum[BINS] = { 0 };
+  int    bin = BINS - 1;
+
+  for (int y = 0; y < contrast->height; y++)
+    for (int x = 0; x < contrast->width; x++)
+      {
+        float c = CELD_AT (contrast, x, y);
+        int   i = (int) (c * (BINS - 1) + 0.5f);
+
+        if (c < faintest)
+          continue;
+        of[i]++;
+        sum[i] += c;
+        all++;
+      }
+  if (!all)
+    return 1;
+  while (50 * (above += of[bin]) < all)
+    bin--;
+  return (float) (sum[bin] / (double) of[bin]);
+}
+
+static CeldStatus
+start_work (int width, int height, Work *w)
+{
+  int shorter = width < height ? width : height, longer = width < height ? height : width;
+
+  w->pixels = (size_t) width * (size_t) height;
+  w->widest = shorter / 32 > 12 ? shorter / 32 : 12;
+  w->lines = celd_alloc (STRIP * ((size_t) longer + 2 * (size_t) w->widest), sizeof *w->lines);
+  if (!w->lines || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
+      celd_plane_new (width, height, &w->area) != CELD_OK || celd_plane_new (width, height, &w->level) != CELD_OK)
+    return CELD_NO_MEMORY;
+  return celd_plane_new (width, height, &w->spare);
+}
+
+static void
+end_work (Work *w)
+{
+  celd_free (w->contrast.data);
+  celd_free (w->area.data);
+  celd_free (w->level.data);
+  celd_free (w->spare.data);
+  celd_free (w->lines);
+}
+
+/* Reflectance against the paper, as a contrast. */
+static CeldStatus
+measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
+{
+  CeldStatus status;
+
+  celd_ink_values (drawing, celd_ink_mode (drawing, mode), &w->contrast);
+  status = pass_done (w);
+  if (status == CELD_OK)
+    status = celd_paper_levels (&w->contrast, &w->level);
+  for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
+    w->contrast.data[i] = celd_most (1 - w->contrast.data[i] / w->level.data[i], 0);
+  return status == CELD_OK ? pass_done (w) : status;
+}
+
+/* The largest noise at the scales from step to 16 pixels. */
+static CeldStatus
+measure_noise (Work *w, int step)
+{
+  CeldStatus status = CELD_OK;
+
+  for (w->noise = 0; step <= 16 && status == CELD_OK; step *= 4)
+    {
+      w->noise = celd_most (w->noise, celd_ink_noise (&w->contrast, step));
+      status = pass_done (w);
+    }
+  return status;
+}
+
+/* Grain, and blotches up to 16 pixels across, go; strokes stay.  The paper's level is that of its light grain, so that
+ * paper has a contrast of about the noise.  What counts from here on is the noise that smoothing leaves: of grain a
+ * quarter, of blotches all. */
+static CeldStatus
+quieten (Work *w)
+{
+  CeldStatus status = measure_noise (w, 1);
+  float      zero;
+
+  w->noisy = w->noise > NOISELESS;
+  if (status != CELD_OK || !w->noisy)
+    return status;
+  celd_ink_smooth (&w->contrast, &w->spare);
+  celd_ink_smooth (&w->contrast, &w->spare);
+  zero = celd_least (2 * w->noise, 0.5f);
+  status = measure_noise (w, 4); /* wider than the filter, for noise that it has smeared has small differences */
+  for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
+    w->contrast.data[i] = celd_most (w->contrast.data[i] - zero, 0) / (1 - zero);
+  return status == CELD_OK ? pass_done (w) : status;
+}
+
+/* How dark is ink?  In a noisy drawing the darkest is well above the noise, so that empty paper stays empty. */
+static CeldStatus
+measure_ink (Work *w)
+{
+  CeldStatus status;
+
+  w->faintest = celd_most (FAINTEST, 8 * w->noise);
+  w->dark = dark_level (&w->contrast, w->faintest);
+  memcpy (w->level.data, w->contrast.data, w->pixels * sizeof (float));
+  status = dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR);
+  if (status != CELD_OK)
+    return status;
+  if (w->noisy)
+    {
+      w->dark = celd_most (w->dark, 16 * w->noise);
+      w->faintest = celd_most (w->faintest, 0.2f * w->dark);
+    }
+  else
+    w->faintest = celd_most (w->faintest, 6 * celd_ink_echo (&w->contrast, &w->level, w->dark));
+  if (w->dark > 0.9f && !w->noisy)
+    w->dark = 1; /* black lines of a pixel or less are not quite black anywhere */
+  return CELD_OK;
+}
+
+/* Is the pixel inside a stroke, not on its antialiased rim: do the 3x3 pixels round it differ by a tenth at most? */
+static bool
+is_solid (const CeldPlane *contrast, int x, int y)
+{
+  float c = CELD_AT (contrast, x, y);
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < contrast->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < contrast->width; u++)
+      if (fabsf (CELD_AT (contrast, u, v) - c) > 0.1f * c)
+        return false;
+  return true;
+}
+
+/* Does a pixel show how dark its stroke is?  Without noise a grey one may be the rim of a black stroke, unless it is
+ * inside a grey stroke, or fainter than a rim whose stroke is that near.  `around` is the largest contrast near. */
+static bool
+shows_level (const Work *w, int x, int y, float around)
+{
+  float c = CELD_AT (&w->contrast, x, y);
+
+  if (c < w->faintest || w->noisy)
+    return c >= w->faintest;
+  return around < 0.45f * w->dark || (c < 0.75f * w->dark && is_solid (&w->contrast, x, y));
+}
+
+/* Keeps in level the pixels that show how dark their stroke is.  Are there strokes paler than ink is? */
+static bool
+find_levels (Work *w)
+{
+  bool pale = false;
+
+  for (int y = 0; y < w->level.height; y++)
+    for (int x = 0; x < w->level.width; x++)
+      {
+        float c = CELD_AT (&w->contrast, x, y), *level = &CELD_AT (&w->level, x, y);
+
+        *level = shows_level (w, x, y, *level) ? c : 0;
+        pale = pale || (*level > 0 && c < 0.95f * w->dark);
+      }
+  return pale;
+}
+
+/* Fills in area, and level on the whole breadth of each stroke. */
+static CeldStatus
+spread_levels (Work *w)
+{
+  CeldStatus status;
+
+  memcpy (w->area.data, w->contrast.data, w->pixels * sizeof (float));
+  status = erode (w, &w->area, w->widest);
+  if (status == CELD_OK)
+    status = dilate (w, &w->area, w->widest);
+  for (size_t i = 0; i < w->pixels; i++)
+    if (w->contrast.data[i] - w->area.data[i] < celd_most (w->faintest, 0.5f * w->contrast.data[i]))
+      w->level.data[i] = 0;
+  return status == CELD_OK ? dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR) : status;
+}
+
+static void
+write_ink (const Work *w, bool pale, CeldPlane *ink)
+{
+  float full = w->noisy ? 0.8f : 1; /* share of its level at which a stroke is all ink: grain may not pierce it */
+
+  for (int y = 0; y < ink->height; y++)
+    for (int x = 0; x < ink->width; x++)
+      {
+        size_t i = (size_t) y * (size_t) ink->width + (size_t) x;
+        float  c = w->contrast.data[i], share = c / w->dark;
+
+        if (pale && w->level.data[i] > 0 && c <= 1.05f * w->level.data[i]) /* else the rim of a darker stroke beside */
+          share = celd_most (share, (c - w->area.data[i]) / (full * w->level.data[i]));
+        CELD_AT (ink, x, y) = 1 - celd_least (share, 1);
+      }
+}
+
+CeldStatus
+celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink)
+{
+  Work       w = { .run = run };
+  bool       pale = false;
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (&drawing->luma, ink) || (drawing->alpha.data && !CELD_SAME_SIZE (&drawing->alpha, ink)))
+    return CELD_BAD_SIZE;
+  status = start_work (ink->width, ink->height, &w);
+  if (status == CELD_OK)
+    status = measure_contrast (&w, drawing, mode);
+  if (status == CELD_OK)
+    status = quieten (&w);
+  if (status == CELD_OK)
+    status = measure_ink (&w);
+  if (status == CELD_OK)
+    {
+      pale = find_levels (&w);
+      status = pale ? spread_levels (&w) : CELD_OK;
+    }
+  if (status == CELD_OK)
+    write_ink (&w, pale, ink);
+  end_work (&w);
+  return status;
+}

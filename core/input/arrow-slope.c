@@ -1,0 +1,259 @@
+/* Strokes whose opacity or width says which end is nearer.
+ *
+ * The stroke is followed from one end to the other.  It must be a single line: a pixel off the way between the ends
+ * belongs to another stroke that touches this one.  The thirds of the way decide; pieces of the way must then fall
+ * about steadily from the strong end to the weak one, because two strokes that touch with their ends look like one.
+ * For the same reason a stroke has one colour, no sharp corner, and none at all where it gets stronger again; and the
+ * width of one that the picture's edge cuts lengthwise says nothing.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/arrows.h"
+#include "input/trail.h"
+
+#include <math.h>
+
+#define LEAST_SIGNAL 0.2  /* least difference of the outer thirds, as a share of the larger value */
+#define SLACK        0.1  /* the middle third may leave their range by this share: ends are round and soft */
+#define MOST_PIECES  12
+#define MOST_RISE    0.25 /* of a later piece above an earlier one: a share of the whole fall, */
+#define LAST_RISE    0.12 /* the same of the last two: the weak end is the weakest of all */
+#define NOISE        0.05 /* and of the largest value */
+#define SHORTEST     6    /* pixels */
+#define TELLING      64   /* opacity of pieces whose colour can be told */
+#define OTHER_COLOUR 60   /* of 255: colours of two strokes differ by more, */
+#define OTHER_COSINE 0.978 /* or their differences from the paper are not parallel */
+#define LEAST_RISE   0.3  /* of the rise that is too much anywhere: too much at a corner, */
+#define CORNER       0.8  /* whose cosine is less; */
+#define SHARP_CORNER 0.6  /* one that no hand makes in a single stroke */
+
+/* Mean opacity of a stroke between two distances, strong pixels first: soft edges say little. */
+static double
+strength (const CeldTrail *trail, const CeldArrowLayer *layer, double from, double to)
+{
+  double sum = 0, weights = 0;
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      uint32_t p = trail->pixel[i];
+      double   a;
+
+      if (trail->distance[p] < from || trail->distance[p] > to)
+        continue;
+      a = celd_arrow_opacity (layer, celd_trail_x (trail, p), celd_trail_y (trail, p));
+      sum     += a * a;
+      weights += a;
+    }
+  return weights > 0 ? sum / weights : 0;
+}
+
+/* Opacity or width of pieces of the way, equally long, without the outermost pixels: ends are round. */
+static void
+measure (const CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n, double *value)
+{
+  double piece = (celd_trail_length (trail) - 2 * margin) / n;
+
+  for (int i = 0; i < n; i++)
+    {
+      double from = margin + i * piece, to = from + piece;
+
+      value[i] = style == CELD_ARROW_FADE ? strength (trail, layer, from, to) : celd_trail_width (trail, from, to);
+    }
+}
+
+typedef struct { double red, green, blue, opacity; } Colour;
+
+/* Of a stroke between two distances: its mean, strong pixels first; in a layer without alpha, the difference from the
+ * paper. */
+static Colour
+colour_between (const CeldTrail *trail, const CeldArrowLayer *layer, double from, double to)
+{
+  Colour c = { 0, 0, 0, 0 };
+  double weights = 0;
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
+      const uint8_t *p = celd_arrow_pixel (layer, x, y);
+      double         a = celd_arrow_opacity (layer, x, y);
+
+      if (trail->distance[trail->pixel[i]] < from || trail->distance[trail->pixel[i]] > to)
+        continue;
+      c.red     += a * (p[0] - layer->paper[0]);
+      c.green   += a * (p[1] - layer->paper[1]);
+      c.blue    += a * (p[2] - layer->paper[2]);
+      c.opacity += a * a;
+      weights   += a;
+    }
+  return weights > 0 ? (Colour) { c.red / weights, c.green / weights, c.blue / weights, c.opacity / weights } : c;
+}
+
+static bool
+same_colour (const CeldArrowLayer *layer, Colour a, Colour b)
+{
+  double dot = a.red * b.red + a.green * b.green + a.blue * b.blue;
+  double length = sqrt ((a.red * a.red + a.green * a.green + a.blue * a.blue) *
+                        (b.red * b.red + b.green * b.green + b.blue * b.blue));
+
+  if (layer->opaque)
+    return dot >= OTHER_COSINE * length;
+  return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue) <= OTHER_COLOUR;
+}
+
+/* Are two pieces of the way, strong enough to tell, at one end of another colour than two at the other end?  A single
+ * one may lie where another stroke crosses. */
+static bool
+changes_colour (const CeldTrail *trail, const CeldArrowLayer *layer)
+{
+  double piece = celd_trail_length (trail) / MOST_PIECES;
+  Colour colour[MOST_PIECES];
+  int    n = 0;
+
+  for (int i = 0; i < MOST_PIECES; i++)
+    {
+      colour[n] = colour_between (trail, layer, i * piece, (i + 1) * piece);
+      n += colour[n].opacity >= TELLING;
+    }
+  return n >= 4 && !same_colour (layer, colour[0], colour[n - 1]) && !same_colour (layer, colour[0], colour[n - 2]) &&
+         !same_colour (layer, colour[1], colour[n - 1]) && !same_colour (layer, colour[1], colour[n - 2]);
+}
+
+/* Does more of a stroke than its ends lie on the picture's edge? */
+static bool
+runs_along_frame (const CeldTrail *trail, double widest)
+{
+  size_t n = 0;
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      int x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
+
+      n += x == 0 || y == 0 || x == trail->width - 1 || y == trail->height - 1;
+    }
+  return (double) n > 2 * widest + 4;
+}
+
+/* The cosine of the turn that the way takes at a distance, seen over a stroke width or two. */
+static double
+turn_at (const CeldTrail *trail, double distance, double widest)
+{
+  double    far = fmax (8, 2 * widest), near = far / 2;
+  CeldPoint a = celd_trail_centre (trail, distance - far, distance - near);
+  CeldPoint b = celd_trail_centre (trail, distance - 1, distance + 1);
+  CeldPoint c = celd_trail_centre (trail, distance + near, distance + far);
+  double    length = hypot (b.x - a.x, b.y - a.y) * hypot (c.x - b.x, c.y - b.y);
+
+  if (distance < far || distance + far > celd_trail_length (trail))
+    return 1;
+  return length > 0 ? ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / length : 1;
+}
+
+/* The most that a value lies above an earlier one, going on or back; *from is the index of that. */
+static double
+largest_rise (const double *value, int n, bool back, int *from)
+{
+  double rise = 0;
+  int    least = back ? n - 1 : 0;
+
+  *from = least;
+  for (int i = 0; i < n; i++)
+    {
+      int k = back ? n - 1 - i : i;
+
+      least = value[k] < value[least] ? k : least;
+      if (value[k] - value[least] > rise)
+        {
+          rise  = value[k] - value[least];
+          *from = least;
+        }
+    }
+  return rise;
+}
+
+/* Does the value fall about steadily, all the more where the way turns: there one stroke may end at another? */
+static bool
+falls (const CeldTrail *trail, const double *value, int n, bool back, double margin, double widest)
+{
+  double most = value[0], least = value[0], piece = (celd_trail_length (trail) - 2 * margin) / n, rise, allowed;
+  int    from;
+
+  for (int i = 1; i < n; i++)
+    {
+      most  = fmax (most, value[i]);
+      least = fmin (least, value[i]);
+    }
+  if (fmin (value[back ? 0 : n - 1], value[back ? 1 : n - 2]) - least > LAST_RISE * (most - least) + NOISE * most)
+    return false;
+  allowed = MOST_RISE * (most - least) + NOISE * most;
+  rise    = largest_rise (value, n, back, &from);
+  for (int side = -1; side <= 1 && rise > LEAST_RISE * allowed; side++)
+    if (turn_at (trail, margin + (from + 0.5 + 0.5 * side) * piece, widest) < CORNER)
+      return false;
+  return rise <= allowed;
+}
+
+static bool
+has_sharp_corner (const CeldTrail *trail, double widest)
+{
+  for (double d = 0; d < celd_trail_length (trail); d += 2)
+    if (turn_at (trail, d, widest) < SHARP_CORNER)
+      return true;
+  return false;
+}
+
+/* Is all paint on the way between the two ends?  The trail is followed from `start` when it returns. */
+static bool
+is_single (CeldTrail *trail, uint32_t start, uint32_t last, double widest)
+{
+  double length = celd_trail_length (trail);
+  size_t off = 0;
+
+  for (size_t i = 0; i < trail->n; i++)
+    trail->kept[i] = trail->distance[trail->pixel[i]];
+  celd_trail_follow (trail, &last, 1);
+  for (size_t i = 0; i < trail->n; i++)
+    off += trail->kept[i] + trail->distance[trail->pixel[i]] > length + 2 * widest + 4;
+  celd_trail_follow (trail, &start, 1);
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      double    d = trail->distance[trail->pixel[i]];
+      CeldPoint p = celd_trail_point (trail, trail->pixel[i]), c = celd_trail_centre (trail, d - 1, d + 1);
+
+      off += hypot (p.x - c.x, p.y - c.y) > 0.8 * widest + 2;
+    }
+  return 50 * off < trail->n;
+}
+
+bool
+celd_arrow_slope (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldEnds *ends)
+{
+  uint32_t  start = celd_trail_follow (trail, trail->pixel, 1), last = celd_trail_follow (trail, &start, 1);
+  double    length = celd_trail_length (trail), value[MOST_PIECES], widths[MOST_PIECES] = { 0 }, third[3];
+  double    most, least, w, margin;
+  int       n = (int) fmax (4, fmin (MOST_PIECES, length / 4));
+  CeldPoint first, end;
+
+  if (length < SHORTEST)
+    return false;
+  measure (trail, layer, CELD_ARROW_TAPER, 0, n, widths);
+  for (int i = 0; i < n; i++)
+    widths[0] = fmax (widths[0], widths[i]);
+  if (length < 1.5 * widths[0] || !is_single (trail, start, last, widths[0]) || changes_colour (trail, layer) ||
+      has_sharp_corner (trail, widths[0]) ||
+      (style == CELD_ARROW_TAPER && runs_along_frame (trail, widths[0])))
+    return false;
+  margin = fmin (0.3 * widths[0], length / 8);
+  measure (trail, layer, style, 0, 3, third);
+  measure (trail, layer, style, margin, n, value);
+  most  = fmax (third[0], third[2]);
+  least = fmin (third[0], third[2]);
+  if (most - least < LEAST_SIGNAL * most || third[1] < least - SLACK * most || third[1] > most + SLACK * most)
+    return false;
+  if (!falls (trail, value, n, third[0] < third[2], margin, widths[0]))
+    return false;
+  w     = fmax (1, fmin (celd_trail_width (trail, 0, length), length / 3));
+  first = celd_trail_centre (trail, 0, w);
+  end   = celd_trail_centre (trail, length - w, length);
+  *ends = third[0] > third[2] ? (CeldEnds) { first, end } : (CeldEnds) { end, first };
+  return true;
+}

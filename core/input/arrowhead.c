@@ -1,0 +1,331 @@
+/* Arrowheads: where is the tail of a stroke, and where its tip?
+ *
+ * A stroke is followed from each of its extremities.  One of them is the tail if the stroke keeps the width w of its
+ * shaft up to a part that reaches out on both sides, with lines from its tip back to both barbs and nothing beside
+ * them.  Nothing is asked about what lies between the lines, so open and filled heads are the same; antialiasing,
+ * unsteady hands and bent shafts are allowed for.  If two extremities look like tails of different arrows, or none
+ * does, there is no answer.  A dot at the end of a shaft is found in the same way: a filled disc instead of the lines.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/trail.h"
+
+#include <math.h>
+
+#define EXTREMITIES  4   /* tail, tip and two barbs */
+#define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
+#define EVEN         2.2 /* largest ratio of widths along a shaft: pens start thin */
+#define THICK_START  1.4 /* largest ratio of the width near the tail to that in the middle: more is another head */
+#define SHORTEST     6   /* pixels */
+#define TURNS        3   /* of the axis towards the tip */
+
+/* Part of a stroke seen along an axis: s forwards, v sideways, from an origin. */
+typedef struct { CeldPoint origin, axis; double from; } View; /* pixels at this distance and beyond */
+typedef struct { double least_s, most_s, left, right, left_s, right_s; size_t n; } Extent;
+
+static CeldPoint
+direction (CeldPoint from, CeldPoint to)
+{
+  double length = hypot (to.x - from.x, to.y - from.y);
+
+  return length > 0 ? (CeldPoint) { (to.x - from.x) / length, (to.y - from.y) / length } : (CeldPoint) { 0, 0 };
+}
+
+static double
+forwards (const View *view, CeldPoint p)
+{
+  return (p.x - view->origin.x) * view->axis.x + (p.y - view->origin.y) * view->axis.y;
+}
+
+static double
+sideways (const View *view, CeldPoint p)
+{
+  return (p.y - view->origin.y) * view->axis.x - (p.x - view->origin.x) * view->axis.y;
+}
+
+/* The place s forwards and v sideways. */
+static CeldPoint
+place (const View *view, double s, double v)
+{
+  CeldPoint o = view->origin, a = view->axis;
+
+  return (CeldPoint) { o.x + s * a.x - v * a.y, o.y + s * a.y + v * a.x };
+}
+
+/* How far the view reaches between two values of s.  `right` is negative sideways. */
+static Extent
+extent_between (const CeldTrail *trail, const View *view, double from, double to)
+{
+  Extent e = { .least_s = INFINITY, .most_s = -INFINITY, .left = -INFINITY, .right = INFINITY };
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+      double    s = forwards (view, p), v = sideways (view, p);
+
+      if (trail->distance[trail->pixel[i]] < view->from || s < from || s > to)
+        continue;
+      e.n++;
+      e.least_s = fmin (e.least_s, s);
+      e.most_s  = fmax (e.most_s, s);
+      if (v > e.left)
+        {
+          e.left   = v;
+          e.left_s = s;
+        }
+      if (v < e.right)
+        {
+          e.right   = v;
+          e.right_s = s;
+        }
+    }
+  return e;
+}
+
+static double
+breadth_at (const CeldTrail *trail, const View *view, double s)
+{
+  Extent e = extent_between (trail, view, s - 0.75, s + 0.75);
+
+  return e.n ? e.left - e.right + 1 : 0;
+}
+
+/* The middle of the foremost pixels. */
+static CeldPoint
+foremost (const CeldTrail *trail, const View *view, double most_s)
+{
+  CeldPoint sum = { 0, 0 };
+  double    n   = 0;
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+
+      if (trail->distance[trail->pixel[i]] < view->from || forwards (view, p) < most_s - 0.5)
+        continue;
+      sum.x += p.x;
+      sum.y += p.y;
+      n++;
+    }
+  return (CeldPoint) { sum.x / n, sum.y / n };
+}
+
+/* Width of the last piece before a distance, four widths long.  Pens start thin: where the shaft has just begun, its
+ * whole first half says more. */
+static double
+width_before (const CeldTrail *trail, double w, double distance)
+{
+  double least = distance < 0.5 * celd_trail_length (trail) ? 0.9 : 0.75;
+
+  return fmax (least * w, celd_trail_width (trail, fmax (0, distance - 4 * w), distance));
+}
+
+/* The distance at which the stroke gets wider than just before and stays so; its length if it does not. */
+static double
+shaft_end (const CeldTrail *trail, double w)
+{
+  double length = celd_trail_length (trail), run = fmax (w, 4), d = w;
+
+  for (; d + run < length; d += 0.5)
+    {
+      double wide = 1.3 * width_before (trail, w, d) + 0.8;
+
+      if (celd_trail_width (trail, d, d + run) > wide && celd_trail_width (trail, d, d + 0.5 * run) > wide)
+        return d;
+    }
+  return length;
+}
+
+/* Is the stroke about equally wide all the way to the end of its shaft, without another head at its start? */
+static bool
+is_even (const CeldTrail *trail, double w, double end)
+{
+  double a = celd_trail_width (trail, 0, end / 3), b = celd_trail_width (trail, end / 3, 2 * end / 3);
+  double c = celd_trail_width (trail, 2 * end / 3, end), run = fmax (w, 4);
+
+  for (double d = 0; d < fmin (end - run, 8 * w); d += 0.5)
+    if (celd_trail_width (trail, d, d + run) > THICK_START * b + 0.8)
+      return false;
+  return fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
+}
+
+/* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
+static bool
+reaches_out (const View *view, const Extent *e, double w, const View *shaft)
+{
+  double least  = 0.5 * w + fmax (0.25 * w, 0.75);
+  double cosine = shaft->axis.x * view->axis.x + shaft->axis.y * view->axis.y, way;
+  CeldPoint entry;
+
+  if (cosine < LEAST_COSINE || e->left < least || -e->right < least)
+    return false;
+  way   = (0.5 * (e->left_s + e->right_s) - forwards (view, shaft->origin)) / cosine;
+  entry = place (shaft, way, 0);
+  return fabs (sideways (view, entry)) < 0.35 * (e->left - e->right) + 0.25 * w;
+}
+
+/* Does it fall back from its tip on both sides, alike, and end there? */
+static bool
+falls_back (const Extent *e, double w)
+{
+  double left = e->most_s - e->left_s, right = e->most_s - e->right_s;
+
+  return left > 0.25 * e->left && right > -0.25 * e->right && fmin (left, right) > 0.3 * fmax (left, right) &&
+         e->most_s - e->least_s < 1.2 * fmax (left, right) + w + 2;
+}
+
+/* Is the straight way painted, all but a fifth of it? */
+static bool
+is_line (const CeldTrail *trail, CeldPoint from, CeldPoint to)
+{
+  double dx = to.x - from.x, dy = to.y - from.y;
+  int    n  = (int) hypot (dx, dy) + 1, painted = 0;
+
+  for (int i = 0; i <= n; i++)
+    painted += celd_trail_painted (trail, (CeldPoint) { from.x + dx * i / n, from.y + dy * i / n });
+  return 5 * painted >= 4 * (n + 1);
+}
+
+/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and
+ * is nothing outside of the triangle?  That holds for open and for filled heads. */
+static bool
+is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double w)
+{
+  double    breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
+  double    tip = e->most_s - fmin (0.6 * w, 0.3 * depth), slope = 0.5 * breadth / depth;
+  CeldPoint foremost = place (view, tip, 0);
+  size_t    outside = 0;
+
+  if (breadth_at (trail, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
+      breadth_at (trail, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
+      breadth_at (trail, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
+    return false;
+  if (!is_line (trail, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
+      !is_line (trail, foremost, place (view, e->right_s, e->right + 0.4 * w)))
+    return false;
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+
+      outside += trail->distance[trail->pixel[i]] >= view->from &&
+                 fabs (sideways (view, p)) > slope * (e->most_s - forwards (view, p)) + 0.7 * w + 1;
+    }
+  return 20 * outside < e->n;
+}
+
+/* Is it a filled disc?  It fills more of its box than a triangle does, or else it is at least broadest in the
+ * middle. */
+static bool
+is_dot (const Extent *e)
+{
+  double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
+  double filled = (double) e->n / (breadth * depth);
+  double middle = (0.5 * (e->left_s + e->right_s) - e->least_s) / fmax (1, e->most_s - e->least_s);
+
+  return depth > 0.6 * breadth && depth < 1.6 * breadth &&
+         (filled > 0.65 || (filled > 0.56 && middle > 0.35 && middle < 0.75));
+}
+
+/* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is
+ * askew.  The answer is what the view shows then. */
+static Extent
+turn_to_tip (const CeldTrail *trail, View *view)
+{
+  Extent e = extent_between (trail, view, -INFINITY, INFINITY);
+
+  for (int i = 0; i < TURNS && e.left > 0 && e.right < 0; i++)
+    {
+      CeldPoint tip = foremost (trail, view, e.most_s);
+
+      view->origin = place (view, 0.5 * (e.left_s + e.right_s), 0.5 * (e.left + e.right));
+      view->axis   = direction (view->origin, tip);
+      e = extent_between (trail, view, -INFINITY, INFINITY);
+    }
+  return e;
+}
+
+static uint32_t
+nearest_pixel (const CeldTrail *trail, CeldPoint p)
+{
+  uint32_t nearest = trail->pixel[0];
+  double   least   = INFINITY;
+
+  for (size_t i = 0; i < trail->n; i++)
+    {
+      CeldPoint q = celd_trail_point (trail, trail->pixel[i]);
+      double    d = hypot (p.x - q.x, p.y - q.y);
+
+      if (d < least)
+        {
+          least   = d;
+          nearest = trail->pixel[i];
+        }
+    }
+  return nearest;
+}
+
+/* The part beyond the shaft of width w, which ends at a distance: looked at along the shaft's last piece. */
+static View
+look_ahead (const CeldTrail *trail, double w, double end)
+{
+  double    back = fmin (fmax (2 * w, 6), 0.6 * end);
+  CeldPoint last = celd_trail_centre (trail, end - 0.4 * back, end - 0.15 * back);
+
+  return (View) { last, direction (celd_trail_centre (trail, end - back, end - 0.75 * back), last), end };
+}
+
+/* If the stroke followed from `tail` ends in a head, or a dot: its tail and its tip, or the dot's centre. */
+static bool
+read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
+{
+  View      view, shaft;
+  Extent    e;
+  double    length, w, end;
+  CeldPoint tip, last;
+
+  celd_trail_follow (trail, &tail, 1);
+  length = celd_trail_length (trail);
+  if (length < SHORTEST)
+    return false;
+  w   = celd_trail_width (trail, 1, 0.5 * length);
+  end = shaft_end (trail, w);
+  if (end >= length || end < 1.5 * w || !is_even (trail, w, end))
+    return false;
+  w     = width_before (trail, w, end);
+  view  = look_ahead (trail, w, end);
+  shaft = view;
+  e     = turn_to_tip (trail, &view);
+  if (!reaches_out (&view, &e, w, &shaft) || is_dot (&e) != dot ||
+      (!dot && (!falls_back (&e, w) || !is_arrowhead (trail, &view, &e, w))))
+    return false;
+  tip   = foremost (trail, &view, e.most_s);
+  *ends = (CeldEnds) { celd_trail_centre (trail, 0, fmax (1, w)), dot ? view.origin : tip };
+
+  /* What is farthest from the tip is the tail, or else it was some place in the middle of the shaft. */
+  tail = nearest_pixel (trail, tip);
+  last = celd_trail_point (trail, celd_trail_follow (trail, &tail, 1));
+  return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2;
+}
+
+bool
+celd_arrowhead (CeldTrail *trail, bool dot, CeldEnds *ends)
+{
+  uint32_t extremity[EXTREMITIES];
+  bool     found = false;
+
+  extremity[0] = celd_trail_follow (trail, trail->pixel, 1);
+  for (size_t i = 1; i < EXTREMITIES; i++)
+    extremity[i] = celd_trail_follow (trail, extremity, i);
+  for (size_t i = 0; i < EXTREMITIES; i++)
+    {
+      CeldEnds one;
+
+      if (!read_from_tail (trail, extremity[i], dot, &one))
+        continue;
+      if (found && hypot (one.tip.x - ends->tip.x, one.tip.y - ends->tip.y) > 3)
+        return false;
+      found = true;
+      *ends = one;
+    }
+  return found;
+}

@@ -1,0 +1,159 @@
+/* Open ends of virtual contours: a stroke that stops a few pixels short of the contour it was meant for would leak.
+ *
+ * A rim pixel is near an end when the square round it, a little wider than the stroke, meets the stroke in one place
+ * only; in none, it belongs to a dab, which may close a gap on both sides.  The ends nearest to something to join are
+ * joined first, by a line two pixels wide; an end that is joined already asks for no more.
+ * Cost: O(reach^2) for each rim pixel; 28 bytes for each that is an end.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/contours.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A rim pixel near the end of a stroke, and the nearest thing that the stroke may be joined to. */
+typedef struct { int x, y, to_x, to_y, squared; uint32_t stroke; bool dab; } End;
+
+/* In how many places does the square of half side `radius` round (x,y) meet the stroke? */
+static int
+crossings (const Bake *b, int x, int y, int radius, uint32_t stroke)
+{
+  int  n = 0;
+  bool first = false, before = false;
+
+  for (int i = 0; i < 8 * radius; i++)
+    {
+      int  along = i % (2 * radius) - radius;
+      int  u = i < 2 * radius ? x + along : i < 4 * radius ? x + radius : i < 6 * radius ? x - along : x - radius;
+      int  v = i < 2 * radius ? y - radius : i < 4 * radius ? y + along : i < 6 * radius ? y + radius : y - along;
+      bool here = u >= 0 && v >= 0 && u < b->width && v < b->height && CELD_AT (&b->part, u, v) == stroke;
+
+      n += here && !before;
+      first = i == 0 ? here : first;
+      before = here;
+    }
+  return n - (n > 1 && first && before);
+}
+
+/* Finds the nearest ink, other stroke or edge of the picture within the reach. */
+static bool
+find_target (const Bake *b, int reach, End *end)
+{
+  end->squared = reach * reach + 1;
+  for (int v = end->y - reach; v <= end->y + reach; v++)
+    for (int u = end->x - reach; u <= end->x + reach; u++)
+      {
+        int  squared = (u - end->x) * (u - end->x) + (v - end->y) * (v - end->y);
+        bool inside = u >= 0 && v >= 0 && u < b->width && v < b->height;
+
+        if (squared >= end->squared)
+          continue;
+        if (inside && CELD_AT (&b->ink, u, v) > 0.5f &&
+            (!CELD_AT (&b->part, u, v) || CELD_AT (&b->part, u, v) == end->stroke))
+          continue;
+        end->squared = squared;
+        end->to_x = u;
+        end->to_y = v;
+      }
+  return end->squared <= reach * reach;
+}
+
+static int
+by_squared_distance (const void *a, const void *b)
+{
+  const End *p = a, *q = b;
+
+  if (p->squared != q->squared)
+    return p->squared - q->squared;
+  return p->y != q->y ? p->y - q->y : p->x - q->x;
+}
+
+/* Is the end answered by a joint made before?  A stroke that touches ink at this end needs no other joint there; a dab
+ * may be joined on several sides. */
+static bool
+is_joined (const Bake *b, const End *end, const End *joint, size_t n)
+{
+  int size = (int) b->breadth[end->stroke] + 3;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      const End *j = &joint[i];
+      int        dot = (end->to_x - end->x) * (j->to_x - j->x) + (end->to_y - end->y) * (j->to_y - j->y);
+
+      int        far = abs (j->x - end->x) > abs (j->y - end->y) ? abs (j->x - end->x) : abs (j->y - end->y);
+
+      if (j->stroke == end->stroke && ((dot > 0 && far <= 2 * size) || (j->squared <= 2 && !end->dab && far <= size)))
+        return true;
+    }
+  return false;
+}
+
+static bool
+is_rim (const Bake *b, int x, int y)
+{
+  uint32_t k = CELD_AT (&b->part, x, y);
+
+  return (x > 0 && CELD_AT (&b->part, x - 1, y) != k) || (x < b->width - 1 && CELD_AT (&b->part, x + 1, y) != k) ||
+         (y > 0 && CELD_AT (&b->part, x, y - 1) != k) || (y < b->height - 1 && CELD_AT (&b->part, x, y + 1) != k);
+}
+
+static CeldStatus
+find_ends (const Bake *b, int reach, const CeldRun *run, End **ends, size_t *n)
+{
+  for (int y = 0; y < b->height; y++)
+    {
+      if (celd_step (run, (double) y / b->height) != CELD_OK)
+        return CELD_CANCELLED;
+      for (int x = 0; x < b->width; x++)
+        {
+          End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->part, x, y) };
+          End *grown;
+          int  met;
+
+          if (!end.stroke || !is_rim (b, x, y) || !find_target (b, reach, &end))
+            continue;
+          met = crossings (b, x, y, (int) b->breadth[end.stroke] + 3, end.stroke);
+          if (met > 1)
+            continue;
+          end.dab = met == 0;
+          grown = celd_grow (*ends, *n + 1, sizeof *grown);
+          if (!grown)
+            return CELD_NO_MEMORY;
+          *ends = grown;
+          grown[(*n)++] = end;
+        }
+    }
+  return CELD_OK;
+}
+
+/* Joins open ends; joints are kept at the front of the list of ends. */
+CeldStatus
+celd_contour_join (Bake *b, const CeldRun *run)
+{
+  End       *end = NULL;
+  size_t     n = 0, joints = 0;
+  int        reach = 5 + (b->width < b->height ? b->width : b->height) / 256;
+  CeldStatus status = find_ends (b, reach, run, &end, &n);
+
+  if (status == CELD_OK && n)
+    qsort (end, n, sizeof *end, by_squared_distance);
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    {
+      End e = end[i];
+      int steps = abs (e.to_x - e.x) > abs (e.to_y - e.y) ? abs (e.to_x - e.x) : abs (e.to_y - e.y);
+
+      if (is_joined (b, &e, end, joints))
+        continue;
+      end[joints++] = e;
+      for (int s = 1; s <= steps; s++)
+        {
+          int x = e.x + (int) lround ((double) s * (e.to_x - e.x) / steps);
+          int y = e.y + (int) lround ((double) s * (e.to_y - e.y) / steps);
+
+          celd_contour_stamp (&b->wall, x, y, 1);
+        }
+    }
+  celd_free (end);
+  return status;
+}

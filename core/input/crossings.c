@@ -1,0 +1,219 @@
+/* Where painted strokes cross.
+ *
+ * On a circle round a crossing lie four arms, two and two opposite each other, with paint from the centre to each and
+ * on beyond it.  That tells a crossing from a head, whose barbs all point one way, and whose corners end.  Circles of
+ * several sizes are tried round the pixels that are farthest from the edges of the paint: strokes that cross at a small
+ * angle part late.  The straightest one of those that overlap is the crossing.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/arrows.h"
+#include "input/trail.h"
+
+#include <math.h>
+
+#define PI          3.14159265358979
+#define ARMS        4
+#define SAMPLES     256  /* on a circle, at most */
+#define MOST_BEND   0.6  /* radians that a stroke may turn at a crossing */
+#define MOST_RATIO  2.2  /* of the breadths of its arms */
+#define BEYOND      1.5  /* arms reach on to so many radii */
+
+/* A possible crossing, and how far its strokes are from straight. */
+typedef struct { CeldCrossing crossing; double bend; } Candidate;
+
+/* Points of the circle of radius 1. */
+typedef struct { double x[SAMPLES], y[SAMPLES]; } Circle;
+
+static bool
+is_painted (const CeldCutting *c, double x, double y)
+{
+  return x >= 0 && y >= 0 && x < c->width && y < c->height && c->painted[(size_t) y * (size_t) c->width + (size_t) x];
+}
+
+static bool
+is_way (const CeldCutting *c, CeldPoint from, double angle, double start, double end)
+{
+  for (double s = start; s <= end; s += 0.5)
+    if (!is_painted (c, from.x + s * cos (angle), from.y + s * sin (angle)))
+      return false;
+  return true;
+}
+
+/* Does the arm go on beyond the circle, about straight? */
+static bool
+goes_on (const CeldCutting *c, CeldPoint centre, double angle, double radius)
+{
+  double    turn[] = { 0, 0.2, -0.2, 0.4, -0.4 };
+  CeldPoint arm = { centre.x + radius * cos (angle), centre.y + radius * sin (angle) };
+
+  for (size_t i = 0; i < sizeof turn / sizeof *turn; i++)
+    if (is_way (c, arm, angle + turn[i], 0, (BEYOND - 1) * radius + 1))
+      return true;
+  return false;
+}
+
+/* The middles and widths, in radians, of the four painted arcs of a circle; false if there are not four. */
+static bool
+find_arcs (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, double middle[ARMS],
+           double wide[ARMS])
+{
+  int  step = radius < 6 ? 4 : radius < 12 ? 2 : 1, n = SAMPLES / step, first = 0, arcs = 0, start = 0;
+  bool on[SAMPLES];
+
+  for (int i = 0; i < n; i++)
+    on[i] = is_painted (c, centre.x + radius * circle->x[i * step], centre.y + radius * circle->y[i * step]);
+  while (first < n && on[first])
+    first++;
+  if (first == n)
+    return false;
+  for (int i = first + 1; i <= first + n; i++)
+    {
+      bool here = on[i % n], before = on[(i - 1) % n];
+
+      if (here && !before)
+        start = i;
+      if (here || !before)
+        continue;
+      if (arcs == ARMS)
+        return false;
+      middle[arcs] = PI * (start + i - 1) / n;
+      wide[arcs++] = 2 * PI * (i - start) / n;
+    }
+  return arcs == ARMS;
+}
+
+/* How far two arms are from opposite each other. */
+static double
+bend_between (double a, double b)
+{
+  return fabs (PI - fmod (fabs (b - a), 2 * PI));
+}
+
+/* Is there a crossing of strokes on a circle? */
+static bool
+look_round (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, Candidate *found)
+{
+  double        middle[ARMS], wide[ARMS];
+  CeldCrossing *x = &found->crossing;
+
+  if (!find_arcs (c, circle, centre, radius, middle, wide))
+    return false;
+  found->bend = fmax (bend_between (middle[0], middle[2]), bend_between (middle[1], middle[3]));
+  if (found->bend > MOST_BEND)
+    return false;
+  *x = (CeldCrossing) { .centre = centre, .radius = radius };
+  for (int i = 0; i < ARMS; i++)
+    {
+      x->arm[i]     = (CeldPoint) { centre.x + radius * cos (middle[i]), centre.y + radius * sin (middle[i]) };
+      x->breadth[i] = 2 * radius * sin (fmin (PI, wide[i]) / 2);
+      if (!is_way (c, centre, middle[i], 0, radius) || !goes_on (c, centre, middle[i], radius))
+        return false;
+    }
+  for (int i = 0; i < 2; i++)
+    if (fmax (x->breadth[i], x->breadth[i + 2]) > MOST_RATIO * fmin (x->breadth[i], x->breadth[i + 2]) + 1)
+      return false;
+  return true;
+}
+
+/* Is a pixel about as far from the edge as any beside it? */
+static bool
+is_inmost (const CeldCutting *c, size_t p)
+{
+  size_t w = (size_t) c->width, beside[] = { p - w - 1, p - w, p - w + 1, p - 1, p + 1, p + w - 1, p + w, p + w + 1 };
+  int    deeper = 0;
+
+  for (int i = 0; i < 8; i++)
+    deeper += c->squared[beside[i]] > c->squared[p];
+  return deeper <= 2;
+}
+
+static CeldStatus
+gather (const CeldCutting *c, Candidate **list, size_t *n)
+{
+  static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
+  Circle              circle;
+
+  for (int i = 0; i < SAMPLES; i++)
+    {
+      circle.x[i] = cos (2 * PI * i / SAMPLES);
+      circle.y[i] = sin (2 * PI * i / SAMPLES);
+    }
+
+  for (int y = 1; y + 1 < c->height; y++)
+    for (int x = 1; x + 1 < c->width; x++)
+      {
+        size_t    p = (size_t) y * (size_t) c->width + (size_t) x;
+        Candidate best = { .bend = INFINITY }, one;
+
+        if (!c->painted[p] || !is_inmost (c, p))
+          continue;
+        for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
+          if (look_round (c, &circle, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
+              one.bend < best.bend)
+            best = one;
+        if (best.bend < INFINITY)
+          {
+            Candidate *item = celd_grow (*list, *n + 1, sizeof *item);
+
+            if (!item)
+              return CELD_NO_MEMORY;
+            *list        = item;
+            item[(*n)++] = best;
+          }
+      }
+  return CELD_OK;
+}
+
+/* Takes the straightest candidate and drops those that overlap it. */
+static CeldCrossing
+take_best (Candidate *list, size_t *n)
+{
+  size_t       best = 0, kept = 0;
+  CeldCrossing x;
+
+  for (size_t i = 1; i < *n; i++)
+    if (list[i].bend < list[best].bend)
+      best = i;
+  x = list[best].crossing;
+  for (size_t i = 0; i < *n; i++)
+    {
+      const CeldCrossing *other = &list[i].crossing;
+
+      if (hypot (other->centre.x - x.centre.x, other->centre.y - x.centre.y) > x.radius + other->radius)
+        list[kept++] = list[i];
+    }
+  *n = kept;
+  return x;
+}
+
+CeldStatus
+celd_crossings_find (const CeldCutting *cutting, CeldCrossing **list, size_t *n)
+{
+  Candidate    *candidates = NULL;
+  CeldCrossing *found = NULL;
+  size_t        left = 0, taken = 0;
+  CeldStatus    status = gather (cutting, &candidates, &left);
+
+  while (left && status == CELD_OK)
+    {
+      CeldCrossing *item = celd_grow (found, taken + 1, sizeof *item);
+
+      if (!item)
+        status = CELD_NO_MEMORY;
+      else
+        {
+          found          = item;
+          found[taken++] = take_best (candidates, &left);
+        }
+    }
+  celd_free (candidates);
+  if (status != CELD_OK)
+    {
+      celd_free (found);
+      return status;
+    }
+  *list = found;
+  *n    = taken;
+  return CELD_OK;
+}

@@ -1,0 +1,270 @@
+/* The exact colours of a painted layer, and how far they can be trusted.
+ *
+ * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; where
+ * they do not, but differ in small steps this way and that, the picture was stored with loss (JPEG), and is
+ * restored first if its chroma is smeared, else filtered.  In a picture without alpha the commonest colour is paper.
+ * Cost: O(pixels); a lossy picture takes 8 bytes a pixel more for the time of filtering.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/scribbles.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CLEAN 3         /* rounding of un-premultiplied colours: as near as this is equal */
+#define NOISY 20        /* noise is not measured beyond this */
+#define LOSSY 14        /* the same as CLEAN, once a lossy picture is filtered */
+#define SIMILAR 36      /* colours this near may be one colour in a lossy picture */
+#define PASSES 3        /* of the filter */
+
+/* ------------------------------------------------------------------ exact colours */
+
+static size_t
+slot_of (const Reading *r, uint32_t rgb)
+{
+  size_t s = (size_t) ((rgb * 2654435761u) >> 7) & (r->slots - 1);
+
+  while (r->slot[s])
+    {
+      const int *c = r->colour[r->slot[s]].channel;
+
+      if ((((uint32_t) c[0] << 16) | ((uint32_t) c[1] << 8) | (uint32_t) c[2]) == rgb)
+        break;
+      s = (s + 1) & (r->slots - 1);
+    }
+  return s;
+}
+
+static CeldStatus
+grow_slots (Reading *r)
+{
+  uint32_t *old = r->slot;
+  size_t    slots = r->slots ? 2 * r->slots : 1024;
+
+  r->slot = celd_alloc0 (slots, sizeof *r->slot);
+  if (!r->slot)
+    {
+      r->slot = old;
+      return CELD_NO_MEMORY;
+    }
+  r->slots = slots;
+  celd_free (old);
+  for (size_t i = 1; i < r->n; i++)
+    {
+      const int *c = r->colour[i].channel;
+
+      r->slot[slot_of (r, ((uint32_t) c[0] << 16) | ((uint32_t) c[1] << 8) | (uint32_t) c[2])] = (uint32_t) i;
+    }
+  return CELD_OK;
+}
+
+/* The index of a colour, made when it is new; 0 = no memory. */
+static uint32_t
+colour_index (Reading *r, const uint8_t *rgba)
+{
+  uint32_t rgb = ((uint32_t) rgba[0] << 16) | ((uint32_t) rgba[1] << 8) | rgba[2];
+  size_t   s;
+  Colour  *grown;
+
+  if (2 * (r->n + 1) > r->slots && grow_slots (r) != CELD_OK)
+    return 0;
+  s = slot_of (r, rgb);
+  if (r->slot[s])
+    return r->slot[s];
+  grown = celd_grow (r->colour, r->n + 1, sizeof *grown);
+  if (!grown)
+    return 0;
+  r->colour = grown;
+  grown[r->n] = (Colour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
+  r->slot[s] = (uint32_t) r->n;
+  return (uint32_t) r->n++;
+}
+
+static CeldStatus
+count_colours (Reading *r, bool flats, const CeldRun *run)
+{
+  bool opaque = true;
+
+  for (int y = 0; y < r->height; y++)
+    {
+      const uint8_t *p = CELD_RGBA (r->paint, 0, y);
+      uint32_t      *id = r->id + (size_t) y * (size_t) r->width;
+
+      if (celd_step (run, (double) y / r->height) != CELD_OK)
+        return CELD_CANCELLED;
+      for (int x = 0; x < r->width; x++, p += 4)
+        {
+          opaque = opaque && p[3] == 255;
+          if (p[3] < 128)
+            id[x] = 0;
+          else if (x && id[x - 1] && !memcmp (p, p - 4, 3))
+            id[x] = id[x - 1];
+          else if (!(id[x] = colour_index (r, p)))
+            return CELD_NO_MEMORY;
+          r->colour[id[x]].pixels++;
+          r->colour[id[x]].opacity += p[3];
+        }
+    }
+  if (opaque && !flats)
+    for (size_t i = 1; i < r->n; i++)
+      if (r->colour[i].pixels > r->colour[r->paper].pixels || !r->paper)
+        r->paper = (uint32_t) i;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ noise */
+
+/* How far a pixel is from the mean of those beside it, in nine of ten places where the three are of one stroke; a ramp
+ * is no noise. */
+static void
+measure_noise (Reading *r)
+{
+  size_t places[NOISY + 1] = { 0 }, all = 0, below = 0;
+  int    noise = 0;
+
+  for (int y = 0; y < r->height; y++)
+    for (int x = 1; x < r->width - 1; x++)
+      {
+        const uint32_t *id = r->id + (size_t) y * (size_t) r->width + (size_t) x;
+        const int      *a, *b, *c;
+        int             mean[3], d = 0;
+
+        if (!id[-1] || !id[0] || !id[1] || id[0] == r->paper)
+          continue;
+        a = r->colour[id[-1]].channel;
+        b = r->colour[id[1]].channel;
+        c = r->colour[id[0]].channel;
+        if (id[-1] != id[0] || id[1] != id[0])
+          {
+            if (celd_colour_distance (a, c) > SIMILAR * SIMILAR || celd_colour_distance (b, c) > SIMILAR * SIMILAR)
+              continue;
+            for (int i = 0; i < 3; i++)
+              mean[i] = (a[i] + b[i] + 1) / 2;
+            d = (int) sqrt (celd_colour_distance (mean, c));
+          }
+        places[d < NOISY ? d : NOISY]++;
+        all++;
+      }
+  while (noise < NOISY && 10 * (below += places[noise]) < 9 * all)
+    noise++;
+  r->radius = noise + CLEAN < NOISY ? noise + CLEAN : NOISY;
+}
+
+typedef struct { const CeldPaint *from; CeldPaint to; const Colour *paper; } Filter; /* paper NULL: transparent */
+
+static bool
+is_none (const Filter *f, const uint8_t *rgba)
+{
+  const int *p = f->paper ? f->paper->channel : NULL;
+
+  return rgba[3] < 128 || (p && rgba[0] == p[0] && rgba[1] == p[1] && rgba[2] == p[2]);
+}
+
+/* Each pixel becomes the mean of those among the 5x5 round it that have nearly its colour (a sigma filter, [Lee83]):
+ * the blocks and echoes of lossy pictures go, edges stay. */
+static void
+filter_row (void *data, int y)
+{
+  Filter *f = data;
+
+  for (int x = 0; x < f->to.width; x++)
+    {
+      const uint8_t *c = CELD_RGBA (f->from, x, y);
+      int            sum[3] = { 0 }, n = 0;
+
+      memcpy (CELD_RGBA (&f->to, x, y), c, 4);
+      if (is_none (f, c))
+        continue;
+      for (int v = y > 2 ? y - 2 : 0; v <= y + 2 && v < f->to.height; v++)
+        for (int u = x > 2 ? x - 2 : 0; u <= x + 2 && u < f->to.width; u++)
+          {
+            const uint8_t *q = CELD_RGBA (f->from, u, v);
+            int            d0 = q[0] - c[0], d1 = q[1] - c[1], d2 = q[2] - c[2];
+
+            if (q[3] < 128 || d0 * d0 + d1 * d1 + d2 * d2 > SIMILAR * SIMILAR)
+              continue;
+            sum[0] += q[0];
+            sum[1] += q[1];
+            sum[2] += q[2];
+            n++;
+          }
+      for (int i = 0; i < 3; i++)
+        CELD_RGBA (&f->to, x, y)[i] = (uint8_t) ((2 * sum[i] + n) / (2 * n));
+    }
+}
+
+static void
+forget_colours (Reading *r)
+{
+  r->n = 1;
+  r->paper = 0;
+  r->colour[0].pixels = 0;
+  r->colour[0].opacity = 0;
+  memset (r->slot, 0, r->slots * sizeof *r->slot);
+}
+
+/* Filters into buffer[0], by way of buffer[1]. */
+static CeldStatus
+filter (const Reading *r, CeldPaint *buffer, const CeldRun *run)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int i = 0; i < PASSES && status == CELD_OK; i++)
+    {
+      Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
+
+      celd_each (run, r->height, filter_row, &f);
+      status = celd_step (run, 0.2 * (i + 1));
+    }
+  return status;
+}
+
+/* Counts the colours again, in a restored or filtered copy. */
+static CeldStatus
+clean (Reading *r, bool smeared, bool flats, const CeldRun *run)
+{
+  CeldPart   part;
+  CeldRun    again = celd_run_part (&part, run, 0.8, 1);
+  CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
+                           { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
+  CeldStatus status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = smeared ? celd_scribble_restore (r, run, &buffer[0]) : filter (r, buffer, run);
+  if (status == CELD_OK)
+    {
+      const CeldPaint *stored = r->paint;
+
+      forget_colours (r);
+      r->paint = &buffer[0];
+      status = count_colours (r, flats, &again);
+      r->paint = stored;
+      r->radius = LOSSY;
+      r->lossy = true;
+    }
+  celd_free (buffer[0].data);
+  celd_free (buffer[1].data);
+  return status;
+}
+
+CeldStatus
+celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
+{
+  CeldPart   part[2];
+  CeldRun    count = celd_run_part (&part[0], run, 0, 0.3), rest = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus status;
+  bool       smeared;
+
+  r->colour = celd_grow (NULL, 1, sizeof *r->colour);
+  if (!r->colour)
+    return CELD_NO_MEMORY;
+  r->colour[0] = (Colour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
+  r->n = 1;
+  status = count_colours (r, flats, &count);
+  if (status != CELD_OK)
+    return status;
+  measure_noise (r);
+  smeared = r->radius >= 2 * CLEAN && celd_scribble_smeared (r);
+  return smeared || r->radius > 2 * CLEAN ? clean (r, smeared, flats, &rest) : CELD_OK;
+}

@@ -1,0 +1,354 @@
+/* Thin strokes on white paper as they were before a codec (JPEG) stored their chroma at half size.
+ *
+ * Luma stays where it was, chroma is smeared over blocks of 16 pixels: thin strokes pale, and paper beside them is
+ * tinted.  So strokes are found by luma: a pixel stands out from paper more than the echoes of stronger ones do in the
+ * same block.  Each block's sum of colour, which stays, is shared out among its strokes (scribble-unmix.c).
+ * Colours are handled as deficits: how far below paper each channel is.
+ * Cost: O(pixels), and a few records for every block that strokes touch.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/scribble-loss.h"
+#include "input/scribbles.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define LUMA_BLOCK 8    /* pixels a side: luma is changed within such blocks ... */
+#define BLOCK 16        /* ... and chroma, at half size, within such */
+#define WHITE 240       /* each channel of paper; on other paper the sums differ */
+#define FAINT 12        /* that little is paper, ... */
+#define ECHO 40         /* ... and so is up to this where something ... */
+#define SHARE 0.35      /* ... in the luma block stands out so much more */
+#define PALE 16         /* luma: paper, or nearly */
+#define VIVID 25        /* strokes with more chroma than this show whether it is smeared */
+#define SMEARED 0.04    /* of all chroma lies beside the strokes */
+
+static inline void
+deficit (const Reading *r, int x, int y, int *d)
+{
+  const uint8_t *p = CELD_RGBA (r->paint, x, y);
+
+  for (int i = 0; i < 3; i++)
+    d[i] = r->colour[r->paper].channel[i] - p[i];
+}
+
+static inline int
+luma_of (const int *d)
+{
+  return (77 * d[0] + 150 * d[1] + 29 * d[2] + 128) >> 8;
+}
+
+/* ------------------------------------------------------------------ is chroma smeared? */
+
+/* The chroma of a block's paper along that of its strokes, and all; red and blue against luma. */
+static void
+add_smear (const Reading *r, int left, int top, double *beside, double *all)
+{
+  double paper[2] = { 0 }, stroke[2] = { 0 }, length;
+  int    n = 0;
+
+  for (int y = top; y < top + BLOCK && y < r->height; y++)
+    for (int x = left; x < left + BLOCK && x < r->width; x++)
+      {
+        int     d[3], luma;
+        double *sum;
+
+        deficit (r, x, y, d);
+        luma = luma_of (d);
+        n += luma > PALE;
+        sum = luma > PALE ? stroke : paper;
+        sum[0] += d[0] - luma;
+        sum[1] += d[2] - luma;
+      }
+  length = hypot (stroke[0], stroke[1]);
+  if (n < LUMA_BLOCK || length < VIVID * n)
+    return;
+  *beside += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length;
+  *all += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length + length;
+}
+
+bool
+celd_scribble_smeared (const Reading *r)
+{
+  double beside = 0, all = 0;
+
+  for (int i = 0; i < 3; i++)
+    if (!r->paper || r->colour[r->paper].channel[i] < WHITE)
+      return false;
+  for (int y = 0; y < r->height; y += BLOCK)
+    for (int x = 0; x < r->width; x += BLOCK)
+      add_smear (r, x, y, &beside, &all);
+  return beside > SMEARED * all;
+}
+
+/* ------------------------------------------------------------------ strokes, by luma */
+
+static void
+weigh_row (void *data, int y)
+{
+  Reading *r = data;
+
+  for (int x = 0; x < r->width; x++)
+    {
+      int d[3], luma, chroma;
+
+      deficit (r, x, y, d);
+      luma = luma_of (d);
+      chroma = (abs (d[0] - luma) + abs (d[2] - luma)) / 2;
+      luma = abs (luma) + chroma / 4;
+      r->kind[(size_t) y * (size_t) r->width + (size_t) x] = (uint8_t) (luma < 255 ? luma : 255);
+    }
+}
+
+/* Marks one row of luma blocks in label: CELD_QUEUED = of a stroke, 0 = paper. */
+static void
+mark_blocks (void *data, int row)
+{
+  Reading *r = data;
+  int      bottom = (row + 1) * LUMA_BLOCK < r->height ? (row + 1) * LUMA_BLOCK : r->height;
+
+  for (int left = 0; left < r->width; left += LUMA_BLOCK)
+    {
+      int    right = left + LUMA_BLOCK < r->width ? left + LUMA_BLOCK : r->width, most = 0;
+      double limit;
+
+      for (int y = row * LUMA_BLOCK; y < bottom; y++)
+        for (int x = left; x < right; x++)
+          most = most > r->kind[(size_t) y * (size_t) r->width + (size_t) x]
+                   ? most
+                   : r->kind[(size_t) y * (size_t) r->width + (size_t) x];
+      limit = fmax (FAINT, fmin (ECHO, SHARE * most));
+      for (int y = row * LUMA_BLOCK; y < bottom; y++)
+        for (int x = left; x < right; x++)
+          {
+            size_t i = (size_t) y * (size_t) r->width + (size_t) x;
+
+            r->label[i] = r->kind[i] > limit ? CELD_QUEUED : 0;
+          }
+    }
+}
+
+/* Gives the pixels that hang together with (x,y) within their block to the next piece. */
+static CeldStatus
+take_piece (Strokes *s, int x, int y)
+{
+  Reading *r = s->r;
+  int      left = x / BLOCK * BLOCK, top = y / BLOCK * BLOCK, stack[BLOCK * BLOCK], n = 0;
+  Piece   *grown = celd_grow (s->piece, s->n + 1, sizeof *grown);
+
+  if (!grown)
+    return CELD_NO_MEMORY;
+  s->piece = grown;
+  grown[s->n] = (Piece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) };
+  s->n++;
+  r->label[(size_t) y * (size_t) r->width + (size_t) x] = (uint32_t) s->n;
+  stack[n++] = (y - top) * BLOCK + x - left;
+  while (n)
+    {
+      int at = stack[--n], u = left + at % BLOCK, v = top + at / BLOCK;
+
+      for (int b = v > top ? v - 1 : top; b <= v + 1 && b < top + BLOCK && b < r->height; b++)
+        for (int a = u > left ? u - 1 : left; a <= u + 1 && a < left + BLOCK && a < r->width; a++)
+          if (r->label[(size_t) b * (size_t) r->width + (size_t) a] == CELD_QUEUED)
+            {
+              r->label[(size_t) b * (size_t) r->width + (size_t) a] = (uint32_t) s->n;
+              stack[n++] = (b - top) * BLOCK + a - left;
+            }
+    }
+  return CELD_OK;
+}
+
+static CeldStatus
+find_pieces (Strokes *s)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < s->r->height && status == CELD_OK; y++)
+    for (int x = 0; x < s->r->width && status == CELD_OK; x++)
+      if (s->r->label[(size_t) y * (size_t) s->r->width + (size_t) x] == CELD_QUEUED)
+        status = take_piece (s, x, y);
+  return status;
+}
+
+/* Pieces that touch across the border of a block. */
+static CeldStatus
+find_contacts (Strokes *s)
+{
+  static const int step[4][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 } };
+  const Reading   *r = s->r;
+
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      for (int k = 0; k < 4; k++)
+        {
+          int      u = x + step[k][0], v = y + step[k][1];
+          uint32_t a = r->label[(size_t) y * (size_t) r->width + (size_t) x], b;
+          Contact *grown;
+
+          if (!a || u < 0 || u >= r->width || v >= r->height)
+            continue;
+          b = r->label[(size_t) v * (size_t) r->width + (size_t) u];
+          if (!b || a == b)
+            continue;
+          grown = celd_grow (s->contact, s->n_contacts + 1, sizeof *grown);
+          if (!grown)
+            return CELD_NO_MEMORY;
+          s->contact = grown;
+          s->contact[s->n_contacts++] = (Contact) { a - 1, b - 1, 0 };
+        }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ measures */
+
+/* Does nothing beside the pixel stand out more? */
+static bool
+is_core (const Reading *r, int x, int y)
+{
+  int most = 0;
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
+      if (r->kind[(size_t) v * (size_t) r->width + (size_t) u] > most)
+        most = r->kind[(size_t) v * (size_t) r->width + (size_t) u];
+  return 10 * r->kind[(size_t) y * (size_t) r->width + (size_t) x] >= 9 * most;
+}
+
+/* The mean deficit of each piece's core; of all its pixels where the core is in another block. */
+static void
+measure_cores (Strokes *s)
+{
+  const Reading *r = s->r;
+
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      {
+        uint32_t l = r->label[(size_t) y * (size_t) r->width + (size_t) x];
+        double   weight;
+        int      d[3];
+
+        if (!l)
+          continue;
+        weight = is_core (r, x, y) ? 1 : 1e-3;
+        deficit (r, x, y, d);
+        for (int i = 0; i < 3; i++)
+          s->piece[l - 1].core[i] += weight * d[i];
+        s->piece[l - 1].all += weight;
+      }
+  for (size_t k = 0; k < s->n; k++)
+    {
+      Piece *p = &s->piece[k];
+
+      for (int i = 0; i < 3; i++)
+        p->core[i] /= p->all;
+      p->luma = celd_deficit_luma (p->core);
+    }
+}
+
+/* The piece of a pixel, or one that it touches in its block: the thin end of an edge; NULL = paper. */
+static Piece *
+piece_near (const Strokes *s, int x, int y)
+{
+  static const int step[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
+  const Reading   *r = s->r;
+
+  for (int k = 0; k < 5; k++)
+    {
+      int u = x + step[k][0], v = y + step[k][1];
+
+      if (u >= 0 && v >= 0 && u < r->width && v < r->height && u / BLOCK == x / BLOCK && v / BLOCK == y / BLOCK &&
+          r->label[(size_t) v * (size_t) r->width + (size_t) u])
+        return &s->piece[r->label[(size_t) v * (size_t) r->width + (size_t) u] - 1];
+    }
+  return NULL;
+}
+
+/* How much of each pixel is painted, and what each block holds; of paper only its tint, where none of it is clipped, as
+ * echoes are grey. */
+static void
+measure_sums (Strokes *s)
+{
+  const Reading *r = s->r;
+
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      {
+        Block *block = &s->block[y / BLOCK * s->columns + x / BLOCK];
+        Piece *p = piece_near (s, x, y);
+        int    d[3], grey;
+
+        deficit (r, x, y, d);
+        grey = d[0] > 0 && d[1] > 0 && d[2] > 0 ? luma_of (d) : 0;
+        if (p)
+          {
+            if (p->luma >= FAINT)
+              p->cover += fmin (fmax (luma_of (d) / p->luma, 0), 1.2);
+            else
+              p->cover += r->label[(size_t) y * (size_t) r->width + (size_t) x] != 0;
+            grey = 0;
+          }
+        for (int i = 0; i < 3; i++)
+          block->sum[i] += d[i] - grey;
+      }
+}
+
+/* ------------------------------------------------------------------ the whole restoration */
+
+static void
+paint_strokes (const Strokes *s, CeldPaint *out)
+{
+  const int *paper = s->r->colour[s->r->paper].channel;
+
+  for (int y = 0; y < out->height; y++)
+    for (int x = 0; x < out->width; x++)
+      {
+        uint32_t     l = s->r->label[(size_t) y * (size_t) out->width + (size_t) x];
+        const Piece *stroke = l ? &s->piece[s->piece[l - 1].stroke] : NULL;
+        uint8_t     *rgba = CELD_RGBA (out, x, y);
+
+        for (int i = 0; i < 3; i++)
+          {
+            double value = paper[i] - (stroke ? stroke->colour[i] : 0);
+
+            rgba[i] = (uint8_t) (fmin (fmax (value, 0), 255) + 0.5);
+          }
+        rgba[3] = 255;
+      }
+}
+
+CeldStatus
+celd_scribble_restore (Reading *r, const CeldRun *run, CeldPaint *out)
+{
+  Strokes    s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
+  CeldStatus status = CELD_NO_MEMORY;
+
+  s.n_blocks = (size_t) s.columns * (size_t) ((r->height + BLOCK - 1) / BLOCK);
+  s.block = celd_alloc0 (s.n_blocks, sizeof *s.block);
+  if (!s.block)
+    goto done;
+  celd_each (run, r->height, weigh_row, r);
+  celd_each (run, (r->height + LUMA_BLOCK - 1) / LUMA_BLOCK, mark_blocks, r);
+  status = celd_step (run, 0.1);
+  if (status == CELD_OK)
+    status = find_pieces (&s);
+  if (status == CELD_OK)
+    status = find_contacts (&s);
+  if (status == CELD_OK)
+    status = celd_step (run, 0.2);
+  if (status != CELD_OK)
+    goto done;
+  measure_cores (&s);
+  measure_sums (&s);
+  status = celd_step (run, 0.4);
+  if (status == CELD_OK)
+    status = celd_scribble_unmix (&s, run);
+  if (status == CELD_OK)
+    paint_strokes (&s, out);
+
+done:
+  celd_free (s.contact);
+  celd_free (s.piece);
+  celd_free (s.block);
+  return status;
+}

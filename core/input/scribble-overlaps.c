@@ -1,0 +1,139 @@
+/* Where two translucent strokes overlap, their mixture is a flat colour of its own, but no label.
+ *
+ * On a transparent layer it lies between the two colours and is more opaque than either.  On opaque paper P a stroke of
+ * opacity a shows A' = P + a (A - P); laid over B' it shows  a A + (1 - a) B' = A' + (1 - a) (B' - P).  A colour of
+ * this kind that touches both of the strokes, and more of them than of anything else, is taken for their mixture.
+ * Cost: O(pixels + labels^2).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/scribbles.h"
+
+#define REACH 3         /* pixels: strokes touch across an antialiased rim */
+#define EXACT 6         /* how far a mixture is from where it is expected, at most */
+#define MANY 1024       /* labels: more than these are no strokes */
+
+/* The label at a pixel, counted from 1; 0 for anything else. */
+static uint32_t
+label_at (const Reading *r, const uint32_t *number, size_t i)
+{
+  uint32_t k = r->colour[r->id[i]].cluster;
+
+  return k == CELD_NO_CLUSTER ? 0 : number[k];
+}
+
+/* touch[a * n + b]: how often labels a and b face each other across REACH pixels. */
+static void
+count_touches (const Reading *r, const uint32_t *number, uint32_t *touch, size_t n)
+{
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      for (int i = 0; i < 2; i++)
+        if (x + (i ? 0 : REACH) < r->width && y + (i ? REACH : 0) < r->height)
+          {
+            size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = p + (i ? REACH * (size_t) r->width : REACH);
+            uint32_t a = label_at (r, number, p), b = label_at (r, number, q);
+
+            touch[a * n + b] += a != b;
+            touch[b * n + a] += a != b;
+          }
+}
+
+/* Is  c = from + s (to - origin)  for some s well inside (0,1)? */
+static bool
+is_mixture (const int *c, const int *from, const int *to, const int *origin)
+{
+  double along = 0, length = 0, share;
+  int    wanted[3];
+
+  for (int i = 0; i < 3; i++)
+    {
+      along += (c[i] - from[i]) * (to[i] - origin[i]);
+      length += (to[i] - origin[i]) * (to[i] - origin[i]);
+    }
+  share = length > 0 ? along / length : 0;
+  for (int i = 0; i < 3; i++)
+    wanted[i] = (int) (from[i] + share * (to[i] - origin[i]) + 0.5);
+  return share > 0.04 && share < 0.96 && celd_colour_distance (c, wanted) <= EXACT * EXACT;
+}
+
+static double
+mean_opacity (const Cluster *c)
+{
+  return (double) c->opacity / c->pixels;
+}
+
+static bool
+is_overlap (const Reading *r, const Cluster *c, const Cluster *a, const Cluster *b)
+{
+  const int *paper = r->colour[r->paper].channel;
+
+  if (r->paper)
+    return is_mixture (c->channel, a->channel, b->channel, paper) ||
+           is_mixture (c->channel, b->channel, a->channel, paper);
+  return mean_opacity (a) < 250 && mean_opacity (c) > mean_opacity (a) + 4 && mean_opacity (c) > mean_opacity (b) + 4 &&
+         is_mixture (c->channel, a->channel, b->channel, a->channel);
+}
+
+/* The two labels that label k faces most, and more than all else together; 0 where there are none. */
+static void
+find_partners (const uint32_t *touch, size_t n, size_t k, size_t *first, size_t *second)
+{
+  size_t all = touch[k * n];
+
+  *first = *second = 0;
+  for (size_t j = 1; j < n; j++)
+    {
+      all += touch[k * n + j];
+      if (touch[k * n + j] >= CELD_LEAST_DOT && (!*first || touch[k * n + j] > touch[k * n + *first]))
+        {
+          *second = *first;
+          *first = j;
+        }
+      else if (touch[k * n + j] >= CELD_LEAST_DOT && (!*second || touch[k * n + j] > touch[k * n + *second]))
+        *second = j;
+    }
+  if (2 * ((size_t) touch[k * n + *first] + touch[k * n + *second]) <= all)
+    *first = *second = 0;
+}
+
+CeldStatus
+celd_scribble_overlaps (Reading *r)
+{
+  uint32_t  *number = celd_alloc0 (r->n_clusters, sizeof *number), *touch = NULL;
+  size_t    *cluster = celd_alloc0 (r->n_clusters + 1, sizeof *cluster), n = 1;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!number || !cluster)
+    goto done;
+  for (size_t k = 1; k < r->n_clusters; k++)
+    if (r->cluster[k].is_label)
+      {
+        cluster[n] = k;
+        number[k] = (uint32_t) n++;
+      }
+  status = CELD_OK;
+  if (n <= 3 || n > MANY)
+    goto done;
+  touch = celd_alloc0 (n * n, sizeof *touch);
+  if (!touch)
+    {
+      status = CELD_NO_MEMORY;
+      goto done;
+    }
+  count_touches (r, number, touch, n);
+  for (size_t k = 1; k < n; k++)
+    {
+      size_t a, b;
+
+      find_partners (touch, n, k, &a, &b);
+      if (b && is_overlap (r, &r->cluster[cluster[k]], &r->cluster[cluster[a]], &r->cluster[cluster[b]]))
+        r->cluster[cluster[k]].is_label = false;
+    }
+
+done:
+  celd_free (touch);
+  celd_free (cluster);
+  celd_free (number);
+  return status;
+}

@@ -1,0 +1,331 @@
+/* Which pixels of scribbles each label has.
+ *
+ * Those of its own colours, as far as they are honest or touch honest ones; every other pixel goes to the label nearby
+ * whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its full colour is taken by its
+ * strongest one.
+ *
+ * Cost: O(pixels); 8 bytes for each pixel that has to be handed to a neighbour.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "input/scribbles.h"
+
+#include <limits.h>
+
+#define TINT 30         /* how far a thinned colour may be off */
+#define STRONG 60       /* a line differs from paper at least as much */
+
+/* ------------------------------------------------------------------ labels from neighbours */
+
+/* The label of a pixel's own colour; CELD_UNDECIDED if its colour is no label's. */
+static uint32_t
+own_label (const Reading *r, size_t i)
+{
+  uint32_t k = r->id[i] ? r->colour[r->id[i]].cluster : 0;
+
+  return k == 0 || (k != CELD_NO_CLUSTER && r->cluster[k].is_label) ? k : CELD_UNDECIDED;
+}
+
+/* Does an honest pixel of the same label touch the pixel (x,y)? */
+static bool
+is_rim (const Reading *r, int x, int y, uint32_t label)
+{
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
+      {
+        size_t i = (size_t) v * (size_t) r->width + (size_t) u;
+
+        if (r->kind[i] != FRINGE && own_label (r, i) == label)
+          return true;
+      }
+  return false;
+}
+
+static void
+place_row (void *data, int y)
+{
+  Reading  *r = data;
+  uint32_t *label = r->label + (size_t) y * (size_t) r->width;
+
+  for (int x = 0; x < r->width; x++)
+    {
+      size_t i = (size_t) y * (size_t) r->width + (size_t) x;
+
+      label[x] = own_label (r, i);
+      if (label[x] && label[x] != CELD_UNDECIDED && r->kind[i] == FRINGE && !is_rim (r, x, y, label[x]))
+        label[x] = CELD_UNDECIDED;
+    }
+}
+
+/* Among the labels that touch the pixel, the one of the nearest colour; none where paper is nearer still. */
+static uint32_t
+nearest_neighbour (const Reading *r, size_t i)
+{
+  const int *c = r->colour[r->id[i]].channel;
+  int        x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width);
+  int        least = r->paper ? celd_colour_distance (c, r->colour[r->paper].channel) : INT_MAX;
+  uint32_t   found = 0;
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
+      {
+        uint32_t label = r->label[(size_t) v * (size_t) r->width + (size_t) u];
+        int      d;
+
+        if (!label || label >= CELD_QUEUED)
+          continue;
+        d = celd_colour_distance (c, r->cluster[label].channel);
+        if (d < least || (d == least && label < found))
+          {
+            least = d;
+            found = label;
+          }
+      }
+  return found;
+}
+
+/* Queues the undecided pixels that touch pixel i. */
+static size_t
+queue_neighbours (Reading *r, size_t i, uint32_t *queue, size_t n)
+{
+  int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width);
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
+      {
+        size_t j = (size_t) v * (size_t) r->width + (size_t) u;
+
+        if (r->label[j] == CELD_UNDECIDED)
+          {
+            r->label[j] = CELD_QUEUED;
+            queue[n++] = (uint32_t) j;
+          }
+      }
+  return n;
+}
+
+/* Undecided pixels take a label from their neighbours, ring by ring; what no label reaches is none. */
+static CeldStatus
+place_rest (Reading *r, const CeldRun *run)
+{
+  size_t     undecided = 0, ring = 0, end = 0, decided;
+  uint32_t  *queue, *taken;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  for (size_t i = 0; i < r->pixels; i++)
+    undecided += r->label[i] == CELD_UNDECIDED;
+  queue = celd_alloc (undecided, sizeof *queue);
+  taken = celd_alloc (undecided, sizeof *taken);
+  if (!queue || !taken)
+    goto done;
+
+  for (size_t i = 0; i < r->pixels; i++)
+    if (r->label[i] && r->label[i] < CELD_QUEUED)
+      end = queue_neighbours (r, i, queue, end);
+  while (ring < end)
+    {
+      status = celd_step (run, 0.8 + 0.2 * (double) ring / (double) undecided);
+      if (status != CELD_OK)
+        goto done;
+      for (size_t i = ring; i < end; i++)
+        taken[i] = nearest_neighbour (r, queue[i]);
+      for (size_t i = ring; i < end; i++)
+        r->label[queue[i]] = taken[i];
+      decided = end;
+      for (size_t i = ring; i < decided; i++)
+        if (taken[i])
+          end = queue_neighbours (r, queue[i], queue, end);
+      ring = decided;
+    }
+  status = CELD_OK;
+
+done:
+  celd_free (taken);
+  celd_free (queue);
+  return status;
+}
+
+/* ------------------------------------------------------------------ lines too thin to have a colour of their own */
+
+/* Paint, unlike paper, that no label took. */
+static bool
+is_lost (const Reading *r, size_t i)
+{
+  return (r->label[i] == 0 || r->label[i] == CELD_UNDECIDED) && r->id[i] && r->id[i] != r->paper &&
+         celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > STRONG * STRONG;
+}
+
+/* Gathers the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds the strongest colour among them, 0 if
+ * a label touches them: then they are what is left of its rim. */
+static size_t
+gather_line (Reading *r, uint32_t i, uint32_t *line, uint32_t *strongest)
+{
+  const int *paper = r->colour[r->paper].channel;
+  size_t     n = 0;
+  bool       rim = false;
+
+  *strongest = r->id[i];
+  r->label[i] = CELD_QUEUED;
+  line[n++] = i;
+  for (size_t k = 0; k < n; k++)
+    {
+      int x = (int) (line[k] % (size_t) r->width), y = (int) (line[k] / (size_t) r->width);
+
+      if (celd_colour_distance (r->colour[r->id[line[k]]].channel, paper) >
+          celd_colour_distance (r->colour[*strongest].channel, paper))
+        *strongest = r->id[line[k]];
+      for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
+        for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
+          {
+            size_t j = (size_t) v * (size_t) r->width + (size_t) u;
+
+            rim = rim || (r->label[j] && r->label[j] < CELD_QUEUED);
+            if (!is_lost (r, j))
+              continue;
+            r->label[j] = CELD_QUEUED;
+            line[n++] = (uint32_t) j;
+          }
+    }
+  if (rim)
+    *strongest = 0;
+  return n;
+}
+
+/* Is the lost line broader than CELD_THIN round a pixel?  Then what is strongest there is hardly thinned by paper. */
+static bool
+is_broad (const Reading *r, uint32_t i)
+{
+  int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width), reach = CELD_THIN / 2 + 1;
+
+  for (int v = y - reach; v <= y + reach; v++)
+    for (int u = x - reach; u <= x + reach; u++)
+      if (u < 0 || v < 0 || u >= r->width || v >= r->height ||
+          r->label[(size_t) v * (size_t) r->width + (size_t) u] != CELD_QUEUED)
+        return false;
+  return true;
+}
+
+/* The strongest colour among the pixels where a gathered line is broad; 0 if it is broad nowhere. */
+static uint32_t
+strongest_of_broad (const Reading *r, const uint32_t *line, size_t n)
+{
+  const int *paper = r->colour[r->paper].channel;
+  uint32_t   strongest = 0;
+
+  for (size_t k = 0; k < n; k++)
+    if (is_broad (r, line[k]))
+      {
+        uint32_t id = r->id[line[k]];
+
+        if (!strongest || celd_colour_distance (r->colour[id].channel, paper) >
+                            celd_colour_distance (r->colour[strongest].channel, paper))
+          strongest = id;
+      }
+  return strongest;
+}
+
+/* The label whose colour, thinned with paper, comes nearest to the colour given; 0 if none is near. */
+static uint32_t
+label_of_tint (const Reading *r, uint32_t id)
+{
+  const int *paper = r->colour[r->paper].channel, *c = r->colour[id].channel;
+  uint32_t   found = 0;
+  int        least = TINT * TINT;
+
+  for (uint32_t k = 1; k < r->n_clusters; k++)
+    {
+      double full = 0, share = 0;
+      int    tint[3], d;
+
+      if (!r->cluster[k].is_label)
+        continue;
+      for (int i = 0; i < 3; i++)
+        {
+          full += (r->cluster[k].channel[i] - paper[i]) * (r->cluster[k].channel[i] - paper[i]);
+          share += (r->cluster[k].channel[i] - paper[i]) * (c[i] - paper[i]);
+        }
+      share = full > 0 ? share / full : 0;
+      for (int i = 0; i < 3; i++)
+        tint[i] = (int) (paper[i] + share * (r->cluster[k].channel[i] - paper[i]));
+      d = celd_colour_distance (tint, c);
+      if (share > 0.3 && d < least)
+        {
+          least = d;
+          found = k;
+        }
+    }
+  return found;
+}
+
+/* The label of nearly this colour; 0 if there is none. */
+static uint32_t
+label_of_colour (const Reading *r, uint32_t id)
+{
+  uint32_t found = 0;
+  int      least = TINT * TINT;
+
+  for (uint32_t k = 1; k < r->n_clusters; k++)
+    {
+      int d = celd_colour_distance (r->cluster[k].channel, r->colour[id].channel);
+
+      if (r->cluster[k].is_label && d < least)
+        {
+          least = d;
+          found = k;
+        }
+    }
+  return found;
+}
+
+static CeldStatus
+rescue_lines (Reading *r)
+{
+  size_t     lost = 0;
+  uint32_t  *line;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < r->pixels; i++)
+    lost += is_lost (r, i);
+  line = celd_alloc (lost, sizeof *line);
+  if (!line)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < r->pixels && status == CELD_OK; i++)
+    {
+      uint32_t strongest, broad, k;
+      size_t   n;
+
+      if (!is_lost (r, i))
+        continue;
+      n = gather_line (r, (uint32_t) i, line, &strongest);
+      if (!strongest || n < CELD_LEAST_DOT)
+        continue;
+      broad = strongest_of_broad (r, line, n);
+      k = broad ? label_of_colour (r, broad) : label_of_tint (r, strongest);
+      if (!k)
+        {
+          status = celd_scribble_cluster_add (r, broad ? broad : strongest);
+          k = (uint32_t) r->n_clusters - 1;
+          r->cluster[k].is_label = true;
+        }
+      for (size_t j = 0; j < n && status == CELD_OK; j++)
+        r->label[line[j]] = k;
+    }
+  celd_free (line);
+  return status;
+}
+
+/* ------------------------------------------------------------------ all pixels */
+
+CeldStatus
+celd_scribble_places (Reading *r, const CeldRun *run)
+{
+  CeldStatus status;
+
+  celd_each (run, r->height, place_row, r);
+  status = celd_step (run, 0.8);
+  if (status == CELD_OK)
+    status = place_rest (r, run);
+  if (status == CELD_OK && r->paper)
+    status = rescue_lines (r);
+  return status;
+}

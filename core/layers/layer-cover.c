@@ -1,0 +1,89 @@
+/* How much of each pixel lies to the right of directed edges: exact areas, summed along rows.
+ *
+ * An edge that goes up by h through a pixel adds h to what lies beyond it in the row, one that goes down takes it away
+ * again: the sum along the row is the winding number.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "layers/layers.h"
+
+#include <math.h>
+
+CeldStatus
+celd_cover_new (CeldRect box, CeldCover *cover)
+{
+  /* One more a row for what lies beyond its end. */
+  *cover = (CeldCover) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height, sizeof *cover->sum) };
+  return cover->sum ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* A piece within one row and one column, of height h, whose middle is at x. */
+static void
+add_piece (CeldCover *cover, int row, double x, double h)
+{
+  float *sum    = cover->sum + (size_t) row * (size_t) (cover->box.width + 1);
+  int    column = (int) floor (x);
+
+  if (column < 0)
+    sum[0] -= (float) h;
+  else if (column < cover->box.width)
+    {
+      double left = x - column;
+
+      sum[column]     -= (float) (h * (1 - left));
+      sum[column + 1] -= (float) (h * left);
+    }
+}
+
+/* A piece within one row, cut where columns meet. */
+static void
+add_row (CeldCover *cover, int row, double x, double y, double to_x, double to_y)
+{
+  while (y != to_y)
+    {
+      double border = to_x > x ? floor (x) + 1 : ceil (x) - 1, next_y = to_y, next_x = to_x;
+
+      if (to_x > x ? border < to_x : to_x < x && border > to_x)
+        {
+          next_x = border;
+          next_y = y + (to_y - y) * (border - x) / (to_x - x);
+        }
+      add_piece (cover, row, (x + next_x) / 2, next_y - y);
+      x = next_x;
+      y = next_y;
+    }
+}
+
+void
+celd_cover_edge (CeldCover *cover, double x, double y, double to_x, double to_y)
+{
+  double slope = to_y != y ? (to_x - x) / (to_y - y) : 0;
+  double first = fmin (y, to_y) - cover->box.y, last = fmax (y, to_y) - cover->box.y;
+
+  for (int row = (int) fmax (floor (first), 0); row < cover->box.height && row < last; row++)
+    {
+      double top = fmax (first, row), bottom = fmin (last, row + 1);
+      double a = y < to_y ? top : bottom, b = y < to_y ? bottom : top; /* in the edge's direction */
+
+      add_row (cover, row, x + slope * (a + cover->box.y - y) - cover->box.x, a,
+               x + slope * (b + cover->box.y - y) - cover->box.x, b);
+    }
+}
+
+void
+celd_cover_finish (CeldCover *cover)
+{
+  const float *from = cover->sum;
+  float       *to = cover->sum;
+
+  for (int y = 0; y < cover->box.height; y++, from++)
+    {
+      double winding = 0;
+
+      for (int x = 0; x < cover->box.width; x++)
+        {
+          winding += (double) *from++;
+          *to++ = (float) fmin (fmax (winding, 0), 1);
+        }
+    }
+}

@@ -1,0 +1,426 @@
+/* The hidden part of a layer: what its outline with the gaps closed encloses, where something nearer and opaque hides
+ * it.  A hole that something nearer covers is closed; of the background everything is there.
+ *
+ * Its colour is the smoothest one that meets the paper of the part that is seen, whose ink is left out: lines would
+ * smear.  Along a closed gap the layer's own line runs on, in the width and the colour that it has at both ends.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "layers/layers.h"
+#include "solve/laplace.h"
+
+#include <math.h>
+
+#define LEAST_LINE 0.7         /* pixels: less is no line */
+#define PAPER      0.97f       /* ink above this is surely none */
+#define FLAT       (2.5f / 255)
+#define TOLERANCE  4e-3        /* of the range of colours */
+#define MARGIN     4           /* strokes round the hidden part, from which its colours come */
+
+/* One layer at work; planes are those of the box. */
+typedef struct
+{
+  CeldLayers      *layers;
+  size_t           layer;
+  const CeldPlane *ink;
+  CeldCurve       *curve;
+  size_t           n_curves;
+  CeldRect         box;
+  float           *share;      /* of each pixel, inside the outline; 0 where it is not hidden */
+  float           *line;       /* and of the line */
+  float           *line_place; /* and on which curve at which t, as curve + t */
+  size_t           n_hidden;
+} Part;
+
+static size_t
+index_of (const Part *part, int x, int y)
+{
+  return (size_t) (y - part->box.y) * (size_t) part->box.width + (size_t) (x - part->box.x);
+}
+
+/* ------------------------------------------------------------------ where it is */
+
+static CeldRect
+clip (const CeldLayers *layers, CeldRect box, int margin)
+{
+  int left = box.x - margin > 0 ? box.x - margin : 0, top = box.y - margin > 0 ? box.y - margin : 0;
+  int right = box.x + box.width + margin, bottom = box.y + box.height + margin;
+
+  right  = right < layers->width ? right : layers->width;
+  bottom = bottom < layers->height ? bottom : layers->height;
+  return left < right && top < bottom ? (CeldRect) { left, top, right - left, bottom - top } : (CeldRect) { 0 };
+}
+
+/* Round what is seen and round the curves, whose polygons hold them. */
+static CeldRect
+whole_box (const Part *part)
+{
+  CeldRect box = part->layers->seen[part->layer];
+
+  for (size_t i = 0; i < part->n_curves; i++)
+    for (int k = 0; k < 4; k++)
+      box = celd_rect_union (box, (CeldRect) { (int) floor (part->curve[i].x[k]), (int) floor (part->curve[i].y[k]),
+                                               1, 1 });
+  return clip (part->layers, box, 1);
+}
+
+static void
+cover_outline (const CeldOutline *outline, CeldCover *cover)
+{
+  for (size_t l = 0; l < outline->n_loops; l++)
+    for (size_t i = outline->loop[l]; i < outline->loop[l + 1]; i++)
+      if (!outline->crack[i].hidden)
+        {
+          const CeldCrack *from = &outline->crack[i];
+          const CeldCrack *to = &outline->crack[i + 1 < outline->loop[l + 1] ? i + 1 : outline->loop[l]];
+
+          celd_cover_edge (cover, from->x, from->y, to->x, to->y);
+        }
+}
+
+static void
+cover_curves (const Part *part, CeldCover *cover)
+{
+  for (size_t i = 0; i < part->n_curves; i++)
+    {
+      int    steps = celd_curve_steps (&part->curve[i]);
+      double x = part->curve[i].x[0], y = part->curve[i].y[0], to_x, to_y;
+
+      for (int k = 1; k <= steps; k++, x = to_x, y = to_y)
+        {
+          celd_curve_at (&part->curve[i], (double) k / steps, &to_x, &to_y);
+          celd_cover_edge (cover, x, y, to_x, to_y);
+        }
+    }
+}
+
+/* Leaves the share of hidden pixels alone, and counts them. */
+static void
+keep_hidden (Part *part)
+{
+  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
+    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
+      {
+        float *share = &part->share[index_of (part, x, y)];
+
+        if (*share > 0 && celd_layer_sight (part->layers, part->layer, x, y) != CELD_SIGHT_HIDDEN)
+          *share = 0;
+        part->n_hidden += *share > 0;
+      }
+}
+
+static CeldStatus
+find_shape (const CeldOutline *outline, Part *part)
+{
+  CeldCover  cover;
+  CeldStatus status = celd_cover_new (part->box, &cover);
+
+  if (status)
+    return status;
+  cover_outline (outline, &cover);
+  cover_curves (part, &cover);
+  celd_cover_finish (&cover);
+  part->share = cover.sum;
+  keep_hidden (part);
+  return CELD_OK;
+}
+
+static CeldStatus
+find_everything (Part *part)
+{
+  size_t pixels;
+
+  part->box   = clip (part->layers, (CeldRect) { 0, 0, part->layers->width, part->layers->height }, 0);
+  pixels      = (size_t) part->box.width * (size_t) part->box.height;
+  part->share = celd_alloc (pixels, sizeof *part->share);
+  if (!part->share)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < pixels; i++)
+    part->share[i] = 1;
+  keep_hidden (part);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the line along closed gaps */
+
+/* Where the one end is in a corner between lines and has none to measure, the other one's counts. */
+static void
+even_line (CeldCurve *curve)
+{
+  for (int i = 0; i < 2; i++)
+    if (curve->width[i] < LEAST_LINE)
+      {
+        curve->width[i] = curve->width[1 - i];
+        memcpy (curve->colour[i], curve->colour[1 - i], sizeof curve->colour[i]);
+      }
+}
+
+static double
+line_at (const CeldCurve *curve, double t)
+{
+  return curve->width[0] + t * (curve->width[1] - curve->width[0]);
+}
+
+/* Draws what is nearer to the place at t than the line is wide. */
+static void
+draw_dot (const Part *part, size_t curve, double t)
+{
+  double x, y, width = line_at (&part->curve[curve], t);
+  int    reach = (int) ceil (width + 0.5);
+
+  celd_curve_at (&part->curve[curve], t, &x, &y);
+  for (int py = (int) floor (y) - reach; py <= (int) floor (y) + reach; py++)
+    for (int px = (int) floor (x) - reach; px <= (int) floor (x) + reach; px++)
+      if (px >= part->box.x && px < part->box.x + part->box.width && py >= part->box.y &&
+          py < part->box.y + part->box.height)
+        {
+          size_t p = index_of (part, px, py);
+          double dx = px + 0.5 - x, dy = py + 0.5 - y;
+          float  share = (float) fmin (fmax (width + 0.5 - sqrt (dx * dx + dy * dy), 0), 1);
+
+          if (part->share[p] > 0 && share > part->line[p])
+            {
+              part->line[p]       = share;
+              part->line_place[p] = (float) ((double) curve + fmin (t, 0.999));
+            }
+        }
+}
+
+static CeldStatus
+draw_lines (Part *part)
+{
+  size_t pixels = (size_t) part->box.width * (size_t) part->box.height;
+
+  part->line       = celd_alloc0 (pixels, sizeof *part->line);
+  part->line_place = celd_alloc (pixels, sizeof *part->line_place);
+  if (!part->line || !part->line_place)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < part->n_curves; i++)
+    {
+      int steps = celd_curve_steps (&part->curve[i]);
+
+      even_line (&part->curve[i]);
+      if (part->curve[i].width[0] >= LEAST_LINE)
+        for (int k = 0; k <= 2 * steps; k++)
+          draw_dot (part, i, (double) k / (2 * steps));
+    }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the colour */
+
+/* The pixels from which colours come, and between. */
+typedef struct
+{
+  CeldRect box;
+  uint8_t *kind;               /* of each pixel */
+  float   *value;              /* CELD_LANES a pixel: premultiplied colours and alpha, and nothing */
+  size_t   n_known;
+} Fill;
+
+enum { FILL_NONE, FILL_KNOWN, FILL_FREE };
+
+static CeldRect
+hidden_box (const Part *part)
+{
+  CeldRect box = { 0 };
+
+  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
+    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
+      if (part->share[index_of (part, x, y)] > 0)
+        box = celd_rect_union (box, (CeldRect) { x, y, 1, 1 });
+  return box;
+}
+
+static bool
+is_hidden (const Part *part, int x, int y)
+{
+  return x >= part->box.x && x < part->box.x + part->box.width && y >= part->box.y &&
+         y < part->box.y + part->box.height && part->share[index_of (part, x, y)] > 0;
+}
+
+/* Known is the paper that is the layer's alone, with ink_too its ink as well; its other pixels and hidden ones are to
+ * be found. */
+static void
+sort_pixels (const Part *part, bool ink_too, Fill *fill)
+{
+  const CeldLayers *layers = part->layers;
+  size_t            p = 0;
+
+  fill->n_known = 0;
+  for (int y = fill->box.y; y < fill->box.y + fill->box.height; y++)
+    for (int x = fill->box.x; x < fill->box.x + fill->box.width; x++, p++)
+      {
+        size_t       at = (size_t) y * (size_t) layers->width + (size_t) x;
+        const float *art = layers->art + 4 * at;
+        bool         own = layers->place[at] == part->layer;
+
+        fill->kind[p] = is_hidden (part, x, y) ? FILL_FREE : FILL_NONE;
+        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < PAPER)))
+          fill->kind[p] = FILL_KNOWN;
+        else if (celd_layer_sight (layers, part->layer, x, y) == CELD_SIGHT_SEEN)
+          fill->kind[p] = FILL_FREE;
+        if (fill->kind[p] != FILL_KNOWN)
+          continue;
+        fill->n_known++;
+        for (int c = 0; c < 4; c++)
+          fill->value[p * CELD_LANES + (size_t) c] = c < 3 ? art[c] * art[3] : art[3];
+      }
+}
+
+/* Free pixels start with the mean of the known ones.  Do nearly all known ones have it? */
+static bool
+start_flat (Fill *fill)
+{
+  size_t pixels = (size_t) fill->box.width * (size_t) fill->box.height, others = 0;
+
+  for (size_t c = 0; c < 4; c++)
+    {
+      double sum = 0;
+      float  mean;
+
+      for (size_t p = 0; p < pixels; p++)
+        sum += fill->kind[p] == FILL_KNOWN ? (double) fill->value[p * CELD_LANES + c] : 0;
+      mean = (float) (sum / (double) fill->n_known);
+      for (size_t p = 0; p < pixels; p++)
+        if (fill->kind[p] != FILL_KNOWN)
+          fill->value[p * CELD_LANES + c] = mean;
+        else
+          others += fabsf (fill->value[p * CELD_LANES + c] - mean) > FLAT;
+    }
+  return others <= fill->n_known / 100;
+}
+
+/* Laplace's equation on the free pixels; what lies beside both kinds is a wall. */
+static CeldStatus
+diffuse (const CeldRun *run, Fill *fill)
+{
+  size_t       w = (size_t) fill->box.width, pixels = w * (size_t) fill->box.height;
+  float       *east = celd_alloc0 (pixels, sizeof *east), *south = celd_alloc0 (pixels, sizeof *south);
+  uint8_t     *fixed = celd_alloc0 (pixels, 1);
+  CeldLaplace *laplace = NULL;
+  CeldStatus   status = east && south && fixed ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t p = 0; p < pixels && !status; p++)
+    {
+      fixed[p] = fill->kind[p] != FILL_FREE;
+      if (fill->kind[p] && (p + 1) % w && fill->kind[p + 1])
+        east[p] = 1;
+      if (fill->kind[p] && p + w < pixels && fill->kind[p + w])
+        south[p] = 1;
+    }
+  if (!status)
+    status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, run, &laplace);
+  if (!status)
+    status = celd_lap_solve_lanes (laplace, NULL, fill->value, TOLERANCE, 0, run, NULL);
+  celd_lap_free (laplace);
+  celd_free (east);
+  celd_free (south);
+  celd_free (fixed);
+  return status;
+}
+
+static CeldStatus
+find_fill (const Part *part, int stroke, const CeldRun *run, Fill *fill)
+{
+  CeldRect hidden = hidden_box (part);
+  size_t   pixels;
+
+  fill->box = clip (part->layers, hidden, MARGIN * stroke + 4);
+  pixels = (size_t) fill->box.width * (size_t) fill->box.height;
+  fill->kind = celd_alloc (pixels, 1);
+  fill->value = celd_alloc0 (pixels, CELD_LANES * sizeof *fill->value);
+  if (!fill->kind || !fill->value)
+    return CELD_NO_MEMORY;
+  sort_pixels (part, false, fill);
+  if (!fill->n_known)
+    sort_pixels (part, true, fill);
+  if (!fill->n_known)
+    return CELD_OK; /* nothing of it is the layer's alone: it stays as it is */
+  return start_flat (fill) ? CELD_OK : diffuse (run, fill);
+}
+
+/* ------------------------------------------------------------------ together */
+
+/* The line over the fill, as a straight colour. */
+static void
+hidden_colour (const Part *part, const Fill *fill, int x, int y, float colour[4])
+{
+  size_t       p = index_of (part, x, y);
+  size_t       at = (size_t) (y - fill->box.y) * (size_t) fill->box.width + (size_t) (x - fill->box.x);
+  const float *value = fill->value + at * CELD_LANES;
+  float        line = part->line[p], alpha = value[3];
+
+  for (int c = 0; c < 3; c++)
+    colour[c] = alpha > 0 ? fminf (fmaxf (value[c] / alpha, 0), 1) : 0;
+  if (line > 0)
+    {
+      const CeldCurve *curve = &part->curve[(size_t) part->line_place[p]];
+      float            t = part->line_place[p] - floorf (part->line_place[p]);
+
+      for (int c = 0; c < 3; c++)
+        colour[c] += line * (curve->colour[0][c] + t * (curve->colour[1][c] - curve->colour[0][c]) - colour[c]);
+      alpha = alpha + line * (1 - alpha);
+    }
+  colour[3] = fminf (fmaxf (alpha * part->share[p], 0), 1);
+  for (int c = 0; c < 4; c++)
+    colour[c] = c < 3 ? celd_store_colour (part->layers, colour[c]) : celd_store_alpha (part->layers, colour[c]);
+}
+
+static CeldStatus
+keep_pixels (const Part *part, const Fill *fill)
+{
+  CeldHidden *hidden = celd_alloc (part->n_hidden, sizeof *hidden);
+  size_t      n = 0;
+
+  if (!hidden)
+    return CELD_NO_MEMORY;
+  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
+    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
+      if (part->share[index_of (part, x, y)] > 0)
+        {
+          CeldHidden pixel = { x, y, { 0 } };
+
+          hidden_colour (part, fill, x, y, pixel.colour);
+          if (pixel.colour[3] > 0)
+            hidden[n++] = pixel;
+        }
+  part->layers->hidden[part->layer]   = hidden;
+  part->layers->n_hidden[part->layer] = n;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
+                     const CeldRun *run)
+{
+  Part        part = { .layers = layers, .layer = layer, .ink = ink };
+  Fill        fill = { 0 };
+  CeldOutline outline = { 0 };
+  CeldStatus  status = everything ? CELD_OK : celd_layer_outline (layers, layer, ink, stroke, &outline);
+
+  if (status)
+    return status;
+  part.n_curves = outline.n_gaps;
+  part.curve    = celd_alloc (part.n_curves, sizeof *part.curve);
+  status        = part.curve ? CELD_OK : CELD_NO_MEMORY;
+  if (!status && everything)
+    status = find_everything (&part);
+  else if (!status)
+    {
+      celd_layer_curves (layers, layer, &outline, part.curve);
+      part.box = whole_box (&part);
+      status = find_shape (&outline, &part);
+    }
+  if (!status && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
+      (status = find_fill (&part, stroke, run, &fill)) == CELD_OK && fill.n_known)
+    status = keep_pixels (&part, &fill);
+  celd_outline_clear (&outline);
+  celd_free (part.curve);
+  celd_free (part.share);
+  celd_free (part.line);
+  celd_free (part.line_place);
+  celd_free (fill.kind);
+  celd_free (fill.value);
+  return status;
+}

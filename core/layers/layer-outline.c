@@ -1,0 +1,420 @@
+/* The outline of a layer as cracks between pixels, and the gaps in it: where a nearer layer hides how it runs on.
+ *
+ * A gap begins and ends at T-junctions, where the layer's own outline goes under the nearer one.  Right there lines
+ * merge; so the direction comes from a parabola that is fitted to the outline a stroke's width before the junction and
+ * further back.  The width of the layer's own line is measured at the same places, inwards from the outline.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "layers/layers.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define LEAST_HIDDEN 3         /* cracks: a shorter piece of outline is a rounding of antialiasing */
+#define LEAST_SEEN   4         /* and so is this, or a piece no longer than a stroke is wide: a corner between lines */
+#define LEAST_LONG   3         /* strokes: of a shorter piece the direction is not believed */
+#define WIDTHS       9         /* at so many places the line is measured */
+#define THICKEST     64        /* pixels */
+
+CeldSight
+celd_layer_sight (const CeldLayers *layers, size_t layer, int x, int y)
+{
+  size_t           p = (size_t) y * (size_t) layers->width + (size_t) x, place;
+  const CeldBlend *blend;
+
+  if (x < 0 || y < 0 || x >= layers->width || y >= layers->height)
+    return CELD_SIGHT_NONE;
+  place = layers->place[p];
+  if (place == layer)
+    return CELD_SIGHT_SEEN;
+  if (place < layers->n)
+    return layers->item[place].level > layers->item[layer].level && layers->art[4 * p + 3] >= 1 ? CELD_SIGHT_HIDDEN
+                                                                                                 : CELD_SIGHT_NONE;
+  blend = &layers->blend[place - layers->n];
+  if (blend->layer[1] == layer || (blend->layer[0] == layer && blend->share >= 0.5f))
+    return CELD_SIGHT_SEEN;
+  return layers->item[blend->layer[1]].level > layers->item[layer].level && blend->colour[1][3] >= 1
+           ? CELD_SIGHT_HIDDEN : CELD_SIGHT_NONE;
+}
+
+/* ------------------------------------------------------------------ tracing */
+
+/* Directions are 0 right, 1 down, 2 left, 3 up. */
+static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
+/* The pixels to the right and to the left of a step from corner (x,y), as offsets from it. */
+static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
+static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
+
+typedef struct
+{
+  const CeldLayers *layers;
+  size_t            layer;
+  CeldRect          box;       /* of what is seen of the layer */
+  uint8_t          *traced;    /* upper sides of pixels of the box */
+  CeldOutline      *outline;
+} Tracing;
+
+static bool
+is_seen (const Tracing *t, int x, int y)
+{
+  return celd_layer_sight (t->layers, t->layer, x, y) == CELD_SIGHT_SEEN;
+}
+
+static uint8_t *
+upper_side (const Tracing *t, int x, int y)
+{
+  return &t->traced[(size_t) (y - t->box.y) * (size_t) t->box.width + (size_t) (x - t->box.x)];
+}
+
+/* The loop that has the upper side of pixel (x,y). */
+static CeldStatus
+trace_loop (Tracing *t, int x, int y)
+{
+  CeldOutline *o = t->outline;
+  int          from_x = x, from_y = y, d = 0;
+
+  do
+    {
+      CeldCrack *grown = celd_grow (o->crack, o->n + 1, sizeof *grown);
+      CeldSight  beyond = celd_layer_sight (t->layers, t->layer, x + left_x[d], y + left_y[d]);
+
+      if (!grown)
+        return CELD_NO_MEMORY;
+      o->crack = grown;
+      o->crack[o->n++] = (CeldCrack) { x, y, beyond == CELD_SIGHT_HIDDEN };
+      if (d == 0)
+        *upper_side (t, x, y) = 1;
+      x += step_x[d];
+      y += step_y[d];
+      if (!is_seen (t, x + right_x[d], y + right_y[d]))
+        d = (d + 1) % 4;
+      else if (is_seen (t, x + left_x[d], y + left_y[d]))
+        d = (d + 3) % 4;
+    }
+  while (x != from_x || y != from_y || d != 0);
+  return CELD_OK;
+}
+
+/* Adds the place where the last loop ends. */
+static CeldStatus
+end_loop (CeldOutline *outline)
+{
+  size_t *grown = celd_grow (outline->loop, outline->n_loops + 2, sizeof *grown);
+
+  if (!grown)
+    return CELD_NO_MEMORY;
+  outline->loop = grown;
+  outline->loop[++outline->n_loops] = outline->n;
+  return CELD_OK;
+}
+
+static CeldStatus
+trace_all (Tracing *t)
+{
+  CeldStatus status = CELD_OK;
+
+  t->outline->loop = celd_grow (NULL, 1, sizeof *t->outline->loop);
+  if (!t->outline->loop)
+    return CELD_NO_MEMORY;
+  t->outline->loop[0] = 0;
+  for (int y = t->box.y; y < t->box.y + t->box.height && !status; y++)
+    for (int x = t->box.x; x < t->box.x + t->box.width && !status; x++)
+      if (is_seen (t, x, y) && !is_seen (t, x, y - 1) && !*upper_side (t, x, y))
+        {
+          status = trace_loop (t, x, y);
+          if (!status)
+            status = end_loop (t->outline);
+        }
+  return status;
+}
+
+/* ------------------------------------------------------------------ pieces of a loop */
+
+typedef struct { CeldCrack *crack; size_t n; } Loop;
+
+static CeldCrack *
+crack_at (const Loop *loop, size_t i)
+{
+  return &loop->crack[i % loop->n];
+}
+
+/* Index of a crack where a piece begins; n if all are of one kind. */
+static size_t
+find_change (const Loop *loop)
+{
+  for (size_t i = 0; i < loop->n; i++)
+    if (loop->crack[i].hidden != crack_at (loop, i + loop->n - 1)->hidden)
+      return i;
+  return loop->n;
+}
+
+static size_t
+piece_length (const Loop *loop, size_t from)
+{
+  size_t length = 1;
+
+  while (length < loop->n && crack_at (loop, from + length)->hidden == crack_at (loop, from)->hidden)
+    length++;
+  return length;
+}
+
+/* Pieces of that kind which are too short become like their neighbours. */
+static void
+drop_short (const Loop *loop, bool hidden, size_t least)
+{
+  size_t start = find_change (loop);
+
+  for (size_t i = 0, length; start < loop->n && i < loop->n; i += length)
+    {
+      length = piece_length (loop, start + i);
+      if (crack_at (loop, start + i)->hidden == hidden && length < least)
+        for (size_t k = 0; k < length; k++)
+          crack_at (loop, start + i + k)->hidden = !hidden;
+    }
+}
+
+/* Twice the area to the right of the loop: below 0 for a hole. */
+static int64_t
+loop_area (const Loop *loop)
+{
+  int64_t area = 0;
+
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      const CeldCrack *a = crack_at (loop, i), *b = crack_at (loop, i + 1);
+
+      area += (int64_t) a->x * b->y - (int64_t) b->x * a->y;
+    }
+  return area;
+}
+
+/* ------------------------------------------------------------------ what an outline is like where it is hidden */
+
+/* s steps away from the junction at crack i, backwards (way -1) or forwards. */
+static const CeldCrack *
+walk (const Loop *loop, size_t i, int way, size_t s)
+{
+  return crack_at (loop, way < 0 ? i + loop->n - s % loop->n : i + s);
+}
+
+/* A place on an outline whose steps are smoothed, and how far along it is. */
+typedef struct { double x, y, s; } Point;
+
+static void
+list_points (const Loop *loop, size_t i, int way, size_t from, size_t to, Point *point)
+{
+  for (size_t k = from; k <= to; k++)
+    {
+      Point *p = &point[k - from];
+
+      *p = (Point) { 0 };
+      for (size_t w = 0; w < 5; w++)
+        {
+          const CeldCrack *crack = walk (loop, i, way, k + w > 2 ? k + w - 2 : 0);
+
+          p->x += crack->x / 5.0;
+          p->y += crack->y / 5.0;
+        }
+      p->s = k == from ? (double) from : p[-1].s + hypot (p->x - p[-1].x, p->y - p[-1].y);
+    }
+}
+
+/* The slope at s = 0 of a parabola through value (s), by least squares; of a straight line if there are few points.
+ * `value` is the place in a Point. */
+static double
+slope_at_junction (const Point *point, size_t n, size_t value)
+{
+  double centre = 0, s2 = 0, s3 = 0, s4 = 0, v0 = 0, v1 = 0, v2 = 0, bend, curve;
+
+  for (size_t k = 0; k < n; k++)
+    centre += point[k].s / (double) n;
+  for (size_t k = 0; k < n; k++)
+    {
+      double u = point[k].s - centre, v = *(const double *) (const void *) ((const char *) &point[k] + value);
+
+      s2 += u * u;
+      s3 += u * u * u;
+      s4 += u * u * u * u;
+      v0 += v;
+      v1 += v * u;
+      v2 += v * u * u;
+    }
+  if (!(s2 > 0))
+    return 0;
+  bend = s4 - s2 * s2 / (double) n - s3 * s3 / s2;
+  if (n < 8 || !(bend > 1e-9 * s4))
+    return v1 / s2;
+  curve = (v2 - s2 * v0 / (double) n - s3 * v1 / s2) / bend;
+  return (v1 - curve * s3) / s2 - 2 * curve * centre;
+}
+
+/* Ink inwards from the middle of a crack along (nx,ny), in pixels; the inkiest pixel's colour. */
+static double
+line_width (const CeldLayers *layers, size_t layer, const CeldPlane *ink, double x, double y, double nx, double ny,
+            float colour[4])
+{
+  double width = 0;
+  float  least = 2;
+
+  for (double s = 0.25; s < THICKEST; s += 0.5)
+    {
+      int   px = (int) floor (x + nx * s), py = (int) floor (y + ny * s);
+      float value;
+
+      if (celd_layer_sight (layers, layer, px, py) != CELD_SIGHT_SEEN)
+        break;
+      value = CELD_AT (ink, px, py);
+      if (celd_is_paper (value) && s > 1.5)
+        break;
+      value = value > 0 ? value < 1 ? value : 1 : 0;
+      width += 0.5 * (1 - (double) value);
+      if (value < least)
+        {
+          least = value;
+          memcpy (colour, layers->art + 4 * ((size_t) py * (size_t) layers->width + (size_t) px), 4 * sizeof *colour);
+        }
+    }
+  return width;
+}
+
+static int
+compare_widths (const void *a, const void *b)
+{
+  double one = *(const double *) a, other = *(const double *) b;
+
+  return (one > other) - (one < other);
+}
+
+/* The median of the widths from s = from to `to`, and the colour where it was measured in the middle. */
+static void
+measure_line (const CeldLayers *layers, size_t layer, const CeldPlane *ink, const Loop *loop, size_t i, int way,
+              size_t from, size_t to, CeldHiddenEnd *end)
+{
+  double width[WIDTHS];
+  float  colour[4] = { 0 };
+
+  memset (end->colour, 0, sizeof end->colour);
+  for (size_t k = 0; k < WIDTHS; k++)
+    {
+      size_t           s = from + (to - from) * k / (WIDTHS - 1);
+      const CeldCrack *here = walk (loop, i, way, s), *back = walk (loop, i, way, s > 3 ? s - 3 : 0);
+      const CeldCrack *on = walk (loop, i, way, s + 3);
+      double           dx = way * (on->x - back->x), dy = way * (on->y - back->y), length = hypot (dx, dy);
+
+      width[k] = length > 0 ? line_width (layers, layer, ink, here->x, here->y, -dy / length, dx / length, colour) : 0;
+      if (k == WIDTHS / 2 && width[k] > 0)
+        memcpy (end->colour, colour, sizeof colour);
+    }
+  qsort (width, WIDTHS, sizeof *width, compare_widths);
+  end->width = end->colour[3] > 0 ? width[WIDTHS / 2] : 0;
+}
+
+/* The end at the first corner of crack i; the seen piece lies `way` of it and has `length` cracks. */
+static CeldStatus
+describe_end (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t i,
+              int way, size_t length, CeldHiddenEnd *end)
+{
+  size_t  reach = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke + 1, to;
+  Point  *point;
+  double  tx, ty, norm;
+
+  to   = from + reach < length ? from + reach : length;
+  from = from < to / 2 ? from : to / 2;
+  point = celd_alloc (to - from + 1, sizeof *point);
+  if (!point)
+    return CELD_NO_MEMORY;
+  list_points (loop, i, way, from, to, point);
+  tx = way * slope_at_junction (point, to - from + 1, offsetof (Point, x));
+  ty = way * slope_at_junction (point, to - from + 1, offsetof (Point, y));
+  celd_free (point);
+  norm = hypot (tx, ty);
+  *end = (CeldHiddenEnd) { .x = crack_at (loop, i)->x, .y = crack_at (loop, i)->y,
+                     .tx = norm > 0 ? tx / norm : 0, .ty = norm > 0 ? ty / norm : 0,
+                     .sure = norm > 0 && length > LEAST_LONG * (size_t) stroke };
+  measure_line (layers, layer, ink, loop, i, way, from, to, end);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ gaps */
+
+static CeldStatus
+add_gap (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t from,
+         size_t length, CeldOutline *outline)
+{
+  CeldGap   *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
+  size_t     before = 1, after;
+  CeldStatus status;
+
+  if (!grown)
+    return CELD_NO_MEMORY;
+  outline->gap = grown;
+  gap = &grown[outline->n_gaps];
+  while (!crack_at (loop, from + loop->n - before - 1)->hidden)
+    before++;
+  after = piece_length (loop, from + length);
+  status = describe_end (layers, layer, ink, stroke, loop, from, -1, before, &gap->in);
+  if (!status)
+    status = describe_end (layers, layer, ink, stroke, loop, from + length, 1, after, &gap->out);
+  outline->n_gaps += !status;
+  return status;
+}
+
+static void
+set_hidden (const Loop *loop, bool hidden)
+{
+  for (size_t i = 0; i < loop->n; i++)
+    loop->crack[i].hidden = hidden;
+}
+
+static CeldStatus
+find_gaps (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, CeldOutline *outline)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t l = 0; l < outline->n_loops && !status; l++)
+    {
+      Loop   loop = { outline->crack + outline->loop[l], outline->loop[l + 1] - outline->loop[l] };
+      size_t start;
+
+      drop_short (&loop, true, LEAST_HIDDEN);
+      drop_short (&loop, false, (size_t) (stroke > LEAST_SEEN ? stroke : LEAST_SEEN));
+      start = find_change (&loop);
+      if (start == loop.n)
+        set_hidden (&loop, loop.crack->hidden && loop_area (&loop) < 0);
+      for (size_t i = 0, length; start < loop.n && i < loop.n && !status; i += length)
+        {
+          length = piece_length (&loop, start + i);
+          if (crack_at (&loop, start + i)->hidden)
+            status = add_gap (layers, layer, ink, stroke, &loop, start + i, length, outline);
+        }
+    }
+  return status;
+}
+
+void
+celd_outline_clear (CeldOutline *outline)
+{
+  celd_free (outline->crack);
+  celd_free (outline->loop);
+  celd_free (outline->gap);
+  *outline = (CeldOutline) { 0 };
+}
+
+CeldStatus
+celd_layer_outline (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, CeldOutline *outline)
+{
+  Tracing    t = { layers, layer, layers->seen[layer], NULL, outline };
+  CeldStatus status;
+
+  *outline = (CeldOutline) { 0 };
+  t.traced = celd_alloc0 ((size_t) t.box.width * (size_t) t.box.height, 1);
+  status = t.traced ? trace_all (&t) : CELD_NO_MEMORY;
+  celd_free (t.traced);
+  if (!status)
+    status = find_gaps (layers, layer, ink, stroke, outline);
+  if (status)
+    celd_outline_clear (outline);
+  return status;
+}

@@ -1,0 +1,312 @@
+/* A drawing cut into layers, one a region: its part of the art with its own ink, antialiased.
+ *
+ * A pixel that is one region's goes to its layer as it is.  A pixel that two regions share goes to both: the front one
+ * gets the share that it covers as alpha, and the colours of both are told apart so that the front over the back gives
+ * the pixel again (layer-colours.c).  In 8 bits the back one is found for the front one as it was
+ * rounded, so that the composite is right to one step.
+ *
+ * Hidden parts are found afterwards, and only where something nearer is opaque: they cannot be seen.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "layers/layers.h"
+
+#include <stdlib.h>
+
+/* ------------------------------------------------------------------ which layers there are */
+
+static int
+compare_layers (const void *a, const void *b)
+{
+  const CeldLayer *one = a, *other = b;
+
+  if (one->level != other->level)
+    return one->level < other->level ? -1 : 1;
+  return one->label < other->label ? -1 : one->label > other->label;
+}
+
+static void
+grow_box (CeldRect *box, int x, int y)
+{
+  *box = celd_rect_union (*box, (CeldRect) { x, y, 1, 1 });
+}
+
+/* Is each label one of 1 .. n? */
+static bool
+labels_fit (const CeldOwnership *own, size_t n)
+{
+  for (int y = 0; y < own->owner.height; y++)
+    for (int x = 0; x < own->owner.width; x++)
+      if (CELD_AT (&own->owner, x, y) - 1 >= n || CELD_AT (&own->under, x, y) - 1 >= n)
+        return false;
+  return true;
+}
+
+/* Labels that own or show something become layers, from back to front; of_label[l - 1] is the layer of label l. */
+static CeldStatus
+list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, uint32_t *of_label, CeldLayers *layers)
+{
+  bool *there = celd_alloc0 (n, sizeof *there);
+
+  if (!there)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < own->owner.height; y++)
+    for (int x = 0; x < own->owner.width; x++)
+      there[CELD_AT (&own->owner, x, y) - 1] = there[CELD_AT (&own->under, x, y) - 1] = true;
+  for (size_t l = 0; l < n; l++)
+    if (there[l])
+      layers->item[layers->n++] = (CeldLayer) { .label = (uint32_t) l + 1, .level = level[l] };
+  celd_free (there);
+  qsort (layers->item, layers->n, sizeof *layers->item, compare_layers);
+  for (size_t k = 0; k < layers->n; k++)
+    of_label[layers->item[k].label - 1] = (uint32_t) k;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ which pixel is where */
+
+static bool
+is_shared (const CeldOwnership *own, int x, int y)
+{
+  return CELD_AT (&own->owner, x, y) != CELD_AT (&own->under, x, y) && CELD_AT (&own->share, x, y) < 1;
+}
+
+/* Of equal levels the owner may be either; in front is the later layer in any case. */
+static CeldBlend
+make_blend (const CeldOwnership *own, const uint32_t *of_label, int x, int y)
+{
+  uint32_t owner = of_label[CELD_AT (&own->owner, x, y) - 1], under = of_label[CELD_AT (&own->under, x, y) - 1];
+  float    share = CELD_AT (&own->share, x, y);
+
+  share = share > 0 ? share : 0; /* NaN is none */
+  return owner > under ? (CeldBlend) { .x = x, .y = y, .layer = { owner, under }, .share = share }
+                       : (CeldBlend) { .x = x, .y = y, .layer = { under, owner }, .share = 1 - share };
+}
+
+static CeldStatus
+place_pixels (const CeldOwnership *own, const uint32_t *of_label, CeldLayers *layers)
+{
+  size_t blends = 0;
+
+  for (int y = 0; y < layers->height; y++)
+    for (int x = 0; x < layers->width; x++)
+      blends += is_shared (own, x, y);
+  layers->blend = celd_alloc (blends, sizeof *layers->blend);
+  if (!layers->blend)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < layers->height; y++)
+    for (int x = 0; x < layers->width; x++)
+      {
+        uint32_t *place = &layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
+
+        if (is_shared (own, x, y))
+          {
+            *place = (uint32_t) (layers->n + layers->n_blends);
+            layers->blend[layers->n_blends++] = make_blend (own, of_label, x, y);
+          }
+        else
+          *place = of_label[CELD_AT (&own->owner, x, y) - 1];
+      }
+  return CELD_OK;
+}
+
+static void
+copy_art (const CeldColours *art, CeldLayers *layers)
+{
+  float *to = layers->art;
+
+  for (int y = 0; y < art->height; y++)
+    for (int i = 0; i < 4 * art->width; i++)
+      {
+        float value = art->data[4 * (size_t) y * art->stride + (size_t) i];
+
+        value = value > 0 ? value < 1 ? value : 1 : 0; /* NaN is 0 */
+        *to++ = i % 4 < 3 ? celd_store_colour (layers, value) : celd_store_alpha (layers, value);
+      }
+}
+
+/* Where each layer is seen, and where it has something to show. */
+static void
+find_boxes (CeldLayers *layers)
+{
+  const float *art = layers->art;
+
+  for (int y = 0; y < layers->height; y++)
+    for (int x = 0; x < layers->width; x++, art += 4)
+      {
+        size_t place = layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
+
+        if (place < layers->n)
+          grow_box (&layers->seen[place], x, y);
+        if (place < layers->n && art[3] > 0)
+          grow_box (&layers->item[place].box, x, y);
+      }
+  for (size_t i = 0; i < layers->n_blends; i++)
+    for (int side = 0; side < 2; side++)
+      {
+        const CeldBlend *blend = &layers->blend[i];
+
+        grow_box (&layers->seen[blend->layer[side]], blend->x, blend->y);
+        if (blend->colour[side][3] > 0)
+          grow_box (&layers->item[blend->layer[side]].box, blend->x, blend->y);
+      }
+}
+
+/* ------------------------------------------------------------------ hidden parts */
+
+static CeldStatus
+complete_layers (const CeldPlane *ink, uint32_t background, const CeldRun *run, CeldLayers *layers)
+{
+  int        stroke = celd_stroke_width (ink);
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < layers->n && !status; k++)
+    {
+      CeldPart part;
+      double   turns = (double) layers->n;
+      CeldRun  turn = celd_run_part (&part, run, (double) k / turns, (double) (k + 1) / turns);
+
+      status = celd_layer_complete (layers, k, layers->item[k].label == background, ink, stroke, &turn);
+      if (!status)
+        status = celd_step (&turn, 1);
+      for (size_t i = 0; i < layers->n_hidden[k] && !status; i++)
+        grow_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ the object */
+
+static CeldStatus
+new_layers (int width, int height, size_t n, CeldLayers **made)
+{
+  size_t      pixels = (size_t) width * (size_t) height;
+  CeldLayers *layers = celd_alloc0 (1, sizeof *layers);
+
+  *made = layers;
+  if (!layers)
+    return CELD_NO_MEMORY;
+  layers->width    = width;
+  layers->height   = height;
+  layers->item     = celd_alloc (n, sizeof *layers->item);
+  layers->seen     = celd_alloc0 (n, sizeof *layers->seen);
+  layers->hidden   = celd_alloc0 (n, sizeof *layers->hidden);
+  layers->n_hidden = celd_alloc0 (n, sizeof *layers->n_hidden);
+  layers->art      = celd_alloc (pixels, 4 * sizeof *layers->art);
+  layers->place    = celd_alloc (pixels, sizeof *layers->place);
+  return layers->item && layers->seen && layers->hidden && layers->n_hidden && layers->art && layers->place
+           ? CELD_OK : CELD_NO_MEMORY;
+}
+
+void
+celd_layers_free (CeldLayers *layers)
+{
+  if (!layers)
+    return;
+  for (size_t k = 0; k < layers->n; k++)
+    celd_free (layers->hidden[k]);
+  celd_free (layers->hidden);
+  celd_free (layers->seen);
+  celd_free (layers->n_hidden);
+  celd_free (layers->item);
+  celd_free (layers->art);
+  celd_free (layers->place);
+  celd_free (layers->blend);
+  celd_free (layers);
+}
+
+size_t
+celd_layers_count (const CeldLayers *layers)
+{
+  return layers->n;
+}
+
+const CeldLayer *
+celd_layers_item (const CeldLayers *layers, size_t layer)
+{
+  return &layers->item[layer];
+}
+
+/* ------------------------------------------------------------------ a layer as a picture */
+
+static float *
+pixel_of (const CeldRect *box, float *rgba, int x, int y)
+{
+  return rgba + 4 * ((size_t) (y - box->y) * (size_t) box->width + (size_t) (x - box->x));
+}
+
+static bool
+is_inside (const CeldRect *box, int x, int y)
+{
+  return x >= box->x && x < box->x + box->width && y >= box->y && y < box->y + box->height;
+}
+
+void
+celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba)
+{
+  const CeldRect *box = &layers->item[layer].box;
+
+  memset (rgba, 0, 4 * sizeof *rgba * (size_t) box->width * (size_t) box->height);
+  for (int y = box->y; y < box->y + box->height; y++)
+    for (int x = box->x; x < box->x + box->width; x++)
+      {
+        size_t       p = (size_t) y * (size_t) layers->width + (size_t) x, place = layers->place[p];
+        const float *colour = place == layer ? layers->art + 4 * p : NULL;
+
+        if (place >= layers->n)
+          for (int side = 0; side < 2; side++)
+            if (layers->blend[place - layers->n].layer[side] == layer)
+              colour = layers->blend[place - layers->n].colour[side];
+        if (colour && colour[3] > 0)
+          memcpy (pixel_of (box, rgba, x, y), colour, 4 * sizeof *colour);
+      }
+  for (size_t i = 0; i < layers->n_hidden[layer]; i++)
+    {
+      const CeldHidden *hidden = &layers->hidden[layer][i];
+
+      if (is_inside (box, hidden->x, hidden->y))
+        memcpy (pixel_of (box, rgba, hidden->x, hidden->y), hidden->colour, sizeof hidden->colour);
+    }
+}
+
+CeldStatus
+celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t *level, size_t n,
+                 const CeldColours *art, uint32_t background, CeldStore store, bool complete, const CeldRun *run,
+                 CeldLayers **result)
+{
+  CeldLayers *layers = NULL;
+  uint32_t   *of_label;
+  CeldPart    part[2];
+  CeldRun     first = celd_run_part (&part[0], run, 0, complete ? 0.3 : 1);
+  CeldRun     second = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus  status;
+
+  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->share) ||
+      !CELD_SAME_SIZE (ink, art))
+    return CELD_BAD_SIZE;
+  if (!n)
+    return CELD_NOTHING_TO_GO_BY;
+  if ((unsigned) store > CELD_STORE_8_BIT_SRGB || background > n || !labels_fit (own, n))
+    return CELD_BAD_VALUE;
+  of_label = celd_alloc (n, sizeof *of_label);
+  status = of_label ? new_layers (ink->width, ink->height, n, &layers) : CELD_NO_MEMORY;
+  if (status)
+    goto done;
+  layers->store = store;
+  celd_store_prepare (layers);
+  copy_art (art, layers);
+  if ((status = list_layers (own, level, n, of_label, layers)) == CELD_OK &&
+      (status = place_pixels (own, of_label, layers)) == CELD_OK &&
+      (status = celd_layer_colours (layers, ink, &first)) == CELD_OK)
+    find_boxes (layers);
+  if (!status && complete)
+    status = complete_layers (ink, background, &second, layers);
+done:
+  celd_free (of_label);
+  if (status)
+    celd_layers_free (layers);
+  else
+    *result = layers;
+  return status;
+}

@@ -1,0 +1,260 @@
+/* Which sides of which edges bend, and where to.
+ *
+ * At a depth discontinuity the nearer side ends: there its normal lies in the picture and points outward.  The farther
+ * side goes on behind and gets nothing, unless a painted hint says otherwise.  Virtual borders neither cut nor give
+ * normals; nor do their ends, where they run into the ink of another contour: both sides of an outline must be apart
+ * all around.  What has no outline of its own faces the viewer: the paper stays flat behind a figure, also where a gap
+ * in the figure's contour joins both.
+ *
+ * The direction of an outline comes from the first moment of the matte "at least as near" under a Gaussian round the
+ * edge's middle: steps of pixels average out, and the outline goes on straight where something nearer hides it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "light/lumo.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define REACH  7      /* pixels round an edge that tell its direction */
+#define SPREAD 2.75   /* deviation of the Gaussian in pixels */
+
+typedef struct
+{
+  CeldLumo  *lumo;
+  CeldJoined joined;
+  uint8_t   *front, *behind;    /* of each region: has it an outline, is it behind one? */
+  double     gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
+} Outlines;
+
+/* ------------------------------------------------------------------ directions */
+
+static int
+clamp (int x, int size)
+{
+  return x < 0 ? 0 : x < size ? x : size - 1;
+}
+
+/* From the part of level `near` outwards, y down, at the edge from (x,y) to (x+east,y+south). */
+static void
+outward (const Outlines *o, float near, int x, int y, int east, int south, double *nx, double *ny)
+{
+  const CeldLumo *l = o->lumo;
+  double          mx = 0, my = 0, length;
+
+  for (int v = y - REACH + south; v <= y + REACH; v++)
+    {
+      const float *row = l->level + celd_lumo_pixel (l, 0, clamp (v, l->height));
+
+      for (int u = x - REACH + east; u <= x + REACH; u++)
+        if (row[clamp (u, l->width)] >= near)
+          {
+            int    du = 2 * (u - x) - east, dv = 2 * (v - y) - south; /* half pixels from the edge's middle */
+            double weight = o->gauss[abs (du)][abs (dv)];
+
+            mx += weight * du;
+            my += weight * dv;
+          }
+    }
+  length = hypot (mx, my);
+  *nx    = length > 0 ? -mx / length : 0;
+  *ny    = length > 0 ? -my / length : 0;
+}
+
+/* ------------------------------------------------------------------ holds */
+
+static CeldStatus
+add_hold (CeldLumo *l, size_t pixel, double x, double y)
+{
+  CeldHold *hold = celd_grow (l->hold, l->n_holds + 1, sizeof *hold);
+
+  if (!hold)
+    return CELD_NO_MEMORY;
+  hold[l->n_holds++] = (CeldHold) { pixel, (float) x, (float) y };
+  l->hold            = hold;
+  return CELD_OK;
+}
+
+static uint32_t
+region_of (const CeldLumo *l, size_t pixel)
+{
+  int    x = (int) (pixel % (size_t) l->width);
+  size_t y = pixel / (size_t) l->width, low = l->regions.row[y], high = l->regions.row[y + 1];
+
+  while (high - low > 1)
+    {
+      size_t middle = low + (high - low) / 2;
+
+      if (l->regions.stretch[middle].x <= x)
+        low = middle;
+      else
+        high = middle;
+    }
+  return l->regions.stretch[low].part;
+}
+
+/* A depth discontinuity: its nearer side bends, unless hints say otherwise. */
+static CeldStatus
+hold_edge (Outlines *o, int x, int y, bool down)
+{
+  CeldLumo  *l = o->lumo;
+  size_t     p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
+  size_t     near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
+  CeldLumoSide   over = CELD_UNPAINTED, under = CELD_UNPAINTED;
+  double     nx, ny;
+  CeldStatus status = CELD_OK;
+
+  if (celd_way_round (&o->joined, x, y, down))
+    return CELD_OK;
+  outward (o, l->level[near], x, y, !down, down, &nx, &ny);
+  if (l->hints)
+    {
+      double mx = x + (down ? 0.5 : 1), my = y + (down ? 1 : 0.5);
+
+      over  = celd_lumo_side (l, mx, my, -nx, -ny);
+      under = celd_lumo_side (l, mx, my, nx, ny);
+    }
+  o->behind[region_of (l, far)] = 1;
+  if (over != CELD_UNDER || under == CELD_BOTH)
+    {
+      o->front[region_of (l, near)] = 1;
+      status = add_hold (l, near, nx, -ny);
+    }
+  if (status == CELD_OK && (under == CELD_OVER || under == CELD_BOTH || over == CELD_BOTH))
+    {
+      o->front[region_of (l, far)] = 1;
+      status = add_hold (l, far, -nx, ny);
+    }
+  return status;
+}
+
+static CeldStatus
+hold_edges (Outlines *o, const CeldRun *run)
+{
+  CeldLumo  *l = o->lumo;
+  CeldStatus status = CELD_OK;
+  size_t     i = 0;
+
+  for (int y = 0; y < l->height && status == CELD_OK; y++)
+    {
+      status = y % 16 ? CELD_OK : celd_step (run, (double) y / l->height);
+      for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
+        {
+          if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_level (l, i, i + 1))
+            status = hold_edge (o, x, y, false);
+          if (status == CELD_OK && y + 1 < l->height && l->south[i] <= 0 &&
+              !celd_lumo_level (l, i, i + (size_t) l->width))
+            status = hold_edge (o, x, y, true);
+        }
+    }
+  return status;
+}
+
+static bool
+is_open (const Outlines *o, const CeldSeam *seam)
+{
+  size_t w = (size_t) o->lumo->width;
+
+  return celd_way_round (&o->joined, (int) (seam->pixel % w), (int) (seam->pixel / w), seam->down);
+}
+
+/* Strokes that are painted to bend are outlines of their region. */
+static void
+mark_painted_seams (Outlines *o)
+{
+  for (size_t i = 0; i < o->lumo->n_seams; i++)
+    if (o->lumo->seam[i].painted && !is_open (o, &o->lumo->seam[i]))
+      o->front[region_of (o->lumo, o->lumo->seam[i].pixel)] = 1;
+}
+
+/* Both sides of strokes inside a part. */
+static CeldStatus
+hold_seams (Outlines *o)
+{
+  CeldLumo  *l = o->lumo;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < l->n_seams && status == CELD_OK; i++)
+    {
+      const CeldSeam *seam = &l->seam[i];
+      size_t          p = seam->pixel, q = p + (seam->down ? (size_t) l->width : 1);
+
+      if (l->flat[region_of (l, p)] || is_open (o, seam))
+        continue;
+      for (int side = 0; side < 2 && status == CELD_OK; side++)
+        {
+          float s = side ? -seam->strength[1] : seam->strength[0];
+
+          if (seam->strength[side] > 0)
+            status = add_hold (l, side ? q : p, (double) (s * seam->x), (double) (-s * seam->y));
+        }
+    }
+  return status;
+}
+
+/* Where the frame cuts off what is not flat. */
+static CeldStatus
+hold_frame (CeldLumo *l)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < l->height; y++)
+    for (int x = 0; x < l->width; x += y > 0 && y + 1 < l->height && x == 0 && l->width > 1 ? l->width - 1 : 1)
+      {
+        size_t p = celd_lumo_pixel (l, x, y);
+
+        if (l->flat[region_of (l, p)])
+          continue;
+        if (status == CELD_OK && (x == 0 || x + 1 == l->width))
+          status = add_hold (l, p, (x + 1 == l->width) - (x == 0), 0);
+        if (status == CELD_OK && (y == 0 || y + 1 == l->height))
+          status = add_hold (l, p, 0, (y == 0) - (y + 1 == l->height));
+      }
+  return status;
+}
+
+/* ------------------------------------------------------------------ */
+
+static CeldStatus
+outlines_new (CeldLumo *l, Outlines *o)
+{
+  *o = (Outlines) { .lumo = l };
+  o->front  = celd_alloc0 (l->regions.n + 1, 1);
+  o->behind = celd_alloc0 (l->regions.n + 1, 1);
+  if (!o->front || !o->behind || celd_joined_new (l->width, l->height, l->east, l->south, &o->joined) != CELD_OK)
+    return CELD_NO_MEMORY;
+  for (int i = 0; i < 2 * REACH + 2; i++)
+    for (int j = 0; j < 2 * REACH + 2; j++)
+      o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (SPREAD * SPREAD));
+  return CELD_OK;
+}
+
+CeldStatus
+celd_lumo_outlines (CeldLumo *l, const CeldRun *run)
+{
+  Outlines   o = { 0 };
+  CeldPart   part[2];
+  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.3), holding = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus status = celd_parts_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
+
+  if (status != CELD_OK)
+    return status;
+  l->flat = celd_alloc0 (l->regions.n + 1, 1);
+  status  = l->flat ? outlines_new (l, &o) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = hold_edges (&o, &holding);
+  if (status == CELD_OK)
+    {
+      mark_painted_seams (&o);
+      for (size_t k = 0; k < l->regions.n; k++)
+        l->flat[k] = o.behind[k] && !o.front[k];
+      status = hold_seams (&o);
+    }
+  if (status == CELD_OK && l->settings->frame_outline)
+    status = hold_frame (l);
+  celd_joined_clear (&o.joined);
+  celd_free (o.front);
+  celd_free (o.behind);
+  return status;
+}

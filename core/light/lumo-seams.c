@@ -1,0 +1,262 @@
+/* Strokes inside a part: wrinkles, folds, seams, which need not end what they are drawn on.
+ *
+ * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a seam of a quilt, or of
+ * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come
+ * before that, as in [Joh02]: white beside a line makes its side bend ("over"), black lets it run on ("under"), grey
+ * bends both sides; at outlines, too.
+ *
+ * The middle of a stroke runs where the nearest paper changes from one side to the other: on the medial axis.  Its
+ * direction comes from the second moments of the ink under a Gaussian.  What is wider than two strokes is an area.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "light/lumo.h"
+
+#include <math.h>
+
+#define REACH     5     /* pixels of ink round an edge that tell the direction of the stroke */
+#define SPREAD    2.0   /* deviation of the Gaussian in pixels */
+#define TURN      0.25  /* cosine between the ways to both sides' paper, at most */
+#define SLIGHT    0.005f /* difference of smooth depth, as a share of its range, that is none */
+#define NEAR_LINE 3     /* pixels beyond the stroke where hints are looked for */
+
+typedef struct { CeldLumo *lumo; int32_t *nearest; float slight; } Seams;
+
+/* A pixel of a stroke, or beside it, and the way to its paper. */
+typedef struct { int x, y, dx, dy; size_t paper; } Flank;
+
+/* ------------------------------------------------------------------ hints */
+
+CeldLumoSide
+celd_lumo_side (const CeldLumo *l, double x, double y, double dx, double dy)
+{
+  double reach = 1.5 * l->stroke + NEAR_LINE;
+
+  for (double t = 0.5; t <= reach; t++)
+    {
+      double u = floor (x + t * dx), v = floor (y + t * dy);
+
+      if (u < 0 || v < 0 || u >= l->width || v >= l->height)
+        break;
+
+      const uint8_t *rgba = CELD_RGBA (l->hints, (int) u, (int) v);
+      int            sum = rgba[0] + rgba[1] + rgba[2];
+
+      if (rgba[3] >= 128)
+        return sum < 3 * 64 ? CELD_UNDER : sum < 3 * 192 ? CELD_BOTH : CELD_OVER;
+    }
+  return CELD_UNPAINTED;
+}
+
+/* ------------------------------------------------------------------ the middle of a stroke */
+
+static Flank
+flank_of (const Seams *s, int x, int y)
+{
+  const CeldLumo *l = s->lumo;
+  size_t          paper = (size_t) s->nearest[celd_lumo_pixel (l, x, y)];
+
+  return (Flank) { x, y, (int) (paper % (size_t) l->width) - x, (int) (paper / (size_t) l->width) - y, paper };
+}
+
+/* Do two neighbours belong to two sides of one stroke?  Of a stroke one pixel wide the other may be its paper. */
+static bool
+is_middle (const Seams *s, const Flank *p, const Flank *q)
+{
+  double a = hypot (p->dx, p->dy), b = hypot (q->dx, q->dy);
+  size_t i = celd_lumo_pixel (s->lumo, p->x, p->y);
+
+  if (!celd_lumo_level (s->lumo, i, p->paper) || !celd_lumo_level (s->lumo, i, q->paper) ||
+      a > s->lumo->stroke + 1 || b > s->lumo->stroke + 1)
+    return false;
+  if (!(a > 0) && !(b > 0))
+    return false;
+  if (a > 0 && b > 0)
+    return p->dx * q->dx + p->dy * q->dy < TURN * a * b;
+  return a > 0 ? p->dx * (q->x - p->x) + p->dy * (q->y - p->y) < 0 : q->dx * (p->x - q->x) + q->dy * (p->y - q->y) < 0;
+}
+
+/* The unit vector across the stroke at the middle of two pixels, from the first to the second, y down. */
+static void
+across (const CeldLumo *l, const Flank *p, const Flank *q, double *nx, double *ny)
+{
+  double cx = 0.5 * (p->x + q->x), cy = 0.5 * (p->y + q->y), sum = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
+  double rx = q->x + q->dx - p->x - p->dx, ry = q->y + q->dy - p->y - p->dy, r = hypot (rx, ry), angle, dot;
+
+  for (int y = p->y - REACH; y <= p->y + REACH; y++)
+    for (int x = p->x - REACH; x <= p->x + REACH; x++)
+      if (x >= 0 && y >= 0 && x < l->width && y < l->height && CELD_AT (l->ink, x, y) < 1)
+        {
+          double dx = x - cx, dy = y - cy;
+          double weight = (1 - fmax (0, (double) CELD_AT (l->ink, x, y))) *
+                          exp (-0.5 * (dx * dx + dy * dy) / (SPREAD * SPREAD));
+
+          sum += weight;
+          mx += weight * dx;
+          my += weight * dy;
+          xx += weight * dx * dx;
+          xy += weight * dx * dy;
+          yy += weight * dy * dy;
+        }
+  *nx = rx / r;
+  *ny = ry / r;
+  if (!(sum > 0))
+    return;
+  angle = 0.5 * atan2 (2 * (xy - mx * my / sum), xx - yy - (mx * mx - my * my) / sum); /* along the stroke */
+  dot   = (-sin (angle) * rx + cos (angle) * ry) / r;
+  if (fabs (dot) > 0.7)
+    {
+      *nx = dot > 0 ? -sin (angle) : sin (angle);
+      *ny = dot > 0 ? cos (angle) : -cos (angle);
+    }
+}
+
+/* ------------------------------------------------------------------ what bends */
+
+/* How much both sides bend; is that painted? */
+static bool
+strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny, float strength[2])
+{
+  const CeldLumo *l = s->lumo;
+  CeldLumoSide        side[2] = { CELD_UNPAINTED, CELD_UNPAINTED };
+  double          mx = 0.5 * (p->x + q->x) + 0.5, my = 0.5 * (p->y + q->y) + 0.5;
+
+  if (l->hints)
+    {
+      side[0] = celd_lumo_side (l, mx, my, -nx, -ny);
+      side[1] = celd_lumo_side (l, mx, my, nx, ny);
+    }
+  if (side[0] != CELD_UNPAINTED || side[1] != CELD_UNPAINTED)
+    {
+      bool both = side[0] == CELD_BOTH || side[1] == CELD_BOTH;
+
+      strength[0] = both || side[0] == CELD_OVER ? 1 : 0;
+      strength[1] = both || side[1] == CELD_OVER ? 1 : 0;
+      return true;
+    }
+  strength[0] = strength[1] = l->settings->quilt;
+  if (l->depth)
+    {
+      int   w = l->width;
+      float a = CELD_AT (l->depth, (int) (p->paper % (size_t) w), (int) (p->paper / (size_t) w));
+      float b = CELD_AT (l->depth, (int) (q->paper % (size_t) w), (int) (q->paper / (size_t) w));
+
+      if (b - a > s->slight)
+        strength[0] = 0;
+      if (a - b > s->slight)
+        strength[1] = 0;
+    }
+  return false;
+}
+
+static CeldStatus
+look_at_edge (Seams *s, int x, int y, bool down)
+{
+  CeldLumo *l = s->lumo;
+  size_t    i = celd_lumo_pixel (l, x, y);
+  Flank     p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
+  CeldSeam  seam = { (uint32_t) i, down, false, 0, 0, { 0, 0 } }, *grown;
+  double    nx, ny;
+
+  if (!is_middle (s, &p, &q))
+    return CELD_OK;
+  across (l, &p, &q, &nx, &ny);
+  seam.painted = strengths (s, &p, &q, nx, ny, seam.strength);
+  if (!(seam.strength[0] > 0) && !(seam.strength[1] > 0))
+    return CELD_OK;
+  grown = celd_grow (l->seam, l->n_seams + 1, sizeof *grown);
+  if (!grown)
+    return CELD_NO_MEMORY;
+  seam.x  = (float) nx;
+  seam.y  = (float) ny;
+  l->seam = grown;
+  l->seam[l->n_seams++] = seam;
+  return CELD_OK;
+}
+
+/* Edges with ink at one end at least, within one level. */
+static CeldStatus
+find_seams (Seams *s, const CeldRun *run)
+{
+  CeldLumo  *l = s->lumo;
+  CeldStatus status = CELD_OK;
+  size_t     i = 0;
+
+  for (int y = 0; y < l->height && status == CELD_OK; y++)
+    {
+      status = y % 64 ? CELD_OK : celd_step (run, (double) y / l->height);
+      for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
+        {
+          bool ink = !celd_is_paper (CELD_AT (l->ink, x, y));
+
+          if (x + 1 < l->width && (ink || !celd_is_paper (CELD_AT (l->ink, x + 1, y))) &&
+              celd_lumo_level (l, i, i + 1))
+            status = look_at_edge (s, x, y, false);
+          if (status == CELD_OK && y + 1 < l->height && (ink || !celd_is_paper (CELD_AT (l->ink, x, y + 1))) &&
+              celd_lumo_level (l, i, i + (size_t) l->width))
+            status = look_at_edge (s, x, y, true);
+        }
+    }
+  return status;
+}
+
+static void
+cut (CeldLumo *l)
+{
+  for (size_t i = 0; i < l->n_seams; i++)
+    (l->seam[i].down ? l->south : l->east)[l->seam[i].pixel] = 0;
+}
+
+static float
+slight_difference (const CeldPlane *depth)
+{
+  float least = INFINITY, most = -INFINITY;
+
+  for (int y = 0; y < depth->height; y++)
+    for (int x = 0; x < depth->width; x++)
+      {
+        least = fminf (least, CELD_AT (depth, x, y));
+        most  = fmaxf (most, CELD_AT (depth, x, y));
+      }
+  return SLIGHT * (most - least);
+}
+
+CeldStatus
+celd_lumo_seams (CeldLumo *l, const CeldRun *run)
+{
+  size_t     n = (size_t) l->width * (size_t) l->height, i = 0;
+  Seams      s = { .lumo = l };
+  CeldPart   part[2];
+  CeldRun    measuring = celd_run_part (&part[0], run, 0, 0.5), finding = celd_run_part (&part[1], run, 0.5, 1);
+  uint8_t   *paper = NULL;
+  int32_t   *squared = NULL;
+  bool       any = false;
+  CeldStatus status;
+
+  if (!(l->settings->quilt > 0) && !l->hints)
+    return CELD_OK;
+  paper     = celd_alloc (n, sizeof *paper);
+  squared   = celd_alloc (n, sizeof *squared);
+  s.nearest = celd_alloc (n, sizeof *s.nearest);
+  status    = paper && squared && s.nearest ? CELD_OK : CELD_NO_MEMORY;
+  if (status != CELD_OK)
+    goto done;
+  for (int y = 0; y < l->height; y++)
+    for (int x = 0; x < l->width; x++)
+      any = (paper[i++] = celd_is_paper (CELD_AT (l->ink, x, y))) || any;
+  if (!any)
+    goto done;
+  s.slight = l->depth ? slight_difference (l->depth) : 0;
+  status   = celd_nearest (l->width, l->height, paper, &measuring, squared, s.nearest);
+  if (status == CELD_OK)
+    status = find_seams (&s, &finding);
+  if (status == CELD_OK)
+    cut (l);
+
+done:
+  celd_free (paper);
+  celd_free (squared);
+  celd_free (s.nearest);
+  return status;
+}

@@ -1,0 +1,226 @@
+/* The relations of a small knot whose weight is the least in sum and without which the others can hold: a minimum
+ * weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all others
+ * [Lawler 1964].
+ *
+ * Labels are placed from far to near in blocks of equal depth.  That a relation is broken shows when the first of its
+ * nearer labels is placed, so the least weight that a set S of placed labels has cost does not depend on how S was
+ * placed.  Blocks of more than one label need to be tried only if equalities hang them together.  Of relations whose
+ * weights are equal later ones are broken rather than earlier ones: each weighs a little less than the one before it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "order/order.h"
+
+#include <math.h>
+
+#define MOST_LABELS 18
+#define SURE_LABELS 12          /* exact whatever the number of relations */
+#define MOST_WORK   (1u << 26)  /* looks at a relation, about 0.1 s */
+#define AGE         1e-9        /* of the sum of weights: how much the age of relations may matter */
+
+/* A relation between labels of the knot, as sets of these. */
+typedef struct { uint32_t far, near; bool equal; double weight; } Arc;
+
+typedef struct
+{
+  const CeldGraph *graph;
+  const CeldKnot  *knot;
+  uint32_t         label[MOST_LABELS]; /* label - 1 */
+  size_t           n;
+  Arc             *arc;
+  uint32_t        *block;       /* sets of labels that may have one depth */
+  size_t           n_blocks;
+  double          *cost;        /* of a set of placed labels */
+  uint32_t        *last;        /* the block of it that was placed last */
+} Exact;
+
+static void
+exact_clear (Exact *x)
+{
+  celd_free (x->arc);
+  celd_free (x->block);
+  celd_free (x->cost);
+  celd_free (x->last);
+}
+
+/* The labels of end[first] .. end[last - 1] that are in the knot. */
+static uint32_t
+set_of (const Exact *x, size_t first, size_t last)
+{
+  uint32_t set = 0;
+
+  for (size_t e = first; e < last; e++)
+    for (size_t k = 0; k < x->n; k++)
+      if (x->label[k] == x->graph->end[e])
+        set |= 1u << k;
+  return set;
+}
+
+static void
+read_arcs (Exact *x)
+{
+  const CeldGraph *g = x->graph;
+  double           sum = 0;
+
+  for (size_t i = 0; i < x->knot->n; i++)
+    sum += celd_link_cost (g, x->knot->item[i]);
+  for (size_t i = 0; i < x->knot->n; i++)
+    {
+      size_t        link = x->knot->item[i];
+      const size_t *f = &g->first[2 * link];
+      double        age = (double) (x->knot->n - i) / (double) (x->knot->n * x->knot->n);
+
+      x->arc[i] = (Arc) { set_of (x, f[0], f[1]), set_of (x, f[1], f[2]), celd_graph_equal (g, link),
+                          celd_link_cost (g, link) + AGE * sum * age };
+    }
+}
+
+/* Do equalities hang the set together? */
+static bool
+hangs_together (const Exact *x, uint32_t set)
+{
+  uint32_t reached = set & -set, before;
+
+  do
+    {
+      before = reached;
+      for (size_t i = 0; i < x->knot->n; i++)
+        if (x->arc[i].equal && ((x->arc[i].far | x->arc[i].near) & reached))
+          reached |= (x->arc[i].far | x->arc[i].near) & set;
+    }
+  while (reached != before);
+  return reached == set;
+}
+
+static CeldStatus
+list_blocks (Exact *x)
+{
+  bool any = false;
+
+  for (size_t i = 0; i < x->knot->n; i++)
+    any |= x->arc[i].equal;
+  for (uint32_t set = 1; set < 1u << x->n; set++)
+    if (!(set & (set - 1)) || (any && hangs_together (x, set)))
+      {
+        uint32_t *block = celd_grow (x->block, x->n_blocks + 1, sizeof *block);
+
+        if (!block)
+          return CELD_NO_MEMORY;
+        x->block = block;
+        block[x->n_blocks++] = set;
+      }
+  return CELD_OK;
+}
+
+/* The weight of relations that break when a block is placed in front of the set. */
+static double
+broken_weight (const Exact *x, uint32_t set, uint32_t block)
+{
+  double sum = 0;
+
+  for (size_t i = 0; i < x->knot->n; i++)
+    {
+      const Arc *a = &x->arc[i];
+      uint32_t   all = a->far | a->near;
+
+      if (a->equal ? (all & block) && !(all & set) && (all & ~block)
+                   : (a->near & block) && !(a->near & set) && (a->far & ~set))
+        sum += a->weight;
+    }
+  return sum;
+}
+
+static CeldStatus
+place_labels (Exact *x)
+{
+  size_t n_sets = (size_t) 1 << x->n;
+
+  x->cost = celd_alloc (n_sets, sizeof *x->cost);
+  x->last = celd_alloc0 (n_sets, sizeof *x->last);
+  if (!x->cost || !x->last)
+    return CELD_NO_MEMORY;
+  for (size_t s = 1; s < n_sets; s++)
+    x->cost[s] = INFINITY;
+  x->cost[0] = 0;
+  for (uint32_t set = 0; set < n_sets - 1; set++)
+    for (size_t b = 0; b < x->n_blocks; b++)
+      if (!(x->block[b] & set))
+        {
+          uint32_t both = set | x->block[b];
+          double   cost = x->cost[set] + broken_weight (x, set, x->block[b]);
+
+          if (cost < x->cost[both])
+            {
+              x->cost[both] = cost;
+              x->last[both] = x->block[b];
+            }
+        }
+  return CELD_OK;
+}
+
+/* Marks what breaks on the cheapest way to place all labels. */
+static void
+mark_broken (const Exact *x, bool *broken)
+{
+  uint32_t set = (1u << x->n) - 1;
+
+  for (size_t i = 0; i < x->knot->n; i++)
+    broken[x->knot->item[i]] = false;
+  while (set)
+    {
+      uint32_t block = x->last[set];
+
+      set &= ~block;
+      for (size_t i = 0; i < x->knot->n; i++)
+        {
+          const Arc *a = &x->arc[i];
+          uint32_t   all = a->far | a->near;
+
+          if (a->equal ? (all & block) && (all & ~block)
+                       : (a->near & block) && !(a->near & set) && (a->far & ~set))
+            broken[x->knot->item[i]] = true;
+        }
+    }
+}
+
+/* Is the knot small enough, once its blocks are known? */
+static bool
+is_small (const Exact *x)
+{
+  double pairs = fmin (ldexp ((double) x->n_blocks, (int) x->n), pow (3, (double) x->n));
+
+  return x->n <= SURE_LABELS || pairs * (double) x->knot->n <= MOST_WORK;
+}
+
+CeldStatus
+celd_feedback_exact (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
+                     bool *broken, bool *done)
+{
+  Exact      x = { .graph = graph, .knot = knot };
+  CeldStatus status;
+
+  *done = false;
+  for (uint32_t k = 0; k < graph->n_labels; k++)
+    if (knots->label[k] == number)
+      {
+        if (x.n == MOST_LABELS)
+          return CELD_OK;
+        x.label[x.n++] = k;
+      }
+  x.arc  = celd_alloc (knot->n, sizeof *x.arc);
+  status = x.arc ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      read_arcs (&x);
+      status = list_blocks (&x);
+    }
+  if (status == CELD_OK && is_small (&x))
+    {
+      status = place_labels (&x);
+      *done  = status == CELD_OK;
+    }
+  if (*done)
+    mark_broken (&x, broken);
+  exact_clear (&x);
+  return status;
+}

@@ -1,0 +1,390 @@
+/* Depth expansion (section 3.3) of one region: the ink that it drew, by the local thickness of the contour.
+ *
+ * D1 is the distance from the region's paper, D2 that from the paper of all farther regions.  The medial axis of the
+ * contour lies where D1 - D2 changes sign; its thickness t is D1 + D2 there (the paper's 2 D1, but for pixels whose
+ * centres lie beside the axis), and Laplace's equation carries t to the other contour pixels; nothing flows into
+ * paper.  The region takes the contour pixels with D1 < t that are connected to it, and the small gaps this leaves.
+ *
+ * Where the paper is silent: only contour connected to the region counts.  An axis pixel tells the thickness only if
+ * the two nearest points lie opposite each other; where another contour branches off they do not, and t would be
+ * too large there.  A piece of contour without an axis has
+ * no farther region at its other side (a detail of the region); it counts as thick as the contour is anywhere, and is
+ * taken whole if there is no axis at all.  A gap is filled if it touches no farther region.
+ *
+ * All of it happens in a window round the region that is no wider than the contours there are thick, so that a region
+ * costs time in proportion to its bounding box.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "ownership/expand.h"
+#include "solve/laplace.h"
+
+#include <math.h>
+
+#define LEAST_GAP       16    /* pixels; gaps of less than this, or than 2 w^2, are filled */
+#define OPPOSITE        (-0.9) /* cosine; the two nearest points are opposite if their angle's is not larger */
+#define THICKNESS_ERROR 0.01  /* of the propagated thickness, as a share of its range */
+#define TIE             0.02  /* pixels; D1 this close to t is not below it, whatever the rounding */
+
+/* A part of the sheet; tight planes.  Masks are 0 or 1. */
+typedef struct
+{
+  CeldSheet *sheet;
+  uint32_t   k;             /* the level being expanded */
+  int        left, top, width, height;
+  size_t     pixels;
+  uint8_t   *front;         /* the region's paper */
+  uint8_t   *farther;       /* the paper of all farther regions */
+  uint8_t   *open;          /* where the next spread may go */
+  uint8_t   *contour;       /* free ink connected to the region */
+  uint8_t   *axis;          /* its medial axis */
+  uint8_t   *taken;         /* what the region takes of it */
+  int32_t   *d1, *d2;       /* D1, D2, squared */
+  int32_t   *near1, *near2; /* the nearest pixels, which D1 and D2 lead to */
+  float     *t;             /* thickness of the contour */
+  float     *east, *south, *diagonal, *b; /* Laplace's equation for t */
+  int32_t   *stack;
+  double     mean, most;    /* thickness along the axis; infinite if there is none */
+} Window;
+
+/* The first pixel of row y of the window on the sheet. */
+static inline uint32_t *
+sheet_row (const Window *w, int y)
+{
+  return w->sheet->level + (size_t) (w->top + y) * (size_t) w->sheet->width + (size_t) w->left;
+}
+
+/* ------------------------------------------------------------------ the window */
+
+/* The region's box with `margin` pixels round it, as far as the sheet goes. */
+static void
+place_window (Window *w, int margin)
+{
+  const CeldSheet *sheet = w->sheet;
+  CeldRect         box = sheet->box[w->k - 1];
+  int              right = box.x + box.width + margin, bottom = box.y + box.height + margin;
+
+  w->left = box.x > margin ? box.x - margin : 0;
+  w->top = box.y > margin ? box.y - margin : 0;
+  w->width = (right < sheet->width ? right : sheet->width) - w->left;
+  w->height = (bottom < sheet->height ? bottom : sheet->height) - w->top;
+  w->pixels = (size_t) w->width * (size_t) w->height;
+}
+
+/* Upper limit of the thickness of the free ink in the window; 0 if there is none. */
+static int
+thickest_ink (const Window *w)
+{
+  const CeldSheet *sheet = w->sheet;
+  int32_t          deepest = 0;
+
+  for (int y = 0; y < w->height; y++)
+    {
+      const uint32_t *level = sheet_row (w, y);
+      const int32_t  *depth = sheet->depth_in_ink + (level - sheet->level);
+
+      for (int x = 0; x < w->width; x++)
+        if (!level[x] && depth[x] > deepest)
+          deepest = depth[x];
+    }
+  return deepest ? (int) (2 * sqrt (deepest)) + 1 : 0;
+}
+
+/* A margin that is as wide as the ink within it is thick.  False if there is no ink. */
+static bool
+find_window (Window *w)
+{
+  int margin = 1, thickest;
+
+  place_window (w, margin);
+  while ((thickest = thickest_ink (w)) > margin)
+    {
+      margin = thickest;
+      place_window (w, margin);
+    }
+  return thickest > 0;
+}
+
+static CeldStatus
+open_window (Window *w)
+{
+  w->front = celd_alloc (w->pixels, 1);
+  w->farther = celd_alloc (w->pixels, 1);
+  w->open = celd_alloc (w->pixels, 1);
+  w->contour = celd_alloc0 (w->pixels, 1);
+  w->axis = celd_alloc0 (w->pixels, 1);
+  w->taken = celd_alloc0 (w->pixels, 1);
+  w->d1 = celd_alloc (w->pixels, sizeof *w->d1);
+  w->d2 = celd_alloc (w->pixels, sizeof *w->d2);
+  w->near1 = celd_alloc (w->pixels, sizeof *w->near1);
+  w->near2 = celd_alloc (w->pixels, sizeof *w->near2);
+  w->t = celd_alloc (w->pixels, sizeof *w->t);
+  w->east = celd_alloc0 (w->pixels, sizeof *w->east);
+  w->south = celd_alloc0 (w->pixels, sizeof *w->south);
+  w->diagonal = celd_alloc0 (w->pixels, sizeof *w->diagonal);
+  w->b = celd_alloc0 (w->pixels, sizeof *w->b);
+  w->stack = celd_alloc (w->pixels, sizeof *w->stack);
+  return w->front && w->farther && w->open && w->contour && w->axis && w->taken && w->d1 && w->d2 && w->near1 &&
+         w->near2 && w->t && w->east && w->south && w->diagonal && w->b && w->stack ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+close_window (Window *w)
+{
+  celd_free (w->front);
+  celd_free (w->farther);
+  celd_free (w->open);
+  celd_free (w->contour);
+  celd_free (w->axis);
+  celd_free (w->taken);
+  celd_free (w->d1);
+  celd_free (w->d2);
+  celd_free (w->near1);
+  celd_free (w->near2);
+  celd_free (w->t);
+  celd_free (w->east);
+  celd_free (w->south);
+  celd_free (w->diagonal);
+  celd_free (w->b);
+  celd_free (w->stack);
+}
+
+/* Who is where: the region, farther regions, free ink; nearer regions have had their turn and are nobody. */
+static void
+read_window (Window *w)
+{
+  for (int y = 0; y < w->height; y++)
+    {
+      const uint32_t *level = sheet_row (w, y);
+      size_t          p = (size_t) y * (size_t) w->width;
+
+      for (int x = 0; x < w->width; x++, p++)
+        {
+          w->front[p] = level[x] == w->k;
+          w->farther[p] = level[x] && level[x] < w->k;
+          w->open[p] = !level[x];
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ the contour and its thickness */
+
+/* Marks in `reached` the open pixels that are connected to the region. */
+static void
+spread (const Window *w, uint8_t *reached)
+{
+  size_t n = 0;
+
+  for (size_t p = 0; p < w->pixels; p++)
+    if (w->front[p])
+      w->stack[n++] = (int32_t) p;
+  while (n)
+    {
+      int p = w->stack[--n], x = p % w->width, y = p / w->width;
+      int next[4] = { x > 0 ? p - 1 : p, x + 1 < w->width ? p + 1 : p,
+                      y > 0 ? p - w->width : p, y + 1 < w->height ? p + w->width : p };
+
+      for (int i = 0; i < 4; i++)
+        if (w->open[next[i]] && !reached[next[i]])
+          {
+            reached[next[i]] = 1;
+            w->stack[n++] = next[i];
+          }
+    }
+}
+
+/* The sign of D1 - D2. */
+static inline int
+side (const Window *w, size_t p)
+{
+  return (w->d1[p] > w->d2[p]) - (w->d1[p] < w->d2[p]);
+}
+
+/* Is D1 - D2 zero at the contour pixel p, or does it change sign between p and a pixel round it? */
+static bool
+on_axis (const Window *w, int x, int y, size_t p)
+{
+  if (side (w, p) == 0)
+    return true;
+  for (int dy = -1; dy <= 1; dy++)
+    for (int dx = -1; dx <= 1; dx++)
+      {
+        size_t q = p + (size_t) (dy * w->width + dx);
+
+        if (x + dx >= 0 && x + dx < w->width && y + dy >= 0 && y + dy < w->height &&
+            w->contour[q] && side (w, q) == -side (w, p))
+          return true;
+      }
+  return false;
+}
+
+/* Do the nearest points of the region and of the farther ones lie at opposite sides of (x,y)? */
+static bool
+between_opposites (const Window *w, int x, int y, size_t p)
+{
+  double x1 = w->near1[p] % w->width - x, y1 = w->near1[p] / w->width - y;
+  double x2 = w->near2[p] % w->width - x, y2 = w->near2[p] / w->width - y;
+
+  return x1 * x2 + y1 * y2 <= OPPOSITE * sqrt ((double) w->d1[p] * (double) w->d2[p]);
+}
+
+/* The axis, and t = D1 + D2 on it. */
+static void
+find_axis (Window *w)
+{
+  double sum = 0;
+  size_t n = 0, p = 0;
+
+  for (int y = 0; y < w->height; y++)
+    for (int x = 0; x < w->width; x++, p++)
+      if (w->contour[p] && w->d2[p] < INT32_MAX && on_axis (w, x, y, p) && between_opposites (w, x, y, p))
+        {
+          double t = sqrt (w->d1[p]) + sqrt (w->d2[p]);
+
+          w->axis[p] = 1;
+          w->t[p] = (float) t;
+          w->most = n && w->most > t ? w->most : t;
+          sum += t;
+          n++;
+        }
+  w->mean = n ? sum / (double) n : INFINITY;
+  w->most = n ? w->most : INFINITY;
+}
+
+/* Contour farther from the region than the contour is thick anywhere cannot be taken and need not be solved for. */
+static void
+trim_contour (Window *w)
+{
+  double most = w->most * w->most;
+
+  for (size_t p = 0; p < w->pixels; p++)
+    if (w->d1[p] >= most)
+      w->contour[p] = 0;
+}
+
+/* Laplace's equation for t over the contour.  Pieces without an axis keep what t starts from. */
+static CeldStatus
+propagate_thickness (Window *w, const CeldRun *run)
+{
+  CeldLaplace *laplace = NULL;
+  CeldPart     part[2];
+  CeldRun      set_up = celd_run_part (&part[0], run, 0, 0.3), solve = celd_run_part (&part[1], run, 0.3, 1);
+  CeldStatus   status;
+
+  for (size_t p = 0; p < w->pixels; p++)
+    if (!w->axis[p])
+      w->t[p] = (float) w->most;
+  if (isinf (w->most))
+    return celd_step (run, 1);
+  for (size_t p = 0; p < w->pixels; p++)
+    if (w->contour[p])
+      {
+        w->east[p] = p % (size_t) w->width + 1 < (size_t) w->width && w->contour[p + 1];
+        w->south[p] = p + (size_t) w->width < w->pixels && w->contour[p + (size_t) w->width];
+      }
+  celd_lap_pin (w->width, w->height, w->axis, 1, w->t, w->east, w->south, w->diagonal, w->b);
+  status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, NULL, &set_up, &laplace);
+  if (!status)
+    status = celd_lap_solve (laplace, 1, w->b, w->t, THICKNESS_ERROR, &solve, NULL);
+  celd_lap_free (laplace);
+  return status;
+}
+
+/* ------------------------------------------------------------------ what the region takes */
+
+static void
+take_contour (Window *w)
+{
+  for (size_t p = 0; p < w->pixels; p++)
+    w->open[p] = w->contour[p] && sqrt (w->d1[p]) < w->t[p] - TIE;
+  spread (w, w->taken);
+}
+
+/* Does pixel (x,y) of the window touch a farther region, or the rest of the sheet, of which nothing is known here? */
+static bool
+touches_others (const Window *w, int x, int y)
+{
+  size_t p = (size_t) y * (size_t) w->width + (size_t) x;
+
+  if ((x == 0 && w->left > 0) || (x + 1 == w->width && w->left + w->width < w->sheet->width) ||
+      (y == 0 && w->top > 0) || (y + 1 == w->height && w->top + w->height < w->sheet->height))
+    return true;
+  return (x > 0 && w->farther[p - 1]) || (x + 1 < w->width && w->farther[p + 1]) ||
+         (y > 0 && w->farther[p - (size_t) w->width]) || (y + 1 < w->height && w->farther[p + (size_t) w->width]);
+}
+
+/* Takes the small pieces of contour that are left over and touch no farther region. */
+static CeldStatus
+fill_gaps (Window *w, const CeldRun *run)
+{
+  CeldLabels     gaps = { 0 };
+  CeldComponent *list = NULL;
+  double         stroke = w->mean - 1, limit = fmax (LEAST_GAP, 2 * stroke * stroke);
+  size_t         n = 0, p = 0;
+  CeldStatus     status = celd_labels_new (w->width, w->height, &gaps);
+
+  for (p = 0; p < w->pixels && !status; p++)
+    gaps.data[p] = w->contour[p] && !w->taken[p];
+  if (!status)
+    status = celd_components (&gaps, 0, false, run, &gaps, &list, &n);
+  if (status)
+    goto done;
+  for (int y = 0; y < w->height; y++)
+    for (int x = 0; x < w->width; x++)
+      if (CELD_AT (&gaps, x, y) && touches_others (w, x, y))
+        list[CELD_AT (&gaps, x, y) - 1].label = 0; /* not to be filled */
+  for (p = 0; p < w->pixels; p++)
+    if (gaps.data[p] && list[gaps.data[p] - 1].label && (double) list[gaps.data[p] - 1].area < limit)
+      w->taken[p] = 1;
+done:
+  celd_free (gaps.data);
+  celd_free (list);
+  return status;
+}
+
+static void
+write_window (const Window *w)
+{
+  const uint8_t *taken = w->taken;
+
+  for (int y = 0; y < w->height; y++)
+    for (int x = 0; x < w->width; x++)
+      if (*taken++)
+        sheet_row (w, y)[x] = w->k;
+}
+
+CeldStatus
+celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldRun *run)
+{
+  Window     w = { .sheet = sheet, .k = k };
+  CeldPart   part[4];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 0.2), second = celd_run_part (&part[1], run, 0.2, 0.4);
+  CeldRun    third = celd_run_part (&part[2], run, 0.4, 0.9), fourth = celd_run_part (&part[3], run, 0.9, 1);
+  CeldStatus status;
+
+  if (!sheet->box[k - 1].width || !find_window (&w))
+    return celd_step (run, 1);
+  status = open_window (&w);
+  if (status)
+    goto done;
+  read_window (&w);
+  status = celd_nearest (w.width, w.height, w.front, &first, w.d1, w.near1);
+  if (!status)
+    status = celd_nearest (w.width, w.height, w.farther, &second, w.d2, w.near2);
+  if (status)
+    goto done;
+  spread (&w, w.contour);
+  find_axis (&w);
+  trim_contour (&w);
+  status = propagate_thickness (&w, &third);
+  if (status)
+    goto done;
+  take_contour (&w);
+  status = fill_gaps (&w, &fourth);
+  if (!status)
+    write_window (&w);
+done:
+  close_window (&w);
+  return status;
+}

@@ -1,0 +1,220 @@
+/* Depth expansion (section 3.3): ink goes to the region that drew it.
+ *
+ * Regions are taken front to back, all paper of a rank at once, so that ink between equal ranks stays at that rank.
+ * Each takes its share of the ink that is still free (expand-region.c) and is then removed.  The last one has no
+ * farther region to share with; what is left when its turn comes goes to the nearest region, pixel by pixel.
+ *
+ * Contour is ink below one half: an antialiased pixel goes where the larger part of it is.  A patch of a rank that is
+ * ink throughout, like a black shoe with a scribble of its own, keeps its pixels as if they were paper.  Paper never
+ * changes.  Ranks in one picture of one rank, of ink alone or of paper alone come out as they went in.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "ownership/expand.h"
+
+#include <stdlib.h>
+
+#define LEAST_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
+
+int
+celd_compare_ranks (const void *a, const void *b)
+{
+  uint32_t p = *(const uint32_t *) a, q = *(const uint32_t *) b;
+
+  return (p > q) - (p < q);
+}
+
+/* First one of each run in a row, then sorted and thinned. */
+CeldStatus
+celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
+{
+  uint32_t *rank = NULL;
+  size_t    found = 0, kept = 0;
+
+  for (int y = 0; y < ranks->height; y++)
+    for (int x = 0; x < ranks->width; x++)
+      if (x == 0 || CELD_AT (ranks, x, y) != CELD_AT (ranks, x - 1, y))
+        {
+          uint32_t *grown = celd_grow (rank, found + 1, sizeof *grown);
+
+          if (!grown)
+            {
+              celd_free (rank);
+              return CELD_NO_MEMORY;
+            }
+          rank = grown;
+          rank[found++] = CELD_AT (ranks, x, y);
+        }
+  qsort (rank, found, sizeof *rank, celd_compare_ranks);
+  for (size_t i = 0; i < found; i++)
+    if (i == 0 || rank[i] != rank[i - 1])
+      rank[kept++] = rank[i];
+  *list = rank;
+  *n    = kept;
+  return CELD_OK;
+}
+
+/* Ranks become levels. */
+static void
+number_pixels (const CeldLabels *ranks, CeldSheet *sheet)
+{
+  uint32_t *level = sheet->level;
+
+  for (int y = 0; y < ranks->height; y++)
+    for (int x = 0; x < ranks->width; x++, level++)
+      {
+        const uint32_t *rank = &CELD_AT (ranks, x, y);
+
+        if (x > 0 && rank[0] == rank[-1])
+          *level = level[-1];
+        else
+          {
+            const uint32_t *found = bsearch (rank, sheet->rank, sheet->n, sizeof *rank, celd_compare_ranks);
+
+            *level = (uint32_t) (found - sheet->rank) + 1;
+          }
+      }
+}
+
+/* Frees the ink of all patches that have paper, and of those that are too small to be meant. */
+static CeldStatus
+free_ink (const CeldPlane *ink, const CeldRun *run, CeldSheet *sheet)
+{
+  CeldLabels     level = { sheet->width, sheet->height, (size_t) sheet->width, sheet->level }, patch = { 0 };
+  CeldComponent *list = NULL;
+  size_t         n = 0, p;
+  CeldStatus     status = celd_labels_new (sheet->width, sheet->height, &patch);
+
+  if (!status)
+    status = celd_components (&level, 0, false, run, &patch, &list, &n);
+  if (status)
+    goto done;
+  for (p = 0; p < n; p++)
+    if (list[p].area < LEAST_PATCH)
+      list[p].label = 0; /* its ink is free */
+  for (int y = 0; y < sheet->height; y++)
+    for (int x = 0; x < sheet->width; x++)
+      if (celd_is_paper (CELD_AT (ink, x, y)))
+        list[CELD_AT (&patch, x, y) - 1].label = 0;
+  for (int y = 0; y < sheet->height; y++)
+    for (int x = 0; x < sheet->width; x++)
+      if (!celd_is_paper (CELD_AT (ink, x, y)) && !list[CELD_AT (&patch, x, y) - 1].label)
+        CELD_AT (&level, x, y) = 0;
+done:
+  celd_free (patch.data);
+  celd_free (list);
+  return status;
+}
+
+/* How deep ink lies, and the box of each level. */
+static CeldStatus
+measure_sheet (const CeldRun *run, CeldSheet *sheet)
+{
+  uint8_t   *settled = celd_alloc (sheet->pixels, 1);
+  CeldStatus status = settled ? CELD_OK : CELD_NO_MEMORY;
+  size_t     p;
+
+  for (p = 0; p < sheet->pixels && !status; p++)
+    settled[p] = sheet->level[p] != 0;
+  if (!status)
+    status = celd_distance (sheet->width, sheet->height, settled, run, sheet->depth_in_ink);
+  celd_free (settled);
+  for (p = 0; p < sheet->pixels && !status; p++)
+    if (sheet->level[p])
+      {
+        int       x = (int) (p % (size_t) sheet->width), y = (int) (p / (size_t) sheet->width);
+        CeldRect *box = &sheet->box[sheet->level[p] - 1];
+        int       left = box->width && box->x < x ? box->x : x;
+        int       right = box->width && box->x + box->width > x ? box->x + box->width : x + 1;
+        int       top = box->width ? box->y : y;
+
+        *box = (CeldRect) { left, top, right - left, y + 1 - top };
+      }
+  return status;
+}
+
+/* Front to back; the last level gets what is left. */
+static CeldStatus
+expand_regions (const CeldRun *run, CeldSheet *sheet)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = sheet->n; k > 1 && !status; k--)
+    {
+      CeldPart part;
+      CeldRun  turn = celd_run_part (&part, run, (double) (sheet->n - k) / (double) sheet->n,
+                                     (double) (sheet->n - k + 1) / (double) sheet->n);
+
+      status = celd_expand_region (sheet, (uint32_t) k, &turn);
+    }
+  return status;
+}
+
+/* Free ink goes to the nearest pixel that is not free; without any it stays free. */
+static CeldStatus
+settle_rest (const CeldRun *run, CeldSheet *sheet)
+{
+  uint8_t   *settled = celd_alloc (sheet->pixels, 1);
+  int32_t   *nearest = celd_alloc (sheet->pixels, sizeof *nearest);
+  CeldStatus status = settled && nearest ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t p = 0; p < sheet->pixels && !status; p++)
+    settled[p] = sheet->level[p] != 0;
+  if (!status)
+    status = celd_nearest (sheet->width, sheet->height, settled, run, sheet->depth_in_ink, nearest);
+  for (size_t p = 0; p < sheet->pixels && !status; p++)
+    if (!settled[p] && nearest[p] >= 0)
+      sheet->level[p] = sheet->level[nearest[p]];
+  celd_free (settled);
+  celd_free (nearest);
+  return status;
+}
+
+static void
+write_ranks (const CeldSheet *sheet, const CeldLabels *ranks, CeldLabels *expanded)
+{
+  const uint32_t *level = sheet->level;
+
+  for (int y = 0; y < sheet->height; y++)
+    for (int x = 0; x < sheet->width; x++, level++)
+      CELD_AT (expanded, x, y) = *level ? sheet->rank[*level - 1] : CELD_AT (ranks, x, y);
+}
+
+CeldStatus
+celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run, CeldLabels *expanded)
+{
+  CeldSheet  sheet = { 0 };
+  CeldPart   part[4];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 0.05), second = celd_run_part (&part[1], run, 0.05, 0.1);
+  CeldRun    third = celd_run_part (&part[2], run, 0.1, 0.9), fourth = celd_run_part (&part[3], run, 0.9, 1);
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (ink, ranks) || !CELD_SAME_SIZE (ranks, expanded))
+    return CELD_BAD_SIZE;
+  sheet.width = ranks->width;
+  sheet.height = ranks->height;
+  sheet.pixels = (size_t) ranks->width * (size_t) ranks->height;
+  sheet.level = celd_alloc (sheet.pixels, sizeof *sheet.level);
+  sheet.depth_in_ink = celd_alloc (sheet.pixels, sizeof *sheet.depth_in_ink);
+  status = sheet.level && sheet.depth_in_ink ? celd_list_ranks (ranks, &sheet.rank, &sheet.n) : CELD_NO_MEMORY;
+  if (status)
+    goto done;
+  sheet.box = celd_alloc0 (sheet.n, sizeof *sheet.box);
+  status = sheet.box ? CELD_OK : CELD_NO_MEMORY;
+  if (status)
+    goto done;
+  number_pixels (ranks, &sheet);
+  if ((status = free_ink (ink, &first, &sheet)) == CELD_OK &&
+      (status = measure_sheet (&second, &sheet)) == CELD_OK &&
+      (status = expand_regions (&third, &sheet)) == CELD_OK)
+    status = settle_rest (&fourth, &sheet);
+  if (!status)
+    write_ranks (&sheet, ranks, expanded);
+done:
+  celd_free (sheet.level);
+  celd_free (sheet.depth_in_ink);
+  celd_free (sheet.rank);
+  celd_free (sheet.box);
+  return status;
+}

@@ -1,0 +1,49 @@
+/* What expand.c (the whole picture), expand-region.c (one region) and the steps from pictures of levels share.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_EXPAND_H
+#define CELD_EXPAND_H
+
+#include "base/base.h"
+
+/* The picture while it is expanded; tight planes. */
+typedef struct
+{
+  int       width, height;
+  size_t    pixels;
+  uint32_t *level;          /* 1 .. n from back to front; 0 for ink that nobody has taken yet */
+  int32_t  *depth_in_ink;   /* squared distance to the nearest pixel that was not free at the beginning */
+  uint32_t *rank;           /* level k stands for rank[k-1] */
+  CeldRect *box;            /* of the pixels of level k at the beginning: box[k-1]; width 0 if there are none */
+  size_t    n;
+} CeldSheet;
+
+/* The distinct ranks of a picture in rising order; end with celd_free. */
+CeldStatus celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n);
+int        celd_compare_ranks (const void *a, const void *b);
+
+/* own-levels.c: whose each pixel is, by labels 1 .. n that stand for levels, or for regions of levels, from the
+ * farthest on.  Of label k: its place in depth order[k - 1], from 0; its level as it came, and its region (0 without
+ * regions). */
+typedef struct
+{
+  CeldOwnership own;
+  uint32_t     *order, *region;
+  float        *level;
+  size_t        n;
+} CeldOwnLevels;
+
+/* See celd_expand_levels.  To be cleared whatever it returns. */
+CeldStatus celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                CeldOwnLevels *made);
+void       celd_own_levels_clear (CeldOwnLevels *made);
+/* layer-levels.c: the art cut by that. */
+CeldStatus celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
+                                bool complete, const CeldRun *run, CeldLayers **layers);
+
+/* Gives free ink to the foremost level that has not had its turn, k. */
+CeldStatus celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldRun *run);
+
+#endif

@@ -1,0 +1,285 @@
+/* The edges of ink are followed between pixels, ink on the left hand, diagonal ink connected, the world round the
+ * picture paper; each place is moved to where the ink is one half.
+ *
+ * What lies behind the ink is looked for along the normal, which is taken over a few places so that the steps of
+ * pixels do not show.  Cost: one pass over the picture, and the length of the edges times the thickness of the ink.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "ownership/ink-edges.h"
+
+#include <math.h>
+
+#define INK     1    /* bits of a pixel of the chart */
+#define SEEN    2    /* the edge above it has been followed */
+#define SMOOTH  3    /* places to either side that the normal is taken over */
+#define FARTHEST 512 /* pixels: ink is no contour where it is thicker */
+#define CORNER  0.82f /* cosine of the turn that an edge makes at a corner */
+#define REACH   4    /* places to either side that a turn is measured over */
+#define SKEW    3    /* places beside a corner whose normals go askew */
+
+/* The picture with a margin of one pixel. */
+typedef struct
+{
+  const CeldPlane *ink;
+  uint8_t         *chart;
+  int              stride;
+  CeldInkEdges    *edges;
+} Tracer;
+
+static uint8_t *
+chart_at (const Tracer *t, int x, int y)
+{
+  return t->chart + (size_t) (y + 1) * (size_t) t->stride + (x + 1);
+}
+
+static CeldStatus
+read_chart (Tracer *t)
+{
+  const CeldPlane *ink = t->ink;
+
+  t->stride = ink->width + 2;
+  t->chart  = celd_alloc0 ((size_t) ink->height + 2, (size_t) t->stride);
+  for (int y = 0; t->chart && y < ink->height; y++)
+    for (int x = 0; x < ink->width; x++)
+      *chart_at (t, x, y) = celd_is_paper (CELD_AT (ink, x, y)) ? 0 : INK;
+  return t->chart ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* ------------------------------------------------------------------ following */
+
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner, the pixels ahead on the left and on the
+ * right. */
+static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
+static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
+static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
+
+static bool
+inside (const CeldPlane *ink, int x, int y)
+{
+  return x >= 0 && y >= 0 && x < ink->width && y < ink->height;
+}
+
+/* The place between the paper at (x,y) and the ink at (u,v). */
+static CeldEdgePoint
+place (const CeldPlane *ink, int x, int y, int u, int v)
+{
+  bool   known = inside (ink, x, y);
+  double bright = known ? fmin ((double) CELD_AT (ink, x, y), 1) : 1, dark = (double) CELD_AT (ink, u, v);
+  double along = bright == bright && known ? (bright - 0.5) / (bright - dark) : 0.5;
+
+  return (CeldEdgePoint) { .x = (float) (x + 0.5 + along * (u - x)), .y = (float) (y + 0.5 + along * (v - y)),
+                           .through = INFINITY, .paper = known ? y * ink->width + x : -1, .across = -1 };
+}
+
+static CeldStatus
+add_point (CeldInkEdges *e, CeldEdgePoint point)
+{
+  CeldEdgePoint *grown = celd_grow (e->point, e->n_points + 1, sizeof *grown);
+
+  if (!grown)
+    return CELD_NO_MEMORY;
+  e->point = grown;
+  grown[e->n_points++] = point;
+  return CELD_OK;
+}
+
+/* Follows the edge above the paper at (x,y). */
+static CeldStatus
+follow (Tracer *t, int x, int y)
+{
+  CeldInkEdges *e = t->edges;
+  CeldEdgeLoop  loop = { .first = e->n_points }, *loops;
+  int           at_x = x, at_y = y, heading = 0;
+
+  do
+    {
+      int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
+
+      if (add_point (e, place (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
+        return CELD_NO_MEMORY;
+      if (heading == 0)
+        *chart_at (t, in_x, in_y) |= SEEN;
+      at_x += step_x[heading];
+      at_y += step_y[heading];
+      if (*chart_at (t, at_x + right_x[heading], at_y + right_y[heading]) & INK)
+        heading = (heading + 1) & 3;
+      else if (!(*chart_at (t, at_x + left_x[heading], at_y + left_y[heading]) & INK))
+        heading = (heading + 3) & 3;
+    }
+  while (at_x != x || at_y != y || heading != 0);
+  loop.n = e->n_points - loop.first;
+  loops  = celd_grow (e->loop, e->n_loops + 1, sizeof *loops);
+  if (!loops)
+    return CELD_NO_MEMORY;
+  e->loop = loops;
+  loops[e->n_loops++] = loop;
+  return CELD_OK;
+}
+
+static CeldStatus
+follow_all (Tracer *t, const CeldRun *run)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y <= t->ink->height && status == CELD_OK; y++)
+    {
+      const uint8_t *row = chart_at (t, 0, y), *above = row - t->stride;
+
+      for (int x = 0; x < t->ink->width && status == CELD_OK; x++)
+        if (!row[x] && above[x] & INK)
+          status = follow (t, x, y);
+      if (status == CELD_OK && (y & 255) == 255)
+        status = celd_step (run, 0.5 * y / t->ink->height);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ corners */
+
+float
+celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
+{
+  return hypotf (a->x - b->x, a->y - b->y);
+}
+
+/* Does the edge turn sharply at place i? */
+static bool
+turns (const CeldEdgePoint *point, size_t n, size_t i)
+{
+  const CeldEdgePoint *a = &point[(i + n - REACH % n) % n], *p = &point[i], *b = &point[(i + REACH) % n];
+  float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
+
+  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER * before * after;
+}
+
+static void
+find_corners (CeldEdgePoint *point, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    point[i].step = celd_edge_distance (&point[i], &point[(i + 1) % n]);
+  for (size_t i = 0; i < n; i++)
+    if (turns (point, n, i))
+      {
+        point[i].corner = true;
+        for (size_t k = 0; k <= SKEW; k++)
+          point[(i + k) % n].askew = point[(i + n - k % n) % n].askew = true;
+      }
+}
+
+/* ------------------------------------------------------------------ what lies behind the ink */
+
+static void
+find_normals (CeldEdgePoint *point, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    {
+      const CeldEdgePoint *a = &point[(i + n - SMOOTH % n) % n], *b = &point[(i + SMOOTH) % n];
+      float                x = b->x - a->x, y = b->y - a->y, length = hypotf (x, y);
+
+      if (!(length > 0))
+        {
+          a      = &point[(i + n - 1) % n];
+          x      = point[i].x - a->x;
+          y      = point[i].y - a->y;
+          length = fmaxf (hypotf (x, y), 1e-6f);
+        }
+      point[i].nx = y / length;
+      point[i].ny = -x / length;
+    }
+}
+
+static float
+clamp (float value, int last)
+{
+  return value < 0 ? 0 : value > (float) last ? (float) last : value;
+}
+
+/* The ink at a place, between the centres of pixels. */
+static float
+ink_at (const CeldPlane *ink, float x, float y)
+{
+  float u = clamp (x - 0.5f, ink->width - 1), v = clamp (y - 0.5f, ink->height - 1);
+  int   left = (int) u, top = (int) v, right = left + (left + 1 < ink->width), below = top + (top + 1 < ink->height);
+  float a = u - (float) left, b = v - (float) top;
+  float above = CELD_AT (ink, left, top) * (1 - a) + CELD_AT (ink, right, top) * a;
+
+  return above * (1 - b) + (CELD_AT (ink, left, below) * (1 - a) + CELD_AT (ink, right, below) * a) * b;
+}
+
+/* Where between `from` and `to` along the normal ink becomes paper. */
+static float
+find_crossing (const CeldPlane *ink, const CeldEdgePoint *p, float from, float to)
+{
+  for (int i = 0; i < 5; i++)
+    {
+      float middle = (from + to) / 2;
+
+      if (celd_is_paper (ink_at (ink, p->x + middle * p->nx, p->y + middle * p->ny)))
+        to = middle;
+      else
+        from = middle;
+    }
+  return (from + to) / 2;
+}
+
+static void
+look_through (const Tracer *t, CeldEdgePoint *p)
+{
+  for (float s = 1; s < FARTHEST; s++)
+    {
+      int x = celd_round_down (p->x + s * p->nx), y = celd_round_down (p->y + s * p->ny);
+
+      if (!inside (t->ink, x, y))
+        return;
+      if (!(*chart_at (t, x, y) & INK))
+        {
+          p->across  = y * t->ink->width + x;
+          p->through = fmaxf (find_crossing (t->ink, p, s - 1, s + 0.5f), 0.5f);
+          return;
+        }
+    }
+}
+
+static CeldStatus
+look_through_all (const Tracer *t, const CeldRun *run)
+{
+  CeldInkEdges *e = t->edges;
+
+  for (size_t k = 0; k < e->n_loops; k++)
+    {
+      find_corners (&e->point[e->loop[k].first], e->loop[k].n);
+      find_normals (&e->point[e->loop[k].first], e->loop[k].n);
+      for (size_t i = 0; i < e->loop[k].n; i++)
+        look_through (t, &e->point[e->loop[k].first + i]);
+    }
+  return celd_step (run, 1);
+}
+
+CeldStatus
+celd_ink_edges_new (const CeldPlane *ink, const CeldRun *run, CeldInkEdges *edges)
+{
+  CeldInkEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
+  Tracer       t = { .ink = ink, .edges = &made };
+  CeldStatus   status = read_chart (&t);
+
+  if (status == CELD_OK)
+    status = follow_all (&t, run);
+  if (status == CELD_OK)
+    status = look_through_all (&t, run);
+  celd_free (t.chart);
+  if (status == CELD_OK)
+    *edges = made;
+  else
+    celd_ink_edges_clear (&made);
+  return status;
+}
+
+void
+celd_ink_edges_clear (CeldInkEdges *edges)
+{
+  celd_free (edges->point);
+  celd_free (edges->loop);
+  *edges = (CeldInkEdges) { 0 };
+}

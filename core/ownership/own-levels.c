@@ -1,0 +1,186 @@
+/* Whose each pixel is, from a picture of levels in any encoding, as the steps of a graph have it: they have neither
+ * labels nor an order at hand.
+ *
+ * Every level is a label, or with regions every region of a level, numbered from the farthest.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "ownership/expand.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Not a number is 0, and so is -0. */
+static float
+clean_level (float level)
+{
+  return level == level ? level + 0.f : 0;
+}
+
+/* The bits of a float as a number that sorts as the float does. */
+static uint32_t
+rank_of_level (float level)
+{
+  float    number = clean_level (level);
+  uint32_t bits;
+
+  memcpy (&bits, &number, sizeof bits);
+  return bits & UINT32_C (0x80000000) ? ~bits : bits | UINT32_C (0x80000000);
+}
+
+/* ------------------------------------------------------------------ levels and regions as labels */
+
+/* Replaces values by their places, from 1, among the distinct ones in rising order, of which there are *n. */
+static CeldStatus
+number (CeldLabels *values, size_t *n)
+{
+  size_t     pixels = (size_t) values->width * (size_t) values->height;
+  uint32_t  *list = NULL, last = 0;
+  CeldStatus status = celd_list_ranks (values, &list, n);
+
+  for (size_t p = 0; p < pixels && !status; p++)
+    {
+      uint32_t here = values->data[p];
+
+      if (p && here == last)
+        values->data[p] = values->data[p - 1];
+      else
+        {
+          const uint32_t *found = bsearch (&here, list, *n, sizeof here, celd_compare_ranks);
+
+          values->data[p] = (uint32_t) (found - list) + 1;
+        }
+      last = here;
+    }
+  celd_free (list);
+  return status;
+}
+
+/* Parts the levels, numbers of which are in `label`, by regions. */
+static CeldStatus
+part_levels (const CeldLabels *regions, CeldLabels *label, CeldLabels *scratch, size_t *n)
+{
+  size_t     pixels = (size_t) label->width * (size_t) label->height, n_regions = 0;
+  CeldStatus status;
+
+  for (int y = 0; y < label->height; y++)
+    memcpy (&CELD_AT (scratch, 0, y), &CELD_AT (regions, 0, y), (size_t) label->width * sizeof (uint32_t));
+  status = number (scratch, &n_regions);
+  if (!status && *n > UINT32_MAX / n_regions)
+    status = CELD_NO_MEMORY;
+  for (size_t p = 0; p < pixels && !status; p++)
+    label->data[p] = (uint32_t) ((label->data[p] - 1) * n_regions) + scratch->data[p];
+  return status ? status : number (label, n);
+}
+
+/* What the labels stand for. */
+static CeldStatus
+describe_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels *made)
+{
+  const CeldLabels *label = &made->own.owner;
+
+  made->order  = celd_alloc (made->n, sizeof *made->order);
+  made->level  = celd_alloc (made->n, sizeof *made->level);
+  made->region = celd_alloc (made->n, sizeof *made->region);
+  if (!made->order || !made->level || !made->region)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < label->height; y++)
+    for (int x = 0; x < label->width; x++)
+      {
+        size_t k = CELD_AT (label, x, y) - 1;
+
+        made->level[k]  = clean_level (CELD_AT (levels, x, y));
+        made->region[k] = regions ? CELD_AT (regions, x, y) : 0;
+      }
+  for (size_t k = 0; k < made->n; k++)
+    made->order[k] = k ? made->order[k - 1] + (made->level[k] > made->level[k - 1]) : 0;
+  return CELD_OK;
+}
+
+static CeldStatus
+number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels *made)
+{
+  CeldLabels *label = &made->own.owner;
+  CeldStatus  status;
+
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      CELD_AT (label, x, y) = rank_of_level (CELD_AT (levels, x, y));
+  status = number (label, &made->n);
+  if (!status && regions)
+    status = part_levels (regions, label, &made->own.under, &made->n);
+  return status ? status : describe_labels (levels, regions, made);
+}
+
+/* ------------------------------------------------------------------ the artist's strokes over ink */
+
+/* The label with most pixels of those of the region; 0: there is none. */
+static uint32_t
+find_region (const CeldOwnLevels *made, const size_t *area, uint32_t region)
+{
+  uint32_t found = 0;
+
+  for (size_t k = 0; k < made->n; k++)
+    if (made->region[k] == region && (!found || area[k] > area[found - 1]))
+      found = (uint32_t) k + 1;
+  return found;
+}
+
+/* Strokes that name regions name labels. */
+static CeldStatus
+number_corrections (const CeldOwnLevels *made, const CeldLabels *corrections, CeldLabels *numbered)
+{
+  const CeldLabels *label = &made->own.owner;
+  size_t           *area = celd_alloc0 (made->n, sizeof *area);
+  CeldStatus        status = area ? celd_labels_new (label->width, label->height, numbered) : CELD_NO_MEMORY;
+
+  for (size_t p = 0; p < (size_t) label->width * (size_t) label->height && !status; p++)
+    area[label->data[p] - 1]++;
+  for (int y = 0; y < label->height && !status; y++)
+    for (int x = 0; x < label->width; x++)
+      {
+        const uint32_t *stroke = &CELD_AT (corrections, x, y);
+
+        if (*stroke)
+          CELD_AT (numbered, x, y) = x && stroke[-1] == *stroke ? CELD_AT (numbered, x - 1, y)
+                                                                : find_region (made, area, *stroke);
+      }
+  celd_free (area);
+  return status;
+}
+
+/* ------------------------------------------------------------------ both together */
+
+CeldStatus
+celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                     const CeldLabels *corrections, CeldExpansion method, const CeldRun *run, CeldOwnLevels *made)
+{
+  CeldLabels numbered = { 0 };
+  CeldStatus status;
+
+  *made = (CeldOwnLevels) { 0 };
+  if (!CELD_SAME_SIZE (ink, levels) || (regions && !CELD_SAME_SIZE (ink, regions)) ||
+      (corrections && !CELD_SAME_SIZE (ink, corrections)))
+    return CELD_BAD_SIZE;
+  if (corrections && !regions)
+    return CELD_BAD_VALUE;
+  status = celd_ownership_new (levels->width, levels->height, &made->own);
+  if (!status)
+    status = number_labels (levels, regions, made);
+  if (!status && corrections)
+    status = number_corrections (made, corrections, &numbered);
+  if (!status)
+    status = celd_own (ink, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method, run,
+                       &made->own);
+  celd_free (numbered.data);
+  return status;
+}
+
+void
+celd_own_levels_clear (CeldOwnLevels *made)
+{
+  celd_ownership_clear (&made->own);
+  celd_free (made->order);
+  celd_free (made->level);
+  celd_free (made->region);
+}

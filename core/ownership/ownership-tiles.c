@@ -1,0 +1,231 @@
+/* Where an edit touches whose the ink is: only there it is claimed again.
+ *
+ * Pens are measured everywhere, which is soon done, and compared: what a place of an edge claims now, but did not
+ * before, or the other way round, is marked.  So is where labels settle pixels without claims, and where claims meet of
+ * two labels that have changed places in depth.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/tiles.h"
+#include "image/image.h"
+#include "ownership/ink-edges.h"
+#include "ownership/ownership.h"
+#include "ownership/pens.h"
+
+#include <math.h>
+
+#define BOTH   (CELD_TILE_CLAIM | CELD_TILE_SHARE)
+#define NARROW 0.9f     /* cosine between the sides of a band that hardly opens */
+#define BULGE  0.03f    /* of its length that it may then stick out between them */
+
+static float
+least (float a, float b)
+{
+  return a < b ? a : b;
+}
+
+static float
+greatest (float a, float b)
+{
+  return a > b ? a : b;
+}
+
+/* Round two rays of this length. */
+static CeldTileSpan
+span_of (const CeldTiles *tiles, const CeldRay *a, const CeldRay *b, float length, float margin)
+{
+  float ax = a->x + length * a->nx, ay = a->y + length * a->ny, bx = b->x + length * b->nx, by = b->y + length * b->ny;
+
+  return celd_tile_span (tiles, least (least (a->x, b->x), least (ax, bx)) - margin,
+                         least (least (a->y, b->y), least (ay, by)) - margin,
+                         greatest (greatest (a->x, b->x), greatest (ax, bx)) + margin,
+                         greatest (greatest (a->y, b->y), greatest (ay, by)) + margin);
+}
+
+/* Long lines are taken piece by piece, so that slanting ones do not mark a large square. */
+static int
+line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line, CeldTileSpan span[CELD_SPANS])
+{
+  float reach = celd_claim_reach (ink, line), piece = greatest (CELD_TILE, reach / (CELD_SPANS - 1)), from = 0;
+  int   n = 0;
+
+  for (; from < reach && n < CELD_SPANS; from += piece)
+    {
+      CeldRay a = celd_claim_place (line, from), b = celd_claim_place (line, least (from + piece, reach));
+
+      span[n++] = span_of (tiles, &a, &b, line->width, 1);
+    }
+  return n;
+}
+
+int
+celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldTileSpan span[CELD_SPANS])
+{
+  const CeldRay *a = &claim->from, *b = &claim->to;
+  bool           narrow = a->nx * b->nx + a->ny * b->ny > NARROW;
+
+  if (claim->shape == CELD_CLAIM_LINE)
+    return line_tiles (ink, tiles, claim, span);
+  if (claim->shape == CELD_CLAIM_BAND)
+    span[0] = span_of (tiles, a, b, claim->length, 1 + (narrow ? BULGE : 1) * claim->length);
+  else
+    span[0] = span_of (tiles, a, a, 0, claim->width + 1);
+  return 1;
+}
+
+/* ------------------------------------------------------------------ pixels that labels settle */
+
+static void
+compare_pixels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect rect, const bool *solid,
+                CeldTiles *tiles)
+{
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    for (int x = rect.x; x < rect.x + rect.width; x++)
+      {
+        uint32_t label = CELD_AT (in->labels, x, y);
+        bool     was_settled = CELD_AT (&kept->over, x, y) == -INFINITY;
+        bool     settled = celd_is_paper (CELD_AT (in->ink, x, y)) || solid[label - 1];
+
+        if (settled != was_settled || (settled && CELD_AT (&kept->owner, x, y) != label))
+          *celd_tile_of (tiles, x, y) |= BOTH;
+      }
+}
+
+/* Everywhere if a label has become solid or ceased to be. */
+static CeldRect
+changed_labels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect new_labels, const bool *solid)
+{
+  for (size_t k = 0; k < in->n; k++)
+    if (solid[k] != (k < kept->pens.n && kept->solid[k]))
+      return (CeldRect) { 0, 0, in->ink->width, in->ink->height };
+  return new_labels;
+}
+
+/* ------------------------------------------------------------------ claims */
+
+static void
+mark_claims (const CeldPlane *ink, const CeldClaim *claim, size_t n, CeldTiles *tiles)
+{
+  for (size_t i = 0; i < n; i++)
+    {
+      CeldTileSpan span[CELD_SPANS];
+      int          m = celd_claim_tiles (ink, tiles, &claim[i], span);
+
+      for (int j = 0; j < m; j++)
+        celd_tiles_mark (tiles, span[j], BOTH);
+    }
+}
+
+static void
+compare_claims (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+{
+  for (size_t k = 0; k < new->edges->n_loops; k++)
+    {
+      const CeldEdgeLoop *loop = &new->edges->loop[k];
+
+      if (!memcmp (old->pen + loop->first, new->pen + loop->first, loop->n * sizeof *new->pen))
+        continue;
+      for (size_t i = 0; i < loop->n; i++)
+        {
+          CeldClaim before[CELD_CLAIMS], after[CELD_CLAIMS];
+          size_t    n = celd_pen_claims (old, loop, i, before), m = celd_pen_claims (new, loop, i, after);
+
+          if (n == m && !memcmp (before, after, n * sizeof *after))
+            continue;
+          mark_claims (ink, before, n, tiles);
+          mark_claims (ink, after, m, tiles);
+        }
+    }
+}
+
+/* ------------------------------------------------------------------ labels that change places in depth */
+
+/* Labels that claim ink of a tile. */
+typedef struct { uint32_t label[7], n; } Claimants;
+
+#define MANY 7 /* more of them are not told apart */
+
+static int
+compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
+{
+  return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
+}
+
+static void
+add_claimant (uint32_t label, Claimants *c)
+{
+  for (uint32_t i = 0; i < c->n && i < MANY; i++)
+    if (c->label[i] == label)
+      return;
+  if (c->n < MANY)
+    c->label[c->n] = label;
+  c->n++;
+}
+
+static void
+list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, Claimants *list)
+{
+  CeldTileSpan span[CELD_SPANS];
+  int          n = celd_claim_tiles (ink, tiles, claim, span);
+
+  for (int i = 0; i < n; i++)
+    for (int y = span[i].top; y <= span[i].bottom; y++)
+      for (int x = span[i].left; x <= span[i].right; x++)
+        add_claimant (claim->label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
+}
+
+static void
+list_claimants (const CeldPlane *ink, const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
+{
+  for (size_t k = 0; k < pens->edges->n_loops; k++)
+    for (size_t i = 0; i < pens->edges->loop[k].n; i++)
+      {
+        CeldClaim claim[CELD_CLAIMS];
+        size_t    n = celd_pen_claims (pens, &pens->edges->loop[k], i, claim);
+
+        for (size_t j = 0; j < n; j++)
+          list_claim (ink, tiles, &claim[j], list);
+      }
+}
+
+/* Has any of these passed another?  New labels have. */
+static bool
+have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
+{
+  if (c->n > MANY)
+    return true;
+  for (uint32_t i = 0; i < c->n; i++)
+    for (uint32_t j = 0; j < i; j++)
+      if (c->label[i] > old->n || c->label[j] > old->n ||
+          compare_levels (old, c->label[i], c->label[j]) != compare_levels (new, c->label[i], c->label[j]))
+        return true;
+  return false;
+}
+
+static CeldStatus
+compare_depths (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+{
+  size_t     n = (size_t) tiles->across * (size_t) tiles->down;
+  Claimants *list;
+
+  if (old->n == new->n && !memcmp (old->level, new->level, new->n * sizeof *new->level))
+    return CELD_OK;
+  list = celd_alloc0 (n, sizeof *list);
+  if (!list)
+    return CELD_NO_MEMORY;
+  list_claimants (ink, new, tiles, list);
+  for (size_t i = 0; i < n; i++)
+    if (have_moved (&list[i], old, new))
+      tiles->at[i] |= BOTH;
+  celd_free (list);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_owners_compare (const CeldOwnersKept *kept, const CeldOwnersInput *input, CeldRect new_labels,
+                     const CeldPens *pens, const bool *solid, CeldTiles *tiles)
+{
+  compare_pixels (kept, input, changed_labels (kept, input, new_labels, solid), solid, tiles);
+  compare_claims (input->ink, &kept->pens, pens, tiles);
+  return compare_depths (input->ink, &kept->pens, pens, tiles);
+}

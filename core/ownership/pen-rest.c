@@ -1,0 +1,188 @@
+/* Ink that no pen explains: what is settled before anybody claims it, and what is left when all have.
+ *
+ * Paper is its label's, and so is all of a label that is hardly anything but ink, like a black shoe with a scribble of
+ * its own.  What is beyond all claims, like areas filled with black, goes to the nearest pixel that has an owner, from
+ * neighbour to neighbour; of several the first in reading order, ring by ring, so that it does not matter in which
+ * order pixels are listed.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "ownership/pens.h"
+
+#include <math.h>
+
+#define SOLID   10 /* a label is ink throughout if less than a tenth of it is paper */
+#define CORNERS 4  /* squares of a line's thickness that may lie about the corners of paper */
+
+/* ------------------------------------------------------------------ to begin with */
+
+/* How many pixels each label has, of these of paper, and places on edges of its paper; of label k at k - 1. */
+typedef struct { size_t *all, *paper, *places; } Counts;
+
+static void
+count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *count)
+{
+  for (int y = 0; y < ink->height; y++)
+    for (int x = 0, end; x < ink->width; x = end)
+      {
+        const uint32_t *label = &CELD_AT (labels, 0, y);
+        const float    *value = &CELD_AT (ink, 0, y);
+        size_t          bright = 0;
+
+        for (end = x; end < ink->width && label[end] == label[x]; end++)
+          bright += celd_is_paper (value[end]);
+        count->all[label[x] - 1]   += (size_t) (end - x);
+        count->paper[label[x] - 1] += bright;
+      }
+}
+
+/* Where lines are thick, a gusset of paper between them has many times as much ink, too, but not more than lies along
+ * its edges and about its corners. */
+static bool
+is_solid (size_t all, size_t paper, size_t places, size_t stroke)
+{
+  return SOLID * paper < all && all - paper > stroke * places + CORNERS * stroke * stroke * (places > 0);
+}
+
+CeldStatus
+celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid)
+{
+  size_t     n = pens->n, stroke = (size_t) pens->edges->stroke;
+  Counts     count = { celd_alloc0 (n, sizeof *count.all), celd_alloc0 (n, sizeof *count.paper),
+                       celd_alloc0 (n, sizeof *count.places) };
+  CeldStatus status = count.all && count.paper && count.places ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    count_pixels (ink, labels, &count);
+  for (size_t i = 0; status == CELD_OK && i < pens->edges->n_points; i++)
+    if (pens->pen[i].near)
+      count.places[pens->pen[i].near - 1]++;
+  for (size_t k = 0; status == CELD_OK && k < n; k++)
+    solid[k] = is_solid (count.all[k], count.paper[k], count.places[k], stroke);
+  celd_free (count.all);
+  celd_free (count.paper);
+  celd_free (count.places);
+  return status;
+}
+
+void
+celd_claims_begin (const CeldClaims *c, const CeldLabels *labels, const bool *solid, CeldRect rect)
+{
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    for (int x = rect.x; x < rect.x + rect.width; x++)
+      {
+        uint32_t label = CELD_AT (labels, x, y);
+        bool     settled = celd_is_paper (CELD_AT (c->ink, x, y)) || solid[label - 1];
+
+        CELD_AT (c->over, x, y)  = settled ? -INFINITY : INFINITY;
+        CELD_AT (c->owner, x, y) = settled ? label : 0;
+      }
+}
+
+/* ------------------------------------------------------------------ in the end */
+
+/* The up to four neighbours of a pixel. */
+int
+celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2])
+{
+  static const int step[4][2] = { { 0, -1 }, { -1, 0 }, { 1, 0 }, { 0, 1 } };
+  int              x = pixel % ink->width, y = pixel / ink->width, n = 0;
+
+  for (int k = 0; k < 4; k++)
+    {
+      int u = x + step[k][0], v = y + step[k][1];
+
+      if (u >= 0 && v >= 0 && u < ink->width && v < ink->height)
+        {
+          near[n][0]   = u;
+          near[n++][1] = v;
+        }
+    }
+  return n;
+}
+
+/* The first neighbour that has an owner; 0: none has. */
+static uint32_t
+owner_beside (const CeldClaims *c, int32_t pixel)
+{
+  int near[4][2], n = celd_pixel_neighbours (c->ink, pixel, near);
+
+  for (int k = 0; k < n; k++)
+    {
+      uint32_t owner = CELD_AT (c->owner, near[k][0], near[k][1]);
+
+      if (owner && owner != CELD_WAITING)
+        return owner;
+    }
+  return 0;
+}
+
+/* Those beside an owner first; how many they are. */
+static size_t
+part_rest (const CeldClaims *c, CeldOwned *rest, size_t n)
+{
+  size_t first = 0;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      CeldOwned here = { rest[i].pixel, owner_beside (c, rest[i].pixel) };
+
+      if (here.owner)
+        {
+          rest[i]       = rest[first];
+          rest[first++] = here;
+        }
+    }
+  return first;
+}
+
+void
+celd_claims_settle (const CeldClaims *c, CeldOwned *rest, size_t n)
+{
+  size_t from = 0, end = part_rest (c, rest, n);
+
+  while (from < end)
+    {
+      size_t next = end;
+
+      for (size_t i = from; i < end; i++)
+        CELD_AT (c->owner, rest[i].pixel % c->ink->width, rest[i].pixel / c->ink->width) = rest[i].owner;
+      for (size_t i = from; i < end; i++)
+        {
+          int near[4][2], k = celd_pixel_neighbours (c->ink, rest[i].pixel, near);
+
+          for (int j = 0; j < k; j++)
+            if (!CELD_AT (c->owner, near[j][0], near[j][1]))
+              {
+                CELD_AT (c->owner, near[j][0], near[j][1]) = CELD_WAITING;
+                rest[next++].pixel = (int32_t) (near[j][1] * c->ink->width + near[j][0]);
+              }
+        }
+      for (size_t i = end; i < next; i++)
+        rest[i].owner = owner_beside (c, rest[i].pixel);
+      from = end;
+      end  = next;
+    }
+}
+
+CeldStatus
+celd_claims_end (const CeldClaims *c)
+{
+  size_t    n = 0, room = 0;
+  CeldOwned *rest;
+
+  for (int y = 0; y < c->ink->height; y++)
+    for (int x = 0; x < c->ink->width; x++)
+      room += !CELD_AT (c->owner, x, y);
+  rest = celd_alloc (room, sizeof *rest);
+  if (!rest)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < c->ink->height && n < room; y++)
+    for (int x = 0; x < c->ink->width; x++)
+      if (!CELD_AT (c->owner, x, y))
+        rest[n++].pixel = (int32_t) (y * c->ink->width + x);
+  celd_claims_settle (c, rest, n);
+  celd_free (rest);
+  return CELD_OK;
+}

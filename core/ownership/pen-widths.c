@@ -1,0 +1,177 @@
+/* How wide a pen is.
+ *
+ * Between two regions the ink is as thick as the nearer one's pen is wide, unless other lines run into it: these only
+ * make it thicker.  So a pen is as wide as its thinner places say, each a median over a pen's width of the line; it
+ * changes slowly along the line, and the less it varies in all, the less it may swell.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "ownership/ink-edges.h"
+#include "ownership/pens.h"
+
+#include <math.h>
+
+#define USUAL    0.35    /* share of a pen's places that are thinner than its usual width */
+#define THIN     0.125   /* and of those that tell how much it varies */
+#define SPREAD   3.f     /* a pen may be thicker in places by so much of what it is thinner in others */
+#define GRAIN    16.f    /* parts of a pixel */
+#define STEADY   1.04f   /* and by so much in any case; */
+#define SWELL    1.25f   /* but by no more than this */
+#define SLOPE    0.05f   /* how fast its width changes along the line */
+#define SAMPLES  4       /* places to either side that a width is the median of */
+#define ALONG    2.5f    /* pen widths that a line may be thick */
+
+/* What would stand at place k if the widths were sorted; orders them around it [Hoare 1961]. */
+static float
+find_place (float *width, size_t n, size_t k)
+{
+  size_t from = 0, end = n;
+
+  while (end - from > 1)
+    {
+      float  pivot = width[from + (end - from) / 2];
+      size_t low = from, same = from, high = end;
+
+      while (same < high)
+        {
+          float here = width[same];
+
+          if (here < pivot)
+            {
+              width[same++] = width[low];
+              width[low++]  = here;
+            }
+          else if (here > pivot)
+            {
+              width[same]   = width[--high];
+              width[high]   = here;
+            }
+          else
+            same++;
+        }
+      if (k < low)
+        end = low;
+      else if (k >= high)
+        from = high;
+      else
+        return pivot;
+    }
+  return width[k];
+}
+
+/* Rounded to what edges are found to, so that an edit far off does not change every width by a hair. */
+static float
+rounded_place (float *width, size_t n, double share)
+{
+  return roundf (GRAIN * find_place (width, n, (size_t) (share * (double) n))) / GRAIN;
+}
+
+static void
+sum_up (float *width, size_t n, float *usual, float *most)
+{
+  float thin = rounded_place (width, n, THIN);
+
+  *usual = rounded_place (width, n, USUAL);
+  *most  = fminf (SPREAD * (*usual - thin) + STEADY * *usual, SWELL * *usual);
+}
+
+/* Lists the widths by label. */
+CeldStatus
+celd_pens_measure (CeldPens *pens)
+{
+  size_t     points = pens->edges->n_points;
+  size_t    *from = celd_alloc0 (pens->n + 2, sizeof *from);
+  float     *width = celd_alloc (points + 1, sizeof *width);
+  CeldStatus status = from && width ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      for (size_t i = 0; i < points; i++)
+        from[celd_pen_front (pens, &pens->pen[i])]++;
+      for (size_t k = 1; k <= pens->n + 1; k++)
+        from[k] += from[k - 1];
+      for (size_t i = points; i-- > 0;)
+        width[--from[celd_pen_front (pens, &pens->pen[i])]] = pens->edges->point[i].through;
+    }
+  for (size_t k = 1; k <= pens->n && status == CELD_OK; k++)
+    {
+      size_t n = from[k + 1] - from[k];
+
+      if (n)
+        sum_up (width + from[k], n, &pens->usual[k - 1], &pens->most[k - 1]);
+    }
+  celd_free (from);
+  celd_free (width);
+  return status;
+}
+
+/* ------------------------------------------------------------------ along the line */
+
+/* The median of some places round place i, about a pen's width to either side, that have the same front. */
+static float
+smooth_thickness (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  const CeldPen       *pen = &pens->pen[loop->first];
+  uint32_t             front = celd_pen_front (pens, &pen[i]);
+  float                found[2 * SAMPLES + 1];
+  size_t               stride = 1 + (size_t) (pens->usual[front - 1] / SAMPLES), n = 0;
+  size_t               at = (i + loop->n - SAMPLES * stride % loop->n) % loop->n;
+
+  for (int k = -SAMPLES; k <= SAMPLES; k++, at = (at + stride) % loop->n)
+    if (!point[at].askew && celd_pen_front (pens, &pen[at]) == front)
+      {
+        size_t place = n++;
+
+        for (; place > 0 && found[place - 1] > point[at].through; place--)
+          found[place] = found[place - 1];
+        found[place] = point[at].through;
+      }
+  return n ? found[n / 2] : INFINITY;
+}
+
+/* Of a line inside a region, or between regions of one level, each side has half; but the normal must not go along
+ * another line. */
+static float
+shared_width (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
+{
+  float usual = pens->usual[pen->near - 1];
+
+  return pen->far && !(usual > 0 && p->through > ALONG * usual) ? p->through / 2 : usual;
+}
+
+/* No steeper than a pen, from place a to b. */
+static void
+limit_slope (const CeldPens *pens, float step, size_t a, size_t b, CeldPen *pen)
+{
+  uint32_t front = celd_pen_front (pens, &pen[a]);
+
+  if (front && front == celd_pen_front (pens, &pen[b]))
+    {
+      float most = pen[a].width + SLOPE * step;
+
+      pen[b].width = most < pen[b].width ? most : pen[b].width;
+    }
+}
+
+void
+celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldPen             *pen = &pens->pen[loop->first];
+  size_t               n = loop->n;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      uint32_t front = celd_pen_front (pens, &pen[i]);
+
+      if (front)
+        pen[i].width = fminf (smooth_thickness (pens, loop, i), pens->most[front - 1]);
+      else
+        pen[i].width = pen[i].near ? shared_width (pens, &point[i], &pen[i]) : 0;
+    }
+  for (size_t i = 1; i < 2 * n; i++)
+    limit_slope (pens, point[(i - 1) % n].step, (i - 1) % n, i % n, pen);
+  for (size_t i = 2 * n; i-- > 1;)
+    limit_slope (pens, point[(i - 1) % n].step, i % n, (i - 1) % n, pen);
+}

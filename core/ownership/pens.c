@@ -1,0 +1,268 @@
+/* Which pen drew the ink: each shape of a cartoon is outlined with a pen of its own, over whatever lies behind it.
+ *
+ * Of two regions with ink between them the nearer one drew it.  Where the ink is thicker than its pen (pen-widths.c)
+ * other lines are in it, too.  Then the line next to the paper is the one that lay there where it could be told, as
+ * long as the edge runs on without a corner; and if nobody can tell, the nearer region's.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "ownership/ink-edges.h"
+#include "ownership/pens.h"
+
+#include <math.h>
+
+#define PURE     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
+#define ROUNDING 0.5f    /* pixels */
+#define MANY     12      /* labels beside one edge; of more it is not known whether they are in the same order */
+#define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
+
+static uint32_t
+label_at (const CeldLabels *labels, int32_t pixel)
+{
+  return pixel < 0 ? 0 : CELD_AT (labels, pixel % labels->width, pixel / labels->width);
+}
+
+/* Only where labels have changed; whole rows will do. */
+static void
+read_labels (const CeldLabels *labels, CeldRect changed, CeldPens *pens)
+{
+  int32_t first = (int32_t) (changed.y * labels->width), end = first + (int32_t) (changed.height * labels->width);
+
+  for (size_t i = 0; i < pens->edges->n_points; i++)
+    {
+      const CeldEdgePoint *p = &pens->edges->point[i];
+
+      if (p->paper >= first && p->paper < end)
+        pens->pen[i].near = label_at (labels, p->paper);
+      if (p->across >= first && p->across < end)
+        pens->pen[i].far = label_at (labels, p->across);
+    }
+}
+
+/* ------------------------------------------------------------------ owners */
+
+/* Whose ink is next to the place, as far as the place itself tells; 0 if other lines are in it. */
+static uint32_t
+plain_owner (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  if (!pen->near || pen->near == pen->far)
+    return 0;
+  if (front)
+    return p->through <= PURE * pen->width + ROUNDING ? front : 0;
+  return pen->far && p->through > 2 * pen->width + ROUNDING ? 0 : pen->near; /* a tie, or ink that leaves the picture */
+}
+
+/* May a place take the owner of another so far away along the edge?  A line inside a region is its own, but for the
+ * tip where both sides of a nearer region's outline meet. */
+static bool
+may_take (const CeldPen *pen, const CeldPen *from, float way)
+{
+  return pen->near != pen->far || way < TIP * from->width;
+}
+
+/* May it have a line between its front's and the paper, that comes round a corner? */
+static bool
+may_lie_between (const CeldPens *pens, const CeldPen *pen, uint32_t label)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+
+  return front && front != pen->near && pens->level[label - 1] < pens->level[front - 1] &&
+         pens->level[label - 1] > pens->level[pen->near - 1];
+}
+
+/* Places that cannot tell take the owner from the nearest one along the edge that can: up to a corner, or also round
+ * corners. */
+static void
+pass_on (const CeldEdgeLoop *loop, CeldPens *pens, bool round, float *way)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldPen             *pen = &pens->pen[loop->first];
+  size_t               n = loop->n;
+
+  for (int back = 0; back < 2; back++)
+    for (size_t i = 1; i < 2 * n; i++)
+      {
+        size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
+        float  there = way[a] + point[back ? b : a].step;
+
+        if (pen[a].owner && there < way[b] &&
+            (round ? may_lie_between (pens, &pen[b], pen[a].owner)
+                   : !point[a].corner && may_take (&pen[b], &pen[a], there)))
+          {
+            way[b]       = there;
+            pen[b].owner = pen[a].owner;
+            pen[b].width = pen[a].width;
+          }
+      }
+}
+
+static void
+find_loop_owners (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  CeldPen             *pen = &pens->pen[loop->first];
+  size_t               unknown = 0;
+
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      pen[i].owner = plain_owner (pens, &point[i], &pen[i]);
+      way[i]       = pen[i].owner ? 0 : INFINITY;
+    }
+  pass_on (loop, pens, false, way);
+  for (size_t i = 0; i < loop->n; i++)
+    {
+      unknown += !pen[i].owner;
+      way[i]   = pen[i].owner ? 0 : INFINITY;
+    }
+  if (unknown)
+    pass_on (loop, pens, true, way);
+  for (size_t i = 0; i < loop->n; i++)
+    if (!pen[i].owner)
+      pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+/* Which pens may have other widths than before. */
+static bool *
+compare_labels (const CeldPens *old, const CeldPens *new)
+{
+  bool *changed = celd_alloc (new->n + 1, sizeof *changed);
+
+  for (size_t k = 1; changed && k <= new->n; k++)
+    changed[k] = k > old->n || new->usual[k - 1] != old->usual[k - 1] || new->most[k - 1] != old->most[k - 1];
+  if (changed)
+    changed[0] = false;
+  return changed;
+}
+
+static int
+compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
+{
+  return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
+}
+
+/* Some labels that are in the same order as before. */
+typedef struct { uint32_t label[MANY]; size_t n; } Ordered;
+
+/* One more; false if it has changed places with another, or if there are too many. */
+static bool
+add_label (uint32_t label, const CeldPens *old, const CeldPens *new, Ordered *ordered)
+{
+  for (size_t k = 0; k < ordered->n; k++)
+    if (ordered->label[k] == label)
+      return true;
+  if (ordered->n == MANY || label > old->n)
+    return false;
+  for (size_t k = 0; k < ordered->n; k++)
+    if (compare_levels (old, label, ordered->label[k]) != compare_levels (new, label, ordered->label[k]))
+      return false;
+  ordered->label[ordered->n++] = label;
+  return true;
+}
+
+/* Are all labels of a loop, any of which may own ink anywhere on it, in the order they had before? */
+static bool
+same_order (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new)
+{
+  Ordered ordered = { .n = 0 };
+
+  for (size_t i = loop->first; i < loop->first + loop->n; i++)
+    {
+      const CeldPen *pen = &new->pen[i];
+
+      if ((pen->near && !add_label (pen->near, old, new, &ordered)) ||
+          (pen->far && !add_label (pen->far, old, new, &ordered)))
+        return false;
+    }
+  return true;
+}
+
+/* Do all places of a loop say what they said before? */
+static bool
+same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, const bool *changed)
+{
+  for (size_t i = loop->first; i < loop->first + loop->n; i++)
+    {
+      const CeldPen *a = &old->pen[i], *b = &new->pen[i];
+
+      if (a->near != b->near || a->far != b->far || changed[b->near] || changed[celd_pen_front (new, b)])
+        return false;
+    }
+  return same_order (loop, old, new);
+}
+
+/* Widths and owners; a loop that is as it was keeps them. */
+static CeldStatus
+find_owners (const CeldPens *old, CeldPens *pens)
+{
+  bool      *changed = compare_labels (old, pens);
+  float     *way = celd_alloc (pens->edges->n_points + 1, sizeof *way);
+  CeldStatus status = changed && way ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; status == CELD_OK && k < pens->edges->n_loops; k++)
+    {
+      const CeldEdgeLoop *loop = &pens->edges->loop[k];
+
+      if (old->pen && same_loop (loop, old, pens, changed))
+        memcpy (pens->pen + loop->first, old->pen + loop->first, loop->n * sizeof *pens->pen);
+      else
+        {
+          celd_pens_follow (loop, pens);
+          find_loop_owners (loop, pens, way);
+        }
+    }
+  celd_free (changed);
+  celd_free (way);
+  return status;
+}
+
+CeldStatus
+celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level, size_t n,
+                 CeldPens *pens)
+{
+  const CeldInkEdges *edges = old->edges;
+  CeldPens            made = { .edges = edges, .level = level, .n = n };
+  CeldStatus          status;
+
+  made.pen   = celd_alloc0 (edges->n_points + 1, sizeof *made.pen);
+  made.usual = celd_alloc0 (n, sizeof *made.usual);
+  made.most  = celd_alloc0 (n, sizeof *made.most);
+  status     = made.pen && made.usual && made.most ? CELD_OK : CELD_NO_MEMORY;
+  for (size_t i = 0; old->pen && i < edges->n_points && status == CELD_OK; i++)
+    {
+      made.pen[i].near = old->pen[i].near;
+      made.pen[i].far  = old->pen[i].far;
+    }
+  if (status == CELD_OK)
+    {
+      read_labels (labels, changed, &made);
+      status = celd_pens_measure (&made);
+    }
+  if (status == CELD_OK)
+    status = find_owners (old, &made);
+  if (status == CELD_OK)
+    *pens = made;
+  else
+    celd_pens_clear (&made);
+  return status;
+}
+
+CeldStatus
+celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldPens *pens)
+{
+  CeldPens none = { .edges = edges };
+
+  return celd_pens_renew (&none, labels, (CeldRect) { 0, 0, labels->width, labels->height }, level, n, pens);
+}
+
+void
+celd_pens_clear (CeldPens *pens)
+{
+  celd_free (pens->pen);
+  celd_free (pens->usual);
+  celd_free (pens->most);
+  *pens = (CeldPens) { 0 };
+}

@@ -1,0 +1,146 @@
+/* Which region's pen drew the ink behind each place on its edges, how wide that pen is, and what it covers.
+ *
+ *   pens.c         owners of the ink next to the edges
+ *   pen-widths.c   how wide each pen is
+ *   pen-lines.c    where lines run on below others, and the tips of corners
+ *   pen-claims.c   ink goes to the pens, edge by edge
+ *   pen-rest.c     and what no pen explains
+ *   pen-corrections.c  what the artist gives to whom
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_PENS_H
+#define CELD_PENS_H
+
+#include "ownership/ink-edges.h"
+
+/* What a place on an edge means for a labelling. */
+typedef struct
+{
+  uint32_t near, far;           /* labels of the paper here and across; 0 = none */
+  uint32_t owner;               /* whose pen drew the ink next to it; 0 = not known */
+  float    width;               /* of that ink */
+} CeldPen;
+
+/* The pens of a labelling: pen[i] is for edges->point[i].  Labels 1 .. n. */
+typedef struct
+{
+  const CeldInkEdges *edges;
+  const uint32_t     *level;
+  size_t              n;
+  CeldPen            *pen;
+  float              *usual, *most;  /* width of label k's pen, and how wide it may be: at k - 1; 0 = not known */
+} CeldPens;
+
+CeldStatus celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n,
+                          CeldPens *pens);
+/* The same where an earlier one is known, from which labels differ within a rectangle only. */
+CeldStatus celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level,
+                            size_t n, CeldPens *pens);
+void       celd_pens_clear (CeldPens *pens);    /* accepts a zeroed record */
+
+/* Of the two labels at a place the one whose pen drew the ink between them; 0 if neither is nearer. */
+static inline uint32_t
+celd_pen_front (const CeldPens *pens, const CeldPen *pen)
+{
+  if (!pen->near || !pen->far || pens->level[pen->near - 1] == pens->level[pen->far - 1])
+    return 0;
+  return pens->level[pen->near - 1] > pens->level[pen->far - 1] ? pen->near : pen->far;
+}
+
+/* ------------------------------------------------------------------ pen-widths.c */
+
+/* Fills in how wide the labels' pens are, and then widths along a loop. */
+CeldStatus celd_pens_measure (CeldPens *pens);
+void       celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens);
+
+/* ------------------------------------------------------------------ pen-claims.c */
+
+/* A place, and the unit vector along which ink is claimed from there. */
+typedef struct { float x, y, nx, ny; } CeldRay;
+
+/* What one place of an edge claims for its pen.  All members take four bytes, so that equal ones are equal bytes. */
+typedef struct
+{
+  enum { CELD_CLAIM_BAND, CELD_CLAIM_LINE, CELD_CLAIM_DISC } shape;
+  uint32_t label;
+  CeldRay  from, to;            /* a band: its sides; a line: where it begins, twice; a disc: its middle, twice */
+  float    width;               /* of the pen; half of it for a disc */
+  float    length;              /* how far a band goes behind the edge, and a line along it */
+  int      way;                 /* in which direction a line goes: along the loop (1) or against it (-1) */
+  uint32_t guess;               /* 1: only what is not known otherwise */
+} CeldClaim;
+
+#define CELD_CLAIMS 6           /* of one place at most */
+
+/* The claims of place i; their number. */
+size_t celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim claim[CELD_CLAIMS]);
+
+/* Who has claimed which ink. */
+typedef struct
+{
+  const CeldPens  *pens;
+  const CeldPlane *ink;
+  CeldLabels      *owner;       /* 0 = ink that nobody has claimed */
+  CeldPlane       *over;        /* of ink: by how much its owner's pen misses it, <= 0 not at all, INFINITY as long as
+                                 * nobody has claimed it; of what is settled without claims -INFINITY */
+} CeldClaims;
+
+/* How far a line goes; a guess only as long as its middle is ink. */
+float celd_claim_reach (const CeldPlane *ink, const CeldClaim *line);
+
+/* Whoever claims first: the same claims come to the same, also if some are made twice. */
+void celd_claim_make (const CeldClaims *claims, const CeldClaim *claim);
+
+/* All steps from labels to owners; `owner` may alias `labels`. */
+CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
+                            const CeldRun *run, CeldLabels *owner, CeldPlane *over);
+
+/* ------------------------------------------------------------------ pen-rest.c */
+
+/* Which labels are ink throughout: of label k at k - 1. */
+CeldStatus celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid);
+
+/* As if nothing were claimed within the rectangle. */
+void celd_claims_begin (const CeldClaims *claims, const CeldLabels *labels, const bool *solid, CeldRect rect);
+
+/* A pixel, as y * width + x, and whose it is. */
+typedef struct { int32_t pixel; uint32_t owner; } CeldOwned;
+
+#define CELD_WAITING UINT32_MAX /* in place of an owner: a pixel of a list */
+
+/* Gives owners to all pixels without one, which are listed in any order. */
+void       celd_claims_settle (const CeldClaims *claims, CeldOwned *rest, size_t n);
+CeldStatus celd_claims_end (const CeldClaims *claims);  /* lists them, too */
+
+/* The up to four neighbours of a pixel; their number. */
+int celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2]);
+
+/* ------------------------------------------------------------------ pen-lines.c */
+
+/* The claims of place i where a line runs on, up to five. */
+size_t celd_line_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim);
+
+/* The place so far on along a line. */
+static inline CeldRay
+celd_claim_place (const CeldClaim *line, float along)
+{
+  CeldRay at = line->from;
+
+  at.x -= (float) line->way * along * at.ny;
+  at.y += (float) line->way * along * at.nx;
+  return at;
+}
+
+/* ------------------------------------------------------------------ pen-corrections.c */
+
+/* What corrections took, in this order, from whom. */
+typedef struct { CeldOwned *item; size_t n; } CeldGiven;
+
+/* Gives the ink below strokes, 0 where there is none, and the pieces of line that they touch, to their labels.  What
+ * they took is appended, also after a failure. */
+CeldStatus celd_pens_correct (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
+                              CeldLabels *owner, CeldGiven *given);
+void       celd_given_clear (CeldGiven *given);
+
+#endif

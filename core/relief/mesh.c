@@ -1,0 +1,363 @@
+/* A relief as a mesh of triangles (section 5, Figure 1h).
+ *
+ * Vertices are corners of pixels, twice where the surface is cut.  Squares that are flat enough are a fan round their
+ * middle, through all vertices on their border that they or their neighbours have; so there is no crack but where the
+ * surface is cut.  The squares are flat within half of the error, and the fans then within all of it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "relief/mesh.h"
+
+#include <math.h>
+
+#define COARSER 1.5 /* factor of the error while there are too many vertices */
+#define COARSEST 1e4 /* times the error asked for */
+
+/* ------------------------------------------------------------------ vertices */
+
+static void
+use_point (CeldMaking *m, int x, int y, int direction)
+{
+  m->vertex[celd_corner_point (m->corners, x, y, direction)] = 1;
+}
+
+/* The corners of a square, and its middle. */
+static void
+use_square (CeldMaking *m, int x, int y, int side)
+{
+  use_point (m, x, y, CELD_SOUTH_EAST);
+  use_point (m, x + side, y, CELD_SOUTH_WEST);
+  use_point (m, x + side, y + side, CELD_NORTH_WEST);
+  use_point (m, x, y + side, CELD_NORTH_EAST);
+  if (side > 1)
+    use_point (m, x + side / 2, y + side / 2, CELD_SOUTH_EAST);
+}
+
+/* Does `body` for each square that is drawn. */
+static CeldStatus
+for_squares (CeldMaking *m, const CeldRun *run, CeldStatus (*body) (CeldMaking *m, int x, int y, int side))
+{
+  int        w = m->relief->width, h = m->relief->height;
+  CeldStatus status = CELD_OK;
+
+  for (int k = 0; k < CELD_BLOCK_SIZES; k++)
+    for (int y = 0; y < h >> k && status == CELD_OK; y++)
+      {
+        if (y % 32 == 0)
+          status = celd_step (run, (k + (double) y / h) / CELD_BLOCK_SIZES);
+        for (int x = 0; x < w >> k && status == CELD_OK; x++)
+          if (celd_block_drawn (m->blocks, k, x, y))
+            status = body (m, x << k, y << k, 1 << k);
+      }
+  return status;
+}
+
+static CeldStatus
+mark_square (CeldMaking *m, int x, int y, int side)
+{
+  use_square (m, x, y, side);
+  return CELD_OK;
+}
+
+/* Marks the points that are used, and counts them. */
+static CeldStatus
+mark_points (CeldMaking *m, const CeldRun *run, size_t *n)
+{
+  const CeldCorners *c = m->corners;
+  size_t             corners = ((size_t) c->width + 1) * ((size_t) c->height + 1);
+  CeldStatus         status;
+
+  memset (m->vertex, 0, c->n * sizeof *m->vertex);
+  status = for_squares (m, run, mark_square);
+  for (size_t i = 0; i < corners; i++)
+    for (uint32_t p = c->first[i]; p < c->first[i + 1] && c->cracked[i]; p++)
+      m->vertex[p] = 1;
+  *n = 0;
+  for (size_t p = 0; p < c->n; p++)
+    *n += m->vertex[p];
+  return status;
+}
+
+uint32_t
+celd_mesh_vertex (CeldMaking *m, double x, double y, double z)
+{
+  double w = m->relief->width, h = m->relief->height;
+  float *place = m->mesh.place + 3 * m->mesh.vertices, *art = m->mesh.art + 2 * m->mesh.vertices;
+
+  place[0] = (float) (m->scale * (x - w / 2));
+  place[1] = (float) (m->scale * (h / 2 - y));
+  place[2] = (float) (m->scale * z);
+  art[0]   = (float) (x / w);
+  art[1]   = (float) (y / h);
+  return (uint32_t) m->mesh.vertices++;
+}
+
+/* A vertex for each point that is used. */
+static void
+make_vertices (CeldMaking *m)
+{
+  const CeldCorners *c = m->corners;
+
+  for (int y = 0; y <= c->height; y++)
+    for (int x = 0; x <= c->width; x++)
+      {
+        size_t corner = celd_corner_at (c, x, y);
+
+        for (uint32_t p = c->first[corner]; p < c->first[corner + 1]; p++)
+          if (m->vertex[p])
+            m->vertex[p] = celd_mesh_vertex (m, x, y, (double) c->z[p]) + 1;
+      }
+}
+
+/* ------------------------------------------------------------------ triangles */
+
+CeldStatus
+celd_mesh_triangle (CeldMaking *m, uint32_t a, uint32_t b, uint32_t c)
+{
+  uint32_t *corner = celd_grow (m->mesh.corner, m->mesh.triangles + 1, 3 * sizeof *corner);
+
+  if (!corner)
+    return CELD_NO_MEMORY;
+  m->mesh.corner = corner;
+  corner += 3 * m->mesh.triangles++;
+  corner[0] = a;
+  corner[1] = b;
+  corner[2] = c;
+  return CELD_OK;
+}
+
+/* A pixel, parted along the diagonal that falls less. */
+static CeldStatus
+fill_pixel (CeldMaking *m, int x, int y)
+{
+  const CeldCorners *c = m->corners;
+  uint32_t           point[4] = { celd_corner_point (c, x, y, CELD_SOUTH_EAST),
+                                  celd_corner_point (c, x, y + 1, CELD_NORTH_EAST),
+                                  celd_corner_point (c, x + 1, y + 1, CELD_NORTH_WEST),
+                                  celd_corner_point (c, x + 1, y, CELD_SOUTH_WEST) };
+  uint32_t           v[4];
+  bool               falls = fabsf (c->z[point[0]] - c->z[point[2]]) <= fabsf (c->z[point[1]] - c->z[point[3]]);
+  CeldStatus         status;
+
+  for (int k = 0; k < 4; k++)
+    v[k] = m->vertex[point[k]] - 1;
+  status = falls ? celd_mesh_triangle (m, v[0], v[1], v[2]) : celd_mesh_triangle (m, v[0], v[1], v[3]);
+  if (status == CELD_OK)
+    status = falls ? celd_mesh_triangle (m, v[0], v[2], v[3]) : celd_mesh_triangle (m, v[1], v[2], v[3]);
+  return status;
+}
+
+/* The border of a square from its corner (x,y) on, counter-clockwise; `step` counts its corners of pixels. */
+static void
+walk (int x, int y, int side, int step, int *to_x, int *to_y, int *direction)
+{
+  static const int inside[4] = { CELD_SOUTH_EAST, CELD_NORTH_EAST, CELD_NORTH_WEST, CELD_SOUTH_WEST };
+  int              leg = step / side % 4, along = step % side;
+
+  *to_x      = leg == 0 ? x : leg == 1 ? x + along : leg == 2 ? x + side : x + side - along;
+  *to_y      = leg == 0 ? y + along : leg == 1 ? y + side : leg == 2 ? y + side - along : y;
+  *direction = inside[leg];
+}
+
+/* A square as a fan round its middle, or a pixel, with its walls. */
+static CeldStatus
+fill_square (CeldMaking *m, int x, int y, int side)
+{
+  const CeldCorners *c = m->corners;
+  uint32_t           first = m->vertex[celd_corner_point (c, x, y, CELD_SOUTH_EAST)], last = first, middle = 0;
+  int                last_x = x, last_y = y;
+  CeldStatus         status = side > 1 ? CELD_OK : fill_pixel (m, x, y);
+
+  if (side > 1)
+    middle = m->vertex[celd_corner_point (c, x + side / 2, y + side / 2, CELD_SOUTH_EAST)];
+  for (int step = 1; step <= 4 * side && status == CELD_OK; step++)
+    {
+      int      to_x, to_y, direction;
+      uint32_t next;
+
+      walk (x, y, side, step, &to_x, &to_y, &direction);
+      next = m->vertex[celd_corner_point (c, to_x, to_y, direction)];
+      if (!next)
+        continue;
+      if (side > 1)
+        status = celd_mesh_triangle (m, middle - 1, last - 1, next - 1);
+      if (status == CELD_OK && m->solid)
+        status = celd_mesh_wall (m, last_x, last_y, to_x, to_y);
+      last   = next;
+      last_x = to_x;
+      last_y = to_y;
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ normals */
+
+static void
+cross (const float *a, const float *b, const float *c, double normal[3])
+{
+  double u[3], v[3];
+
+  for (int k = 0; k < 3; k++)
+    {
+      u[k] = (double) b[k] - (double) a[k];
+      v[k] = (double) c[k] - (double) a[k];
+    }
+  for (int k = 0; k < 3; k++)
+    normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+}
+
+/* Of each vertex the mean of the surface's triangles, by their areas.  Walls do not count, for the surface would look
+ * bent at every border; the bottom looks down. */
+static void
+find_normals (CeldReliefMesh *mesh)
+{
+  for (size_t i = 0; i < mesh->triangles; i++)
+    {
+      const uint32_t *v = mesh->corner + 3 * i;
+      double          normal[3];
+
+      cross (mesh->place + 3 * v[0], mesh->place + 3 * v[1], mesh->place + 3 * v[2], normal);
+      for (int k = 0; k < 3 && normal[2] > 0; k++)
+        for (int j = 0; j < 3; j++)
+          mesh->normal[3 * v[k] + (uint32_t) j] += (float) normal[j];
+    }
+  for (size_t i = 0; i < mesh->vertices; i++)
+    {
+      float *n = mesh->normal + 3 * i;
+      double x = (double) n[0], y = (double) n[1], z = (double) n[2], length = sqrt (x * x + y * y + z * z);
+
+      if (!(length > 0))
+        {
+          z      = -1;
+          length = 1;
+        }
+      n[0] = (float) (x / length);
+      n[1] = (float) (y / length);
+      n[2] = (float) (z / length);
+    }
+}
+
+/* ------------------------------------------------------------------ */
+
+/* Squares of the least error with which there are not too many vertices. */
+static CeldStatus
+choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldRun *run, CeldBlocks *blocks, size_t *n)
+{
+  double     error = (double) settings->mesh_error;
+  CeldPart   part[2];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 1), others = celd_run_part (&part[1], run, 1, 1);
+  CeldStatus status;
+
+  for (;;)
+    {
+      status = celd_blocks_new (m->corners, m->relief, error / 2, blocks->width ? &others : &first, blocks);
+      if (status == CELD_OK)
+        status = mark_points (m, &others, n);
+      if (status != CELD_OK || (double) *n <= (double) settings->most_vertices)
+        break;
+      if (error > COARSEST * (double) settings->mesh_error)
+        return CELD_BAD_VALUE;
+      error *= COARSER;
+      celd_blocks_clear (blocks);
+    }
+  m->mesh.error = error;
+  return status;
+}
+
+/* Room for all vertices, those of the bottom too. */
+static CeldStatus
+mesh_new (CeldMaking *m, size_t n)
+{
+  if (m->solid)
+    {
+      n += 2 * ((size_t) m->relief->width + (size_t) m->relief->height) + 1;
+      m->under = celd_alloc0 (((size_t) m->relief->width + 1) * ((size_t) m->relief->height + 1), sizeof *m->under);
+      if (!m->under)
+        return CELD_NO_MEMORY;
+    }
+  m->mesh.place  = celd_alloc (n, 3 * sizeof *m->mesh.place);
+  m->mesh.normal = celd_alloc0 (n, 3 * sizeof *m->mesh.normal);
+  m->mesh.art    = celd_alloc (n, 2 * sizeof *m->mesh.art);
+  return m->mesh.place && m->mesh.normal && m->mesh.art ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* Below everything by the thickness of the plate. */
+static double
+find_bottom (const CeldCorners *c, double thickness)
+{
+  double least = 0;
+
+  for (size_t p = 0; p < c->n; p++)
+    least = fmin (least, (double) c->z[p]);
+  return least - thickness;
+}
+
+static CeldStatus
+make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldRun *run, CeldBlocks *blocks)
+{
+  size_t     n = 0;
+  CeldPart   part[2];
+  CeldRun    choosing = celd_run_part (&part[0], run, 0, 0.7), filling = celd_run_part (&part[1], run, 0.7, 1);
+  CeldStatus status = choose_squares (m, settings, &choosing, blocks, &n);
+
+  if (status == CELD_OK)
+    status = mesh_new (m, n);
+  if (status != CELD_OK)
+    return status;
+  make_vertices (m);
+  if (m->solid)
+    {
+      m->bottom = find_bottom (m->corners, (double) settings->mesh_plate / m->scale);
+      m->middle = celd_mesh_vertex (m, 0.5 * m->relief->width, 0.5 * m->relief->height, m->bottom);
+    }
+  status = for_squares (m, &filling, fill_square);
+  if (status == CELD_OK)
+    find_normals (&m->mesh);
+  return status;
+}
+
+CeldStatus
+celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run, CeldReliefMesh *mesh)
+{
+  if (!relief->z || relief->width < 1 || relief->height < 1)
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+
+  CeldCorners corners = { .width = 0 };
+  CeldBlocks  blocks = { .width = 0 };
+  CeldPart    part[2];
+  CeldRun     cornering = celd_run_part (&part[0], run, 0, 0.2), making = celd_run_part (&part[1], run, 0.2, 1);
+  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks,
+                        .solid = settings->mesh == CELD_MESH_SOLID };
+  CeldStatus  status = celd_corners_new (relief, &cornering, &corners);
+
+  m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);
+  if (status == CELD_OK)
+    {
+      m.vertex = celd_alloc (corners.n, sizeof *m.vertex);
+      status   = m.vertex ? make_mesh (&m, settings, &making, &blocks) : CELD_NO_MEMORY;
+    }
+  if (status == CELD_OK)
+    {
+      celd_relief_mesh_clear (mesh);
+      *mesh = m.mesh;
+    }
+  else
+    celd_relief_mesh_clear (&m.mesh);
+  celd_corners_clear (&corners);
+  celd_blocks_clear (&blocks);
+  celd_free (m.vertex);
+  celd_free (m.under);
+  return status;
+}
+
+void
+celd_relief_mesh_clear (CeldReliefMesh *mesh)
+{
+  celd_free (mesh->place);
+  celd_free (mesh->normal);
+  celd_free (mesh->art);
+  celd_free (mesh->corner);
+  *mesh = (CeldReliefMesh) { .vertices = 0 };
+}

@@ -1,0 +1,276 @@
+/* What is nearer stays in front: bulging surfaces would run through each other.
+ *
+ * Wanted is the smallest and smoothest shift u of the surface z that keeps at each cut, p in front of q,
+ *
+ *     (z + u)_p - (z + u)_q  >=  step max (0, d_p - d_q),
+ *
+ * minimizing  sum (u_p - u_q)^2 over what is not cut  +  sum u^2 / reach^2.  So parts move as a whole where nothing
+ * holds them, and bend where they hang together with others; what is out of the way keeps its place.
+ *
+ * The shift is found for tiles of some pixels (relief-tiles.c), and smoothed over the surface.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "relief/relief.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define REACH  0.5   /* of a shift, as a share of the diagonal */
+#define SPREAD 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
+#define PASSES 3
+#define SLACK  0.25f /* pixels that a nearer side may be behind, after smoothing */
+#define MOST_TURNS 6
+
+typedef struct
+{
+  const CeldSurface *surface;
+  const float       *z, *depth;
+  double             step;
+  CeldReliefTiles          tiles;
+  CeldTilePair      *cut;       /* in order of a and b once they are merged */
+  size_t             cuts;
+  const float       *shift;
+  bool               kept;
+  CeldStatus         status;
+} Order;
+
+/* ------------------------------------------------------------------ cuts between tiles */
+
+static void
+add_cut (void *data, size_t near, size_t far, bool right)
+{
+  Order        *o = data;
+  double        ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
+  uint32_t      a = o->tiles.tile[near], b = o->tiles.tile[far];
+  CeldTilePair *cut;
+
+  (void) right;
+  if (a == b || o->status != CELD_OK)
+    return;
+  cut = celd_grow (o->cut, o->cuts + 1, sizeof *cut);
+  if (!cut)
+    {
+      o->status = CELD_NO_MEMORY;
+      return;
+    }
+  cut[o->cuts++] = (CeldTilePair) { .a = a, .b = b, .edges = 1,
+                                      .least = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
+  o->cut         = cut;
+}
+
+static int
+compare_cuts (const void *first, const void *second)
+{
+  const CeldTilePair *p = first, *q = second;
+
+  if (p->a != q->a)
+    return p->a < q->a ? -1 : 1;
+  return (p->b > q->b) - (p->b < q->b);
+}
+
+/* One cut for each pair of tiles, which asks for the most. */
+static void
+merge_cuts (Order *o)
+{
+  size_t n = 0;
+
+  if (o->cuts)
+    qsort (o->cut, o->cuts, sizeof *o->cut, compare_cuts);
+  for (size_t i = 0; i < o->cuts; i++)
+    if (n && !compare_cuts (&o->cut[n - 1], &o->cut[i]))
+      {
+        o->cut[n - 1].edges += 1;
+        o->cut[n - 1].least = fmaxf (o->cut[n - 1].least, o->cut[i].least);
+      }
+    else
+      o->cut[n++] = o->cut[i];
+  o->cuts = n;
+}
+
+/* ------------------------------------------------------------------ from tiles to pixels */
+
+/* Sums over the links of a tile, of which the slope follows by least squares. */
+typedef struct { double xx, xy, yy, xu, yu; } Slope;
+
+static void
+add_slope (Slope *s, double weight, double x, double y, double u)
+{
+  s->xx += weight * x * x;
+  s->xy += weight * x * y;
+  s->yy += weight * y * y;
+  s->xu += weight * x * u;
+  s->yu += weight * y * u;
+}
+
+/* The slope of the shift in each tile, from the tiles that it is linked with; as x in xu and y in yu. */
+static void
+find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
+{
+  for (size_t i = 0; i < c->links; i++)
+    {
+      uint32_t a = c->link[i].a, b = c->link[i].b;
+      double   x = (double) (c->x[b] - c->x[a]), y = (double) (c->y[b] - c->y[a]), weight = (double) c->link[i].edges;
+
+      add_slope (&slope[a], weight, x, y, shift[b] - shift[a]);
+      add_slope (&slope[b], weight, x, y, shift[b] - shift[a]);
+    }
+  for (uint32_t k = 0; k < c->n; k++)
+    {
+      Slope *s = &slope[k];
+      double least = 0.01 * (s->xx + s->yy) + 1e-9; /* tiles in a row tell nothing of the slope across */
+      double xx = s->xx + least, yy = s->yy + least, by = xx * yy - s->xy * s->xy, x = s->xu;
+
+      s->xu = (yy * x - s->xy * s->yu) / by;
+      s->yu = (xx * s->yu - s->xy * x) / by;
+    }
+}
+
+/* What tiles shift by, each with its slope. */
+static void
+spread_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_tile, const Slope *slope, float *shift)
+{
+  size_t n = (size_t) s->width * (size_t) s->height, w = (size_t) s->width;
+
+  for (size_t p = 0; p < n; p++)
+    {
+      uint32_t k = c->tile[p];
+
+      shift[p] = (float) (of_tile[k] + slope[k].xu * ((double) (p % w) - (double) c->x[k]) +
+                          slope[k].yu * ((double) (p / w) - (double) c->y[k]));
+    }
+}
+
+/* A row there and back: each pixel takes a share of the one before, unless the surface is cut between them. */
+static void
+smooth_row (const float *east, int n, float share, float *v)
+{
+  for (int x = 1; x < n; x++)
+    v[x] += share * east[x - 1] * (v[x - 1] - v[x]);
+  for (int x = n - 2; x >= 0; x--)
+    v[x] += share * east[x] * (v[x + 1] - v[x]);
+}
+
+/* The same from row to row. */
+CELD_CLONES static void
+mix_rows (const float *restrict from, const float *restrict weight, int n, float share, float *restrict v)
+{
+  for (int x = 0; x < n; x++)
+    v[x] += share * weight[x] * (from[x] - v[x]);
+}
+
+/* A Gaussian over the surface, about: recursive filters along rows and columns, each time with half the width, that do
+ * not look over cracks [Gastal and Oliveira: Domain Transform for Edge-Aware Image and Video Processing, 2011]. */
+static void
+smooth_shift (const CeldSurface *s, double deviation, float *shift)
+{
+  size_t w = (size_t) s->width;
+  float *end = shift + w * (size_t) s->height;
+
+  for (int i = 0; i < PASSES; i++)
+    {
+      double width = deviation * sqrt (3 / (pow (4, PASSES) - 1)) * pow (2, PASSES - 1 - i);
+      float  share = (float) exp (-sqrt (2) / width);
+
+      for (int y = 0; y < s->height; y++)
+        smooth_row (s->east + (size_t) y * w, s->width, share, shift + (size_t) y * w);
+      for (float *v = shift; v + w < end; v += w)
+        mix_rows (v, s->south + (v - shift), s->width, share, v + w);
+      for (float *v = end - w; v > shift; v -= w)
+        mix_rows (v, s->south + (v - shift) - w, s->width, share, v - w);
+    }
+}
+
+/* Shifts of tiles, and from them those of pixels. */
+static CeldStatus
+find_shift (const Order *o, double reach, const CeldRun *run, float *shift)
+{
+  size_t     n = o->tiles.n;
+  double    *of_tile = celd_alloc (n, sizeof *of_tile);
+  Slope     *slope = celd_alloc0 (n, sizeof *slope);
+  CeldStatus status = of_tile && slope ? celd_shift_tiles (&o->tiles, o->cut, o->cuts, reach, run, of_tile)
+                                       : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      find_slopes (&o->tiles, of_tile, slope);
+      spread_shift (o->surface, &o->tiles, of_tile, slope, shift);
+      smooth_shift (o->surface, SPREAD * o->tiles.side, shift);
+    }
+  celd_free (of_tile);
+  celd_free (slope);
+  return status;
+}
+
+/* ------------------------------------------------------------------ */
+
+static bool
+is_kept (const Order *o)
+{
+  for (size_t i = 0; i < o->cuts; i++)
+    if (o->cut[i].least > 0)
+      return false;
+  return true;
+}
+
+/* What smoothing has put out of order is asked for on top. */
+static void
+ask_for_more (void *data, size_t near, size_t far, bool right)
+{
+  Order       *o = data;
+  float        behind = o->z[far] + o->shift[far] - (o->z[near] + o->shift[near]);
+  CeldTilePair pair = { .a = o->tiles.tile[near], .b = o->tiles.tile[far] }, *found;
+
+  (void) right;
+  if (behind <= SLACK || pair.a == pair.b)
+    return;
+  found        = bsearch (&pair, o->cut, o->cuts, sizeof pair, compare_cuts);
+  found->more  = fmaxf (found->more, behind);
+  o->kept      = false;
+}
+
+/* Shifts until the order is kept. */
+static CeldStatus
+keep_cuts (Order *o, const CeldRun *run, float *shift)
+{
+  double     reach = REACH * hypot (o->surface->width, o->surface->height);
+  CeldStatus status = CELD_OK;
+
+  o->kept  = is_kept (o);
+  o->shift = shift;
+  for (int i = 0; i < MOST_TURNS && !o->kept && status == CELD_OK; i++)
+    {
+      CeldPart part;
+      CeldRun  turn = celd_run_part (&part, run, (double) i / MOST_TURNS, (double) (i + 1) / MOST_TURNS);
+
+      status  = find_shift (o, reach, &turn, shift);
+      o->kept = true;
+      celd_surface_cuts (o->surface, ask_for_more, o);
+      for (size_t k = 0; k < o->cuts; k++)
+        {
+          o->cut[k].least += o->cut[k].more;
+          o->cut[k].more = 0;
+        }
+    }
+  return status;
+}
+
+CeldStatus
+celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldRun *run,
+                 float *shift)
+{
+  Order o = { .surface = surface, .z = z, .depth = depth, .step = step };
+
+  memset (shift, 0, (size_t) surface->width * (size_t) surface->height * sizeof *shift);
+  o.status = celd_relief_tiles_new (surface, &o.tiles);
+  if (o.status == CELD_OK)
+    celd_surface_cuts (surface, add_cut, &o);
+  if (o.status == CELD_OK)
+    {
+      merge_cuts (&o);
+      o.status = keep_cuts (&o, run, shift);
+    }
+  celd_relief_tiles_clear (&o.tiles);
+  celd_free (o.cut);
+  return o.status;
+}

@@ -1,0 +1,161 @@
+/* Relief: the picture as a surface to print, light or turn (section 5, Figure 1h).
+ *
+ * Each part bulges above its outline (relief-round.c), stands where its smooth depth says, and is moved where it would
+ * run through another (relief-order.c).  The surface is cut only where depth is (relief-surface.c).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "relief/relief.h"
+
+#include <math.h>
+
+#define STEP 0.5 /* share of the difference of depth that is at least left at a cut */
+
+typedef struct { float *z, *depth, *shift; CeldVectors normals; } Planes;
+
+/* One unit of depth in pixels.  Ranks have no scale of their own: all of them together are one. */
+static double
+depth_scale (const CeldSurface *surface, const CeldSettings *settings)
+{
+  size_t n = (size_t) surface->width * (size_t) surface->height;
+  double most = 1;
+
+  for (size_t p = 0; p < n; p++)
+    most = fmax (most, fabs ((double) surface->level[p]));
+  return (double) settings->relief_depth * hypot (surface->width, surface->height) / most;
+}
+
+/* Depth as a tight plane: the given one, or smooth depth that each region's core holds. */
+static CeldStatus
+read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *given, const CeldSettings *settings,
+            const CeldRun *run, float *depth)
+{
+  CeldPlane made = { ink->width, ink->height, (size_t) ink->width, depth };
+
+  if (!given)
+    return celd_smooth (ink, levels, NULL, settings, run, &made, NULL);
+  celd_depth_levels (given, depth);
+  return CELD_OK;
+}
+
+/* Height above the outline, in pixels. */
+static CeldStatus
+make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
+            const CeldRun *run, Planes *p)
+{
+  size_t     n = (size_t) surface->width * (size_t) surface->height;
+  CeldPart   part[2];
+  CeldRun    first = celd_run_part (&part[0], run, 0, 0.6), second = celd_run_part (&part[1], run, 0.6, 1);
+  CeldStatus status;
+
+  if (settings->relief_from == CELD_RELIEF_NORMALS)
+    {
+      p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
+      status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
+      return status ? status : celd_round_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
+    }
+  status = celd_round_inflate (surface, (double) settings->tolerance, run, p->z);
+  for (size_t i = 0; i < n; i++)
+    p->z[i] *= settings->bulge;
+  return status;
+}
+
+static void
+mark_cut (void *data, size_t near, size_t far, bool right)
+{
+  CeldRelief *relief = data;
+  uint8_t    *cut = &relief->cut[near < far ? near : far];
+
+  *cut = (uint8_t) (*cut | (right ? CELD_CUT_RIGHT : CELD_CUT_BELOW) |
+                    (near > far ? 0 : right ? CELD_NEAR_RIGHT : CELD_NEAR_BELOW));
+}
+
+/* All of `relief`, of which there are the planes. */
+static CeldStatus
+make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
+             const CeldRun *run, Planes *p, CeldRelief *relief)
+{
+  size_t     n = (size_t) surface->width * (size_t) surface->height;
+  double     scale = depth_scale (surface, settings);
+  CeldPart   part[2];
+  CeldRun    rounding = celd_run_part (&part[0], run, 0, 0.4), ordering = celd_run_part (&part[1], run, 0.4, 1);
+  CeldStatus status = make_round (surface, ink, levels, settings, &rounding, p);
+
+  for (size_t i = 0; i < n; i++)
+    {
+      relief->outline[i] = (float) (scale * (double) p->depth[i]);
+      relief->z[i]       = p->z[i] + relief->outline[i];
+      relief->cut[i]     = 0;
+    }
+  celd_surface_cuts (surface, mark_cut, relief);
+  if (status == CELD_OK)
+    status = celd_keep_order (surface, relief->z, p->depth, STEP * scale, &ordering, p->shift);
+  for (size_t i = 0; i < n; i++)
+    {
+      relief->outline[i] += p->shift[i];
+      relief->z[i]       += p->shift[i];
+    }
+  return status;
+}
+
+static CeldStatus
+relief_new (int width, int height, CeldRelief *relief)
+{
+  size_t n = (size_t) width * (size_t) height;
+
+  *relief = (CeldRelief) { .width = width, .height = height };
+  relief->z       = celd_alloc (n, sizeof *relief->z);
+  relief->outline = celd_alloc (n, sizeof *relief->outline);
+  relief->cut     = celd_alloc (n, 1);
+  return relief->z && relief->outline && relief->cut ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldSettings *settings,
+             const CeldRun *run, CeldRelief *relief)
+{
+  if (!CELD_SAME_SIZE (ink, levels) || (depth && !CELD_SAME_SIZE (ink, depth)))
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+
+  size_t      n = (size_t) ink->width * (size_t) ink->height;
+  CeldSurface surface = { .width = 0 };
+  Planes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
+                    { .data = NULL } };
+  CeldRelief  made = { .width = 0 };
+  CeldPart    part[3];
+  CeldRun     smoothing = celd_run_part (&part[0], run, 0, 0.2), cutting = celd_run_part (&part[1], run, 0.2, 0.3);
+  CeldRun     making = celd_run_part (&part[2], run, 0.3, 1);
+  CeldStatus  status = p.z && p.depth && p.shift ? relief_new (ink->width, ink->height, &made) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = read_depth (ink, levels, depth, settings, &smoothing, p.depth);
+  if (status == CELD_OK)
+    status = celd_surface_new (ink, levels, settings->ink_threshold, &cutting, &surface);
+  if (status == CELD_OK)
+    status = make_relief (&surface, ink, levels, settings, &making, &p, &made);
+  if (status == CELD_OK)
+    {
+      celd_relief_clear (relief);
+      *relief = made;
+    }
+  else
+    celd_relief_clear (&made);
+  celd_surface_clear (&surface);
+  celd_free (p.z);
+  celd_free (p.depth);
+  celd_free (p.shift);
+  celd_free (p.normals.data);
+  return status;
+}
+
+void
+celd_relief_clear (CeldRelief *relief)
+{
+  celd_free (relief->z);
+  celd_free (relief->outline);
+  celd_free (relief->cut);
+  *relief = (CeldRelief) { .width = 0 };
+}

@@ -1,0 +1,148 @@
+/* How far a surface bulges above its outline (section 5; Johnston's Lumo for the way by normals).
+ *
+ * Inflation: f with  laplacian f = -4,  f = 0 where a region ends in front of another, and no slope across borders at
+ * which it goes on, behind something nearer, behind the frame or over a virtual border; the height is sqrt f.  Of a
+ * disc that makes a hemisphere, of an ellipse an ellipsoid, and it is smooth from part to part across a virtual border.
+ *
+ * From normals: the height whose slopes are nearest to theirs, -n_x / n_z and n_y / n_z, 0 at the same outlines.
+ *
+ * What is flat is held at 0.  Outlines run on edges of pixels, half a pixel from the centres that they hold.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "relief/relief.h"
+#include "solve/laplace.h"
+
+#include <math.h>
+
+#define COUPLING   2.f /* of a pixel with its outline: 1 / distance */
+#define LEAST_NZ   0.1f /* of the sum of two */
+#define ROUGH      1e-5 /* of the largest f: heights are roots, and small parts count as much as large ones */
+
+/* A system on its way. */
+typedef struct
+{
+  const CeldSurface *surface;
+  const CeldVectors *normals;   /* NULL: inflation */
+  float             *diagonal, *b;
+} Round;
+
+/* Slope between two points with these normals, to the right or down.  On a circle, the line through two of its points
+ * is at right angles to the sum of their normals. */
+static float
+slope_of (const float *p, const float *q, bool right)
+{
+  float nz = fmaxf (p[2] + q[2], LEAST_NZ);
+
+  return right ? -(p[0] + q[0]) / nz : (p[1] + q[1]) / nz;
+}
+
+static const float *
+normal_at (const Round *r, size_t i)
+{
+  size_t w = (size_t) r->normals->width;
+
+  return CELD_XYZ (r->normals, i % w, i / w);
+}
+
+/* The nearer side's outline is at height 0 and half a pixel away, with a normal that lies in the picture. */
+static void
+hold_outline (void *data, size_t near, size_t far, bool right)
+{
+  Round *r = data;
+
+  if (r->surface->flat[near])
+    return;
+  r->diagonal[near] += COUPLING;
+  if (r->normals)
+    {
+      const float *n = normal_at (r, near);
+      float        flat = hypotf (n[0], n[1]), end[3] = { 0, 0, 0 };
+
+      for (int k = 0; k < 2 && flat > 0; k++)
+        end[k] = n[k] / flat;
+      r->b[near] += COUPLING * 0.5f * slope_of (n, end, right) * (near < far ? -1.f : 1.f);
+    }
+}
+
+/* What the neighbours p and q should differ by goes to both equations. */
+static void
+want_rise (Round *r, size_t p, size_t q, bool right)
+{
+  float rise = slope_of (normal_at (r, p), normal_at (r, q), right);
+
+  r->b[p] -= rise;
+  r->b[q] += rise;
+}
+
+static void
+want_slopes (Round *r)
+{
+  const CeldSurface *s = r->surface;
+  size_t             w = (size_t) s->width, n = w * (size_t) s->height;
+
+  for (size_t p = 0; p < n; p++)
+    {
+      if (s->east[p] > 0)
+        want_rise (r, p, p + 1, true);
+      if (s->south[p] > 0)
+        want_rise (r, p, p + w, false);
+    }
+}
+
+/* Solves for the height, or f. */
+static CeldStatus
+solve (Round *r, double tolerance, const CeldRun *run, float *x)
+{
+  const CeldSurface *s = r->surface;
+  size_t             n = (size_t) s->width * (size_t) s->height;
+  CeldPart           part[2];
+  CeldRun            setting_up = celd_run_part (&part[0], run, 0, 0.3);
+  CeldRun            solving = celd_run_part (&part[1], run, 0.3, 1);
+  CeldLaplace       *laplace = NULL;
+  CeldStatus         status = CELD_NO_MEMORY;
+
+  r->diagonal = celd_alloc0 (n, sizeof *r->diagonal);
+  r->b        = celd_alloc0 (n, sizeof *r->b);
+  if (!r->diagonal || !r->b)
+    goto done;
+  celd_surface_cuts (s, hold_outline, r);
+  if (r->normals)
+    want_slopes (r);
+  for (size_t p = 0; p < n; p++)
+    {
+      if (!r->normals)
+        r->b[p] = 4;
+      x[p] = 0;
+    }
+  status = celd_lap_setup (s->width, s->height, s->east, s->south, r->diagonal, s->flat, &setting_up, &laplace);
+  if (status == CELD_OK)
+    status = celd_lap_solve (laplace, 1, r->b, x, tolerance, &solving, NULL);
+
+done:
+  celd_lap_free (laplace);
+  celd_free (r->diagonal);
+  celd_free (r->b);
+  return status;
+}
+
+CeldStatus
+celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldRun *run, float *height)
+{
+  Round      r = { .surface = surface };
+  size_t     n = (size_t) surface->width * (size_t) surface->height;
+  CeldStatus status = solve (&r, fmin (tolerance, ROUGH), run, height);
+
+  for (size_t p = 0; p < n; p++)
+    height[p] = sqrtf (fmaxf (height[p], 0));
+  return status;
+}
+
+CeldStatus
+celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldRun *run,
+                      float *height)
+{
+  Round r = { .surface = surface, .normals = normals };
+
+  return solve (&r, tolerance, run, height);
+}

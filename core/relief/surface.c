@@ -1,0 +1,205 @@
+/* A picture as a surface with cracks: where depth jumps, the surface is cut; the nearer side ends there, the farther
+ * one goes on behind it.
+ *
+ * Where depth is cut is said in depth-weights.c.  A virtual border also has such edges at its ends, where it runs into
+ * the ink of another contour; there the surface goes on, as it does all round: an edge counts as cut only if there is
+ * no short way round it.  A region that ends nowhere, but is behind others, stays flat, and so does what has no border
+ * at all: the paper.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/unions.h"
+#include "depth/depth.h"
+#include "image/image.h"
+#include "relief/relief.h"
+
+/* ------------------------------------------------------------------ regions */
+
+/* Connected regions of one level, and which of them hang together. */
+typedef struct
+{
+  CeldLabels region;
+  uint32_t  *parent;            /* of each region */
+  uint8_t   *front, *behind;    /* has it an outline of its own, is it behind one? */
+  size_t     n;                 /* regions, from 1 */
+} Regions;
+
+static void
+regions_clear (Regions *r)
+{
+  celd_free (r->region.data);
+  celd_free (r->parent);
+  celd_free (r->front);
+  celd_free (r->behind);
+}
+
+/* Regions that the surface joins. */
+static void
+join_regions (const CeldSurface *s, Regions *r)
+{
+  size_t          n = (size_t) s->width * (size_t) s->height, w = (size_t) s->width;
+  const uint32_t *region = r->region.data;
+
+  for (size_t p = 0; p < n; p++)
+    {
+      if (s->east[p] > 0 && region[p] != region[p + 1])
+        celd_join (r->parent, region[p], region[p + 1]);
+      if (s->south[p] > 0 && region[p] != region[p + w])
+        celd_join (r->parent, region[p], region[p + w]);
+    }
+}
+
+static CeldStatus
+regions_new (const CeldSurface *s, const CeldRun *run, Regions *r)
+{
+  CeldComponent *list = NULL;
+  CeldStatus     status = celd_labels_new (s->width, s->height, &r->region);
+
+  if (status == CELD_OK)
+    status = celd_depth_regions (s->width, s->height, s->level, run, &r->region, &list, &r->n);
+  celd_free (list);
+  if (status != CELD_OK)
+    return status;
+  r->parent = celd_alloc (r->n + 1, sizeof *r->parent);
+  r->front  = celd_alloc0 (r->n + 1, 1);
+  r->behind = celd_alloc0 (r->n + 1, 1);
+  if (!r->parent || !r->front || !r->behind)
+    return CELD_NO_MEMORY;
+  celd_roots (r->parent, r->n + 1);
+  join_regions (s, r);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ */
+
+/* Weights as 1 where they are not 0. */
+static void
+round_up (float *weight, size_t n)
+{
+  for (size_t p = 0; p < n; p++)
+    weight[p] = weight[p] > 0 ? 1.f : 0.f;
+}
+
+/* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
+static bool
+is_end (const CeldSurface *s, const CeldJoined *joined, Regions *r, int x, int y, bool down)
+{
+  const uint32_t *region = &CELD_AT (&r->region, x, y);
+
+  return celd_root (r->parent, region[0]) == celd_root (r->parent, region[down ? s->width : 1]) &&
+         celd_way_round (joined, x, y, down);
+}
+
+/* Ends are told by the cuts as they were. */
+static CeldStatus
+join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
+{
+  CeldJoined joined;
+  CeldStatus status = celd_joined_new (s->width, s->height, s->east, s->south, &joined);
+  size_t     p = 0;
+
+  for (int y = 0; y < s->height && status == CELD_OK; y++)
+    {
+      status = y % 64 ? CELD_OK : celd_step (run, (double) y / s->height);
+      for (int x = 0; x < s->width && status == CELD_OK; x++, p++)
+        {
+          if (x + 1 < s->width && s->east[p] == 0 && is_end (s, &joined, r, x, y, false))
+            s->east[p] = 1;
+          if (y + 1 < s->height && s->south[p] == 0 && is_end (s, &joined, r, x, y, true))
+            s->south[p] = 1;
+        }
+    }
+  celd_joined_clear (&joined);
+  return status;
+}
+
+void
+celd_surface_cuts (const CeldSurface *s, CeldCutBody body, void *data)
+{
+  size_t w = (size_t) s->width, p = 0;
+
+  for (int y = 0; y < s->height; y++)
+    for (int x = 0; x < s->width; x++, p++)
+      for (int right = 0; right < 2; right++)
+        {
+          size_t q = right ? p + 1 : p + w;
+
+          if ((right ? s->east : s->south)[p] > 0 || (right ? x + 1 == s->width : y + 1 == s->height))
+            continue;
+          body (data, s->level[p] > s->level[q] ? p : q, s->level[p] > s->level[q] ? q : p, right);
+        }
+}
+
+static void
+look_at_cut (void *data, size_t near, size_t far, bool right)
+{
+  const Regions *r = data;
+
+  (void) right;
+  r->front[r->region.data[near]] = 1;
+  r->behind[r->region.data[far]] = 1;
+}
+
+/* What stays flat: regions that are behind others only, and what hangs together without any border. */
+static CeldStatus
+find_flat (CeldSurface *s, Regions *r)
+{
+  size_t   n = (size_t) s->width * (size_t) s->height;
+  uint8_t *bordered = celd_alloc0 (r->n + 1, 1); /* of the root of each region */
+
+  if (!bordered)
+    return CELD_NO_MEMORY;
+  celd_surface_cuts (s, look_at_cut, r);
+  for (uint32_t k = 1; k <= r->n; k++)
+    if (r->front[k] || r->behind[k])
+      bordered[celd_root (r->parent, k)] = 1;
+  for (size_t p = 0; p < n; p++)
+    {
+      uint32_t k = r->region.data[p];
+
+      s->flat[p] = (r->behind[k] && !r->front[k]) || !bordered[celd_root (r->parent, k)];
+    }
+  celd_free (bordered);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldRun *run, CeldSurface *s)
+{
+  size_t     n = (size_t) ink->width * (size_t) ink->height;
+  Regions    r = { .n = 0 };
+  CeldPart   part[3];
+  CeldRun    weighing = celd_run_part (&part[0], run, 0, 0.5), finding = celd_run_part (&part[1], run, 0.5, 0.8);
+  CeldRun    joining = celd_run_part (&part[2], run, 0.8, 1);
+  CeldStatus status = CELD_OK;
+
+  *s = (CeldSurface) { .width = ink->width, .height = ink->height };
+  s->level = celd_alloc (n, sizeof *s->level);
+  s->east  = celd_alloc (n, sizeof *s->east);
+  s->south = celd_alloc (n, sizeof *s->south);
+  s->flat  = celd_alloc (n, 1);
+  if (!s->level || !s->east || !s->south || !s->flat)
+    return CELD_NO_MEMORY;
+  celd_depth_levels (levels, s->level);
+  status = celd_depth_weights (ink, s->level, threshold, &weighing, s->east, s->south);
+  round_up (s->east, n);
+  round_up (s->south, n);
+  if (status == CELD_OK)
+    status = regions_new (s, &finding, &r);
+  if (status == CELD_OK)
+    status = join_ends (s, &r, &joining);
+  if (status == CELD_OK)
+    status = find_flat (s, &r);
+  regions_clear (&r);
+  return status;
+}
+
+void
+celd_surface_clear (CeldSurface *s)
+{
+  celd_free (s->level);
+  celd_free (s->east);
+  celd_free (s->south);
+  celd_free (s->flat);
+  *s = (CeldSurface) { .width = 0 };
+}

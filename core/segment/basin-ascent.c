@@ -1,0 +1,242 @@
+/* Basins by steepest ascent: every pixel leads to the neighbour where the relief is greatest, and at last to a maximum.
+ *
+ * The relief is the signed squared distance, but deeper in ink than T it rises again: d^2 - 2 T^2.  Ties are broken by
+ * the order of the pixels, so that no plateau is left: among 4-neighbours an equal one that comes later in reading
+ * order is higher.  Diagonal neighbours must be higher by relief alone: a diagonal line one pixel wide has paper at
+ * distance 1 on both sides, which thus never leads across.
+ *
+ * Bands of rows lead their pixels to maxima, or out of the band.  Then the outermost rows of all bands are led to their
+ * maxima, and with them everything else, as runs.  O(pixels) time; a band and half a byte a pixel of workspace.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/basin-ascent.h"
+#include "segment/basin-steps.h"
+#include "segment/basins.h"
+
+/* ------------------------------------------------------------------ basins */
+
+/* Numbers the maxima. */
+static CeldStatus
+make_basins (const CeldAscent *a)
+{
+  CeldBasins *basins = a->basins;
+  size_t      n = 0;
+
+  for (int i = 0; i < a->n_bands; i++)
+    {
+      a->band[i].first = n;
+      n += a->band[i].n;
+    }
+  basins->n = n;
+  basins->basin = celd_alloc (n, sizeof *basins->basin);
+  if (!basins->basin)
+    return CELD_NO_MEMORY;
+  for (int i = 0; i < a->n_bands; i++)
+    for (size_t j = 0; j < a->band[i].n; j++)
+      {
+        uint32_t p = a->band[i].maximum[j];
+        uint32_t x = p % (uint32_t) a->width, y = p / (uint32_t) a->width;
+        int32_t  squared = a->plot->squared[y * a->plot->stride + x];
+
+        basins->basin[a->band[i].first + j] = (CeldBasin) {
+          .x = a->plot->box.x + (int32_t) x, .y = a->plot->box.y + (int32_t) y,
+          .squared = squared > 0 ? squared : -squared, .solid = squared < 0,
+        };
+      }
+  return CELD_OK;
+}
+
+/* The basin that a lead with CELD_MAXIMUM stands for. */
+static inline uint32_t
+basin_of (const CeldAscentBand *band, uint32_t lead)
+{
+  uint32_t number = (lead & (CELD_KEPT - 1)) / 2;
+
+  return lead & CELD_KEPT ? CELD_KEPT | number : (uint32_t) band->first + number;
+}
+
+/* Leads the outermost rows of all bands to their basins. */
+static void
+lead_edges (const CeldAscent *a)
+{
+  uint32_t *edge = a->edge, w = (uint32_t) a->width, n = 2 * w * (uint32_t) a->n_bands;
+
+  for (uint32_t p = 0; p < n; p++)
+    if (edge[p] & CELD_MAXIMUM)
+      edge[p] = CELD_MAXIMUM | basin_of (&a->band[p / (2 * w)], edge[p]);
+  for (uint32_t p = 0; p < n; p++)
+    {
+      uint32_t to = edge[p];
+
+      while (!(to & CELD_MAXIMUM))
+        to = edge[to];
+      for (uint32_t q = p, next; !(edge[q] & CELD_MAXIMUM); q = next)
+        {
+          next = edge[q];
+          edge[q] = to;
+        }
+    }
+  for (uint32_t p = n; p-- > 0;)
+    {
+      edge[p] &= ~CELD_MAXIMUM;
+      a->until[p] = (p + 1) % w && edge[p + 1] == edge[p] ? a->until[p + 1] : p + 1;
+    }
+}
+
+/* From x on pixels of the row belong to a basin. */
+static bool
+add_run (CeldAscentBand *band, size_t row, int x, uint32_t basin)
+{
+  CeldBasinRun *run;
+
+  if (band->n_runs > row && band->run[band->n_runs - 1].basin == basin)
+    return true;
+  run = celd_grow (band->run, band->n_runs + 1, sizeof *run);
+  if (!run)
+    return false;
+  band->run = run;
+  run[band->n_runs++] = (CeldBasinRun) { x, basin };
+  return true;
+}
+
+/* The runs of a band: basins->row gets their places within the band. */
+static void
+find_runs (void *data, int job)
+{
+  const CeldAscent *a = data;
+  int               at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
+  CeldAscentBand         *band = &a->band[at];
+  bool              good = true;
+
+  for (int i = 0; i < n; i++)
+    {
+      size_t row = a->basins->row[top + i] = band->n_runs;
+
+      for (size_t k = band->row[i]; k < band->row[i + 1] && good; k++)
+        {
+          CeldAscentRun  s = band->stretch[k];
+          int      end = k + 1 < band->row[i + 1] ? band->stretch[k + 1].x : a->width;
+          uint32_t to = s.lead;
+
+          if (to & CELD_MAXIMUM)
+            good = add_run (band, row, s.x, basin_of (band, to));
+          else if (!s.moves)
+            good = add_run (band, row, s.x, a->edge[to]);
+          else
+            for (; s.x < end && good; to = a->until[to])
+              {
+                good = add_run (band, row, s.x, a->edge[to]);
+                s.x += (int32_t) (a->until[to] - to);
+              }
+        }
+    }
+  band->failed = !good;
+}
+
+/* One list of runs of those of the bands. */
+static CeldStatus
+gather_runs (const CeldAscent *a)
+{
+  CeldBasins *basins = a->basins;
+  size_t      n = 0;
+
+  for (int i = 0; i < a->n_bands; i++)
+    n += a->band[i].n_runs;
+  basins->run = celd_alloc (n, sizeof *basins->run);
+  if (!basins->run)
+    return CELD_NO_MEMORY;
+  n = 0;
+  for (int i = 0; i < a->n_bands; i++)
+    {
+      memcpy (basins->run + n, a->band[i].run, a->band[i].n_runs * sizeof *basins->run);
+      for (int y = celd_band_top (i); y < celd_band_end (a, i); y++)
+        basins->row[y] += n;
+      n += a->band[i].n_runs;
+    }
+  basins->row[a->height] = n;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+static CeldStatus
+run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldRun *run, double from, double to)
+{
+  CeldStatus status = celd_rounds (run, a->n_bands, a->n_desks, body, a, &a->first, from, to);
+
+  for (int i = 0; i < a->n_bands && status == CELD_OK; i++)
+    status = a->band[i].failed ? CELD_NO_MEMORY : CELD_OK;
+  return status;
+}
+
+static CeldStatus
+ascent_new (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins, CeldAscent *a)
+{
+  size_t w = (size_t) plot->box.width, h = (size_t) plot->box.height, n_bands = (h + CELD_BAND - 1) / CELD_BAND;
+  bool   good;
+
+  *a = (CeldAscent) {
+    .plot    = plot, .width = plot->box.width, .height = plot->box.height,
+    .core    = plot->stroke > 2 ? plot->stroke * plot->stroke : 4,
+    .edge    = celd_alloc (n_bands * w, 2 * sizeof *a->edge),
+    .until   = celd_alloc (n_bands * w, 2 * sizeof *a->until),
+    .band    = celd_alloc0 (n_bands, sizeof *a->band),
+    .n_bands = (int) n_bands, .n_desks = run && run->each ? CELD_DESKS : 1, .basins = basins,
+  };
+  basins->row = celd_alloc (h + 1, sizeof *basins->row);
+  good = a->edge && a->until && a->band && basins->row;
+  for (int i = 0; i < a->n_desks; i++)
+    {
+      a->desk[i] = (CeldDesk) {
+        .relief = celd_alloc (w + 2, 3 * sizeof *a->desk->relief),
+        .lead   = celd_alloc0 (w + 2, (CELD_BAND + 2) * sizeof *a->desk->lead),
+        .step   = celd_alloc (w, CELD_BAND * sizeof *a->desk->step),
+        .begins = celd_alloc (w, sizeof *a->desk->begins),
+      };
+      good = good && a->desk[i].relief && a->desk[i].lead && a->desk[i].step && a->desk[i].begins;
+    }
+  return good ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+ascent_clear (CeldAscent *a)
+{
+  for (int i = 0; i < a->n_desks; i++)
+    {
+      celd_free (a->desk[i].relief);
+      celd_free (a->desk[i].lead);
+      celd_free (a->desk[i].step);
+      celd_free (a->desk[i].begins);
+    }
+  for (int i = 0; a->band && i < a->n_bands; i++)
+    {
+      celd_free (a->band[i].maximum);
+      celd_free (a->band[i].stretch);
+      celd_free (a->band[i].run);
+    }
+  celd_free (a->band);
+  celd_free (a->edge);
+  celd_free (a->until);
+}
+
+CeldStatus
+celd_basins_ascend (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins)
+{
+  CeldAscent a;
+  CeldStatus status = ascent_new (plot, run, basins, &a);
+
+  if (status == CELD_OK)
+    status = run_bands (&a, celd_band_lead, run, 0, 0.8);
+  if (status == CELD_OK)
+    status = make_basins (&a);
+  if (status == CELD_OK)
+    {
+      lead_edges (&a);
+      status = run_bands (&a, find_runs, run, 0.8, 1);
+    }
+  if (status == CELD_OK)
+    status = gather_runs (&a);
+  ascent_clear (&a);
+  return status;
+}

@@ -1,0 +1,275 @@
+/* Pixels of a band of rows, each led to a maximum or to the first pixel outside the band.
+ *
+ * The steps of all pixels are found row by row from the relief.  Sweeps down and up the band take over what is known
+ * where a step leads; the few pixels that are left then, whose ways go to and fro, are followed one by one.  Side by
+ * side, pixels mostly lead to the same place or to places side by side, and are kept as such stretches.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/basin-ascent.h"
+#include "segment/basin-steps.h"
+#include "segment/basins.h"
+
+#define UNKNOWN UINT32_MAX
+
+/* Where a pixel leads: three steps up, three down, and from STAY on those that stay in their row.  KEEP: as before. */
+enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST, KEEP };
+
+/* ------------------------------------------------------------------ steps */
+
+/* Row y of the relief, with low ground on both sides; all low outside the picture. */
+CELD_CLONES static void
+raise_row (const CeldAscent *a, int y, int32_t *restrict relief)
+{
+  bool           inside = y >= 0 && y < a->height;
+  const int32_t *squared = a->plot->squared + (inside ? (size_t) y * a->plot->stride : 0);
+  int32_t        core = a->core;
+
+  relief[0] = relief[a->width + 1] = INT32_MIN;
+  for (int x = 0; x < a->width && !inside; x++)
+    relief[x + 1] = INT32_MIN;
+  for (int x = 0; x < a->width && inside; x++)
+    relief[x + 1] = squared[x] < -core ? -squared[x] - 2 * core : squared[x];
+}
+
+/* The steps of a row; the rows of the relief start one pixel to the left. */
+CELD_CLONES static void
+find_steps (int width, const int32_t *restrict above, const int32_t *restrict here, const int32_t *restrict below,
+            uint8_t *restrict step)
+{
+  for (int x = 0; x < width; x++)
+    {
+      int32_t best = here[x + 1];
+      int     to = STAY;
+
+#define TRY(height, is_higher, where) \
+  to = (height) is_higher best ? where : to; \
+  best = (height) is_higher best ? (height) : best
+      TRY (below[x + 1], >=, SOUTH);
+      TRY (here[x + 2], >=, EAST);
+      TRY (here[x], >, WEST);
+      TRY (above[x + 1], >, NORTH);
+      TRY (above[x], >, NORTH_WEST);
+      TRY (above[x + 2], >, NORTH_EAST);
+      TRY (below[x], >, SOUTH_WEST);
+      TRY (below[x + 2], >, SOUTH_EAST);
+#undef TRY
+      step[x] = (uint8_t) to;
+    }
+}
+
+/* ------------------------------------------------------------------ leads within a band */
+
+/* Takes over what is known in the row that the steps from first, first + 1, first + 2 (to the left, straight, to the
+ * right) lead to. */
+CELD_CLONES static void
+take_over (int width, const uint8_t *restrict step, int first, const uint32_t *restrict next, uint32_t *restrict lead)
+{
+  for (int x = 0; x < width; x++)
+    {
+      uint32_t left = next[x - 1], straight = next[x], right = next[x + 1], to = lead[x];
+
+      to = step[x] == first ? left : to;
+      to = step[x] == first + 1 ? straight : to;
+      to = step[x] == first + 2 ? right : to;
+      lead[x] = to;
+    }
+}
+
+/* Takes over what is known beside a pixel. */
+static void
+go_sideways (int width, const uint8_t *step, uint32_t *lead)
+{
+  for (int x = celd_next_marked (width, step, 0), end; x < width; x = celd_next_marked (width, step, end))
+    {
+      for (end = x + 1; end < width && step[end] == step[x]; end++)
+        ;
+      if (step[x] != STAY && lead[x] == UNKNOWN)
+        {
+          uint32_t to = lead[step[x] == EAST ? end : x - 1];
+
+          for (int u = x; u < end; u++)
+            lead[u] = to;
+        }
+    }
+}
+
+static inline ptrdiff_t
+step_offset (uint8_t step, ptrdiff_t row_size)
+{
+  switch (step)
+    {
+    case EAST:
+      return 1;
+    case WEST:
+      return -1;
+    default:
+      return step < SOUTH_WEST ? step - NORTH - row_size : step - SOUTH + row_size;
+    }
+}
+
+/* Follows the steps from a pixel whose lead is unknown, and tells all pixels on the way. */
+static void
+follow (int width, const uint8_t *step, uint32_t *lead)
+{
+  uint32_t      *p = lead, to;
+  const uint8_t *s = step;
+
+  while (*p == UNKNOWN)
+    {
+      p += step_offset (*s, width + 2);
+      s += step_offset (*s, width);
+    }
+  to = *p;
+  for (p = lead, s = step; *p == UNKNOWN;)
+    {
+      *p = to;
+      p += step_offset (*s, width + 2);
+      s += step_offset (*s, width);
+    }
+}
+
+CELD_CLONES static bool
+has_unknown (int width, const uint32_t *lead)
+{
+  uint32_t most = 0;
+
+  for (int x = 0; x < width; x++)
+    most = lead[x] > most ? lead[x] : most;
+  return most == UNKNOWN;
+}
+
+/* Leads n rows to maxima, or to the rows above and below them, whose leads are known. */
+static void
+lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
+{
+  size_t row_size = (size_t) width + 2, w = (size_t) width;
+
+  for (int sweep = 0; sweep < 3; sweep++)
+    for (int i = 0; i < n; i++)
+      {
+        bool      down = sweep != 1;
+        int       y = down ? i : n - 1 - i;
+        uint32_t *row = lead + (size_t) y * row_size;
+
+        take_over (width, step + (size_t) y * w, down ? NORTH_WEST : SOUTH_WEST, down ? row - row_size : row + row_size,
+                   row);
+        go_sideways (width, step + (size_t) y * w, row);
+      }
+  for (int y = 0; y < n; y++)
+    if (has_unknown (width, lead + (size_t) y * row_size))
+      for (int x = 0; x < width; x++)
+        if (lead[(size_t) y * row_size + (size_t) x] == UNKNOWN)
+          follow (width, step + (size_t) y * w + x, lead + (size_t) y * row_size + x);
+}
+
+/* ------------------------------------------------------------------ a band */
+
+/* Pixels of row y that keep their old basins lead there. */
+static void
+keep_row (const CeldAscent *a, int y, uint8_t *step, uint32_t *lead)
+{
+  const CeldBasins   *old = a->plot->old;
+  const uint8_t      *anew = a->plot->anew + (size_t) y * (size_t) a->width;
+  int                 left = a->plot->box.x;
+  const CeldBasinRun *run = old->run + old->row[a->plot->box.y + y], *end = old->run + old->row[a->plot->box.y + y + 1];
+
+  for (int x = 0; x < a->width; x++)
+    {
+      while (run + 1 < end && run[1].x <= left + x)
+        run++;
+      if (anew[x])
+        continue;
+      step[x] = KEEP;
+      lead[x] = CELD_MAXIMUM | CELD_KEPT | 2 * run->basin;
+    }
+}
+
+/* Maxima lead to themselves; what else does is not known. */
+static bool
+start_row (const CeldAscent *a, int y, uint8_t *step, CeldAscentBand *band, uint32_t *lead)
+{
+  memset (lead, 0xff, (size_t) a->width * sizeof *lead);
+  if (a->plot->anew)
+    keep_row (a, y, step, lead);
+  for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
+    if (step[x] == STAY)
+      {
+        uint32_t *maximum = celd_grow (band->maximum, band->n + 1, sizeof *maximum);
+
+        if (!maximum)
+          return false;
+        band->maximum = maximum;
+        lead[x] = CELD_MAXIMUM | (uint32_t) (2 * band->n);
+        maximum[band->n++] = (uint32_t) (y * a->width + x);
+      }
+  return true;
+}
+
+/* Marks where stretches begin. */
+CELD_CLONES static void
+mark_stretches (int width, const uint32_t *restrict lead, uint8_t *restrict begins)
+{
+  begins[0] = 0x80;
+  if (width > 1)
+    begins[1] = lead[1] - lead[0] > 1 ? 0x80 : 0;
+  for (int x = 2; x < width; x++)
+    {
+      uint32_t step = lead[x] - lead[x - 1], last = lead[x - 1] - lead[x - 2];
+
+      begins[x] = (step > 1) | ((last < 2) & (step != last)) ? 0x80 : 0;
+    }
+}
+
+static bool
+note_stretches (int width, const uint32_t *lead, uint8_t *begins, CeldAscentBand *band, int row)
+{
+  size_t n = band->row[row];
+
+  mark_stretches (width, lead, begins);
+  for (int x = 0; x < width; x = celd_next_marked (width, begins, x + 1))
+    {
+      CeldAscentRun *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
+
+      if (!stretch)
+        return false;
+      band->stretch = stretch;
+      stretch[n++] = (CeldAscentRun) { x, x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x], lead[x] };
+    }
+  band->row[row + 1] = n;
+  return true;
+}
+
+void
+celd_band_lead (void *data, int job)
+{
+  const CeldAscent *a = data;
+  const CeldDesk   *desk = &a->desk[job];
+  int               w = a->width, at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
+  size_t            row_size = (size_t) w + 2;
+  uint32_t         *lead = desk->lead + row_size + 1, place = (uint32_t) (2 * at * w);
+  CeldAscentBand         *band = &a->band[at];
+
+  raise_row (a, top - 1, desk->relief);
+  raise_row (a, top, desk->relief + row_size);
+  for (int i = 0; i < n && !band->failed; i++)
+    {
+      uint8_t *step = desk->step + (size_t) i * (size_t) w;
+
+      raise_row (a, top + i + 1, desk->relief + (size_t) (i + 2) % 3 * row_size);
+      find_steps (w, desk->relief + (size_t) i % 3 * row_size, desk->relief + (size_t) (i + 1) % 3 * row_size,
+                  desk->relief + (size_t) (i + 2) % 3 * row_size, step);
+      band->failed = !start_row (a, top + i, step, band, lead + (size_t) i * row_size);
+    }
+  for (int x = 0; x < w; x++)
+    {
+      desk->lead[x + 1] = place - (uint32_t) w + (uint32_t) x;
+      lead[(size_t) n * row_size + (size_t) x] = place + 2 * (uint32_t) w + (uint32_t) x;
+    }
+  if (!band->failed)
+    lead_rows (w, n, desk->step, lead);
+  for (int i = 0; i < n && !band->failed; i++)
+    band->failed = !note_stretches (w, lead + (size_t) i * row_size, desk->begins, band, i);
+  memcpy (a->edge + place, lead, (size_t) w * sizeof *lead);
+  memcpy (a->edge + place + w, lead + (size_t) (n - 1) * row_size, (size_t) w * sizeof *lead);
+}

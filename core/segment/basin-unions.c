@@ -1,0 +1,132 @@
+/* Unions of basins, coarser and coarser: blocks, rooms, pieces.
+ *
+ * A stretch of line art has many maxima, so that a person's region is many basins.  From the widest passage on, blocks
+ * join over it unless both are clearly wider than the passage: corners and corridors stay with their region, a small
+ * region behind a gap stays by itself, however large the picture.  A passage along the frame parts nothing: the page
+ * goes on behind it.  Rooms are blocks joined over all passages wider than two stroke widths, which is no gap.  Pieces
+ * are joined over any passage: connected paper.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/unions.h"
+#include "segment/basin-steps.h"
+#include "segment/basins.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define WIDER 1.25 /* times as wide as a passage, and a pixel more */
+
+/* Basins joined so far: unions.h, and of each root its union's largest squared distance. */
+typedef struct { uint32_t *parent; int32_t *widest; } Unions;
+
+static void
+join (Unions *unions, uint32_t a, uint32_t b)
+{
+  int32_t *widest = unions->widest;
+
+  a = celd_root (unions->parent, a);
+  b = celd_root (unions->parent, b);
+  widest[a] = widest[b] = widest[a] > widest[b] ? widest[a] : widest[b];
+  celd_join (unions->parent, a, b);
+}
+
+static int32_t
+width_of (const CeldBorder *border)
+{
+  return border->frame ? INT32_MAX : border->saddle;
+}
+
+/* The widest first; ties in a fixed order. */
+static int
+compare (const void *a, const void *b)
+{
+  const CeldBorder *p = *(const CeldBorder *const *) a, *q = *(const CeldBorder *const *) b;
+
+  if (width_of (p) != width_of (q))
+    return width_of (p) > width_of (q) ? -1 : 1;
+  if (p->a != q->a)
+    return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+static bool
+parts (Unions *unions, const CeldBorder *border)
+{
+  int32_t a = unions->widest[celd_root (unions->parent, border->a)];
+  int32_t b = unions->widest[celd_root (unions->parent, border->b)];
+
+  return !border->frame && sqrt (a < b ? a : b) > WIDER * sqrt (border->saddle) + 1;
+}
+
+/* Numbers unions in the order of their first basins; unless `all`, only those of paper. */
+static size_t
+number_unions (const CeldBasins *basins, Unions *unions, bool all, uint32_t *number)
+{
+  uint32_t n = 0;
+
+  for (uint32_t k = 0; k < basins->n; k++)
+    {
+      uint32_t first = celd_root (unions->parent, k);
+
+      number[k] = !all && basins->basin[k].solid ? 0 : first == k ? ++n : number[first];
+    }
+  return n;
+}
+
+/* The borders over which blocks may join, the widest first. */
+static size_t
+find_passages (const CeldBasins *basins, const CeldBorder **passage)
+{
+  size_t n = 0;
+
+  for (size_t i = 0; i < basins->n_borders; i++)
+    {
+      const CeldBorder *border = &basins->border[i];
+
+      if (border->passes || (basins->basin[border->a].solid && basins->basin[border->b].solid))
+        passage[n++] = border;
+    }
+  if (n)
+    qsort (passage, n, sizeof *passage, compare);
+  return n;
+}
+
+CeldStatus
+celd_basins_unite (CeldBasins *basins)
+{
+  Unions             unions = { celd_alloc (basins->n, sizeof (uint32_t)), celd_alloc (basins->n, sizeof (int32_t)) };
+  const CeldBorder **passage = celd_alloc (basins->n_borders, sizeof *passage);
+  int32_t            open = basins->stroke * basins->stroke;
+  CeldStatus         status = CELD_NO_MEMORY;
+  size_t             n;
+
+  basins->block = celd_alloc (basins->n, sizeof *basins->block);
+  basins->room = celd_alloc (basins->n, sizeof *basins->room);
+  basins->piece = celd_alloc (basins->n, sizeof *basins->piece);
+  if (!unions.parent || !unions.widest || !passage || !basins->block || !basins->room || !basins->piece)
+    goto done;
+  celd_roots (unions.parent, basins->n);
+  for (uint32_t k = 0; k < basins->n; k++)
+    unions.widest[k] = basins->basin[k].squared;
+  n = find_passages (basins, passage);
+  for (size_t i = 0; i < n; i++)
+    if (!parts (&unions, passage[i]))
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_blocks = number_unions (basins, &unions, true, basins->block);
+  for (size_t i = 0; i < n; i++)
+    if (passage[i]->passes && width_of (passage[i]) > open)
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_rooms = number_unions (basins, &unions, false, basins->room);
+  for (size_t i = 0; i < n; i++)
+    if (passage[i]->passes)
+      join (&unions, passage[i]->a, passage[i]->b);
+  basins->n_pieces = number_unions (basins, &unions, false, basins->piece);
+  status = CELD_OK;
+
+done:
+  celd_free (unions.parent);
+  celd_free (unions.widest);
+  celd_free (passage);
+  return status;
+}

@@ -1,0 +1,293 @@
+/* Gaps in contours, bridged before the basins are found.
+ *
+ * Where a gap is as wide as the region behind it, or wider, no narrow place of the paper tells where the contour would
+ * have been; but the lines do.  A line that ends in the open and points to another line's end asks to be continued.  So
+ * such ends are joined, the closest and straightest pair first, by the curve that closures.c draws; basins part along
+ * it.  A bridge only offers a border: it is taken where labels differ on both sides.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/unions.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/bridges.h"
+#include "segment/closures.h"
+
+#include <stdlib.h>
+
+#define FAINT 0.499f            /* ink of a bridge */
+
+typedef struct
+{
+  const CeldPlane *ink;
+  int              stroke;
+  CeldTip         *tip;
+  size_t           n;
+  bool            *taken;       /* by tip */
+  CeldBridges     *bridges;
+} Builder;
+
+/* ------------------------------------------------------------------ bridges */
+
+static CeldLineEnd
+end_of (const CeldTip *tip)
+{
+  return (CeldLineEnd) { .tip = true, .at = { tip->x, tip->y }, .inside = { tip->x - tip->dx, tip->y - tip->dy },
+                         .dx = tip->dx, .dy = tip->dy };
+}
+
+/* Adds the pixel to the last bridge, unless it is its last one or ink. */
+static CeldStatus
+add_pixel (Builder *b, CeldBridge *bridge, int x, int y)
+{
+  CeldBridges     *all = b->bridges;
+  CeldBridgePixel *pixel;
+
+  if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height || !celd_is_paper (CELD_AT (b->ink, x, y)))
+    return CELD_OK;
+  if (bridge->n && all->pixel[all->n_pixels - 1].x == x && all->pixel[all->n_pixels - 1].y == y)
+    return CELD_OK;
+  pixel = celd_grow (all->pixel, all->n_pixels + 1, sizeof *pixel);
+  if (!pixel)
+    return CELD_NO_MEMORY;
+  all->pixel = pixel;
+  pixel[all->n_pixels++] = (CeldBridgePixel) { x, y };
+  bridge->n++;
+  return CELD_OK;
+}
+
+/* Walks along the curve in steps of half a pixel.  *open becomes false where it meets ink away from its ends. */
+static CeldStatus
+walk (Builder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *bridge, bool *open)
+{
+  CeldPlace  first = place[0], last = place[n - 1];
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i + 1 < n && status == CELD_OK && *open; i++)
+    {
+      double length = celd_distance_between (place[i], place[i + 1]), steps = ceil (2 * length) + 1;
+
+      bridge->length += length;
+      for (double k = 0; k <= steps && status == CELD_OK && *open; k++)
+        {
+          CeldPlace at = { place[i].x + k / steps * (place[i + 1].x - place[i].x),
+                           place[i].y + k / steps * (place[i + 1].y - place[i].y) };
+          int       x = (int) floor (at.x), y = (int) floor (at.y);
+
+          if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height)
+            *open = false;
+          else if (!celd_is_paper (CELD_AT (b->ink, x, y)))
+            *open = celd_distance_between (at, first) < clear || celd_distance_between (at, last) < clear;
+          else
+            status = add_pixel (b, bridge, x, y);
+        }
+    }
+  return status;
+}
+
+static CeldStatus
+build (Builder *b, const CeldTipPair *pair)
+{
+  CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
+  CeldPlace   place[CELD_CURVE_PLACES];
+  size_t      n = celd_curve_draw (&from, &to, place);
+  CeldBridge  bridge = { b->bridges->n_pixels, 0, 0 }, *item;
+  bool        open = true;
+  CeldStatus  status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
+
+  if (status != CELD_OK || !open || !bridge.n)
+    {
+      b->bridges->n_pixels = bridge.first;
+      return status;
+    }
+  item = celd_grow (b->bridges->item, b->bridges->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  b->bridges->item = item;
+  item[b->bridges->n++] = bridge;
+  b->taken[pair->a] = b->taken[pair->b] = true;
+  return CELD_OK;
+}
+
+/* Joins ends, the cheapest pair first. */
+static CeldStatus
+build_all (Builder *b, const CeldRun *run)
+{
+  CeldTipPairs      *pairs = celd_tip_pairs_new (b->tip, b->n, b->stroke);
+  const CeldTipPair *pair = NULL;
+  CeldStatus         status = pairs ? CELD_OK : CELD_NO_MEMORY;
+
+  while (status == CELD_OK)
+    {
+      status = celd_tip_pairs_next (pairs, b->taken, run, &pair);
+      if (status != CELD_OK || !pair)
+        break;
+      status = build (b, pair);
+    }
+  celd_tip_pairs_free (pairs);
+  return status;
+}
+
+void
+celd_bridges_clear (CeldBridges *bridges)
+{
+  celd_free (bridges->item);
+  celd_free (bridges->pixel);
+  *bridges = (CeldBridges) { 0 };
+}
+
+CeldStatus
+celd_bridges_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldBridges *bridges)
+{
+  CeldPart    part[2];
+  CeldRun     ends = celd_run_part (&part[0], run, 0, 0.5), join = celd_run_part (&part[1], run, 0.5, 1);
+  CeldBridges found = { 0 };
+  Builder     b = { .ink = ink, .stroke = stroke, .bridges = &found };
+  CeldStatus  status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
+
+  if (status != CELD_OK)
+    return status;
+  b.taken = celd_alloc0 (b.n, sizeof *b.taken);
+  status  = b.taken ? build_all (&b, &join) : CELD_NO_MEMORY;
+  celd_free (b.tip);
+  celd_free (b.taken);
+  if (status == CELD_OK)
+    *bridges = found;
+  else
+    celd_bridges_clear (&found);
+  return status;
+}
+
+static int
+compare_pixels (const void *a, const void *b)
+{
+  const CeldBridgePixel *p = a, *q = b;
+
+  if (p->y != q->y)
+    return p->y < q->y ? -1 : 1;
+  return p->x < q->x ? -1 : p->x > q->x;
+}
+
+/* All pixels in reading order; NULL without memory. */
+static CeldBridgePixel *
+sort_pixels (const CeldBridges *bridges)
+{
+  CeldBridgePixel *pixel = celd_alloc (bridges->n_pixels, sizeof *pixel);
+
+  for (size_t i = 0; i < bridges->n_pixels && pixel; i++)
+    pixel[i] = bridges->pixel[i];
+  if (pixel && bridges->n_pixels)
+    qsort (pixel, bridges->n_pixels, sizeof *pixel, compare_pixels);
+  return pixel;
+}
+
+static void
+add_to_rect (CeldRect *rect, CeldBridgePixel p)
+{
+  int left = p.x, top = p.y, right = p.x + 1, bottom = p.y + 1;
+
+  if (rect->width)
+    {
+      left   = left < rect->x ? left : rect->x;
+      top    = top < rect->y ? top : rect->y;
+      right  = right > rect->x + rect->width ? right : rect->x + rect->width;
+      bottom = bottom > rect->y + rect->height ? bottom : rect->y + rect->height;
+    }
+  *rect = (CeldRect) { left, top, right - left, bottom - top };
+}
+
+CeldStatus
+celd_bridges_compare (const CeldBridges *old, const CeldBridges *new, CeldRect *changed)
+{
+  CeldBridgePixel *a = sort_pixels (old), *b = sort_pixels (new);
+  bool             enough = a && b;
+
+  for (size_t i = 0, j = 0; enough && (i < old->n_pixels || j < new->n_pixels);)
+    {
+      int order = i == old->n_pixels ? 1 : j == new->n_pixels ? -1 : compare_pixels (&a[i], &b[j]);
+
+      if (order)
+        add_to_rect (changed, order < 0 ? a[i] : b[j]);
+      i += order <= 0;
+      j += order >= 0;
+    }
+  celd_free (a);
+  celd_free (b);
+  return enough ? CELD_OK : CELD_NO_MEMORY;
+}
+
+void
+celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
+{
+  for (size_t i = 0; i < bridges->n_pixels; i++)
+    CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y) = FAINT;
+}
+
+/* ------------------------------------------------------------------ pieces and rooms */
+
+/* Makes one part of those on both sides of bridges longer than `length`. */
+static void
+join (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, const uint32_t *part,
+      uint32_t *parent)
+{
+  for (size_t i = 0; i < bridges->n; i++)
+    for (size_t k = 0; k < bridges->item[i].n && bridges->item[i].length > length; k++)
+      {
+        CeldBridgePixel p = bridges->pixel[bridges->item[i].first + k];
+        uint32_t        mine = part[celd_basin_at (basins, p.x, p.y)];
+
+        for (int y = p.y > 0 ? p.y - 1 : 0; y <= p.y + 1 && y < ink->height; y++)
+          for (int x = p.x > 0 ? p.x - 1 : 0; x <= p.x + 1 && x < ink->width; x++)
+            if ((x == p.x) != (y == p.y) && celd_is_paper (CELD_AT (ink, x, y)))
+              {
+                uint32_t other = part[celd_basin_at (basins, x, y)];
+
+                if (mine && other)
+                  celd_join (parent, mine, other);
+              }
+      }
+}
+
+/* Numbers the parts anew, in the order of their first basins. */
+static void
+renumber (uint32_t *parent, uint32_t *number, size_t n, uint32_t *part, size_t *n_parts)
+{
+  *n_parts = 0;
+  for (size_t k = 0; k < n; k++)
+    if (part[k])
+      {
+        uint32_t root = celd_root (parent, part[k]);
+
+        if (!number[root])
+          number[root] = (uint32_t) ++*n_parts;
+        part[k] = number[root];
+      }
+}
+
+static CeldStatus
+join_parts (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, uint32_t *part,
+            size_t *n_parts)
+{
+  uint32_t *parent = celd_alloc (*n_parts + 1, sizeof *parent), *number = celd_alloc0 (*n_parts + 1, sizeof *number);
+  bool      enough = parent && number;
+
+  if (enough)
+    {
+      celd_roots (parent, *n_parts + 1);
+      join (bridges, length, ink, basins, part, parent);
+      renumber (parent, number, basins->n, part, n_parts);
+    }
+  celd_free (parent);
+  celd_free (number);
+  return enough ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldStatus
+celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins)
+{
+  CeldStatus status = join_parts (bridges, 0, ink, basins, basins->piece, &basins->n_pieces);
+
+  if (status == CELD_OK)
+    status = join_parts (bridges, 2.0 * basins->stroke, ink, basins, basins->room, &basins->n_rooms);
+  return status;
+}

@@ -1,0 +1,228 @@
+/* The canvas of a segmentation: its labels, what their paint weighs, and which paint counts.
+ *
+ * A painted pixel costs hardness K in LazyBrush [SDC09b], so that a stroke closes gaps up to hardness x its area, and
+ * the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean width
+ * of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the brush and the
+ * resolution, and to wrap it costs twice that, so that a majority of paint wins.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/canvas.h"
+#include "segment/costs.h"
+#include "solve/maxflow.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define MOST_VOTE (1 << 28)
+#define BRUSH     20.0          /* pixels; at this width votes are hardness K */
+
+CeldStatus
+celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label)
+{
+  CeldRegion *item = celd_grow (canvas->palette.item, canvas->palette.n + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  canvas->palette.item = item;
+  item[canvas->palette.n++] = region;
+  *label = (uint32_t) canvas->palette.n;
+  return CELD_OK;
+}
+
+int32_t
+celd_canvas_vote (const CeldCanvas *canvas, uint32_t label)
+{
+  bool all_hard = celd_canvas_obeys (canvas);
+
+  return all_hard || canvas->palette.item[label - 1].hard ? CELD_HARD : canvas->soft_vote;
+}
+
+/* Pixels of row `below` that have another label in row `above`, and pixels where `above` has paint and `below` none. */
+static size_t
+count_changes (const CeldSeedRow *above, const CeldSeedRow *below, int width)
+{
+  size_t changes = 0, i = 0, j = 0;
+
+  for (int x = 0, next; x < width; x = next)
+    {
+      uint32_t a = 0, b = 0;
+
+      while (i < above->n && above->run[i].end <= x)
+        i++;
+      while (j < below->n && below->run[j].end <= x)
+        j++;
+      next = width;
+      if (i < above->n)
+        {
+          bool in = above->run[i].x <= x;
+
+          a    = in ? above->run[i].label : 0;
+          next = in ? above->run[i].end : above->run[i].x;
+        }
+      if (j < below->n)
+        {
+          bool in = below->run[j].x <= x;
+          int  end = in ? below->run[j].end : below->run[j].x;
+
+          b    = in ? below->run[j].label : 0;
+          next = end < next ? end : next;
+        }
+      if (a != b)
+        changes += (size_t) (next - x);
+    }
+  return changes;
+}
+
+/* Mean width of the artist's strokes: twice their area over the length of their outline. */
+static double
+brush_width (const CeldSeedRows *seeds)
+{
+  size_t area = 0, outline = 0;
+
+  for (int y = 0; y < seeds->height; y++)
+    {
+      const CeldSeedRow *row = &seeds->row[y];
+
+      for (size_t i = 0; i < row->n; i++)
+        {
+          bool joined = i > 0 && row->run[i - 1].end == row->run[i].x;
+
+          area    += (size_t) (row->run[i].end - row->run[i].x);
+          outline += (row->run[i].x > 0 && !joined) + (size_t) (row->run[i].end < seeds->width);
+        }
+      if (y > 0)
+        outline += count_changes (&seeds->row[y - 1], row, seeds->width);
+    }
+  return outline ? fmax (1, 2.0 * (double) area / (double) outline) : BRUSH;
+}
+
+void
+celd_canvas_weigh (CeldCanvas *canvas)
+{
+  double hardness = (double) canvas->settings->hardness;
+  double vote = CELD_COST_UNIT * canvas->basins->costs.white * hardness * BRUSH / brush_width (&canvas->seeds);
+
+  canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
+}
+
+/* ------------------------------------------------------------------ the order of labels */
+
+typedef struct { uint32_t label; size_t seeds; } Turn;
+
+static int
+compare_turns (const void *a, const void *b)
+{
+  const Turn *p = a, *q = b;
+
+  if (p->seeds != q->seeds)
+    return p->seeds > q->seeds ? -1 : 1;
+  return p->label < q->label ? -1 : 1;
+}
+
+CeldStatus
+celd_canvas_order (const CeldCanvas *canvas, uint32_t *order)
+{
+  Turn *turn = celd_alloc0 (canvas->palette.n, sizeof *turn);
+
+  if (!turn)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    turn[k].label = (uint32_t) k + 1;
+  for (int y = 0; y < canvas->seeds.height; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+
+        turn[run->label - 1].seeds += (size_t) (run->end - run->x);
+      }
+  qsort (turn, canvas->palette.n, sizeof *turn, compare_turns);
+  for (size_t k = 0; k < canvas->palette.n; k++)
+    order[k] = turn[k].label;
+  celd_free (turn);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ flat colourings */
+
+/* The paint of a label: its pixels, those on paper, and its runs. */
+typedef struct { size_t pixels, paper, runs; } Paint;
+
+/* Where the pixels from x on that are all paper, or all ink, end. */
+static int
+end_of_ground (const float *ink, int x, int end)
+{
+  bool paper = celd_is_paper (ink[x]);
+
+  while (x < end && celd_is_paper (ink[x]) == paper)
+    x++;
+  return x;
+}
+
+static void
+measure_paint (const CeldCanvas *canvas, Paint *paint)
+{
+  for (int y = 0; y < canvas->seeds.height; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+      {
+        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+        const float       *ink = &CELD_AT (canvas->ink, 0, y);
+        Paint             *of = &paint[run->label];
+
+        of->pixels += (size_t) (run->end - run->x);
+        of->runs++;
+        for (int x = run->x; x < run->end; x++)
+          of->paper += celd_is_paper (ink[x]);
+      }
+}
+
+/* Hardly any of it is on paper, and it is wider than strokes are. */
+static bool
+is_dark_area (const Paint *paint, int stroke)
+{
+  return 20 * paint->paper < paint->pixels && paint->pixels > 3 * (size_t) stroke * paint->runs;
+}
+
+/* Adds to `kept` what counts of a run; runs come in reading order. */
+static CeldStatus
+keep_run (const CeldCanvas *canvas, const Paint *paint, int y, CeldSeedRun run, CeldSeedRows *kept)
+{
+  const float *ink = &CELD_AT (canvas->ink, 0, y);
+  CeldStatus   status = CELD_OK;
+
+  if (is_dark_area (&paint[run.label], canvas->basins->stroke))
+    return celd_seed_rows_paint (kept, y, run.x, run.end, run.label);
+  for (int x = run.x, end; x < run.end && status == CELD_OK; x = end)
+    {
+      end = end_of_ground (ink, x, run.end);
+      if (celd_is_paper (ink[x]))
+        status = celd_seed_rows_paint (kept, y, x, end, run.label);
+    }
+  return status;
+}
+
+/* On ink, paint says nothing, unless it is a whole dark area. */
+CeldStatus
+celd_canvas_keep_paper (CeldCanvas *canvas)
+{
+  CeldSeedRows kept = { 0 };
+  Paint       *paint = celd_alloc0 (canvas->palette.n + 1, sizeof *paint);
+  CeldStatus   status = paint ? celd_seed_rows_new (canvas->seeds.width, canvas->seeds.height, &kept) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    measure_paint (canvas, paint);
+  for (int y = 0; y < kept.height && status == CELD_OK; y++)
+    for (size_t i = 0; i < canvas->seeds.row[y].n && status == CELD_OK; i++)
+      status = keep_run (canvas, paint, y, canvas->seeds.row[y].run[i], &kept);
+  if (status == CELD_OK)
+    {
+      CeldSeedRows all = canvas->seeds;
+
+      canvas->seeds = kept;
+      kept          = all;
+    }
+  celd_seed_rows_clear (&kept);
+  celd_free (paint);
+  return status;
+}

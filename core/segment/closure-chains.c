@@ -1,0 +1,410 @@
+/* White borders of a labelling, found without going over the picture.
+ *
+ * A border of basins with different labels is on paper where it has passes, and the pair at its saddle is one of them.
+ * From there the edges between the two labels are followed both ways.  Two basins may meet in several gaps of which the
+ * border names only one; then some of its passes are still missing, and the region is walked round, through ink and
+ * all: basins are connected, so that all places where two of them meet lie on one such loop.
+ *
+ * Cost: the length of the chains, and of the loops where passes are missing.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/bridges.h"
+#include "segment/canvas.h"
+#include "segment/closures.h"
+#include "segment/patches.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct
+{
+  const CeldPlane  *ink;
+  const CeldLabels *labels;
+  CeldChains       *chains;
+  uint32_t         *known;      /* edges of chains so far: a hash table, 0 where it is empty */
+  size_t            room, n;    /* room is a power of two */
+} Tracer;
+
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up. */
+static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
+
+/* ------------------------------------------------------------------ edges that are known */
+
+/* The edge that leaves a corner with a heading; from 1. */
+static uint32_t
+edge_number (const Tracer *t, CeldCorner corner, int heading)
+{
+  uint32_t x = (uint32_t) (corner.x - (heading == 2)), y = (uint32_t) (corner.y - (heading == 3));
+
+  return 2 * (y * ((uint32_t) t->labels->width + 1) + x) + (uint32_t) (heading & 1) + 1;
+}
+
+/* Where the edge stands in the table, or would. */
+static size_t
+edge_place (const uint32_t *known, size_t room, uint32_t edge)
+{
+  size_t i = (size_t) ((uint64_t) (uint32_t) (edge * 2654435769u) * room >> 32); /* by the golden ratio [Knu73] */
+
+  while (known[i] && known[i] != edge)
+    i = (i + 1) & (room - 1);
+  return i;
+}
+
+static CeldStatus
+learn (Tracer *t, uint32_t edge)
+{
+  if (2 * t->n >= t->room)
+    {
+      size_t    room = t->room ? 2 * t->room : 1024;
+      uint32_t *known = celd_alloc0 (room, sizeof *known);
+
+      if (!known)
+        return CELD_NO_MEMORY;
+      for (size_t i = 0; i < t->room; i++)
+        if (t->known[i])
+          known[edge_place (known, room, t->known[i])] = t->known[i];
+      celd_free (t->known);
+      t->known = known;
+      t->room  = room;
+    }
+  t->known[edge_place (t->known, t->room, edge)] = edge;
+  t->n++;
+  return CELD_OK;
+}
+
+static bool
+is_known (const Tracer *t, uint32_t edge)
+{
+  return t->room && t->known[edge_place (t->known, t->room, edge)];
+}
+
+/* ------------------------------------------------------------------ pixels round a corner */
+
+/* The pixel ahead on the left; with the next heading, that on the right. */
+static CeldCorner
+pixel_ahead (CeldCorner corner, int heading)
+{
+  return (CeldCorner) { corner.x - ((heading & 3) >= 2), corner.y - ((heading & 3) == 0 || (heading & 3) == 3) };
+}
+
+static bool
+is_inside (const Tracer *t, CeldCorner pixel)
+{
+  return pixel.x >= 0 && pixel.y >= 0 && pixel.x < t->labels->width && pixel.y < t->labels->height;
+}
+
+/* 0 outside. */
+static uint32_t
+label_ahead (const Tracer *t, CeldCorner corner, int heading)
+{
+  CeldCorner pixel = pixel_ahead (corner, heading);
+
+  return is_inside (t, pixel) ? CELD_AT (t->labels, pixel.x, pixel.y) : 0;
+}
+
+/* 0 outside and on ink. */
+static uint32_t
+paper_ahead (const Tracer *t, CeldCorner corner, int heading)
+{
+  CeldCorner pixel = pixel_ahead (corner, heading);
+
+  return is_inside (t, pixel) && celd_is_paper (CELD_AT (t->ink, pixel.x, pixel.y)) ?
+         CELD_AT (t->labels, pixel.x, pixel.y) : 0;
+}
+
+/* ------------------------------------------------------------------ one chain */
+
+/* The heading with which the edges between two labels go on, or -1.  Where four pixels meet crosswise the smaller label
+ * stays connected, whichever way one comes. */
+static int
+go_on (const Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
+{
+  uint32_t l = paper_ahead (t, corner, heading), r = paper_ahead (t, corner, heading + 1);
+
+  if ((l && l != left && l != right) || (r && r != left && r != right))
+    return -1;
+  if (l == left && r == right)
+    return heading;
+  if (l == right && (r != left || right < left))
+    return (heading + 3) & 3;
+  return r == left ? (heading + 1) & 3 : -1;
+}
+
+static CeldStatus
+add_corner (CeldChains *chains, CeldCorner corner)
+{
+  CeldCorner *item = celd_grow (chains->corner, chains->n_corners + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  chains->corner = item;
+  item[chains->n_corners++] = corner;
+  return CELD_OK;
+}
+
+/* What stops a chain at this corner. */
+static CeldChainEnd
+stop_at (const Tracer *t, CeldCorner corner, int heading, CeldCorner *ink)
+{
+  for (int i = 0; i < 2; i++)
+    {
+      *ink = pixel_ahead (corner, heading + i);
+      if (!is_inside (t, *ink))
+        return CELD_CHAIN_FRAME;
+      if (!celd_is_paper (CELD_AT (t->ink, ink->x, ink->y)))
+        return CELD_CHAIN_INK;
+    }
+  return CELD_CHAIN_JUNCTION;
+}
+
+/* Adds this corner, which was reached with a heading, and all that follow; ends at the edge `first`, too. */
+static CeldStatus
+follow (Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right, uint32_t first, CeldChainEnd *end,
+        CeldCorner *ink)
+{
+  CeldStatus status = add_corner (t->chains, corner);
+
+  while (status == CELD_OK)
+    {
+      int      next = go_on (t, corner, heading, left, right);
+      uint32_t edge = next < 0 ? 0 : edge_number (t, corner, next);
+
+      if (next < 0 || edge == first)
+        {
+          *end = next < 0 ? stop_at (t, corner, heading, ink) : CELD_CHAIN_LOOP;
+          break;
+        }
+      corner.x += step_x[next];
+      corner.y += step_y[next];
+      heading   = next;
+      status    = learn (t, edge);
+      if (status == CELD_OK)
+        status = add_corner (t->chains, corner);
+    }
+  return status;
+}
+
+/* The chain through the edge between a pixel and the one below it or to its right, if there is one and it is new. */
+static CeldStatus
+trace (Tracer *t, int x, int y, bool south)
+{
+  CeldChains *chains = t->chains;
+  CeldChain  *item, chain = { .first = chains->n_corners };
+  CeldCorner  from = { x + !south, y + south }, to = { x + 1, y + 1 };
+  int         heading = south ? 0 : 1;
+  uint32_t    left, right, edge;
+  CeldStatus  status;
+
+  if (x < 0 || y < 0 || x + !south >= t->labels->width || y + south >= t->labels->height)
+    return CELD_OK;
+  left  = paper_ahead (t, from, heading);
+  right = paper_ahead (t, from, heading + 1);
+  edge  = edge_number (t, from, heading);
+  if (!left || !right || left == right || is_known (t, edge))
+    return CELD_OK;
+  if (left > right)
+    {
+      CeldCorner c = from;
+      uint32_t   l = left;
+
+      from    = to;
+      to      = c;
+      left    = right;
+      right   = l;
+      heading = heading ^ 2;
+    }
+  chain.left  = left;
+  chain.right = right;
+  status = learn (t, edge);
+  if (status == CELD_OK)
+    status = follow (t, from, heading ^ 2, right, left, edge, &chain.end[0], &chain.ink[0]);
+  for (size_t i = chain.first, j = chains->n_corners; status == CELD_OK && i + 1 < j; i++)
+    {
+      CeldCorner c = chains->corner[i];
+
+      chains->corner[i] = chains->corner[--j];
+      chains->corner[j] = c;
+    }
+  chain.end[1] = CELD_CHAIN_LOOP;
+  if (status == CELD_OK && chain.end[0] != CELD_CHAIN_LOOP)
+    status = follow (t, to, heading, left, right, edge, &chain.end[1], &chain.ink[1]);
+  item = status == CELD_OK ? celd_grow (chains->item, chains->n + 1, sizeof *item) : NULL;
+  if (!item)
+    return CELD_NO_MEMORY;
+  chain.n      = chains->n_corners - chain.first;
+  chains->item = item;
+  item[chains->n++] = chain;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ where chains can be */
+
+static CeldStatus
+trace_patches (Tracer *t, const CeldPatches *windows)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < windows->n && status == CELD_OK; i++)
+    {
+      const CeldPatch *patch = &windows->item[i];
+
+      status = trace (t, patch->x - 1, patch->y, false);
+      for (int x = patch->x; x < patch->end && status == CELD_OK; x++)
+        {
+          status = trace (t, x, patch->y, true);
+          if (status == CELD_OK)
+            status = trace (t, x, patch->y - 1, true);
+        }
+      if (status == CELD_OK)
+        status = trace (t, patch->end - 1, patch->y, false);
+    }
+  return status;
+}
+
+static int
+compare_borders (const void *a, const void *b)
+{
+  const CeldBorder *p = a, *q = b;
+
+  if (p->a != q->a)
+    return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/* Counts the edges of the chains from chain `first` on by the border of basins that they belong to. */
+static void
+count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, uint32_t *passes)
+{
+  for (size_t k = first; k < chains->n; k++)
+    for (size_t i = chains->item[k].first; i + 1 < chains->item[k].first + chains->item[k].n; i++)
+      {
+        CeldCorner p = chains->corner[i], q = chains->corner[i + 1];
+        bool       south = p.y == q.y;
+        int        x = (p.x < q.x ? p.x : q.x) - !south, y = (p.y < q.y ? p.y : q.y) - south;
+        uint32_t   a = celd_basin_at (basins, x, y), b = celd_basin_at (basins, x + !south, y + south);
+        CeldBorder key = { .a = a < b ? a : b, .b = a < b ? b : a }, *border;
+
+        border = bsearch (&key, basins->border, basins->n_borders, sizeof key, compare_borders);
+        if (border)
+          passes[border - basins->border]++;
+      }
+}
+
+/* Walks once round the region on the left of an edge and traces all chains on the way. */
+static CeldStatus
+walk_round (Tracer *t, CeldCorner start, int first)
+{
+  CeldCorner corner = start;
+  int        heading = first;
+  uint32_t   label = label_ahead (t, start, first);
+  CeldStatus status = CELD_OK;
+
+  do
+    {
+      if (paper_ahead (t, corner, heading) && paper_ahead (t, corner, heading + 1))
+        {
+          CeldCorner p = pixel_ahead (corner, heading), q = pixel_ahead (corner, heading + 1);
+
+          status = trace (t, p.x < q.x ? p.x : q.x, p.y < q.y ? p.y : q.y, p.x == q.x);
+        }
+      corner.x += step_x[heading];
+      corner.y += step_y[heading];
+      if (label_ahead (t, corner, heading) != label)
+        heading = (heading + 3) & 3;
+      else if (label_ahead (t, corner, heading + 1) == label)
+        heading = (heading + 1) & 3;
+    }
+  while (status == CELD_OK && (corner.x != start.x || corner.y != start.y || heading != first));
+  return status;
+}
+
+/* Finds the chains of borders of which some passes lie on none so far. */
+static CeldStatus
+trace_missing (Tracer *t, const CeldBasins *basins, const uint32_t *label)
+{
+  uint32_t  *passes = celd_alloc0 (basins->n_borders, sizeof *passes);
+  size_t     counted = 0;
+  CeldStatus status = passes ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t i = 0; i < basins->n_borders && status == CELD_OK; i++)
+    {
+      const CeldBorder *border = &basins->border[i];
+      CeldCorner        start = { border->x + !border->south, border->y + border->south };
+
+      count_passes (basins, t->chains, counted, passes);
+      counted = t->chains->n;
+      if (passes[i] >= border->passes || label[border->a] == label[border->b])
+        continue;
+      if (label_ahead (t, start, border->south ? 0 : 1) != label_ahead (t, start, border->south ? 1 : 2))
+        status = walk_round (t, start, border->south ? 0 : 1);
+    }
+  celd_free (passes);
+  return status;
+}
+
+void
+celd_chains_clear (CeldChains *chains)
+{
+  celd_free (chains->item);
+  celd_free (chains->corner);
+  *chains = (CeldChains) { 0 };
+}
+
+/* Chains along bridges: the borders of their basins are no passes. */
+static CeldStatus
+trace_bridges (Tracer *t, const CeldBridges *bridges)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < bridges->n_pixels && status == CELD_OK; i++)
+    {
+      int x = bridges->pixel[i].x, y = bridges->pixel[i].y;
+
+      for (int k = 0; k < 4 && status == CELD_OK; k++)
+        {
+          int u = x - (k == 1), v = y - (k == 3), south = k >= 2;
+
+          if (u >= 0 && v >= 0 && u + !south < t->labels->width && v + south < t->labels->height &&
+              CELD_AT (t->labels, u, v) != CELD_AT (t->labels, u + !south, v + south) &&
+              celd_is_paper (CELD_AT (t->ink, u, v)) && celd_is_paper (CELD_AT (t->ink, u + !south, v + south)))
+            status = trace (t, u, v, south);
+        }
+    }
+  return status;
+}
+
+CeldStatus
+celd_chains_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
+                  CeldChains *chains)
+{
+  const CeldBasins *basins = canvas->basins;
+  Tracer            t = { .ink = canvas->ink, .labels = labels, .chains = chains };
+  size_t            wanted = 0, found = 0;
+  CeldStatus        status = CELD_OK;
+
+  *chains = (CeldChains) { 0 };
+  for (size_t i = 0; i < basins->n_borders && status == CELD_OK; i++)
+    {
+      const CeldBorder *border = &basins->border[i];
+
+      if (!border->passes || label[border->a] == label[border->b])
+        continue;
+      wanted += border->passes;
+      status  = trace (&t, border->x, border->y, border->south);
+    }
+  if (status == CELD_OK && canvas->bridges)
+    status = trace_bridges (&t, canvas->bridges);
+  if (status == CELD_OK)
+    status = trace_patches (&t, windows);
+  for (size_t k = 0; k < chains->n; k++)
+    found += chains->item[k].n - 1;
+  if (status == CELD_OK && (found < wanted || windows->n))
+    status = trace_missing (&t, basins, label);
+  celd_free (t.known);
+  if (status != CELD_OK)
+    celd_chains_clear (chains);
+  return status;
+}

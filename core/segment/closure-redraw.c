@@ -1,0 +1,317 @@
+/* What changes sides when a white border is drawn anew.
+ *
+ * What lies between the old border and the new one, by winding number at pixel centres, changes sides: to the left of
+ * the old border it was the left label's, and becomes the right one's.  The new border is refused if anything else is
+ * found there: a third label, another border, ink that does not belong to the two lines, faint lines, a seed.
+ *
+ * Cost: the length of both borders, times its logarithm, and the area between them.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/closures.h"
+#include "segment/patches.h"
+
+#include <stdlib.h>
+
+#define SHARP 12  /* pixels of stroke width to one of rim */
+#define TIP   1.5 /* pixels, and half a line: ink of its own so near to its ends may lie under the new border */
+
+/* ------------------------------------------------------------------ is the way free? */
+
+static bool
+is_inside (const CeldRedrawing *r, int x, int y)
+{
+  return x >= 0 && y >= 0 && x < r->labels->width && y < r->labels->height;
+}
+
+/* Is there ink so near that this pixel may be on its rim?  Thick lines are seldom as sharp as thin ones. */
+static bool
+near_ink (const CeldRedrawing *r, int x, int y)
+{
+  int reach = 1 + r->canvas->basins->stroke / SHARP;
+
+  for (int v = y - reach; v <= y + reach; v++)
+    for (int u = x - reach; u <= x + reach; u++)
+      if (is_inside (r, u, v) && !celd_is_paper (CELD_AT (r->canvas->ink, u, v)))
+        return true;
+  return false;
+}
+
+static double
+distance_to_chain (const CeldRedrawing *r, const CeldChain *chain, CeldPlace place)
+{
+  double least = INFINITY;
+
+  for (size_t i = 0; i < chain->n; i++)
+    {
+      double dx = r->chains->corner[chain->first + i].x - place.x, dy = r->chains->corner[chain->first + i].y - place.y;
+
+      least = fmin (least, dx * dx + dy * dy);
+    }
+  return sqrt (least);
+}
+
+static double
+length_of (const CeldBorderCurve *way)
+{
+  return celd_distance_between (way->place[0], way->place[way->n - 1]);
+}
+
+static double
+line_width (const CeldRedrawing *r)
+{
+  return fmax (r->end[0].width, r->end[1].width);
+}
+
+/* May the new border run here?  On paper of the two labels; over ink only where it begins and ends. */
+static bool
+may_run (const CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, CeldPlace place)
+{
+  int      x = (int) floor (place.x), y = (int) floor (place.y);
+  double   tip = TIP + line_width (r) / 2;
+  bool     at_end = celd_distance_between (place, way->place[0]) <= tip ||
+                    celd_distance_between (place, way->place[way->n - 1]) <= tip;
+  float    ink;
+  uint32_t label;
+
+  if (!is_inside (r, x, y))
+    return at_end;
+  ink   = CELD_AT (r->canvas->ink, x, y);
+  label = CELD_AT (r->labels, x, y);
+  if (!celd_is_paper (ink))
+    return at_end && (celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y));
+  return (label == chain->left || label == chain->right) && (!(ink < CELD_FAINT) || near_ink (r, x, y));
+}
+
+static bool
+is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
+{
+  double most = length_of (way) / 2 + line_width (r) + 1;
+
+  for (size_t i = 0; i + 1 < way->n; i++)
+    {
+      CeldPlace p = way->place[i], q = way->place[i + 1];
+      int       steps = (int) ceil (2 * celd_distance_between (p, q));
+
+      for (int k = 0; k < steps; k++)
+        {
+          double    t = (k + 0.5) / steps;
+          CeldPlace place = { p.x + t * (q.x - p.x), p.y + t * (q.y - p.y) };
+
+          if (!may_run (r, chain, way, place) || (k % 4 == 0 && distance_to_chain (r, chain, place) > most))
+            return false;
+        }
+    }
+  return true;
+}
+
+/* ------------------------------------------------------------------ what lies between old and new */
+
+static CeldStatus
+add_crossings (CeldRedrawing *r, CeldPlace p, CeldPlace q)
+{
+  double top = fmin (p.y, q.y), bottom = fmax (p.y, q.y);
+
+  for (int y = (int) ceil (top - 0.5); y + 0.5 < bottom; y++)
+    {
+      double    x = p.x + (y + 0.5 - p.y) * (q.x - p.x) / (q.y - p.y);
+      CeldRowCrossing *item = celd_grow (r->crossing, r->n_crossings + 1, sizeof *item);
+
+      if (!item)
+        return CELD_NO_MEMORY;
+      r->crossing = item;
+      item[r->n_crossings++] = (CeldRowCrossing) { y, p.y < q.y ? 1 : -1, x };
+    }
+  return CELD_OK;
+}
+
+static int
+compare_crossings (const void *a, const void *b)
+{
+  const CeldRowCrossing *p = a, *q = b;
+
+  if (p->y != q->y)
+    return p->y < q->y ? -1 : 1;
+  return p->x < q->x ? -1 : p->x > q->x;
+}
+
+static CeldPlace
+centre (CeldCorner pixel)
+{
+  return (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
+}
+
+/* From the last corner of the old border to the new one, through the ink that both end at; or the way back. */
+static CeldStatus
+add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace to, bool back)
+{
+  CeldPlace  place[2] = { to, end->inside };
+  CeldStatus status = add_crossings (r, place[!back], place[back]);
+
+  for (size_t i = celd_line_end_nearest (end, end->inside); status == CELD_OK; i = end->from[i])
+    {
+      place[0] = place[1];
+      place[1] = centre (end->pixel[i]);
+      status   = add_crossings (r, place[!back], place[back]);
+      if (!i)
+        break;
+    }
+  place[0] = place[1];
+  place[1] = (CeldPlace) { corner.x, corner.y };
+  return status == CELD_OK ? add_crossings (r, place[!back], place[back]) : status;
+}
+
+/* The outline: the old border, and the new one backwards. */
+static CeldStatus
+outline (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
+{
+  const CeldCorner *corner = &r->chains->corner[chain->first];
+  CeldStatus        status = CELD_OK;
+
+  r->n_crossings = 0;
+  for (size_t i = 0; i + 1 < chain->n && status == CELD_OK; i++)
+    status = add_crossings (r, (CeldPlace) { corner[i].x, corner[i].y },
+                            (CeldPlace) { corner[i + 1].x, corner[i + 1].y });
+  if (status == CELD_OK && !way->straight && r->end[1].n)
+    status = add_ink (r, &r->end[1], corner[chain->n - 1], way->place[way->n - 1], false);
+  for (size_t i = way->n - 1; i > 0 && status == CELD_OK; i--)
+    status = add_crossings (r, way->place[i], way->place[i - 1]);
+  if (status == CELD_OK && !way->straight && r->end[0].n)
+    status = add_ink (r, &r->end[0], corner[0], way->place[0], true);
+  if (r->n_crossings)
+    qsort (r->crossing, r->n_crossings, sizeof *r->crossing, compare_crossings);
+  return status;
+}
+
+/* Is there a seed of another label in pixels x .. end - 1 of row y? */
+static bool
+has_seed (const CeldRedrawing *r, int y, int x, int end, uint32_t label)
+{
+  const CeldSeedRow *row = &r->canvas->seeds.row[y];
+
+  for (size_t i = 0; i < row->n && row->run[i].x < end; i++)
+    if (row->run[i].end > x && row->run[i].label != label)
+      return true;
+  return false;
+}
+
+static bool
+is_flipped (const CeldRedrawing *r, int y, int x, int end)
+{
+  for (size_t k = 0; k < r->n_flips; k++)
+    if (y >= r->flips[k].least.y && y <= r->flips[k].most.y && end > r->flips[k].least.x && x <= r->flips[k].most.x)
+      for (size_t i = r->flips[k].first; i < r->flips[k].last; i++)
+        if (r->patches.item[i].y == y && r->patches.item[i].x < end && r->patches.item[i].end > x)
+          return true;
+  return false;
+}
+
+/* Gives the paper in pixels x .. end - 1 of row y to `label`; *may becomes false if something stands against it. */
+static CeldStatus
+flip (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, bool *may)
+{
+  CeldStatus status = CELD_OK;
+
+  x   = x < 0 ? 0 : x;
+  end = end < r->labels->width ? end : r->labels->width;
+  if (x >= end || y < 0 || y >= r->labels->height)
+    return CELD_OK;
+  *may = !has_seed (r, y, x, end, label) && !is_flipped (r, y, x, end);
+  for (; x < end && *may && status == CELD_OK; x++)
+    {
+      float    ink = CELD_AT (r->canvas->ink, x, y);
+      uint32_t now = CELD_AT (r->labels, x, y);
+
+      if (!celd_is_paper (ink))
+        *may = celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y);
+      else if ((now != old && now != label) || ((ink < CELD_FAINT || now != old) && !near_ink (r, x, y)))
+        *may = false; /* the rims of lines may be faint, and of the right label already */
+      else if (now == old)
+        status = celd_patch_add (&r->flipped, (CeldPatch) { y, x, x + 1, label });
+    }
+  return status;
+}
+
+/* CeldFlips all that the outline encloses. */
+static CeldStatus
+flip_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, bool *may)
+{
+  double     length = length_of (way), most = length * (length / 2 + line_width (r)) + 4, area = 0;
+  int        winding = 0;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i + 1 < r->n_crossings && *may && status == CELD_OK; i++)
+    {
+      const CeldRowCrossing *left = &r->crossing[i], *right = left + 1;
+      int             x = (int) ceil (left->x - 0.5), end = (int) ceil (right->x - 0.5);
+
+      winding += left->sign;
+      if (!winding || x >= end)
+        continue;
+      area += end - x;
+      *may  = winding >= -1 && winding <= 1 && area <= most;
+      if (*may && winding > 0)
+        status = flip (r, left->y, x, end, chain->left, chain->right, may);
+      else if (*may)
+        status = flip (r, left->y, x, end, chain->right, chain->left, may);
+    }
+  return status;
+}
+
+/* Adds what the way flipped to the patches. */
+static CeldStatus
+keep_flipped (CeldRedrawing *r)
+{
+  CeldFlips  flips = { r->patches.n, r->patches.n, { INT32_MAX, INT32_MAX }, { 0, 0 } };
+  CeldFlips *item = celd_grow (r->flips, r->n_flips + 1, sizeof *item);
+
+  if (!item)
+    return CELD_NO_MEMORY;
+  r->flips = item;
+  for (size_t i = 0; i < r->flipped.n; i++)
+    {
+      CeldPatch *patch = celd_grow (r->patches.item, r->patches.n + 1, sizeof *patch);
+
+      if (!patch)
+        return CELD_NO_MEMORY;
+      r->patches.item = patch;
+      patch += r->patches.n++;
+      *patch = r->flipped.item[i];
+      flips.least.x = patch->x < flips.least.x ? patch->x : flips.least.x;
+      flips.least.y = patch->y < flips.least.y ? patch->y : flips.least.y;
+      flips.most.x  = patch->end > flips.most.x ? patch->end : flips.most.x;
+      flips.most.y  = patch->y > flips.most.y ? patch->y : flips.most.y;
+    }
+  flips.last = r->patches.n;
+  item[r->n_flips++] = flips;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_redraw (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, bool *may)
+{
+  CeldStatus status = CELD_OK;
+
+  r->flipped.n = 0;
+  *may = is_free (r, chain, way);
+  if (*may)
+    status = outline (r, chain, way);
+  if (*may && status == CELD_OK)
+    status = flip_enclosed (r, chain, way, may);
+  if (*may && status == CELD_OK)
+    status = keep_flipped (r);
+  return status;
+}
+
+void
+celd_redrawing_clear (CeldRedrawing *redrawing)
+{
+  for (int k = 0; k < 2; k++)
+    celd_line_end_clear (&redrawing->end[k]);
+  celd_patches_clear (&redrawing->flipped);
+  celd_patches_clear (&redrawing->patches);
+  celd_free (redrawing->crossing);
+  celd_free (redrawing->flips);
+  *redrawing = (CeldRedrawing) { 0 };
+}

@@ -1,0 +1,54 @@
+/* The cost of a border between two pixels: V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper
+ * costs more than any border inside ink could.  The paper leaves open:
+ *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
+ *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
+ *       behind costs nothing, half ink 1/27, and paper grain little.
+ *   ink  costs less the deeper it is, so that borders run along the middle of a line, not along its shorter side
+ *       (LazyBrush filters the drawing with a LoG to that end); with ragged pencil lines this keeps both sides clean.
+ *   frame  A page is often cropped to its drawing.  Edges of paper along the frame cost as if some of the margin were
+ *       left, so that the background holds together where a figure nearly touches the frame.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/costs.h"
+
+#include <math.h>
+
+#define DEEP   10  /* an edge deep inside ink costs this much less than one at its rim */
+#define MARGIN 64  /* of half the perimeter: the margin that a cropped page is taken to have had */
+
+void
+celd_costs_new (int width, int height, float threshold, CeldCosts *costs)
+{
+  costs->width  = width;
+  costs->height = height;
+  costs->white  = 2.0 * (width + height);
+  costs->margin = 1 + (width + height) / MARGIN;
+  for (int i = 0; i <= CELD_INK_STEPS; i++)
+    {
+      double g = fmax (0, ((double) i / CELD_INK_STEPS - (double) threshold) / (1 - (double) threshold));
+
+      costs->by_ink[i] = (int32_t) (CELD_COST_UNIT * (1 + costs->white * g * g * g));
+    }
+  costs->deep[0] = 0;
+  for (int i = 1; i <= CELD_DEEPEST; i++)
+    costs->deep[i] = (int32_t) (DEEP * (1 - 1 / sqrt (i)));
+}
+
+static int
+ink_step (float ink)
+{
+  return ink > 0 && ink < 1 ? (int) (ink * CELD_INK_STEPS) : ink <= 0 ? 0 : CELD_INK_STEPS; /* NaN is paper */
+}
+
+int32_t
+celd_cost (const CeldCosts *costs, float ink, float other_ink, int32_t depth, int32_t other_depth, bool along_frame)
+{
+  int     i = ink_step (ink), j = ink_step (other_ink);
+  int32_t d = depth < other_depth ? depth : other_depth;
+
+  i = i < j ? i : j;
+  if (along_frame && 2 * i >= CELD_INK_STEPS)
+    return costs->by_ink[i] * costs->margin;
+  return costs->by_ink[i] - (d < 1 ? 0 : costs->deep[d < CELD_DEEPEST ? d : CELD_DEEPEST]);
+}

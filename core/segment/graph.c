@@ -1,0 +1,297 @@
+/* LazyBrush [SDC09b] (section 3.2) on the basin graph of a drawing.
+ *
+ * A block of basins (basins.c) in which one label alone has paint, or none, is one node; a block that several labels
+ * share is as many nodes as it has basins, so that the cut can look for the narrowest place between their strokes.
+ * Links are the borders' costs, summed up; votes are the paint's, as on pixels.  The labels of the nodes are those of
+ * the lowest energy that greedy cuts and alpha-expansion find (partition.c).
+ *
+ * Necks: to cut off a part at a neck of two pixels can cost less than the part's outline.  With keep_necks a block that
+ * has paint of one label alone keeps that label, whatever a cut would save.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "solve/maxflow.h"
+#include "solve/partition.h"
+
+#define SHARED UINT32_MAX       /* a block in which several labels have paint */
+
+typedef struct
+{
+  const CeldCanvas *canvas;
+  CeldSpread        spread;
+  uint32_t         *holder;     /* of block b: the only label with paint in it, 0, or SHARED */
+  uint32_t         *node;       /* of basin k */
+  size_t            n;          /* nodes */
+  uint32_t         *fixed;      /* of node k: its label, or 0 */
+  uint32_t         *label;      /* of node k: the answer */
+  uint32_t         *order;
+  CeldLink         *link;
+  CeldVote         *vote;
+  size_t            n_links, n_votes;
+} Graph;
+
+static CeldStatus
+graph_new (const CeldCanvas *canvas, Graph *g)
+{
+  const CeldBasins *basins = canvas->basins;
+
+  *g = (Graph) {
+    .canvas = canvas,
+    .holder = celd_alloc0 (basins->n_blocks + 1, sizeof *g->holder),
+    .node   = celd_alloc (basins->n, sizeof *g->node),
+    .fixed  = celd_alloc0 (basins->n, sizeof *g->fixed),
+    .label  = celd_alloc (basins->n, sizeof *g->label),
+    .order  = celd_alloc (canvas->palette.n, sizeof *g->order),
+    .link   = celd_alloc (basins->n_borders, sizeof *g->link),
+  };
+  if (!g->holder || !g->node || !g->fixed || !g->label || !g->order || !g->link)
+    return CELD_NO_MEMORY;
+  return celd_spread_new (canvas, NULL, &g->spread);
+}
+
+static void
+graph_clear (Graph *g)
+{
+  celd_spread_keep (g->canvas, &g->spread);
+  celd_free (g->holder);
+  celd_free (g->node);
+  celd_free (g->fixed);
+  celd_free (g->label);
+  celd_free (g->order);
+  celd_free (g->link);
+  celd_free (g->vote);
+}
+
+/* ------------------------------------------------------------------ nodes */
+
+/* Paint that says something of the basin it lies in: paint on the outer half of a contour says nothing of the region
+ * behind. */
+static size_t
+telling_paint (const CeldBasins *basins, const CeldDab *dab)
+{
+  return basins->basin[dab->basin].solid ? (size_t) (dab->end - dab->x) : dab->paper;
+}
+
+static void
+find_holders (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+
+  for (size_t i = 0; i < g->spread.n_dabs; i++)
+    {
+      const CeldDab *dab = &g->spread.dab[i];
+      uint32_t      *holder = &g->holder[basins->block[dab->basin]];
+
+      if (telling_paint (basins, dab))
+        *holder = !*holder || *holder == dab->label ? dab->label : SHARED;
+    }
+}
+
+static CeldStatus
+make_nodes (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+  uint32_t         *node = celd_alloc0 (basins->n_blocks + 1, sizeof *node); /* of a block, from 1 */
+
+  if (!node)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < basins->n; k++)
+    {
+      uint32_t block = basins->block[k];
+
+      if (g->holder[block] == SHARED)
+        g->node[k] = (uint32_t) g->n++;
+      else
+        {
+          if (!node[block])
+            node[block] = (uint32_t) ++g->n;
+          g->node[k] = node[block] - 1;
+        }
+    }
+  celd_free (node);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ what they are told */
+
+/* The hard label with most telling paint on a node has it; windows.c sees to the others. */
+static CeldStatus
+fix_hard (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+  size_t           *most = celd_alloc0 (g->n, sizeof *most), *sum = celd_alloc0 (g->canvas->palette.n + 1, sizeof *sum);
+  size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);
+  size_t           *dab = celd_alloc (g->spread.n_dabs, sizeof *dab);
+  CeldStatus        status = most && sum && first && dab ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  for (size_t i = 0; i < g->spread.n_dabs; i++)
+    first[g->node[g->spread.dab[i].basin] + 2]++;
+  for (size_t k = 2; k < g->n + 2; k++)
+    first[k] += first[k - 1];
+  for (size_t i = 0; i < g->spread.n_dabs; i++)
+    dab[first[g->node[g->spread.dab[i].basin] + 1]++] = i;
+  for (size_t k = 0; k < g->n; k++)
+    {
+      for (size_t i = first[k]; i < first[k + 1]; i++)
+        {
+          const CeldDab *d = &g->spread.dab[dab[i]];
+
+          if (celd_canvas_vote (g->canvas, d->label) == CELD_HARD)
+            sum[d->label] += telling_paint (basins, d);
+          if (sum[d->label] > most[k])
+            {
+              most[k]     = sum[d->label];
+              g->fixed[k] = d->label;
+            }
+        }
+      for (size_t i = first[k]; i < first[k + 1]; i++)
+        sum[g->spread.dab[dab[i]].label] = 0;
+    }
+
+done:
+  celd_free (most);
+  celd_free (sum);
+  celd_free (first);
+  celd_free (dab);
+  return status;
+}
+
+/* With keep_necks: a block keeps the only label that has paint there. */
+static void
+fix_holders (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+
+  for (size_t k = 0; k < basins->n; k++)
+    {
+      uint32_t holder = g->holder[basins->block[k]];
+
+      if (holder && holder != SHARED && !g->fixed[g->node[k]])
+        g->fixed[g->node[k]] = holder;
+    }
+}
+
+static CeldStatus
+gather_votes (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+
+  for (size_t i = 0; i < g->spread.n_dabs; i++)
+    {
+      const CeldDab *dab = &g->spread.dab[i];
+      int32_t        vote = celd_canvas_vote (g->canvas, dab->label);
+      uint32_t       node = g->node[dab->basin];
+      int64_t        cost = (int64_t) vote * (int64_t) telling_paint (basins, dab);
+      CeldVote      *votes;
+
+      if (vote == CELD_HARD || !cost)
+        continue;
+      if (g->n_votes && g->vote[g->n_votes - 1].node == node && g->vote[g->n_votes - 1].label == dab->label)
+        {
+          g->vote[g->n_votes - 1].cost += cost;
+          continue;
+        }
+      votes = celd_grow (g->vote, g->n_votes + 1, sizeof *votes);
+      if (!votes)
+        return CELD_NO_MEMORY;
+      g->vote = votes;
+      votes[g->n_votes++] = (CeldVote) { node, dab->label, cost };
+    }
+  return CELD_OK;
+}
+
+/* Borders between nodes, those of the same two nodes summed up. */
+static CeldStatus
+gather_links (Graph *g)
+{
+  const CeldBasins *basins = g->canvas->basins;
+  size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's borders, as the lesser node */
+  size_t           *border = celd_alloc (basins->n_borders, sizeof *border);
+  size_t           *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the present one */
+  CeldStatus        status = first && border && found ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  for (size_t k = 0; k < g->n; k++)
+    found[k] = SIZE_MAX;
+  for (int pass = 0; pass < 2; pass++)
+    {
+      for (size_t i = 0; i < basins->n_borders; i++)
+        {
+          uint32_t a = g->node[basins->border[i].a], b = g->node[basins->border[i].b];
+
+          if (a == b)
+            continue;
+          if (pass)
+            border[first[(a < b ? a : b) + 1]++] = i;
+          else
+            first[(a < b ? a : b) + 2]++;
+        }
+      for (size_t k = 2; k < g->n + 2 && !pass; k++)
+        first[k] += first[k - 1];
+    }
+  for (size_t k = 0; k < g->n; k++)
+    {
+      size_t begin = g->n_links;
+
+      for (size_t i = first[k]; i < first[k + 1]; i++)
+        {
+          const CeldBorder *b = &basins->border[border[i]];
+          uint32_t          other = g->node[b->a] == k ? g->node[b->b] : g->node[b->a];
+
+          if (found[other] == SIZE_MAX || found[other] < begin)
+            {
+              found[other] = g->n_links;
+              g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
+            }
+          g->link[found[other]].cost += b->cost;
+        }
+    }
+
+done:
+  celd_free (first);
+  celd_free (border);
+  celd_free (found);
+  return status;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+CeldStatus
+celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label)
+{
+  Graph      g;
+  CeldStatus status = graph_new (canvas, &g);
+
+  if (status == CELD_OK)
+    {
+      find_holders (&g);
+      status = make_nodes (&g);
+    }
+  if (status == CELD_OK)
+    status = fix_hard (&g);
+  if (status == CELD_OK && canvas->settings->keep_necks)
+    fix_holders (&g);
+  if (status == CELD_OK)
+    status = gather_votes (&g);
+  if (status == CELD_OK)
+    status = gather_links (&g);
+  if (status == CELD_OK)
+    status = celd_canvas_order (canvas, g.order);
+  if (status == CELD_OK)
+    {
+      CeldPartition problem = {
+        g.n, g.link, g.n_links, g.vote, g.n_votes, g.fixed, g.order, canvas->palette.n
+      };
+
+      status = celd_partition (&problem, run, g.label, NULL, NULL);
+    }
+  for (size_t k = 0; k < canvas->basins->n && status == CELD_OK; k++)
+    label[k] = g.label[g.node[k]];
+  graph_clear (&g);
+  return status;
+}

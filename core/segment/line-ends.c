@@ -1,0 +1,300 @@
+/* The free ends of a drawing's lines.
+ *
+ * The outline of all ink is followed, ink on the right, diagonal neighbours connected.  At the end of a line the
+ * outline turns back: two places a few stroke widths before and behind are close to each other, with ink between.  What
+ * is left of such places is looked at as closures look at what they end at (closure-ends.c).
+ *
+ * Cost: one pass over the picture, and the length of the outlines; a byte a pixel for a while.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/bridges.h"
+#include "segment/closures.h"
+
+#include <string.h>
+
+#define ARM      1.25           /* stroke widths along the outline to either side */
+#define SHORTEST 6              /* pixels of such an arm, at least */
+#define SCALES   3              /* arms are tried at, each twice as long as the one before */
+#define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
+#define CERTAIN  0.42           /* the same of a line that is not seen to be one */
+#define SAME     0.75           /* widths of the line: ends as close as this are one */
+#define CELL     16             /* pixels: side of the cells in which known ends are looked up */
+
+#define NONE UINT32_MAX
+
+#define INKED 1                 /* of a pixel */
+#define SEEN  2                 /* its upper edge has been followed */
+
+typedef struct
+{
+  const CeldPlane *ink;
+  int              stroke, width, height;
+  uint8_t         *mask;        /* with a margin of a pixel, and of 8 at the right */
+  size_t           stride;
+  CeldCorner      *corner;      /* of the outline that is followed */
+  size_t           n;
+  uint32_t         outline;     /* its number */
+  CeldLineEnd      end;
+  CeldTip         *tip;
+  uint32_t        *before;      /* of tip k: the one before it in its cell; NONE */
+  size_t           n_tips;
+  uint32_t        *latest;      /* by cells: the last tip there; NONE */
+  int              columns, rows;
+} Search;
+
+/* ------------------------------------------------------------------ outlines */
+
+static CeldStatus
+read_mask (Search *s)
+{
+  s->stride = (size_t) s->width + 16;
+  s->mask   = celd_alloc0 ((size_t) s->height + 2, s->stride);
+  if (!s->mask)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < s->height; y++)
+    {
+      const float *ink = &CELD_AT (s->ink, 0, y);
+      uint8_t     *mask = s->mask + (size_t) (y + 1) * s->stride + 1;
+
+      for (int x = 0; x < s->width; x++)
+        mask[x] = !celd_is_paper (ink[x]);
+    }
+  return CELD_OK;
+}
+
+static CeldStatus
+make_cells (Search *s)
+{
+  size_t n;
+
+  s->columns = (s->width + CELL - 1) / CELL;
+  s->rows    = (s->height + CELL - 1) / CELL;
+  n          = (size_t) s->columns * (size_t) s->rows;
+  s->latest  = celd_alloc (n, sizeof *s->latest);
+  for (size_t k = 0; k < n && s->latest; k++)
+    s->latest[k] = NONE;
+  return s->latest ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static uint8_t *
+mask_at (const Search *s, int x, int y)
+{
+  return s->mask + (size_t) (y + 1) * s->stride + (size_t) (x + 1);
+}
+
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner: the pixels ahead, left and right. */
+static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
+static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
+static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
+
+/* Follows the outline that has the upper edge of the pixel (x,y). */
+static CeldStatus
+follow (Search *s, int x, int y)
+{
+  CeldCorner at = { x, y };
+  int        heading = 0;
+
+  s->n = 0;
+  do
+    {
+      CeldCorner *grown = celd_grow (s->corner, s->n + 1, sizeof *grown);
+
+      if (!grown)
+        return CELD_NO_MEMORY;
+      s->corner = grown;
+      grown[s->n++] = at;
+      if (heading == 0)
+        *mask_at (s, at.x, at.y) |= SEEN;
+      at.x += step_x[heading];
+      at.y += step_y[heading];
+      if (*mask_at (s, at.x + left_x[heading], at.y + left_y[heading]))
+        heading = (heading + 3) & 3;
+      else if (!*mask_at (s, at.x + right_x[heading], at.y + right_y[heading]))
+        heading = (heading + 1) & 3;
+    }
+  while (at.x != x || at.y != y || heading != 0);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ where outlines turn back */
+
+/* How close the ends of both arms at corner i are, to their length; and the middle between them. */
+static double
+sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
+{
+  CeldCorner p = s->corner[i], a = s->corner[(i + s->n - arm) % s->n], b = s->corner[(i + arm) % s->n];
+  double     length = hypot (a.x - p.x, a.y - p.y) + hypot (b.x - p.x, b.y - p.y);
+
+  *middle = (CeldPlace) { 0.5 * (a.x + b.x), 0.5 * (a.y + b.y) };
+  return length > 0 ? hypot (a.x - b.x, a.y - b.y) / length : 1;
+}
+
+/* The column or row of cells in which a coordinate is; the nearest one if it is off the picture. */
+static int
+cell_along (double at, int n)
+{
+  return at < CELL ? 0 : at < (double) CELL * n ? (int) (at / CELL) : n - 1;
+}
+
+static uint32_t *
+latest_at (const Search *s, CeldTip tip)
+{
+  size_t row = (size_t) cell_along (tip.y, s->rows), column = (size_t) cell_along (tip.x, s->columns);
+
+  return &s->latest[row * (size_t) s->columns + column];
+}
+
+/* Has this end been found, at another scale?  The one on the other side of a narrow gap points the other way. */
+static bool
+is_known (const Search *s, CeldTip end, double width)
+{
+  double near = SAME * width + 1;
+  int    right = cell_along (end.x + near, s->columns), bottom = cell_along (end.y + near, s->rows);
+
+  for (int row = cell_along (end.y - near, s->rows); row <= bottom; row++)
+    for (int column = cell_along (end.x - near, s->columns); column <= right; column++)
+      for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NONE; i = s->before[i])
+        if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < near &&
+            s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
+          return true;
+  return false;
+}
+
+static CeldStatus
+add_tip (Search *s, CeldTip end)
+{
+  uint32_t *latest = latest_at (s, end), *before = celd_grow (s->before, s->n_tips + 1, sizeof *before);
+  CeldTip  *tip;
+
+  if (!before)
+    return CELD_NO_MEMORY;
+  s->before = before;
+  tip       = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
+  if (!tip)
+    return CELD_NO_MEMORY;
+  s->tip            = tip;
+  before[s->n_tips] = *latest;
+  tip[s->n_tips]    = end;
+  *latest           = (uint32_t) s->n_tips++;
+  return CELD_OK;
+}
+
+/* Adds the corner if a line ends there.  A tip as sharp as CERTAIN is one even if the line is too short or too bent to
+ * tell its direction. */
+static CeldStatus
+try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
+{
+  double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* of the line, about */
+  CeldCorner inside;
+  CeldTip    end;
+
+  if (!*mask_at (s, (int) floor (middle.x), (int) floor (middle.y)) || back < 1)
+    return CELD_OK;
+  inside.x = (int32_t) floor (corner.x + (middle.x - corner.x) / back);
+  inside.y = (int32_t) floor (corner.y + (middle.y - corner.y) / back);
+  if (inside.x < 0 || inside.y < 0 || inside.x >= s->width || inside.y >= s->height ||
+      !*mask_at (s, inside.x, inside.y))
+    return CELD_OK;
+  celd_line_end_look (s->ink, inside, &s->end);
+  if (s->end.tip)
+    end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
+  else
+    end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
+  if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end, width))
+    return CELD_OK;
+  return add_tip (s, end);
+}
+
+/* Corners of the outline that are sharper than all within an arm's length. */
+static CeldStatus
+search_outline (Search *s, size_t arm)
+{
+  size_t     step = arm / 8 ? arm / 8 : 1;
+  CeldStatus status = CELD_OK;
+
+  if (s->n < 4 * arm)
+    return CELD_OK;
+  for (size_t i = 0; i < s->n && status == CELD_OK; i += step)
+    {
+      CeldPlace middle, other;
+      double    least = sharpness (s, i, arm, &middle);
+      size_t    best = i;
+
+      if (least > SHARP)
+        continue;
+      for (; i < s->n; i += step) /* the whole turn */
+        {
+          double sharp = sharpness (s, i, arm, &other);
+
+          if (sharp > SHARP)
+            break;
+          if (sharp < least)
+            {
+              least  = sharp;
+              best   = i;
+              middle = other;
+            }
+        }
+      status = try_corner (s, s->corner[best], middle, least);
+    }
+  return status;
+}
+
+static CeldStatus
+search_from (Search *s, int x, int y)
+{
+  size_t     arm = (size_t) fmax (SHORTEST, ARM * s->stroke);
+  CeldStatus status = follow (s, x, y);
+
+  s->outline++;
+  for (int scale = 0; scale < SCALES && status == CELD_OK; scale++, arm *= 2)
+    status = search_outline (s, arm);
+  return status;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+CeldStatus
+celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldTip **tip, size_t *n)
+{
+  Search     s = { .ink = ink, .stroke = stroke, .width = ink->width, .height = ink->height };
+  CeldStatus status = read_mask (&s);
+
+  if (status == CELD_OK)
+    status = make_cells (&s);
+  if (status == CELD_OK)
+    status = celd_line_end_new (stroke, &s.end);
+  for (int y = 0; y < s.height && status == CELD_OK; y++)
+    {
+      const uint8_t *row = mask_at (&s, 0, y), *above = row - s.stride;
+
+      for (int x = 0; x < s.width && status == CELD_OK; x += 8)
+        {
+          uint64_t here, over, edges;
+
+          memcpy (&here, row + x, 8);
+          memcpy (&over, above + x, 8);
+          edges = here & ~over & 0x0101010101010101u; /* SEEN is looked at below: following may set it on the way */
+          for (int k = 0; k < 8 && edges && status == CELD_OK; k++)
+            if (row[x + k] == INKED && !above[x + k])
+              status = search_from (&s, x + k, y);
+        }
+      if (status == CELD_OK && (y & 255) == 255)
+        status = celd_step (run, (double) y / s.height);
+    }
+  celd_line_end_clear (&s.end);
+  celd_free (s.mask);
+  celd_free (s.corner);
+  celd_free (s.before);
+  celd_free (s.latest);
+  if (status != CELD_OK)
+    {
+      celd_free (s.tip);
+      return status;
+    }
+  *tip = s.tip;
+  *n   = s.n_tips;
+  return CELD_OK;
+}

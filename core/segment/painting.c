@@ -1,0 +1,378 @@
+/* Labels on a picture: only pixels whose label changes are written, and the rectangle of all changes is noted.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/basins.h"
+#include "segment/painting.h"
+#include "segment/patches.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void
+celd_painting_clear (CeldPainting *painting)
+{
+  celd_free (painting->label);
+  celd_patches_clear (&painting->patches);
+  *painting = (CeldPainting) { 0 };
+}
+
+CeldStatus
+celd_painting_forget (CeldPainting *painting, const CeldBasins *basins)
+{
+  uint32_t *label = celd_alloc0 (basins->n, sizeof *label);
+
+  if (!label)
+    return CELD_NO_MEMORY;
+  celd_free (painting->label);
+  celd_patches_clear (&painting->patches);
+  painting->label = label;
+  return CELD_OK;
+}
+
+void
+celd_painting_lose (CeldPainting *painting, const CeldBasins *basins)
+{
+  memset (painting->label, 0, basins->n * sizeof *painting->label);
+  celd_patches_clear (&painting->patches);
+  painting->changed = (CeldRect) { 0, 0, basins->width, basins->height };
+}
+
+/* ------------------------------------------------------------------ runs of pixels */
+
+static void
+note (CeldPainting *painting, int y, int left, int right)
+{
+  CeldRect *rect = &painting->changed;
+  int       top = y, bottom = y + 1;
+
+  if (rect->width)
+    {
+      left   = left < rect->x ? left : rect->x;
+      top    = top < rect->y ? top : rect->y;
+      right  = right > rect->x + rect->width ? right : rect->x + rect->width;
+      bottom = bottom > rect->y + rect->height ? bottom : rect->y + rect->height;
+    }
+  *rect = (CeldRect) { left, top, right - left, bottom - top };
+}
+
+static void
+fill (uint32_t *row, int n, uint32_t label)
+{
+  for (int i = 0; i < n; i++)
+    row[i] = label;
+}
+
+/* The labels of the basins in pixels x .. end - 1 of row y. */
+static void
+read_basins (const CeldBasins *basins, const uint32_t *label, int y, int x, int end, uint32_t *row)
+{
+  for (size_t i = celd_basin_run (basins, x, y); x < end; i++)
+    {
+      int stop = celd_basin_run_end (basins, i, y);
+
+      stop = stop < end ? stop : end;
+      fill (row, stop - x, label[basins->run[i].basin]);
+      row += stop - x;
+      x = stop;
+    }
+}
+
+/* ------------------------------------------------------------------ a new picture */
+
+static void
+paint_basins (CeldPainting *painting, const CeldBasins *basins, const uint32_t *old, CeldLabels *labels)
+{
+  for (int y = 0; y < basins->height; y++)
+    for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
+      {
+        int      x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
+        uint32_t label = painting->label[basins->run[i].basin];
+
+        if (label == old[basins->run[i].basin])
+          continue;
+        note (painting, y, x, end);
+        fill (&CELD_AT (labels, x, y), end - x, label);
+      }
+}
+
+void
+celd_painting_begin (CeldPainting *painting, const CeldBasins *basins, uint32_t *label, CeldLabels *labels,
+                     CeldPainting *old)
+{
+  *old = *painting;
+  painting->label   = label;
+  painting->patches = (CeldPatches) { 0 };
+  paint_basins (painting, basins, old->label, labels);
+  for (size_t i = 0; i < old->patches.n; i++)
+    {
+      const CeldPatch *patch = &old->patches.item[i];
+
+      read_basins (basins, label, patch->y, patch->x, patch->end, &CELD_AT (labels, patch->x, patch->y));
+    }
+}
+
+CeldStatus
+celd_painting_add (CeldPainting *painting, const CeldPatches *patches, CeldLabels *labels)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < patches->n && status == CELD_OK; i++)
+    {
+      const CeldPatch *patch = &patches->item[i];
+
+      status = celd_patch_add (&painting->patches, *patch);
+      if (status == CELD_OK)
+        fill (&CELD_AT (labels, patch->x, patch->y), patch->end - patch->x, patch->label);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ tidying */
+
+static int
+compare_patches (const void *a, const void *b)
+{
+  const CeldPatch *p = a, *q = b;
+
+  if (p->y != q->y)
+    return p->y < q->y ? -1 : 1;
+  return p->x < q->x ? -1 : p->x > q->x;
+}
+
+/* Adds what differs from the basins' labels in pixels x .. end - 1 of row y. */
+static CeldStatus
+patch_row (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, int y, int x, int end,
+           uint32_t *row, CeldPatches *patches)
+{
+  CeldStatus status = CELD_OK;
+
+  read_basins (basins, painting->label, y, x, end, row);
+  for (int i = x; i < end && status == CELD_OK; i++)
+    {
+      uint32_t   label = CELD_AT (labels, i, y);
+      CeldPatch *last = patches->n ? &patches->item[patches->n - 1] : NULL;
+
+      if (label == row[i - x])
+        continue;
+      if (last && last->y == y && last->end == i && last->label == label)
+        last->end = i + 1;
+      else
+        status = celd_patch_add (patches, (CeldPatch) { y, i, i + 1, label });
+    }
+  return status;
+}
+
+/* What was painted over the basins' labels, in whatever order, as patches in reading order without a pixel twice. */
+static CeldStatus
+tidy_patches (CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, uint32_t *row)
+{
+  CeldPatch  *item = painting->patches.item;
+  size_t      n = painting->patches.n;
+  CeldPatches tidy = { 0 };
+  CeldStatus  status = CELD_OK;
+
+  if (n)
+    qsort (item, n, sizeof *item, compare_patches);
+  for (size_t i = 0, j; i < n && status == CELD_OK; i = j)
+    {
+      int end = item[i].end;
+
+      for (j = i + 1; j < n && item[j].y == item[i].y && item[j].x <= end; j++)
+        end = item[j].end > end ? item[j].end : end;
+      status = patch_row (painting, basins, labels, item[i].y, item[i].x, end, row, &tidy);
+    }
+  if (status != CELD_OK)
+    {
+      celd_patches_clear (&tidy);
+      return status;
+    }
+  celd_patches_clear (&painting->patches);
+  painting->patches = tidy;
+  return CELD_OK;
+}
+
+/* Notes where pixels under old patches have another label now. */
+static void
+compare_old (CeldPainting *painting, const CeldPatches *old, const CeldLabels *labels)
+{
+  for (size_t i = 0; i < old->n; i++)
+    {
+      int x = old->item[i].x, end = old->item[i].end, y = old->item[i].y;
+
+      while (x < end && CELD_AT (labels, x, y) == old->item[i].label)
+        x++;
+      while (end > x && CELD_AT (labels, end - 1, y) == old->item[i].label)
+        end--;
+      if (x < end)
+        note (painting, y, x, end);
+    }
+}
+
+/* Notes which pixels of patches had another label before, as basins or as old patches. */
+static void
+compare_new (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, uint32_t *row)
+{
+  const CeldPatches *before = &old->patches;
+  size_t             j = 0;
+
+  for (size_t i = 0; i < painting->patches.n; i++)
+    {
+      const CeldPatch *new = &painting->patches.item[i];
+      int              n = new->end - new->x, from = 0;
+
+      read_basins (basins, old->label, new->y, new->x, new->end, row);
+      while (j < before->n && (before->item[j].y < new->y ||
+                               (before->item[j].y == new->y && before->item[j].end <= new->x)))
+        j++;
+      for (size_t k = j; k < before->n && before->item[k].y == new->y && before->item[k].x < new->end; k++)
+        for (int x = before->item[k].x > new->x ? before->item[k].x : new->x;
+             x < before->item[k].end && x < new->end; x++)
+          row[x - new->x] = before->item[k].label;
+      while (from < n && row[from] == new->label)
+        from++;
+      while (n > from && row[n - 1] == new->label)
+        n--;
+      if (from < n)
+        note (painting, new->y, new->x + from, new->x + n);
+    }
+}
+
+CeldStatus
+celd_painting_end (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, const CeldLabels *labels)
+{
+  uint32_t  *row = celd_alloc ((size_t) basins->width, sizeof *row);
+  CeldStatus status = row ? tidy_patches (painting, basins, labels, row) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    {
+      compare_old (painting, &old->patches, labels);
+      compare_new (painting, basins, old, row);
+    }
+  celd_free (row);
+  return status;
+}
+
+CeldStatus
+celd_painting_replace (CeldPainting *painting, const CeldBasins *basins, const CeldLabels *from, CeldLabels *labels)
+{
+  CeldStatus status = celd_painting_forget (painting, basins);
+
+  for (int y = 0; y < labels->height && status == CELD_OK; y++)
+    {
+      uint32_t *old = &CELD_AT (labels, 0, y), *new = &CELD_AT (from, 0, y);
+      int       left = 0, right = labels->width;
+
+      while (left < right && old[left] == new[left])
+        left++;
+      while (right > left && old[right - 1] == new[right - 1])
+        right--;
+      if (left == right)
+        continue;
+      note (painting, y, left, right);
+      memcpy (old + left, new + left, (size_t) (right - left) * sizeof *old);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ what is known of the labels */
+
+/* How good a label's place is so far. */
+typedef struct { int32_t squared; int length; } Place;
+
+/* The maximum of a basin is as far from ink as a pixel of the basin can be. */
+static void
+place_basins (const CeldBasins *basins, const CeldLabels *labels, Place *place, CeldPalette *palette)
+{
+  for (size_t k = 0; k < basins->n; k++)
+    {
+      const CeldBasin *basin = &basins->basin[k];
+      uint32_t         l = CELD_AT (labels, basin->x, basin->y) - 1;
+      int32_t          squared = basin->solid ? 0 : basin->squared;
+
+      if (palette->item[l].x >= 0 && squared <= place[l].squared)
+        continue;
+      place[l].squared   = squared;
+      palette->item[l].x = basin->x;
+      palette->item[l].y = basin->y;
+    }
+}
+
+/* Labels without a maximum: the middle of their longest patch. */
+static void
+place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
+{
+  for (size_t i = 0; i < patches->n; i++)
+    {
+      const CeldPatch *patch = &patches->item[i];
+      uint32_t         l = patch->label - 1;
+      int              length = patch->end - patch->x;
+
+      if ((palette->item[l].x >= 0 && !place[l].length) || length <= place[l].length)
+        continue;
+      place[l].length    = length;
+      palette->item[l].x = patch->x + length / 2;
+      palette->item[l].y = patch->y;
+    }
+}
+
+/* Labels whose every maximum is under a patch: their first pixel. */
+static void
+place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette)
+{
+  size_t missing = 0;
+
+  for (size_t k = 0; k < palette->n; k++)
+    missing += palette->item[k].area && palette->item[k].x < 0;
+  for (int y = 0; y < basins->height && missing; y++)
+    for (size_t i = basins->row[y]; i < basins->row[y + 1] && missing; i++)
+      {
+        uint32_t    label = painting->label[basins->run[i].basin];
+        CeldRegion *region = &palette->item[label - 1];
+        int         x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
+
+        while (region->x < 0 && x < end && CELD_AT (labels, x, y) != label)
+          x++;
+        if (region->x >= 0 || x == end)
+          continue;
+        region->x = x;
+        region->y = y;
+        missing--;
+      }
+}
+
+CeldStatus
+celd_painting_measure (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels,
+                       CeldPalette *palette)
+{
+  uint32_t  *row = celd_alloc ((size_t) basins->width, sizeof *row);
+  Place     *place = celd_alloc0 (palette->n, sizeof *place);
+  CeldStatus status = row && place ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status != CELD_OK)
+    goto done;
+  for (size_t k = 0; k < palette->n; k++)
+    {
+      palette->item[k].area = 0;
+      palette->item[k].x = palette->item[k].y = -1;
+    }
+  for (size_t k = 0; k < basins->n; k++)
+    palette->item[painting->label[k] - 1].area += basins->basin[k].area;
+  for (size_t i = 0; i < painting->patches.n; i++)
+    {
+      const CeldPatch *patch = &painting->patches.item[i];
+
+      read_basins (basins, painting->label, patch->y, patch->x, patch->end, row);
+      for (int k = 0; k < patch->end - patch->x; k++)
+        palette->item[row[k] - 1].area--;
+      palette->item[patch->label - 1].area += (size_t) (patch->end - patch->x);
+    }
+  place_basins (basins, labels, place, palette);
+  place_patches (&painting->patches, place, palette);
+  place_rest (painting, basins, labels, palette);
+
+done:
+  celd_free (row);
+  celd_free (place);
+  return status;
+}

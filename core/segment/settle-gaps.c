@@ -1,0 +1,258 @@
+/* Where a border runs across paper, the LazyBrush energy [SDC09b] is solved on pixels: in a window that has room for
+ * the ends of the lines on both sides, with everything outside as it is.  An answer is taken if its energy is lower.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/canvas.h"
+#include "segment/settle.h"
+#include "solve/maxflow.h"
+#include "solve/partition.h"
+
+#define NEAR    3               /* pixels between borders across paper that share a window */
+#define MARGIN  6               /* pixels round a gap, besides the width of strokes and half the gap */
+#define LARGEST (1 << 18)       /* pixels of a window: what is larger is no gap */
+
+typedef struct { int left, top, right, bottom; } Box;  /* inclusive */
+typedef struct { Box *item; size_t n; } Boxes;
+
+/* A window as a graph: a node a pixel, what lies outside as votes. */
+typedef struct
+{
+  Box       box;
+  size_t    n, n_links, n_votes;
+  CeldLink *link;
+  CeldVote *vote;
+  uint32_t *fixed, *present, *label;
+  uint32_t *global, *local;     /* labels of the picture by those of the window, from 0; and back, from 1 */
+  uint32_t *order;
+  size_t    n_labels;
+} Window;
+
+static int
+least (int a, int b)
+{
+  return a < b ? a : b;
+}
+
+static int
+most (int a, int b)
+{
+  return a > b ? a : b;
+}
+
+/* ------------------------------------------------------------------ gaps */
+
+/* Adds a pixel to a box that is near, or makes one. */
+static CeldStatus
+note_gap (int x, int y, Boxes *boxes)
+{
+  Box *item;
+
+  for (size_t i = 0; i < boxes->n; i++)
+    {
+      Box *b = &boxes->item[i];
+
+      if (x < b->left - NEAR || x > b->right + NEAR || y < b->top - NEAR || y > b->bottom + NEAR)
+        continue;
+      *b = (Box) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
+      return CELD_OK;
+    }
+  item = celd_grow (boxes->item, boxes->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  boxes->item = item;
+  item[boxes->n++] = (Box) { x, y, x, y };
+  return CELD_OK;
+}
+
+/* Is the edge a border across paper? */
+static bool
+is_gap (const CeldSettling *s, int x, int y, bool south)
+{
+  int x2 = x + !south, y2 = y + south;
+
+  return x2 < s->labels->width && y2 < s->labels->height && CELD_AT (s->labels, x, y) != CELD_AT (s->labels, x2, y2) &&
+         celd_is_paper (CELD_AT (s->canvas->ink, x, y)) && celd_is_paper (CELD_AT (s->canvas->ink, x2, y2));
+}
+
+static CeldStatus
+find_gaps (const CeldSettling *s, Boxes *boxes)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < s->labels->height && status == CELD_OK; y++)
+    for (int x = 0; x < s->labels->width && status == CELD_OK; x++)
+      if (is_gap (s, x, y, false) || is_gap (s, x, y, true))
+        status = note_gap (x, y, boxes);
+  return status;
+}
+
+/* The window of a gap. */
+static Box
+widen (const CeldSettling *s, Box b)
+{
+  int margin = MARGIN + s->canvas->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
+
+  return (Box) { most (b.left - margin, 0), most (b.top - margin, 0),
+                 least (b.right + margin, s->labels->width - 1), least (b.bottom + margin, s->labels->height - 1) };
+}
+
+/* ------------------------------------------------------------------ the graph of a window */
+
+static bool
+inside (const Box *b, int x, int y)
+{
+  return x >= b->left && x <= b->right && y >= b->top && y <= b->bottom;
+}
+
+/* The number of a label in the window. */
+static uint32_t
+local_label (Window *window, uint32_t label)
+{
+  if (!window->local[label])
+    {
+      window->global[window->n_labels] = label;
+      window->local[label] = (uint32_t) ++window->n_labels;
+    }
+  return window->local[label];
+}
+
+static void
+add_edge (const CeldSettling *s, Window *window, uint32_t node, int x, int y, int x2, int y2)
+{
+  int     w = window->box.right - window->box.left + 1;
+  bool    south = x == x2;
+  int32_t cost;
+
+  if (x2 < 0 || y2 < 0 || x2 >= s->labels->width || y2 >= s->labels->height)
+    return;
+  if (!inside (&window->box, x2, y2))
+    {
+      cost = celd_settling_cost (s, least (x, x2), least (y, y2), south);
+      window->vote[window->n_votes++] = (CeldVote) { node, local_label (window, CELD_AT (s->labels, x2, y2)), cost };
+    }
+  else if (x2 > x || y2 > y)
+    {
+      cost = celd_settling_cost (s, x, y, south);
+      window->link[window->n_links++] = (CeldLink) { node, node + (uint32_t) (south ? w : 1), cost };
+    }
+}
+
+static void
+add_pixel (const CeldSettling *s, Window *window, uint32_t node, int x, int y)
+{
+  uint32_t seed = celd_seed_rows_at (&s->canvas->seeds, x, y);
+  int32_t  vote = seed ? celd_canvas_vote (s->canvas, seed) : 0;
+
+  window->present[node] = local_label (window, CELD_AT (s->labels, x, y));
+  window->fixed[node]   = vote == CELD_HARD ? local_label (window, seed) : 0;
+  if (seed && vote != CELD_HARD)
+    window->vote[window->n_votes++] = (CeldVote) { node, local_label (window, seed), vote };
+  add_edge (s, window, node, x, y, x + 1, y);
+  add_edge (s, window, node, x, y, x, y + 1);
+  add_edge (s, window, node, x, y, x - 1, y);
+  add_edge (s, window, node, x, y, x, y - 1);
+}
+
+static CeldStatus
+window_new (const CeldSettling *s, Box box, Window *window)
+{
+  size_t   w = (size_t) (box.right - box.left + 1), h = (size_t) (box.bottom - box.top + 1), n = w * h;
+  size_t   n_labels = s->canvas->palette.n;
+  uint32_t node = 0;
+
+  *window = (Window) {
+    .box     = box,
+    .n       = n,
+    .link    = celd_alloc (2 * n, sizeof *window->link),
+    .vote    = celd_alloc (n + 2 * (w + h), sizeof *window->vote),
+    .fixed   = celd_alloc (n, sizeof *window->fixed),
+    .present = celd_alloc (n, sizeof *window->present),
+    .label   = celd_alloc (n, sizeof *window->label),
+    .global  = celd_alloc (n_labels, sizeof *window->global),
+    .local   = celd_alloc0 (n_labels + 1, sizeof *window->local),
+    .order   = celd_alloc (n_labels, sizeof *window->order),
+  };
+  if (!window->link || !window->vote || !window->fixed || !window->present || !window->label || !window->global ||
+      !window->local || !window->order)
+    return CELD_NO_MEMORY;
+  for (int y = box.top; y <= box.bottom; y++)
+    for (int x = box.left; x <= box.right; x++)
+      add_pixel (s, window, node++, x, y);
+  return CELD_OK;
+}
+
+static void
+window_clear (Window *window)
+{
+  celd_free (window->link);
+  celd_free (window->vote);
+  celd_free (window->fixed);
+  celd_free (window->present);
+  celd_free (window->label);
+  celd_free (window->global);
+  celd_free (window->local);
+  celd_free (window->order);
+}
+
+/* ------------------------------------------------------------------ the cuts */
+
+/* Labels are told apart in the order of the whole picture. */
+static CeldStatus
+order_labels (const CeldSettling *s, Window *window)
+{
+  uint32_t  *order = celd_alloc (s->canvas->palette.n, sizeof *order);
+  size_t     n = 0;
+  CeldStatus status = order ? celd_canvas_order (s->canvas, order) : CELD_NO_MEMORY;
+
+  for (size_t i = 0; i < s->canvas->palette.n && status == CELD_OK; i++)
+    if (window->local[order[i]])
+      window->order[n++] = window->local[order[i]];
+  celd_free (order);
+  return status;
+}
+
+static CeldStatus
+solve (CeldSettling *s, Window *window)
+{
+  CeldPartition problem = {
+    window->n, window->link, window->n_links, window->vote, window->n_votes, window->fixed, window->order,
+    window->n_labels
+  };
+  size_t        node = 0;
+  int64_t       energy;
+  CeldStatus    status = celd_partition (&problem, s->run, window->label, &energy, NULL);
+
+  if (status != CELD_OK || energy >= celd_partition_energy (&problem, window->present))
+    return status;
+  for (int y = window->box.top; y <= window->box.bottom; y++)
+    for (int x = window->box.left; x <= window->box.right && status == CELD_OK; x++, node++)
+      if (window->label[node] != window->present[node])
+        status = celd_settling_set (s, x, y, window->global[window->label[node] - 1]);
+  return status;
+}
+
+CeldStatus
+celd_settle_gaps (CeldSettling *s)
+{
+  Boxes      boxes = { 0 };
+  CeldStatus status = find_gaps (s, &boxes);
+
+  for (size_t i = 0; i < boxes.n && status == CELD_OK; i++)
+    {
+      Box    box = widen (s, boxes.item[i]);
+      Window window;
+
+      if ((int64_t) (box.right - box.left + 1) * (box.bottom - box.top + 1) > LARGEST)
+        continue;
+      status = window_new (s, box, &window);
+      if (status == CELD_OK)
+        status = order_labels (s, &window);
+      if (status == CELD_OK)
+        status = solve (s, &window);
+      window_clear (&window);
+    }
+  celd_free (boxes.item);
+  return status;
+}

@@ -1,0 +1,339 @@
+/* Borders of least energy.  Those of the basins follow the middle of lines and the shortest way across a gap; the
+ * energy of LazyBrush [SDC09b] (section 3.2) counts edges between pixels, and is often a little lower beside them.
+ *
+ * A run is a straight piece of a border, as long as the same two labels lie on its sides.  It is moved by a pixel to
+ * the side where it costs less, votes of strokes included, until no run of the picture gains.  Across paper, where an
+ * edge costs a thousand times as much as in a line, borders are then cut anew in windows (settle-gaps.c).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/canvas.h"
+#include "segment/costs.h"
+#include "segment/patches.h"
+#include "segment/settle.h"
+#include "solve/maxflow.h"
+
+#include <stdlib.h>
+
+#define NEVER (INT64_C (1) << 50)  /* what it costs to disobey a hard stroke */
+
+/* The first edge of a run: between (x,y) and the pixel below, the run going to the right; or between (x,y) and the
+ * pixel to the right, the run going down. */
+typedef struct { int x, y; bool south; } Edge;
+typedef struct { Edge *item; size_t n; } Edges;
+
+/* ------------------------------------------------------------------ pixels */
+
+int32_t
+celd_settling_cost (const CeldSettling *s, int x, int y, bool south)
+{
+  const CeldPlane *ink = s->canvas->ink;
+  size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
+  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
+
+  return celd_cost (&s->canvas->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south), s->depth[p],
+                    s->depth[south ? p + w : p + 1], frame);
+}
+
+CeldStatus
+celd_settling_set (CeldSettling *s, int x, int y, uint32_t label)
+{
+  uint32_t *changed = celd_grow (s->changed, s->n_changed + 1, sizeof *changed);
+
+  if (!changed)
+    return CELD_NO_MEMORY;
+  s->changed = changed;
+  changed[s->n_changed++] = (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x;
+  CELD_AT (s->labels, x, y) = label;
+  return CELD_OK;
+}
+
+/* What a pixel with this label costs: its borders, and its stroke. */
+static int64_t
+cost_of (const CeldSettling *s, int x, int y, uint32_t label)
+{
+  const CeldLabels *l = s->labels;
+  uint32_t          seed = celd_seed_rows_at (&s->canvas->seeds, x, y);
+  int64_t           cost = 0;
+
+  if (seed && seed != label)
+    {
+      int32_t vote = celd_canvas_vote (s->canvas, seed);
+
+      cost = vote == CELD_HARD ? NEVER : vote;
+    }
+  if (x > 0 && CELD_AT (l, x - 1, y) != label)
+    cost += celd_settling_cost (s, x - 1, y, false);
+  if (x + 1 < l->width && CELD_AT (l, x + 1, y) != label)
+    cost += celd_settling_cost (s, x, y, false);
+  if (y > 0 && CELD_AT (l, x, y - 1) != label)
+    cost += celd_settling_cost (s, x, y - 1, true);
+  if (y + 1 < l->height && CELD_AT (l, x, y + 1) != label)
+    cost += celd_settling_cost (s, x, y, true);
+  return cost;
+}
+
+/* ------------------------------------------------------------------ runs */
+
+static bool
+is_edge (const CeldLabels *l, int x, int y, bool south)
+{
+  return x >= 0 && y >= 0 && x + !south < l->width && y + south < l->height &&
+         CELD_AT (l, x, y) != CELD_AT (l, x + !south, y + south);
+}
+
+/* Do two edges of the same direction belong to one run, if they are neighbours? */
+static bool
+same_run (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
+{
+  return is_edge (l, x2, y2, south) && CELD_AT (l, x, y) == CELD_AT (l, x2, y2) &&
+         CELD_AT (l, x + !south, y + south) == CELD_AT (l, x2 + !south, y2 + south);
+}
+
+/* Notes the run that an edge is part of, unless it is the one noted last. */
+static CeldStatus
+note (const CeldLabels *l, int x, int y, bool south, Edges *edges)
+{
+  Edge *item;
+
+  if (!is_edge (l, x, y, south))
+    return CELD_OK;
+  while (same_run (l, x, y, x - south, y - !south, south))
+    {
+      x -= south;
+      y -= !south;
+    }
+  if (edges->n)
+    {
+      const Edge *last = &edges->item[edges->n - 1];
+
+      if (last->x == x && last->y == y && last->south == south)
+        return CELD_OK;
+    }
+  item = celd_grow (edges->item, edges->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  edges->item = item;
+  item[edges->n++] = (Edge) { x, y, south };
+  return CELD_OK;
+}
+
+/* All runs of the picture. */
+static CeldStatus
+find_runs (const CeldLabels *l, Edges *edges)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < l->height && status == CELD_OK; y++)
+    for (int x = 0; x < l->width && status == CELD_OK; x++)
+      {
+        if (is_edge (l, x, y, true) && !same_run (l, x, y, x - 1, y, true))
+          status = note (l, x, y, true, edges);
+        if (is_edge (l, x, y, false) && !same_run (l, x, y, x, y - 1, false) && status == CELD_OK)
+          status = note (l, x, y, false, edges);
+      }
+  return status;
+}
+
+/* The n pixels from (x,y) on take a label, if that costs less. */
+static CeldStatus
+move (CeldSettling *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
+{
+  uint32_t   old = CELD_AT (s->labels, x, y);
+  size_t     before = s->n_changed;
+  int64_t    gain = 0;
+  CeldStatus status = CELD_OK;
+
+  for (int i = 0; i < n && status == CELD_OK; i++)
+    {
+      int px = x + i * south, py = y + i * !south;
+
+      gain  += cost_of (s, px, py, old) - cost_of (s, px, py, label);
+      status = celd_settling_set (s, px, py, label);
+    }
+  *moved = status == CELD_OK && gain > 0;
+  if (*moved)
+    return CELD_OK;
+  while (s->n_changed > before)
+    {
+      uint32_t p = s->changed[--s->n_changed], w = (uint32_t) s->labels->width;
+
+      CELD_AT (s->labels, p % w, p / w) = old;
+    }
+  return status;
+}
+
+/* The runs that touch pixels which have moved. */
+static CeldStatus
+note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int across = -1; across <= 1; across++)
+    for (int i = -1; i <= n && status == CELD_OK; i++)
+      {
+        int px = x + (south ? i : across), py = y + (south ? across : i);
+
+        status = note (l, px, py, south, edges);
+      }
+  for (int across = -1; across <= 1; across++)
+    for (int i = -1; i <= n && status == CELD_OK; i++)
+      {
+        int px = x + (south ? i : across), py = y + (south ? across : i);
+
+        status = note (l, px, py, !south, edges);
+      }
+  return status;
+}
+
+/* Moves a run to one side or the other. */
+static CeldStatus
+try_run (CeldSettling *s, Edge edge, Edges *next)
+{
+  const CeldLabels *l = s->labels;
+  bool              south = edge.south, moved;
+  int               x = edge.x, y = edge.y, n = 1;
+  uint32_t          one, other;
+  CeldStatus        status;
+
+  if (!is_edge (l, x, y, south))
+    return CELD_OK;
+  while (same_run (l, x, y, x + n * south, y + n * !south, south))
+    n++;
+  one    = CELD_AT (l, x, y);
+  other  = CELD_AT (l, x + !south, y + south);
+  status = move (s, x, y, south, n, other, &moved);
+  if (status == CELD_OK && !moved)
+    {
+      x += !south;
+      y += south;
+      status = move (s, x, y, south, n, one, &moved);
+    }
+  return status == CELD_OK && moved ? note_around (l, x, y, south, n, next) : status;
+}
+
+static CeldStatus
+settle_runs (CeldSettling *s)
+{
+  Edges      edges = { 0 };
+  CeldStatus status = find_runs (s->labels, &edges);
+
+  while (edges.n && status == CELD_OK)
+    {
+      Edges next = { 0 };
+
+      for (size_t i = 0; i < edges.n && status == CELD_OK; i++)
+        status = try_run (s, edges.item[i], &next);
+      celd_free (edges.item);
+      edges = next;
+      if (status == CELD_OK)
+        status = celd_step (s->run, 0);
+    }
+  celd_free (edges.item);
+  return status;
+}
+
+/* ------------------------------------------------------------------ paint */
+
+/* Paint on lines: there a border round a single pixel costs less than the stroke that it disobeys. */
+static CeldStatus
+settle_paint (CeldSettling *s)
+{
+  const CeldSeedRows *seeds = &s->canvas->seeds;
+  CeldStatus          status = CELD_OK;
+
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n; i++)
+      {
+        const CeldSeedRun *run = &seeds->row[y].run[i];
+
+        for (int x = run->x; x < run->end && status == CELD_OK; x++)
+          {
+            uint32_t label = CELD_AT (s->labels, x, y);
+
+            if (label != run->label && cost_of (s, x, y, run->label) < cost_of (s, x, y, label))
+              status = celd_settling_set (s, x, y, run->label);
+          }
+      }
+  return status;
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static CeldStatus
+measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t *depth)
+{
+  size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
+  uint8_t   *paper = celd_alloc (n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!paper)
+    return status;
+  for (size_t p = 0; p < n; p++)
+    paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
+  status = celd_distance (ink->width, ink->height, paper, run, depth);
+  celd_free (paper);
+  return status;
+}
+
+static int
+compare_pixels (const void *a, const void *b)
+{
+  uint32_t p = *(const uint32_t *) a, q = *(const uint32_t *) b;
+
+  return p < q ? -1 : p > q;
+}
+
+/* What has changed, as patches. */
+static CeldStatus
+list_changes (CeldSettling *s, CeldPatches *patches)
+{
+  uint32_t   w = (uint32_t) s->labels->width;
+  CeldStatus status = CELD_OK;
+
+  if (s->n_changed)
+    qsort (s->changed, s->n_changed, sizeof *s->changed, compare_pixels);
+  for (size_t i = 0; i < s->n_changed && status == CELD_OK;)
+    {
+      uint32_t  p = s->changed[i];
+      CeldPatch patch = { (int32_t) (p / w), (int32_t) (p % w), (int32_t) (p % w) + 1,
+                          CELD_AT (s->labels, p % w, p / w) };
+
+      for (i++; i < s->n_changed && s->changed[i] <= p + 1; p = s->changed[i++])
+        if (s->changed[i] == p + 1)
+          {
+            if ((p + 1) % w == 0 || CELD_AT (s->labels, (p + 1) % w, (p + 1) / w) != patch.label)
+              break;
+            patch.end++;
+          }
+      status = celd_patch_add (patches, patch);
+    }
+  return status;
+}
+
+CeldStatus
+celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels, CeldPatches *patches)
+{
+  size_t       n = (size_t) labels->width * (size_t) labels->height;
+  CeldPart     part;
+  CeldRun      brief = celd_run_part (&part, run, 0, 0);
+  CeldSettling s = {
+    .canvas = canvas, .run = &brief, .labels = labels, .depth = celd_alloc (n, sizeof *s.depth)
+  };
+  CeldStatus   status = s.depth ? measure_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = settle_paint (&s);
+  if (status == CELD_OK)
+    status = settle_runs (&s);
+  if (status == CELD_OK)
+    status = celd_settle_gaps (&s);
+  if (status == CELD_OK)
+    status = settle_runs (&s);
+  if (status == CELD_OK)
+    status = list_changes (&s, patches);
+  celd_free (s.depth);
+  celd_free (s.changed);
+  return status;
+}

@@ -1,0 +1,448 @@
+/* Regions in which both ends of an inequality lie, split between them.
+ *
+ * The end that is nearer, within the region, to the seeds that the region has keeps its label, the other becomes a new
+ * one; only the region is cut again, and by what earlier relations made of it.  A region is basins that touch: of one
+ * label where they are widest, or where they touch.  A basin may hold pixels of other labels; these stay as they are,
+ * and so do those under hard strokes of the artist.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "segment/patches.h"
+#include "segment/seeds.h"
+#include "solve/maxflow.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct { int left, top, right, bottom; } Box; /* inclusive */
+
+typedef struct
+{
+  CeldCanvas       *canvas;
+  const CeldLabels *labels;
+  CeldSeedRows      taken;     /* what relations have changed of the labels so far */
+  CeldSeedRows      painted;   /* seeds before any relation added some */
+  size_t           *first;     /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
+  uint32_t         *border;
+  Box              *box;       /* of each basin */
+  uint32_t         *basin, *at; /* the region at hand, as CeldCut has it */
+  uint8_t          *side;      /* of its basins, after a cut between basins */
+  uint8_t          *mark;      /* of each pixel, for celd_cut; CELD_OUTSIDE between two cuts */
+  uint32_t         *node;
+} Split;
+
+static uint32_t
+label_at (const Split *split, int x, int y)
+{
+  uint32_t label = celd_seed_rows_at (&split->taken, x, y);
+
+  return label ? label : CELD_AT (split->labels, x, y);
+}
+
+/* Are strokes of the label obeyed, whatever arrows say?  A flat colouring has no strokes: arrows split its areas. */
+static bool
+is_hard (const CeldCanvas *canvas, uint32_t label)
+{
+  return !canvas->settings->flats && canvas->palette.item[label - 1].origin == CELD_FROM_SCRIBBLE &&
+         celd_canvas_vote (canvas, label) == CELD_HARD;
+}
+
+static bool
+on_hard_stroke (const Split *split, CeldRelationEnd end, uint32_t label)
+{
+  return is_hard (split->canvas, label) && celd_seed_rows_at (&split->painted, end.x, end.y) == label;
+}
+
+/* ------------------------------------------------------------------ work space, made for the first region */
+
+static CeldStatus
+split_new (Split *split)
+{
+  const CeldBasins *basins = split->canvas->basins;
+  size_t            n_pixels = (size_t) basins->width * (size_t) basins->height;
+
+  split->first  = celd_alloc0 (basins->n + 2, sizeof *split->first);
+  split->border = celd_alloc (2 * basins->n_borders, sizeof *split->border);
+  split->box    = celd_alloc (basins->n, sizeof *split->box);
+  split->basin  = celd_alloc (basins->n, sizeof *split->basin);
+  split->at     = celd_alloc0 (basins->n, sizeof *split->at);
+  split->side   = celd_alloc (basins->n, 1);
+  split->mark   = celd_alloc0 (n_pixels, 1);
+  split->node   = celd_alloc (n_pixels, sizeof *split->node);
+  return split->first && split->border && split->box && split->basin && split->at && split->side && split->mark &&
+         split->node ? celd_seed_rows_copy (&split->canvas->seeds, &split->painted) : CELD_NO_MEMORY;
+}
+
+static void
+split_clear (Split *split)
+{
+  celd_seed_rows_clear (&split->taken);
+  celd_seed_rows_clear (&split->painted);
+  celd_free (split->first);
+  celd_free (split->border);
+  celd_free (split->box);
+  celd_free (split->basin);
+  celd_free (split->at);
+  celd_free (split->side);
+  celd_free (split->mark);
+  celd_free (split->node);
+}
+
+static void
+list_borders (Split *split)
+{
+  const CeldBasins *basins = split->canvas->basins;
+  size_t           *first = split->first;
+
+  for (size_t i = 0; i < basins->n_borders; i++)
+    {
+      first[basins->border[i].a + 2]++;
+      first[basins->border[i].b + 2]++;
+    }
+  for (size_t k = 1; k < basins->n + 2; k++)
+    first[k] += first[k - 1];
+  for (size_t i = 0; i < basins->n_borders; i++)
+    {
+      split->border[first[basins->border[i].a + 1]++] = (uint32_t) i;
+      split->border[first[basins->border[i].b + 1]++] = (uint32_t) i;
+    }
+}
+
+static void
+find_boxes (Split *split)
+{
+  const CeldBasins *basins = split->canvas->basins;
+
+  for (size_t k = 0; k < basins->n; k++)
+    split->box[k] = (Box) { basins->width, basins->height, -1, -1 };
+  for (int y = 0; y < basins->height; y++)
+    for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
+      {
+        Box *box = &split->box[basins->run[i].basin];
+        int  left = basins->run[i].x, right = celd_basin_run_end (basins, i, y) - 1;
+
+        box->left   = left < box->left ? left : box->left;
+        box->right  = right > box->right ? right : box->right;
+        box->top    = y < box->top ? y : box->top;
+        box->bottom = y;
+      }
+}
+
+/* ------------------------------------------------------------------ the region round an end */
+
+static bool
+basin_has (const Split *split, uint32_t k, uint32_t label)
+{
+  const CeldBasin *basin = &split->canvas->basins->basin[k];
+
+  return label_at (split, basin->x, basin->y) == label;
+}
+
+/* Does the label go on from one basin to another? */
+static bool
+goes_on (const Split *split, const CeldBorder *border, uint32_t label)
+{
+  if (basin_has (split, border->a, label) && basin_has (split, border->b, label))
+    return true;
+  return border->passes && label_at (split, border->x, border->y) == label &&
+         label_at (split, border->x + !border->south, border->y + border->south) == label;
+}
+
+static void
+join (Split *split, uint32_t k, CeldCut *cut)
+{
+  const Box *box = &split->box[k];
+
+  if (cut->at[k])
+    return;
+  cut->basin[cut->n++] = k;
+  cut->at[k]  = (uint32_t) cut->n;
+  cut->left   = box->left < cut->left ? box->left : cut->left;
+  cut->right  = box->right > cut->right ? box->right : cut->right;
+  cut->top    = box->top < cut->top ? box->top : cut->top;
+  cut->bottom = box->bottom > cut->bottom ? box->bottom : cut->bottom;
+}
+
+/* Finds the basins of the region round the first end; does it reach the second?  Where an earlier cut has left the ends
+ * mere pieces of basins, the region may go on through such pieces: then any basin may belong to it. */
+static bool
+find_region (Split *split, CeldCut *cut)
+{
+  const CeldBasins *basins = split->canvas->basins;
+  uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
+  uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
+  bool              whole = basin_has (split, first, cut->label) && basin_has (split, second, cut->label);
+
+  cut->left = cut->right = cut->end[0].x;
+  cut->top  = cut->bottom = cut->end[0].y;
+  join (split, first, cut);
+  for (size_t i = 0; i < cut->n; i++)
+    for (size_t j = split->first[cut->basin[i]]; j < split->first[cut->basin[i] + 1]; j++)
+      {
+        const CeldBorder *border = &basins->border[split->border[j]];
+
+        if (goes_on (split, border, cut->label))
+          join (split, border->a == cut->basin[i] ? border->b : border->a, cut);
+      }
+  cut->any = !whole && !cut->at[second];
+  for (uint32_t k = 0; k < basins->n && cut->any; k++)
+    join (split, k, cut);
+  return cut->at[second] != 0;
+}
+
+/* Marks the pixels of the label in row y of the region's basins: as inside, or as on the side of their basin. */
+static void
+mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
+{
+  const CeldBasins  *basins = split->canvas->basins;
+  const CeldSeedRow *taken = &split->taken.row[y];
+  const uint32_t    *label = &CELD_AT (split->labels, 0, y);
+  uint8_t           *mark = cut->mark + (size_t) y * (size_t) basins->width;
+  size_t             k = celd_basin_run (basins, cut->left, y), t = 0;
+
+  for (int x = cut->left, end; x <= cut->right; x = end, k++)
+    {
+      uint32_t at = cut->at[basins->run[k].basin];
+      uint8_t  value = !at ? CELD_OUTSIDE : side ? side[at - 1] : CELD_INSIDE;
+
+      end = celd_basin_run_end (basins, k, y);
+      end = end > cut->right ? cut->right + 1 : end;
+      if (!at)
+        continue;
+      for (int u = x; u < end; u++)
+        mark[u] = label[u] == cut->label ? value : CELD_OUTSIDE;
+      for (; t < taken->n && taken->run[t].x < end; t++)
+        {
+          int from = taken->run[t].x > x ? taken->run[t].x : x, to = taken->run[t].end < end ? taken->run[t].end : end;
+
+          if (from < to)
+            memset (mark + from, taken->run[t].label == cut->label ? value : CELD_OUTSIDE, (size_t) (to - from));
+          if (taken->run[t].end > end)
+            break; /* goes on in the next basin */
+        }
+    }
+}
+
+static void
+leave_region (Split *split, const CeldCut *cut)
+{
+  for (size_t i = 0; i < cut->n; i++)
+    cut->at[cut->basin[i]] = 0;
+  for (int y = cut->top; y <= cut->bottom; y++)
+    memset (split->mark + (size_t) y * (size_t) split->labels->width + (size_t) cut->left, CELD_OUTSIDE,
+            (size_t) (cut->right - cut->left + 1));
+}
+
+/* ------------------------------------------------------------------ taking over */
+
+/* Under hard strokes the region stays what it was, wherever the cut runs. */
+static void
+obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
+{
+  for (int y = cut->top; y <= cut->bottom; y++)
+    {
+      const CeldSeedRow *row = &split->painted.row[y];
+      uint8_t           *mark = split->mark + (size_t) y * (size_t) split->labels->width;
+
+      for (size_t i = 0; i < row->n; i++)
+        for (int x = row->run[i].x; row->run[i].label == cut->label && x < row->run[i].end; x++)
+          mark[x] = mark[x] == CELD_OUTSIDE ? CELD_OUTSIDE : kept_side;
+    }
+}
+
+/* The pixels of a disc that its side of the cut holds are seeds from now on. */
+static CeldStatus
+seed_disc (Split *split, const CeldDisc *disc, uint8_t side, uint32_t label)
+{
+  int        w = split->labels->width, r = (int) disc->radius, top = disc->y - r, bottom = disc->y + r, x, end;
+  CeldStatus status = CELD_OK;
+
+  bottom = bottom < split->labels->height ? bottom : split->labels->height - 1;
+  for (int y = top < 0 ? 0 : top; y <= bottom; y++)
+    if (celd_disc_row (disc, y, &x, &end))
+      for (int next = x = x < 0 ? 0 : x; x < end && x < w && status == CELD_OK; x = next + 1)
+        {
+          const uint8_t *mark = split->mark + (size_t) y * (size_t) w;
+
+          for (next = x; next < end && next < w && mark[next] == side; next++)
+            ;
+          status = celd_seed_rows_paint (&split->canvas->seeds, y, x, next, label);
+        }
+  return status;
+}
+
+/* The new label takes its end's side of the cut. */
+static CeldStatus
+take_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = cut->top; y <= cut->bottom; y++)
+    {
+      const uint8_t *mark = split->mark + (size_t) y * (size_t) split->labels->width, *last = mark + cut->right + 1;
+      const uint8_t *from = mark + cut->left, *to;
+
+      while (status == CELD_OK && (from = memchr (from, side, (size_t) (last - from))))
+        {
+          for (to = from; to < last && *to == side; to++)
+            ;
+          status = celd_seed_rows_paint (&split->taken, y, (int) (from - mark), (int) (to - mark), label);
+          from = to;
+        }
+    }
+  return status;
+}
+
+static CeldStatus
+take_over (Split *split, const CeldCut *cut, int kept)
+{
+  const uint8_t side[2] = { CELD_NEAR_FIRST, CELD_NEAR_SECOND };
+  uint32_t      label[2] = { cut->label, cut->label };
+  CeldStatus    status = celd_hue_add (split->canvas, &label[1 - kept]);
+
+  if (is_hard (split->canvas, cut->label))
+    obey_strokes (split, cut, side[kept]);
+  if (status == CELD_OK)
+    status = take_side (split, cut, side[1 - kept], label[1 - kept]);
+  for (int i = 0; i < 2; i++)
+    for (int k = 0; k < 2 && status == CELD_OK; k++)
+      status = seed_disc (split, &cut->discs[i].disc[k], side[i], label[i]);
+  return status;
+}
+
+/* A narrow place between the ends is where two basins meet; else the cut is looked for pixel by pixel. */
+static CeldStatus
+cut_region (Split *split, CeldCut *cut, const CeldRun *run, int *kept)
+{
+  const CeldBasins *basins = split->canvas->basins;
+  uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
+  uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
+  bool              narrow = !cut->any && basins->block[first] != basins->block[second];
+  CeldStatus        status = narrow ? celd_cut_basins (cut, run, split->side, kept) : CELD_OK;
+
+  for (int y = cut->top; y <= cut->bottom && status == CELD_OK && (!narrow || *kept >= 0); y++)
+    mark_row (split, cut, narrow ? split->side : NULL, y);
+  return narrow || status != CELD_OK ? status : celd_cut (cut, run, kept);
+}
+
+static CeldStatus
+split_region (Split *split, CeldCut *cut, size_t relation, const CeldRun *run)
+{
+  double     reach = CELD_REACH * celd_ends_apart (cut->end[0], cut->end[1]);
+  int        kept = -1;
+  CeldStatus status = CELD_OK;
+
+  if (find_region (split, cut))
+    {
+      for (int i = 0; i < 2; i++)
+        cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
+      status = cut_region (split, cut, run, &kept);
+      if (status == CELD_OK && kept >= 0)
+        {
+          status = take_over (split, cut, kept);
+          if (split->canvas->acting <= relation)
+            split->canvas->acting = relation + 1;
+        }
+    }
+  leave_region (split, cut);
+  return status;
+}
+
+static CeldStatus
+split_relation (Split *split, const CeldRelations *relations, size_t i, const CeldRun *run)
+{
+  const CeldRelation *relation = &relations->item[i];
+  CeldCanvas         *canvas = split->canvas;
+  CeldCut             cut = {
+    .canvas = canvas, .end = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) },
+  };
+
+  if (relation->equal || !cut.end[0].there || !cut.end[1].there)
+    return CELD_OK;
+  cut.label = label_at (split, cut.end[0].x, cut.end[0].y);
+  if ((cut.end[0].x == cut.end[1].x && cut.end[0].y == cut.end[1].y) ||
+      cut.label != label_at (split, cut.end[1].x, cut.end[1].y))
+    return CELD_OK;
+  if (!split->first)
+    {
+      if (split_new (split) != CELD_OK)
+        return CELD_NO_MEMORY;
+      list_borders (split);
+      find_boxes (split);
+    }
+  if (on_hard_stroke (split, cut.end[0], cut.label) && on_hard_stroke (split, cut.end[1], cut.label))
+    return CELD_OK; /* neither may change */
+  cut.basin = split->basin;
+  cut.at    = split->at;
+  cut.mark  = split->mark;
+  cut.node  = split->node;
+  return split_region (split, &cut, i, run);
+}
+
+/* ------------------------------------------------------------------ all relations in turn */
+
+/* What is taken, as patches; `patches` stays as it was if there is no memory. */
+static CeldStatus
+add_patches (const Split *split, CeldPatches *patches)
+{
+  size_t     before = patches->n;
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < split->taken.height; y++)
+    for (size_t i = 0; i < split->taken.row[y].n && status == CELD_OK; i++)
+      {
+        const CeldSeedRun *run = &split->taken.row[y].run[i];
+
+        status = celd_patch_add (patches, (CeldPatch) { y, run->x, run->end, run->label });
+      }
+  if (status != CELD_OK)
+    patches->n = before;
+  return status;
+}
+
+static bool
+lies_on (const CeldPatches *patches, CeldRelationEnd end)
+{
+  for (size_t i = 0; i < patches->n; i++)
+    if (patches->item[i].y == end.y && patches->item[i].x <= end.x && patches->item[i].end > end.x)
+      return true;
+  return false;
+}
+
+bool
+celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const CeldLabels *labels,
+                  const CeldPatches *patches)
+{
+  CeldRelationEnd a = celd_end_find (canvas, &relation->nearer), b = celd_end_find (canvas, &relation->farther);
+
+  if (relation->equal || !a.there || !b.there)
+    return true;
+  return CELD_AT (labels, a.x, a.y) != CELD_AT (labels, b.x, b.y) && !lies_on (patches, a) && !lies_on (patches, b);
+}
+
+CeldStatus
+celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels, CeldCanvas *canvas,
+                  CeldPatches *patches)
+{
+  Split      split = { .canvas = canvas, .labels = labels };
+  CeldStatus status;
+
+  if (!relations->n)
+    return CELD_OK;
+  status = celd_seed_rows_new (labels->width, labels->height, &split.taken);
+  for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
+    {
+      CeldPart part;
+      double   n = (double) relations->n;
+      CeldRun  one = celd_run_part (&part, run, (double) i / n, (double) (i + 1) / n);
+
+      status = split_relation (&split, relations, i, &one);
+    }
+  if (status == CELD_OK)
+    status = add_patches (&split, patches);
+  split_clear (&split);
+  return status;
+}

@@ -1,0 +1,131 @@
+/* What the pixels of a window are to the graph of its cells: their labels, what is fixed, ink, and paint.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+#include "segment/window-cells.h"
+#include "segment/window.h"
+#include "solve/maxflow.h"
+
+#include <string.h>
+
+#define PAPER 0.75f /* ink from here on is paper, which a border had better not cross */
+
+/* The rim of the window is as it is, but where the picture ends. */
+static void
+read_basins (CeldCellBuilder *b, int y, uint32_t *state)
+{
+  const CeldWindow *w = &b->cells->window;
+  const CeldBasins *basins = b->cells->canvas->basins;
+  bool              rim = (y == w->top && y > 0) || (y == w->bottom && y + 1 < basins->height);
+  size_t            i = celd_basin_run_at (basins, y, w->left, &b->hint);
+
+  for (int x = w->left, end; x <= w->right; x = end, i++)
+    {
+      uint32_t basin = basins->run[i].basin;
+      uint32_t here = b->cells->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
+
+      end = celd_basin_run_end (basins, i, y);
+      end = end <= w->right ? end : w->right + 1;
+      for (int k = x; k < end; k++)
+        state[k - w->left] = here;
+    }
+  if (w->left > 0)
+    state[0] |= CELD_CELL_FIXED;
+  if (w->right + 1 < basins->width)
+    state[w->right - w->left] |= CELD_CELL_FIXED;
+}
+
+/* What is fixed has no kind. */
+static void
+read_ink (const CeldCellBuilder *b, int y, int x, int end, uint32_t *state)
+{
+  const float *ink = &CELD_AT (b->cells->canvas->ink, b->cells->window.left, y);
+
+  for (int i = x; i < end; i++)
+    state[i] += CELD_CELL_KIND_INK * ((uint32_t) (ink[i] < PAPER) + (uint32_t) (ink[i] < b->dark)) *
+                (1 - (state[i] >> 31));
+}
+
+/* Hard paint on pixel k of a row.  What is not free is another window's. */
+static inline void
+obey (const CeldCellBuilder *b, uint32_t label, int k, uint32_t *state)
+{
+  if (*state & CELD_CELL_FIXED)
+    return;
+  if ((*state & CELD_CELL_LABELS) != label)
+    b->hard[k >> b->cells->shift] = true;
+  *state = CELD_CELL_FIXED | label;
+}
+
+static void
+read_paint (const CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
+{
+  const CeldCanvas  *canvas = b->cells->canvas;
+  const CeldWindow  *w = &b->cells->window;
+  const CeldSeedRow *row = &canvas->seeds.row[y];
+  size_t             low = 0, high = row->n;
+
+  memset (paint, 0, (size_t) celd_cells_width (b->cells) * sizeof *paint);
+  while (low < high)
+    {
+      size_t middle = low + (high - low) / 2;
+
+      if (row->run[middle].end <= w->left)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+  for (size_t i = low; i < row->n && row->run[i].x <= w->right; i++)
+    {
+      uint32_t l = row->run[i].label;
+      bool     hard = celd_canvas_vote (canvas, l) == CELD_HARD;
+      int      x = row->run[i].x > w->left ? row->run[i].x - w->left : 0;
+      int      end = (row->run[i].end <= w->right ? row->run[i].end : w->right + 1) - w->left;
+
+      for (int k = x; k < end; k++)
+        if (hard)
+          obey (b, l, k, &state[k]);
+        else
+          paint[k] = l;
+      for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift && !hard; k++)
+        b->painted[k] = true;
+    }
+}
+
+/* The labels that the coarser cells have found are the present ones now. */
+static void
+read_cells (const CeldCellBuilder *b, int y, int x, int end, uint32_t *state)
+{
+  const CeldWindowCells *coarse = b->cells->coarse;
+
+  for (int i = x; i < end; i++)
+    {
+      uint32_t part = celd_cell_at (coarse, coarse->window.left + i, y);
+
+      state[i] = (part & CELD_CELL_FIXED) | celd_cell_label (coarse, part);
+    }
+  read_ink (b, y, x, end, state);
+}
+
+void
+celd_cells_read (CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
+{
+  read_basins (b, y, state);
+  read_ink (b, y, 0, celd_cells_width (b->cells), state);
+  read_paint (b, y, state, paint);
+}
+
+void
+celd_cells_read_again (CeldCellBuilder *b, int y, const uint8_t *fine, uint32_t *state, uint32_t *paint)
+{
+  const CeldWindowCells *cells = b->cells;
+  int              w = celd_cells_width (cells);
+
+  for (int k = 0; k < cells->columns; k++)
+    if (fine[k])
+      read_cells (b, y, k << cells->shift, (k + 1) << cells->shift < w ? (k + 1) << cells->shift : w, state);
+  read_paint (b, y, state, paint);
+}

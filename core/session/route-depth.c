@@ -1,0 +1,285 @@
+/* Smooth depth in a session, and a preview of it at a quarter of the width and height.
+ *
+ * The preview needs no expansion: it works on flat levels, of which each block of pixels takes one, and on the least
+ * ink of each block, so that thin contours stay closed.  Both keep what they were made from, and solve again only what
+ * an edit touched.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/depth.h"
+#include "image/image.h"
+#include "order/order.h"
+#include "session/session.h"
+
+#include <math.h>
+
+#define SIDE              4      /* pixels of a block of the preview */
+#define PREVIEW_TOLERANCE 1e-3f  /* what can be seen */
+#define END_RADIUS        2.0    /* pixels round a relation's end that keep its level */
+
+const CeldPlane *
+celd_session_depth_ink (const CeldSession *s)
+{
+  return s->depth_ink.data ? &s->depth_ink : &s->ink;
+}
+
+const CeldPlane *
+celd_session_bent_ink (const CeldSession *s)
+{
+  return s->bent_ink.data ? &s->bent_ink : celd_session_depth_ink (s);
+}
+
+/* What is made from the old ink has to be looked at where the new one differs. */
+static void
+change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
+{
+  CeldRect changed = celd_difference (old->data, new->data, new->width, new->height, sizeof *new->data);
+  CeldRect blocks = { changed.x / SIDE, changed.y / SIDE, (changed.x + changed.width + SIDE - 1) / SIDE,
+                      (changed.y + changed.height + SIDE - 1) / SIDE };
+
+  if (!changed.width)
+    return;
+  blocks.width  -= blocks.x;
+  blocks.height -= blocks.y;
+  celd_free (s->block_ink.data);
+  s->block_ink = (CeldPlane) { 0 };
+  s->reach     = 0;
+  celd_session_forget_ownership (s);
+  s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
+  s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
+}
+
+void
+celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
+{
+  change_ink (s, celd_session_depth_ink (s), ink);
+}
+
+void
+celd_session_bend (CeldSession *s, CeldPlane *bent)
+{
+  if (!s->bent_ink.data && !bent->data)
+    return;
+  change_ink (s, celd_session_bent_ink (s), bent->data ? bent : celd_session_depth_ink (s));
+  celd_free (s->bent_ink.data);
+  s->bent_ink = *bent;
+  *bent = (CeldPlane) { 0 };
+}
+
+/* ------------------------------------------------------------------ anchors */
+
+/* A mark for each block of side x side pixels.  Where blocks are more than pixels, `levels` becomes what is marked. */
+typedef struct { const CeldSession *session; int side; CeldMask mask; CeldPlane *levels; size_t n; } Anchors;
+
+/* The level of a pixel before expansion. */
+static float
+flat_level (const CeldSession *s, int x, int y)
+{
+  const CeldLabels *labels = celd_session_current_labels (s);
+
+  return celd_order_value (&s->order, s->order.level[CELD_AT (labels, x, y) - 1], &s->settings);
+}
+
+static void
+mark (Anchors *a, int x, int y)
+{
+  uint8_t *here = &CELD_AT (&a->mask, x / a->side, y / a->side);
+
+  a->n++;
+  if (a->side > 1 && !*here)
+    CELD_AT (a->levels, x / a->side, y / a->side) = flat_level (a->session, x, y);
+  *here = 1;
+}
+
+/* The pixels round an arrow's end. */
+static void
+mark_end (Anchors *a, const CeldTerm *end)
+{
+  int reach = (int) END_RADIUS, width = a->session->ink.width, height = a->session->ink.height;
+
+  if (end->by_colour || !(end->x >= 0 && end->y >= 0 && end->x < width && end->y < height))
+    return;
+  for (int y = (int) end->y - reach; y <= (int) end->y + reach; y++)
+    for (int x = (int) end->x - reach; x <= (int) end->x + reach; x++)
+      if (x >= 0 && y >= 0 && x < width && y < height && hypot (x + 0.5 - end->x, y + 0.5 - end->y) <= END_RADIUS)
+        mark (a, x, y);
+}
+
+/* Is the pixel in a region that was split?  Its strokes may lie on both sides of the new border. */
+static bool
+is_split (const CeldSession *s, int x, int y)
+{
+  return s->splits.n && celd_splits_have (&s->splits, CELD_AT (celd_session_current_labels (s), x, y));
+}
+
+/* What is painted. */
+static void
+mark_seeds (Anchors *a, const CeldSeedRows *seeds)
+{
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n; i++)
+      for (int x = seeds->row[y].run[i].x; x < seeds->row[y].run[i].end; x = (x / a->side + 1) * a->side)
+        if (!is_split (a->session, x, y))
+          mark (a, x, y);
+}
+
+/* What a split region bends between. */
+static void
+mark_splits (Anchors *a, const CeldSplits *splits)
+{
+  for (size_t i = 0; i < splits->n; i++)
+    for (int k = 0; k < 2; k++)
+      mark_end (a, &(CeldTerm) { .x = splits->item[i].x[k] + 0.5, .y = splits->item[i].y[k] + 0.5 });
+}
+
+/* The paper's U_o; n stays 0 if there is none, as for CELD_ANCHORS_CORE. */
+static void
+choose_anchors (Anchors *a)
+{
+  const CeldSession *s = a->session;
+  CeldAnchors        choice = s->settings.anchors;
+  bool               arrows = choice == CELD_ANCHORS_ARROWS || choice == CELD_ANCHORS_BOTH;
+
+  if (choice == CELD_ANCHORS_SCRIBBLES || choice == CELD_ANCHORS_BOTH)
+    {
+      mark_seeds (a, &s->seeds);
+      mark_splits (a, &s->splits);
+    }
+  for (size_t i = 0; i < s->relations.n; i++)
+    if (arrows || s->relations.item[i].anchor)
+      {
+        mark_end (a, &s->relations.item[i].nearer);
+        mark_end (a, &s->relations.item[i].farther);
+      }
+}
+
+/* ------------------------------------------------------------------ depth */
+
+/* Makes a stage's plane and what is kept beside it; both or none of the two. */
+static CeldStatus
+smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *smoothing, const CeldRun *run,
+        CeldSmoother *smoother, CeldPlane *plane)
+{
+  CeldPlane  depth = { 0 };
+  CeldSolve  solve;
+  CeldStatus status;
+
+  smoothing->anchors = anchors->n ? &anchors->mask : NULL;
+  smoothing->last    = plane->data;
+  status = celd_smooth_again (smoother, smoothing, run, &depth, &solve);
+  if (status != CELD_OK)
+    return status;
+  celd_session_replace (s, stage, plane, &depth);
+  celd_problems_clear (&s->problems[stage]);
+  if (stage == STAGE_DEPTH && !solve.converged)
+    status = celd_problem_add (&s->problems[stage], (CeldProblem) {
+      .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX });
+  return status;
+}
+
+static void
+measure_reach (CeldSession *s)
+{
+  if (!s->reach)
+    s->reach = celd_edge_reach (celd_stroke_width (celd_session_bent_ink (s)));
+}
+
+CeldStatus
+celd_make_depth (CeldSession *s, const CeldRun *run)
+{
+  Anchors       anchors = { .session = s, .side = 1 };
+  CeldSmoothing smoothing = { .ink = celd_session_bent_ink (s), .levels = &s->levels, .settings = &s->settings,
+                              .speck = CELD_SPECK };
+  CeldStatus    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
+
+  if (status == CELD_OK)
+    {
+      measure_reach (s);
+      smoothing.reach = s->reach;
+      choose_anchors (&anchors);
+      status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, run, &s->smoother, &s->depth);
+    }
+  celd_free (anchors.mask.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ its preview */
+
+CELD_CLONES static void
+keep_least (const float *restrict ink, int n, float *restrict least)
+{
+  for (int x = 0; x < n; x++)
+    least[x] = ink[x] < least[x] ? ink[x] : least[x];
+}
+
+/* The least ink of each block; NaN reads as paper. */
+static CeldStatus
+pool_ink (const CeldPlane *ink, CeldPlane *blocks)
+{
+  float     *least = celd_alloc ((size_t) ink->width, sizeof *least);
+  CeldPlane  made = { 0 };
+  CeldStatus status = least ? celd_plane_new ((ink->width + SIDE - 1) / SIDE, (ink->height + SIDE - 1) / SIDE, &made)
+                            : CELD_NO_MEMORY;
+
+  for (int y = 0; y < made.height && status == CELD_OK; y++)
+    {
+      float *out = &CELD_AT (&made, 0, y);
+
+      for (int x = 0; x < ink->width; x++)
+        least[x] = 1;
+      for (int v = y * SIDE; v < ink->height && v < (y + 1) * SIDE; v++)
+        keep_least (&CELD_AT (ink, 0, v), ink->width, least);
+      for (int x = 0; x < made.width; x++)
+        out[x] = 1;
+      for (int x = 0; x < ink->width; x++)
+        out[x / SIDE] = least[x] < out[x / SIDE] ? least[x] : out[x / SIDE];
+    }
+  celd_free (least);
+  if (status == CELD_OK)
+    *blocks = made;
+  return status;
+}
+
+/* The level in the middle of each block. */
+static void
+sample_levels (const CeldSession *s, CeldPlane *levels)
+{
+  const CeldLabels *labels = celd_session_current_labels (s);
+
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        int u = x * SIDE + SIDE / 2, v = y * SIDE + SIDE / 2;
+
+        CELD_AT (levels, x, y) = flat_level (s, u < labels->width ? u : labels->width - 1,
+                                             v < labels->height ? v : labels->height - 1);
+      }
+}
+
+CeldStatus
+celd_make_preview (CeldSession *s, const CeldRun *run)
+{
+  CeldPlane     levels = { 0 };
+  Anchors       anchors = { .session = s, .side = SIDE, .levels = &levels };
+  CeldSettings  settings = s->settings;
+  CeldSmoothing smoothing = { .ink = &s->block_ink, .levels = &levels, .settings = &settings,
+                              .speck = CELD_SPECK / (SIDE * SIDE) };
+  CeldStatus    status = s->block_ink.data ? CELD_OK : pool_ink (celd_session_bent_ink (s), &s->block_ink);
+
+  if (status == CELD_OK)
+    status = celd_plane_new (s->block_ink.width, s->block_ink.height, &levels);
+  if (status == CELD_OK)
+    status = celd_mask_new (levels.width, levels.height, &anchors.mask);
+  if (status == CELD_OK)
+    {
+      measure_reach (s);
+      smoothing.reach    = s->reach / SIDE;
+      settings.tolerance = fmaxf (settings.tolerance, PREVIEW_TOLERANCE);
+      sample_levels (s, &levels);
+      choose_anchors (&anchors);
+      status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, run, &s->preview_smoother, &s->preview);
+    }
+  celd_free (levels.data);
+  celd_free (anchors.mask.data);
+  return status;
+}

@@ -1,0 +1,258 @@
+/* The exact program as stages of a session: weights of the drawing, nodes of the scribbles, depth.
+ *
+ * Which scribble is the background is decided as in the fast route, by a segmentation with the scribbles alone; if none
+ * is, the paper along the frame becomes a node of its own behind all others.  So it does not depend on relations, and a
+ * new relation costs the quadratic program and a sum of bases.
+ *
+ * A preview is the exact depth of a picture of half the size: a quarter of the work.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "depth/program.h"
+#include "image/image.h"
+#include "session/session.h"
+
+#include <string.h>
+
+#define PREVIEW_TOLERANCE 1e-3f
+
+/* ------------------------------------------------------------------ the background */
+
+/* The paper along the frame that has label `from` becomes a scribble of label `to`. */
+static CeldStatus
+seed_frame (const CeldPlane *ink, const CeldLabels *labels, uint32_t from, uint32_t to, CeldLabels *seeds)
+{
+  size_t    *pixel = NULL, n = 0;
+  CeldStatus status = celd_frame (ink, ink->width, ink->height, 0, &pixel, &n);
+
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    if (labels->data[pixel[i]] == from && !seeds->data[pixel[i]])
+      seeds->data[pixel[i]] = to;
+  celd_free (pixel);
+  return status;
+}
+
+/* Marks the background in the palette, or adds it to palette and seeds, which are tight. */
+static CeldStatus
+find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+                 CeldPalette *palette)
+{
+  CeldSettings plain = *settings;
+  CeldLabels   labels = { 0 };
+  CeldPalette  found = { 0 };
+  CeldRegion  *item;
+  CeldStatus   status = celd_labels_new (ink->width, ink->height, &labels);
+
+  plain.method = CELD_METHOD_BASINS;
+  if (status == CELD_OK)
+    status = celd_palette_copy (palette, &found);
+  if (status == CELD_OK)
+    status = celd_segment (ink, seeds, NULL, &plain, run, &labels, &found, NULL);
+  for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
+    palette->item[k].background = found.item[k].background;
+  for (size_t k = palette->n; k < found.n && status == CELD_OK; k++)
+    if (found.item[k].background)
+      {
+        item   = celd_grow (palette->item, palette->n + 1, sizeof *item);
+        status = CELD_NO_MEMORY;
+        if (item)
+          {
+            palette->item = item;
+            item[palette->n++] = found.item[k];
+            status = seed_frame (ink, &labels, (uint32_t) k + 1, (uint32_t) palette->n, seeds);
+          }
+      }
+  celd_free (labels.data);
+  celd_palette_clear (&found);
+  return status;
+}
+
+/* ------------------------------------------------------------------ the stages */
+
+CeldStatus
+celd_make_weights (CeldSession *s, const CeldRun *run)
+{
+  if (!s->program)
+    s->program = celd_program_new ();
+  return s->program ? celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, run) : CELD_NO_MEMORY;
+}
+
+/* Seeds and their palette with the background, for a program. */
+static CeldStatus
+set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+           CeldPalette *palette, CeldProgram *program)
+{
+  CeldPart   part[2];
+  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.6), setting = celd_run_part (&part[1], run, 0.6, 1);
+  CeldStatus status = CELD_OK;
+
+  if (palette->n && settings->background != CELD_BACKGROUND_NONE)
+    status = find_background (ink, settings, &finding, seeds, palette);
+  if (status == CELD_OK)
+    status = celd_program_set_seeds (program, seeds, palette, settings->same_colour, &setting);
+  for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
+    palette->item[k] = program->palette.item[k];
+  return status;
+}
+
+CeldStatus
+celd_make_nodes (CeldSession *s, const CeldRun *run)
+{
+  CeldLabels  seeds = { 0 };
+  CeldPalette palette = { 0 };
+  CeldStatus  status = celd_labels_new (s->ink.width, s->ink.height, &seeds);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->seed_palette, &palette);
+  if (status == CELD_OK)
+    {
+      celd_seed_rows_write (&s->seeds, &seeds);
+      status = set_nodes (&s->ink, &s->settings, run, &seeds, &palette, s->program);
+    }
+  celd_free (seeds.data);
+  if (status != CELD_OK)
+    {
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_palette_clear (&s->exact_palette);
+  s->exact_palette = palette;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_exact (CeldSession *s, const CeldRun *run)
+{
+  CeldPlane    depth = { 0 };
+  CeldExact    exact = { 0 };
+  CeldProblems problems = { 0 };
+  CeldStatus   status = celd_plane_new (s->ink.width, s->ink.height, &depth);
+
+  if (status == CELD_OK)
+    status = celd_program_solve (s->program, &s->relations, &s->settings, run, &depth, &exact, &problems);
+  if (status != CELD_OK)
+    {
+      celd_free (depth.data);
+      celd_problems_clear (&problems);
+      return status;
+    }
+  celd_exact_clear (&s->exact);
+  celd_problems_clear (&s->problems[STAGE_EXACT]);
+  s->exact = exact;
+  s->problems[STAGE_EXACT] = problems;
+  celd_session_replace (s, STAGE_EXACT, &s->exact_depth, &depth);
+  celd_free (depth.data);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ preview */
+
+/* The mean of 2 x 2 pixels, or of as many as there are. */
+static void
+halve_ink (const CeldPlane *ink, CeldPlane *half)
+{
+  for (int y = 0; y < half->height; y++)
+    for (int x = 0; x < half->width; x++)
+      {
+        int   right = 2 * x + 1 < ink->width ? 2 * x + 1 : 2 * x, down = 2 * y + 1 < ink->height ? 2 * y + 1 : 2 * y;
+        float sum = CELD_AT (ink, 2 * x, 2 * y) + CELD_AT (ink, right, 2 * y) + CELD_AT (ink, 2 * x, down) +
+                    CELD_AT (ink, right, down);
+
+        CELD_AT (half, x, y) = sum / 4;
+      }
+}
+
+static void
+halve_seeds (const CeldSeedRows *seeds, CeldLabels *half)
+{
+  for (int y = 0; y < seeds->height; y++)
+    for (size_t i = 0; i < seeds->row[y].n; i++)
+      for (int x = seeds->row[y].run[i].x; x < seeds->row[y].run[i].end; x++)
+        CELD_AT (half, x / 2, y / 2) = seeds->row[y].run[i].label;
+}
+
+static CeldStatus
+halve_relations (const CeldRelations *relations, CeldRelations *half)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
+    {
+      CeldRelation r = relations->item[i];
+
+      r.nearer.x /= 2;
+      r.nearer.y /= 2;
+      r.farther.x /= 2;
+      r.farther.y /= 2;
+      status = celd_relation_add (half, r);
+    }
+  return status;
+}
+
+/* Depth of half the size. */
+static CeldStatus
+solve_half (const CeldSession *s, const CeldRun *run, CeldPlane *ink, CeldPlane *depth)
+{
+  CeldSettings  settings = s->settings;
+  CeldLabels    seeds = { 0 };
+  CeldPalette   palette = { 0 };
+  CeldRelations relations = { 0 };
+  CeldProgram  *program = celd_program_new ();
+  CeldPart      part[2];
+  CeldRun       nodes = celd_run_part (&part[0], run, 0, 0.1), solving = celd_run_part (&part[1], run, 0.1, 1);
+  CeldStatus    status = program ? celd_labels_new (ink->width, ink->height, &seeds) : CELD_NO_MEMORY;
+
+  settings.tolerance = settings.tolerance < PREVIEW_TOLERANCE ? PREVIEW_TOLERANCE : settings.tolerance;
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->seed_palette, &palette);
+  if (status == CELD_OK)
+    status = halve_relations (&s->relations, &relations);
+  if (status == CELD_OK)
+    {
+      halve_ink (celd_session_depth_ink (s), ink);
+      halve_seeds (&s->seeds, &seeds);
+      status = celd_program_set_ink (program, ink, &settings, NULL);
+    }
+  if (status == CELD_OK)
+    status = set_nodes (ink, &settings, &nodes, &seeds, &palette, program);
+  if (status == CELD_OK)
+    status = celd_program_solve (program, &relations, &settings, &solving, depth, NULL, NULL);
+  celd_program_free (program);
+  celd_free (seeds.data);
+  celd_palette_clear (&palette);
+  celd_relations_clear (&relations);
+  return status;
+}
+
+CeldStatus
+celd_session_exact_preview (CeldSession *session, const CeldRun *run, CeldPlane *half)
+{
+  CeldSession *s = session;
+  CeldPlane    ink = { 0 }, depth = { 0 };
+  CeldPart     part[2];
+  CeldRun      making = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldStatus   status;
+
+  if (!s->drawing.luma.data)
+    return CELD_BAD_SIZE;
+  status = celd_session_make (s, STAGE_RELATIONS, NULL);
+  if (status == CELD_OK)
+    status = celd_session_make (s, STAGE_INK, &making);
+  if (status == CELD_OK)
+    status = celd_session_make (s, STAGE_SEEDS, NULL);
+  if (status == CELD_OK)
+    status = celd_plane_new ((s->ink.width + 1) / 2, (s->ink.height + 1) / 2, &ink);
+  if (status == CELD_OK)
+    status = celd_plane_new (ink.width, ink.height, &depth);
+  if (status == CELD_OK)
+    status = solve_half (s, &solving, &ink, &depth);
+  celd_free (ink.data);
+  if (status != CELD_OK)
+    {
+      celd_free (depth.data);
+      return status;
+    }
+  celd_free (s->exact_preview.data);
+  *half = s->exact_preview = depth;
+  return CELD_OK;
+}

@@ -1,0 +1,414 @@
+/* The stages of a session up to the labels.
+ *
+ * What is slow happens once a drawing: the segmenter keeps its basins.  What happens once a layer: reading scribbles.
+ * A single stroke costs the runs of seeds, and what the segmenter repaints.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "order/order.h"
+#include "segment/segment.h"
+#include "session/session.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ relations */
+
+static CeldStatus
+append_relations (CeldRelations *to, const CeldRelations *from)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < from->n && status == CELD_OK; i++)
+    status = celd_relation_add (to, from->item[i]);
+  return status;
+}
+
+/* Do two relations say the same of the labels? */
+static bool
+same_ends (const CeldRelation *a, const CeldRelation *b)
+{
+  return a->equal == b->equal && celd_term_same (&a->nearer, &b->nearer) && celd_term_same (&a->farther, &b->farther);
+}
+
+bool
+celd_session_spares (const CeldSession *session, const CeldRelation *relation)
+{
+  return celd_segmenter_spares (session->segmenter, relation, &session->settings, &session->solved);
+}
+
+/* No relation contradicts others, on labels that none has split. */
+static CeldStatus
+agree (const CeldSession *s, const CeldRelations *relations, bool *agreed)
+{
+  CeldGraph  graph = { 0 };
+  CeldKnots  knots = { 0 };
+  CeldStatus status = celd_graph_new (celd_session_current_labels (s), &s->palette, relations, &s->ink, &graph, NULL);
+
+  if (status == CELD_OK)
+    status = celd_knots_find (&graph, &knots);
+  *agreed = status == CELD_OK && !knots.n;
+  celd_knots_clear (&knots);
+  celd_graph_clear (&graph);
+  return status;
+}
+
+/* Would the labels be as they are with these relations in place of the present ones?  They say something of labels
+ * where they make regions or split them: few do. */
+static CeldStatus
+keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
+{
+  const CeldRelations *old = &s->relations;
+  bool                 bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT;
+  size_t               same = 0;
+
+  *kept = false;
+  while (same < old->n && same < relations->n && same_ends (&old->item[same], &relations->item[same]))
+    same++;
+  if (same < celd_segmenter_acting (s->segmenter) || (bend && s->splits.n))
+    return CELD_OK;
+  for (size_t i = same; i < relations->n; i++)
+    if (!celd_session_spares (s, &relations->item[i]))
+      return CELD_OK;
+  *kept = true;
+  return bend ? agree (s, relations, kept) : CELD_OK;
+}
+
+CeldStatus
+celd_make_relations (CeldSession *s, const CeldRun *run)
+{
+  CeldRelations all = { 0 };
+  CeldProblems  problems = { 0 };
+  bool          kept = false;
+  CeldStatus    status = append_relations (&all, &s->text);
+
+  if (status == CELD_OK)
+    status = append_relations (&all, &s->path);
+  if (status == CELD_OK && s->arrows.data)
+    status = celd_arrows_read (&s->arrows, s->settings.arrow_style, run, &all, &problems);
+  if (status == CELD_OK)
+    status = append_relations (&all, &s->single);
+  if (status == CELD_OK && s->valid[STAGE_LABELS])
+    status = keep_labels (s, &all, &kept);
+  if (status == CELD_OK)
+    {
+      celd_relations_clear (&s->relations);
+      celd_problems_clear (&s->problems[STAGE_RELATIONS]);
+      s->relations = all;
+      s->problems[STAGE_RELATIONS] = problems;
+      if (!kept)
+        celd_session_forget (s, STAGE_LABELS);
+      return CELD_OK;
+    }
+  celd_relations_clear (&all);
+  celd_problems_clear (&problems);
+  return status;
+}
+
+/* ------------------------------------------------------------------ ink */
+
+/* Ink for one purpose: the contours are baked into a copy of the drawing first. */
+static CeldStatus
+make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldRun *run, CeldPlane *ink)
+{
+  const CeldDrawing *drawing = &s->drawing;
+  int                w = drawing->luma.width, h = drawing->luma.height;
+  CeldPart           part[2];
+  CeldRun            bake = celd_run_part (&part[0], run, 0, 0.3);
+  CeldRun            rest = celd_run_part (&part[1], run, s->contours.data ? 0.3 : 0, 1);
+  CeldDrawing        baked = { 0 };
+  CeldStatus         status = celd_plane_new (w, h, ink);
+
+  if (status == CELD_OK && s->contours.data)
+    {
+      status = celd_plane_new (w, h, &baked.luma);
+      if (status == CELD_OK && drawing->alpha.data)
+        status = celd_plane_new (w, h, &baked.alpha);
+      if (status == CELD_OK)
+        status = celd_contours_bake (drawing, &s->contours, purpose, s->settings.ink, &bake, &baked);
+      drawing = &baked;
+    }
+  if (status == CELD_OK)
+    status = celd_ink (drawing, s->settings.ink, &rest, ink);
+  celd_free (baked.luma.data);
+  celd_free (baked.alpha.data);
+  return status;
+}
+
+/* The old ink stays with the segmenter until that has had the new one; ink that is as it was makes no work at all. */
+static void
+take_ink (CeldSession *s, CeldPlane *ink)
+{
+  CeldRect changed = celd_difference (s->ink.data, ink->data, ink->width, ink->height, sizeof (float));
+
+  if (!changed.width)
+    return;
+  celd_session_see (s, STAGE_INK, changed);
+  if (s->ink.data != s->known_ink.data)
+    celd_free (s->ink.data);
+  s->ink = *ink;
+  ink->data = NULL;
+}
+
+CeldStatus
+celd_make_ink (CeldSession *s, const CeldRun *run)
+{
+  CeldPart   part;
+  CeldRun    first = celd_run_part (&part, run, 0, s->contours.data ? 0.5 : 1);
+  CeldPlane  ink = { 0 }, depth_ink = { 0 };
+  CeldStatus status = make_ink_for (s, CELD_FOR_SEGMENTATION, &first, &ink);
+
+  if (status == CELD_OK && s->contours.data)
+    {
+      CeldRun second = celd_run_part (&part, run, 0.5, 1);
+
+      status = make_ink_for (s, CELD_FOR_DEPTH, &second, &depth_ink);
+    }
+  if (status == CELD_OK)
+    {
+      celd_session_new_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
+      take_ink (s, &ink);
+      celd_free (s->depth_ink.data);
+      s->depth_ink = depth_ink;
+      depth_ink.data = NULL;
+    }
+  celd_free (ink.data);
+  celd_free (depth_ink.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ seeds */
+
+CeldStatus
+celd_make_scribbles (CeldSession *s, const CeldRun *run)
+{
+  int          w = s->drawing.luma.width, h = s->drawing.luma.height;
+  CeldLabels   labels = { 0 };
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status;
+
+  if (s->scribbles.data)
+    {
+      status = celd_labels_new (w, h, &labels);
+      if (status == CELD_OK)
+        status = celd_scribbles_read (&s->scribbles, &s->settings, run, &labels, &palette);
+      if (status == CELD_OK)
+        status = celd_seed_rows_read (&labels, &seeds);
+    }
+  else
+    status = celd_seed_rows_new (w, h, &seeds);
+  celd_free (labels.data);
+  if (status != CELD_OK)
+    {
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->layer_seeds);
+  celd_palette_clear (&s->layer_palette);
+  s->layer_seeds   = seeds;
+  s->layer_palette = palette;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_seeds (CeldSession *s, const CeldRun *run)
+{
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status = celd_seed_rows_copy (&s->layer_seeds, &seeds);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->layer_palette, &palette);
+  if (status == CELD_OK && s->n_strokes)
+    status = celd_strokes_compose (s->stroke, s->n_strokes, &seeds, &palette);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status != CELD_OK)
+    {
+      celd_seed_rows_clear (&seeds);
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->seeds);
+  celd_palette_clear (&s->seed_palette);
+  s->seeds        = seeds;
+  s->seed_palette = palette;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ labels */
+
+/* Tells the segmenter where the ink differs from what it knows.  What it knows after a failure, nobody knows. */
+static CeldStatus
+tell_ink (CeldSession *s, const CeldRun *run)
+{
+  bool       renew = s->known_ink.data && s->known_threshold == s->settings.ink_threshold &&
+                     s->known_bridged == s->settings.close_gaps;
+  CeldRect   changed = { 0 };
+  CeldStatus status;
+
+  if (renew && s->known_ink.data == s->ink.data)
+    return CELD_OK;
+  if (renew)
+    changed = celd_difference (s->known_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
+  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, run);
+  if (s->known_ink.data != s->ink.data)
+    celd_free (s->known_ink.data);
+  s->known_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
+  s->known_threshold = s->settings.ink_threshold;
+  s->known_bridged   = s->settings.close_gaps;
+  return status;
+}
+
+static CeldStatus
+prepare_segmenter (CeldSession *s, const CeldRun *run)
+{
+  if (!s->segmenter)
+    s->segmenter = celd_segmenter_new ();
+  if (!s->segmenter)
+    return CELD_NO_MEMORY;
+  if (!s->solved.data)
+    {
+      CeldStatus status = celd_labels_new (s->ink.width, s->ink.height, &s->solved);
+
+      if (status != CELD_OK)
+        return status;
+    }
+  return tell_ink (s, run);
+}
+
+/* What the segmenter does not do of its own: labels NULL where the settings ask for nothing of it, or where no
+ * contradiction needs it. */
+typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane bent; } Parted;
+
+static void
+parted_clear (Parted *parted)
+{
+  celd_free (parted->labels.data);
+  celd_free (parted->splits.item);
+  celd_free (parted->bent.data);
+}
+
+/* Splits regions where relations contradict, and takes the ink off the new borders. */
+static CeldStatus
+split (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+{
+  const CeldPlane *ink = celd_session_depth_ink (s);
+  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, run, &parted->labels, palette,
+                                               &parted->splits);
+
+  if (status == CELD_OK && parted->splits.n)
+    status = celd_plane_new (ink->width, ink->height, &parted->bent);
+  if (status == CELD_OK && parted->splits.n)
+    {
+      memcpy (parted->bent.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
+      celd_splits_erase (&parted->splits, &parted->labels, celd_stroke_width (ink), &parted->bent);
+    }
+  return status;
+}
+
+/* The labels of the segmenter with each region on its own, or with regions split where relations contradict. */
+static CeldStatus
+part (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+{
+  bool       apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
+  bool       bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
+  CeldLabels *labels = &parted->labels;
+  CeldPart   halves[2];
+  CeldRun    first = celd_run_part (&halves[0], run, 0, bend ? 0.5 : 1);
+  CeldRun    second = celd_run_part (&halves[1], run, apart ? 0.5 : 0, 1);
+  CeldStatus status;
+
+  if (!apart && !bend)
+    return CELD_OK;
+  status = celd_labels_new (s->solved.width, s->solved.height, labels);
+  if (status != CELD_OK)
+    return status;
+  memcpy (labels->data, s->solved.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
+  if (apart)
+    status = celd_separate (&first, labels, palette);
+  if (status == CELD_OK && bend)
+    status = split (s, &second, palette, parted);
+  if (status == CELD_OK && !apart && !parted->splits.n)
+    {
+      celd_free (labels->data);
+      *labels = (CeldLabels) { 0 };
+    }
+  return status;
+}
+
+static CeldStatus
+report_splits (const CeldSplits *splits, CeldProblems *problems)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < splits->n && status == CELD_OK; i++)
+    status = celd_problem_add (problems, (CeldProblem) {
+      CELD_PROBLEM_REGION_SPLIT, splits->item[i].x[1], splits->item[i].y[1], splits->item[i].label,
+      splits->item[i].other, CELD_NO_INDEX });
+  return status;
+}
+
+const CeldLabels *
+celd_session_current_labels (const CeldSession *session)
+{
+  return session->separated.data ? &session->separated : &session->solved;
+}
+
+static void
+see_labels (CeldSession *s, CeldRect changed)
+{
+  celd_session_see (s, STAGE_LABELS, changed);
+  s->new_labels = celd_rect_union (s->new_labels, changed);
+}
+
+/* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
+ * compared. */
+CeldStatus
+celd_make_labels (CeldSession *s, const CeldRun *run)
+{
+  CeldPart     parts[3];
+  CeldRun      tell = celd_run_part (&parts[0], run, 0, 0.5), solve = celd_run_part (&parts[1], run, 0.5, 0.9);
+  CeldRun      last = celd_run_part (&parts[2], run, 0.9, 1);
+  Parted       parted = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldProblems problems = { 0 };
+  CeldRect     changed = { 0 };
+  CeldStatus   status = prepare_segmenter (s, &tell);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->seed_palette, &palette);
+  if (status == CELD_OK)
+    status = celd_segmenter_solve (s->segmenter, &s->seeds, &s->relations, &s->settings, &solve, &palette, &problems,
+                                   &s->solved, &changed);
+  if (status == CELD_OK && !s->separated.data)
+    see_labels (s, changed);
+  if (status == CELD_OK)
+    status = part (s, &last, &palette, &parted);
+  if (status == CELD_OK)
+    status = report_splits (&parted.splits, &problems);
+  if (status != CELD_OK)
+    {
+      celd_session_forget_ownership (s); /* what was painted before it failed, nobody knows */
+      parted_clear (&parted);
+      celd_palette_clear (&palette);
+      celd_problems_clear (&problems);
+      return status;
+    }
+  if (parted.labels.data || s->separated.data)
+    see_labels (s, celd_difference (celd_session_current_labels (s)->data,
+                                    parted.labels.data ? parted.labels.data : s->solved.data,
+                                    s->solved.width, s->solved.height, sizeof (uint32_t)));
+  celd_session_bend (s, &parted.bent);
+  celd_free (s->separated.data);
+  celd_free (s->splits.item);
+  celd_palette_clear (&s->palette);
+  celd_problems_clear (&s->problems[STAGE_LABELS]);
+  s->new_corrections |= s->corrections.data != NULL; /* they are read by the palette */
+  s->separated = parted.labels;
+  s->splits    = parted.splits;
+  s->palette   = palette;
+  s->problems[STAGE_LABELS] = problems;
+  return CELD_OK;
+}

@@ -1,0 +1,244 @@
+/* Levels in a session: those of the regions, whose the ink is, and the levels that come of it.
+ *
+ * Most strokes and relations only say what is so already: then labels, ink and ranks are as they were, and so is
+ * whose the ink is.  Otherwise, with outlines, only what an edit touches is looked at again (ownership-kept.c).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "ownership/ownership.h"
+#include "session/session.h"
+
+/* The level of each label as it leaves. */
+static CeldStatus
+list_values (const CeldSession *s, float **list)
+{
+  float *value = celd_alloc (s->order.n, sizeof *value);
+
+  if (!value)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < s->order.n; k++)
+    value[k] = celd_order_value (&s->order, s->order.level[k], &s->settings);
+  *list = value;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_flat (CeldSession *s, const CeldRun *run)
+{
+  const CeldLabels *labels = celd_session_current_labels (s);
+  float            *value = NULL;
+  CeldPlane         flat = { 0 };
+  CeldStatus        status = list_values (s, &value);
+
+  (void) run;
+  if (status == CELD_OK)
+    status = celd_plane_new (labels->width, labels->height, &flat);
+  if (status == CELD_OK)
+    {
+      for (size_t p = 0; p < (size_t) flat.width * (size_t) flat.height; p++)
+        flat.data[p] = value[labels->data[p] - 1];
+      celd_session_replace (s, STAGE_FLAT, &s->flat, &flat);
+    }
+  celd_free (value);
+  celd_free (flat.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ whose the ink is */
+
+void
+celd_session_forget_ownership (CeldSession *session)
+{
+  celd_free (session->rank);
+  session->rank = NULL;
+  celd_owners_clear (&session->owners);
+}
+
+/* What the levels were made from is not there any more. */
+static void
+forget_values (CeldSession *s)
+{
+  celd_free (s->value);
+  s->value = NULL;
+}
+
+void
+celd_session_clear_ownership (CeldSession *session)
+{
+  celd_session_forget_ownership (session);
+  celd_ownership_clear (&session->ownership);
+  forget_values (session);
+}
+
+/* The labels of the artist's strokes over ink; none without such a layer. */
+static CeldStatus
+read_corrections (const CeldSession *s, CeldLabels *labels)
+{
+  const CeldPaint *paint = &s->corrections;
+  CeldStatus       status = CELD_OK;
+
+  if (paint->data)
+    status = celd_labels_new (paint->width, paint->height, labels);
+  if (status == CELD_OK && paint->data)
+    status = celd_corrections_read (paint, &s->palette, labels);
+  return status;
+}
+
+/* Takes the new one, and says where it differs from the old. */
+static void
+replace_ownership (CeldSession *s, CeldOwnership *new)
+{
+  const CeldOwnership *old = &s->ownership;
+  int                  w = new->owner.width, h = new->owner.height;
+
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->owner.data, new->owner.data, w, h, sizeof (uint32_t)));
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->under.data, new->under.data, w, h, sizeof (uint32_t)));
+  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->share.data, new->share.data, w, h, sizeof (float)));
+  forget_values (s);
+  celd_ownership_clear (&s->ownership);
+  s->ownership = *new;
+  *new = (CeldOwnership) { 0 };
+}
+
+/* From the beginning. */
+static CeldStatus
+make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+{
+  CeldOwnership own = { 0 };
+  CeldStatus    status = celd_ownership_new (input->ink->width, input->ink->height, &own);
+
+  if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
+    status = celd_owners_make (input, run, &s->owners, &own);
+  else if (status == CELD_OK)
+    status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
+                       run, &own);
+  if (status == CELD_OK)
+    replace_ownership (s, &own);
+  celd_ownership_clear (&own);
+  return status;
+}
+
+static CeldStatus
+renew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+{
+  CeldRect   changed;
+  CeldStatus status = celd_owners_renew (input, s->new_labels, run, &s->owners, &s->ownership, &changed);
+
+  if (status == CELD_OK)
+    {
+      celd_session_see (s, STAGE_OWNERSHIP, changed);
+      s->new_owners = celd_rect_union (s->new_owners, changed);
+    }
+  return status;
+}
+
+/* The ranks that the ownership has now. */
+static void
+keep_ranks (CeldSession *s, uint32_t *rank)
+{
+  memcpy (rank, s->order.level, s->order.n * sizeof *rank);
+  celd_free (s->rank);
+  s->rank    = rank;
+  s->n_ranks = s->order.n;
+  s->new_labels      = (CeldRect) { 0 };
+  s->new_corrections = false;
+}
+
+CeldStatus
+celd_make_ownership (CeldSession *s, const CeldRun *run)
+{
+  CeldLabels      corrections = { 0 };
+  CeldOwnersInput input = { celd_session_bent_ink (s), celd_session_current_labels (s), NULL, s->order.level,
+                            s->order.n };
+  uint32_t       *rank;
+  CeldStatus      status;
+
+  if (s->rank && s->n_ranks == s->order.n && !memcmp (s->rank, s->order.level, s->order.n * sizeof *s->rank) &&
+      !s->new_labels.width && !s->new_corrections)
+    return CELD_OK;
+  rank   = celd_alloc (s->order.n, sizeof *rank);
+  status = rank ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
+  if (corrections.data)
+    input.corrections = &corrections;
+  if (status == CELD_OK)
+    status = s->rank && s->owners.level ? renew (s, &input, run) : make_anew (s, &input, run);
+  if (status == CELD_OK)
+    keep_ranks (s, rank);
+  else
+    {
+      celd_session_forget_ownership (s);
+      celd_free (rank);
+    }
+  celd_free (corrections.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ after it */
+
+/* That of the label which covers more of the pixel. */
+static float
+level_at (const CeldOwnership *own, const float *value, int x, int y)
+{
+  return value[CELD_AT (CELD_AT (&own->share, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
+}
+
+static CeldStatus
+make_all_levels (CeldSession *s, const float *value, const CeldRun *run)
+{
+  CeldPlane  levels;
+  CeldStatus status = celd_plane_new (s->ownership.owner.width, s->ownership.owner.height, &levels);
+
+  for (int y = 0; status == CELD_OK && y < levels.height; y++)
+    for (int x = 0; x < levels.width; x++)
+      CELD_AT (&levels, x, y) = level_at (&s->ownership, value, x, y);
+  if (status == CELD_OK)
+    status = celd_step (run, 1);
+  if (status == CELD_OK)
+    celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
+  celd_free (levels.data);
+  return status;
+}
+
+/* Where owners are new. */
+static void
+renew_levels (CeldSession *s, const float *value)
+{
+  CeldRect r = s->new_owners, changed = { 0 };
+
+  for (int y = r.y; y < r.y + r.height; y++)
+    for (int x = r.x; x < r.x + r.width; x++)
+      {
+        float level = level_at (&s->ownership, value, x, y);
+
+        if (CELD_AT (&s->levels, x, y) != level)
+          changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
+        CELD_AT (&s->levels, x, y) = level;
+      }
+  celd_session_see (s, STAGE_LEVELS, changed);
+}
+
+/* Labels that were not there before, or are not there any more, have new owners. */
+CeldStatus
+celd_make_levels (CeldSession *s, const CeldRun *run)
+{
+  size_t     both = s->order.n < s->n_values ? s->order.n : s->n_values;
+  float     *value = NULL;
+  CeldStatus status = list_values (s, &value);
+
+  if (status != CELD_OK)
+    return status;
+  if (s->value && !memcmp (s->value, value, both * sizeof *value))
+    renew_levels (s, value);
+  else
+    status = make_all_levels (s, value, run);
+  if (status == CELD_OK)
+    {
+      celd_free (s->value);
+      s->value      = value;
+      s->n_values   = s->order.n;
+      s->new_owners = (CeldRect) { 0 };
+      value         = NULL;
+    }
+  celd_free (value);
+  return status;
+}

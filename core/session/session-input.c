@@ -1,0 +1,388 @@
+/* What the host sets in a session.  Hosts set everything again at each preview: what is as it was changes nothing.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "order/order.h"
+#include "session/session.h"
+
+#include <string.h>
+
+/* Do the rows of two pictures hold the same?  No picture is the same as no picture. */
+static bool
+same_rows (const void *a, size_t a_stride, const void *b, size_t b_stride, int height, size_t row)
+{
+  const uint8_t *p = a, *q = b;
+
+  for (int y = 0; p && q && y < height; y++, p += a_stride, q += b_stride)
+    if (memcmp (p, q, row))
+      return false;
+  return !p == !q;
+}
+
+static bool
+same_plane (const CeldPlane *a, const CeldPlane *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, a->stride * sizeof (float), b->data, b->stride * sizeof (float), a->height,
+                    (size_t) a->width * sizeof (float));
+}
+
+static bool
+same_paint (const CeldPaint *a, const CeldPaint *b)
+{
+  return a->width == b->width && a->height == b->height &&
+         same_rows (a->data, 4 * a->stride, b->data, 4 * b->stride, a->height, 4 * (size_t) a->width);
+}
+
+static bool
+same_relations (const CeldRelations *a, const CeldRelations *b)
+{
+  for (size_t i = 0; i < a->n && a->n == b->n; i++)
+    {
+      const CeldRelation *p = &a->item[i], *q = &b->item[i];
+
+      if (!celd_term_same (&p->nearer, &q->nearer) || !celd_term_same (&p->farther, &q->farther) ||
+          p->equal != q->equal || p->crack != q->crack || p->anchor != q->anchor || p->weight != q->weight ||
+          p->gap != q->gap || p->line != q->line || p->column != q->column)
+        return false;
+    }
+  return a->n == b->n;
+}
+
+/* Do normals, and does the light on them? */
+static bool
+shape_differs (const CeldSettings *a, const CeldSettings *b)
+{
+  return a->bulge != b->bulge || a->bevel != b->bevel || a->quilt != b->quilt || a->frame_outline != b->frame_outline;
+}
+
+static bool
+light_differs (const CeldSettings *a, const CeldSettings *b)
+{
+  return a->light_model != b->light_model || a->light != b->light || a->light_azimuth != b->light_azimuth ||
+         a->light_elevation != b->light_elevation || a->light_x != b->light_x || a->light_y != b->light_y ||
+         a->light_height != b->light_height || a->ambient != b->ambient || a->toon_steps != b->toon_steps ||
+         a->specular != b->specular || a->shininess != b->shininess || a->rim_light != b->rim_light ||
+         a->rim_power != b->rim_power;
+}
+
+/* Each stage that reads a setting forgets its result; what is made from it goes with it. */
+CeldStatus
+celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
+{
+  const CeldSettings *a = &session->settings, *b = settings;
+  bool                threshold = a->ink_threshold != b->ink_threshold, tolerance = a->tolerance != b->tolerance;
+  bool                split = (a->on_cycle == CELD_ON_CYCLE_SPLIT) != (b->on_cycle == CELD_ON_CYCLE_SPLIT);
+  bool                encoding = a->encoding != b->encoding || a->near_level != b->near_level ||
+                                 a->far_level != b->far_level;
+  CeldStatus          status = celd_settings_check (settings);
+
+  if (status != CELD_OK)
+    return status;
+  if (a->arrow_style != b->arrow_style)
+    celd_session_forget (session, STAGE_RELATIONS);
+  if (a->ink != b->ink)
+    celd_session_forget (session, STAGE_INK);
+  if (a->flats != b->flats)
+    celd_session_forget (session, STAGE_SCRIBBLES);
+  if (a->method != b->method || a->close_gaps != b->close_gaps || a->keep_necks != b->keep_necks ||
+      a->hardness != b->hardness || a->background != b->background ||
+      memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
+      a->same_colour != b->same_colour || threshold || split)
+    celd_session_forget (session, STAGE_LABELS);
+  if (a->suggest != b->suggest || a->on_cycle != b->on_cycle)
+    celd_session_forget (session, STAGE_ORDER);
+  if (a->expansion != b->expansion)
+    {
+      celd_session_forget (session, STAGE_OWNERSHIP);
+      celd_session_forget_ownership (session);
+    }
+  if (encoding)
+    {
+      celd_session_forget (session, STAGE_FLAT);
+      celd_session_forget (session, STAGE_LEVELS);
+      celd_session_forget (session, STAGE_PREVIEW);
+    }
+  if (a->anchors != b->anchors || a->hold_rest != b->hold_rest || tolerance || threshold)
+    {
+      celd_session_forget (session, STAGE_PREVIEW);
+      celd_session_forget (session, STAGE_DEPTH);
+    }
+  if (a->contrast != b->contrast || a->weight_floor != b->weight_floor)
+    {
+      celd_session_forget (session, STAGE_WEIGHTS);
+      if (b->method == CELD_METHOD_WALKER)
+        celd_session_forget (session, STAGE_LABELS);
+    }
+  if (a->background != b->background || memcmp (a->background_colour, b->background_colour, 3) ||
+      a->same_colour != b->same_colour)
+    celd_session_forget (session, STAGE_NODES);
+  if (encoding || tolerance || a->on_cycle != b->on_cycle)
+    celd_session_forget (session, STAGE_EXACT);
+  if (threshold || shape_differs (a, b))
+    celd_session_forget (session, STAGE_NORMALS);
+  if (light_differs (a, b))
+    celd_session_forget (session, STAGE_SHADING);
+  session->settings = *settings;
+  return CELD_OK;
+}
+
+static CeldStatus
+copy_plane (const CeldPlane *from, CeldPlane *to)
+{
+  CeldStatus status = celd_plane_new (from->width, from->height, to);
+
+  for (int y = 0; status == CELD_OK && y < from->height; y++)
+    memcpy (&CELD_AT (to, 0, y), &CELD_AT (from, 0, y), (size_t) from->width * sizeof (float));
+  return status;
+}
+
+/* The layers have the drawing's size, so they go when another size comes. */
+static void
+clear_layers (CeldSession *s)
+{
+  celd_free (s->scribbles.data);
+  celd_free (s->arrows.data);
+  celd_free (s->contours.data);
+  celd_free (s->hint.data);
+  celd_free (s->corrections.data);
+  s->scribbles = s->arrows = s->contours = s->corrections = (CeldPaint) { 0 };
+  s->hint = (CeldPlane) { 0 };
+}
+
+CeldStatus
+celd_session_set_drawing (CeldSession *session, const CeldDrawing *drawing)
+{
+  const CeldPlane *luma = &drawing->luma, *alpha = &drawing->alpha, *old = &session->drawing.luma;
+  CeldDrawing      copy = { 0 };
+  CeldStatus       status;
+
+  if (!CELD_SAME_SIZE (luma, luma) || (alpha->data && !CELD_SAME_SIZE (luma, alpha)))
+    return CELD_BAD_SIZE;
+  if (same_plane (luma, old) && same_plane (alpha, &session->drawing.alpha))
+    return CELD_OK;
+  status = copy_plane (luma, &copy.luma);
+  if (status == CELD_OK && alpha->data)
+    status = copy_plane (alpha, &copy.alpha);
+  if (status != CELD_OK)
+    {
+      celd_free (copy.luma.data);
+      return status;
+    }
+  if (old->width != luma->width || old->height != luma->height)
+    {
+      celd_session_clear_results (session);
+      clear_layers (session);
+    }
+  celd_free (session->drawing.luma.data);
+  celd_free (session->drawing.alpha.data);
+  session->drawing = copy;
+  celd_session_forget (session, STAGE_INK);
+  return CELD_OK;
+}
+
+static CeldStatus
+set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage first_touched)
+{
+  CeldPaint copy = { 0 };
+
+  if (from)
+    {
+      size_t row = 4 * (size_t) from->width;
+
+      if (!CELD_SAME_SIZE (&s->drawing.luma, from))
+        return CELD_BAD_SIZE;
+      if (same_paint (from, layer))
+        return CELD_OK;
+      copy = (CeldPaint) { from->width, from->height, (size_t) from->width, celd_alloc ((size_t) from->height, row) };
+      if (!copy.data)
+        return CELD_NO_MEMORY;
+      for (int y = 0; y < from->height; y++)
+        memcpy (CELD_RGBA (&copy, 0, y), CELD_RGBA (from, 0, y), row);
+    }
+  else if (!layer->data)
+    return CELD_OK;
+  celd_free (layer->data);
+  *layer = copy;
+  celd_session_forget (s, first_touched);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles)
+{
+  return set_layer (session, scribbles, &session->scribbles, STAGE_SCRIBBLES);
+}
+
+CeldStatus
+celd_session_set_arrows (CeldSession *session, const CeldPaint *arrows)
+{
+  return set_layer (session, arrows, &session->arrows, STAGE_RELATIONS);
+}
+
+CeldStatus
+celd_session_set_contours (CeldSession *session, const CeldPaint *contours)
+{
+  return set_layer (session, contours, &session->contours, STAGE_INK);
+}
+
+CeldStatus
+celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth)
+{
+  CeldPlane  copy = { 0 };
+  CeldStatus status = CELD_OK;
+
+  if (depth && !CELD_SAME_SIZE (&session->drawing.luma, depth))
+    return CELD_BAD_SIZE;
+  if (same_plane (depth ? depth : &copy, &session->hint))
+    return CELD_OK;
+  if (depth)
+    status = copy_plane (depth, &copy);
+  if (status != CELD_OK)
+    return status;
+  celd_free (session->hint.data);
+  session->hint = copy;
+  celd_session_forget (session, STAGE_SUGGESTIONS);
+  if (session->settings.suggest != CELD_SUGGEST_OFF)
+    celd_session_forget (session, STAGE_ORDER);
+  return CELD_OK;
+}
+
+/* What a reader makes of a text (NULL: nothing) becomes `known`. */
+static CeldStatus
+set_text (CeldSession *session, CeldStatus (*parse) (const char *text, CeldRelations *relations, CeldTextError *error),
+          const char *text, CeldRelations *known, CeldTextError *error)
+{
+  CeldRelations relations = { 0 };
+  CeldStatus    status = parse (text ? text : "", &relations, error);
+
+  if (status != CELD_OK || same_relations (&relations, known))
+    {
+      celd_relations_clear (&relations);
+      return status;
+    }
+  celd_relations_clear (known);
+  *known = relations;
+  celd_session_forget (session, STAGE_RELATIONS);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections)
+{
+  const uint8_t *old = session->corrections.data;
+  CeldStatus     status = set_layer (session, corrections, &session->corrections, STAGE_OWNERSHIP);
+
+  session->new_corrections |= session->corrections.data != old;
+  return status;
+}
+
+CeldStatus
+celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error)
+{
+  return set_text (session, celd_relations_parse, text, &session->text, error);
+}
+
+CeldStatus
+celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextError *error)
+{
+  return set_text (session, celd_arrow_path_parse, path, &session->path, error);
+}
+
+/* Without the relations of one id among the first `end`; how many there were. */
+static size_t
+drop_relations (CeldRelations *relations, uint32_t id, size_t end)
+{
+  size_t kept = 0, n = relations->n;
+
+  while (kept < end && relations->item[kept].id != id)
+    kept++;
+  if (kept == end)
+    return 0;
+  for (size_t i = kept; i < n; i++)
+    if (i >= end || relations->item[i].id != id)
+      relations->item[kept++] = relations->item[i];
+  relations->n = kept;
+  return n - kept;
+}
+
+/* Adds a relation behind all others to what was made of these; false if that has to be made anew. */
+static bool
+take_relation (CeldSession *s, const CeldRelation *relation)
+{
+  const CeldLabels *labels = celd_session_current_labels (s);
+  uint32_t          near, far;
+
+  if (!s->ranks.n || !celd_session_spares (s, relation))
+    return false;
+  near = celd_term_label (labels, &s->palette, &s->ink, &relation->nearer, &s->ranks.stroke);
+  far  = celd_term_label (labels, &s->palette, &s->ink, &relation->farther, &s->ranks.stroke);
+  return near && far && celd_ranks_add (&s->ranks, relation, near, far, &s->order) &&
+         celd_relation_add (&s->relations, *relation) == CELD_OK;
+}
+
+/* The same for several; then all that is made of the order is to be made anew, but not the order itself. */
+static bool
+take_relations (CeldSession *s, const CeldRelations *added)
+{
+  size_t before = s->relations.n;
+
+  if (!s->valid[STAGE_RELATIONS] || !s->valid[STAGE_ORDER] || s->settings.suggest != CELD_SUGGEST_OFF ||
+      (s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && (s->splits.n || s->order.n_knots)))
+    return false;
+  for (size_t i = 0; i < added->n; i++)
+    if (!take_relation (s, &added->item[i]))
+      {
+        s->relations.n = before; /* labels are told by what they were made from */
+        return false;
+      }
+  celd_session_forget (s, STAGE_EXACT);
+  celd_session_forget (s, STAGE_ORDER);
+  s->valid[STAGE_ORDER] = true;
+  return true;
+}
+
+/* Takes over `added`, with nothing of the same id before. */
+static CeldStatus
+append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
+{
+  size_t     before = s->single.n;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = 0; i < added->n && status == CELD_OK; i++)
+    status = celd_relation_add (&s->single, added->item[i]);
+  if (status != CELD_OK)
+    {
+      s->single.n = before;
+      return status;
+    }
+  if (drop_relations (&s->single, id, before) || !take_relations (s, added))
+    celd_session_forget (s, STAGE_RELATIONS);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_session_put_relation (CeldSession *session, uint32_t id, const char *text, CeldTextError *error)
+{
+  CeldRelations added = { 0 };
+  CeldStatus    status;
+
+  if (!id || !text)
+    return CELD_BAD_VALUE;
+  status = celd_relations_parse (text, &added, error);
+  for (size_t i = 0; i < added.n; i++)
+    added.item[i].id = id;
+  if (status == CELD_OK)
+    status = append_single (session, id, &added);
+  celd_relations_clear (&added);
+  return status;
+}
+
+CeldStatus
+celd_session_remove_relation (CeldSession *session, uint32_t id)
+{
+  if (!drop_relations (&session->single, id, session->single.n))
+    return CELD_BAD_VALUE;
+  celd_session_forget (session, STAGE_RELATIONS);
+  return CELD_OK;
+}

@@ -1,0 +1,412 @@
+/* The levels of the Laplacian solver: the pixels and what they are coarsened to, laid out for the cycle.
+ *
+ * Nearly all nodes are the first ones of their cells and make a plain grid, whose passes are plain loops over rows;
+ * extra nodes, along walls, are few.
+ *
+ * Cost: O(pixels).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "solve/laplace-private.h"
+
+#define BOTTOM 60  /* nodes that are eliminated directly */
+#define UNIT   8   /* places in a row are a multiple of these, and as many empty ones */
+
+static void
+level_clear (CeldLevel *level)
+{
+  void *part[] = { level->near, level->far, level->north, level->south, level->sink, level->inverse, level->coarser,
+                   level->start, level->middle, level->neighbour, level->weight, level->link_row,
+                   level->link_first, level->link_extra, level->link_weight };
+
+  for (size_t i = 0; i < sizeof part / sizeof *part; i++)
+    celd_free (part[i]);
+  *level = (CeldLevel) { 0 };
+}
+
+void
+celd_levels_clear (CeldLevels *levels)
+{
+  for (int l = 0; l < levels->n; l++)
+    level_clear (&levels->level[l]);
+  celd_band_clear (&levels->bottom);
+  celd_free (levels->bottom_node);
+  *levels = (CeldLevels) { 0 };
+}
+
+/* The place of a node of the graph; 0, which is empty, for none. */
+static uint32_t
+place_of (const CeldLevel *level, uint32_t node)
+{
+  uint32_t w = (uint32_t) level->width, n = w * (uint32_t) level->height;
+
+  if (node == CELD_NO_NODE)
+    return 0;
+  return node < n ? celd_level_place (level, (int) (node % w), (int) (node / w))
+                  : (uint32_t) (2 * level->plane) + node - n;
+}
+
+/* ------------------------------------------------------------------ one level */
+
+/* A level of the graph's size, still without arrays. */
+static CeldLevel
+level_shape (const CeldWeights *g)
+{
+  CeldLevel level = { .width = g->width, .height = g->height, .half = (g->width + 1) / 2, .n_extra = g->n_extra };
+
+  level.stride = (size_t) (level.half + UNIT - 1) / UNIT * UNIT + UNIT;
+  level.plane  = level.stride * (size_t) (level.height + 2) + UNIT;
+  level.n      = (uint32_t) (2 * level.plane) + level.n_extra;
+  return level;
+}
+
+static CeldStatus
+level_new (const CeldWeights *g, CeldLevel *level)
+{
+  *level         = level_shape (g);
+  level->near    = celd_alloc0 (level->plane, sizeof *level->near);
+  level->far     = celd_alloc0 (level->plane, sizeof *level->far);
+  level->north   = celd_alloc0 (level->plane, sizeof *level->north);
+  level->south   = celd_alloc0 (level->plane, sizeof *level->south);
+  level->sink    = celd_alloc0 (level->n, sizeof *level->sink);
+  level->inverse = celd_alloc0 (level->n, sizeof *level->inverse);
+  return level->near && level->far && level->north && level->south && level->sink && level->inverse ? CELD_OK
+                                                                                                    : CELD_NO_MEMORY;
+}
+
+/* What the rows of a layout need. */
+typedef struct
+{
+  const CeldWeights *graph;
+  const uint32_t    *coarser;   /* of each node of the graph */
+  const CeldLevel   *next;
+  CeldLevel         *level;
+  int                doublings; /* to the next level */
+  bool               pixels;
+  uint32_t          *count;     /* of each row */
+} Layout;
+
+/* Nodes x = odd, odd + 2, ... of a row go to places 1, 2, ...: those whose sums they get in `inverse`. */
+CELD_CLONES static void
+lay_out_places (size_t w, size_t odd, const float *east, const float *south, const float *above, const float *sink,
+                float *inverse, float *held, float *to_east, float *to_west, float *to_south, float *to_north)
+{
+  for (size_t x = odd, at = 0; x < w; x += 2, at++)
+    {
+      float right = east[x], left = x ? east[x - 1] : 0, down = south[x], up = above ? above[x] : 0;
+
+      held[at]    = sink[x];
+      inverse[at] = (up + left) + (right + down);
+      if (!to_east)
+        continue;
+      to_east[at]  = right;
+      to_west[at]  = left;
+      to_south[at] = down;
+      to_north[at] = up;
+    }
+}
+
+/* The edges between first nodes, and the sums of each node's in `inverse`. */
+static void
+lay_out_row (void *data, int y)
+{
+  const Layout      *o = data;
+  const CeldWeights *g = o->graph;
+  CeldLevel         *level = o->level;
+  size_t             w = (size_t) g->width, i = (size_t) y * w, at = (size_t) (y + 1) * level->stride + 1, odd = y & 1;
+  const float       *above = y ? g->south + i - w : NULL;
+
+  lay_out_places (w, odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + at, level->sink + at,
+                  (odd ? level->far : level->near) + at, (odd ? level->near : level->far) + at, level->south + at,
+                  level->north + at);
+  lay_out_places (w, !odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + level->plane + at,
+                  level->sink + level->plane + at, NULL, NULL, NULL, NULL);
+}
+
+/* Sorts the edges of an extra node k: those to extra nodes after it go to the end. */
+static void
+part_neighbours (CeldLevel *level, uint32_t k)
+{
+  uint32_t middle = level->start[k], self = (uint32_t) (2 * level->plane) + k;
+
+  for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
+    if (level->neighbour[e] < self)
+      {
+        uint32_t j = level->neighbour[e];
+        float    w = level->weight[e];
+
+        level->neighbour[e]      = level->neighbour[middle];
+        level->weight[e]         = level->weight[middle];
+        level->neighbour[middle] = j;
+        level->weight[middle++]  = w;
+      }
+  level->middle[k] = middle;
+}
+
+/* Lists the edges between first and extra nodes in the order of the first ones. */
+static CeldStatus
+list_links (CeldLevel *level)
+{
+  uint32_t  first = (uint32_t) (2 * level->plane), rows = 2 * (uint32_t) level->height;
+  uint32_t *begin = celd_alloc0 ((size_t) first + 1, sizeof *begin);
+
+  level->link_row    = celd_alloc ((size_t) rows + 1, sizeof *level->link_row);
+  level->link_first  = celd_alloc (level->links, sizeof *level->link_first);
+  level->link_extra  = celd_alloc (level->links, sizeof *level->link_extra);
+  level->link_weight = celd_alloc (level->links, sizeof *level->link_weight);
+  if (!begin || !level->link_row || !level->link_first || !level->link_extra || !level->link_weight)
+    {
+      celd_free (begin);
+      return CELD_NO_MEMORY;
+    }
+  for (uint32_t e = 0; e < level->start[level->n_extra]; e++)
+    if (level->neighbour[e] < first)
+      begin[level->neighbour[e] + 1]++;
+  for (uint32_t i = 0; i < first; i++)
+    begin[i + 1] += begin[i];
+  for (uint32_t row = 0; row <= rows; row++) /* a row begins after those above it, an empty one among them */
+    {
+      size_t colour = row < (uint32_t) level->height ? 0 : 1, y = row - colour * (size_t) level->height;
+
+      level->link_row[row] = begin[colour * level->plane + (y + 1) * level->stride];
+    }
+  for (uint32_t k = 0; k < level->n_extra; k++)
+    for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
+      {
+        uint32_t i = level->neighbour[e], at;
+
+        if (i >= first)
+          continue;
+        at = begin[i]++;
+        level->inverse[i] += level->weight[e];
+        level->link_first[at]  = i;
+        level->link_extra[at]  = first + k;
+        level->link_weight[at] = level->weight[e];
+      }
+  celd_free (begin);
+  return CELD_OK;
+}
+
+static void *
+copy (const void *items, size_t n, size_t size)
+{
+  void *result = celd_alloc (n, size);
+
+  if (result && n)
+    memcpy (result, items, n * size);
+  return result;
+}
+
+static CeldStatus
+lay_out_extra (const CeldWeights *g, CeldLevel *level)
+{
+  uint32_t first = (uint32_t) (2 * level->plane), edges;
+
+  if (!g->n_extra)
+    return CELD_OK;
+  edges            = g->start[g->n_extra];
+  level->start     = copy (g->start, (size_t) g->n_extra + 1, sizeof *g->start);
+  level->neighbour = copy (g->neighbour, edges, sizeof *g->neighbour);
+  level->weight    = copy (g->weight, edges, sizeof *g->weight);
+  level->middle    = celd_alloc (g->n_extra, sizeof *level->middle);
+  if (!level->start || !level->neighbour || !level->weight || !level->middle)
+    return CELD_NO_MEMORY;
+  for (uint32_t e = 0; e < edges; e++)
+    {
+      level->neighbour[e] = place_of (level, level->neighbour[e]);
+      level->red_links += level->neighbour[e] < level->plane;
+      level->links += level->neighbour[e] < first;
+    }
+  for (uint32_t k = 0; k < g->n_extra; k++)
+    {
+      level->sink[first + k] = g->sink[(size_t) g->width * (size_t) g->height + k];
+      for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
+        level->inverse[first + k] += level->weight[e];
+      part_neighbours (level, k);
+    }
+  return list_links (level);
+}
+
+/* Sums of edges become inverse diagonals; returns how many nodes have an edge. */
+CELD_CLONES static uint32_t
+invert (size_t n, const float *sink, float *inverse)
+{
+  uint32_t linked = 0;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      float full = inverse[i] + sink[i];
+
+      linked    += inverse[i] > 0;
+      inverse[i] = full > 0 ? 1 / full : 0;
+    }
+  return linked;
+}
+
+static void
+invert_row (void *data, int y)
+{
+  const Layout *o = data;
+  CeldLevel    *level = o->level;
+  size_t        at = (size_t) (y + 1) * level->stride, black = level->plane + at;
+
+  o->count[y] = invert (level->stride, level->sink + at, level->inverse + at) +
+                invert (level->stride, level->sink + black, level->inverse + black);
+}
+
+/* *linked: nodes that have an edge. */
+static CeldStatus
+lay_out (const CeldWeights *g, const CeldRun *run, CeldLevel *level, uint32_t *linked)
+{
+  Layout     o = { .graph = g, .level = level, .count = celd_alloc ((size_t) g->height, sizeof *o.count) };
+  CeldStatus status = level_new (g, level);
+
+  if (!o.count)
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      celd_each (run, g->height, lay_out_row, &o);
+      status = lay_out_extra (g, level);
+    }
+  if (status == CELD_OK)
+    {
+      celd_each (run, g->height, invert_row, &o);
+      *linked = invert (level->n_extra, level->sink + 2 * level->plane, level->inverse + 2 * level->plane);
+      for (int y = 0; y < g->height; y++)
+        *linked += o.count[y];
+    }
+  celd_free (o.count);
+  return status;
+}
+
+/* Where the first nodes of a row go on the next level; of pixels only red ones are asked for. */
+static void
+lay_out_coarser_row (void *data, int y)
+{
+  const Layout   *o = data;
+  const CeldLevel *next = o->next;
+  uint32_t        w = (uint32_t) o->graph->width, cells = (uint32_t) next->width * (uint32_t) next->height;
+  uint32_t        first = (uint32_t) (y >> o->doublings) * (uint32_t) next->width;
+  const uint32_t *coarser = o->coarser + (size_t) y * w;
+
+  for (uint32_t x = o->pixels ? y & 1 : 0; x < w; x += o->pixels ? 2 : 1)
+    {
+      uint32_t to = coarser[x] == CELD_NO_NODE ? 0
+                    : coarser[x] < cells ? celd_level_place (next, (int) (coarser[x] - first), y >> o->doublings)
+                                         : (uint32_t) (2 * next->plane) + coarser[x] - cells;
+
+      o->level->coarser[celd_level_place (o->level, (int) x, y)] = to;
+    }
+}
+
+static CeldStatus
+lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, const CeldRun *run,
+                 const CeldLevel *next, CeldLevel *level)
+{
+  uint32_t n = (uint32_t) g->width * (uint32_t) g->height;
+  bool     pixels = !g->row_extra;
+  Layout   o = {
+    .graph = g, .level = level, .coarser = coarser, .next = next, .doublings = doublings, .pixels = pixels
+  };
+
+  if (!(level->coarser = celd_alloc0 (pixels ? level->plane : level->n, sizeof *level->coarser)))
+    return CELD_NO_MEMORY;
+  celd_each (run, g->height, lay_out_coarser_row, &o);
+  for (uint32_t k = 0; k < g->n_extra; k++)
+    level->coarser[2 * level->plane + k] = place_of (next, coarser[n + k]);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the last level */
+
+static CeldStatus
+eliminate_last (const CeldWeights *g, const CeldLevel *last, CeldLevels *levels)
+{
+  uint32_t   n = (uint32_t) g->width * (uint32_t) g->height, all = n + g->n_extra, count = 0, band;
+  uint32_t  *number = celd_alloc (all, sizeof *number);
+  CeldBandMatrix  *bottom = &levels->bottom;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  levels->bottom_node = celd_alloc (all, sizeof *levels->bottom_node);
+  if (!number || !levels->bottom_node)
+    goto done;
+  for (uint32_t i = 0; i < all; i++)
+    if (last->inverse[place_of (last, i)] > 0)
+      {
+        levels->bottom_node[count] = place_of (last, i);
+        number[i] = count++;
+      }
+  band   = count > 1 ? count - 1 : 1;
+  status = celd_band_new (count, band, bottom);
+  if (status != CELD_OK)
+    goto done;
+#define JOIN(i, j, w) bottom->weight[(size_t) number[i] * band + number[j] - number[i] - 1] = (double) (w)
+  for (uint32_t i = 0; i < n; i++)
+    {
+      if (i % (uint32_t) g->width + 1 < (uint32_t) g->width && g->east[i] > 0)
+        JOIN (i, i + 1, g->east[i]);
+      if (i + (uint32_t) g->width < n && g->south[i] > 0)
+        JOIN (i, i + (uint32_t) g->width, g->south[i]);
+    }
+  for (uint32_t k = 0; k < g->n_extra; k++)
+    for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
+      if (g->neighbour[e] < n + k)
+        JOIN (g->neighbour[e], n + k, g->weight[e]);
+#undef JOIN
+  for (uint32_t i = 0; i < all; i++)
+    if (last->inverse[place_of (last, i)] > 0)
+      bottom->sink[number[i]] = (double) g->sink[i];
+  celd_band_eliminate (bottom);
+
+done:
+  celd_free (number);
+  return status;
+}
+
+/* ------------------------------------------------------------------ all levels */
+
+/* The next graph, and the way there. */
+static CeldStatus
+coarsen (CeldWeights *graph, const CeldRun *run, CeldLevel *level)
+{
+  CeldWeights coarse;
+  CeldLevel   next;
+  uint32_t   *coarser = NULL;
+  CeldStatus  status  = celd_weights_coarsen (graph, run, &coarse, &coarser);
+
+  if (status != CELD_OK)
+    return status;
+  next   = level_shape (&coarse);
+  status = lay_out_coarser (graph, coarser, coarse.doublings, run, &next, level);
+  celd_free (coarser);
+  celd_weights_clear (graph);
+  *graph = coarse;
+  return status;
+}
+
+CeldStatus
+celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels)
+{
+  bool       last = false;
+  double     left = 1;          /* each level is about half of what is left */
+  uint32_t   linked;
+  CeldStatus status = CELD_OK;
+
+  *levels = (CeldLevels) { 0 };
+  while (status == CELD_OK && !last)
+    {
+      CeldLevel *level = &levels->level[levels->n++];
+
+      status = celd_step (run, 1 - left);
+      left  /= 2;
+      if (status == CELD_OK)
+        status = lay_out (graph, run, level, &linked);
+      if (status != CELD_OK)
+        break;
+      last   = levels->n == CELD_MAX_LEVELS || (levels->n > 1 && linked <= BOTTOM);
+      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, run, level);
+    }
+  if (status != CELD_OK)
+    celd_levels_clear (levels);
+  return status;
+}

@@ -1,0 +1,257 @@
+/* The pixels of the Laplacian solver in double: the residual anew, and the result.
+ *
+ * Right-hand sides are the caller's, with what fixed pixels pull.  Each strip makes the black rows it needs itself.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "solve/laplace-private.h"
+#include "solve/laplace-rows.h"
+#include "solve/laplace.h"
+
+typedef double Eight __attribute__ ((vector_size (64)));
+typedef double Loose __attribute__ ((vector_size (64), aligned (8), may_alias));
+
+typedef struct
+{
+  CeldSolution    *s;
+  const CeldLevel *level;
+  bool             deliver;     /* the result, rather than the residual */
+  int              phase;
+} Pass;
+
+/* ------------------------------------------------------------------ right-hand sides */
+
+/* The right-hand side of the pixels of one colour in row y. */
+CELD_INLINE void
+place_rhs_row (const CeldSolution *s, int y, int colour, float *out, int lanes)
+{
+  const CeldLaplace *l = s->laplace;
+  const CeldLevel   *level = &l->levels.level[0];
+  size_t             many = (size_t) lanes, w = (size_t) l->width, first = (size_t) y * w;
+  const float       *inverse = level->inverse + (colour ? level->plane : 0) + (size_t) (y + 1) * level->stride;
+
+  memset (out, 0, level->stride * many * sizeof *out);
+  for (size_t x = (size_t) (y + colour) & 1, at = 1; x < w && s->b; x += 2, at++)
+    for (size_t k = 0; k < many; k++)
+      out[at * many + k] = inverse[at] > 0 ? s->b[(first + x) * many + k] : 0;
+  for (size_t f = s->b_mean ? l->floating_row[y] : 0; s->b_mean && f < l->floating_row[y + 1]; f++)
+    for (size_t x = l->floating[f].first - first; x < l->floating[f].end - first; x++)
+      for (size_t k = 0; k < many && (int) ((x + (size_t) y) & 1) == colour; k++)
+        out[(x / 2 + 1) * many + k] = (float) ((double) s->b[(first + x) * many + k] -
+                                               s->b_mean[l->floating[f].component * many + k]);
+  for (size_t h = l->held_row[y]; h < l->held_row[y + 1]; h++)
+    {
+      size_t x = l->held[h].free - first;
+
+      for (size_t k = 0; k < many && (int) ((x + (size_t) y) & 1) == colour; k++)
+        out[(x / 2 + 1) * many + k] += l->held[h].weight * s->user[l->held[h].fixed * many + k];
+    }
+}
+
+/* ------------------------------------------------------------------ rows */
+
+#define WIDE(v, i) __builtin_convertvector (EIGHT (v, i), Eight)
+#define WIDE_WEIGHT(w, i) __builtin_convertvector (WEIGHT (w, i), Eight)
+
+/* The numbers of the black pixels of row y; nothing outside the picture.  b: workspace for their right-hand side. */
+CELD_INLINE void
+solve_black_row (const Pass *pass, int y, float *b, double *out, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  const float     *x = pass->s->x, *sink = level->sink + level->plane;
+  size_t           first = (size_t) (y + 1) * level->stride;
+
+  if (y < 0 || y >= level->height)
+    {
+      memset (out, 0, level->stride * (size_t) lanes * sizeof *out);
+      return;
+    }
+  place_rhs_row (pass->s, y, 1, b, lanes);
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t beside = i + (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
+      Eight  near = WIDE_WEIGHT (level->near, i), far = WIDE_WEIGHT (level->far, beside);
+      Eight  south = WIDE_WEIGHT (level->south, above), north = WIDE_WEIGHT (level->north, below);
+      Eight  whole = WIDE_WEIGHT (sink, i) + near + far + south + north;
+      Eight  sum = WIDE (b, i - first) + near * WIDE (x, i) + far * WIDE (x, beside) + south * WIDE (x, above) +
+                  north * WIDE (x, below);
+
+      for (int k = 0; k < 8; k++)
+        whole[k] = whole[k] > 0 ? whole[k] : 1; /* the sum is 0 then */
+      *(Loose *) (out + (i - first) * (size_t) lanes) = sum / whole;
+    }
+}
+
+/* r of row y, from the black rows round it. */
+CELD_INLINE void
+residual_row (const Pass *pass, int y, const double *above, const double *here, const double *below, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  const float     *x = pass->s->x;
+  float           *r = pass->s->r;
+  size_t           first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
+
+  place_rhs_row (pass->s, y, 0, r + first * many, lanes);
+  for (EACH_PLACE (level, y, i))
+    {
+      size_t at = i - first;
+      Eight  red = WIDE (x, i);
+      Eight  sum = WIDE (r, i) - WIDE_WEIGHT (level->sink, i) * red;
+
+      sum += WIDE_WEIGHT (level->near, i) * (*(const Loose *) (here + at * many) - red);
+      sum += WIDE_WEIGHT (level->far, i) * (*(const Loose *) (here + (at - (y & 1 ? -(size_t) 1 : 1)) * many) - red);
+      sum += WIDE_WEIGHT (level->north, i) * (*(const Loose *) (above + at * many) - red);
+      sum += WIDE_WEIGHT (level->south, i) * (*(const Loose *) (below + at * many) - red);
+      PUT (r, i, __builtin_convertvector (sum, CeldEight));
+    }
+}
+
+/* The caller's row y. */
+CELD_INLINE void
+deliver_row (const Pass *pass, int y, const double *black, int lanes)
+{
+  const CeldLevel *level = pass->level;
+  size_t           first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
+  float           *out = pass->s->user + (size_t) y * (size_t) level->width * many;
+
+  for (int x = 0; x < level->width; x++)
+    {
+      size_t at = (size_t) x / 2 + 1;
+
+      if ((x + y) & 1 ? level->inverse[level->plane + first + at] > 0 : level->inverse[first + at] > 0)
+        for (size_t k = 0; k < many; k++)
+          out[(size_t) x * many + k] =
+            (x + y) & 1 ? (float) black[at * many + k] : pass->s->x[(first + at) * many + k];
+    }
+}
+
+CELD_INLINE void
+residual (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  size_t           size = level->stride * (size_t) lanes;
+  double          *ring = pass->s->scratch + (size_t) strip * 3 * size;
+  float           *side = pass->s->side + (size_t) strip * size;
+  int              from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < level->height ? end : level->height;
+
+  for (int y = from - 1; y <= to; y++)
+    {
+      double *row[3];
+
+      for (int k = 0; k < 3; k++) /* rows y-2, y-1, y */
+        row[k] = ring + (size_t) ((y + 4 + k) % 3) * size;
+      solve_black_row (pass, y, side, row[2], lanes);
+      if (pass->deliver && y >= from && y < to)
+        deliver_row (pass, y, row[2], lanes);
+      if (!pass->deliver && y > from)
+        residual_row (pass, y - 1, row[0], row[1], row[2], lanes);
+    }
+}
+
+/* The red pixels of a strip, from the caller's. */
+CELD_INLINE void
+read_strip (void *data, int strip, int lanes)
+{
+  const Pass      *pass = data;
+  const CeldLevel *level = pass->level;
+  size_t           many = (size_t) lanes, w = (size_t) level->width;
+  int              from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < level->height ? end : level->height;
+
+  for (int y = from; y < to; y++)
+    {
+      const float *in = pass->s->user + (size_t) y * w * many;
+      size_t       place = (size_t) (y + 1) * level->stride + 1;
+
+      for (size_t x = (size_t) y & 1; x < w; x += 2, place++)
+        for (size_t k = 0; k < many; k++)
+          pass->s->x[place * many + k] = level->inverse[place] > 0 ? in[x * many + k] : 0;
+    }
+}
+
+CELD_CLONES static void
+read_strip_single (void *data, int strip)
+{
+  read_strip (data, strip, 1);
+}
+
+CELD_CLONES static void
+read_strip_lanes (void *data, int strip)
+{
+  read_strip (data, strip, CELD_LANES);
+}
+
+CELD_CLONES static void
+residual_single (void *data, int strip)
+{
+  residual (data, strip, 1);
+}
+
+CELD_CLONES static void
+residual_lanes (void *data, int strip)
+{
+  residual (data, strip, CELD_LANES);
+}
+
+static inline bool
+has_edge (const CeldLevel *level, size_t i)
+{
+  return level->near[i] > 0 || level->far[i] > 0 || level->north[i] > 0 || level->south[i] > 0;
+}
+
+/* Pixels of row y without an edge: their residual goes at once.  Others have no coarser node either. */
+static void
+settle_row (const Pass *pass, int y)
+{
+  const CeldLevel *level = pass->level;
+  float           *x = pass->s->x, *r = pass->s->r;
+  size_t           many = (size_t) pass->s->lanes, first = (size_t) (y + 1) * level->stride + 1;
+
+  for (size_t i = first; i < first + (size_t) level->half; i++)
+    for (size_t k = i * many; k < (i + 1) * many && !level->coarser[i] && !has_edge (level, i); k++)
+      {
+        x[k] += level->inverse[i] * r[k];
+        r[k] = 0;
+      }
+}
+
+/* Of its own, after the residual: the strips beside this one read its x for that. */
+static void
+settle_strip (void *data, int strip)
+{
+  const Pass *pass = data;
+  int         from = strip * CELD_STRIP, end = from + CELD_STRIP;
+
+  for (int y = from; y < end && y < pass->level->height; y++)
+    settle_row (pass, y);
+}
+
+/* ------------------------------------------------------------------ the passes */
+
+static void
+run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
+{
+  celd_sweep (pass->s->run, pass->level->height, 1, pass->s->lanes == 1 ? single : lanes, pass, &pass->phase);
+}
+
+void
+celd_pixels_refresh (CeldSolution *s)
+{
+  run (&(Pass) { .s = s, .level = &s->laplace->levels.level[0] }, residual_single, residual_lanes);
+}
+
+void
+celd_pixels_begin (CeldSolution *s)
+{
+  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
+
+  run (&pass, read_strip_single, read_strip_lanes);
+  run (&pass, residual_single, residual_lanes);
+  run (&pass, settle_strip, settle_strip);
+}
+
+void
+celd_pixels_deliver (CeldSolution *s)
+{
+  run (&(Pass) { .s = s, .level = &s->laplace->levels.level[0], .deliver = true }, residual_single, residual_lanes);
+}

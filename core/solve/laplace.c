@@ -1,0 +1,314 @@
+/* The one Laplacian solver: flexible conjugate gradients over the pixels, preconditioned by a multigrid cycle.
+ *
+ * Eq. (3), contour thickness (section 3.3), normals, heights and harmonic bases are all  A x = b  with a weighted graph
+ * Laplacian.  The direction follows Polak and Ribiere, because the cycle is not linear.  Narrow or small grids are
+ * eliminated directly instead.  Lanes, solutions on the same weights at once, share all reads of these.
+ *
+ * When to stop: with weak links a residual of 1e-8 can hide an error of half the range.  The preconditioned residual z
+ * is an estimate of the error itself, too small by at most the least eigenvalue of the preconditioned matrix, which
+ * the coefficients of the conjugate gradient tell (Lanczos); so the estimate is max|z| over that eigenvalue.
+ *
+ * Cost: five to ten rounds whatever the size.  Sums are taken row by row and then over the rows, so that the result
+ * does not depend on threads.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "solve/laplace-private.h"
+#include "solve/laplace.h"
+
+#include <math.h>
+
+#define MOST_ROUNDS  200
+#define RENEW        6          /* rounds after which the residual is made anew: what float loses in it misleads, ... */
+#define RENEW_WEAK   3          /* ... the more where weak links make much of it */
+#define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
+
+/* ------------------------------------------------------------------ pinned pixels */
+
+/* The edge of weight *w between pixels i and j: what a fixed end says goes to the other end's equation. */
+static void
+pin_edge (size_t i, size_t j, float *w, size_t plane, const uint8_t *fixed, int nrhs, const float *value,
+          float *diagonal, float *b)
+{
+  size_t held = fixed[i] ? i : j, other = fixed[i] ? j : i;
+
+  if (!fixed[held])
+    return;
+  if (!fixed[other])
+    {
+      diagonal[other] += *w;
+      for (int k = 0; k < nrhs; k++)
+        b[(size_t) k * plane + other] += *w * value[(size_t) k * plane + held];
+    }
+  *w = 0;
+}
+
+void
+celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float *value,
+              float *east, float *south, float *diagonal, float *b)
+{
+  size_t w = (size_t) width, plane = w * (size_t) height;
+
+  for (size_t i = 0; i < plane; i++)
+    {
+      if (i % w + 1 < w)
+        pin_edge (i, i + 1, &east[i], plane, fixed, nrhs, value, diagonal, b);
+      if (i + w < plane)
+        pin_edge (i, i + w, &south[i], plane, fixed, nrhs, value, diagonal, b);
+    }
+  for (size_t i = 0; i < plane; i++)
+    if (fixed[i])
+      {
+        diagonal[i] = 1;
+        for (int k = 0; k < nrhs; k++)
+          b[(size_t) k * plane + i] = value[(size_t) k * plane + i];
+      }
+}
+
+/* ------------------------------------------------------------------ set-up */
+
+CeldStatus
+celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
+                const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace)
+{
+  CeldLaplace *l = celd_alloc0 (1, sizeof *l);
+  CeldWeights    graph = { 0 };
+  CeldStatus   status;
+
+  if (!l)
+    return CELD_NO_MEMORY;
+  l->width  = width;
+  l->height = height;
+  status    = celd_step (run, 0);
+  if (status == CELD_OK)
+    status = celd_system_copy (east, south, diagonal, fixed, run, l, &graph);
+  if (status == CELD_OK)
+    status = celd_floating_find (&graph, l);
+  if (status == CELD_OK)
+    {
+      l->direct = celd_is_direct (&graph, l->weak);
+      status    = l->direct ? celd_direct_new (&graph, l) : celd_levels_new (&graph, run, &l->levels);
+    }
+  celd_weights_clear (&graph);
+  if (status == CELD_OK)
+    *laplace = l;
+  else
+    celd_lap_free (l);
+  return status;
+}
+
+void
+celd_lap_free (CeldLaplace *laplace)
+{
+  if (!laplace)
+    return;
+  celd_band_clear (&laplace->band);
+  celd_levels_clear (&laplace->levels);
+  celd_free (laplace->keep);
+  celd_free (laplace->held);
+  celd_free (laplace->held_row);
+  celd_free (laplace->floating);
+  celd_free (laplace->floating_row);
+  celd_free (laplace->floating_size);
+  celd_free (laplace);
+}
+
+/* ------------------------------------------------------------------ the conjugate gradient */
+
+/* What is known of one lane. */
+typedef struct
+{
+  double alpha[MOST_ROUNDS], beta[MOST_ROUNDS];
+  double pq;                    /* of the last direction */
+  double scale;                 /* range of x */
+  double error;
+  bool   done;
+} Lane;
+
+/* Least eigenvalue of the preconditioned matrix, as far as the rounds so far tell: that of the Lanczos matrix with the
+ * diagonal 1/alpha_k + beta_k/alpha_(k-1) and the squares beta_k/alpha_(k-1)^2 beside it. */
+static double
+least_eigenvalue (int rounds, const double *alpha, const double *beta)
+{
+  double low = 0, high = 1;
+
+  for (int halving = 0; halving < 40; halving++)
+    {
+      double t = 0.5 * (low + high), pivot = 1;
+
+      for (int k = 0; k < rounds && pivot > 0; k++)
+        {
+          double before = k ? beta[k] / alpha[k - 1] : 0;
+
+          pivot = 1 / alpha[k] + before - t - (k ? before / alpha[k - 1] / pivot : 0);
+        }
+      if (pivot > 0)
+        low = t;
+      else
+        high = t;
+    }
+  return fmax (low, 1e-6);
+}
+
+/* How far the error has come on its way from `first` to the tolerance, on a logarithmic scale. */
+static double
+share_done (double first, double error, double tolerance)
+{
+  return first > tolerance ? fmin (fmax (log (first / error) / log (first / tolerance), 0), 1) : 0;
+}
+
+/* Reads what a cycle has told of a lane; alpha and beta of the next step are 0 when it is done. */
+static void
+judge (Lane *lane, int round, double tolerance, const CeldMeasure *m, int k, double *alpha, double *beta)
+{
+  *alpha = *beta = 0;
+  if (!(m->zr[k] > 0))
+    {
+      lane->error = lane->done ? lane->error : 0;
+      lane->done  = true;
+    }
+  else if (round > 0 && !lane->done)
+    {
+      lane->error = SAFETY * m->largest[k] / least_eigenvalue (round, lane->alpha, lane->beta) / lane->scale;
+      lane->done  = lane->error <= tolerance;
+    }
+  if (lane->done)
+    return;
+  *beta    = round ? fmax (-m->zq[k] / lane->pq, 0) : 0;
+  lane->pq = m->zt[k] + 2 * *beta * m->zq[k] + *beta * *beta * lane->pq;
+  *alpha   = lane->pq > 0 ? m->zr[k] / lane->pq : 0;
+  if (!(*alpha > 0) || !isfinite (*alpha))
+    {
+      *alpha = *beta = 0;
+      lane->done = true;
+      return;
+    }
+  lane->alpha[round] = *alpha;
+  lane->beta[round]  = *beta;
+}
+
+/* The rounds of the conjugate gradient. */
+static CeldStatus
+iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *solve)
+{
+  double      done = 0, first = 0, alpha[CELD_LANES], beta[CELD_LANES];
+  CeldMeasure m;
+
+  int         renew = s->laplace->weak ? RENEW_WEAK : RENEW;
+
+  most = most && most < MOST_ROUNDS ? most : MOST_ROUNDS;
+  celd_pixels_begin (s);
+  for (int k = 0; k < s->lanes; k++)
+    lane[k] = (Lane) { .error = 1 };
+  for (int round = 0;; round++)
+    {
+      bool all = true;
+
+      celd_pixels_round (s, round ? alpha : NULL, beta, round && round % renew == 0, &m);
+      solve->iterations = round;
+      solve->error      = 0;
+      for (int k = 0; k < s->lanes; k++)
+        {
+          if (round) /* where all is nearly constant, the last digits of float are enough */
+            lane[k].scale = fmax (m.high[k] - m.low[k], 1e-6 * fmax (fabs (m.low[k]), fabs (m.high[k])) / tolerance);
+          judge (&lane[k], round, tolerance, &m, k, &alpha[k], &beta[k]);
+          all          = all && lane[k].done;
+          solve->error = fmax (solve->error, lane[k].error);
+        }
+      solve->converged = solve->error <= tolerance;
+      if (all || round == most)
+        return CELD_OK;
+
+      first = round <= 1 ? solve->error : first;
+      done  = fmax (done, share_done (first, solve->error, tolerance));
+      if (celd_step (s->run, done) != CELD_OK)
+        return CELD_CANCELLED;
+    }
+}
+
+static CeldStatus
+converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x, double tolerance, int most,
+          const CeldRun *run, CeldSolve *solve)
+{
+  CeldSolution s;
+  Lane        *lane   = celd_alloc ((size_t) lanes, sizeof *lane);
+  CeldStatus   status = celd_solution_new (l, lanes, b, x, run, &s);
+
+  s.b_mean = b_mean;
+  if (!lane)
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    {
+      status = iterate (&s, tolerance, most, lane, solve);
+      celd_pixels_deliver (&s);
+    }
+  celd_solution_free (&s);
+  celd_free (lane);
+  return status;
+}
+
+/* ------------------------------------------------------------------ solutions */
+
+/* One solution, or CELD_LANES of them. */
+static CeldStatus
+solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, int most, const CeldRun *run,
+             CeldSolve *solve)
+{
+  size_t     means = (size_t) l->n_floating + 1;
+  double    *mean  = celd_alloc (3 * means, (size_t) lanes * sizeof *mean);
+  double    *before, *after, *b_mean;
+  CeldStatus status;
+
+  *solve = (CeldSolve) { .converged = true };
+  if (!mean)
+    return CELD_NO_MEMORY;
+  before = mean;
+  after  = mean + means * (size_t) lanes;
+  b_mean = b && l->n_floating ? after + means * (size_t) lanes : NULL;
+  celd_floating_means (l, lanes, x, before);
+  if (b_mean)
+    celd_floating_means (l, lanes, b, b_mean);
+  status = l->direct ? celd_direct_solve (l, lanes, b, b_mean, x)
+                     : converge (l, lanes, b, b_mean, x, tolerance, most, run, solve);
+  celd_floating_means (l, lanes, x, after);
+  celd_floating_shift (l, lanes, before, after, x);
+  celd_free (mean);
+  return status;
+}
+
+CeldStatus
+celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
+                const CeldRun *run, CeldSolve *solve)
+{
+  size_t     n = (size_t) laplace->width * (size_t) laplace->height;
+  CeldSolve  worst = { .converged = true };
+  CeldStatus status = CELD_OK;
+
+  for (int k = 0; k < nrhs && status == CELD_OK; k++)
+    {
+      CeldPart  part;
+      CeldRun   share  = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
+      size_t    offset = (size_t) k * n;
+      CeldSolve one;
+
+      status = solve_lanes (laplace, 1, b ? b + offset : NULL, x + offset, tolerance, 0, &share, &one);
+      worst.converged  = worst.converged && one.converged;
+      worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
+      worst.error      = fmax (worst.error, one.error);
+    }
+  if (solve)
+    *solve = worst;
+  return status;
+}
+
+CeldStatus
+celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
+                      const CeldRun *run, CeldSolve *solve)
+{
+  CeldSolve  worst;
+  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, most, run, &worst);
+
+  if (solve)
+    *solve = worst;
+  return status;
+}

@@ -1,0 +1,272 @@
+/* Alpha-expansion: Y. Boykov, O. Veksler and R. Zabih, "Fast Approximate Energy Minimization via Graph Cuts", PAMI
+ * 2001.  The best set of nodes that can take the label alpha at once is a minimum cut: the source side takes it.  This
+ * is repeated with all labels in turn until none of them lowers the energy.
+ *
+ * A link of cost w costs, by who keeps its label (k) and who takes alpha (t), in units of half the cost, so that all
+ * capacities are symmetric:
+ *   same label now:             kk 0, tk = kt 2w, tt 0:    capacity 2w both ways;
+ *   different labels:           kk = tk = kt 2w, tt 0:     capacity w both ways, and w for each of the two that keeps;
+ *   the other is alpha already: k 2w, t 0:                 2w for keeping.
+ * A vote v costs 2v for taking alpha if it is for the label that the node has, and for keeping if it is for alpha.
+ *
+ * Only the last rule and the votes for alpha depend on alpha.  Without them the network is that of a label that has
+ * neither nodes nor votes; its pseudo-flow is kept from one expansion to the next, so that only what borders on alpha
+ * and what votes for it is new.  Nodes that are alpha stand for the source: all they have left flows to the neighbours,
+ * and they are closed.  What was put on top for the votes is taken away in the end; a node that lacks it then is where
+ * the same expansion finds it again.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "solve/flow.h"
+#include "solve/partition-graph.h"
+
+typedef struct
+{
+  CeldPartitionGraph *graph;
+  int64_t  *held;           /* of each node: the votes for the label that it has */
+  int64_t  *wanted;         /* the votes for alpha, while it expands; else 0 */
+  uint32_t *loose;          /* nodes with an excess that is there without alpha; at first all nodes */
+  size_t    n_loose;
+  bool     *is_loose;
+} Expansion;
+
+/* ------------------------------------------------------------------ the network without alpha */
+
+/* Nothing flows yet. */
+static void
+lay_out (Expansion *e)
+{
+  CeldPartitionGraph *graph = e->graph;
+
+  for (size_t i = 0; i < graph->of_rank[graph->n_ranks]; i++)
+    if (graph->ballot[i].rank == graph->rank[graph->ballot[i].node])
+      e->held[graph->ballot[i].node] = graph->ballot[i].cost;
+  for (uint32_t p = 0; p < graph->n; p++)
+    {
+      CeldFlowNode *node = &graph->network.node[p];
+
+      node->excess   = -2 * e->held[p];
+      e->is_loose[p] = true;
+      e->loose[e->n_loose++] = p;
+      for (uint32_t a = node->arc; a < node[1].arc; a++)
+        {
+          CeldFlowArc *arc = &graph->network.arc[a];
+          bool     same = graph->rank[arc->to] == graph->rank[p];
+
+          arc->left[0] = arc->left[1] = same ? 2 * graph->cost[a] : graph->cost[a];
+          node->excess += same ? 0 : graph->cost[a];
+        }
+    }
+}
+
+static void
+move (CeldNetwork *network, uint32_t p, CeldFlowArc *arc, int64_t amount)
+{
+  CeldFlowArc *sister = &network->arc[arc->sister];
+
+  arc->left[CELD_SOURCE]    -= amount;
+  arc->left[CELD_SINK]      += amount;
+  sister->left[CELD_SINK]   -= amount;
+  sister->left[CELD_SOURCE] += amount;
+  network->node[p].excess       -= amount;
+  network->node[arc->to].excess += amount;
+}
+
+/* Adds to the capacity of a link, and takes from what keeping costs its two nodes, after an end of it has changed. */
+static void
+widen (CeldNetwork *network, uint32_t p, CeldFlowArc *arc, int64_t cost)
+{
+  CeldFlowArc *sister = &network->arc[arc->sister];
+
+  for (int t = 0; t < 2; t++)
+    {
+      arc->left[t]    += cost;
+      sister->left[t] += cost;
+    }
+  network->node[p].excess       -= cost;
+  network->node[arc->to].excess -= cost;
+}
+
+/* Gives p the label alpha in the network.  Where a link gets narrower than what flows there, less flows. */
+static void
+take (Expansion *e, uint32_t p, uint32_t alpha)
+{
+  CeldPartitionGraph *graph = e->graph;
+  CeldNetwork        *network = &graph->network;
+  CeldFlowNode       *node = &network->node[p];
+
+  for (uint32_t a = node->arc; a < node[1].arc; a++)
+    {
+      CeldFlowArc *arc = &network->arc[a];
+      int64_t  cost = graph->cost[a];
+
+      if (graph->rank[arc->to] == alpha)
+        widen (network, p, arc, cost);
+      else if (graph->rank[arc->to] == graph->rank[p])
+        {
+          if (arc->left[CELD_SOURCE] < cost)
+            move (network, p, arc, arc->left[CELD_SOURCE] - cost);
+          else if (arc->left[CELD_SINK] < cost)
+            move (network, p, arc, cost - arc->left[CELD_SINK]);
+          widen (network, p, arc, -cost);
+        }
+    }
+  node->excess  += 2 * (e->held[p] - e->wanted[p]);
+  e->held[p]     = e->wanted[p];
+  graph->rank[p] = alpha;
+}
+
+/* ------------------------------------------------------------------ one expansion */
+
+/* Where an excess comes from alpha.  Nodes that lack something are left to be found: little borders on alpha. */
+static void
+root (Expansion *e, uint32_t p)
+{
+  const CeldFlowNode *node = &e->graph->network.node[p];
+
+  if (node->excess > 0 && node->tree == CELD_NO_TREE)
+    celd_network_root (&e->graph->network, p);
+}
+
+/* The nodes that are alpha already are the source. */
+static void
+close_alpha (Expansion *e, uint32_t alpha)
+{
+  CeldNetwork    *network = &e->graph->network;
+  const uint32_t *rank = e->graph->rank;
+
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (rank[p] == alpha)
+      network->node[p].tree = CELD_CLOSED;
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (rank[p] == alpha)
+      for (uint32_t a = network->node[p].arc; a < network->node[p + 1].arc; a++)
+        if (rank[network->arc[a].to] != alpha)
+          {
+            move (network, p, &network->arc[a], network->arc[a].left[CELD_SOURCE]);
+            root (e, network->arc[a].to);
+          }
+}
+
+static void
+open_alpha (Expansion *e, uint32_t alpha)
+{
+  for (uint32_t p = 0; p < e->graph->n; p++)
+    if (e->graph->rank[p] == alpha)
+      e->graph->network.node[p].tree = CELD_NO_TREE;
+}
+
+/* Puts (sign = 1) or takes away (-1) what the votes for alpha add. */
+static void
+vote (Expansion *e, uint32_t alpha, int sign)
+{
+  CeldPartitionGraph *graph = e->graph;
+
+  for (size_t i = graph->of_rank[alpha]; i < graph->of_rank[alpha + 1]; i++)
+    {
+      const CeldBallot *ballot = &graph->ballot[graph->by_rank[i]];
+
+      if (graph->rank[ballot->node] == alpha)
+        continue;
+      graph->network.node[ballot->node].excess += 2 * sign * ballot->cost;
+      e->wanted[ballot->node] = ballot->cost;
+      if (sign > 0)
+        root (e, ballot->node);
+    }
+}
+
+static void
+forget_votes (Expansion *e, uint32_t alpha)
+{
+  for (size_t i = e->graph->of_rank[alpha]; i < e->graph->of_rank[alpha + 1]; i++)
+    e->wanted[e->graph->ballot[e->graph->by_rank[i]].node] = 0;
+}
+
+static void
+add_loose (Expansion *e, uint32_t p)
+{
+  if (e->is_loose[p] || e->graph->network.node[p].excess <= 0)
+    return;
+  e->is_loose[p] = true;
+  e->loose[e->n_loose++] = p;
+}
+
+/* All that can have an excess now: nodes that had it and were closed, and nodes that took alpha.  Those beside them
+ * have none: what flows to them along full links gets less by as much as keeping their label costs more. */
+static void
+find_loose (Expansion *e)
+{
+  const CeldNetwork *network = &e->graph->network;
+  size_t             n = e->n_loose;
+
+  e->n_loose = 0;
+  for (size_t i = 0; i < n; i++)
+    {
+      e->is_loose[e->loose[i]] = false;
+      add_loose (e, e->loose[i]);
+    }
+  for (size_t i = 0; i < network->n_reached; i++)
+    add_loose (e, network->reached[i]);
+}
+
+/* *changed: did any node take the label? */
+static CeldStatus
+expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
+{
+  CeldNetwork *network = &e->graph->network;
+  CeldStatus   status;
+
+  celd_network_begin (network);
+  close_alpha (e, alpha);
+  vote (e, alpha, 1);
+  for (size_t i = 0; i < e->n_loose; i++)
+    if (network->node[e->loose[i]].excess && network->node[e->loose[i]].tree == CELD_NO_TREE)
+      celd_network_root (network, e->loose[i]);
+  status = celd_network_drain (network, run);
+  if (status != CELD_OK)
+    return status;
+  open_alpha (e, alpha);
+  vote (e, alpha, -1);
+  for (size_t i = 0; i < network->n_reached; i++)
+    take (e, network->reached[i], alpha);
+  forget_votes (e, alpha);
+  find_loose (e);
+  *changed = network->n_reached;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
+{
+  Expansion  e = { .graph = graph };
+  uint32_t   alpha = 0;
+  size_t     settled = 0; /* labels in a row that could not expand */
+  CeldStatus status = CELD_NO_MEMORY;
+
+  e.held     = celd_alloc0 (graph->n, sizeof *e.held);
+  e.wanted   = celd_alloc0 (graph->n, sizeof *e.wanted);
+  e.loose    = celd_alloc (graph->n, sizeof *e.loose);
+  e.is_loose = celd_alloc (graph->n, sizeof *e.is_loose);
+  if (!e.held || !e.wanted || !e.loose || !e.is_loose)
+    goto done;
+  lay_out (&e);
+  status = celd_step (run, 0); /* how often all labels have to be tried cannot be told */
+  while (status == CELD_OK && settled < graph->n_ranks)
+    {
+      bool changed = false;
+
+      status = expand (&e, alpha, run, &changed);
+      if (status == CELD_OK)
+        status = celd_step (run, 0);
+      settled = changed ? 1 : settled + 1; /* twice in a row is of no use */
+      if (++alpha == graph->n_ranks)
+        alpha = 0;
+    }
+
+done:
+  celd_free (e.held);
+  celd_free (e.wanted);
+  celd_free (e.loose);
+  celd_free (e.is_loose);
+  return status;
+}

@@ -1,0 +1,383 @@
+/* A scene as it looks from the side (section 5, Figure 1g).
+ *
+ * A pixel of depth d at x goes to  c + q (x - c) - s (d - d_0),  where c is the middle, q how much the picture is
+ * squeezed, d_0 the depth on the screen and 2 s the disparity of two eyes in pixels for each unit of depth.  A piece of
+ * a row becomes a line through its pixels' new places, so that it has no cracks where it is stretched; where it folds
+ * over itself, the nearer part counts.  Groups of pieces are laid over each other in their order.
+ *
+ * A camera that moves up or down, too, goes the two ways one after the other: rows first, then columns of what that
+ * gave, of each group by itself with its depth.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "stereo/scene.h"
+
+#define BAND 32 /* rows of one job */
+
+/* How places change. */
+typedef struct { double squeeze, middle, shift, screen; } Move;
+
+typedef struct
+{
+  const CeldScene *scene;
+  Move             move;
+  CeldColours     *view;       /* straight alpha */
+  char            *scratch;    /* of each band */
+} View;
+
+/* What is nearest in a group at each pixel of a row: at `at` + t of the span's pixels. */
+typedef struct
+{
+  float          *nearest, *t;
+  const CeldSceneSpan **span;       /* NULL: nothing */
+  int            *at;
+  float          *colour;      /* of the row so far, premultiplied */
+  int             width, first, end; /* pixels that the group may have reached */
+} Line;
+
+/* What a line takes, rounded up so that several may lie one behind the other. */
+static size_t
+line_bytes (int width)
+{
+  size_t pixel = 2 * sizeof (float) + sizeof (CeldSceneSpan *) + sizeof (int) + 4 * sizeof (float);
+
+  return ((size_t) width * pixel + sizeof (CeldSceneSpan *) - 1) / sizeof (CeldSceneSpan *) * sizeof (CeldSceneSpan *);
+}
+
+static Line
+line_in (char *scratch, int width)
+{
+  size_t w = (size_t) width;
+  Line   line = { .width = width };
+
+  line.span    = (const CeldSceneSpan **) (void *) scratch;
+  line.nearest = (float *) (void *) (scratch + w * sizeof *line.span);
+  line.t       = line.nearest + w;
+  line.colour  = line.t + w;
+  line.at      = (int *) (void *) (line.colour + 4 * w);
+  return line;
+}
+
+/* ------------------------------------------------------------------ a piece on its way */
+
+/* The first pixel whose middle is at or behind a place, within 0 .. width. */
+static inline int
+pixel_from (double place, int width)
+{
+  double inside = place - 0.5 > 0 ? place - 0.5 < width ? place - 0.5 : width : 0;
+  int    pixel = (int) inside;
+
+  return pixel + (pixel < inside);
+}
+
+/* The new place of the middle of pixel i of a piece. */
+static inline double
+place_of (const Move *m, const CeldSceneSpan *s, int i)
+{
+  return m->middle + m->squeeze * (s->x + i + 0.5 - m->middle) - m->shift * ((double) s->near[i] - m->screen);
+}
+
+static inline void
+put (Line *line, const CeldSceneSpan *s, int i, int k, float t, float near)
+{
+  if (line->span[k] && near < line->nearest[k])
+    return;
+  line->span[k]    = s;
+  line->nearest[k] = near;
+  line->at[k]      = i;
+  line->t[k]       = t;
+}
+
+/* Beyond the frame a piece goes on as it is there. */
+static void
+put_beyond (Line *line, const CeldSceneSpan *s, int i, int first, int end)
+{
+  for (int k = first; k < end; k++)
+    put (line, s, i, k, 0, s->near[i]);
+}
+
+/* The pixels from k to before `end` lie between the places of the pixels i and i + 1. */
+static inline void
+put_between (Line *line, const CeldSceneSpan *s, int i, int k, int end, double place, double next)
+{
+  float scale = 1 / (float) (next - place), rise = s->near[i + 1] - s->near[i];
+
+  for (; k < end; k++)
+    {
+      float t = (float) (k + 0.5 - place) * scale;
+
+      put (line, s, i, k, t, s->near[i] + t * rise);
+    }
+}
+
+CELD_CLONES static void
+move_piece (const Move *m, const CeldSceneSpan *s, Line *line)
+{
+  bool   at_left = s->x == 0, at_right = s->x + s->n == line->width;
+  int    i = at_left ? 0 : -1, last = at_right ? s->n - 1 : s->n;
+  double place = place_of (m, s, i);
+  int    k = pixel_from (place, line->width);
+
+  if (at_left)
+    put_beyond (line, s, 0, 0, k);
+  line->first = at_left ? 0 : line->first < k ? line->first : k;
+  for (; i < last; i++)
+    {
+      double next = place_of (m, s, i + 1);
+      int    end = pixel_from (next, line->width);
+
+      line->first = k < line->first ? k : line->first;
+      line->end   = end > line->end ? end : line->end;
+      if (k < end)
+        put_between (line, s, i, k, end, place, next);
+      place = next;
+      k     = end;
+    }
+  if (at_right)
+    {
+      put_beyond (line, s, s->n - 1, k, line->width);
+      line->first = k < line->first ? k : line->first;
+      line->end   = line->width;
+    }
+}
+
+/* Between two pixels: a cubic through their neighbours, too (Catmull and Rom), that stays within the two; straight
+ * where one covers less than the other, so that colours and alpha go on fitting each other. */
+static inline void
+blend (const float *a, float t, float colour[4])
+{
+  if (a[3] != a[7])
+    {
+      for (int c = 0; c < 4; c++)
+        colour[c] = a[c] + t * (a[4 + c] - a[c]);
+      return;
+    }
+  for (int c = 0; c < 4; c++)
+    {
+      float from = a[c], to = a[4 + c], rise = to - from, low = from < to ? from : to, high = from < to ? to : from;
+      float slope = 0.5f * (to - a[c - 4]), end = 0.5f * (a[8 + c] - from);
+      float value = from + t * (slope + t * (3 * rise - 2 * slope - end + t * (slope + end - 2 * rise)));
+
+      value     = value < low ? low : value;
+      colour[c] = value > high ? high : value;
+    }
+}
+
+/* The colours of a group over those so far; makes the line ready for the next group. */
+CELD_CLONES static void
+lay_group (Line *line)
+{
+  for (int k = line->first; k < line->end; k++)
+    {
+      const CeldSceneSpan *s = line->span[k];
+      const float    *from;
+      float          *to = line->colour + 4 * k, colour[4];
+
+      if (!s)
+        continue;
+      line->span[k] = NULL;
+      from = s->colour + 4 * line->at[k];
+      if (memcmp (from, from + 4, sizeof colour)) /* most neighbours in drawings are the same */
+        {
+          blend (from, line->t[k], colour);
+          from = colour;
+        }
+      for (int c = 0; c < 4; c++)
+        to[c] = from[c] + (1 - from[3]) * to[c];
+    }
+  line->first = line->width;
+  line->end   = 0;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static void
+draw_row (const View *v, int y, Line *line)
+{
+  const CeldScene *scene = v->scene;
+  size_t           end = scene->row[y + 1];
+
+  memset (line->colour, 0, 4 * (size_t) line->width * sizeof *line->colour);
+  for (size_t i = scene->row[y]; i < end; i++)
+    {
+      const CeldSceneSpan *s = &scene->span[i];
+
+      move_piece (&v->move, s, line);
+      if (scene->alone || i + 1 == end || s[1].group != s->group)
+        lay_group (line);
+    }
+}
+
+/* With straight alpha. */
+static void
+deliver (const float *from, int n, float *to)
+{
+  for (int x = 0; x < n; x++, from += 4, to += 4)
+    {
+      memcpy (to, from, 4 * sizeof *to);
+      for (int c = 0; c < 3 && from[3] > 0 && from[3] < 1; c++)
+        to[c] /= from[3];
+    }
+}
+
+static void
+draw_band (void *data, int band)
+{
+  const View *v = data;
+  int         width = v->scene->width, end = (band + 1) * BAND;
+  Line        line = line_in (v->scratch + (size_t) band * line_bytes (width), width);
+
+  memset (line.span, 0, (size_t) width * sizeof *line.span);
+  line.first = width;
+  for (int y = band * BAND; y < end && y < v->scene->height; y++)
+    {
+      draw_row (v, y, &line);
+      deliver (line.colour, width, CELD_RGBA (v->view, 0, y));
+    }
+}
+
+static CeldStatus
+draw (const CeldScene *scene, Move move, const CeldRun *run, CeldColours *view)
+{
+  int  bands = (scene->height + BAND - 1) / BAND;
+  View v = { scene, move, view, celd_alloc ((size_t) bands, line_bytes (scene->width)) };
+
+  if (!v.scratch)
+    return CELD_NO_MEMORY;
+  celd_each (run, bands, draw_band, &v);
+  celd_free (v.scratch);
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ columns */
+
+/* A part of the scene after its rows moved, with rows and columns exchanged: colours, premultiplied, and depth. */
+typedef struct { const View *view; const CeldSpans *part; float *colour, *near; } Turn;
+
+/* Colours and depth of one row of a part, which is in the line, to a column of the turned picture. */
+static void
+turn_row (const Turn *t, int y, Line *line)
+{
+  size_t height = (size_t) t->view->scene->height;
+
+  for (int k = line->first; k < line->end; k++)
+    {
+      const CeldSceneSpan *s = line->span[k];
+      size_t          to = (size_t) k * height + (size_t) y;
+
+      if (!s)
+        continue;
+      blend (s->colour + 4 * line->at[k], line->t[k], t->colour + 4 * to);
+      t->near[to]   = line->nearest[k];
+      line->span[k] = NULL;
+    }
+  line->first = line->width;
+  line->end   = 0;
+}
+
+/* Moves group `group` of the scene, and makes a part of the turned scene of it. */
+static CeldStatus
+turn_group (Turn *t, uint32_t group, Line *line, const CeldRun *run, CeldSpans *to)
+{
+  const CeldScene *scene = t->view->scene;
+  size_t           n = (size_t) scene->width * (size_t) scene->height;
+
+  memset (t->colour, 0, 4 * n * sizeof *t->colour);
+  for (size_t i = 0; i < n; i++)
+    t->near[i] = 0;
+  for (int y = 0; y < scene->height; y++)
+    {
+      for (size_t i = scene->row[y]; i < scene->row[y + 1]; i++)
+        if (scene->span[i].group == group)
+          move_piece (&t->view->move, &scene->span[i], line);
+      turn_row (t, y, line);
+    }
+  return celd_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour, t->near,
+                                group, run, to);
+}
+
+static uint32_t
+count_groups (const CeldScene *scene)
+{
+  uint32_t n = 0;
+
+  for (size_t i = 0; i < scene->row[scene->height]; i++)
+    n = scene->span[i].group >= n ? scene->span[i].group + 1 : n;
+  return n;
+}
+
+static CeldStatus
+turn_scene (const CeldScene *scene, Move move, const CeldRun *run, CeldScene **turned)
+{
+  size_t     n = (size_t) scene->width * (size_t) scene->height;
+  uint32_t   groups = count_groups (scene);
+  char      *scratch = celd_alloc (1, line_bytes (scene->width));
+  View       v = { scene, move, NULL, scratch };
+  Turn       t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
+  CeldStatus status = celd_scene_new (scene->height, scene->width, groups, turned);
+
+  if (!scratch || !t.colour || !t.near)
+    status = CELD_NO_MEMORY;
+  if (!status)
+    {
+      Line line = line_in (scratch, scene->width);
+
+      memset (line.span, 0, (size_t) line.width * sizeof *line.span);
+      line.first = line.width;
+      for (uint32_t k = 0; k < groups && !status; k++)
+        {
+          status = turn_group (&t, k, &line, run, &(*turned)->part[k]);
+          if (!status)
+            status = celd_step (run, 0.8 * (k + 1) / groups);
+        }
+    }
+  if (!status)
+    status = celd_scene_sort (*turned);
+  celd_free (scratch);
+  celd_free (t.colour);
+  celd_free (t.near);
+  return status;
+}
+
+/* Rows, and then columns. */
+static CeldStatus
+draw_both_ways (const CeldScene *scene, Move across, Move along, const CeldRun *run, CeldColours *view)
+{
+  CeldColours tall = { scene->height, scene->width, (size_t) scene->height, NULL };
+  CeldScene  *turned = NULL;
+  CeldStatus  status = turn_scene (scene, across, run, &turned);
+
+  if (!status)
+    tall.data = celd_alloc ((size_t) scene->width * (size_t) scene->height, 4 * sizeof *tall.data);
+  if (!status)
+    status = tall.data ? draw (turned, along, run, &tall) : CELD_NO_MEMORY;
+  for (int y = 0; y < view->height && !status; y++)
+    for (int x = 0; x < view->width; x++)
+      memcpy (CELD_RGBA (view, x, y), CELD_RGBA (&tall, y, x), 4 * sizeof *view->data);
+  celd_scene_free (turned);
+  celd_free (tall.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ */
+
+CeldStatus
+celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings, const CeldRun *run,
+                 CeldColours *view)
+{
+  double     half, screen;
+  Move       across, along;
+  CeldStatus status;
+
+  if (!view->data || view->width != scene->width || view->height != scene->height)
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK || !(fabs (camera.x) <= 1) || !(fabs (camera.y) <= 1) ||
+      !(camera.squeeze > 0 && camera.squeeze <= 1))
+    return CELD_BAD_VALUE;
+  half   = (double) settings->disparity * scene->width / 2;
+  screen = scene->least + (double) settings->convergence * (scene->most - scene->least);
+  across = (Move) { camera.squeeze, scene->width / 2.0, camera.x * half, screen };
+  along  = (Move) { 1, scene->height / 2.0, camera.y * half, screen };
+  status = camera.y != 0 ? draw_both_ways (scene, across, along, run, view) : draw (scene, across, run, view);
+  return status ? status : celd_step (run, 1);
+}

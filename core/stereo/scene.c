@@ -1,0 +1,318 @@
+/* A scene: the visible and the hidden pixels of layers, with their depth, as pieces of rows.
+ *
+ * Pieces hold only what is not transparent, so that a scene is about as large as what there is to see in it, and views
+ * need not look for it.  The depth of a layer goes on under whatever hides it, along rows.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "layers/layers.h"
+#include "stereo/scene.h"
+
+#define BAND 32 /* rows of one job */
+
+void
+celd_depth_range (const CeldPlane *depth, double *least, double *most)
+{
+  float low = FLT_MAX, high = -FLT_MAX;
+
+  for (int y = 0; y < depth->height; y++)
+    for (int x = 0; x < depth->width; x++)
+      {
+        float value = CELD_AT (depth, x, y);
+
+        if (!(fabsf (value) <= FLT_MAX))
+          continue;
+        low  = value < low ? value : low;
+        high = value > high ? value : high;
+      }
+  *least = low <= high ? (double) celd_scene_depth (low) : 0;
+  *most  = low <= high ? (double) celd_scene_depth (high) : 0;
+}
+
+/* ------------------------------------------------------------------ pieces */
+
+CeldStatus
+celd_spans_new (size_t n, size_t pixels, CeldSpans *spans)
+{
+  size_t all = pixels + 2 * CELD_SPAN_END * n;
+
+  *spans = (CeldSpans) {
+    .span   = celd_alloc (n, sizeof *spans->span),
+    .colour = celd_alloc (all, 4 * sizeof *spans->colour),
+    .near   = celd_alloc (all, sizeof *spans->near),
+  };
+  return spans->span && spans->colour && spans->near ? CELD_OK : CELD_NO_MEMORY;
+}
+
+CeldSceneSpan *
+celd_spans_add (CeldSpans *spans, int x, int y, int n, uint32_t group)
+{
+  CeldSceneSpan *span = &spans->span[spans->n++];
+  size_t    first = spans->pixels + CELD_SPAN_END;
+
+  *span = (CeldSceneSpan) { x, y, n, group, spans->colour + 4 * first, spans->near + first };
+  spans->pixels += (size_t) n + 2 * CELD_SPAN_END;
+  return span;
+}
+
+void
+celd_span_close (CeldSceneSpan *span, int width)
+{
+  for (int k = 1; k <= CELD_SPAN_END; k++)
+    {
+      float *before = span->colour - 4 * k, *behind = span->colour + 4 * (span->n + k - 1);
+
+      memset (before, 0, 4 * sizeof *before);
+      memset (behind, 0, 4 * sizeof *behind);
+      if (span->x == 0)
+        memcpy (before, span->colour, 4 * sizeof *before);
+      if (span->x + span->n == width)
+        memcpy (behind, span->colour + 4 * (span->n - 1), 4 * sizeof *behind);
+      span->near[-k]              = span->near[0];
+      span->near[span->n + k - 1] = span->near[span->n - 1];
+    }
+}
+
+/* The end of the next run of pixels that are there, from x on, and where it begins; n if there is none. */
+static int
+next_run (const float *rgba, int n, int x, int *first)
+{
+  while (x < n && !(rgba[4 * x + 3] > 0))
+    x++;
+  *first = x;
+  while (x < n && rgba[4 * x + 3] > 0)
+    x++;
+  return x;
+}
+
+CeldStatus
+celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *near, uint32_t group,
+                       const CeldRun *run, CeldSpans *spans)
+{
+  size_t     w = (size_t) box.width, n = 0, pixels = 0;
+  CeldStatus status;
+
+  for (int y = 0, first; y < box.height; y++)
+    for (int x = 0; (x = next_run (rgba + 4 * (size_t) y * w, box.width, x, &first)) > first;)
+      {
+        n++;
+        pixels += (size_t) (x - first);
+      }
+  status = celd_spans_new (n, pixels, spans);
+  for (int y = 0, first; y < box.height && !status; y++)
+    {
+      const float *row = rgba + 4 * (size_t) y * w;
+
+      for (int x = 0; (x = next_run (row, box.width, x, &first)) > first;)
+        {
+          CeldSceneSpan *span = celd_spans_add (spans, box.x + first, box.y + y, x - first, group);
+
+          memcpy (span->colour, row + 4 * first, 4 * (size_t) span->n * sizeof *row);
+          memcpy (span->near, near + (size_t) y * w + first, (size_t) span->n * sizeof *near);
+          celd_span_close (span, width);
+        }
+      if (y % 256 == 255)
+        status = celd_step (run, 0);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ the object */
+
+CeldStatus
+celd_scene_new (int width, int height, size_t parts, CeldScene **made)
+{
+  CeldScene *scene = celd_alloc0 (1, sizeof *scene);
+
+  *made = scene;
+  if (!scene)
+    return CELD_NO_MEMORY;
+  scene->width   = width;
+  scene->height  = height;
+  scene->row     = celd_alloc0 ((size_t) height + 2, sizeof *scene->row);
+  scene->part    = celd_alloc0 (parts, sizeof *scene->part);
+  scene->n_parts = scene->part ? parts : 0;
+  return scene->row && scene->part ? CELD_OK : CELD_NO_MEMORY;
+}
+
+void
+celd_scene_free (CeldScene *scene)
+{
+  if (!scene)
+    return;
+  for (size_t k = 0; k < scene->n_parts; k++)
+    {
+      celd_free (scene->part[k].span);
+      celd_free (scene->part[k].colour);
+      celd_free (scene->part[k].near);
+    }
+  celd_free (scene->part);
+  celd_free (scene->span);
+  celd_free (scene->row);
+  celd_free (scene);
+}
+
+/* By counting: row[y + 2] first has the pieces of row y, then row[y + 1] is where the next of them goes. */
+CeldStatus
+celd_scene_sort (CeldScene *scene)
+{
+  size_t n = 0;
+
+  for (size_t k = 0; k < scene->n_parts; k++)
+    n += scene->part[k].n;
+  scene->span = celd_alloc (n, sizeof *scene->span);
+  if (!scene->span)
+    return CELD_NO_MEMORY;
+  for (size_t k = 0; k < scene->n_parts; k++)
+    for (size_t i = 0; i < scene->part[k].n; i++)
+      scene->row[scene->part[k].span[i].y + 2]++;
+  for (int y = 0; y < scene->height; y++)
+    scene->row[y + 2] += scene->row[y + 1];
+  for (size_t k = 0; k < scene->n_parts; k++)
+    for (size_t i = 0; i < scene->part[k].n; i++)
+      scene->span[scene->row[scene->part[k].span[i].y + 1]++] = scene->part[k].span[i];
+  for (size_t k = 0; k < scene->n_parts; k++)
+    {
+      celd_free (scene->part[k].span);
+      scene->part[k].span = NULL;
+    }
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ a layer and its depth */
+
+typedef struct
+{
+  const CeldOwnership *own;
+  const CeldPlane     *depth;
+  CeldLayer            layer;
+  float               *art, *near; /* of the layer's box; the art premultiplied */
+  bool                *known;      /* of each row: has it depth of its own? */
+} Part;
+
+/* Is the depth of this pixel the layer's?  It is that of the label that covers more of it. */
+static bool
+is_own (const Part *p, int x, int y)
+{
+  const CeldLabels *larger = CELD_AT (&p->own->share, x, y) < 0.5f ? &p->own->under : &p->own->owner;
+
+  return CELD_AT (larger, x, y) == p->layer.label;
+}
+
+/* Row y of the box, where it is the layer's own; between, and beyond at its ends, from there. */
+static bool
+fill_row (const Part *p, int y)
+{
+  CeldRect box = p->layer.box;
+  float   *near = p->near + (size_t) y * (size_t) box.width;
+  int      last = -1;
+
+  for (int x = 0; x < box.width; x++)
+    {
+      if (!is_own (p, box.x + x, box.y + y))
+        continue;
+      near[x] = celd_scene_depth (CELD_AT (p->depth, box.x + x, box.y + y));
+      for (int k = last + 1; k < x; k++)
+        near[k] = last < 0 ? near[x] : near[last] + (near[x] - near[last]) * (float) (k - last) / (float) (x - last);
+      last = x;
+    }
+  for (int k = last + 1; k < box.width && last >= 0; k++)
+    near[k] = near[last];
+  return last >= 0;
+}
+
+static void
+prepare_band (void *data, int band)
+{
+  Part *p = data;
+  int   w = p->layer.box.width, end = (band + 1) * BAND < p->layer.box.height ? (band + 1) * BAND : p->layer.box.height;
+
+  for (int y = band * BAND; y < end; y++)
+    {
+      float *art = p->art + 4 * (size_t) y * (size_t) w;
+
+      p->known[y] = fill_row (p, y);
+      for (int i = 0; i < 4 * w; i += 4)
+        for (int c = 0; c < 3; c++)
+          art[i + c] *= art[i + 3];
+    }
+}
+
+/* Rows without depth of their own are as the next one above, or at the top the next one below. */
+static void
+fill_rows (const Part *p)
+{
+  size_t w = (size_t) p->layer.box.width;
+  int    last = -1;
+
+  for (int y = 0; y < p->layer.box.height; y++)
+    {
+      if (p->known[y])
+        for (int k = last < 0 ? 0 : y; k < y; k++)
+          memcpy (p->near + (size_t) k * w, p->near + (size_t) y * w, w * sizeof *p->near);
+      else if (last >= 0)
+        memcpy (p->near + (size_t) y * w, p->near + (size_t) last * w, w * sizeof *p->near);
+      last = p->known[y] ? y : last;
+    }
+  for (size_t i = 0; last < 0 && i < w * (size_t) p->layer.box.height; i++)
+    p->near[i] = 0;
+}
+
+static CeldStatus
+add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldRun *run, CeldScene *scene)
+{
+  CeldRect   box = celd_layers_item (layers, layer)->box;
+  size_t     n = (size_t) box.width * (size_t) box.height;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  p->layer = *celd_layers_item (layers, layer);
+  p->art   = celd_alloc (n, 4 * sizeof *p->art);
+  p->near  = celd_alloc (n, sizeof *p->near);
+  p->known = celd_alloc ((size_t) box.height, sizeof *p->known);
+  if (p->art && p->near && p->known)
+    {
+      celd_layers_paint (layers, layer, p->art);
+      celd_each (run, (box.height + BAND - 1) / BAND, prepare_band, p);
+      fill_rows (p);
+      status = celd_spans_of_picture (box, scene->width, p->art, p->near, (uint32_t) layer, run, &scene->part[layer]);
+    }
+  celd_free (p->art);
+  celd_free (p->near);
+  celd_free (p->known);
+  return status;
+}
+
+CeldStatus
+celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, const CeldPlane *depth,
+                      const CeldRun *run, CeldScene **result)
+{
+  size_t     n = celd_layers_count (layers);
+  Part       part = { .own = ownership, .depth = depth };
+  CeldScene *scene = NULL;
+  CeldStatus status;
+
+  if (layers->width != depth->width || layers->height != depth->height ||
+      !CELD_SAME_SIZE (depth, &ownership->owner) || !CELD_SAME_SIZE (depth, &ownership->under) ||
+      !CELD_SAME_SIZE (depth, &ownership->share))
+    return CELD_BAD_SIZE;
+  status = celd_scene_new (depth->width, depth->height, n, &scene);
+  for (size_t k = 0; k < n && !status; k++)
+    {
+      CeldPart turn;
+      CeldRun  short_run = celd_run_part (&turn, run, 0, 0);
+
+      status = add_layer (&part, layers, k, &short_run, scene);
+      if (!status)
+        status = celd_step (run, (double) (k + 1) / (double) n);
+    }
+  if (!status)
+    {
+      celd_depth_range (depth, &scene->least, &scene->most);
+      status = celd_scene_sort (scene);
+    }
+  if (status)
+    celd_scene_free (scene);
+  else
+    *result = scene;
+  return status;
+}

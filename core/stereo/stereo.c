@@ -1,0 +1,152 @@
+/* What two eyes can bear of a drawing with depth, and where a camera goes to show it.
+ *
+ * A point of depth d lies in front of the screen by the disparity  B (d - d_0),  a share B of the width for a unit of
+ * depth; what has depth d_0 is on the screen.  Behind it disparity must not grow beyond the distance of the eyes.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "stereo/scene.h"
+
+#include <stdio.h>
+
+#define PI           3.14159265358979
+#define TURNED       20.0 /* degrees, either way, on a turntable */
+#define CIRCLE_RATIO 0.6  /* a circle is flatter than wide: eyes lie side by side */
+
+/* ------------------------------------------------------------------ cameras */
+
+CeldCamera
+celd_camera_eye (double eye)
+{
+  return (CeldCamera) { eye, 0, 1 };
+}
+
+CeldCamera
+celd_camera_on_path (CeldPath path, int frame, int frames)
+{
+  double angle = frames > 0 ? 2 * PI * (frame % frames) / frames : 0;
+  double side = sin (TURNED * PI / 180), turn = sin (angle) * TURNED * PI / 180;
+
+  switch (path)
+    {
+    case CELD_PATH_CIRCLE:    return (CeldCamera) { sin (angle), -CIRCLE_RATIO * cos (angle), 1 };
+    case CELD_PATH_TURNTABLE: return (CeldCamera) { fmax (-1, fmin (sin (turn) / side, 1)), 0, cos (turn) };
+    default:                  return (CeldCamera) { sin (angle), 0, 1 };
+    }
+}
+
+/* ------------------------------------------------------------------ comfort */
+
+typedef struct { double least, most, screen; } Range;
+
+static Range
+range_of (const CeldPlane *depth, const CeldSettings *settings)
+{
+  Range range;
+
+  celd_depth_range (depth, &range.least, &range.most);
+  range.screen = range.least + (double) settings->convergence * (range.most - range.least);
+  return range;
+}
+
+/* How far in front of the screen the nearest point of a column is. */
+static double
+column_front (const CeldPlane *depth, int x, double screen)
+{
+  double most = screen;
+
+  for (int y = 0; y < depth->height; y++)
+    if (fabsf (CELD_AT (depth, x, y)) <= FLT_MAX)
+      most = fmax (most, (double) celd_scene_depth (CELD_AT (depth, x, y)));
+  return most - screen;
+}
+
+CeldStatus
+celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort)
+{
+  Range  range;
+  double disparity = (double) settings->disparity;
+
+  if (!CELD_SAME_SIZE (depth, depth))
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+  range    = range_of (depth, settings);
+  *comfort = (CeldComfort) {
+    .front     = disparity * (range.most - range.screen),
+    .behind    = disparity * (range.screen - range.least),
+    .cut_left  = disparity * depth->width * column_front (depth, 0, range.screen) > 1,
+    .cut_right = disparity * depth->width * column_front (depth, depth->width - 1, range.screen) > 1,
+  };
+  comfort->diverges = comfort->behind * (double) settings->screen_width > CELD_EYE_DISTANCE;
+  return CELD_OK;
+}
+
+/* What may be asked for instead is rounded down to what helps. */
+void
+celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, char *text, size_t size)
+{
+  double whole = comfort->front + comfort->behind, disparity = (double) settings->disparity;
+  double behind = comfort->behind * (double) settings->screen_width; /* in mm */
+  size_t used = 0;
+
+  if (size)
+    text[0] = 0;
+  if (whole > CELD_STEREO_COMFORT)
+    used += (size_t) snprintf (text, size,
+                               "From front to back there is %.1f %% of the width, which strains the eyes: try a "
+                               "disparity of %.3f.\n",
+                               100 * whole, floor (1000 * disparity * CELD_STEREO_COMFORT / whole) / 1000);
+  if (comfort->diverges && used < size)
+    used += (size_t) snprintf (text + used, size - used,
+                               "On a screen of %.0f mm what is farthest lies %.0f mm apart, more than the eyes do (%.0f "
+                               "mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer "
+                               "to 0.\n",
+                               (double) settings->screen_width, behind, CELD_EYE_DISTANCE,
+                               floor (1000 * disparity * CELD_EYE_DISTANCE / behind) / 1000);
+  if ((comfort->cut_left || comfort->cut_right) && !settings->floating_window && used < size)
+    used += (size_t) snprintf (text + used, size - used,
+                               "Parts in front of the screen are cut by the frame at the %s: try a convergence of 1, or "
+                               "the floating window.\n",
+                               comfort->cut_left && comfort->cut_right ? "left and the right"
+                               : comfort->cut_left ? "left" : "right");
+  if (used && used < size)
+    text[used - 1] = 0;
+}
+
+/* ------------------------------------------------------------------ floating window */
+
+/* Covers the share of a pixel in black. */
+static void
+darken (float *rgba, double share)
+{
+  double alpha = share + (1 - share) * (double) rgba[3];
+
+  for (int c = 0; c < 3 && alpha > 0; c++)
+    rgba[c] = (float) ((1 - share) * (double) rgba[3] * (double) rgba[c] / alpha);
+  rgba[3] = (float) alpha;
+}
+
+/* A bar of so many pixels at one side. */
+static void
+draw_bar (CeldColours *view, bool right, double wide)
+{
+  for (int k = 0; k < wide && k < view->width; k++)
+    for (int y = 0; y < view->height; y++)
+      darken (CELD_RGBA (view, right ? view->width - 1 - k : k, y), fmin (wide - k, 1));
+}
+
+CeldStatus
+celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left, CeldColours *right)
+{
+  double pixels = (double) settings->disparity * depth->width, screen;
+
+  if (!CELD_SAME_SIZE (depth, left) || !CELD_SAME_SIZE (depth, right))
+    return CELD_BAD_SIZE;
+  if (celd_settings_check (settings) != CELD_OK)
+    return CELD_BAD_VALUE;
+  screen = range_of (depth, settings).screen;
+  draw_bar (left, false, pixels * column_front (depth, 0, screen));
+  draw_bar (right, true, pixels * column_front (depth, depth->width - 1, screen));
+  return CELD_OK;
+}

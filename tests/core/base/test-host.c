@@ -1,0 +1,87 @@
+/* Progress in parts, cancel, and threads that are lent or not.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "base/base.h"
+
+typedef struct { double last; int calls; bool stop; } Host;
+
+static bool
+listen (void *data, double done)
+{
+  Host *host = data;
+
+  host->last = done;
+  host->calls++;
+  return !host->stop;
+}
+
+static void
+mark (void *data, int i)
+{
+  ((int *) data)[i]++;
+}
+
+static void
+nobody_listens (void)
+{
+  CeldRun silent = { 0 };
+
+  CHECK (celd_step (NULL, 0.5) == CELD_OK);
+  CHECK (celd_step (&silent, 0.5) == CELD_OK);
+}
+
+static void
+parts_of_parts (void)
+{
+  Host     host = { 0 };
+  CeldRun  whole = { listen, NULL, &host };
+  CeldPart outer, inner;
+  CeldRun  half = celd_run_part (&outer, &whole, 0.5, 1), quarter = celd_run_part (&inner, &half, 0, 0.5);
+
+  CHECK (celd_step (&quarter, 0) == CELD_OK);
+  NEAR (host.last, 0.5, 1e-12);
+  CHECK (celd_step (&quarter, 1) == CELD_OK);
+  NEAR (host.last, 0.75, 1e-12);
+  CHECK (celd_step (&half, 1) == CELD_OK);
+  NEAR (host.last, 1, 1e-12);
+  CHECK (host.calls == 3);
+}
+
+static void
+cancel_comes_through (void)
+{
+  Host     host = { .stop = true };
+  CeldRun  whole = { listen, NULL, &host };
+  CeldPart part;
+  CeldRun  inner = celd_run_part (&part, &whole, 0, 0.5);
+
+  CHECK (celd_step (&inner, 0.1) == CELD_CANCELLED);
+}
+
+static void
+each_once (void)
+{
+  CeldRun  lent = { .each = check_backwards };
+  CeldPart part;
+  CeldRun  inner = celd_run_part (&part, &lent, 0, 1);
+  int      count[9] = { 0 };
+
+  celd_each (NULL, 9, mark, count);
+  celd_each (&lent, 9, mark, count);
+  celd_each (&inner, 9, mark, count);
+  celd_each (&inner, 0, mark, count);
+  for (int i = 0; i < 9; i++)
+    CHECK (count[i] == 3);
+}
+
+int
+main (void)
+{
+  RUN (nobody_listens);
+  RUN (parts_of_parts);
+  RUN (cancel_comes_through);
+  RUN (each_once);
+  return DONE;
+}

@@ -1,0 +1,94 @@
+/* Allocation: no size overflows, lists grow without losing anything, records end twice without harm.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "base/base.h"
+
+static void
+sizes_do_not_overflow (void)
+{
+  CHECK (!celd_alloc (SIZE_MAX / 2, 3));
+  CHECK (!celd_alloc0 (SIZE_MAX / 2, 3));
+  CHECK (!celd_grow (NULL, SIZE_MAX / 2, 4));
+}
+
+static void
+nothing_is_something (void)
+{
+  void *none = celd_alloc (0, 4), *cleared = celd_alloc0 (0, 0);
+
+  CHECK (none && cleared && none != cleared);
+  celd_free (none);
+  celd_free (cleared);
+  celd_free (NULL);
+}
+
+/* Also where a list got shorter in between, as lists of strokes and relations do. */
+static void
+lists_keep_what_they_hold (void)
+{
+  uint32_t random = 5, *item = NULL;
+  size_t   n = 0;
+
+  for (int step = 0; step < 20000; step++)
+    if (n && check_random (&random, 3) == 0)
+      n -= check_random (&random, (uint32_t) n);
+    else
+      {
+        item = celd_grow (item, n + 1, sizeof *item);
+        item[n] = (uint32_t) n * 7;
+        n++;
+        CHECK (item[0] == 0 && item[n / 2] == n / 2 * 7);
+      }
+  celd_free (item);
+}
+
+static void
+new_pictures (void)
+{
+  CeldMask   mask;
+  CeldLabels labels;
+  bool       clear = true;
+
+  CHECK (celd_mask_new (7, 5, &mask) == CELD_OK && mask.stride == 7);
+  CHECK (celd_labels_new (7, 5, &labels) == CELD_OK && labels.height == 5);
+  for (int i = 0; i < 35; i++)
+    clear = clear && !mask.data[i] && !labels.data[i];
+  CHECK (clear);
+  celd_free (mask.data);
+  celd_free (labels.data);
+}
+
+static void
+records_end_twice (void)
+{
+  CeldPalette   palette = { 0 };
+  CeldRelations relations = { 0 };
+  CeldProblems  problems = { 0 };
+  CeldOrder     order = { 0 };
+
+  CHECK (celd_relation_add (&relations, (CeldRelation) { .weight = 3 }) == CELD_OK);
+  CHECK (relations.n == 1 && relations.item[0].weight > 2);
+  CHECK (celd_problem_add (&problems, (CeldProblem) { .x = 4 }) == CELD_OK && problems.item[0].x == 4);
+  CHECK (celd_problem_add (NULL, (CeldProblem) { 0 }) == CELD_OK); /* nobody wants to know */
+  for (int i = 0; i < 2; i++)
+    {
+      celd_palette_clear (&palette);
+      celd_relations_clear (&relations);
+      celd_problems_clear (&problems);
+      celd_order_clear (&order);
+    }
+  CHECK (!relations.item && !relations.n && !problems.item);
+}
+
+int
+main (void)
+{
+  RUN (sizes_do_not_overflow);
+  RUN (nothing_is_something);
+  RUN (lists_keep_what_they_hold);
+  RUN (new_pictures);
+  RUN (records_end_twice);
+  return DONE;
+}

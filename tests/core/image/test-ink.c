@@ -1,0 +1,301 @@
+/* Line art of drawings: what must stay as it is, what must become ink or paper, and bad input.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "celdepth.h"
+
+
+enum { SIDE = 160 };
+
+static float ink_of[SIDE * SIDE], luma_of[SIDE * SIDE], alpha_of[SIDE * SIDE];
+
+static CeldPlane
+square (float *data)
+{
+  return (CeldPlane) { SIDE, SIDE, SIDE, data };
+}
+
+/* How much of a pixel a ring of radius 50 round the middle, and a slanting stroke through it, cover; antialiased. */
+static float
+coverage (int x, int y, float breadth)
+{
+  float u = (float) x - 79.5f, v = (float) y - 79.5f;
+  float ring = fabsf (sqrtf (u * u + v * v) - 50), line = fabsf (0.8f * u - 0.6f * v);
+  float distance = ring < line ? ring : line;
+
+  return fminf (fmaxf (0.5f * breadth + 0.5f - distance, 0), 1);
+}
+
+static CeldStatus
+make_ink (CeldInkMode mode, bool transparent)
+{
+  CeldDrawing drawing = { .luma = square (luma_of) };
+  CeldPlane   ink = square (ink_of);
+
+  if (transparent)
+    drawing.alpha = square (alpha_of);
+  return celd_ink (&drawing, mode, NULL, &ink);
+}
+
+/* The darkest pixel within two of the pixel's place: ink along a contour. */
+static float
+darkest_near (int x, int y)
+{
+  float least = 1;
+
+  for (int v = y - 2; v <= y + 2; v++)
+    for (int u = x - 2; u <= x + 2; u++)
+      least = fminf (least, ink_of[v * SIDE + u]);
+  return least;
+}
+
+/* The largest over the ring of the darkest ink near it: a hole in the contour would show. */
+static float
+palest_of_ring (void)
+{
+  float worst = 0;
+
+  for (int i = 0; i < 360; i++)
+    {
+      int x = (int) (79.5 + 50 * cos (i * 0.01745329) + 0.5), y = (int) (79.5 + 50 * sin (i * 0.01745329) + 0.5);
+
+      worst = fmaxf (worst, darkest_near (x, y));
+    }
+  return worst;
+}
+
+/* The mean, and the least in *least, of the ink four pixels and more away from the strokes. */
+static float
+paper_mean (float *least)
+{
+  double sum = 0;
+  int    n = 0;
+
+  *least = 1;
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      if (coverage (x, y, 16) <= 0)
+        {
+          sum += ink_of[y * SIDE + x];
+          n++;
+          *least = fminf (*least, ink_of[y * SIDE + x]);
+        }
+  return (float) (sum / n);
+}
+
+/* A sum of four uniform numbers: nearly normal, deviation 1. */
+static float
+grain (uint32_t *seed)
+{
+  float sum = 0;
+
+  for (int i = 0; i < 4; i++)
+    sum += (float) check_random (seed, 10001) / 10000 - 0.5f;
+  return sum * 1.732f;
+}
+
+static void
+clean_art_stays (void)
+{
+  for (int breadth = 2; breadth <= 9; breadth++)
+    {
+      float worst = 0;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        luma_of[i] = 1 - coverage (i % SIDE, i / SIDE, (float) breadth);
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        worst = fmaxf (worst, fabsf (ink_of[i] - luma_of[i]));
+      NEAR (worst, 0, 1e-3);
+    }
+}
+
+static void
+clean_art_with_solid_black_stays (void)
+{
+  float worst = 0;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = i % SIDE > 20 && i % SIDE < 140 && i / SIDE > 20 && i / SIDE < 150 ? 0 : 1;
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    worst = fmaxf (worst, fabsf (ink_of[i] - luma_of[i]));
+  NEAR (worst, 0, 1e-3);
+}
+
+static void
+white_stays_white (void)
+{
+  uint32_t seed = 5;
+  float    least;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 1;
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    CHECK (ink_of[i] == 1);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 0.93f + 0.012f * grain (&seed);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (paper_mean (&least) > 0.98f && least > 0.75f);
+}
+
+/* Pencil of changing pressure with grain, on grainy paper that darkens to one side. */
+static void
+pencil_becomes_ink (void)
+{
+  uint32_t seed = 7;
+  float    least;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      int   x = i % SIDE, y = i / SIDE;
+      float paper = 0.95f - 0.3f * (float) x / SIDE + 0.012f * grain (&seed);
+      float press = 0.55f + 0.2f * sinf ((float) (x + y) / 15), pores = 1 - 0.2f * fabsf (grain (&seed));
+
+      luma_of[i] = paper * (1 - press * pores * coverage (x, y, 5));
+    }
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (palest_of_ring () <= 0.3f);
+  CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
+}
+
+/* A line of light blue in a grain of an eighth of its contrast: smoothing quietens that, so no part of it is lost. */
+static void
+pale_lines_in_grain_stay_whole (void)
+{
+  uint32_t seed = 11;
+  float    least;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 0.94f * (1 - 0.23f * coverage (i % SIDE, i / SIDE, 4)) + 0.025f * grain (&seed);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (palest_of_ring () <= 0.2f);
+  CHECK (paper_mean (&least) >= 0.95f && least > 0.6f);
+}
+
+/* A stroke of a third of the contrast beside black ones is a contour as they are; a yellow drawing, too. */
+static void
+pale_strokes_are_contours (void)
+{
+  float least;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 1 - (i % SIDE > 90 ? 0.3f : 1) * coverage (i % SIDE, i / SIDE, 5);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (palest_of_ring () <= 0.25f && paper_mean (&least) > 0.999f);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 1 - 0.0722f * coverage (i % SIDE, i / SIDE, 5);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  CHECK (palest_of_ring () <= 0.25f && paper_mean (&least) > 0.999f);
+}
+
+/* A flat grey area is no stroke: it stays grey. */
+static void
+grey_areas_stay_grey (void)
+{
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = i % SIDE > 20 && i % SIDE < 100 && i / SIDE > 20 && i / SIDE < 100 ? 0.7f : i / SIDE == 130 ? 0 : 1;
+  CHECK (make_ink (CELD_INK_DARK, false) == CELD_OK);
+  NEAR (ink_of[60 * SIDE + 60], 0.7, 0.05);
+}
+
+static void
+light_is_dark_inverted (void)
+{
+  static float dark[SIDE * SIDE];
+  uint32_t     seed = 3;
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = fminf (1 - 0.8f * coverage (i % SIDE, i / SIDE, 4) - 0.05f + 0.01f * grain (&seed), 1);
+  CHECK (make_ink (CELD_INK_DARK, false) == CELD_OK);
+  memcpy (dark, ink_of, sizeof dark);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = 1 - luma_of[i];
+  CHECK (make_ink (CELD_INK_LIGHT, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    NEAR (ink_of[i], dark[i], 1e-4);
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    NEAR (ink_of[i], dark[i], 1e-4);
+}
+
+/* Lines on a transparent layer are ink whatever their colour; an outlined sprite is not. */
+static void
+alpha_is_ink (void)
+{
+  for (int step = 0; step <= 4; step++)
+    {
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          luma_of[i] = 0.25f * (float) step;
+          alpha_of[i] = coverage (i % SIDE, i / SIDE, 4);
+        }
+      CHECK (make_ink (step % 2 ? CELD_INK_AUTO : CELD_INK_ALPHA, true) == CELD_OK);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        NEAR (ink_of[i], 1 - alpha_of[i], 1e-3);
+    }
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      float u = (float) (i % SIDE) - 79.5f, v = (float) (i / SIDE) - 79.5f;
+
+      luma_of[i] = 1 - coverage (i % SIDE, i / SIDE, 4);
+      alpha_of[i] = fminf (fmaxf (52.5f - sqrtf (u * u + v * v), 0), 1);
+    }
+  CHECK (make_ink (CELD_INK_AUTO, true) == CELD_OK);
+  NEAR (ink_of[79 * SIDE + 50], 1, 1e-3);
+  CHECK (palest_of_ring () <= 0.25f);
+}
+
+static void
+not_a_number_is_paper (void)
+{
+  for (int i = 0; i < SIDE * SIDE; i++)
+    luma_of[i] = i % 7 == 0 ? NAN : i % SIDE == 80 ? -INFINITY : i % SIDE == 60 ? INFINITY : 1;
+  CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    CHECK (ink_of[i] == (i % 7 && i % SIDE == 80 ? 0 : 1));
+}
+
+/* Every size and stride; sizes that differ; nothing is written beside the picture. */
+static void
+sizes (void)
+{
+  static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 2, 2 }, { 3, 17 }, { 37, 50 } };
+
+  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+    {
+      int         w = size[k][0], h = size[k][1];
+      CeldDrawing drawing = { .luma = { w, h, (size_t) w + 3, luma_of } };
+      CeldPlane   ink = { w, h, (size_t) w + 5, ink_of }, other = { w + 1, h, (size_t) w + 5, ink_of };
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          luma_of[i] = i % (w + 3) < w ? 1 : 0;
+          ink_of[i] = -7;
+        }
+      CHECK (celd_ink (&drawing, CELD_INK_DARK, NULL, &other) == CELD_BAD_SIZE && ink_of[0] == -7);
+      CHECK (celd_ink (&drawing, CELD_INK_DARK, NULL, &ink) == CELD_OK);
+      for (int y = 0; y < h; y++)
+        for (int x = 0; x < w + 5; x++)
+          CHECK (ink_of[y * (w + 5) + x] == (x < w ? 1 : -7));
+    }
+}
+
+int
+main (void)
+{
+  RUN (clean_art_stays);
+  RUN (clean_art_with_solid_black_stays);
+  RUN (white_stays_white);
+  RUN (pencil_becomes_ink);
+  RUN (pale_lines_in_grain_stay_whole);
+  RUN (pale_strokes_are_contours);
+  RUN (grey_areas_stay_grey);
+  RUN (light_is_dark_inverted);
+  RUN (alpha_is_ink);
+  RUN (not_a_number_is_paper);
+  RUN (sizes);
+  return DONE;
+}

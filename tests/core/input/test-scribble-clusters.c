@@ -1,0 +1,142 @@
+/* Which colours of a counted layer are labels, and which belong together.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "reading.h"
+#include "input/scribbles.h"
+
+static const char *const apart[] = { "AAAA....BBB", "AAAA....BBB", NULL };
+
+static void
+cluster (Reading *r, size_t wanted)
+{
+  CHECK (celd_scribble_clusters (r, NULL) == CELD_OK);
+  NEAR (r->n_clusters, wanted + 1, 0); /* 0 is none */
+}
+
+/* Each takes in what lies within the radius, 3; the larger one gives the cluster its colour. */
+static void
+colours_within_the_radius_are_one (void)
+{
+  int     near[2][3] = { { 100, 100, 100 }, { 103, 100, 100 } }, far[2][3] = { { 100, 100, 100 }, { 100, 104, 100 } };
+  Reading r = reading_new (apart, near, 2);
+
+  cluster (&r, 1);
+  CHECK (r.colour[1].cluster == 1 && r.colour[2].cluster == 1);
+  CHECK (r.cluster[1].colour == 1 && r.cluster[1].is_label);
+  NEAR (r.cluster[1].pixels, 14, 0);
+  reading_clear (&r);
+
+  r = reading_new (apart, far, 2);
+  cluster (&r, 2);
+  CHECK (r.colour[1].cluster != r.colour[2].cluster);
+  CHECK (r.cluster[1].is_label && r.cluster[2].is_label);
+  reading_clear (&r);
+}
+
+/* Four honest pixels; with loss an inside, too. */
+static void
+a_label_needs_honest_pixels (void)
+{
+  static const struct { uint32_t honest, core; bool lossy, label; } given[] = {
+    { 4, 0, false, true }, { 3, 0, false, false }, { 4, 4, true, true }, { 4, 3, true, false },
+  };
+  int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
+
+  for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+    {
+      Reading r = reading_new (apart, rgb, 2);
+
+      r.colour[2].honest = given[i].honest;
+      r.colour[2].core = given[i].core;
+      r.lossy = given[i].lossy;
+      cluster (&r, 2);
+      CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
+      CHECK (r.cluster[r.colour[1].cluster].is_label);
+      reading_clear (&r);
+    }
+}
+
+/* Fringes of other strokes pass through its colour: it needs a third, or an inside that is most of what is honest. */
+static void
+fringes_of_others_do_not_count (void)
+{
+  static const struct { uint32_t honest, core; bool label; } given[] = {
+    { 44, 0, true }, { 43, 0, false }, { 32, 17, true }, { 36, 17, false }, { 16, 15, false },
+  };
+  int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
+
+  for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+    {
+      Reading r = reading_new (apart, rgb, 2);
+
+      r.colour[2].pixels = 132;
+      r.colour[2].honest = given[i].honest;
+      r.colour[2].core = given[i].core;
+      cluster (&r, 2);
+      CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
+      reading_clear (&r);
+    }
+}
+
+/* A rim without an inside is a part of the stroke that it touches, if it has nearly its colour. */
+static void
+a_rim_belongs_to_its_stroke (void)
+{
+  static const char *const touching[] = { "AAAAAA", "AAAAAA", "BBBBBB", NULL };
+  static const char *const apart_too[] = { "AAAAAA", "AAAAAA", "......", "BBBBBB", NULL };
+  int near[2][3] = { { 200, 0, 0 }, { 180, 20, 0 } }, far[2][3] = { { 200, 0, 0 }, { 160, 20, 0 } };
+
+  for (int i = 0; i < 4; i++)
+    {
+      Reading r = reading_new (i == 1 ? apart_too : touching, i == 2 ? far : near, 2);
+
+      r.colour[2].core = i == 3 ? 6 : 0;
+      cluster (&r, 2);
+      CHECK ((r.colour[2].cluster == r.colour[1].cluster) == (i == 0));
+      CHECK (r.cluster[2].is_label == (i > 0));
+      reading_clear (&r);
+    }
+}
+
+/* C is as near to A's colour as to B's, and nearer to that of D: but B is what it touches. */
+static void
+a_rim_belongs_to_what_it_touches (void)
+{
+  static const char *const art[] = {
+    "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL
+  };
+  int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
+  Reading r = reading_new (art, rgb, 4);
+
+  r.colour[3].core = 0;
+  cluster (&r, 4);
+  CHECK (r.colour[3].cluster == r.colour[2].cluster);
+  reading_clear (&r);
+}
+
+/* Paper is what equals its colour, even where the first step of a soft edge is nearer. */
+static void
+what_equals_paper_is_paper (void)
+{
+  static const char *const art[] = { "AAAAAAAAAA", "AAAAAAAAAA", "CCCCCCCCCC", "BBBBBBBBBB", NULL };
+  int     rgb[3][3] = { { 255, 255, 255 }, { 255, 251, 255 }, { 255, 253, 255 } };
+  Reading r = reading_new (art, rgb, 3);
+
+  r.paper = 1;
+  cluster (&r, 1);
+  CHECK (r.colour[3].cluster == 0);
+  reading_clear (&r);
+}
+
+int
+main (void)
+{
+  RUN (colours_within_the_radius_are_one);
+  RUN (a_label_needs_honest_pixels);
+  RUN (fringes_of_others_do_not_count);
+  RUN (a_rim_belongs_to_its_stroke);
+  RUN (a_rim_belongs_to_what_it_touches);
+  RUN (what_equals_paper_is_paper);
+  return DONE;
+}

@@ -1,0 +1,355 @@
+/* Reading scribbles: exact colours, tiny honest strokes, and what soft brushes, overlaps and lossy storage add.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "celdepth.h"
+
+
+enum { WIDTH = 400, HEIGHT = 300 };
+
+static uint8_t      paint_of[4 * WIDTH * HEIGHT];
+static uint32_t     seed_of[WIDTH * HEIGHT];
+static CeldPalette  palette;
+static CeldSettings settings;
+
+static CeldStatus
+read_size (int width, int height)
+{
+  CeldPaint  paint = { width, height, WIDTH, paint_of };
+  CeldLabels seeds = { width, height, WIDTH, seed_of };
+
+  return celd_scribbles_read (&paint, &settings, NULL, &seeds, &palette);
+}
+
+/* Transparent, or white and opaque. */
+static void
+clear_paint (bool white)
+{
+  settings = celd_settings ();
+  memset (paint_of, white ? 255 : 0, sizeof paint_of);
+}
+
+/* Lays a colour over a pixel, as painting programs do. */
+static void
+lay (int x, int y, const uint8_t colour[3], double cover)
+{
+  uint8_t *p = paint_of + 4 * (y * WIDTH + x);
+  double   below = p[3] / 255. * (1 - cover), all = cover + below;
+
+  if (cover <= 0)
+    return;
+  for (int i = 0; i < 3; i++)
+    p[i] = (uint8_t) floor ((cover * colour[i] + below * p[i]) / all + 0.5);
+  p[3] = (uint8_t) floor (255 * all + 0.5);
+}
+
+/* A stroke from (ax,ay) to (bx,by): full up to `radius`, none from `radius` + `soft` on. */
+static void
+stroke (double ax, double ay, double bx, double by, double radius, double soft, const uint8_t colour[3])
+{
+  double u = bx - ax, v = by - ay, length = u * u + v * v;
+
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 0; x < WIDTH; x++)
+      {
+        double t = length > 0 ? fmin (fmax (((x - ax) * u + (y - ay) * v) / length, 0), 1) : 0;
+        double distance = hypot (x - ax - t * u, y - ay - t * v);
+
+        lay (x, y, colour, fmin (fmax ((radius + soft - distance) / soft, 0), 1));
+      }
+}
+
+static void
+block (int left, int top, int width, int height, const uint8_t colour[3])
+{
+  for (int y = top; y < top + height; y++)
+    for (int x = left; x < left + width; x++)
+      lay (x, y, colour, 1);
+}
+
+static bool
+in_palette (const uint8_t colour[3], int error)
+{
+  for (size_t i = 0; i < palette.n; i++)
+    {
+      const uint8_t *c = palette.item[i].colour;
+
+      if (abs (c[0] - colour[0]) <= error && abs (c[1] - colour[1]) <= error && abs (c[2] - colour[2]) <= error)
+        return true;
+    }
+  return false;
+}
+
+static const uint8_t red[3] = { 200, 30, 40 }, blue[3] = { 30, 60, 220 }, green[3] = { 20, 160, 60 };
+
+/* Counts, order, places and seeds agree with what was painted, pixel by pixel. */
+static void
+exact_colours (void)
+{
+  clear_paint (false);
+  block (10, 10, 30, 20, red);
+  block (60, 10, 40, 20, blue);
+  block (10, 50, 5, 5, green);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 3);
+  CHECK (palette.item[0].seeds == 800 && !memcmp (palette.item[0].colour, blue, 3) && palette.item[0].colour[3] == 255);
+  CHECK (palette.item[1].seeds == 600 && !memcmp (palette.item[1].colour, red, 3));
+  CHECK (palette.item[2].seeds == 25 && !memcmp (palette.item[2].colour, green, 3));
+  for (size_t i = 0; i < palette.n; i++)
+    {
+      CHECK (palette.item[i].origin == CELD_FROM_SCRIBBLE && !palette.item[i].background && !palette.item[i].hard);
+      CHECK (seed_of[palette.item[i].y * WIDTH + palette.item[i].x] == i + 1);
+    }
+  for (int i = 0; i < WIDTH * HEIGHT; i++)
+    {
+      const uint8_t *p = paint_of + 4 * i;
+
+      CHECK (seed_of[i] == 0 ? p[3] == 0 : p[3] == 255 && !memcmp (palette.item[seed_of[i] - 1].colour, p, 3));
+    }
+}
+
+/* A pencil line one pixel wide, a dot of 2 x 2 and a dab of 12 x 6 are labels; near colours are two. */
+static void
+tiny_strokes (void)
+{
+  const uint8_t violet[3] = { 184, 73, 170 }, plum[3] = { 160, 73, 184 };
+
+  clear_paint (false);
+  for (int i = 0; i < 50; i++)
+    lay (10 + i, 10 + i / 3, red, 1);
+  block (100, 10, 2, 2, blue);
+  block (120, 10, 12, 6, violet);
+  block (140, 10, 12, 6, plum);
+  lay (200, 200, green, 1); /* a single stray pixel is none */
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 4);
+  CHECK (in_palette (red, 0) && in_palette (blue, 0) && in_palette (violet, 0) && in_palette (plum, 0));
+  CHECK (seed_of[200 * WIDTH + 200] == 0);
+}
+
+/* Colours of which no two are alike. */
+static void
+one_of_200 (int i, uint8_t colour[3])
+{
+  colour[0] = (uint8_t) (40 * (i % 6) + 10);
+  colour[1] = (uint8_t) (40 * (i / 6 % 6) + 10);
+  colour[2] = (uint8_t) (40 * (i / 36) + 10);
+}
+
+static void
+two_hundred_labels (void)
+{
+  uint32_t seed = 11;
+  uint8_t  colour[3];
+
+  clear_paint (false);
+  for (int i = 0; i < 200; i++)
+    {
+      int x = i % 20 * 20 + 4 + (int) check_random (&seed, 4), y = i / 20 * 30 + 4 + (int) check_random (&seed, 10);
+
+      one_of_200 (i, colour);
+      stroke (x, y, x + 6, y + 8, 2, 1, colour);
+    }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 200);
+  for (int i = 0; i < 200; i++)
+    {
+      one_of_200 (i, colour);
+      CHECK (in_palette (colour, 0));
+    }
+}
+
+/* Soft strokes that cross, on a layer and on opaque paper, make two labels; the middle of each stroke is its own. */
+static void
+soft_overlaps (void)
+{
+  for (int white = 0; white < 2; white++)
+    for (int soft = 1; soft <= 33; soft += 4)
+      {
+        clear_paint (white);
+        stroke (60, 60, 340, 240, 6, soft, red);
+        stroke (340, 60, 60, 240, 6, soft, blue);
+        CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+        CHECK (in_palette (red, 8) && in_palette (blue, 8));
+        if (palette.n == 2)
+          CHECK (abs (palette.item[seed_of[96 * WIDTH + 116] - 1].colour[0] - red[0]) < 9 &&
+                 abs (palette.item[seed_of[150 * WIDTH + 200] - 1].colour[2] - blue[2]) < 9);
+      }
+}
+
+/* Strokes of two thirds opacity that cross: the flat mixture in the middle is one of the two, on a layer and paper. */
+static void
+translucent_overlaps (void)
+{
+  for (int white = 0; white < 2; white++)
+    {
+      clear_paint (white);
+      for (int k = 0; k < 2; k++)
+        for (int y = 0; y < HEIGHT; y++)
+          for (int x = 0; x < WIDTH; x++)
+            {
+              double from = fabs (k ? 0.6 * (x - 200) + 0.8 * (y - 150) : 0.6 * (x - 200) - 0.8 * (y - 150));
+
+              if (x > 40 && x < 360)
+                lay (x, y, k ? red : blue, 0.67 * fmin (fmax (20.5 - from, 0), 1));
+            }
+      CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+      CHECK (seed_of[150 * WIDTH + 200] != 0);
+    }
+}
+
+/* A grey label next to black strokes on white: the rims of black are as grey, but no label. */
+static void
+rims_of_another_label (void)
+{
+  const uint8_t black[3] = { 0, 0, 0 }, grey[3] = { 128, 128, 128 };
+  uint32_t      label;
+
+  clear_paint (true);
+  stroke (40, 40, 300, 77, 6, 1, black);
+  stroke (40, 200, 300, 237, 6, 1, grey);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2 && in_palette (black, 0) && in_palette (grey, 0));
+  label = seed_of[200 * WIDTH + 40];
+  for (int i = 0; i < WIDTH * 150; i++)
+    CHECK (seed_of[i] != label);
+}
+
+/* Lines of less than two pixels on opaque paper have hardly a pixel of their colour. */
+static void
+thin_lines_on_paper (void)
+{
+  clear_paint (true);
+  stroke (40, 40, 300, 133, 0.2, 1, red);
+  stroke (40, 200, 300, 233, 0.5, 1, blue);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2);
+}
+
+/* The loss of a JPEG: each channel shaken, more than near labels differ, and echoes beside the strokes. */
+static void
+lossy_paint (void)
+{
+  const uint8_t violet[3] = { 184, 73, 170 }, plum[3] = { 160, 73, 184 };
+  uint32_t      seed = 9;
+  size_t        right = 0;
+
+  clear_paint (true);
+  stroke (40, 40, 340, 60, 5, 1, red);
+  stroke (40, 100, 340, 120, 5, 1, violet);
+  stroke (40, 160, 340, 180, 5, 1, plum);
+  stroke (40, 220, 340, 240, 5, 1, green);
+  for (int i = 0; i < WIDTH * HEIGHT; i++)
+    {
+      int y = i / WIDTH % 60, strength = y > 25 && y < 75 ? 25 : 3;
+
+      for (int k = 0; k < 3; k++)
+        {
+          int v = paint_of[4 * i + k] + (int) check_random (&seed, (uint32_t) strength) - strength / 2;
+
+          paint_of[4 * i + k] = (uint8_t) (v < 0 ? 0 : v > 255 ? 255 : v);
+        }
+    }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 4);
+  CHECK (in_palette (red, 12) && in_palette (violet, 12) && in_palette (plum, 12) && in_palette (green, 12));
+  for (int x = 60; x < 320; x++)
+    right += seed_of[(100 + (x - 40) / 15) * WIDTH + x] != 0 &&
+             seed_of[(100 + (x - 40) / 15) * WIDTH + x] != seed_of[(160 + (x - 40) / 15) * WIDTH + x];
+  CHECK (right > 255);
+}
+
+/* Without alpha the commonest colour is none, but in a flat colouring it is a label. */
+static void
+flats_and_paper (void)
+{
+  clear_paint (true);
+  block (100, 100, 60, 60, red);
+  block (200, 100, 60, 60, green);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 2 && seed_of[0] == 0);
+  settings.flats = true;
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 3 && seed_of[0] == 1);
+  CHECK (palette.item[0].colour[0] == 255 && palette.item[0].seeds == WIDTH * HEIGHT - 7200);
+}
+
+/* Very soft brushes on white, one of them along the frame: the pale tails of their edges are no labels. */
+static void
+soft_brushes_on_paper (void)
+{
+  clear_paint (true);
+  for (int k = 0; k < 3; k++)
+    for (int y = 0; y < HEIGHT; y++)
+      for (int x = 0; x < WIDTH; x++)
+        {
+          double away = k == 0 ? abs (x - 27) : k == 1 ? abs (y - 120) : hypot (x - 210, (y - 220) / 2.);
+
+          lay (x, y, k == 0 ? red : k == 1 ? blue : green, fmin (2 * exp (-away * away / 90), 1));
+        }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 3);
+  CHECK (in_palette (red, 2) && in_palette (blue, 2) && in_palette (green, 2));
+}
+
+/* A blurred stroke of a colour that many others pass through where paper thins them: being broad, it has it. */
+static void
+blurred_strokes_on_paper (void)
+{
+  const uint8_t pink[3] = { 255, 105, 115 }, strong[3] = { 255, 15, 15 };
+
+  clear_paint (true);
+  for (int y = 0; y < HEIGHT; y++)
+    for (int x = 0; x < WIDTH; x++)
+      {
+        double wave = y - 0.3 * x, away = (wave - 60) / 4, far = (fmod (wave, 30) - 15) / 4;
+
+        lay (x, y, strong, x > 20 && x < 380 && wave > 90 ? exp (-far * far) : 0);
+        lay (x, y, pink, x > 20 && x < 80 ? exp (-away * away) : 0);
+      }
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK);
+  CHECK (in_palette (strong, 16) && in_palette (pink, 16));
+  CHECK (seed_of[75 * WIDTH + 50] && seed_of[75 * WIDTH + 50] != seed_of[165 * WIDTH + 200]);
+}
+
+static void
+half_transparent_is_the_limit (void)
+{
+  clear_paint (false);
+  for (int i = 0; i < 600; i++)
+    memcpy (paint_of + 4 * i, (uint8_t[4]) { 9, 99, 199, (uint8_t) (i < 300 ? 127 : 128) }, 4);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 1 && palette.item[0].seeds == 300);
+  CHECK (seed_of[299] == 0 && seed_of[300] == 1);
+}
+
+static void
+sizes (void)
+{
+  static const int size[][2] = { { 1, 1 }, { 1, 40 }, { 40, 1 }, { 2, 2 }, { 7, 5 } };
+  CeldLabels       seeds = { WIDTH - 1, HEIGHT, WIDTH, seed_of };
+  CeldPaint        paint = { WIDTH, HEIGHT, WIDTH, paint_of };
+
+  clear_paint (false);
+  CHECK (read_size (WIDTH, HEIGHT) == CELD_OK && palette.n == 0);
+  CHECK (celd_scribbles_read (&paint, &settings, NULL, &seeds, &palette) == CELD_BAD_SIZE);
+  for (size_t k = 0; k < sizeof size / sizeof *size; k++)
+    {
+      clear_paint (true);
+      memset (seed_of, 7, sizeof seed_of);
+      settings.flats = true;
+      CHECK (read_size (size[k][0], size[k][1]) == CELD_OK);
+      CHECK (palette.n == (size[k][0] * size[k][1] >= 4) && seed_of[size[k][0]] == 0x07070707);
+    }
+}
+
+int
+main (void)
+{
+  RUN (exact_colours);
+  RUN (tiny_strokes);
+  RUN (two_hundred_labels);
+  RUN (soft_overlaps);
+  RUN (translucent_overlaps);
+  RUN (rims_of_another_label);
+  RUN (thin_lines_on_paper);
+  RUN (lossy_paint);
+  RUN (flats_and_paper);
+  RUN (soft_brushes_on_paper);
+  RUN (blurred_strokes_on_paper);
+  RUN (half_transparent_is_the_limit);
+  RUN (sizes);
+  celd_palette_clear (&palette);
+  return DONE;
+}

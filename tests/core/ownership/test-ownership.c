@@ -1,0 +1,313 @@
+/* Whose the ink is: drawings with known owners, known answers on small pictures, and facts that hold for any picture.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "blobs.h"
+#include "base/base.h"
+
+/* One drawing; pages are larger where pens are thicker. */
+static double
+own_blobs (uint32_t seed, double pen, double vary, CeldExpansion method)
+{
+  int           side = 180 + (int) (10 * pen);
+  Blobs         b;
+  CeldOwnership own;
+  double        score;
+
+  blobs_new (side, side, &b);
+  for (int k = 0; k < 7; k++)
+    blobs_add (&b, &seed, pen, vary);
+  CHECK (celd_ownership_new (side, side, &own) == CELD_OK);
+  CHECK (celd_own (&b.ink, &b.labels, b.level, b.n, NULL, method, NULL, &own) == CELD_OK);
+  score = blobs_score (&b, &own);
+  celd_ownership_clear (&own);
+  blobs_free (&b);
+  return score;
+}
+
+/* The mean over some drawings. */
+static double
+mean_score (double pen, double vary, CeldExpansion method)
+{
+  enum { DRAWINGS = 3 };
+  double sum = 0;
+
+  for (uint32_t seed = 1; seed <= DRAWINGS; seed++)
+    sum += own_blobs (seed * 7919, pen, vary, method);
+  return sum / DRAWINGS;
+}
+
+static void
+pens_are_told_apart (void)
+{
+  static const double pens[] = { 2, 4, 9, 16, 24 };
+
+  for (size_t i = 0; i < sizeof pens / sizeof *pens; i++)
+    CHECK (mean_score (pens[i], 0, CELD_EXPANSION_OUTLINES) >= 0.985);
+}
+
+static void
+hair_lines_and_brushes_are_told_apart (void)
+{
+  CHECK (mean_score (1, 0, CELD_EXPANSION_OUTLINES) >= 0.98);
+  CHECK (mean_score (6, 0.3, CELD_EXPANSION_OUTLINES) >= 0.975);
+}
+
+static void
+pens_beat_thickness (void)
+{
+  CHECK (1 - mean_score (8, 0, CELD_EXPANSION_OUTLINES) <= 0.5 * (1 - mean_score (8, 0, CELD_EXPANSION_THICKNESS)));
+}
+
+/* ------------------------------------------------------------------ known answers */
+
+/* '#' is ink, letters paper of that label; labels in alphabetical order are from back to front. */
+static void
+expect (const char *const *rows, const char *const *wanted, CeldExpansion method)
+{
+  CeldPlane     ink = art_plane (rows);
+  CeldLabels    labels = art_labels (rows), owners = art_labels (wanted);
+  uint32_t      level[26];
+  CeldOwnership own;
+
+  for (uint32_t k = 0; k < 26; k++)
+    level[k] = k;
+  for (int p = 0; p < ink.width * ink.height; p++)
+    {
+      ink.data[p]    = labels.data[p] ? 1 : 0;
+      labels.data[p] = labels.data[p] ? labels.data[p] : 1;
+    }
+  CHECK (celd_ownership_new (ink.width, ink.height, &own) == CELD_OK);
+  CHECK (celd_own (&ink, &labels, level, 26, NULL, method, NULL, &own) == CELD_OK);
+  CHECK (!memcmp (own.owner.data, owners.data, (size_t) (ink.width * ink.height) * sizeof (uint32_t)));
+  for (int p = 0; p < ink.width * ink.height; p++)
+    CHECK (own.under.data[p] == own.owner.data[p] && own.share.data[p] == 1);
+  celd_ownership_clear (&own);
+  free (ink.data);
+  free (labels.data);
+  free (owners.data);
+}
+
+static void
+a_contour_is_the_nearer_regions (void)
+{
+  static const char *const rows[] = { "AAA##BBB", "AAA##BBB", "AAA##BBB", "AAA##BBB", "AAA##BBB", "AAA##BBB", NULL };
+  static const char *const wanted[] = { "AAABBBBB", "AAABBBBB", "AAABBBBB", "AAABBBBB", "AAABBBBB", "AAABBBBB", NULL };
+
+  expect (rows, wanted, CELD_EXPANSION_OUTLINES);
+  expect (rows, wanted, CELD_EXPANSION_THICKNESS);
+}
+
+static void
+ink_within_a_region_is_its_own (void)
+{
+  static const char *const rows[] = { "AAAAAAAA", "AAAAAAAA", "AA####AA", "AAAAAAAA", "AAAAA#AA", NULL };
+  static const char *const wanted[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
+
+  expect (rows, wanted, CELD_EXPANSION_OUTLINES);
+  expect (rows, wanted, CELD_EXPANSION_THICKNESS);
+}
+
+/* A label without paper keeps its ink. */
+static void
+a_black_patch_keeps_its_ink (void)
+{
+  CeldPlane      ink;
+  CeldLabels     labels;
+  CeldOwnership  own;
+  const uint32_t level[3] = { 0, 2, 1 };
+
+  CHECK (celd_plane_new (30, 20, &ink) == CELD_OK && celd_labels_new (30, 20, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (30, 20, &own) == CELD_OK);
+  for (int y = 0; y < 20; y++)
+    for (int x = 0; x < 30; x++)
+      {
+        CELD_AT (&labels, x, y) = x < 10 ? 1 : x < 20 ? 3 : 2;
+        CELD_AT (&ink, x, y)    = x < 8 || x >= 22;
+      }
+  for (int method = 0; method < 2; method++)
+    {
+      CHECK (celd_own (&ink, &labels, level, 3, NULL, (CeldExpansion) method, NULL, &own) == CELD_OK);
+      CHECK (CELD_AT (&own.owner, 12, 9) == 3 && CELD_AT (&own.owner, 18, 9) == 3 && CELD_AT (&own.owner, 26, 9) == 2);
+    }
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
+/* A line of three quarters of a pixel's ink on a bright page: the nearer label has the ink's share of its pixels. */
+static void
+edges_are_shared (void)
+{
+  CeldPlane      ink;
+  CeldLabels     labels;
+  CeldOwnership  own;
+  const uint32_t level[2] = { 0, 1 };
+
+  CHECK (celd_plane_new (12, 9, &ink) == CELD_OK && celd_labels_new (12, 9, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (12, 9, &own) == CELD_OK);
+  for (int y = 0; y < 9; y++)
+    for (int x = 0; x < 12; x++)
+      {
+        CELD_AT (&ink, x, y)    = x == 4 ? 0.75f : x == 5 || x == 6 ? 0 : x == 7 ? 0.25f : 1;
+        CELD_AT (&labels, x, y) = x < 6 ? 1 : 2;
+      }
+  CHECK (celd_own (&ink, &labels, level, 2, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (CELD_AT (&own.owner, 3, 4) == 1 && CELD_AT (&own.share, 3, 4) == 1);
+  CHECK (CELD_AT (&own.owner, 4, 4) == 2 && CELD_AT (&own.under, 4, 4) == 1);
+  NEAR (CELD_AT (&own.share, 4, 4), 0.25, 1e-6);
+  CHECK (CELD_AT (&own.owner, 5, 4) == 2 && CELD_AT (&own.share, 5, 4) == 1);
+  CHECK (CELD_AT (&own.owner, 7, 4) == 2 && CELD_AT (&own.under, 7, 4) == 2 && CELD_AT (&own.share, 7, 4) == 1);
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
+/* A bar of ink between two regions runs against another line: a dot of the farther region's colour takes the bar
+ * alone. */
+static void
+a_stroke_gives_a_piece_of_line (void)
+{
+  CeldPlane      ink;
+  CeldLabels     labels, dots;
+  CeldOwnership  own;
+  const uint32_t level[3] = { 0, 1, 2 };
+
+  CHECK (celd_plane_new (60, 40, &ink) == CELD_OK && celd_labels_new (60, 40, &labels) == CELD_OK);
+  CHECK (celd_labels_new (60, 40, &dots) == CELD_OK && celd_ownership_new (60, 40, &own) == CELD_OK);
+  for (int y = 0; y < 40; y++)
+    for (int x = 0; x < 60; x++)
+      {
+        CELD_AT (&labels, x, y) = x >= 30 ? 3 : y < 20 ? 1 : 2; /* the right half lies in front of both */
+        CELD_AT (&ink, x, y)    = !((y >= 18 && y < 22 && x < 30) || (x >= 28 && x < 32));
+      }
+  CELD_AT (&dots, 8, 19) = 1;
+  for (int method = 0; method < 2; method++)
+    {
+      CHECK (celd_own (&ink, &labels, level, 3, &dots, (CeldExpansion) method, NULL, &own) == CELD_OK);
+      CHECK (CELD_AT (&own.owner, 3, 20) == 1 && CELD_AT (&own.owner, 20, 19) == 1);
+      CHECK (CELD_AT (&own.owner, 20, 20) == 1 && CELD_AT (&own.owner, 29, 5) == 3);
+      CHECK (CELD_AT (&own.owner, 29, 35) == 3 && CELD_AT (&own.owner, 30, 20) == 3);
+      CHECK (CELD_AT (&own.owner, 10, 30) == 2 && CELD_AT (&own.owner, 10, 10) == 1);
+    }
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+  celd_free (dots.data);
+}
+
+/* ------------------------------------------------------------------ any picture */
+
+/* Blocks of ink and labels, in which now and then a level gets ink that is not connected with its labels: the same comes
+ * out in place. */
+static void
+in_place_it_is_the_same (void)
+{
+  enum { SIDE = 40, BLOCK = 5 };
+  CeldPlane     ink;
+  CeldLabels    labels;
+  CeldOwnership own, place;
+
+  CHECK (celd_plane_new (SIDE, SIDE, &ink) == CELD_OK && celd_labels_new (SIDE, SIDE, &labels) == CELD_OK);
+  CHECK (celd_ownership_new (SIDE, SIDE, &own) == CELD_OK && celd_ownership_new (SIDE, SIDE, &place) == CELD_OK);
+  for (uint32_t seed = 1; seed <= 500 && !check_bad; seed++)
+    {
+      uint32_t       r = seed;
+      const uint32_t level[4] = { check_random (&r, 3), check_random (&r, 3), check_random (&r, 3), 1 };
+      size_t         bytes = SIDE * SIDE * sizeof (uint32_t);
+
+      for (int p = 0; p < SIDE * SIDE; p++)
+        {
+          bool first = p % SIDE % BLOCK == 0, top = p / SIDE % BLOCK == 0;
+
+          labels.data[p] = !first ? labels.data[p - 1] : !top ? labels.data[p - SIDE] : 1 + check_random (&r, 4);
+          ink.data[p]    = !first ? ink.data[p - 1] : !top ? ink.data[p - SIDE] : (float) check_random (&r, 2);
+          ink.data[p]   *= first && !check_random (&r, 9) ? 0 : 1;
+        }
+      memcpy (place.owner.data, labels.data, bytes);
+      CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
+      CHECK (celd_own (&ink, &place.owner, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &place) == CELD_OK);
+      CHECK (!memcmp (place.owner.data, own.owner.data, bytes) && !memcmp (place.under.data, own.under.data, bytes));
+    }
+  celd_ownership_clear (&own);
+  celd_ownership_clear (&place);
+  celd_free (ink.data);
+  celd_free (labels.data);
+}
+
+/* Paper keeps its label, ink gets one that there is, and shares are shares. */
+static void
+paper_stays (void)
+{
+  for (uint32_t seed = 1; seed <= 60 && !check_bad; seed++)
+    {
+      uint32_t       r = seed;
+      int            w = 1 + (int) check_random (&r, 40), h = 1 + (int) check_random (&r, 40);
+      const uint32_t level[4] = { check_random (&r, 3), check_random (&r, 3), check_random (&r, 3), 1 };
+      CeldPlane      ink;
+      CeldLabels     labels;
+      CeldOwnership  own;
+
+      CHECK (celd_plane_new (w, h, &ink) == CELD_OK && celd_labels_new (w, h, &labels) == CELD_OK);
+      CHECK (celd_ownership_new (w, h, &own) == CELD_OK);
+      for (int p = 0; p < w * h; p++)
+        {
+          ink.data[p]    = 0.01f * (float) check_random (&r, 101);
+          labels.data[p] = 1 + (p && check_random (&r, 4) ? labels.data[p - 1] - 1 : check_random (&r, 4));
+        }
+      CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
+      for (int p = 0; p < w * h; p++)
+        {
+          uint32_t more = own.share.data[p] >= 0.5f ? own.owner.data[p] : own.under.data[p];
+
+          CHECK (own.owner.data[p] >= 1 && own.owner.data[p] <= 4 && own.under.data[p] >= 1 && own.under.data[p] <= 4);
+          CHECK (own.share.data[p] > 0 && own.share.data[p] <= 1);
+          CHECK (level[own.owner.data[p] - 1] >= level[own.under.data[p] - 1]);
+          CHECK (ink.data[p] <= 0.5f || more == labels.data[p]);
+        }
+      celd_ownership_clear (&own);
+      celd_free (ink.data);
+      celd_free (labels.data);
+    }
+}
+
+static void
+bad_input_does_no_harm (void)
+{
+  CeldPlane      ink;
+  CeldLabels     labels, other;
+  CeldOwnership  own;
+  const uint32_t level[1] = { 0 };
+
+  CHECK (celd_plane_new (5, 4, &ink) == CELD_OK && celd_labels_new (5, 4, &labels) == CELD_OK);
+  CHECK (celd_labels_new (4, 5, &other) == CELD_OK && celd_ownership_new (5, 4, &own) == CELD_OK);
+  for (int p = 0; p < 20; p++)
+    ink.data[p] = 0;
+  CHECK (celd_own (&ink, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_VALUE);
+  CHECK (celd_own (&ink, &other, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_BAD_SIZE);
+  for (int p = 0; p < 20; p++)
+    labels.data[p] = 1;
+  CHECK (celd_own (&ink, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  CHECK (own.owner.data[7] == 1 && own.under.data[7] == 1 && own.share.data[7] == 1); /* ink alone */
+  celd_ownership_clear (&own);
+  celd_free (ink.data);
+  celd_free (labels.data);
+  celd_free (other.data);
+}
+
+int
+main (void)
+{
+  RUN (pens_are_told_apart);
+  RUN (hair_lines_and_brushes_are_told_apart);
+  RUN (pens_beat_thickness);
+  RUN (a_contour_is_the_nearer_regions);
+  RUN (ink_within_a_region_is_its_own);
+  RUN (a_black_patch_keeps_its_ink);
+  RUN (edges_are_shared);
+  RUN (a_stroke_gives_a_piece_of_line);
+  RUN (in_place_it_is_the_same);
+  RUN (paper_stays);
+  RUN (bad_input_does_no_harm);
+  return DONE;
+}

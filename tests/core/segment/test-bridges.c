@@ -1,0 +1,203 @@
+/* Bridges over gaps in contours: which ends they join, that basins part there, and that paper stays one piece.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "scene.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/bridges.h"
+
+#define SIDE 320
+#define PI   3.14159265358979
+
+static CeldBridges
+find (const Scene *s)
+{
+  CeldBridges bridges = { 0 };
+
+  CHECK (celd_bridges_find (&s->ink, celd_stroke_width (&s->ink), NULL, &bridges) == CELD_OK);
+  return bridges;
+}
+
+static size_t
+count (const Scene *s)
+{
+  CeldBridges bridges = find (s);
+  size_t      n = bridges.n;
+
+  celd_bridges_clear (&bridges);
+  return n;
+}
+
+/* A circle round the middle with a gap of so many radians at an angle. */
+static void
+draw_circle (Scene *s, double radius, double at, double gap, double width)
+{
+  double end = at + 2 * PI - gap / 2;
+
+  for (double a = at + gap / 2; a < end - 1e-9; a += 0.05)
+    {
+      double b = fmin (a + 0.05, end);
+
+      scene_line (s, (CeldPlace) { SIDE / 2 + radius * cos (a), SIDE / 2 + radius * sin (a) },
+                  (CeldPlace) { SIDE / 2 + radius * cos (b), SIDE / 2 + radius * sin (b) }, width);
+    }
+}
+
+static CeldBasins
+basins_of (const CeldPlane *ink)
+{
+  CeldBasins basins = { 0 };
+
+  CHECK (celd_basins_new (ink, 0.25f, NULL, &basins) == CELD_OK);
+  return basins;
+}
+
+/* ------------------------------------------------------------------ circles */
+
+/* The radius is 120 and the line 6 wide; the gap is 60 pixels from tip to tip. */
+static void
+a_gap_in_a_circle_is_bridged (void)
+{
+  for (int angle = 0; angle < 360; angle += 30)
+    {
+      double      at = angle * PI / 180, half = asin ((60 + 6) / 2. / 120); /* tips are round */
+      double      chord = 120 * cos (half);
+      CeldBridges bridges;
+      Scene       s;
+
+      scene_open (SIDE, SIDE, &s);
+      draw_circle (&s, 120, at, 2 * half, 6);
+      bridges = find (&s);
+      NEAR (bridges.n, 1, 0);
+      for (size_t i = 0; i < bridges.n_pixels; i++)
+        {
+          double x = bridges.pixel[i].x + 0.5 - SIDE / 2, y = bridges.pixel[i].y + 0.5 - SIDE / 2;
+
+          NEAR (x * cos (at) + y * sin (at), chord + 1.5, 3);
+          CHECK (celd_is_paper (CELD_AT (&s.ink, bridges.pixel[i].x, bridges.pixel[i].y)));
+        }
+      celd_bridges_clear (&bridges);
+      scene_close (&s);
+    }
+}
+
+/* A third of the circle is missing: no narrow place of the paper says where it was.  Basins part all the same, but
+ * pieces and rooms do not. */
+static void
+basins_part_at_a_bridge (void)
+{
+  CeldBasins  plain, bridged;
+  CeldBridges bridges;
+  uint32_t    inside, outside;
+  Scene       s;
+
+  scene_open (SIDE, SIDE, &s);
+  draw_circle (&s, 50, 0.3, PI / 2, 6);
+  bridges = find (&s);
+  NEAR (bridges.n, 1, 0);
+  plain = basins_of (&s.ink);
+  celd_bridges_draw (&bridges, &s.ink);
+  bridged = basins_of (&s.ink);
+  inside  = celd_basin_at (&bridged, SIDE / 2, SIDE / 2);
+  outside = celd_basin_at (&bridged, 5, 5);
+  CHECK (bridged.block[inside] != bridged.block[outside] && bridged.piece[inside] != bridged.piece[outside]);
+  CHECK (bridged.n_pieces == plain.n_pieces + 1);
+  for (size_t i = 0; i < bridges.n_pixels; i++)
+    CELD_AT (&s.ink, bridges.pixel[i].x, bridges.pixel[i].y) = 1;
+  CHECK (celd_bridges_join (&bridges, &s.ink, &bridged) == CELD_OK);
+  CHECK (bridged.n_pieces == plain.n_pieces && bridged.n_rooms == plain.n_rooms);
+  CHECK (bridged.piece[inside] == bridged.piece[outside] && bridged.room[inside] == bridged.room[outside]);
+  CHECK (bridged.block[inside] != bridged.block[outside]);
+  celd_basins_clear (&plain);
+  celd_basins_clear (&bridged);
+  celd_bridges_clear (&bridges);
+  scene_close (&s);
+}
+
+/* ------------------------------------------------------------------ which ends are joined */
+
+static void
+the_straightest_pair_is_joined (void)
+{
+  CeldBridges bridges;
+  Scene       s;
+
+  scene_open (SIDE, SIDE, &s);
+  scene_line (&s, (CeldPlace) { 20, 100 }, (CeldPlace) { 100, 100 }, 5);
+  scene_line (&s, (CeldPlace) { 130, 100 }, (CeldPlace) { 220, 100 }, 5);
+  scene_line (&s, (CeldPlace) { 115, 125 }, (CeldPlace) { 115, 220 }, 5);
+  bridges = find (&s);
+  NEAR (bridges.n, 1, 0);
+  for (size_t i = 0; i < bridges.n_pixels; i++)
+    NEAR (bridges.pixel[i].y + 0.5, 100, 1.5);
+  celd_bridges_clear (&bridges);
+  scene_close (&s);
+}
+
+static void
+nothing_is_joined_through_ink (void)
+{
+  Scene s;
+
+  scene_open (SIDE, SIDE, &s);
+  scene_line (&s, (CeldPlace) { 20, 100 }, (CeldPlace) { 100, 100 }, 5);
+  scene_line (&s, (CeldPlace) { 140, 100 }, (CeldPlace) { 220, 100 }, 5);
+  NEAR (count (&s), 1, 0);
+  scene_line (&s, (CeldPlace) { 120, -5 }, (CeldPlace) { 120, SIDE + 5 }, 5);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
+/* Ends that point away from each other, and parallel lines far apart. */
+static void
+unrelated_ends_stay_apart (void)
+{
+  Scene s;
+
+  scene_open (SIDE, SIDE, &s);
+  scene_line (&s, (CeldPlace) { 100, 60 }, (CeldPlace) { 220, 60 }, 5);
+  scene_line (&s, (CeldPlace) { 100, 160 }, (CeldPlace) { 220, 160 }, 5);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
+static void
+empty_pages_have_none (void)
+{
+  Scene s;
+
+  scene_open (40, 30, &s);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
+/* ------------------------------------------------------------------ comparing */
+
+static void
+what_two_records_do_not_share (void)
+{
+  CeldBridgePixel a[] = { { 3, 1 }, { 4, 1 }, { 9, 7 } }, b[] = { { 4, 1 }, { 3, 1 }, { 2, 5 } };
+  CeldBridges     old = { .pixel = a, .n_pixels = 3 }, new = { .pixel = b, .n_pixels = 3 };
+  CeldRect        rect = { 0 };
+
+  CHECK (celd_bridges_compare (&old, &old, &rect) == CELD_OK && rect.width == 0);
+  CHECK (celd_bridges_compare (&old, &new, &rect) == CELD_OK);
+  CHECK (rect.x == 2 && rect.y == 5 && rect.width == 8 && rect.height == 3);
+  rect = (CeldRect) { 0, 0, 1, 1 };
+  CHECK (celd_bridges_compare (&old, &new, &rect) == CELD_OK);
+  CHECK (rect.x == 0 && rect.y == 0 && rect.width == 10 && rect.height == 8);
+}
+
+int
+main (void)
+{
+  RUN (a_gap_in_a_circle_is_bridged);
+  RUN (basins_part_at_a_bridge);
+  RUN (the_straightest_pair_is_joined);
+  RUN (nothing_is_joined_through_ink);
+  RUN (unrelated_ends_stay_apart);
+  RUN (empty_pages_have_none);
+  RUN (what_two_records_do_not_share);
+  return DONE;
+}

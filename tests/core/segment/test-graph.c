@@ -1,0 +1,212 @@
+/* Labels on the basin graph: parts behind necks, gaps, majorities, and the energy against exact cuts on pixels.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/canvas.h"
+
+typedef struct
+{
+  CeldPlane    ink;
+  CeldSettings settings;
+  CeldBasins   basins;
+  CeldCanvas   canvas;
+  uint32_t    *label;
+} Page;
+
+/* `painted`: 'A' is a seed of label 1 and so on, of n labels. */
+static void
+page_open (Page *p, const char *const *drawing, const char *const *painted, size_t n)
+{
+  CeldLabels seeds = art_labels (painted);
+  uint32_t   label;
+
+  *p = (Page) { .ink = art_plane (drawing), .settings = celd_settings () };
+  CHECK (celd_basins_new (&p->ink, p->settings.ink_threshold, NULL, &p->basins) == CELD_OK);
+  p->canvas = (CeldCanvas) { .settings = &p->settings, .ink = &p->ink, .basins = &p->basins };
+  CHECK (celd_seed_rows_read (&seeds, &p->canvas.seeds) == CELD_OK);
+  for (size_t k = 0; k < n; k++)
+    {
+      CeldRegion region = { .colour = { (uint8_t) (40 * k), 0, 0, 255 } };
+
+      CHECK (celd_canvas_add (&p->canvas, region, &label) == CELD_OK);
+    }
+  celd_canvas_weigh (&p->canvas);
+  p->label = calloc (p->basins.n, sizeof *p->label);
+  free (seeds.data);
+}
+
+static void
+page_close (Page *p)
+{
+  free (p->ink.data);
+  free (p->label);
+  celd_spread_clear (&p->canvas.painted);
+  celd_seed_rows_clear (&p->canvas.seeds);
+  celd_palette_clear (&p->canvas.palette);
+  celd_basins_clear (&p->basins);
+}
+
+static uint32_t
+label_at (const Page *p, int x, int y)
+{
+  return p->label[celd_basin_at (&p->basins, x, y)];
+}
+
+static void
+solve (Page *p)
+{
+  CHECK (celd_graph_solve (&p->canvas, NULL, p->label) == CELD_OK);
+  for (size_t k = 0; k < p->basins.n; k++)
+    CHECK (p->label[k] >= 1 && p->label[k] <= p->canvas.palette.n);
+}
+
+/* A room on the left, joined to a room on the right by a neck of two pixels; all else is outside. */
+static const char *const neck[] = {
+  "..............................",
+  "..############..############..",
+  "..#..........#..#..........#..",
+  "..#..........####..........#..",
+  "..#........................#..",
+  "..#........................#..",
+  "..#..........####..........#..",
+  "..#..........#..#..........#..",
+  "..############..############..",
+  "..............................", NULL };
+
+static void
+a_part_behind_a_neck_follows_its_room (void)
+{
+  static const char *const painted[] = {
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAA",
+    "..............................", "..............................", "..............................",
+    ".....BBB......................",
+    "..............................", "..............................", "..............................",
+    "..............................", "..............................", NULL };
+  Page p;
+
+  page_open (&p, neck, painted, 2);
+  solve (&p);
+  CHECK (label_at (&p, 5, 5) == 2 && label_at (&p, 14, 4) == 2 && label_at (&p, 22, 5) == 2);
+  CHECK (label_at (&p, 14, 0) == 1 && label_at (&p, 14, 9) == 1);
+  page_close (&p);
+}
+
+/* A speck of paint against the whole page: a cut of two pixels of paper would save the speck's votes, and more. */
+static void
+a_part_with_paint_of_its_own_keeps_it (void)
+{
+  static const char *const painted[] = {
+    "..............................",
+    "..............................",
+    "...AAAAAAAAAA.................",
+    "...AAAAAAAAAA.................",
+    "...AAAAAAAAAA.......B.........",
+    "...AAAAAAAAAA.................",
+    "...AAAAAAAAAA.................",
+    "...AAAAAAAAAA.................",
+    "..............................", "..............................", NULL };
+  Page p;
+
+  page_open (&p, neck, painted, 2);
+  solve (&p);
+  CHECK (label_at (&p, 5, 5) == 1 && label_at (&p, 22, 5) == 2);
+  p.settings.keep_necks = false;
+  solve (&p);
+  CHECK (label_at (&p, 5, 5) == 1 && label_at (&p, 22, 5) == 1);
+  page_close (&p);
+}
+
+static void
+hard_labels_are_obeyed_and_the_greater_wins_a_basin (void)
+{
+  static const char *const drawing[] = { "............", "............", "............", "............", NULL };
+  static const char *const painted[] = { "............", ".AA....BBBB.", "............", "............", NULL };
+  Page p;
+
+  page_open (&p, drawing, painted, 2);
+  p.settings.hardness = 1;
+  solve (&p);
+  CHECK (p.basins.n > 1 ? label_at (&p, 8, 1) == 2 : label_at (&p, 0, 0) == 2);
+  page_close (&p);
+}
+
+/* Paint on the ink between two rooms says nothing of either. */
+static void
+paint_on_a_line_does_not_count (void)
+{
+  static const char *const drawing[] = {
+    "..........####..........", "..........####..........", "..........####..........", "..........####..........",
+    "..........####..........", NULL };
+  static const char *const painted[] = {
+    "........................", ".AAAAAAAAAAAAA..........", ".AAAAAAAAAAAAA..........", "..................BB....",
+    "........................", NULL };
+  Page p;
+
+  page_open (&p, drawing, painted, 2);
+  solve (&p);
+  CHECK (label_at (&p, 4, 2) == 1 && label_at (&p, 20, 2) == 2);
+  page_close (&p);
+}
+
+/* Closed rooms of random size, each with its stroke: the same labels on paper as by exact cuts. */
+static void
+closed_rooms_come_out_as_by_exact_cuts (void)
+{
+  enum { WIDTH = 64, HEIGHT = 48 };
+  uint32_t state = 5;
+
+  for (int round = 0; round < 40; round++)
+    {
+      char        drawing[HEIGHT][WIDTH + 1], painted[HEIGHT][WIDTH + 1];
+      const char *rows[HEIGHT + 1] = { NULL }, *paint[HEIGHT + 1] = { NULL };
+      int         left = 20 + (int) check_random (&state, 24), top = 14 + (int) check_random (&state, 20), bad = 0;
+      CeldLabels  exact;
+      Page        p;
+
+      for (int y = 0; y < HEIGHT; y++)
+        {
+          for (int x = 0; x < WIDTH; x++)
+            {
+              bool wall = (x >= left && x < left + 3) || (y >= top && y < top + 2);
+
+              drawing[y][x] = wall ? '#' : '.';
+              painted[y][x] = '.';
+            }
+          drawing[y][WIDTH] = painted[y][WIDTH] = 0;
+          rows[y]  = drawing[y];
+          paint[y] = painted[y];
+        }
+      for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 6; i++)
+          {
+            int y = k < 2 ? 3 + (int) check_random (&state, 8) : HEIGHT - 4;
+
+            painted[y][k & 1 ? WIDTH - 2 - i : 2 + i] = (char) ('A' + k);
+          }
+      page_open (&p, rows, paint, 4);
+      CHECK (celd_labels_new (WIDTH, HEIGHT, &exact) == CELD_OK);
+      p.settings.keep_necks = round & 1;
+      solve (&p);
+      CHECK (celd_exact_solve (&p.canvas, NULL, &exact) == CELD_OK);
+      for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+          bad += drawing[y][x] == '.' && label_at (&p, x, y) != CELD_AT (&exact, x, y);
+      NEAR (bad, 0, 0);
+      celd_free (exact.data);
+      page_close (&p);
+    }
+}
+
+int
+main (void)
+{
+  RUN (a_part_behind_a_neck_follows_its_room);
+  RUN (a_part_with_paint_of_its_own_keeps_it);
+  RUN (hard_labels_are_obeyed_and_the_greater_wins_a_basin);
+  RUN (paint_on_a_line_does_not_count);
+  RUN (closed_rooms_come_out_as_by_exact_cuts);
+  return DONE;
+}

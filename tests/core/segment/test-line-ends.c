@@ -1,0 +1,176 @@
+/* Ends of lines: where they are, which way they point, and what is none.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "scene.h"
+#include "image/image.h"
+#include "segment/bridges.h"
+
+#define SIDE 160
+#define PI   3.14159265358979
+
+static size_t
+find (const Scene *s, CeldTip **tip)
+{
+  size_t n = 0;
+
+  CHECK (celd_line_ends_find (&s->ink, celd_stroke_width (&s->ink), NULL, tip, &n) == CELD_OK);
+  return n;
+}
+
+static size_t
+count (const Scene *s)
+{
+  CeldTip *tip = NULL;
+  size_t   n = find (s, &tip);
+
+  celd_free (tip);
+  return n;
+}
+
+static void
+draw_arc (Scene *s, double radius, double from, double to, double width)
+{
+  for (double a = from; a < to - 1e-9; a += 0.05)
+    {
+      double b = fmin (a + 0.05, to);
+
+      scene_line (s, (CeldPlace) { SIDE / 2 + radius * cos (a), SIDE / 2 + radius * sin (a) },
+                  (CeldPlace) { SIDE / 2 + radius * cos (b), SIDE / 2 + radius * sin (b) }, width);
+    }
+}
+
+/* The tip is half a width behind what a round brush leaves. */
+static void
+a_line_has_two_ends (void)
+{
+  for (int width = 2; width <= 10; width += 4)
+    for (int angle = 0; angle < 180; angle += 15)
+      {
+        double    dx = cos (angle * PI / 180), dy = sin (angle * PI / 180);
+        CeldPlace end[2] = { { SIDE / 2 - 50 * dx, SIDE / 2 - 50 * dy }, { SIDE / 2 + 50 * dx, SIDE / 2 + 50 * dy } };
+        CeldTip  *tip = NULL;
+        Scene     s;
+        size_t    n;
+
+        scene_open (SIDE, SIDE, &s);
+        scene_line (&s, end[0], end[1], width);
+        n = find (&s, &tip);
+        NEAR (n, 2, 0);
+        for (size_t i = 0; i < n; i++)
+          {
+            int    k = hypot (tip[i].x - end[0].x, tip[i].y - end[0].y) > 50;
+            double out = k ? 1 : -1;
+
+            NEAR (hypot (tip[i].x - end[k].x, tip[i].y - end[k].y), 0, 0.5 * width + 1.5);
+            CHECK (out * (tip[i].dx * dx + tip[i].dy * dy) > cos (12 * PI / 180));
+            NEAR (hypot (tip[i].dx, tip[i].dy), 1, 1e-6);
+          }
+        celd_free (tip);
+        scene_close (&s);
+      }
+}
+
+static void
+closed_lines_have_none (void)
+{
+  Scene s;
+
+  for (int radius = 20; radius <= 60; radius += 20)
+    {
+      scene_open (SIDE, SIDE, &s);
+      draw_arc (&s, radius, 0, 2 * PI, 5);
+      NEAR (count (&s), 0, 0);
+      scene_close (&s);
+    }
+  scene_open (SIDE, SIDE, &s);
+  for (int k = 0; k < 4; k++)
+    scene_line (&s, (CeldPlace) { k == 1 || k == 2 ? 130 : 30, k > 1 ? 130 : 30 },
+                (CeldPlace) { k < 2 ? 130 : 30, k == 1 || k == 2 ? 130 : 30 }, 4);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
+static void
+crossing_lines_have_four (void)
+{
+  Scene s;
+
+  scene_open (SIDE, SIDE, &s);
+  scene_line (&s, (CeldPlace) { 20, 40 }, (CeldPlace) { 140, 110 }, 4);
+  scene_line (&s, (CeldPlace) { 70, 140 }, (CeldPlace) { 90, 15 }, 4);
+  NEAR (count (&s), 4, 0);
+  scene_close (&s);
+}
+
+/* The two ends at a gap look at each other, however narrow it is. */
+static void
+both_ends_at_a_gap_are_found (void)
+{
+  for (int gap = 8; gap <= 60; gap += 4)
+    {
+      CeldTip *tip = NULL;
+      Scene    s;
+      size_t   n;
+
+      scene_open (SIDE, SIDE, &s);
+      draw_arc (&s, 55, gap / 110., 2 * PI - gap / 110., 4);
+      n = find (&s, &tip);
+      NEAR (n, 2, 0);
+      if (n == 2)
+        CHECK (tip[0].dx * tip[1].dx + tip[0].dy * tip[1].dy < 0.2);
+      celd_free (tip);
+      scene_close (&s);
+    }
+}
+
+static void
+blots_and_areas_have_none (void)
+{
+  Scene s;
+
+  scene_open (SIDE, SIDE, &s);
+  draw_arc (&s, 60, 0, 2 * PI, 4);
+  scene_line (&s, (CeldPlace) { 80, 80 }, (CeldPlace) { 81, 80 }, 30);
+  scene_line (&s, (CeldPlace) { 50, 60 }, (CeldPlace) { 51, 60 }, 4);
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+  scene_open (SIDE, SIDE, &s);
+  NEAR (count (&s), 0, 0);
+  for (int p = 0; p < SIDE * SIDE; p++)
+    s.ink.data[p] = 0;
+  NEAR (count (&s), 0, 0);
+  scene_close (&s);
+}
+
+/* Pages too small for any line, and lines of one pixel. */
+static void
+small_pages (void)
+{
+  static const char *const art[] = {
+    "..............", "..............", "..############", "..............", "......#.......", "..............", NULL
+  };
+  CeldTip  *tip = NULL;
+  CeldPlane ink = art_plane (art), one = { 1, 1, 1, (float[]) { 0 } };
+  size_t    n = 0;
+
+  CHECK (celd_line_ends_find (&one, 1, NULL, &tip, &n) == CELD_OK && n == 0);
+  celd_free (tip);
+  tip = NULL;
+  CHECK (celd_line_ends_find (&ink, celd_stroke_width (&ink), NULL, &tip, &n) == CELD_OK && n >= 1 && n <= 2);
+  CHECK (n && fabs (tip[0].x - 2) < 1.5 && fabs (tip[0].y - 2.5) < 1 && tip[0].dx < -0.9);
+  celd_free (tip);
+  free (ink.data);
+}
+
+int
+main (void)
+{
+  RUN (a_line_has_two_ends);
+  RUN (closed_lines_have_none);
+  RUN (crossing_lines_have_four);
+  RUN (both_ends_at_a_gap_are_found);
+  RUN (blots_and_areas_have_none);
+  RUN (small_pages);
+  return DONE;
+}

@@ -1,0 +1,279 @@
+/* Where strokes lie, and which of their shares are stains.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "random-sketch.h"
+#include "image/image.h"
+#include "segment/canvas.h"
+
+static void
+check_share (const CeldSpread *spread, size_t i, CeldShare wanted)
+{
+  const CeldShare *share = &spread->share[i];
+
+  CHECK (share->part == wanted.part && share->label == wanted.label && share->stroke == wanted.stroke);
+  NEAR (share->pixels, wanted.pixels, 0);
+}
+
+/* A runs through the contour and back, in runs that add up; paint on ink is no share.  B touches only by a corner. */
+static void
+shares_of_strokes (void)
+{
+  static const char *const paper[] = { "111#222", "111#222", "111#222", "111#222", NULL };
+  static const char *const painted[] = { ".AAAAA.", ".....A.", ".AAAAAB", "B.....B", NULL };
+  CeldSpread spread;
+  Sketch     s;
+
+  sketch_open (&s, paper, painted, 2);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+  NEAR (spread.n, 4, 0);
+  if (spread.n == 4)
+    {
+      check_share (&spread, 0, (CeldShare) { 1, 1, 0, 4, false });
+      check_share (&spread, 1, (CeldShare) { 1, 2, 2, 1, false });
+      check_share (&spread, 2, (CeldShare) { 2, 1, 0, 5, false });
+      check_share (&spread, 3, (CeldShare) { 2, 2, 1, 2, false });
+    }
+  NEAR (spread.n_strokes, 3, 0);
+  if (spread.n_strokes == 3)
+    {
+      NEAR (spread.total[0], 9, 0);
+      NEAR (spread.total[1], 2, 0);
+      NEAR (spread.total[2], 1, 0);
+    }
+  celd_spread_clear (&spread);
+  sketch_close (&s);
+}
+
+static void
+pixels_that_touch_by_a_corner_are_one_stroke (void)
+{
+  static const char *const paper[] = { "111", "111", NULL }, *const painted[] = { "A.A", ".A.", NULL };
+  CeldSpread spread;
+  Sketch     s;
+
+  sketch_open (&s, paper, painted, 1);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+  NEAR (spread.n, 1, 0);
+  NEAR (spread.n ? spread.share[0].pixels : 0, 3, 0);
+  celd_spread_clear (&spread);
+  sketch_close (&s);
+}
+
+/* Where basins meet a run of seeds is cut; a solid area is a part of its own, without a share. */
+static void
+runs_are_cut_where_basins_meet (void)
+{
+  static const char *const paper[] = { "11#2233#", "#0000#33", NULL };
+  static const char *const painted[] = { ".AAAAAAB", "BBBB..B.", NULL };
+  static const CeldDab     wanted[] = {
+    { 0, 1, 3, 1, 0, 0, 1 }, { 0, 3, 5, 1, 1, 0, 2 }, { 0, 5, 7, 1, 2, 0, 2 }, { 0, 7, 8, 2, 2, 1, 0 },
+    { 1, 0, 4, 2, 3, 2, 0 }, { 1, 6, 7, 2, 2, 1, 1 },
+  };
+  CeldSpread spread;
+  Sketch     s;
+
+  sketch_open (&s, paper, painted, 2);
+  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+  NEAR (spread.n_dabs, 6, 0);
+  for (size_t i = 0; i < 6 && spread.n_dabs == 6; i++)
+    CHECK (!memcmp (&spread.dab[i], &wanted[i], sizeof *wanted));
+  NEAR (spread.n, 4, 0);
+  NEAR (spread.n_strokes == 3 ? spread.total[2] : 1, 0, 0);
+  celd_spread_clear (&spread);
+  sketch_close (&s);
+}
+
+/* ------------------------------------------------------------------ the same by pixels */
+
+/* Is pixel p a stain?  By the definition, pixel by pixel. */
+static bool
+slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t stroke[W * H], int p)
+{
+  double here = 0, elsewhere = 0, mine = 0, others = 0;
+
+  if (!painted->data[p] || !piece->data[p])
+    return false;
+  for (int q = 0; q < W * H; q++)
+    if (painted->data[q] && piece->data[q] == piece->data[p])
+      {
+        here   += stroke[q] == stroke[p];
+        mine   += painted->data[q] == painted->data[p];
+        others += painted->data[q] != painted->data[p];
+      }
+    else
+      elsewhere += piece->data[q] && stroke[q] == stroke[p];
+  return here * mine < 0.5 * elsewhere * others;
+}
+
+/* With what other seeds on the same drawing left behind, dabs must be the same. */
+static void
+check_kept (Sketch *s, const CeldSpread *wanted, uint32_t *state)
+{
+  CeldCanvas other = s->canvas;
+  CeldSpread kept = { 0 }, spread;
+
+  CHECK (celd_seed_rows_copy (&s->canvas.seeds, &other.seeds) == CELD_OK);
+  other.kept = s->canvas.kept = &kept;
+  for (int round = 0; round < 4; round++)
+    {
+      CHECK (celd_spread_new (&s->canvas, s->basins.piece, &spread) == CELD_OK);
+      CHECK (spread.n_dabs == wanted->n_dabs && spread.n == wanted->n && spread.n_strokes == wanted->n_strokes);
+      CHECK (!memcmp (spread.dab, wanted->dab, wanted->n_dabs * sizeof *wanted->dab));
+      CHECK (!memcmp (spread.total, wanted->total, wanted->n_strokes * sizeof *wanted->total));
+      celd_spread_clear (&spread);
+      for (int k = 0; k < 8; k++)
+        {
+          int x = (int) check_random (state, W), end = x + (int) check_random (state, 9);
+
+          CHECK (celd_seed_rows_paint (&other.seeds, (int) check_random (state, H), x, end, check_random (state, 4))
+                 == CELD_OK);
+        }
+      CHECK (celd_spread_new (&other, NULL, &spread) == CELD_OK && spread.n == 0);
+      celd_spread_keep (&other, &spread);
+      CHECK (!spread.dab && kept.n_dabs);
+    }
+  s->canvas.kept = NULL;
+  celd_spread_clear (&kept);
+  celd_seed_rows_clear (&other.seeds);
+}
+
+static void
+dabs_shares_and_stains_are_those_of_the_pixels (void)
+{
+  uint32_t state = 5, stroke[W * H];
+  int      stains = 0;
+
+  for (int round = 0; round < 200; round++)
+    {
+      char        paper[H][W + 1] = { { 0 } }, painted[H][W + 1] = { { 0 } };
+      const char *paper_rows[H + 1] = { NULL }, *painted_rows[H + 1] = { NULL };
+      CeldLabels  piece, paint;
+      CeldSpread  spread;
+      Sketch      s;
+      uint32_t    n;
+      size_t      pixels = 0, dabbed = 0, paper_pixels = 0;
+      int         wrong = 0;
+
+      random_sketch (&state, 9, paper, painted);
+      for (int y = 0; y < H; y++)
+        {
+          paper_rows[y] = paper[y];
+          painted_rows[y] = painted[y];
+        }
+      piece = art_labels (paper_rows);
+      paint = art_labels (painted_rows);
+      n = flood (&paint, stroke);
+      sketch_open (&s, paper_rows, painted_rows, 3);
+      CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
+      NEAR (spread.n_strokes, n, 0);
+      for (size_t i = 0; i < spread.n_dabs; i++)
+        {
+          const CeldDab *d = &spread.dab[i];
+          uint32_t       on_paper = 0;
+
+          for (int x = d->x; x < d->end; x++)
+            {
+              wrong += paint.data[d->y * W + x] != d->label || stroke[d->y * W + x] != d->stroke + 1;
+              wrong += sketch_basin (paper[d->y], x, 4) != d->basin;
+              on_paper += piece.data[d->y * W + x] > 0;
+            }
+          wrong += on_paper != d->paper || d->x >= d->end;
+          wrong += i && (d[-1].y > d->y || (d[-1].y == d->y && d[-1].end > d->x));
+          dabbed += (size_t) (d->end - d->x);
+        }
+      for (size_t i = 0; i < spread.n; i++)
+        {
+          size_t share = 0;
+
+          for (int p = 0; p < W * H; p++)
+            share += piece.data[p] == spread.share[i].part && stroke[p] == spread.share[i].stroke + 1;
+          wrong += !share || share != spread.share[i].pixels;
+          pixels += share;
+        }
+      for (int p = 0; p < W * H; p++)
+        {
+          paper_pixels += paint.data[p] && piece.data[p];
+          dabbed -= paint.data[p] > 0;
+        }
+      wrong += dabbed != 0 || pixels != paper_pixels;
+      check_kept (&s, &spread, &state);
+      celd_spread_clear (&spread);
+      CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
+      for (int p = 0; p < W * H; p++)
+        {
+          bool stain = slow_stain (&paint, &piece, stroke, p);
+
+          wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != (stain ? 0 : paint.data[p]);
+          stains += stain;
+        }
+      NEAR (wrong, 0, 0);
+      sketch_close (&s);
+      free (piece.data);
+      free (paint.data);
+    }
+  CHECK (stains > 500);
+}
+
+/* ------------------------------------------------------------------ stains */
+
+/* The seeds that are left of the painted ones. */
+static void
+check_left (const char *const *paper, const char *const *painted, float hardness, const char *const *left)
+{
+  Sketch s;
+
+  sketch_open (&s, paper, painted, 2);
+  s.settings.hardness = hardness;
+  CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
+  NEAR (seeds_differing (&s.canvas.seeds, left), 0, 0);
+  sketch_close (&s);
+}
+
+static const char *const halves[] = { "111111#2222", "111111#2222", NULL };
+
+static void
+paint_behind_a_contour_is_a_stain (void)
+{
+  static const char *const painted[] = { "AAAAAAAAA..", ".......BBBB", NULL };
+  static const char *const left[] = { "AAAAAAA....", ".......BBBB", NULL };
+
+  check_left (halves, painted, 0.05f, left);
+  check_left (halves, painted, 1, painted);
+}
+
+static void
+at_home_or_alone_paint_is_none (void)
+{
+  static const char *const within[] = { ".......A...", ".......BBBB", NULL };
+  static const char *const alone[] = { "AAAAAAAA...", "...........", NULL };
+
+  check_left (halves, within, 0.05f, within);
+  check_left (halves, alone, 0.05f, alone);
+}
+
+/* A stroke with 2 of its 5 pixels elsewhere: 9 pixels of B do not outweigh the other 3, 10 do. */
+static void
+the_odds_of_a_stain (void)
+{
+  static const char *const paper[] = { "1#22222", "1#22222", "1#22222", NULL };
+  static const char *const nine[] = { "AAAAA..", "A.BBBBB", "...BBBB", NULL };
+  static const char *const ten[] = { "AAAAA..", "A.BBBBB", "..BBBBB", NULL };
+  static const char *const left[] = { "AA.....", "A.BBBBB", "..BBBBB", NULL };
+
+  check_left (paper, nine, 0.05f, nine);
+  check_left (paper, ten, 0.05f, left);
+}
+
+int
+main (void)
+{
+  RUN (shares_of_strokes);
+  RUN (pixels_that_touch_by_a_corner_are_one_stroke);
+  RUN (runs_are_cut_where_basins_meet);
+  RUN (dabs_shares_and_stains_are_those_of_the_pixels);
+  RUN (paint_behind_a_contour_is_a_stain);
+  RUN (at_home_or_alone_paint_is_none);
+  RUN (the_odds_of_a_stain);
+  return DONE;
+}

@@ -1,0 +1,185 @@
+/* What is painted when labels change: known pictures, and the rectangle of changes, pixel for pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "segment/basins.h"
+#include "segment/painting.h"
+#include "segment/patches.h"
+
+/* Two basins side by side and one below, and a picture of labels over them. */
+static CeldBasin    three[] = { { 1, 0, 4, false, 8 }, { 6, 1, 9, false, 8 }, { 3, 3, 1, true, 16 } };
+static CeldBasinRun runs[] = { { 0, 0 }, { 4, 1 }, { 0, 0 }, { 4, 1 }, { 0, 2 }, { 0, 2 } };
+static size_t       rows[] = { 0, 2, 4, 5, 6 };
+
+static const CeldBasins basins = { .width = 8, .height = 4, .n = 3, .basin = three, .run = runs, .row = rows };
+
+typedef struct { CeldPainting painting; CeldLabels labels; } Picture;
+
+static void
+picture_open (Picture *p)
+{
+  *p = (Picture) { 0 };
+  CHECK (celd_labels_new (8, 4, &p->labels) == CELD_OK);
+  CHECK (celd_painting_forget (&p->painting, &basins) == CELD_OK);
+}
+
+static void
+picture_close (Picture *p)
+{
+  celd_painting_clear (&p->painting);
+  celd_free (p->labels.data);
+}
+
+static void
+paint (Picture *p, uint32_t a, uint32_t b, uint32_t c, CeldPatch *patch, size_t n)
+{
+  uint32_t    *label = celd_alloc (3, sizeof *label);
+  CeldPatches  patches = { patch, n };
+  CeldPainting old;
+
+  label[0] = a, label[1] = b, label[2] = c;
+  p->painting.changed = (CeldRect) { 0 };
+  celd_painting_begin (&p->painting, &basins, label, &p->labels, &old);
+  CHECK (celd_painting_add (&p->painting, &patches, &p->labels) == CELD_OK);
+  CHECK (celd_painting_end (&p->painting, &basins, &old, &p->labels) == CELD_OK);
+  celd_painting_clear (&old);
+}
+
+static void
+looks_like (const Picture *p, const char *const *art)
+{
+  CeldLabels wanted = art_labels (art);
+
+  CHECK (memcmp (wanted.data, p->labels.data, 32 * sizeof (uint32_t)) == 0);
+  free (wanted.data);
+}
+
+static void
+changed_is (const Picture *p, int x, int y, int width, int height)
+{
+  const CeldRect *c = &p->painting.changed;
+
+  CHECK (c->width == width && (!width || (c->x == x && c->y == y && c->height == height)));
+}
+
+static void
+basins_change_by_themselves (void)
+{
+  static const char *const first[] = { "11112222", "11112222", "33333333", "33333333", NULL };
+  static const char *const second[] = { "11114444", "11114444", "33333333", "33333333", NULL };
+  Picture p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, NULL, 0);
+  looks_like (&p, first);
+  changed_is (&p, 0, 0, 8, 4);
+  paint (&p, 1, 4, 3, NULL, 0);
+  looks_like (&p, second);
+  changed_is (&p, 4, 0, 4, 2);
+  paint (&p, 1, 4, 3, NULL, 0);
+  changed_is (&p, 0, 0, 0, 0);
+  picture_close (&p);
+}
+
+static void
+patches_come_and_go (void)
+{
+  static const char *const patched[] = { "11555222", "11112222", "33333333", "33333333", NULL };
+  static const char *const moved[] = { "11112222", "11112222", "33663333", "33333333", NULL };
+  CeldPatch over[] = { { 0, 2, 5, 5 } }, below[] = { { 2, 2, 4, 6 } };
+  Picture   p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, NULL, 0);
+  paint (&p, 1, 2, 3, over, 1);
+  looks_like (&p, patched);
+  changed_is (&p, 2, 0, 3, 1);
+  paint (&p, 1, 2, 3, over, 1);
+  changed_is (&p, 0, 0, 0, 0);
+  paint (&p, 1, 2, 3, below, 1);
+  looks_like (&p, moved);
+  changed_is (&p, 2, 0, 3, 3);
+  picture_close (&p);
+}
+
+/* The later of two patches lies above; one that says what the basin says is none. */
+static void
+patches_are_tidied (void)
+{
+  static const char *const art[] = { "17882222", "11112222", "33333333", "33333333", NULL };
+  CeldPatch patches[] = { { 3, 0, 8, 3 }, { 0, 1, 4, 7 }, { 0, 2, 4, 8 } };
+  Picture   p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, patches, 3);
+  looks_like (&p, art);
+  CHECK (p.painting.patches.n == 2);
+  CHECK (p.painting.patches.item[0].label == 7 && p.painting.patches.item[0].x == 1 &&
+         p.painting.patches.item[0].end == 2);
+  CHECK (p.painting.patches.item[1].label == 8 && p.painting.patches.item[1].x == 2 &&
+         p.painting.patches.item[1].end == 4);
+  picture_close (&p);
+}
+
+/* A basin that takes the label which a patch over it had: those pixels stay what they are. */
+static void
+a_basin_may_take_over_its_patch (void)
+{
+  CeldPatch whole[] = { { 0, 4, 8, 5 }, { 1, 4, 8, 5 } }, edge[] = { { 0, 0, 1, 9 } };
+  Picture   p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, whole, 2);
+  paint (&p, 1, 2, 3, edge, 1);
+  changed_is (&p, 0, 0, 8, 2);
+  picture_close (&p);
+}
+
+static void
+labels_are_measured (void)
+{
+  CeldRegion  item[5] = { { .area = 77 } };
+  CeldPalette palette = { item, 5 };
+  CeldPatch   patches[] = { { 0, 2, 6, 4 }, { 1, 1, 2, 4 } };
+  Picture     p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, patches, 2);
+  CHECK (celd_painting_measure (&p.painting, &basins, &p.labels, &palette) == CELD_OK);
+  CHECK (item[0].area == 5 && item[1].area == 6 && item[2].area == 16 && item[3].area == 5 && item[4].area == 0);
+  CHECK (item[0].x == 1 && item[0].y == 0 && item[1].x == 6 && item[1].y == 1 && item[2].x == 3 && item[2].y == 3);
+  CHECK (item[3].x == 4 && item[3].y == 0 && item[4].x == -1 && item[4].y == -1);
+  picture_close (&p);
+}
+
+static void
+a_whole_picture_replaces (void)
+{
+  static const char *const art[] = { "11112222", "11192222", "33333333", "33333333", NULL };
+  CeldLabels whole = art_labels (art);
+  Picture    p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, NULL, 0);
+  p.painting.changed = (CeldRect) { 0 };
+  CHECK (celd_painting_replace (&p.painting, &basins, &whole, &p.labels) == CELD_OK);
+  looks_like (&p, art);
+  changed_is (&p, 3, 1, 1, 1);
+  paint (&p, 1, 2, 3, NULL, 0);
+  CHECK (CELD_AT (&p.labels, 3, 1) == 1);
+  picture_close (&p);
+  free (whole.data);
+}
+
+int
+main (void)
+{
+  RUN (basins_change_by_themselves);
+  RUN (patches_come_and_go);
+  RUN (patches_are_tidied);
+  RUN (a_basin_may_take_over_its_patch);
+  RUN (labels_are_measured);
+  RUN (a_whole_picture_replaces);
+  return DONE;
+}

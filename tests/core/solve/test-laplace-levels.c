@@ -1,0 +1,211 @@
+/* The coarse levels: aggregates respect walls and cells, weights are sums, levels become small.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "level-edges.h"
+#include "solve/laplace-private.h"
+
+enum { W = 150, H = 130 };
+
+/* Unit weights, a wall of weight `wall` right of column 70, all held weakly. */
+static CeldWeights
+walled (float wall)
+{
+  CeldWeights g = random_graph (W, H, 1);
+
+  for (int i = 0; i < W * H; i++)
+    {
+      g.east[i]  = i % W == W - 1 ? 0 : i % W == 70 ? wall : 1;
+      g.south[i] = i / W == H - 1 ? 0 : 1;
+    }
+  return g;
+}
+
+static void
+levels_of (CeldWeights graph, CeldLevels *levels)
+{
+  CHECK (celd_levels_new (&graph, NULL, levels) == CELD_OK);
+  celd_weights_clear (&graph);
+}
+
+static void
+no_aggregate_reaches_over_a_wall_or_its_cell (void)
+{
+  CeldWeights graph = walled (1e-3f), coarse;
+  uint32_t *node = NULL;
+  int      *first = malloc (W * H * sizeof *first);
+
+  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+  CHECK (coarse.width == W / 2 && coarse.height == H / 2 && coarse.n_extra == H / 2);
+  for (int c = 0; c < W * H; c++)
+    first[c] = -1;
+  for (int i = 0; i < W * H; i++)
+    {
+      int *f = &first[node[i]];
+
+      if (*f < 0)
+        *f = i;
+      CHECK (i % W / 2 == *f % W / 2 && i / W / 2 == *f / W / 2);
+      CHECK ((i % W > 70) == (*f % W > 70));
+    }
+  celd_weights_clear (&graph);
+  celd_weights_clear (&coarse);
+  free (node);
+  free (first);
+}
+
+/* A weak pixel between two strong halves of a cell hangs on one of them. */
+static void
+a_leaf_joins_nothing (void)
+{
+  CeldWeights graph = random_graph (4, 2, 1), coarse;
+  uint32_t *node = NULL;
+
+  for (int i = 0; i < 8; i++)
+    graph.east[i] = graph.south[i] = 0;
+  graph.east[0]  = 0.01f; /* 1 is weak */
+  graph.south[1] = 0.01f;
+  graph.east[1]  = 0.01f;
+  graph.south[0] = 0;
+  graph.east[5] = graph.east[2] = graph.south[2] = 1;
+  graph.east[4] = 0;
+  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+  CHECK (node[0] != node[5] && (node[1] == node[0] || node[1] == node[5] || node[1] != node[2]));
+  CHECK (node[4] == CELD_NO_NODE);
+  celd_weights_clear (&graph);
+  celd_weights_clear (&coarse);
+  free (node);
+}
+
+/* Nothing is lost or made up between the pixels and the levels: sums over what crosses aggregates. */
+static void
+weights_and_sinks_are_sums (void)
+{
+  static const float wall[] = { 0, 0.25f, 1 };
+
+  for (size_t k = 0; k < 4; k++)
+    {
+      CeldWeights  graph = k < 3 ? walled (wall[k]) : random_graph (W, H, 3), coarse;
+      CeldLevels levels;
+      uint32_t  *node = NULL;
+      double     sink = 0, crossing = 0, edges = 0;
+      LevelEdge *edge;
+
+      CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+      for (int i = 0; i < W * H; i++)
+        {
+          sink += (double) graph.sink[i];
+          if (i % W + 1 < W && node[i] != node[i + 1])
+            crossing += (double) graph.east[i];
+          if (i + W < W * H && node[i] != node[i + W])
+            crossing += (double) graph.south[i];
+        }
+      levels_of (graph, &levels);
+      edge = level_edges (&levels.level[1]);
+      for (const LevelEdge *e = edge; e->weight > 0; e++)
+        edges += e->weight;
+      for (uint32_t i = 0; i < levels.level[1].n; i++)
+        sink -= (double) levels.level[1].sink[i];
+      NEAR (sink, 0, 1e-5);
+      NEAR (edges, crossing, 1e-2);
+      for (uint32_t i = 0; i < levels.level[1].n_extra; i++)
+        for (uint32_t e = levels.level[1].start[i]; e < levels.level[1].start[i + 1]; e++)
+          CHECK ((levels.level[1].neighbour[e] > 2 * levels.level[1].plane + i) == (e >= levels.level[1].middle[i]));
+      free (edge);
+      free (node);
+      celd_weights_clear (&coarse);
+      celd_levels_clear (&levels);
+    }
+}
+
+/* Every edge of the pixels is in its place, and the diagonal is the sum of a node's edges and sink. */
+static void
+the_layout_keeps_the_graph (void)
+{
+  CeldWeights  graph = random_graph (37, 23, 8);
+  CeldLevels levels;
+  float     *east = malloc (37 * 23 * sizeof *east), *south = malloc (37 * 23 * sizeof *south);
+  double    *whole;
+  LevelEdge *edge;
+  uint32_t   found = 0;
+
+  memcpy (east, graph.east, 37 * 23 * sizeof *east);
+  memcpy (south, graph.south, 37 * 23 * sizeof *south);
+  levels_of (graph, &levels);
+  edge  = level_edges (&levels.level[0]);
+  whole = calloc (levels.level[0].n, sizeof *whole);
+  for (const LevelEdge *e = edge; e->weight > 0; e++)
+    {
+      whole[e->from] += e->weight;
+      whole[e->to] += e->weight;
+      found++;
+    }
+  CHECK (found == 36 * 23 + 37 * 22);
+  for (int y = 0; y < 23; y++)
+    for (int x = 0; x < 37; x++)
+      {
+        size_t place = celd_level_place (&levels.level[0], x, y);
+        int    i = y * 37 + x;
+        double sum = (double) (x ? east[i - 1] : 0) + (double) (x < 36 ? east[i] : 0) +
+                     (double) (y ? south[i - 37] : 0) + (double) (y < 22 ? south[i] : 0);
+
+        NEAR (whole[place], sum, 1e-5);
+        NEAR ((double) levels.level[0].inverse[place] * (sum + 1e-3), 1, 1e-5);
+      }
+  free (east);
+  free (south);
+  free (whole);
+  free (edge);
+  celd_levels_clear (&levels);
+}
+
+static uint32_t
+count_nodes (const CeldLevel *level)
+{
+  uint32_t n = 0;
+
+  for (uint32_t i = 0; i < level->n; i++)
+    n += level->inverse[i] > 0;
+  return n;
+}
+
+static void
+levels_become_small_quickly (void)
+{
+  CeldLevels levels;
+
+  levels_of (walled (0), &levels);
+  CHECK (levels.n >= 3);
+  for (int l = 1; l < levels.n; l++)
+    CHECK (count_nodes (&levels.level[l]) <= 0.6 * count_nodes (&levels.level[l - 1]));
+  CHECK (levels.bottom.n == count_nodes (&levels.level[levels.n - 1]) && levels.bottom.n <= 150);
+  celd_levels_clear (&levels);
+}
+
+static void
+pixels_without_an_edge_are_left_out (void)
+{
+  CeldWeights  graph = random_graph (W, H, 1);
+  CeldLevels levels;
+
+  memset (graph.east, 0, W * H * sizeof (float));
+  memset (graph.south, 0, W * H * sizeof (float));
+  levels_of (graph, &levels);
+  CHECK (levels.n == 2 && levels.bottom.n == 0);
+  for (int i = 0; i < W * H; i += 11)
+    if ((i % W + i / W) % 2 == 0)
+      CHECK (levels.level[0].coarser[celd_level_place (&levels.level[0], i % W, i / W)] == 0);
+  celd_levels_clear (&levels);
+}
+
+int
+main (void)
+{
+  RUN (no_aggregate_reaches_over_a_wall_or_its_cell);
+  RUN (a_leaf_joins_nothing);
+  RUN (weights_and_sinks_are_sums);
+  RUN (the_layout_keeps_the_graph);
+  RUN (levels_become_small_quickly);
+  RUN (pixels_without_an_edge_are_left_out);
+  return DONE;
+}

@@ -1,0 +1,135 @@
+/* Pairs of nodes in the Laplacian solver's graphs.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "base/unions.h"
+#include "solve/laplace-graph.h"
+#include "solve/laplace-private.h"
+
+#include <math.h>
+
+/* A row of n nodes with these edges to the east; end with celd_weights_clear. */
+static CeldWeights
+row_of (int n, const float *edge)
+{
+  CeldWeights g = { .width = n, .height = 1 };
+
+  g.east  = celd_alloc0 ((size_t) n, sizeof *g.east);
+  g.south = celd_alloc0 ((size_t) n, sizeof *g.south);
+  g.sink  = celd_alloc0 ((size_t) n, sizeof *g.sink);
+  for (int i = 0; i + 1 < n; i++)
+    g.east[i] = edge[i];
+  return g;
+}
+
+static int
+sets (uint32_t *parent, int n)
+{
+  int count = 0;
+
+  for (int i = 0; i < n; i++)
+    count += celd_root (parent, (uint32_t) i) == (uint32_t) i;
+  return count;
+}
+
+static void
+a_chain_halves (void)
+{
+  float       edge[9] = { 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+  CeldWeights g = row_of (10, edge);
+  uint32_t    parent[10];
+
+  CHECK (celd_weights_pair (&g, 6, parent) == CELD_OK);
+  CHECK (sets (parent, 10) == 5);
+  for (uint32_t i = 0; i < 10; i++)
+    CHECK (celd_root (parent, i) == i / 2 * 2);
+  celd_weights_clear (&g);
+}
+
+/* 2 - 3 is weak beside the first pair, and strong beside all else that 2 and 3 have. */
+static void
+weights_count_beside_what_a_node_has (void)
+{
+  float       edge[5] = { 1, 1e-6f, 1e-3f, 1e-6f, 1 };
+  CeldWeights g = row_of (6, edge);
+  uint32_t    parent[6];
+
+  CHECK (celd_weights_pair (&g, 4, parent) == CELD_OK);
+  for (uint32_t i = 0; i < 6; i++)
+    CHECK (celd_root (parent, i) == i / 2 * 2);
+  celd_weights_clear (&g);
+}
+
+/* Extra nodes 1 .. 8 that only node 0 holds all hang on it. */
+static void
+leaves_hang_on_a_hub (void)
+{
+  CeldWeights g = row_of (1, NULL);
+  uint32_t    parent[9];
+
+  g.n_extra   = 8;
+  g.start     = celd_alloc0 (9, sizeof *g.start);
+  g.neighbour = celd_alloc0 (8, sizeof *g.neighbour);
+  g.weight    = celd_alloc0 (8, sizeof *g.weight);
+  celd_free (g.sink);
+  g.sink = celd_alloc0 (9, sizeof *g.sink);
+  for (uint32_t k = 0; k < 8; k++)
+    {
+      g.start[k + 1] = k + 1;
+      g.weight[k]    = k % 2 ? 1e-6f : 1;
+    }
+  CHECK (celd_weights_pair (&g, 5, parent) == CELD_OK);
+  CHECK (sets (parent, 9) == 1);
+  celd_weights_clear (&g);
+}
+
+/* Random weights over six orders of magnitude: aggregates are of a piece, no more than asked for, and never join what
+ * has no edge. */
+static void
+aggregates_are_of_a_piece (void)
+{
+  enum { N = 200 };
+
+  uint32_t seed = 7;
+
+  for (int round = 0; round < 200; round++)
+    {
+      float       edge[N];
+      uint32_t    parent[N], linked = 0;
+      CeldWeights g;
+
+      for (int i = 0; i < N; i++)
+        edge[i] = check_random (&seed, 8) ? powf (10, -(float) check_random (&seed, 7)) : 0;
+      g = row_of (N, edge);
+      for (int i = 0; i < N; i++)
+        {
+          g.sink[i] = check_random (&seed, 4) ? 0 : powf (10, -(float) check_random (&seed, 7));
+          linked += g.east[i] > 0 || (i && g.east[i - 1] > 0);
+        }
+      CHECK (celd_weights_pair (&g, linked * 6 / 10, parent) == CELD_OK);
+
+      uint32_t count = 0;
+
+      for (uint32_t i = 0; i < N; i++)
+        {
+          uint32_t root = celd_root (parent, i);
+
+          for (uint32_t j = root; j < i; j++) /* a row: all between are joined, too */
+            CHECK (celd_root (parent, j) == root && g.east[j] > 0);
+          count += root == i && (g.east[i] > 0 || (i && g.east[i - 1] > 0));
+        }
+      CHECK (count <= linked * 6 / 10);
+      celd_weights_clear (&g);
+    }
+}
+
+int
+main (void)
+{
+  RUN (a_chain_halves);
+  RUN (weights_count_beside_what_a_node_has);
+  RUN (leaves_hang_on_a_hub);
+  RUN (aggregates_are_of_a_piece);
+  return DONE;
+}
