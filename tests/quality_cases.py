@@ -7,6 +7,10 @@ import os
 VARIANTS = ['gappy', 'wide', 'crop', 'pencil']
 KINDS = ['clean', *VARIANTS, 'sloppy']
 
+# A few of every kind that are quickly made, for `tests/run` and `tests/same --quick`.
+QUICK = ['bee', 'campfire', 'folders', 'monkey', 'people', 'bee-gappy', 'monkey-wide', 'house-crop',
+         'caterpillar-pencil', 'armadillo-sloppy', 'frog-sloppy', 'people-sloppy']
+
 
 def cases_in(folder, kinds):
     """(name, kind, folder) of every case of these kinds; a sloppy one has the folder of its clean drawing."""
