@@ -80,7 +80,7 @@ render (CeldOp *op)
 
   return celd_op_read_plane (op, "aux", &levels) &&
          celd_op_new_plane (op, &change) &&
-         celd_op_try (op, celd_enhance (&levels, &s, &op->run, &change)) &&
+         celd_op_try (op, celd_enhance (&levels, &s, &op->host, &change)) &&
          write_result (op, &levels, &change);
 }
 

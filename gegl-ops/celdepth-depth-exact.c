@@ -89,7 +89,7 @@ render (CeldOp *op)
       !celd_op_set_layer (op, "aux3", celd_session_set_contours))
     return FALSE;
   session = op->operation->session;
-  if (!celd_op_try (op, celd_session_exact (session, &op->run, &depth, NULL)) ||
+  if (!celd_op_try (op, celd_session_exact (session, &op->host, &depth, NULL)) ||
       !celd_op_write (op, depth.data))
     return FALSE;
   exact           = celd_session_exact_report (session);

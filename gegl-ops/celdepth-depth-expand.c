@@ -142,7 +142,7 @@ render_layer (CeldOp *op, const Inputs *in)
   gboolean        good = celd_op_read_colours (op, "aux", &art) &&
                          celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, or_null (&in->regions),
                                                                  or_null (&in->corrections), &art, o->method,
-                                                                 CELD_STORE_FLOAT, o->complete, &op->run, &layers)) &&
+                                                                 CELD_STORE_FLOAT, o->complete, &op->host, &layers)) &&
                          write_layer (op, layers, (size_t) o->layer);
 
   celd_layers_free (layers);
@@ -179,7 +179,7 @@ render_matte (CeldOp *op, Inputs *in)
 
   if (!celd_op_new_plane (op, &share) || !celd_op_new_colours (op, &matte) ||
       !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, or_null (&in->corrections), o->method,
-                                              &op->run, &in->levels, owner, &share)) ||
+                                              &op->host, &in->levels, owner, &share)) ||
       !colour_owners (op, owner, &in->levels, &matte))
     return FALSE;
   for (gsize p = 0; p < (gsize) share.width * (gsize) share.height; p++)
@@ -195,7 +195,7 @@ render_levels (CeldOp *op, Inputs *in)
   GeglProperties *o = GEGL_PROPERTIES (op->operation);
 
   return celd_op_try (op, celd_expand_levels (&in->ink, &in->levels, or_null (&in->regions),
-                                              or_null (&in->corrections), o->method, &op->run, &in->levels)) &&
+                                              or_null (&in->corrections), o->method, &op->host, &in->levels)) &&
          celd_op_write (op, in->levels.data);
 }
 

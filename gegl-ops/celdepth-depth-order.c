@@ -123,7 +123,7 @@ render (CeldOp *op)
          read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
          celd_op_read_relations (op, o->relations, o->arrow_path, "aux", o->arrow_style) &&
          add_suggestions (op, &s, &labels, drawn ? &ink : NULL) &&
-         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->run,
+         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->host,
                                       &op->order, &op->problems)) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
          write_levels (op, &s, &labels);

@@ -65,7 +65,7 @@ render (CeldOp *op)
   return celd_op_read_ink (op, "aux", o->ink, &ink) &&
          celd_op_read_plane (op, "input", &levels) &&
          read_anchors (op, &s, &mask, &anchors) &&
-         celd_op_try (op, celd_smooth (&ink, &levels, anchors, &s, &op->run, &levels, &solve)) &&
+         celd_op_try (op, celd_smooth (&ink, &levels, anchors, &s, &op->host, &levels, &solve)) &&
          celd_op_tell_solve (op, &solve) &&
          celd_op_write (op, levels.data);
 }

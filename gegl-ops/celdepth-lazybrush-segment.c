@@ -67,7 +67,7 @@ write_closures (CeldOp *op)
   CeldPaint paint;
 
   return celd_op_new_paint (op, &paint) &&
-         celd_op_try (op, celd_session_paint_closures (op->operation->session, &op->run, &paint)) &&
+         celd_op_try (op, celd_session_paint_closures (op->operation->session, &op->host, &paint)) &&
          celd_op_write (op, paint.data);
 }
 
@@ -76,7 +76,7 @@ write_problems (CeldOp *op)
 {
   CeldLabels labels;
 
-  return celd_op_try (op, celd_session_labels (op->operation->session, &op->run, &labels, NULL)) &&
+  return celd_op_try (op, celd_session_labels (op->operation->session, &op->host, &labels, NULL)) &&
          celd_op_write_problems (op);
 }
 

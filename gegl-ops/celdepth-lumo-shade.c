@@ -145,7 +145,7 @@ write_occlusion (CeldOp *op, const CeldSettings *s, const CeldPlane *levels)
   CeldPlane occlusion;
 
   return celd_op_new_plane (op, &occlusion) &&
-         celd_op_try (op, celd_occlusion (levels, s, &op->run, &occlusion)) &&
+         celd_op_try (op, celd_occlusion (levels, s, &op->host, &occlusion)) &&
          celd_op_write (op, occlusion.data);
 }
 
@@ -168,7 +168,7 @@ render (CeldOp *op)
          (!hinted || celd_op_read_paint (op, "aux4", &hints)) &&
          celd_op_new_vectors (op, &normals) &&
          celd_op_try (op, celd_normals_hinted (&ink, &levels, deep ? &depth : NULL, hinted ? &hints : NULL, &s,
-                                               &op->run, &normals)) &&
+                                               &op->host, &normals)) &&
          write_result (op, &s, &ink, &normals);
 }
 

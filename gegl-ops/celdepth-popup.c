@@ -99,11 +99,11 @@ settings (GeglProperties *o)
 }
 
 static gboolean
-write_plane (CeldOp *op, CeldStatus (*ask) (CeldSession *, const CeldRun *, CeldPlane *, CeldRect *))
+write_plane (CeldOp *op, CeldStatus (*ask) (CeldSession *, const CeldHost *, CeldPlane *, CeldRect *))
 {
   CeldPlane plane;
 
-  return celd_op_try (op, ask (op->operation->session, &op->run, &plane, NULL)) &&
+  return celd_op_try (op, ask (op->operation->session, &op->host, &plane, NULL)) &&
          celd_op_write (op, plane.data);
 }
 
@@ -112,7 +112,7 @@ write_normals (CeldOp *op)
 {
   CeldVectors normals;
 
-  return celd_op_try (op, celd_session_normals (op->operation->session, &op->run, &normals, NULL)) &&
+  return celd_op_try (op, celd_session_normals (op->operation->session, &op->host, &normals, NULL)) &&
          celd_op_write_normals (op, &normals, GEGL_PROPERTIES (op->operation)->directx);
 }
 
@@ -122,7 +122,7 @@ write_problems (CeldOp *op)
 {
   const CeldOrder *order;
 
-  return celd_op_try (op, celd_session_order (op->operation->session, &op->run, &order)) &&
+  return celd_op_try (op, celd_session_order (op->operation->session, &op->host, &order)) &&
          celd_op_write_problems (op);
 }
 
@@ -132,7 +132,7 @@ write_suggestions (CeldOp *op)
   CeldPaint paint;
 
   return celd_op_new_paint (op, &paint) &&
-         celd_op_try (op, celd_session_paint_suggestions (op->operation->session, &op->run, &paint)) &&
+         celd_op_try (op, celd_session_paint_suggestions (op->operation->session, &op->host, &paint)) &&
          celd_op_write (op, paint.data);
 }
 

@@ -95,7 +95,7 @@ render (CeldOp *op)
   good = celd_op_read_ink (op, "aux", o->ink, &ink) &&
          celd_op_read_plane (op, "input", &levels) &&
          (!celd_op_has (op, "aux2") || celd_op_read_plane (op, "aux2", &depth)) &&
-         celd_op_try (op, celd_relief (&ink, &levels, depth.data ? &depth : NULL, &s, &op->run, &relief)) &&
+         celd_op_try (op, celd_relief (&ink, &levels, depth.data ? &depth : NULL, &s, &op->host, &relief)) &&
          write_heights (op, &relief);
   celd_relief_clear (&relief);
   return good;

@@ -92,9 +92,9 @@ make_scene (CeldOp *op, const CeldSettings *s, const CeldColours *art, const Cel
   if (!celd_op_read_ink (op, celd_op_has (op, "aux3") ? "aux3" : "input", o->ink, &ink))
     return FALSE;
   if (!celd_op_has (op, "aux2"))
-    return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, s, &op->run, scene));
+    return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, s, &op->host, scene));
   return celd_op_read_plane (op, "aux2", &levels) &&
-         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, o->expansion, &op->run, scene));
+         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, o->expansion, &op->host, scene));
 }
 
 static gboolean

@@ -51,7 +51,7 @@ render (CeldOp *op)
 
   return celd_op_read_drawing (op, "input", &drawing) &&
          celd_op_read_paint (op, "aux", &contours) &&
-         celd_op_try (op, celd_contours_bake (&drawing, &contours, o->result, o->ink, &op->run, &drawing)) &&
+         celd_op_try (op, celd_contours_bake (&drawing, &contours, o->result, o->ink, &op->host, &drawing)) &&
          celd_op_write_drawing (op, &drawing);
 }
 

@@ -348,8 +348,8 @@ render_or_pass (CeldOperation *self, GeglOperationContext *context)
     .message   = g_string_new (NULL),
   };
 
-  op.run   = (CeldRun) { report_progress, distribute, &op };
-  op.quiet = (CeldRun) { NULL, distribute, &op };
+  op.host   = (CeldHost) { report_progress, distribute, &op };
+  op.quiet = (CeldHost) { NULL, distribute, &op };
   if (check_pads (&op) && GET_CLASS (self)->render (&op))
     report_progress (&op, 1);
   else

@@ -69,8 +69,8 @@ struct _CeldOp
   CeldOperation        *operation;
   GeglOperationContext *context;
   GeglRectangle         picture;   /* what is read from every pad, and written */
-  CeldRun               run;       /* the host's progress and threads: for the longest step */
-  CeldRun               quiet;     /* threads only: for the others */
+  CeldHost              host;       /* the host's progress and threads: for the longest step */
+  CeldHost              quiet;     /* threads only: for the others */
 
   CeldPalette           palette;
   CeldRelations         relations;

@@ -60,7 +60,7 @@ celd_op_write_labels (CeldOp *op)
   CeldSession *session = op->operation->session;
   CeldLabels   labels;
 
-  return celd_op_try (op, celd_session_labels (session, &op->run, &labels, NULL)) &&
+  return celd_op_try (op, celd_session_labels (session, &op->host, &labels, NULL)) &&
          celd_op_write_paint (op, &labels, celd_session_palette (session));
 }
 

@@ -9,17 +9,17 @@
 #include "ownership/ownership.h"
 
 static CeldStatus
-order_step (const CeldRun *run, Results *r)
+order_step (const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels labels = labels_of (&label_pixels);
 
-  return celd_order (&labels, &label_palette, &scene_relations, &ink, &scene_settings, run, &r->order, &r->problems);
+  return celd_order (&labels, &label_palette, &scene_relations, &ink, &scene_settings, host, &r->order, &r->problems);
 }
 
 /* A knot of three labels and one of twenty, which is too large to be solved exactly. */
 static CeldStatus
-knots_step (const CeldRun *run, Results *r)
+knots_step (const CeldHost *host, Results *r)
 {
   enum { SMALL = 3, N = 23 };
   uint32_t      pixel[N];
@@ -43,21 +43,21 @@ knots_step (const CeldRun *run, Results *r)
           item[2 * k + i].farther.x = first + (k - first + 1 + 7 * i) % n;
         }
     }
-  return celd_order (&labels, &palette, &circles, NULL, &weakest, run, &r->order, &r->problems);
+  return celd_order (&labels, &palette, &circles, NULL, &weakest, host, &r->order, &r->problems);
 }
 
 /* From the lines and from a picture of depth, and beside the scene_relations; some of it painted. */
 static CeldStatus
-suggest_step (const CeldRun *run, Results *r)
+suggest_step (const CeldHost *host, Results *r)
 {
   CeldLabels    labels = labels_of (&label_pixels);
   CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (&drawing_pixels);
   CeldPaint     paint = paint_of (r->pixels);
   CeldRelations suggested = { 0 }, both = { 0 };
   CeldSettings  gaps = scene_settings;
-  CeldPart      parts[3];
-  CeldRun       first = celd_run_part (&parts[0], run, 0, 0.4), second = celd_run_part (&parts[1], run, 0.4, 0.8);
-  CeldRun       third = celd_run_part (&parts[2], run, 0.8, 1);
+  CeldHostPart      parts[3];
+  CeldHost      first = celd_host_part (&parts[0], host, 0, 0.4), second = celd_host_part (&parts[1], host, 0.4, 0.8);
+  CeldHost      third = celd_host_part (&parts[2], host, 0.8, 1);
   CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &first, &suggested);
 
   gaps.suggest = CELD_SUGGEST_FILL_GAPS;
@@ -79,7 +79,7 @@ suggest_step (const CeldRun *run, Results *r)
 
 /* The two sheets before each other: one of them is split. */
 static CeldStatus
-split_step (const CeldRun *run, Results *r)
+split_step (const CeldHost *host, Results *r)
 {
   CeldPlane     ink = plane_of (&ink_pixels), bent = plane_of (r->pixels);
   CeldLabels    known = labels_of (&label_pixels), labels = { 0 };
@@ -94,7 +94,7 @@ split_step (const CeldRun *run, Results *r)
   for (int y = 0; y < H && status == CELD_OK; y++)
     memcpy (&CELD_AT (&labels, 0, y), &CELD_AT (&known, 0, y), W * sizeof (uint32_t));
   if (status == CELD_OK)
-    status = celd_cycles_split (&circle, &ink, &scene_settings, run, &labels, &r->palette, &splits);
+    status = celd_cycles_split (&circle, &ink, &scene_settings, host, &labels, &r->palette, &splits);
   if (status == CELD_OK && splits.n != 1)
     status = CELD_BAD_VALUE; /* the test would say nothing */
   if (status == CELD_OK)
@@ -108,35 +108,35 @@ split_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-expand_step (const CeldRun *run, Results *r)
+expand_step (const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels ranks = labels_of (&label_pixels), expanded = labels_of (r->pixels);
 
-  return celd_expand (&ink, &ranks, run, &expanded);
+  return celd_expand (&ink, &ranks, host, &expanded);
 }
 
 static CeldStatus
-expand_levels_step (const CeldRun *run, Results *r)
+expand_levels_step (const CeldHost *host, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), expanded = plane_of (r->pixels);
 
-  return celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, run, &expanded);
+  return celd_expand_levels (&ink, &levels, NULL, NULL, CELD_EXPANSION_OUTLINES, host, &expanded);
 }
 
 static CeldStatus
-matte_step (const CeldRun *run, Results *r)
+matte_step (const CeldHost *host, Results *r)
 {
   static float level[W * H];
   CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), share = plane_of (r->pixels);
   CeldLabels   regions = labels_of (&label_pixels);
 
-  return celd_matte_of_levels (&ink, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, run,
+  return celd_matte_of_levels (&ink, &levels, &regions, &regions, CELD_EXPANSION_OUTLINES, host,
                                &(CeldPlane) { W, H, W, level }, NULL, &share);
 }
 
 static CeldStatus
-own_step (const CeldRun *run, Results *r)
+own_step (const CeldHost *host, Results *r)
 {
   CeldPlane      ink = plane_of (&ink_pixels);
   CeldLabels     labels = labels_of (&label_pixels), owner = labels_of (r->pixels);
@@ -145,7 +145,7 @@ own_step (const CeldRun *run, Results *r)
   CeldStatus     status = celd_ownership_new (W, H, &own);
 
   if (status == CELD_OK)
-    status = celd_own (&ink, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, run, &own);
+    status = celd_own (&ink, &labels, level, 8, NULL, CELD_EXPANSION_OUTLINES, host, &own);
   for (int p = 0; status == CELD_OK && p < W * H; p++)
     owner.data[p] = own.owner.data[p];
   celd_ownership_clear (&own);
@@ -154,10 +154,10 @@ own_step (const CeldRun *run, Results *r)
 
 /* From the beginning, and after an edit of everything at once. */
 static CeldStatus
-owners_step (const CeldRun *run, Results *r)
+owners_step (const CeldHost *host, Results *r)
 {
-  CeldPart        part[2];
-  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart        part[2];
+  CeldHost        first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldPlane       ink = plane_of (&ink_pixels);
   CeldLabels      labels = labels_of (&label_pixels), all = { 0 };
   uint32_t        level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
@@ -186,16 +186,16 @@ owners_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-smooth_step (const CeldRun *run, Results *r)
+smooth_step (const CeldHost *host, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), depth = plane_of (r->pixels);
 
-  return celd_smooth (&ink, &levels, NULL, &scene_settings, run, &depth, NULL);
+  return celd_smooth (&ink, &levels, NULL, &scene_settings, host, &depth, NULL);
 }
 
 /* The relations of the scene, and one between points off every scribble. */
 static CeldStatus
-exact_depth_step (const CeldRun *run, Results *r)
+exact_depth_step (const CeldHost *host, Results *r)
 {
   CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
   CeldLabels    seeds = labels_of (&seed_pixels);
@@ -207,14 +207,14 @@ exact_depth_step (const CeldRun *run, Results *r)
   for (size_t i = 0; i < scene_relations.n && status == CELD_OK; i++)
     status = celd_relation_add (&all, scene_relations.item[i]);
   if (status == CELD_OK)
-    status = celd_depth_exact (&ink, &seeds, &seed_palette, &all, &apart, run, &depth, NULL, &r->problems);
+    status = celd_depth_exact (&ink, &seeds, &seed_palette, &all, &apart, host, &depth, NULL, &r->problems);
   celd_relations_clear (&all);
   return status;
 }
 
 /* A program that is kept: one more point, and a scribble more. */
 static CeldStatus
-program_step (const CeldRun *run, Results *r)
+program_step (const CeldHost *host, Results *r)
 {
   CeldPlane     ink = plane_of (&ink_pixels), depth = plane_of (r->pixels);
   CeldLabels    seeds = labels_of (&seed_pixels);
@@ -223,8 +223,8 @@ program_step (const CeldRun *run, Results *r)
   CeldExact     exact = { 0 };
   CeldStatus    status = program ? celd_relations_parse ("10,30 > 50,35", &one, NULL) : CELD_NO_MEMORY;
   CeldPlane     scratch = { W, H, W, celd_alloc (W * H, sizeof (float)) };
-  CeldPart      part[2];
-  CeldRun       first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart      part[2];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
 
   if (status == CELD_OK)
     status = scratch.data ? celd_program_set_ink (program, &ink, &scene_settings, NULL) : CELD_NO_MEMORY;

@@ -9,117 +9,117 @@
 #include "segment/patches.h"
 
 static CeldStatus
-ink_step (const CeldRun *run, Results *r)
+ink_step (const CeldHost *host, Results *r)
 {
   CeldDrawing drawing = drawing_of (&drawing_pixels);
   CeldPlane   ink = plane_of (r->pixels);
 
-  return celd_ink (&drawing, CELD_INK_AUTO, run, &ink);
+  return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
 static CeldStatus
-contours_step (const CeldRun *run, Results *r)
+contours_step (const CeldHost *host, Results *r)
 {
   CeldDrawing drawing = drawing_of (&drawing_pixels), baked = drawing_of (r->pixels);
   CeldPaint   contours = paint_of (&contour_pixels);
 
-  return celd_contours_bake (&drawing, &contours, CELD_FOR_DEPTH, CELD_INK_AUTO, run, &baked);
+  return celd_contours_bake (&drawing, &contours, CELD_FOR_DEPTH, CELD_INK_AUTO, host, &baked);
 }
 
 static CeldStatus
-scribbles_step (const CeldRun *run, Results *r)
+scribbles_step (const CeldHost *host, Results *r)
 {
   CeldPaint  scribbles = paint_of (&scribble_pixels);
   CeldLabels seeds = labels_of (r->pixels);
 
-  return celd_scribbles_read (&scribbles, &scene_settings, run, &seeds, &r->palette);
+  return celd_scribbles_read (&scribbles, &scene_settings, host, &seeds, &r->palette);
 }
 
 static CeldStatus
-lossy_step (const CeldRun *run, Results *r)
+lossy_step (const CeldHost *host, Results *r)
 {
   CeldPaint  scribbles = paint_of (&lossy_pixels);
   CeldLabels seeds = labels_of (r->pixels);
 
-  return celd_scribbles_read (&scribbles, &scene_settings, run, &seeds, &r->palette);
+  return celd_scribbles_read (&scribbles, &scene_settings, host, &seeds, &r->palette);
 }
 
 static CeldStatus
-relations_step (const CeldRun *run, Results *r)
+relations_step (const CeldHost *host, Results *r)
 {
-  (void) run;
+  (void) host;
   return celd_relations_parse ("14,30 > 40,35 @2; #2040e0 > #e02020; 1,1 < 14,30; #e02020 = 14,14 !anchor\n"
                                "3,3 < 4,30 < 40,30; 5,5 = 6,6; 7,7 = 8,8; 9,9 = 10,10", &r->relations, NULL);
 }
 
 static CeldStatus
-path_step (const CeldRun *run, Results *r)
+path_step (const CeldHost *host, Results *r)
 {
-  (void) run;
+  (void) host;
   return celd_arrow_path_parse ("M14,30 40,35 M1 1h13v29m3 3q9-9 1 27z l5 5M5 5 6 6M7 7 8 8M9 9 10 10M1 1 2 2M3 3 4 4",
                                 &r->relations, NULL);
 }
 
 static CeldStatus
-arrows_step (const CeldRun *run, Results *r)
+arrows_step (const CeldHost *host, Results *r)
 {
   CeldPaint arrows = paint_of (&arrow_pixels);
 
-  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, host, &r->relations, &r->problems);
 }
 
 static CeldStatus
-crossing_step (const CeldRun *run, Results *r)
+crossing_step (const CeldHost *host, Results *r)
 {
   CeldPaint arrows = paint_of (&crossing_pixels);
 
-  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, host, &r->relations, &r->problems);
 }
 
 static CeldStatus
-coloured_step (const CeldRun *run, Results *r)
+coloured_step (const CeldHost *host, Results *r)
 {
   CeldPaint arrows = paint_of (&colour_pixels);
 
-  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, run, &r->relations, &r->problems);
+  return celd_arrows_read (&arrows, CELD_ARROW_HEAD, host, &r->relations, &r->problems);
 }
 
 static CeldStatus
-segment_step (const CeldRun *run, Results *r)
+segment_step (const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
 
-  return celd_segment (&ink, &seeds, &scene_relations, &scene_settings, run, &labels, &r->palette, &r->problems);
+  return celd_segment (&ink, &seeds, &scene_relations, &scene_settings, host, &labels, &r->palette, &r->problems);
 }
 
 /* The same paint as a flat colouring. */
 static CeldStatus
-flats_step (const CeldRun *run, Results *r)
+flats_step (const CeldHost *host, Results *r)
 {
   CeldPlane    ink = plane_of (&ink_pixels);
   CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
   CeldSettings flats = scene_settings;
 
   flats.flats = true;
-  return celd_segment (&ink, &seeds, &scene_relations, &flats, run, &labels, &r->palette, &r->problems);
+  return celd_segment (&ink, &seeds, &scene_relations, &flats, host, &labels, &r->palette, &r->problems);
 }
 
 static CeldStatus
-walker_step (const CeldRun *run, Results *r)
+walker_step (const CeldHost *host, Results *r)
 {
   CeldPlane    ink = plane_of (&ink_pixels);
   CeldLabels   seeds = labels_of (&seed_pixels), labels = labels_of (r->pixels);
   CeldSettings walker = scene_settings;
 
   walker.method = CELD_METHOD_WALKER;
-  return celd_segment (&ink, &seeds, &scene_relations, &walker, run, &labels, &r->palette, &r->problems);
+  return celd_segment (&ink, &seeds, &scene_relations, &walker, host, &labels, &r->palette, &r->problems);
 }
 
 /* An empty page of one label, and two hard bars of another close to each other: the window is large enough to be cut in
  * blocks first, and the border between the bars is looked at again. */
 static CeldStatus
-windows_step (const CeldRun *run, Results *r)
+windows_step (const CeldHost *host, Results *r)
 {
   static float   page[4 * W * H];
   CeldPlane      ink = { 2 * W, 2 * H, 2 * W, page };
@@ -146,7 +146,7 @@ windows_step (const CeldRun *run, Results *r)
   for (int k = 0; k < 2 && status == CELD_OK; k++)
     status = celd_canvas_add (&canvas, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &label[k]);
   if (status == CELD_OK && basins.n == 1)
-    status = celd_windows_solve (&canvas, label, run, &patches);
+    status = celd_windows_solve (&canvas, label, host, &patches);
   if (status == CELD_OK && !patches.n)
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   celd_basins_clear (&basins);
@@ -158,7 +158,7 @@ windows_step (const CeldRun *run, Results *r)
 
 /* A line with a gap, between basins above it and below. */
 static CeldStatus
-closures_step (const CeldRun *run, Results *r)
+closures_step (const CeldHost *host, Results *r)
 {
   static float    page[4 * W * H];
   static uint32_t painted[4 * W * H];
@@ -189,7 +189,7 @@ closures_step (const CeldRun *run, Results *r)
   for (int p = 0; p < 4 * W * H && status == CELD_OK; p++)
     painted[p] = label[celd_basin_at (&basins, p % (2 * W), p / (2 * W))];
   if (status == CELD_OK)
-    status = celd_closures_find (&canvas, label, &labels, &windows, run, &closures, &patches);
+    status = celd_closures_find (&canvas, label, &labels, &windows, host, &closures, &patches);
   if (status == CELD_OK && (!closures.n || !patches.n))
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   celd_basins_clear (&basins);
@@ -201,14 +201,14 @@ closures_step (const CeldRun *run, Results *r)
 
 /* A wall of cells is broken in one place: most of the basins are kept. */
 static CeldStatus
-basins_step (const CeldRun *run, Results *r)
+basins_step (const CeldHost *host, Results *r)
 {
   static float page[16 * W * H];
   CeldPlane    ink = { 4 * W, 4 * H, 4 * W, page };
   CeldBasins   basins = { 0 };
   CeldRect     changed = { 58, 70, 6, 4 };
-  CeldPart     parts[2];
-  CeldRun      building = celd_run_part (&parts[0], run, 0, 0.9), renewing = celd_run_part (&parts[1], run, 0.9, 1);
+  CeldHostPart     parts[2];
+  CeldHost     building = celd_host_part (&parts[0], host, 0, 0.9), renewing = celd_host_part (&parts[1], host, 0.9, 1);
   CeldStatus   status;
 
   (void) r;
@@ -226,30 +226,30 @@ basins_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-separate_step (const CeldRun *run, Results *r)
+separate_step (const CeldHost *host, Results *r)
 {
   CeldLabels labels = labels_of (r->pixels);
 
-  return celd_separate (run, &labels, &r->palette);
+  return celd_separate (host, &labels, &r->palette);
 }
 
 static CeldStatus
-labels_step (const CeldRun *run, Results *r)
+labels_step (const CeldHost *host, Results *r)
 {
   CeldPaint  scribbles = paint_of (&scribble_pixels);
   CeldLabels labels = labels_of (r->pixels);
 
-  (void) run;
+  (void) host;
   return celd_labels_read (&scribbles, &labels, &r->palette);
 }
 
 static CeldStatus
-background_step (const CeldRun *run, Results *r)
+background_step (const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels);
   CeldLabels labels = labels_of (&label_pixels);
 
-  (void) run;
+  (void) host;
   return celd_background_mark (&labels, &ink, &scene_settings, &r->palette);
 }
 

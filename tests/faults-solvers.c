@@ -26,7 +26,7 @@ draw_graph (CeldLink *link, CeldVote *vote)
 }
 
 static CeldStatus
-flow_step (const CeldRun *run, Results *r)
+flow_step (const CeldHost *host, Results *r)
 {
   CeldLink link[96];
   CeldVote vote[48];
@@ -35,11 +35,11 @@ flow_step (const CeldRun *run, Results *r)
 
   for (size_t p = 0; p < 48; p++)
     terminal[p] = vote[p].label == 1 ? vote[p].cost : -vote[p].cost;
-  return celd_flow (48, link, n_links, terminal, run, r->pixels->paint, NULL);
+  return celd_flow (48, link, n_links, terminal, host, r->pixels->paint, NULL);
 }
 
 static CeldStatus
-partition_step (const CeldRun *run, Results *r)
+partition_step (const CeldHost *host, Results *r)
 {
   const uint32_t order[4] = { 3, 1, 4, 2 }, fixed[48] = { [20] = 2, [27] = 2 };
   CeldLink       link[96];
@@ -47,12 +47,12 @@ partition_step (const CeldRun *run, Results *r)
   size_t         n_links = draw_graph (link, vote);
   CeldPartition  problem = { 48, link, n_links, vote, 48, fixed, order, 4 };
 
-  return celd_partition (&problem, run, r->pixels->labels, NULL, NULL);
+  return celd_partition (&problem, host, r->pixels->labels, NULL, NULL);
 }
 
 /* Two springs in a row, held apart by more than they like, and a loose node in front. */
 static CeldStatus
-quadratic_step (const CeldRun *run, Results *r)
+quadratic_step (const CeldHost *host, Results *r)
 {
   const double         k[16] = { 2, -2, 0, 0, -2, 3, -1, 0, 0, -1, 1, 0, 0, 0, 0, 0 };
   const CeldInequality one[3] = { { 0, 1, 1 }, { 1, 2, 1 }, { 3, 0, 1 } };
@@ -60,7 +60,7 @@ quadratic_step (const CeldRun *run, Results *r)
   CeldCertificate      certificate;
   CeldStatus           status = celd_quadratic (4, k, 3, one, u, NULL, false, &certificate);
 
-  (void) run;
+  (void) host;
   for (int i = 0; status == CELD_OK && i < 4; i++)
     r->pixels->plane[i] = (float) u[i];
   return status;

@@ -8,7 +8,7 @@
 /* The label picture cut up, as if the left part of each shared pixel were the label's and the right part the next
  * one's: gaps, holes and lines to complete. */
 static CeldStatus
-layers_step (const CeldRun *run, Results *r)
+layers_step (const CeldHost *host, Results *r)
 {
   static uint32_t under[W * H];
   static float    share[W * H], art[4 * W * H];
@@ -26,7 +26,7 @@ layers_step (const CeldRun *run, Results *r)
       for (int c = 0; c < 4; c++)
         art[4 * p + c] = c == 3 ? 1 : ink_pixels.plane[p] * (float) (p % W) / W;
     }
-  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, run, &layers);
+  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, host, &layers);
   for (size_t k = 0; status == CELD_OK && k < celd_layers_count (layers); k++)
     r->pixels->labels[k] = (uint32_t) celd_layers_item (layers, k)->box.width;
   celd_layers_free (layers);
@@ -34,7 +34,7 @@ layers_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-layers_of_levels_step (const CeldRun *run, Results *r)
+layers_of_levels_step (const CeldHost *host, Results *r)
 {
   static float art[4 * W * H];
   CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels);
@@ -42,7 +42,7 @@ layers_of_levels_step (const CeldRun *run, Results *r)
   CeldColours  colours = { W, H, W, art };
   CeldLayers  *layers = NULL;
   CeldStatus   status = celd_layers_of_levels (&ink, &levels, &regions, &regions, &colours,
-                                               CELD_EXPANSION_THICKNESS, CELD_STORE_FLOAT, false, run, &layers);
+                                               CELD_EXPANSION_THICKNESS, CELD_STORE_FLOAT, false, host, &layers);
 
   if (status == CELD_OK)
     r->pixels->labels[0] = (uint32_t) celd_layers_count (layers);
@@ -51,17 +51,17 @@ layers_of_levels_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-normals_step (const CeldRun *run, Results *r)
+normals_step (const CeldHost *host, Results *r)
 {
   CeldPlane   ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
   CeldVectors normals = vectors_of (r->pixels);
 
-  return celd_normals (&ink, &levels, &scene_settings, run, &normals);
+  return celd_normals (&ink, &levels, &scene_settings, host, &normals);
 }
 
 /* With strokes that fold, a bevel, hints at a border, and the frame. */
 static CeldStatus
-hints_step (const CeldRun *run, Results *r)
+hints_step (const CeldHost *host, Results *r)
 {
   static uint8_t paint[4 * W * H];
   CeldPlane      ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
@@ -74,19 +74,19 @@ hints_step (const CeldRun *run, Results *r)
   all.quilt = 1;
   all.bevel = 0.1f;
   all.frame_outline = true;
-  return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, run, &normals);
+  return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, host, &normals);
 }
 
 static CeldStatus
-occlusion_step (const CeldRun *run, Results *r)
+occlusion_step (const CeldHost *host, Results *r)
 {
   CeldPlane levels = plane_of (&expanded_pixels), occlusion = plane_of (r->pixels);
 
-  return celd_occlusion (&levels, &scene_settings, run, &occlusion);
+  return celd_occlusion (&levels, &scene_settings, host, &occlusion);
 }
 
 static CeldStatus
-padding_step (const CeldRun *run, Results *r)
+padding_step (const CeldHost *host, Results *r)
 {
   static const float blank[3] = { 0, 0, 0 };
   static float       data[4 * W * H];
@@ -95,22 +95,22 @@ padding_step (const CeldRun *run, Results *r)
   (void) r;
   for (int i = 0; i < W * H; i++)
     data[4 * i + 3] = i % 7 == 0;
-  return celd_pad_colours (4, blank, run, &picture);
+  return celd_pad_colours (4, blank, host, &picture);
 }
 
 static CeldStatus
-shade_step (const CeldRun *run, Results *r)
+shade_step (const CeldHost *host, Results *r)
 {
   CeldVectors normals = vectors_of (&normal_pixels);
   CeldPlane   shading = plane_of (r->pixels);
 
-  (void) run;
+  (void) host;
   return celd_shade (&normals, &scene_settings, &shading);
 }
 
 /* A sheet before paper, cut beforehand. */
 static CeldStatus
-stereo_step (const CeldRun *run, Results *r)
+stereo_step (const CeldHost *host, Results *r)
 {
   static uint32_t owner[W * H];
   static float    art[4 * W * H], view[4 * W * H], whole[W * H];
@@ -120,8 +120,8 @@ stereo_step (const CeldRun *run, Results *r)
   uint32_t        level[2] = { 0, 1 };
   CeldLayers     *layers = NULL;
   CeldScene      *scene = NULL;
-  CeldPart        part[2];
-  CeldRun         first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart        part[2];
+  CeldHost        first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus      status;
 
   for (int p = 0; p < W * H; p++)
@@ -143,7 +143,7 @@ stereo_step (const CeldRun *run, Results *r)
 
 /* The same of levels. */
 static CeldStatus
-levels_scene_step (const CeldRun *run, Results *r)
+levels_scene_step (const CeldHost *host, Results *r)
 {
   static float art[4 * W * H];
   CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
@@ -153,7 +153,7 @@ levels_scene_step (const CeldRun *run, Results *r)
 
   for (int i = 0; i < 4 * W * H; i++)
     art[i] = 1;
-  status = celd_scene_of_levels (&ink, &levels, &levels, &colours, CELD_EXPANSION_OUTLINES, run, &scene);
+  status = celd_scene_of_levels (&ink, &levels, &levels, &colours, CELD_EXPANSION_OUTLINES, host, &scene);
   if (status == CELD_OK)
     r->pixels->vectors[0] = 1;
   celd_scene_free (scene);
@@ -162,14 +162,14 @@ levels_scene_step (const CeldRun *run, Results *r)
 
 /* The same of depth alone. */
 static CeldStatus
-scene_step (const CeldRun *run, Results *r)
+scene_step (const CeldHost *host, Results *r)
 {
   static float art[4 * W * H], view[4 * W * H];
   CeldPlane    ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
   CeldColours  colours = { W, H, W, art }, to = { W, H, W, view };
   CeldScene   *scene = NULL;
-  CeldPart     part[2];
-  CeldRun      first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart     part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus   status;
 
   for (int i = 0; i < 4 * W * H; i++)
@@ -184,30 +184,30 @@ scene_step (const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-enhance_step (const CeldRun *run, Results *r)
+enhance_step (const CeldHost *host, Results *r)
 {
   CeldPlane levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
 
-  return celd_enhance (&levels, &scene_settings, run, &change);
+  return celd_enhance (&levels, &scene_settings, host, &change);
 }
 
 static CeldStatus
-unsharp_step (const CeldRun *run, Results *r)
+unsharp_step (const CeldHost *host, Results *r)
 {
   CeldPlane    levels = plane_of (&expanded_pixels), change = plane_of (r->pixels);
   CeldSettings unsharp = scene_settings;
 
   unsharp.enhance = CELD_ENHANCE_CONTRAST;
-  return celd_enhance (&levels, &unsharp, run, &change);
+  return celd_enhance (&levels, &unsharp, host, &change);
 }
 
 /* All of a relief as its heights. */
 static CeldStatus
-make_relief (const CeldSettings *how, const CeldRun *run, Results *r)
+make_relief (const CeldSettings *how, const CeldHost *host, Results *r)
 {
   CeldPlane  ink = plane_of (&ink_pixels), levels = plane_of (&expanded_pixels);
   CeldRelief relief = { 0 };
-  CeldStatus status = celd_relief (&ink, &levels, NULL, how, run, &relief);
+  CeldStatus status = celd_relief (&ink, &levels, NULL, how, host, &relief);
 
   if (status == CELD_OK)
     memcpy (r->pixels->plane, relief.z, sizeof r->pixels->plane);
@@ -216,23 +216,23 @@ make_relief (const CeldSettings *how, const CeldRun *run, Results *r)
 }
 
 static CeldStatus
-relief_step (const CeldRun *run, Results *r)
+relief_step (const CeldHost *host, Results *r)
 {
-  return make_relief (&scene_settings, run, r);
+  return make_relief (&scene_settings, host, r);
 }
 
 static CeldStatus
-relief_of_normals_step (const CeldRun *run, Results *r)
+relief_of_normals_step (const CeldHost *host, Results *r)
 {
   CeldSettings of_normals = scene_settings;
 
   of_normals.relief_from = CELD_RELIEF_NORMALS;
-  return make_relief (&of_normals, run, r);
+  return make_relief (&of_normals, host, r);
 }
 
 /* A body of two levels, of which the pixels' own heights are the first. */
 static CeldStatus
-relief_mesh_step (const CeldRun *run, Results *r)
+relief_mesh_step (const CeldHost *host, Results *r)
 {
   static float   z[W * H];
   static uint8_t cut[W * H];
@@ -247,7 +247,7 @@ relief_mesh_step (const CeldRun *run, Results *r)
       z[p]   = p % W > 20 ? (float) (p / W) : 0;
       cut[p] = p % W == 20 ? CELD_CUT_RIGHT : 0;
     }
-  status = celd_relief_mesh (&relief, &solid, run, &mesh);
+  status = celd_relief_mesh (&relief, &solid, host, &mesh);
   if (status == CELD_OK)
     for (int p = 0; p < W * H; p++)
       r->pixels->plane[p] = mesh.place[(size_t) p % (3 * mesh.vertices)];

@@ -59,16 +59,16 @@ __wrap_free (void *memory)
 
 /* ------------------------------------------------------------------ a host that cancels */
 
-typedef struct { int calls, last; double done; } Host; /* calls of progress so far, the last one that is answered yes */
+typedef struct { int calls, last; double done; } Watch; /* calls of progress so far, the last one that is answered yes */
 
 static bool
 report (void *data, double done)
 {
-  Host *host = data;
+  Watch *watch = data;
 
-  CHECK (done >= host->done && done <= 1);
-  host->done = done;
-  return ++host->calls <= host->last;
+  CHECK (done >= watch->done && done <= 1);
+  watch->done = done;
+  return ++watch->calls <= watch->last;
 }
 
 /* ------------------------------------------------------------------ results before and after */
@@ -134,8 +134,8 @@ static void
 try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, uint64_t wanted)
 {
   Results    r;
-  Host       host = { 0, last_report, 0 };
-  CeldRun    run = { report, NULL, &host };
+  Watch       watch = { 0, last_report, 0 };
+  CeldHost   host = { report, NULL, &watch };
   long       taken = live;
   uint64_t   before;
   CeldStatus status;
@@ -144,7 +144,7 @@ try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, ui
   before = fingerprint (&r);
   allocations = 0;
   failing = fail;
-  status = step->go (&run, &r);
+  status = step->go (&host, &r);
   failing = 0;
   if (status)
     CHECK (status == failure);
@@ -161,16 +161,16 @@ static uint64_t
 try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
 {
   Results  r;
-  Host     host = { 0, INT32_MAX, 0 };
-  CeldRun  run = { report, NULL, &host };
+  Watch     watch = { 0, INT32_MAX, 0 };
+  CeldHost host = { report, NULL, &watch };
   long     taken = live;
   uint64_t print;
 
   start_results (step, &r);
   allocations = 0;
-  CHECK (step->go (&run, &r) == CELD_OK);
+  CHECK (step->go (&host, &r) == CELD_OK);
   *n_allocations = allocations;
-  *n_reports = host.calls;
+  *n_reports = watch.calls;
   print = fingerprint (&r);
   clear_results (&r);
   CHECK (live == taken);
@@ -244,9 +244,9 @@ set_apart (CeldSession *s)
   return celd_session_set_settings (s, &settings);
 }
 
-/* The i-th call of a host; false when there are no more. */
+/* The i-th call of a watch; false when there are no more. */
 static bool
-call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus *status)
+call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStatus *status)
 {
   CeldDrawing drawing = drawing_of (&drawing_pixels);
   CeldPaint   scribbles = paint_of (&scribble_pixels), arrows = paint_of (&arrow_pixels);
@@ -264,26 +264,26 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
     case 3: *status = celd_session_set_contours (s, &contours); break;
     case 4: *status = celd_session_put_relation (s, 7, "#2040e0 > #20c040", NULL); break;
     case 5: *status = celd_session_set_relations (s, "#e02020 > #20c040", NULL); break;
-    case 6: *status = celd_session_labels (s, run, &labels, &changed); break;
-    case 7: *status = celd_session_levels (s, run, &plane, &changed); break;
+    case 6: *status = celd_session_labels (s, host, &labels, &changed); break;
+    case 7: *status = celd_session_levels (s, host, &plane, &changed); break;
     case 8: *status = celd_session_remove_relation (s, 7); break;
-    case 9: *status = celd_session_depth (s, run, &plane, &changed); break;
-    case 10: *status = celd_session_normals (s, run, &vectors, &changed); break;
-    case 11: *status = celd_session_shading (s, run, &plane, &changed); break;
+    case 9: *status = celd_session_depth (s, host, &plane, &changed); break;
+    case 10: *status = celd_session_normals (s, host, &vectors, &changed); break;
+    case 11: *status = celd_session_shading (s, host, &plane, &changed); break;
     case 12: *status = put_stroke (s); break;
-    case 13: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 13: *status = celd_session_labels (s, host, &labels, &changed); break;
     case 14: *status = draw_line (s); break;
-    case 15: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 15: *status = celd_session_labels (s, host, &labels, &changed); break;
     case 16: *status = set_apart (s); break;
-    case 17: *status = celd_session_labels (s, run, &labels, &changed); break;
+    case 17: *status = celd_session_labels (s, host, &labels, &changed); break;
     case 18: *status = celd_session_remove_stroke (s, 3); break;
-    case 19: *status = celd_session_paint_closures (s, run, &closures); break;
-    case 20: *status = celd_session_depth_preview (s, run, &plane, &changed); break;
-    case 21: *status = celd_session_depth (s, run, &plane, &changed); break;
-    case 22: *status = celd_session_exact (s, run, &plane, &changed); break;
+    case 19: *status = celd_session_paint_closures (s, host, &closures); break;
+    case 20: *status = celd_session_depth_preview (s, host, &plane, &changed); break;
+    case 21: *status = celd_session_depth (s, host, &plane, &changed); break;
+    case 22: *status = celd_session_exact (s, host, &plane, &changed); break;
     case 23: *status = celd_session_put_relation (s, 8, "10,30 > 50,35", NULL); break;
-    case 24: *status = celd_session_exact (s, run, &plane, &changed); break;
-    case 25: *status = celd_session_exact_preview (s, run, &plane); break;
+    case 24: *status = celd_session_exact (s, host, &plane, &changed); break;
+    case 25: *status = celd_session_exact_preview (s, host, &plane); break;
     default: return false;
     }
   if (!*status && i == 24)
@@ -303,8 +303,8 @@ call_session (CeldSession *s, int i, const CeldRun *run, Pixels *out, CeldStatus
 static int
 ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, uint64_t *print)
 {
-  Host         host = { 0, cancelled, 0 };
-  CeldRun      run = { report, NULL, &host };
+  Watch         watch = { 0, cancelled, 0 };
+  CeldHost     host = { report, NULL, &watch };
   CeldStatus   status = CELD_OK, wanted = fail ? CELD_NO_MEMORY : CELD_CANCELLED;
   CeldSession *s;
   long         taken = live;
@@ -316,22 +316,22 @@ ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, 
   s = celd_session_new ();
   if (!s && ++failures)
     s = celd_session_new ();
-  for (int i = 0; s && call_session (s, i, &run, &result_pixels, &status); i++)
+  for (int i = 0; s && call_session (s, i, &host, &result_pixels, &status); i++)
     {
-      host.done = 0;
+      watch.done = 0;
       if (status)
         {
           CHECK (status == wanted);
           failures++;
-          host.last = INT32_MAX;
-          call_session (s, i, &run, &result_pixels, &status);
-          host.done = 0;
+          watch.last = INT32_MAX;
+          call_session (s, i, &host, &result_pixels, &status);
+          watch.done = 0;
         }
       CHECK (status == CELD_OK);
     }
   failing = 0;
   *n_allocations = allocations;
-  *n_reports = host.calls;
+  *n_reports = watch.calls;
   *print = add_bytes (0, &result_pixels, sizeof result_pixels);
   celd_session_free (s);
   CHECK (live == taken);

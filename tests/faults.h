@@ -30,7 +30,7 @@ typedef struct
 typedef struct
 {
   const char        *name;
-  CeldStatus       (*go) (const CeldRun *run, Results *r);
+  CeldStatus       (*go) (const CeldHost *host, Results *r);
   const CeldPalette *palette;    /* that the results start from; NULL: an empty one */
   bool               reports;    /* progress */
 } Step;

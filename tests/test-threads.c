@@ -93,7 +93,7 @@ typedef struct
 } Results;
 
 static bool
-run_route (Page *page, const CeldRun *run, Results *results)
+run_route (Page *page, const CeldHost *host, Results *results)
 {
   CeldSession *session = celd_session_new ();
   CeldDrawing  drawing = { .luma = { WIDTH, HEIGHT, WIDTH, page->luma } };
@@ -104,17 +104,17 @@ run_route (Page *page, const CeldRun *run, Results *results)
                       celd_session_set_drawing (session, &drawing) == CELD_OK &&
                       celd_session_set_scribbles (session, &scribbles) == CELD_OK &&
                       celd_session_set_relations (session, "#0000ff > #00ff00 > #ff0000", NULL) == CELD_OK &&
-                      celd_session_labels (session, run, &labels, NULL) == CELD_OK;
+                      celd_session_labels (session, host, &labels, NULL) == CELD_OK;
 
   if (good)
     memcpy (results->labels, labels.data, sizeof results->labels);
-  good = good && celd_session_levels (session, run, &levels, NULL) == CELD_OK;
+  good = good && celd_session_levels (session, host, &levels, NULL) == CELD_OK;
   if (good)
     memcpy (results->levels, levels.data, sizeof results->levels);
-  good = good && celd_session_depth (session, run, &depth, NULL) == CELD_OK;
+  good = good && celd_session_depth (session, host, &depth, NULL) == CELD_OK;
   if (good)
     memcpy (results->depth, depth.data, sizeof results->depth);
-  good = good && celd_session_shading (session, run, &shading, NULL) == CELD_OK;
+  good = good && celd_session_shading (session, host, &shading, NULL) == CELD_OK;
   if (good)
     memcpy (results->shading, shading.data, sizeof results->shading);
   celd_session_free (session);
@@ -132,10 +132,10 @@ any_number_of_threads_gives_the_same (void)
   CHECK (serial.levels[0] == 0.f && serial.levels[125 * WIDTH + 115] == 1.f); /* background, and the ring in front */
   for (int threads = 1; threads <= MOST; threads += 2)
     {
-      CeldRun run = { .each = each, .host = &threads };
+      CeldHost host = { .each = each, .data = &threads };
 
       memset (&threaded, 0xff, sizeof threaded);
-      CHECK (run_route (&page, &run, &threaded));
+      CHECK (run_route (&page, &host, &threaded));
       CHECK (memcmp (serial.labels, threaded.labels, sizeof serial.labels) == 0);
       CHECK (memcmp (serial.levels, threaded.levels, sizeof serial.levels) == 0);
       CHECK (memcmp (serial.depth, threaded.depth, sizeof serial.depth) == 0);

@@ -120,17 +120,17 @@ celd_next_marked (int n, const uint8_t *byte, int x)
 
 /* The part [from,to] of a longer run, as a run of its own: `part` must outlive it.  With from = to it reports no
  * progress, but cancels and lends threads: for short steps, of which several may share it. */
-typedef struct { const CeldRun *whole; double from, to; } CeldPart;
-CeldRun celd_run_part (CeldPart *part, const CeldRun *whole, double from, double to);
+typedef struct { const CeldHost *whole; double from, to; } CeldHostPart;
+CeldHost celd_host_part (CeldHostPart *part, const CeldHost *whole, double from, double to);
 
 /* Reports progress; CELD_CANCELLED when the host wants to stop. */
-CeldStatus celd_step (const CeldRun *run, double done);
+CeldStatus celd_progress (const CeldHost *host, double done);
 
 /* body (data, 0 .. n-1), on the host's threads if it lends any. */
-void celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *data);
+void celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, int i), void *data);
 
 /* n jobs in rounds of at most `at_once`, which is the part [from,to] of the run: body (data, i) is job *first + i. */
-CeldStatus celd_rounds (const CeldRun *run, int n, int at_once, void (*body) (void *data, int i), void *data,
-                        int *first, double from, double to);
+CeldStatus celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data,
+                                 int *first, double from, double to);
 
 #endif

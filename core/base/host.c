@@ -5,54 +5,54 @@
 #include "base/base.h"
 
 static bool
-part_progress (void *host, double done)
+part_progress (void *data, double done)
 {
-  const CeldPart *part = host;
+  const CeldHostPart *part = data;
 
-  return celd_step (part->whole, part->from + (part->to - part->from) * done) == CELD_OK;
+  return celd_progress (part->whole, part->from + (part->to - part->from) * done) == CELD_OK;
 }
 
 static void
-part_each (void *host, int n, void (*body) (void *data, int i), void *data)
+part_each (void *data, int n, void (*body) (void *body_data, int i), void *body_data)
 {
-  const CeldPart *part = host;
+  const CeldHostPart *part = data;
 
-  celd_each (part->whole, n, body, data);
+  celd_parallel_for (part->whole, n, body, body_data);
 }
 
-CeldRun
-celd_run_part (CeldPart *part, const CeldRun *whole, double from, double to)
+CeldHost
+celd_host_part (CeldHostPart *part, const CeldHost *whole, double from, double to)
 {
-  *part = (CeldPart) { whole, from, to };
-  return (CeldRun) { part_progress, part_each, part };
+  *part = (CeldHostPart) { whole, from, to };
+  return (CeldHost) { part_progress, part_each, part };
 }
 
 CeldStatus
-celd_step (const CeldRun *run, double done)
+celd_progress (const CeldHost *host, double done)
 {
-  return run && run->progress && !run->progress (run->host, done) ? CELD_CANCELLED : CELD_OK;
+  return host && host->progress && !host->progress (host->data, done) ? CELD_CANCELLED : CELD_OK;
 }
 
 void
-celd_each (const CeldRun *run, int n, void (*body) (void *data, int i), void *data)
+celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, int i), void *data)
 {
-  if (run && run->each)
-    run->each (run->host, n, body, data);
+  if (host && host->each)
+    host->each (host->data, n, body, data);
   else
     for (int i = 0; i < n; i++)
       body (data, i);
 }
 
 CeldStatus
-celd_rounds (const CeldRun *run, int n, int at_once, void (*body) (void *data, int i), void *data, int *first,
-             double from, double to)
+celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data, int *first,
+                      double from, double to)
 {
   CeldStatus status = CELD_OK;
 
   for (*first = 0; *first < n && status == CELD_OK; *first += at_once)
     {
-      celd_each (run, n - *first < at_once ? n - *first : at_once, body, data);
-      status = celd_step (run, from + (to - from) * (*first + at_once < n ? (double) (*first + at_once) / n : 1));
+      celd_parallel_for (host, n - *first < at_once ? n - *first : at_once, body, data);
+      status = celd_progress (host, from + (to - from) * (*first + at_once < n ? (double) (*first + at_once) / n : 1));
     }
   return status;
 }

@@ -47,47 +47,47 @@ CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t
 /* Results; each makes what is missing first.  *changed (may be NULL) is the rectangle that differs from the last time
  * this result was asked for: everything the first time, width 0 when nothing does.  `flat` are levels before expansion,
  * `levels` expanded ones.  Where labels stay, their colours in the palette may still have changed. */
-CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed);
-CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels,
+CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldHost *host, CeldPlane *ink, CeldRect *changed);
+CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldHost *host, CeldLabels *labels,
                                          CeldRect *changed);
 /* The gaps that these labels close; none with other methods than CELD_METHOD_BASINS. */
-CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosures **closures);
+CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldHost *host, const CeldClosures **closures);
 /* The same as red lines about as wide as the drawing's, on a transparent picture: a layer of virtual contours, in which
  * the artist may erase what was closed wrongly. */
-CELD_API CeldStatus celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint *paint);
+CELD_API CeldStatus celd_session_paint_closures (CeldSession *session, const CeldHost *host, CeldPaint *paint);
 /* What celd_suggest says of these labels, whether the settings apply it or not. */
-CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldRun *run,
+CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldHost *host,
                                               const CeldRelations **suggested);
 /* The same as arrows on a transparent picture: an arrows layer, in which the artist may erase what is wrong. */
-CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPaint *paint);
-CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order);
-CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed);
+CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, CeldPaint *paint);
+CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder **order);
+CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed);
 /* Whose the pixels are, with their ink, in the labels above.  Where a pixel has two labels, `levels` have the one that
  * covers more of it. */
-CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldRun *run, CeldOwnership *ownership,
+CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership,
                                             CeldRect *changed);
 /* The art cut into a layer for each label, with settings.complete, see celd_layers_cut; the host's own, to be freed. */
 CELD_API CeldStatus celd_session_layers (CeldSession *session, const CeldColours *art, CeldStore store,
-                                         const CeldRun *run, CeldLayers **layers);
-CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels,
+                                         const CeldHost *host, CeldLayers **layers);
+CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels,
                                          CeldRect *changed);
 /* After an edit only what it touched is solved again, from where it was; the rest stays bit by bit.  The preview is for
  * the eye while the full depth is made: a quarter of the width and height, rounded up, pixel (x,y) for those from
  * (4x,4y) on; *changed counts its own pixels.  It needs no expansion, so that its borders lie in the middle of
  * contours, and has gaps narrower than about eight pixels closed. */
-CELD_API CeldStatus celd_session_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane *quarter,
+CELD_API CeldStatus celd_session_depth_preview (CeldSession *session, const CeldHost *host, CeldPlane *quarter,
                                                 CeldRect *changed);
-CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
-CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals,
+CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *normals,
                                           CeldRect *changed);
-CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading,
+CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldHost *host, CeldPlane *shading,
                                           CeldRect *changed);
 
 /* The exact program, see celd_depth_exact, with the background of the settings.  A new relation is answered in
  * milliseconds if its ends are scribbles or known ends of others.  The preview is for the eye while the first full
  * depth is made: a half of the width and height, rounded up, in about a quarter of the time. */
-CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed);
-CELD_API CeldStatus celd_session_exact_preview (CeldSession *session, const CeldRun *run, CeldPlane *half);
+CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half);
 /* What it says of the depth (NULL if that was not asked for since the last change), and the palette that its labels and
  * those of its problems are in; both borrowed like the palette below. */
 CELD_API const CeldExact   *celd_session_exact_report  (const CeldSession *session);

@@ -18,19 +18,19 @@ CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 
 /* Line art of a drawing: composited on paper, polarity resolved, contrast normalised against the paper around
  * (uneven paper and grey pencil become ink 0 and paper 1).  `ink` may not alias the drawing. */
-CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink);
+CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink);
 
 /* Virtual contours (section 4): red strokes become ink, blue strokes ink for segmentation only, green strokes paper;
  * for `purpose`.  Works on the drawing before celd_ink, keeps its polarity and alpha; `out` may alias the drawing.
  * Where the drawing has no alpha, out->alpha is not touched. */
 CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
-                                        CeldInkMode mode, const CeldRun *run, CeldDrawing *out);
+                                        CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
 
 /* Scribbles as an artist paints them -> seed labels (0 where nothing is painted) and the palette of their colours,
  * origin CELD_FROM_SCRIBBLE, by falling painted area.  Alpha below one half is none; in a picture without alpha the
  * commonest colour is none (not with settings->flats); mixed colours of fringes are no label.
  * No paint at all is CELD_OK with an empty palette. */
-CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
+CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host,
                                          CeldLabels *seeds, CeldPalette *palette);
 
 /* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is added,
@@ -42,7 +42,7 @@ CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relat
 CELD_API CeldStatus celd_arrow_path_parse (const char *path, CeldRelations *relations, CeldTextError *error);
 
 /* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
-CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *run,
+CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost *host,
                                       CeldRelations *relations, CeldProblems *problems);
 
 /* LazyBrush [SDC09b] (section 3.2): every pixel gets a label.  In: seed labels and their palette (both may be empty if
@@ -51,7 +51,7 @@ CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle st
  * `relations` and `problems` may be NULL.
  * CELD_NOTHING_TO_GO_BY if there is neither a seed nor a relation to seed from. */
 CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
-                                  const CeldSettings *settings, const CeldRun *run,
+                                  const CeldSettings *settings, const CeldHost *host,
                                   CeldLabels *labels, CeldPalette *palette, CeldProblems *problems);
 
 /* Draws the closures over whatever is in the picture: an opaque line about as wide as `width`, antialiased, in red. */
@@ -59,7 +59,7 @@ CELD_API void celd_closures_paint (const CeldClosures *closures, double width, C
 
 /* Makes each connected region of a label a label of its own, in place (same_colour = separate).  Specks smaller than
  * 16 pixels stay with the largest region of their colour. */
-CELD_API CeldStatus celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette);
+CELD_API CeldStatus celd_separate (const CeldHost *host, CeldLabels *labels, CeldPalette *palette);
 
 /* Labels as colours, and back.  Reading: every distinct opaque colour is a label, in the order of falling area;
  * transparent pixels are the background that celdepth added. */
@@ -76,12 +76,12 @@ CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPl
  * as good as a guess, 1/2 = three times as likely as not.  Suggestions do not contradict each other: the weakest of a
  * cycle is not made.  `palette` has the areas and the background of the labels; ink may be NULL. */
 CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                                  const CeldRun *run, CeldRelations *suggested);
+                                  const CeldHost *host, CeldRelations *suggested);
 
 /* The same from a picture of depth, such as a depth estimator makes, in any unit, larger = nearer; not a number is
  * unknown.  The confidence compares the difference of two regions' medians with the spread inside them. */
 CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                                             const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested);
+                                             const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested);
 
 /* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
  * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
@@ -89,7 +89,7 @@ CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const Cel
  * Replaces `both`, which may be `relations`. */
 CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
                                            const CeldRelations *relations, const CeldRelations *suggested,
-                                           const CeldSettings *settings, const CeldPlane *ink, const CeldRun *run,
+                                           const CeldSettings *settings, const CeldPlane *ink, const CeldHost *host,
                                            CeldRelations *both);
 
 /* Paints relations between points as arrows of the default style over whatever is in the picture, lines about as wide
@@ -104,7 +104,7 @@ CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double
  * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else
  * levels number the heights that there are. */
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                                const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run,
+                                const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
                                 CeldOrder *order, CeldProblems *problems);
 
 /* Levels as they leave, as settings->encoding says: a level's height in gaps of one relation, of `levels` in all (one
@@ -117,7 +117,7 @@ CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const C
  * line below each goes to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of its own pen,
  * over what lies behind it; with CELD_EXPANSION_THICKNESS it is celd_expand.  `owner` may alias `labels`. */
 CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
-                              const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                              const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                               CeldOwnership *ownership);
 
 /* Strokes in the colours of regions, as corrections: opaque pixels are the label of their colour, the first of several;
@@ -130,18 +130,18 @@ CELD_API CeldStatus celd_corrections_read (const CeldPaint *paint, const CeldPal
  * without regions.
  * `expanded` is the level that has more of each pixel and may alias `levels`. */
 CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                        const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                        const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                         CeldPlane *expanded);
 
 /* The same as a matte: of each pixel's owner its level, its region (`region` may be NULL; 0 without regions) and how
  * much of the pixel it covers, above 0 (CeldOwnership).  `level` may alias `levels`, `region` may alias `regions`. */
 CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                          const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                          const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                           CeldPlane *level, CeldLabels *region, CeldPlane *share);
 
 /* Depth expansion by the thickness of contours (section 3.3).  `ranks` may have any values, larger = nearer; `expanded`
  * holds the same values and may alias `ranks`. */
-CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run,
+CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host,
                                  CeldLabels *expanded);
 
 /* Cuts the art, the drawing itself or colours for it, into one layer for each label that has pixels, in the order of
@@ -154,13 +154,13 @@ CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, 
  * `ink` is the drawing's, for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
 CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *ownership, const uint32_t *level,
                                      size_t n, const CeldColours *art, uint32_t background, CeldStore store,
-                                     bool complete, const CeldRun *run, CeldLayers **layers);
+                                     bool complete, const CeldHost *host, CeldLayers **layers);
 
 /* The same from levels before expansion, with the labels of celd_expand_levels: a layer's is its number from the
  * farthest, from 1.  The background is the farthest label if it has most of the frame. */
 CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                            const CeldLabels *corrections, const CeldColours *art,
-                                           CeldExpansion method, CeldStore store, bool complete, const CeldRun *run,
+                                           CeldExpansion method, CeldStore store, bool complete, const CeldHost *host,
                                            CeldLayers **layers);
 
 /* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core
@@ -168,7 +168,7 @@ CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane
  * pixels is at or below ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.
  * A result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
-                                 const CeldSettings *settings, const CeldRun *run, CeldPlane *depth, CeldSolve *solve);
+                                 const CeldSettings *settings, const CeldHost *host, CeldPlane *depth, CeldSolve *solve);
 
 /* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy
  * sum w_pq (d_p - d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the
@@ -184,19 +184,19 @@ CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, 
  * relations. */
 CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
                                       const CeldRelations *relations, const CeldSettings *settings,
-                                      const CeldRun *run, CeldPlane *depth, CeldExact *exact,
+                                      const CeldHost *host, CeldPlane *depth, CeldExact *exact,
                                       CeldProblems *problems);
 
 /* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends; a region
  * without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-                                  const CeldRun *run, CeldVectors *normals);
+                                  const CeldHost *host, CeldVectors *normals);
 
 /* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends,
  * if settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends
  * its side, black does not, grey bends both. */
 CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                         const CeldPaint *hints, const CeldSettings *settings, const CeldRun *run,
+                                         const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
                                          CeldVectors *normals);
 
 /* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
@@ -204,7 +204,7 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
  * of a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE
  * without. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
-                                const CeldSettings *settings, const CeldRun *run, CeldColours *tone,
+                                const CeldSettings *settings, const CeldHost *host, CeldColours *tone,
                                 CeldPlane *gloss);
 /* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
@@ -216,16 +216,16 @@ CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *
 /* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such
  * pixel; farther away `blank` where the picture has no alpha at all.  Alpha stays: a game engine that blends
  * neighbours then finds no seam. */
-CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldRun *run, CeldColours *picture);
+CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldHost *host, CeldColours *picture);
 
 /* Depth enhancement (section 5, Figures 1d and 5c): the share of light that is taken from the art, or added, from -1
  * (black) over 0 (nothing) to 1 (twice as bright), linear.  `levels` are expanded; for the stack at most 256 of them
  * are told apart.  Not a number reads as 0.  CELD_BAD_VALUE for bad settings. */
-CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                   CeldPlane *change);
 /* Ambient occlusion: the share of light that the stack leaves, from 1 (all) down to 1 - shadow_strength, without an
  * offset whatever the settings say. */
-CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                     CeldPlane *occlusion);
 /* Such a change applied to art; what it takes, as a black layer to put over the art; and applied to a grey picture of
  * the levels, the nearest white: what an artist sees of depth while drawing (Figure 5c).  Linear light. */
@@ -239,15 +239,15 @@ typedef struct CeldScene CeldScene;
 /* Of layers, each of which moves by its own depth, which goes on where it is hidden: completed ones leave no holes.
  * `ownership` is what they were cut by.  Views are in the colours that the layers were cut in. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
-                                          const CeldPlane *depth, const CeldRun *run, CeldScene **scene);
+                                          const CeldPlane *depth, const CeldHost *host, CeldScene **scene);
 /* The same from levels, expanded or not, each of which becomes a completed layer. */
 CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                          const CeldColours *art, CeldExpansion method, const CeldRun *run,
+                                          const CeldColours *art, CeldExpansion method, const CeldHost *host,
                                           CeldScene **scene);
 /* Of depth alone, from wherever: what comes into sight is filled from its farther side, in the colour of the paper
  * there, without its ink.  For views from the sides, no further than settings->disparity. */
 CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
-                                         const CeldSettings *settings, const CeldRun *run, CeldScene **scene);
+                                         const CeldSettings *settings, const CeldHost *host, CeldScene **scene);
 CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
 
 /* Where it is seen from: x -1 the left eye, 1 the right one; y -1 as far above, 1 below; 0,0 the drawing as it is.
@@ -259,7 +259,7 @@ CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
 
 /* A point of depth d moves by disparity / 2 of the width times d's distance from the screen, away from the camera. */
 CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
-                                     const CeldRun *run, CeldColours *view);
+                                     const CeldHost *host, CeldColours *view);
 
 /* How strong that will be for two eyes: disparities in front of and behind the screen, in shares of the width; whether
  * something in front of the screen is cut by the frame at the left or right, which the eyes cannot put together; and
@@ -298,7 +298,7 @@ typedef struct
 /* Each part as round as the bulge says, as far in front as its depth says, and farther where it would run through
  * something behind it; cut only where depth is.  `depth` is smooth; NULL: celd_smooth makes it.  Replaces `relief`. */
 CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                 const CeldSettings *settings, const CeldRun *run, CeldRelief *relief);
+                                 const CeldSettings *settings, const CeldHost *host, CeldRelief *relief);
 CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
 
 /* Triangles over the picture, which has its middle at x = y = 0, and depth 0 at z = 0. */
@@ -313,8 +313,8 @@ typedef struct
 } CeldReliefMesh;
 
 /* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone.  Replaces `mesh`. */
-CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run,
-                               CeldReliefMesh *mesh);
+CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host,
+                                      CeldReliefMesh *mesh);
 CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */
 
 #ifdef __cplusplus

@@ -28,7 +28,7 @@ extern "C" {
 typedef enum
 {
   CELD_OK = 0,
-  CELD_CANCELLED,         /* CeldRun.progress returned false */
+  CELD_CANCELLED,         /* CeldHost.progress returned false */
   CELD_NO_MEMORY,         /* an allocation failed, or a size would overflow */
   CELD_BAD_SIZE,          /* a picture is empty, too large, or sizes differ */
   CELD_BAD_VALUE,         /* a setting is outside its range */
@@ -39,15 +39,15 @@ typedef enum
 /* One plain English sentence for a status; static storage. */
 CELD_API const char *celd_status_text (CeldStatus status);
 
-/* What the host lends to a long call.  NULL instead of a CeldRun, or NULL members: quiet, serial, not to be cancelled.
- * Results do not depend on `each`. */
+/* What the host lends to a long call: progress, a way to cancel, and threads.  NULL instead of a CeldHost, or NULL
+ * members: no progress, not to be cancelled, one thread.  Results do not depend on `each`. */
 typedef struct
 {
-  bool (*progress) (void *host, double done);      /* done in [0,1], never falling; false cancels */
-  void (*each) (void *host, int n, void (*body) (void *data, int i), void *data); /* body for 0 .. n-1 in any order; all
-                                                                                  * are done when it returns */
-  void *host;
-} CeldRun;
+  bool (*progress) (void *data, double done);      /* done in [0,1], never falling; false cancels */
+  void (*each) (void *data, int n, void (*body) (void *body_data, int i), void *body_data); /* body for 0 .. n-1 in any
+                                                                                             * order, all before it returns */
+  void *data;                                      /* for the two functions */
+} CeldHost;
 
 /* ------------------------------------------------------------------ borrowed pictures; the stride counts pixels */
 

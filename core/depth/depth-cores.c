@@ -86,7 +86,7 @@ on_border (const Cores *c, int x, int y)
 
 /* The cores of one group's regions. */
 static CeldStatus
-measure (const Cores *c, uint32_t g, CeldRect box, const CeldRun *run)
+measure (const Cores *c, uint32_t g, CeldRect box, const CeldHost *host)
 {
   size_t     n = (size_t) box.width * (size_t) box.height;
   uint8_t   *border = celd_alloc0 (n, 1);
@@ -99,7 +99,7 @@ measure (const Cores *c, uint32_t g, CeldRect box, const CeldRun *run)
       EACH_STRETCH (c, box, g, y, s)
         for (int x = s->x; x < s->end; x++)
           border[IN_BOX (x, y)] = on_border (c, x, y);
-      status = celd_distance (box.width, box.height, border, run, squared);
+      status = celd_distance (box.width, box.height, border, host, squared);
     }
   if (status == CELD_OK)
     {
@@ -121,7 +121,7 @@ measure (const Cores *c, uint32_t g, CeldRect box, const CeldRun *run)
 /* ------------------------------------------------------------------ all of them */
 
 static CeldStatus
-mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last, const CeldRun *run)
+mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last, const CeldHost *host)
 {
   CeldRect   bounds[CELD_MOST_GROUPS];
   size_t     groups = 0;
@@ -140,8 +140,8 @@ mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last,
     }
   for (size_t g = 0; g < groups && status == CELD_OK; g++)
     {
-      CeldPart part;
-      CeldRun  share = celd_run_part (&part, run, (double) g / (double) groups, (double) (g + 1) / (double) groups);
+      CeldHostPart part;
+      CeldHost share = celd_host_part (&part, host, (double) g / (double) groups, (double) (g + 1) / (double) groups);
 
       status = measure (c, (uint32_t) g, bounds[g], &share);
     }
@@ -154,11 +154,11 @@ mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last,
 
 CeldStatus
 celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
-                 const uint8_t *last, const CeldRun *run, uint8_t *fixed)
+                 const uint8_t *last, const CeldHost *host, uint8_t *fixed)
 {
   Cores      c = { .width = width, .height = height, .level = level, .fixed = fixed };
-  CeldPart   part[2];
-  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.3), measuring = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart   part[2];
+  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), measuring = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus status  = celd_parts_find (width, height, level, NULL, NULL, &finding, &c.regions);
 
   if (status == CELD_OK)

@@ -120,7 +120,7 @@ number_parts (CeldParts *parts, uint32_t *parent)
 
 CeldStatus
 celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldEdges *edges,
-                 const CeldRun *run, CeldParts *parts)
+                 const CeldHost *host, CeldParts *parts)
 {
   Joins      j = { level, fixed, edges };
   CeldParts  found = { .width = width, .height = height, .row = celd_alloc0 ((size_t) height + 1, sizeof (size_t)) };
@@ -131,7 +131,7 @@ celd_parts_find (int width, int height, const float *level, const uint8_t *fixed
 
   for (int y = 0; y < height && status == CELD_OK; y++)
     {
-      status = y % 64 ? CELD_OK : celd_step (run, (double) y / height);
+      status = y % 64 ? CELD_OK : celd_progress (host, (double) y / height);
       if (status == CELD_OK)
         status = stretch_row (&j, &found, y, mark, &n);
       found.row[y + 1] = n;

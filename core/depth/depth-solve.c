@@ -258,14 +258,14 @@ read_box (const Work *work, const Box *box)
 }
 
 static CeldStatus
-solve_box (const Work *work, Box *box, const CeldRun *run, CeldSolve *solve)
+solve_box (const Work *work, Box *box, const CeldHost *host, CeldSolve *solve)
 {
   const CeldSystem *e = work->system;
   int               w = box->box.width, h = box->box.height;
   size_t            n = (size_t) w * (size_t) h;
   CeldLaplace      *laplace = NULL;
-  CeldPart          part[2];
-  CeldRun           setting_up = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart          part[2];
+  CeldHost          setting_up = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   CeldStatus        status;
   double            range;
 
@@ -302,7 +302,7 @@ done:
 }
 
 static CeldStatus
-solve_parts (Work *work, const CeldRun *run, CeldSolve *solve)
+solve_parts (Work *work, const CeldHost *host, CeldSolve *solve)
 {
   CeldRect   bounds[CELD_MOST_GROUPS], *box = celd_alloc (work->parts.n, sizeof *box);
   size_t     groups = 0;
@@ -319,8 +319,8 @@ solve_parts (Work *work, const CeldRun *run, CeldSolve *solve)
   *solve = (CeldSolve) { .converged = true };
   for (size_t g = 0; g < groups && status == CELD_OK; g++)
     {
-      CeldPart  part;
-      CeldRun   share = celd_run_part (&part, run, (double) g / (double) groups, (double) (g + 1) / (double) groups);
+      CeldHostPart  part;
+      CeldHost  share = celd_host_part (&part, host, (double) g / (double) groups, (double) (g + 1) / (double) groups);
       Box       one = { .box = bounds[g], .group = (uint32_t) g };
       CeldSolve how;
 
@@ -336,11 +336,11 @@ solve_parts (Work *work, const CeldRun *run, CeldSolve *solve)
 }
 
 CeldStatus
-celd_system_solve (const CeldSystem *system, const CeldRun *run, float *depth, CeldSolve *solve)
+celd_system_solve (const CeldSystem *system, const CeldHost *host, float *depth, CeldSolve *solve)
 {
   Work       work = { .system = system, .depth = depth };
-  CeldPart   part[2];
-  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart   part[2];
+  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   CeldStatus status = celd_parts_find (system->width, system->height, system->level, system->fixed, &system->edges,
                                        &finding, &work.parts);
 

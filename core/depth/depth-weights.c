@@ -66,7 +66,7 @@ weigh_row (const CeldEdges *b, const float *level, int n, int y, int right, floa
 }
 
 CeldStatus
-celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
+celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
                     float *east, float *south)
 {
   CeldEdges b = { ink, threshold, celd_edge_reach (celd_stroke_width (ink)) };
@@ -83,7 +83,7 @@ celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, c
       else
         memset (south, 0, w * sizeof *south);
       if (y % 64 == 0)
-        status = celd_step (run, (double) y / ink->height);
+        status = celd_progress (host, (double) y / ink->height);
     }
   celd_free (differs);
   return status;

@@ -52,7 +52,7 @@ typedef struct
 /* What is joined: pixels that are not fixed (NULL: none is), across edges where v_pq > 0; with edges NULL where levels
  * are equal.  Tight planes. */
 CeldStatus celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldEdges *edges,
-                            const CeldRun *run, CeldParts *parts);
+                            const CeldHost *host, CeldParts *parts);
 void celd_parts_clear (CeldParts *parts);                     /* accepts a zeroed record */
 
 /* Is any pixel of the stretch of row y marked? */
@@ -75,7 +75,7 @@ enum { CELD_FREE, CELD_ANCHOR, CELD_CORE };                   /* what a pixel of
  * (NULL: everything) are the pixels whose level or whose neighbour's level is not what it was when `last` was made:
  * cores that lie elsewhere are taken from there. */
 CeldStatus celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
-                            const uint8_t *last, const CeldRun *run, uint8_t *fixed);
+                            const uint8_t *last, const CeldHost *host, uint8_t *fixed);
 
 /* ------------------------------------------------------------------ depth-solve.c */
 
@@ -91,7 +91,7 @@ typedef struct
 } CeldSystem;
 
 /* All of `depth`, which is tight.  On failure it is undefined. */
-CeldStatus celd_system_solve (const CeldSystem *system, const CeldRun *run, float *depth, CeldSolve *solve);
+CeldStatus celd_system_solve (const CeldSystem *system, const CeldHost *host, float *depth, CeldSolve *solve);
 
 /* ------------------------------------------------------------------ smooth.c */
 
@@ -119,7 +119,7 @@ typedef struct
 
 /* As celd_smooth; makes the plane.  `smoother` (NULL: nothing is kept) remembers it: where nothing changed since, depth
  * is the last one bit by bit, elsewhere it starts from that. */
-CeldStatus celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *smoothing, const CeldRun *run,
+CeldStatus celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *smoothing, const CeldHost *host,
                               CeldPlane *depth, CeldSolve *solve);
 void celd_smoother_clear (CeldSmoother *smoother);            /* accepts a zeroed record */
 
@@ -131,12 +131,12 @@ void celd_smoother_clear (CeldSmoother *smoother);            /* accepts a zeroe
 void celd_depth_levels (const CeldPlane *levels, float *level);
 
 /* Connected regions of one level, as celd_components gives them. */
-CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldRun *run, CeldLabels *regions,
+CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
                                CeldComponent **list, size_t *n);
 
 /* Edge weights v_pq of eq. (3) for celd_lap_setup: 1 where levels are equal, 0 across a depth discontinuity, else the
  * least ink around.  `level` is a tight plane of the size of the ink. */
-CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldRun *run,
+CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
                                float *east, float *south);
 
 /* ------------------------------------------------------------------ way-round.c */

@@ -164,7 +164,7 @@ report_cycles (const CeldLabels *nodes, const Problem *q, CeldProblems *problems
 
 /* The relations that can hold together. */
 static CeldStatus
-settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldRun *run, Problem *q,
+settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldHost *host, Problem *q,
                   CeldProblems *problems)
 {
   const CeldBases *b = &p->bases;
@@ -175,7 +175,7 @@ settle_relations (const CeldProgram *p, const CeldSettings *settings, const Celd
   if (status != CELD_OK)
     return status;
   rename_labels (p, before, problems);
-  status = celd_graph_settle (&q->graph, settings->on_cycle, run, &q->order);
+  status = celd_graph_settle (&q->graph, settings->on_cycle, host, &q->order);
   return status == CELD_OK ? report_cycles (&nodes, q, problems) : status;
 }
 
@@ -310,25 +310,25 @@ tell (const CeldProgram *p, Problem *q, CeldExact *exact)
 
 /* The depths of the nodes as they leave, and then of all pixels. */
 static CeldStatus
-compose (const CeldProgram *p, Problem *q, double range, const CeldSettings *settings, const CeldRun *run,
+compose (const CeldProgram *p, Problem *q, double range, const CeldSettings *settings, const CeldHost *host,
          CeldPlane *depth)
 {
   for (size_t k = 0; k < p->bases.n; k++)
     q->u[k] = encode (q->u[k], range, settings);
-  return celd_bases_compose (&p->bases, q->u, run, depth);
+  return celd_bases_compose (&p->bases, q->u, host, depth);
 }
 
 CeldStatus
 celd_program_solve (CeldProgram *program, const CeldRelations *relations, const CeldSettings *settings,
-                    const CeldRun *run, CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
+                    const CeldHost *host, CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
 {
   CeldProgram *p = program;
   Problem      q = { 0 };
   CeldExact    told = { 0 };
   size_t       before = problems ? problems->n : 0, painted = 0;
   double       range = 0;
-  CeldPart     part[2];
-  CeldRun      placing = celd_run_part (&part[0], run, 0, 0.97), ordering = celd_run_part (&part[1], run, 0.97, 0.98);
+  CeldHostPart     part[2];
+  CeldHost     placing = celd_host_part (&part[0], host, 0, 0.97), ordering = celd_host_part (&part[1], host, 0.97, 0.98);
   CeldStatus   status = find_points (p, relations, &q);
 
   for (size_t k = 0; k < p->palette.n; k++)
@@ -357,9 +357,9 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
     status = celd_problem_add (problems, (CeldProblem) {
       .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX });
   if (status == CELD_OK)
-    status = celd_step (run, 0.98);
+    status = celd_progress (host, 0.98);
   if (status == CELD_OK)
-    status = compose (p, &q, range, settings, run, depth);
+    status = compose (p, &q, range, settings, host, depth);
   if (status == CELD_OK && exact)
     {
       celd_exact_clear (exact);
@@ -375,14 +375,14 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
 
 CeldStatus
 celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
-                  const CeldRelations *relations, const CeldSettings *settings, const CeldRun *run,
+                  const CeldRelations *relations, const CeldSettings *settings, const CeldHost *host,
                   CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
 {
   const CeldRelations none = { 0 };
   CeldProgram *program;
-  CeldPart     part[3];
-  CeldRun      weighing = celd_run_part (&part[0], run, 0, 0.04), reading = celd_run_part (&part[1], run, 0.04, 0.05);
-  CeldRun      solving  = celd_run_part (&part[2], run, 0.05, 1);
+  CeldHostPart     part[3];
+  CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.04), reading = celd_host_part (&part[1], host, 0.04, 0.05);
+  CeldHost     solving  = celd_host_part (&part[2], host, 0.05, 1);
   CeldStatus   status;
 
   if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, depth))

@@ -106,7 +106,7 @@ start_row (void *data, int y)
 /* Takes over the nodes; the bases are what a solution starts from. */
 static CeldStatus
 place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
-             const CeldRun *run)
+             const CeldHost *host)
 {
   size_t     pixels = (size_t) b->width * (size_t) b->height;
   uint32_t   n = n_sets + (uint32_t) n_points, n_old = b->n;
@@ -127,7 +127,7 @@ place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *
       b->pixel  = pixel;
       b->n      = n;
       b->n_sets = n_sets;
-      celd_each (run, b->height, start_row, &s);
+      celd_parallel_for (host, b->height, start_row, &s);
       celd_bases_shrink (b, celd_bases_groups (n));
       own   = NULL;
       pixel = NULL;
@@ -140,7 +140,7 @@ place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *
 }
 
 CeldStatus
-celd_bases_set_up (const CeldBases *b, const CeldRun *run, CeldLaplace **laplace)
+celd_bases_set_up (const CeldBases *b, const CeldHost *host, CeldLaplace **laplace)
 {
   size_t     pixels = (size_t) b->width * (size_t) b->height;
   uint8_t   *fixed = celd_alloc (pixels, 1);
@@ -149,7 +149,7 @@ celd_bases_set_up (const CeldBases *b, const CeldRun *run, CeldLaplace **laplace
   for (size_t p = 0; fixed && p < pixels; p++)
     fixed[p] = b->node[p] != 0;
   if (fixed)
-    status = celd_lap_setup (b->width, b->height, b->east, b->south, NULL, fixed, run, laplace);
+    status = celd_lap_setup (b->width, b->height, b->east, b->south, NULL, fixed, host, laplace);
   celd_free (fixed);
   return status;
 }
@@ -175,22 +175,22 @@ celd_solve_join (CeldSolve *worst, const CeldSolve *one)
 
 CeldStatus
 celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
-                 double tolerance, const CeldRun *run, CeldSolve *solve)
+                 double tolerance, const CeldHost *host, CeldSolve *solve)
 {
   CeldBases   *b = bases;
   CeldLaplace *laplace = NULL;
   CeldSolve    worst = { .converged = true };
-  CeldPart     part[2];
-  CeldRun      setting_up = celd_run_part (&part[0], run, 0, 0.1), summing = celd_run_part (&part[1], run, 0.95, 1);
-  CeldStatus   status = place_nodes (b, node, n_sets, point, n_points, run);
+  CeldHostPart     part[2];
+  CeldHost     setting_up = celd_host_part (&part[0], host, 0, 0.1), summing = celd_host_part (&part[1], host, 0.95, 1);
+  CeldStatus   status = place_nodes (b, node, n_sets, point, n_points, host);
 
   if (status == CELD_OK && b->n_groups)
     status = celd_bases_set_up (b, &setting_up, &laplace);
   for (size_t g = 0; g < b->n_groups && status == CELD_OK; g++)
     {
       double    from = 0.1 + 0.85 * (double) g / (double) b->n_groups;
-      CeldPart  share;
-      CeldRun   solving = celd_run_part (&share, run, from, from + 0.85 / (double) b->n_groups);
+      CeldHostPart  share;
+      CeldHost  solving = celd_host_part (&share, host, from, from + 0.85 / (double) b->n_groups);
       CeldSolve one = { 0 };
 
       status = celd_lap_solve_lanes (laplace, NULL, b->group[g], tolerance, 0, &solving, &one);
@@ -250,7 +250,7 @@ compose_band (void *data, int band)
 }
 
 CeldStatus
-celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run, CeldPlane *depth)
+celd_bases_compose (const CeldBases *bases, const double *u, const CeldHost *host, CeldPlane *depth)
 {
   Composition c = {
     bases, depth, celd_alloc0 (bases->n_groups, CELD_LANES * sizeof (float)), (float) u[0], (float) u[0], (float) u[0]
@@ -264,7 +264,7 @@ celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run,
       c.low  = (float) u[k] < c.low ? (float) u[k] : c.low;
       c.high = (float) u[k] > c.high ? (float) u[k] : c.high;
     }
-  celd_each (run, (bases->height + BAND - 1) / BAND, compose_band, &c);
+  celd_parallel_for (host, (bases->height + BAND - 1) / BAND, compose_band, &c);
   celd_free (c.value);
   return CELD_OK;
 }

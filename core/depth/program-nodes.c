@@ -113,12 +113,12 @@ room_new (CeldBases *b, size_t n_points, Room *room)
 
 /* Node n + 1 at pixel p, with the basis in g; k: for its stiffness. */
 static void
-insert (CeldBases *b, size_t p, const float *g, const CeldRun *run, Room *room, double *k)
+insert (CeldBases *b, size_t p, const float *g, const CeldHost *host, Room *room, double *k)
 {
   size_t  n = b->n;
   double *a = room->share, own;
 
-  celd_stiffness_of (b, g, run, room->work, room->with, &own);
+  celd_stiffness_of (b, g, host, room->work, room->with, &own);
   a[0] = 1;
   for (uint32_t i = 2; i <= n; i++)
     {
@@ -134,20 +134,20 @@ insert (CeldBases *b, size_t p, const float *g, const CeldRun *run, Room *room, 
 
 /* The answers to sources at the points. */
 static CeldStatus
-solve_points (const CeldBases *b, const size_t *point, size_t n_points, double tolerance, const CeldRun *run,
+solve_points (const CeldBases *b, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
               float *g, CeldSolve *solve)
 {
   size_t       pixels = (size_t) b->width * (size_t) b->height;
   float       *source = celd_alloc0 (pixels, sizeof *source);
   CeldLaplace *laplace = NULL;
-  CeldPart     part;
-  CeldRun      setting_up = celd_run_part (&part, run, 0, 0.3);
+  CeldHostPart     part;
+  CeldHost     setting_up = celd_host_part (&part, host, 0, 0.3);
   CeldStatus   status = source ? celd_bases_set_up (b, &setting_up, &laplace) : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < n_points && status == CELD_OK; i++, g += pixels)
     {
-      CeldPart  share;
-      CeldRun   solving = celd_run_part (&share, run, 0.3 + 0.7 * (double) i / (double) n_points,
+      CeldHostPart  share;
+      CeldHost  solving = celd_host_part (&share, host, 0.3 + 0.7 * (double) i / (double) n_points,
                                          0.3 + 0.7 * (double) (i + 1) / (double) n_points);
       CeldSolve one = { 0 };
 
@@ -163,7 +163,7 @@ solve_points (const CeldBases *b, const size_t *point, size_t n_points, double t
 }
 
 CeldStatus
-celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldRun *run,
+celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
                 CeldSolve *solve)
 {
   CeldBases *b = bases;
@@ -174,7 +174,7 @@ celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double t
 
   solve->converged = true;
   if (status == CELD_OK)
-    status = solve_points (b, point, n_points, tolerance, run, room.basis, solve);
+    status = solve_points (b, point, n_points, tolerance, host, room.basis, solve);
   k = status == CELD_OK ? celd_alloc (n * n, sizeof *k) : NULL;
   if (k)
     {
@@ -183,7 +183,7 @@ celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double t
           float *g = room.basis + i * pixels;
 
           make_basis (b, point[i], g);
-          insert (b, point[i], g, run, &room, i + 1 < n_points ? room.stiffness + i * n * n : k);
+          insert (b, point[i], g, host, &room, i + 1 < n_points ? room.stiffness + i * n * n : k);
         }
       celd_free (old);
     }

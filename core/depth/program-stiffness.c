@@ -141,7 +141,7 @@ complete (size_t n, double *k)
 }
 
 CeldStatus
-celd_stiffness (CeldBases *bases, const CeldRun *run)
+celd_stiffness (CeldBases *bases, const CeldHost *host)
 {
   size_t     groups = bases->n_groups;
   Sums       s = {
@@ -149,11 +149,11 @@ celd_stiffness (CeldBases *bases, const CeldRun *run)
     celd_alloc (BANDS * groups, 2 * PIECE * CELD_LANES * sizeof (double)), celd_alloc (BANDS * groups, sizeof (bool)),
   };
   double    *k = celd_alloc (bases->n, bases->n * sizeof *k);
-  CeldStatus status = s.sum && s.work && s.steep && k ? celd_step (run, 0) : CELD_NO_MEMORY;
+  CeldStatus status = s.sum && s.work && s.steep && k ? celd_progress (host, 0) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
-      celd_each (run, BANDS, add_band, &s);
+      celd_parallel_for (host, BANDS, add_band, &s);
       collect (&s, k);
       complete (bases->n, k);
       celd_free (bases->stiffness);
@@ -211,14 +211,14 @@ celd_stiffness_room (size_t n)
 }
 
 void
-celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run, double *room, double *with,
+celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldHost *host, double *room, double *with,
                    double *own)
 {
   size_t   lanes = bases->n_groups * CELD_LANES;
   Products s = { bases, basis, room };
 
   memset (room, 0, BANDS * (lanes + 1) * sizeof *room);
-  celd_each (run, BANDS, multiply_band, &s);
+  celd_parallel_for (host, BANDS, multiply_band, &s);
   for (size_t band = 1; band < BANDS; band++)
     for (size_t i = 0; i <= lanes; i++)
       s.sum[i] += s.sum[band * (lanes + 1) + i];

@@ -52,7 +52,7 @@ celd_program_free (CeldProgram *program)
 /* ------------------------------------------------------------------ what the artist changes */
 
 CeldStatus
-celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run)
+celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host)
 {
   CeldProgram *p = program;
   size_t       pixels = (size_t) ink->width * (size_t) ink->height;
@@ -63,7 +63,7 @@ celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSett
   p->south = celd_alloc (pixels, sizeof *p->south);
   status   = p->east && p->south ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = celd_affinities (ink, settings->contrast, settings->weight_floor, run, p->east, p->south, &p->sigma);
+    status = celd_affinities (ink, settings->contrast, settings->weight_floor, host, p->east, p->south, &p->sigma);
   if (status != CELD_OK)
     {
       forget_ink (p);
@@ -90,7 +90,7 @@ copy_seeds (const CeldLabels *seeds, size_t n_labels, CeldLabels *nodes)
 
 CeldStatus
 celd_program_set_seeds (CeldProgram *program, const CeldLabels *seeds, const CeldPalette *palette,
-                        CeldSameColour same_colour, const CeldRun *run)
+                        CeldSameColour same_colour, const CeldHost *host)
 {
   CeldProgram *p = program;
   CeldLabels   nodes = { 0 };
@@ -102,8 +102,8 @@ celd_program_set_seeds (CeldProgram *program, const CeldLabels *seeds, const Cel
   if (status == CELD_OK)
     status = celd_palette_copy (palette, &made);
   if (status == CELD_OK)
-    status = same_colour == CELD_SAME_COLOUR_SEPARATE ? celd_separate (run, &nodes, &made)
-                                                      : celd_palette_measure (&nodes, NULL, run, &made);
+    status = same_colour == CELD_SAME_COLOUR_SEPARATE ? celd_separate (host, &nodes, &made)
+                                                      : celd_palette_measure (&nodes, NULL, host, &made);
   if (status == CELD_OK && !(label = celd_alloc (made.n, sizeof *label)))
     status = CELD_NO_MEMORY;
   if (status != CELD_OK)
@@ -148,7 +148,7 @@ celd_program_find (CeldProgram *program, double x, double y, size_t *pixel)
 
 /* Bases for the scribbles and those points that are on none. */
 static CeldStatus
-make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldRun *run)
+make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldHost *host)
 {
   size_t    *free_point = celd_alloc (n_points, sizeof *free_point), n = 0;
   CeldStatus status;
@@ -160,7 +160,7 @@ make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance
       free_point[n++] = point[i];
   p->stale = true;
   status   = celd_bases_make (&p->bases, p->nodes.data, (uint32_t) p->palette.n, free_point, n, tolerance,
-                              run, &p->solve);
+                              host, &p->solve);
   if (status == CELD_OK)
     {
       p->stale     = false;
@@ -197,7 +197,7 @@ drop_spare (CeldProgram *p, const size_t *point, size_t n_points)
 
 /* Bases for these new points beside those that there are. */
 static CeldStatus
-add_points (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldRun *run)
+add_points (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldHost *host)
 {
   size_t    *fresh = celd_alloc (n_points, sizeof *fresh), n = 0;
   CeldSolve  solve = { .converged = true };
@@ -207,14 +207,14 @@ add_points (CeldProgram *p, const size_t *point, size_t n_points, double toleran
     if (!p->bases.node[point[i]])
       fresh[n++] = point[i];
   if (status == CELD_OK)
-    status = celd_bases_add (&p->bases, fresh, n, tolerance, run, &solve);
+    status = celd_bases_add (&p->bases, fresh, n, tolerance, host, &solve);
   p->solve.converged = p->solve.converged && solve.converged;
   celd_free (fresh);
   return status;
 }
 
 CeldStatus
-celd_program_place (CeldProgram *program, const size_t *point, size_t n_points, double tolerance, const CeldRun *run)
+celd_program_place (CeldProgram *program, const size_t *point, size_t n_points, double tolerance, const CeldHost *host)
 {
   CeldProgram *p = program;
   size_t       fresh = 0;
@@ -222,6 +222,6 @@ celd_program_place (CeldProgram *program, const size_t *point, size_t n_points, 
   for (size_t i = 0; p->bases.n && i < n_points; i++)
     fresh += !p->bases.node[point[i]];
   if (!p->bases.n || p->stale || fresh > MOST_ADDED || tolerance < p->tolerance)
-    return make_all (p, point, n_points, tolerance, run);
-  return fresh ? add_points (p, point, n_points, tolerance, run) : CELD_OK;
+    return make_all (p, point, n_points, tolerance, host);
+  return fresh ? add_points (p, point, n_points, tolerance, host) : CELD_OK;
 }

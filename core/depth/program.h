@@ -31,13 +31,13 @@ typedef struct
  * Starts from the bases that there are; `bases` needs width, height and weights before the first call.  After a failure
  * there are no nodes. */
 CeldStatus celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point,
-                            size_t n_points, double tolerance, const CeldRun *run, CeldSolve *solve);
+                            size_t n_points, double tolerance, const CeldHost *host, CeldSolve *solve);
 
 /* No nodes any more. */
 void       celd_bases_clear (CeldBases *bases);
 
 /* depth = sum of u_k h_k, within the extremes of u. */
-CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const CeldRun *run, CeldPlane *depth);
+CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const CeldHost *host, CeldPlane *depth);
 
 /* What program-nodes.c shares: the first lane of a basis, not of node 1; groups that so many nodes need. */
 static inline float *
@@ -57,7 +57,7 @@ CeldStatus celd_bases_grow (CeldBases *b, size_t n_groups);
 void       celd_bases_shrink (CeldBases *b, size_t n_groups);
 
 /* The solver that knows the nodes. */
-CeldStatus celd_bases_set_up (const CeldBases *b, const CeldRun *run, CeldLaplace **laplace);
+CeldStatus celd_bases_set_up (const CeldBases *b, const CeldHost *host, CeldLaplace **laplace);
 /* The worst of solutions: with `converged` to begin with. */
 void       celd_solve_join (CeldSolve *worst, const CeldSolve *one);
 
@@ -66,7 +66,7 @@ void       celd_solve_join (CeldSolve *worst, const CeldSolve *one);
 /* One more node for each of these pixels, which are in none: one solution each.  After a failure the nodes are those
  * before. */
 CeldStatus celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance,
-                           const CeldRun *run, CeldSolve *solve);
+                           const CeldHost *host, CeldSolve *solve);
 
 /* Lets go of a single pixel, not node 1, without a solution.  The last node takes its number. */
 void       celd_bases_drop (CeldBases *bases, uint32_t node);
@@ -75,11 +75,11 @@ void       celd_bases_drop (CeldBases *bases, uint32_t node);
 
 /* Fills in the stiffness of the bases: the energies of their pairs, so that an inexact basis raises the energy of the
  * result a little, to second order, but never breaks a constraint. */
-CeldStatus celd_stiffness (CeldBases *bases, const CeldRun *run);
+CeldStatus celd_stiffness (CeldBases *bases, const CeldHost *host);
 
 /* The energies of one more basis, a tight plane: with each of the n bases, and of its own.  room: as many numbers as
  * celd_stiffness_room says for so many nodes or more. */
-void       celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldRun *run, double *room,
+void       celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldHost *host, double *room,
                               double *with, double *own);
 size_t     celd_stiffness_room (size_t n);
 
@@ -93,11 +93,11 @@ void         celd_program_free (CeldProgram *program);     /* accepts NULL */
 
 /* The drawing, which the caller keeps as it is until the next call of this function; what was solved is forgotten. */
 CeldStatus celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSettings *settings,
-                                 const CeldRun *run);
+                                 const CeldHost *host);
 
 /* The scribbles, of the size of the ink and after it; copied.  What was solved is where the next solution starts. */
 CeldStatus celd_program_set_seeds (CeldProgram *program, const CeldLabels *seeds, const CeldPalette *palette,
-                                   CeldSameColour same_colour, const CeldRun *run);
+                                   CeldSameColour same_colour, const CeldHost *host);
 
 /* The pixel that a point means: itself, or on ink the nearest paper within one stroke width; false if it is outside. */
 bool celd_program_find (CeldProgram *program, double x, double y, size_t *pixel);
@@ -105,11 +105,11 @@ bool celd_program_find (CeldProgram *program, double x, double y, size_t *pixel)
 /* Makes these pixels nodes beside the scribbles, each unless it is on one, and brings bases and stiffness up to date,
  * with as few solutions as possible. */
 CeldStatus celd_program_place (CeldProgram *program, const size_t *point, size_t n_points, double tolerance,
-                               const CeldRun *run);
+                               const CeldHost *host);
 
 /* See celd_depth_exact; of the settings those of the encoding and the tolerance matter. */
 CeldStatus celd_program_solve (CeldProgram *program, const CeldRelations *relations, const CeldSettings *settings,
-                               const CeldRun *run, CeldPlane *depth, CeldExact *exact, CeldProblems *problems);
+                               const CeldHost *host, CeldPlane *depth, CeldExact *exact, CeldProblems *problems);
 
 struct CeldProgram
 {

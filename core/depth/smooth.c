@@ -32,7 +32,7 @@ celd_depth_levels (const CeldPlane *levels, float *level)
 }
 
 CeldStatus
-celd_depth_regions (int width, int height, const float *level, const CeldRun *run, CeldLabels *regions,
+celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
                     CeldComponent **list, size_t *n)
 {
   CeldLabels bits; /* every distinct level as a label */
@@ -41,7 +41,7 @@ celd_depth_regions (int width, int height, const float *level, const CeldRun *ru
   if (status == CELD_OK)
     {
       memcpy (bits.data, level, (size_t) width * (size_t) height * sizeof *level);
-      status = celd_components (&bits, UINT32_MAX, false, run, regions, list, n);
+      status = celd_components (&bits, UINT32_MAX, false, host, regions, list, n);
     }
   celd_free (bits.data);
   return status;
@@ -190,11 +190,11 @@ remember (CeldSmoother *smoother, const CeldSmoothing *s, const CeldSolve *solve
 }
 
 CeldStatus
-celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldRun *run, CeldPlane *depth,
+celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldHost *host, CeldPlane *depth,
                    CeldSolve *solve)
 {
-  CeldPart   part[2];
-  CeldRun    holding = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart   part[2];
+  CeldHost   holding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   Planes     p;
   CeldStatus status = planes_new (smoother, s, &p);
 
@@ -238,7 +238,7 @@ celd_smoother_clear (CeldSmoother *smoother)
 
 CeldStatus
 celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors, const CeldSettings *settings,
-             const CeldRun *run, CeldPlane *depth, CeldSolve *solve)
+             const CeldHost *host, CeldPlane *depth, CeldSolve *solve)
 {
   CeldSmoothing smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
   CeldPlane     made = { 0 };
@@ -250,7 +250,7 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
   smoothing.reach = celd_edge_reach (celd_stroke_width (ink));
-  status = celd_smooth_again (NULL, &smoothing, run, &made, &how);
+  status = celd_smooth_again (NULL, &smoothing, host, &made, &how);
   for (int y = 0; y < depth->height && status == CELD_OK; y++)
     memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);
   if (status == CELD_OK && solve)

@@ -104,7 +104,7 @@ weigh_row (void *data, int y)
 }
 
 CeldStatus
-celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRun *run, float *east, float *south,
+celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldHost *host, float *east, float *south,
                  double *mean)
 {
   double     w = ink->width, h = ink->height, pairs = (w - 1) * h + w * (h - 1), sum = 0;
@@ -112,19 +112,19 @@ celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRu
     ink, celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof (float)), east, south,
     celd_alloc ((size_t) ink->height, sizeof (double)), 0, floor
   };
-  CeldStatus status = a.contrast && a.sum ? celd_step (run, 0) : CELD_NO_MEMORY;
+  CeldStatus status = a.contrast && a.sum ? celd_progress (host, 0) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
-      celd_each (run, ink->height, measure_row, &a);
+      celd_parallel_for (host, ink->height, measure_row, &a);
       for (int y = 0; y < ink->height; y++)
         sum += a.sum[y];
       *mean   = pairs > 0 ? sum / pairs : 0;
       a.scale = *mean > 0 ? 1 / (*mean * (double) contrast) : 0;
-      status  = celd_step (run, 0.5);
+      status  = celd_progress (host, 0.5);
     }
   if (status == CELD_OK)
-    celd_each (run, ink->height, weigh_row, &a);
+    celd_parallel_for (host, ink->height, weigh_row, &a);
   celd_free (a.contrast);
   celd_free (a.sum);
   return status;

@@ -66,7 +66,7 @@ number_row (const CeldLabels *labels, uint32_t none, bool diagonal, int y, const
 }
 
 static CeldStatus
-number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run, uint32_t *number,
+number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldHost *host, uint32_t *number,
                Numbers *numbers)
 {
   size_t     w = (size_t) labels->width;
@@ -78,7 +78,7 @@ number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const Cel
 
       status = number_row (labels, none, diagonal, y, y ? row - w : NULL, row, numbers);
       if (!status && y % ROWS == 0)
-        status = celd_step (run, 0.6 * y / labels->height);
+        status = celd_progress (host, 0.6 * y / labels->height);
     }
   return status;
 }
@@ -123,7 +123,7 @@ write_components (const CeldLabels *labels, const uint32_t *number, const Number
 }
 
 CeldStatus
-celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
+celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldHost *host,
                  CeldLabels *components, CeldComponent **list, size_t *n)
 {
   Numbers        numbers = { 0 };
@@ -138,12 +138,12 @@ celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const C
   number = celd_alloc ((size_t) labels->width * (size_t) labels->height, sizeof *number);
   if (!number)
     goto done;
-  status = number_pixels (labels, none, diagonal, run, number, &numbers);
+  status = number_pixels (labels, none, diagonal, host, number, &numbers);
   if (status)
     goto done;
   count = resolve_numbers (&numbers);
   found = celd_alloc0 (count, sizeof *found);
-  status = found ? celd_step (run, 0.7) : CELD_NO_MEMORY;
+  status = found ? celd_progress (host, 0.7) : CELD_NO_MEMORY;
   if (status)
     goto done;
   write_components (labels, number, &numbers, components, found);

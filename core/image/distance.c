@@ -158,7 +158,7 @@ measure_rows (void *data, int job)
 }
 
 static CeldStatus
-transform (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest)
+transform (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared, int32_t *nearest)
 {
   Transform  t = { width, height, inside, squared, nearest, NULL, NULL, 0 };
   CeldStatus status = CELD_NO_MEMORY;
@@ -169,9 +169,9 @@ transform (int width, int height, const uint8_t *inside, const CeldRun *run, int
   t.envelope = celd_alloc ((size_t) width * JOBS, sizeof *t.envelope);
   if (!t.column || !t.envelope)
     goto done;
-  status = celd_rounds (run, (width + STRIP - 1) / STRIP, JOBS, measure_columns, &t, &t.first, 0, 0.4);
+  status = celd_parallel_rounds (host, (width + STRIP - 1) / STRIP, JOBS, measure_columns, &t, &t.first, 0, 0.4);
   if (!status)
-    status = celd_rounds (run, (height + BAND - 1) / BAND, JOBS, measure_rows, &t, &t.first, 0.4, 1);
+    status = celd_parallel_rounds (host, (height + BAND - 1) / BAND, JOBS, measure_rows, &t, &t.first, 0.4, 1);
 done:
   celd_free (t.column);
   celd_free (t.envelope);
@@ -179,13 +179,13 @@ done:
 }
 
 CeldStatus
-celd_distance (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared)
+celd_distance (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared)
 {
-  return transform (width, height, inside, run, squared, NULL);
+  return transform (width, height, inside, host, squared, NULL);
 }
 
 CeldStatus
-celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared, int32_t *nearest)
+celd_nearest (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared, int32_t *nearest)
 {
-  return transform (width, height, inside, run, squared, nearest);
+  return transform (width, height, inside, host, squared, nearest);
 }

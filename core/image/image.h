@@ -42,7 +42,7 @@ CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, 
 
 /* Fills in the area of each label and a pixel of it as far as can be from ink (may be NULL) and other labels; -1,-1 for
  * labels without a pixel. */
-CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run,
+CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldHost *host,
                                  CeldPalette *palette);
 
 /* A copy that celd_grow can make larger; makes the record. */
@@ -56,13 +56,13 @@ uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
 
 /* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;
  * INT32_MAX if there is none.  Tight planes of width x height; their content is undefined after a cancel. */
-CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared);
+CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared);
 /* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
-CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldRun *run, int32_t *squared,
+CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared,
                          int32_t *nearest);
 /* signed-distance.c: of paper the squared distance to the nearest ink, of ink minus that to the nearest paper.  One
  * tight plane of the size of the ink, which decides by celd_is_paper; INT32_MAX and -INT32_MAX where there is none. */
-CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared);
+CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squared);
 
 /* ------------------------------------------------------------------ components.c: connected components */
 
@@ -77,7 +77,7 @@ typedef struct
 /* 4- or 8-connected components of equal labels.  Pixels of label `none` (pass UINT32_MAX for no such label) get
  * component 0; others 1 .. n in reading order of their first pixel.  *list has n items, item k-1 is component k;
  * end it with celd_free.  `components` may alias `labels`. */
-CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldRun *run,
+CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldHost *host,
                             CeldLabels *components, CeldComponent **list, size_t *n);
 
 /* ------------------------------------------------------------------ affinity.c: the weights of edges */
@@ -85,7 +85,7 @@ CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagon
 /* The weights w_pq of eq. (1), least `floor`, for celd_lap_setup: tight planes of the size of the ink, zero where the
  * picture ends.  I_p - I_q is the contrast round p or round q, 3 x 3 pixels, whichever is less; sigma is `contrast`
  * times the mean of the plain (I_p - I_q)^2 over all pairs of neighbours, as *mean tells. */
-CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldRun *run,
+CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldHost *host,
                             float *east, float *south, double *mean);
 
 /* ------------------------------------------------------------------ seed-rows.c */

@@ -26,7 +26,7 @@
 
 typedef struct
 {
-  const CeldRun *run;
+  const CeldHost *host;
   int            passes;        /* done so far */
   size_t         pixels;
   int            widest;        /* half width of the widest stroke */
@@ -45,7 +45,7 @@ typedef struct
 static CeldStatus
 pass_done (Work *w)
 {
-  return celd_step (w->run, (double) ++w->passes / PASSES);
+  return celd_progress (w->host, (double) ++w->passes / PASSES);
 }
 
 /* ------------------------------------------------------------------ grey morphology with square windows */
@@ -336,9 +336,9 @@ write_ink (const Work *w, bool pale, CeldPlane *ink)
 }
 
 CeldStatus
-celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run, CeldPlane *ink)
+celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink)
 {
-  Work       w = { .run = run };
+  Work       w = { .host = host };
   bool       pale = false;
   CeldStatus status;
 

@@ -25,7 +25,7 @@ on_border (const CeldLabels *labels, const CeldPlane *ink, int x, int y)
 }
 
 CeldStatus
-celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldRun *run, CeldPalette *palette)
+celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldHost *host, CeldPalette *palette)
 {
   int        w = labels->width, h = labels->height;
   size_t     n = (size_t) w * (size_t) h;
@@ -38,7 +38,7 @@ celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const Celd
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w; x++)
       border[(size_t) y * (size_t) w + (size_t) x] = on_border (labels, ink, x, y);
-  status = celd_distance (w, h, border, run, squared);
+  status = celd_distance (w, h, border, host, squared);
   if (status != CELD_OK)
     goto done;
   for (size_t k = 0; k < palette->n; k++)
@@ -134,15 +134,15 @@ celd_palette_copy (const CeldPalette *palette, CeldPalette *copy)
 }
 
 CeldStatus
-celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette)
+celd_separate (const CeldHost *host, CeldLabels *labels, CeldPalette *palette)
 {
   CeldLabels     regions = { 0 };
   CeldComponent *component = NULL;
   uint32_t      *number = NULL;
   CeldPalette    made = { 0 };
   size_t         n = 0;
-  CeldPart       part[2];
-  CeldRun        first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart       part[2];
+  CeldHost       first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus     status;
 
   if (!CELD_SAME_SIZE (labels, labels))
@@ -165,7 +165,7 @@ celd_separate (const CeldRun *run, CeldLabels *labels, CeldPalette *palette)
     regions.data[p] = regions.data[p] ? number[regions.data[p] - 1] : 0;
   status = celd_palette_measure (&regions, NULL, &second, &made);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (status != CELD_OK)
     goto done;
   for (int y = 0; y < labels->height; y++)

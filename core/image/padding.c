@@ -23,7 +23,7 @@ pad_pixel (const CeldColours *picture, int64_t most, const float blank[3], int32
 }
 
 CeldStatus
-celd_pad_colours (int reach, const float blank[3], const CeldRun *run, CeldColours *picture)
+celd_pad_colours (int reach, const float blank[3], const CeldHost *host, CeldColours *picture)
 {
   if (!CELD_SAME_SIZE (picture, picture))
     return CELD_BAD_SIZE;
@@ -40,7 +40,7 @@ celd_pad_colours (int reach, const float blank[3], const CeldRun *run, CeldColou
       for (int y = 0; y < picture->height; y++)
         for (int x = 0; x < picture->width; x++)
           solid[i++] = CELD_RGBA (picture, x, y)[3] >= SOLID;
-      status = celd_nearest (picture->width, picture->height, solid, run, squared, nearest);
+      status = celd_nearest (picture->width, picture->height, solid, host, squared, nearest);
     }
   i = 0;
   for (int y = 0; y < picture->height && status == CELD_OK; y++)

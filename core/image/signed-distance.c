@@ -231,7 +231,7 @@ desk_clear (Desk *desk)
 }
 
 CeldStatus
-celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared)
+celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squared)
 {
   Signed     t = { .ink = ink, .squared = squared };
   CeldStatus status = CELD_OK;
@@ -241,9 +241,9 @@ celd_signed_distance (const CeldPlane *ink, const CeldRun *run, int32_t *squared
   for (int i = 0; i < JOBS; i++)
     status = desk_new (ink->width, &t.desk[i]) ? status : CELD_NO_MEMORY;
   if (!status)
-    status = celd_rounds (run, (ink->width + WIDE - 1) / WIDE, JOBS, measure_signed_columns, &t, &t.first, 0, 0.4);
+    status = celd_parallel_rounds (host, (ink->width + WIDE - 1) / WIDE, JOBS, measure_signed_columns, &t, &t.first, 0, 0.4);
   if (!status)
-    status = celd_rounds (run, (ink->height + BAND - 1) / BAND, JOBS, measure_signed_rows, &t, &t.first, 0.4, 1);
+    status = celd_parallel_rounds (host, (ink->height + BAND - 1) / BAND, JOBS, measure_signed_rows, &t, &t.first, 0.4, 1);
   for (int i = 0; i < JOBS; i++)
     desk_clear (&t.desk[i]);
   return status;

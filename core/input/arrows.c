@@ -99,7 +99,7 @@ strokes_end (Strokes *s)
 }
 
 static CeldStatus
-find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run, Strokes *s)
+find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host, Strokes *s)
 {
   const CeldPaint *paint = layer->paint;
   int              least = layer->opaque ? CELD_PAPER_CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
@@ -114,7 +114,7 @@ find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *
       CELD_AT (&mask, x, y) = celd_arrow_opacity (layer, x, y) >= least;
   status = celd_labels_new (paint->width, paint->height, &s->strokes);
   if (status == CELD_OK)
-    status = celd_components (&mask, 0, true, run, &s->strokes, &s->component, &s->n);
+    status = celd_components (&mask, 0, true, host, &s->strokes, &s->component, &s->n);
   celd_free (mask.data);
   return status;
 }
@@ -159,7 +159,7 @@ gather_pixels (Strokes *s)
 }
 
 static CeldStatus
-read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const CeldRun *run,
+read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host,
                  CeldRelations *relations, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
@@ -174,19 +174,19 @@ read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const 
       done += s->trail.n;
       status = celd_arrow_strokes_read (&s->trail, layer, style, relations, problems);
       if (status == CELD_OK)
-        status = celd_step (run, (double) done / (double) all);
+        status = celd_progress (host, (double) done / (double) all);
     }
   return status;
 }
 
 CeldStatus
-celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldRun *run,
+celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost *host,
                   CeldRelations *relations, CeldProblems *problems)
 {
   Strokes    strokes = { 0 };
   CeldArrowLayer layer;
-  CeldPart   first, rest;
-  CeldRun    finding = celd_run_part (&first, run, 0, 0.5), reading = celd_run_part (&rest, run, 0.5, 1);
+  CeldHostPart   first, rest;
+  CeldHost   finding = celd_host_part (&first, host, 0, 0.5), reading = celd_host_part (&rest, host, 0.5, 1);
   size_t     n_relations = relations->n, n_problems = problems ? problems->n : 0;
   CeldStatus status;
 

@@ -99,11 +99,11 @@ is_rim (const Bake *b, int x, int y)
 }
 
 static CeldStatus
-find_ends (const Bake *b, int reach, const CeldRun *run, End **ends, size_t *n)
+find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n)
 {
   for (int y = 0; y < b->height; y++)
     {
-      if (celd_step (run, (double) y / b->height) != CELD_OK)
+      if (celd_progress (host, (double) y / b->height) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < b->width; x++)
         {
@@ -129,12 +129,12 @@ find_ends (const Bake *b, int reach, const CeldRun *run, End **ends, size_t *n)
 
 /* Joins open ends; joints are kept at the front of the list of ends. */
 CeldStatus
-celd_contour_join (Bake *b, const CeldRun *run)
+celd_contour_join (Bake *b, const CeldHost *host)
 {
   End       *end = NULL;
   size_t     n = 0, joints = 0;
   int        reach = 5 + (b->width < b->height ? b->width : b->height) / 256;
-  CeldStatus status = find_ends (b, reach, run, &end, &n);
+  CeldStatus status = find_ends (b, reach, host, &end, &n);
 
   if (status == CELD_OK && n)
     qsort (end, n, sizeof *end, by_squared_distance);

@@ -128,7 +128,7 @@ raise_walls (Bake *b, CeldPurpose purpose)
 
 /* Fills in part, list and breadth for the strokes of `mark`: twice the area by the length of the rim. */
 static CeldStatus
-find_strokes (Bake *b, const CeldRun *run)
+find_strokes (Bake *b, const CeldHost *host)
 {
   CeldStatus status;
 
@@ -136,7 +136,7 @@ find_strokes (Bake *b, const CeldRun *run)
   celd_free (b->breadth);
   b->list = NULL;
   b->breadth = NULL;
-  status = celd_components (&b->mark, 0, true, run, &b->part, &b->list, &b->n);
+  status = celd_components (&b->mark, 0, true, host, &b->part, &b->list, &b->n);
   if (status != CELD_OK)
     return status;
   b->breadth = celd_alloc0 (b->n + 1, sizeof *b->breadth);
@@ -161,7 +161,7 @@ find_strokes (Bake *b, const CeldRun *run)
 
 /* Half the thickness of the ink that each overlap of `part` lies in: the largest distance to paper. */
 static CeldStatus
-measure_ink (const Bake *b, const CeldRun *run, float *half)
+measure_ink (const Bake *b, const CeldHost *host, float *half)
 {
   uint8_t   *paper = celd_alloc (b->pixels, 1);
   int32_t   *squared = celd_alloc (b->pixels, sizeof *squared);
@@ -170,7 +170,7 @@ measure_ink (const Bake *b, const CeldRun *run, float *half)
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     paper[i] = b->ink.data[i] > 0.5f;
   if (status == CELD_OK)
-    status = celd_distance (b->width, b->height, paper, run, squared);
+    status = celd_distance (b->width, b->height, paper, host, squared);
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     half[b->part.data[i]] = fmaxf (half[b->part.data[i]], sqrtf ((float) squared[i]));
   celd_free (squared);
@@ -189,7 +189,7 @@ runs_along (const CeldComponent *overlap, float breadth, float half)
 
 /* Blue strokes erase the ink that they run along: that they overlap for longer than both are thick. */
 static CeldStatus
-soften (Bake *b, const CeldRun *run)
+soften (Bake *b, const CeldHost *host)
 {
   float     *breadth_at = celd_alloc (b->pixels, sizeof *breadth_at); /* of the blue stroke at each pixel */
   float     *half = NULL, *breadth = NULL;                            /* by overlap */
@@ -198,19 +198,19 @@ soften (Bake *b, const CeldRun *run)
   for (size_t i = 0; i < b->pixels; i++)
     b->mark.data[i] = b->kind.data[i] == SOFT && b->cover.data[i] >= 128;
   if (status == CELD_OK)
-    status = find_strokes (b, run);
+    status = find_strokes (b, host);
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     {
       breadth_at[i] = b->breadth[b->part.data[i]];
       b->mark.data[i] = b->mark.data[i] && b->ink.data[i] < 0.95f;
     }
   if (status == CELD_OK)
-    status = find_strokes (b, run);
+    status = find_strokes (b, host);
   if (status == CELD_OK)
     {
       half = celd_alloc0 (b->n + 1, sizeof *half);
       breadth = celd_alloc0 (b->n + 1, sizeof *breadth);
-      status = half && breadth ? measure_ink (b, run, half) : CELD_NO_MEMORY;
+      status = half && breadth ? measure_ink (b, host, half) : CELD_NO_MEMORY;
     }
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     breadth[b->part.data[i]] = breadth_at[i];
@@ -298,7 +298,7 @@ paint_drawing (const Bake *b, const CeldDrawing *drawing, CeldInkMode mode, Celd
 
 /* What is needed once something is painted. */
 static CeldStatus
-study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const CeldRun *run)
+study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host)
 {
   CeldStatus status = CELD_NO_MEMORY;
 
@@ -308,7 +308,7 @@ study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const Celd
       celd_mask_new (b->width, b->height, &b->wall) == CELD_OK &&
       celd_labels_new (b->width, b->height, &b->mark) == CELD_OK &&
       celd_labels_new (b->width, b->height, &b->part) == CELD_OK)
-    status = celd_ink (drawing, mode, run, &b->ink);
+    status = celd_ink (drawing, mode, host, &b->ink);
   if (status != CELD_OK)
     return status;
   celd_ink_values (drawing, mode, &b->value);
@@ -333,10 +333,10 @@ end_bake (Bake *b)
 
 /* Walls, their open ends joined, and what blue strokes erase. */
 static CeldStatus
-build (Bake *b, CeldPurpose purpose, const CeldRun *run)
+build (Bake *b, CeldPurpose purpose, const CeldHost *host)
 {
-  CeldPart   part;
-  CeldRun    half = celd_run_part (&part, run, 0.5, 1);
+  CeldHostPart   part;
+  CeldHost   half = celd_host_part (&part, host, 0.5, 1);
   CeldStatus status;
 
   raise_walls (b, purpose);
@@ -352,11 +352,11 @@ build (Bake *b, CeldPurpose purpose, const CeldRun *run)
 
 CeldStatus
 celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose, CeldInkMode mode,
-                    const CeldRun *run, CeldDrawing *out)
+                    const CeldHost *host, CeldDrawing *out)
 {
   Bake       b = { .width = contours->width, .height = contours->height };
-  CeldPart   part;
-  CeldRun    half = celd_run_part (&part, run, 0, 0.5);
+  CeldHostPart   part;
+  CeldHost   half = celd_host_part (&part, host, 0, 0.5);
   size_t     painted;
   CeldStatus status = CELD_NO_MEMORY;
 
@@ -371,7 +371,7 @@ celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldP
     {
       status = study_drawing (&b, drawing, mode, &half);
       if (status == CELD_OK)
-        status = build (&b, purpose, run);
+        status = build (&b, purpose, host);
     }
   if (status == CELD_OK)
     paint_drawing (&b, drawing, mode, purpose, out);

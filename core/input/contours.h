@@ -35,6 +35,6 @@ celd_contour_stamp (CeldMask *wall, int x, int y, uint8_t value)
 }
 
 /* Joins the open ends of the walls in `part` to the nearest ink, other wall or frame, a few pixels away. */
-CeldStatus celd_contour_join (Bake *b, const CeldRun *run);
+CeldStatus celd_contour_join (Bake *b, const CeldHost *host);
 
 #endif

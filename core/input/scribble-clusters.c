@@ -218,7 +218,7 @@ is_paper (const Reading *r, const Colour *c)
 
 /* The colours with most honest pixels first; each takes in what lies within the radius. */
 CeldStatus
-celd_scribble_clusters (Reading *r, const CeldRun *run)
+celd_scribble_clusters (Reading *r, const CeldHost *host)
 {
   Candidate *candidate = celd_alloc (r->n, sizeof *candidate);
   size_t     cells = (size_t) cell_side (r) * (size_t) cell_side (r) * (size_t) cell_side (r), n = 0;
@@ -248,7 +248,7 @@ celd_scribble_clusters (Reading *r, const CeldRun *run)
       tally_clusters (r);
     }
   if (status == CELD_OK)
-    status = celd_step (run, 0.7);
+    status = celd_progress (host, 0.7);
   for (size_t k = 1; k < r->n_clusters && status == CELD_OK; k++)
     r->cluster[k].is_label = is_label (r, &r->cluster[k]);
 

@@ -82,7 +82,7 @@ colour_index (Reading *r, const uint8_t *rgba)
 }
 
 static CeldStatus
-count_colours (Reading *r, bool flats, const CeldRun *run)
+count_colours (Reading *r, bool flats, const CeldHost *host)
 {
   bool opaque = true;
 
@@ -91,7 +91,7 @@ count_colours (Reading *r, bool flats, const CeldRun *run)
       const uint8_t *p = CELD_RGBA (r->paint, 0, y);
       uint32_t      *id = r->id + (size_t) y * (size_t) r->width;
 
-      if (celd_step (run, (double) y / r->height) != CELD_OK)
+      if (celd_progress (host, (double) y / r->height) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < r->width; x++, p += 4)
         {
@@ -206,7 +206,7 @@ forget_colours (Reading *r)
 
 /* Filters into buffer[0], by way of buffer[1]. */
 static CeldStatus
-filter (const Reading *r, CeldPaint *buffer, const CeldRun *run)
+filter (const Reading *r, CeldPaint *buffer, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
@@ -214,24 +214,24 @@ filter (const Reading *r, CeldPaint *buffer, const CeldRun *run)
     {
       Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
 
-      celd_each (run, r->height, filter_row, &f);
-      status = celd_step (run, 0.2 * (i + 1));
+      celd_parallel_for (host, r->height, filter_row, &f);
+      status = celd_progress (host, 0.2 * (i + 1));
     }
   return status;
 }
 
 /* Counts the colours again, in a restored or filtered copy. */
 static CeldStatus
-clean (Reading *r, bool smeared, bool flats, const CeldRun *run)
+clean (Reading *r, bool smeared, bool flats, const CeldHost *host)
 {
-  CeldPart   part;
-  CeldRun    again = celd_run_part (&part, run, 0.8, 1);
+  CeldHostPart   part;
+  CeldHost   again = celd_host_part (&part, host, 0.8, 1);
   CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
                            { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
   CeldStatus status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = smeared ? celd_scribble_restore (r, run, &buffer[0]) : filter (r, buffer, run);
+    status = smeared ? celd_scribble_restore (r, host, &buffer[0]) : filter (r, buffer, host);
   if (status == CELD_OK)
     {
       const CeldPaint *stored = r->paint;
@@ -249,10 +249,10 @@ clean (Reading *r, bool smeared, bool flats, const CeldRun *run)
 }
 
 CeldStatus
-celd_scribble_colours (Reading *r, bool flats, const CeldRun *run)
+celd_scribble_colours (Reading *r, bool flats, const CeldHost *host)
 {
-  CeldPart   part[2];
-  CeldRun    count = celd_run_part (&part[0], run, 0, 0.3), rest = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart   part[2];
+  CeldHost   count = celd_host_part (&part[0], host, 0, 0.3), rest = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus status;
   bool       smeared;
 

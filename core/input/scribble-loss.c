@@ -318,7 +318,7 @@ paint_strokes (const Strokes *s, CeldPaint *out)
 }
 
 CeldStatus
-celd_scribble_restore (Reading *r, const CeldRun *run, CeldPaint *out)
+celd_scribble_restore (Reading *r, const CeldHost *host, CeldPaint *out)
 {
   Strokes    s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
   CeldStatus status = CELD_NO_MEMORY;
@@ -327,22 +327,22 @@ celd_scribble_restore (Reading *r, const CeldRun *run, CeldPaint *out)
   s.block = celd_alloc0 (s.n_blocks, sizeof *s.block);
   if (!s.block)
     goto done;
-  celd_each (run, r->height, weigh_row, r);
-  celd_each (run, (r->height + LUMA_BLOCK - 1) / LUMA_BLOCK, mark_blocks, r);
-  status = celd_step (run, 0.1);
+  celd_parallel_for (host, r->height, weigh_row, r);
+  celd_parallel_for (host, (r->height + LUMA_BLOCK - 1) / LUMA_BLOCK, mark_blocks, r);
+  status = celd_progress (host, 0.1);
   if (status == CELD_OK)
     status = find_pieces (&s);
   if (status == CELD_OK)
     status = find_contacts (&s);
   if (status == CELD_OK)
-    status = celd_step (run, 0.2);
+    status = celd_progress (host, 0.2);
   if (status != CELD_OK)
     goto done;
   measure_cores (&s);
   measure_sums (&s);
-  status = celd_step (run, 0.4);
+  status = celd_progress (host, 0.4);
   if (status == CELD_OK)
-    status = celd_scribble_unmix (&s, run);
+    status = celd_scribble_unmix (&s, host);
   if (status == CELD_OK)
     paint_strokes (&s, out);
 

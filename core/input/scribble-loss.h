@@ -45,6 +45,6 @@ celd_deficit_luma (const double *d)
 }
 
 /* Fills in stroke and colour of the pieces, whose core, cover and block are known. */
-CeldStatus celd_scribble_unmix (Strokes *s, const CeldRun *run);
+CeldStatus celd_scribble_unmix (Strokes *s, const CeldHost *host);
 
 #endif

@@ -106,7 +106,7 @@ queue_neighbours (Reading *r, size_t i, uint32_t *queue, size_t n)
 
 /* Undecided pixels take a label from their neighbours, ring by ring; what no label reaches is none. */
 static CeldStatus
-place_rest (Reading *r, const CeldRun *run)
+place_rest (Reading *r, const CeldHost *host)
 {
   size_t     undecided = 0, ring = 0, end = 0, decided;
   uint32_t  *queue, *taken;
@@ -124,7 +124,7 @@ place_rest (Reading *r, const CeldRun *run)
       end = queue_neighbours (r, i, queue, end);
   while (ring < end)
     {
-      status = celd_step (run, 0.8 + 0.2 * (double) ring / (double) undecided);
+      status = celd_progress (host, 0.8 + 0.2 * (double) ring / (double) undecided);
       if (status != CELD_OK)
         goto done;
       for (size_t i = ring; i < end; i++)
@@ -317,14 +317,14 @@ rescue_lines (Reading *r)
 /* ------------------------------------------------------------------ all pixels */
 
 CeldStatus
-celd_scribble_places (Reading *r, const CeldRun *run)
+celd_scribble_places (Reading *r, const CeldHost *host)
 {
   CeldStatus status;
 
-  celd_each (run, r->height, place_row, r);
-  status = celd_step (run, 0.8);
+  celd_parallel_for (host, r->height, place_row, r);
+  status = celd_progress (host, 0.8);
   if (status == CELD_OK)
-    status = place_rest (r, run);
+    status = place_rest (r, host);
   if (status == CELD_OK && r->paper)
     status = rescue_lines (r);
   return status;

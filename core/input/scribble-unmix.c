@@ -195,7 +195,7 @@ gather_labels (Strokes *s, Candidate *candidate, uint32_t *label)
 }
 
 CeldStatus
-celd_scribble_unmix (Strokes *s, const CeldRun *run)
+celd_scribble_unmix (Strokes *s, const CeldHost *host)
 {
   double   (*given)[3] = celd_alloc (s->n, sizeof *given);
   Candidate *candidate = celd_alloc (s->n, sizeof *candidate);
@@ -220,7 +220,7 @@ celd_scribble_unmix (Strokes *s, const CeldRun *run)
   for (int i = 0; i < ROUNDS && status == CELD_OK; i++)
     {
       unmix_once (s, given);
-      status = celd_step (run, 0.4 + 0.2 * i / ROUNDS);
+      status = celd_progress (host, 0.4 + 0.2 * i / ROUNDS);
     }
   gather_labels (s, candidate, label);
 

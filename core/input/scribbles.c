@@ -199,11 +199,11 @@ free_reading (Reading *r)
 }
 
 CeldStatus
-celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run,
+celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host,
                      CeldLabels *seeds, CeldPalette *palette)
 {
-  CeldPart   part;
-  CeldRun    begin = celd_run_part (&part, run, 0, 0.5);
+  CeldHostPart   part;
+  CeldHost   begin = celd_host_part (&part, host, 0, 0.5);
   Reading    r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
   CeldStatus status;
 
@@ -217,15 +217,15 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   if (status != CELD_OK)
     goto done;
 
-  celd_each (run, r.height, judge_row, &r);
+  celd_parallel_for (host, r.height, judge_row, &r);
   count_honest (&r);
-  status = celd_step (run, 0.6);
+  status = celd_progress (host, 0.6);
   if (status == CELD_OK)
-    status = celd_scribble_clusters (&r, run);
+    status = celd_scribble_clusters (&r, host);
   if (status == CELD_OK && !settings->flats)
     status = celd_scribble_overlaps (&r);
   if (status == CELD_OK)
-    status = celd_scribble_places (&r, run);
+    status = celd_scribble_places (&r, host);
   if (status == CELD_OK)
     status = deliver (&r, seeds, palette);
 

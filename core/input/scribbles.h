@@ -70,22 +70,22 @@ celd_colour_distance (const int *a, const int *b)
 }
 
 /* Fills in id, colour, paper, radius and lossy; label and kind are lent for work. */
-CeldStatus celd_scribble_colours (Reading *r, bool flats, const CeldRun *run);
+CeldStatus celd_scribble_colours (Reading *r, bool flats, const CeldHost *host);
 
 /* Does much of the chroma of strokes on white paper lie beside them? */
 bool celd_scribble_smeared (const Reading *r);
 
 /* Paints the strokes of a smeared picture flat, in the colours that they had, on flat paper. */
-CeldStatus celd_scribble_restore (Reading *r, const CeldRun *run, CeldPaint *out);
+CeldStatus celd_scribble_restore (Reading *r, const CeldHost *host, CeldPaint *out);
 
 /* Fills in cluster, from colours whose honest and core pixels are counted. */
-CeldStatus celd_scribble_clusters (Reading *r, const CeldRun *run);
+CeldStatus celd_scribble_clusters (Reading *r, const CeldHost *host);
 
 /* Takes the label from clusters that are only where two translucent strokes overlap. */
 CeldStatus celd_scribble_overlaps (Reading *r);
 
 /* Fills in label; clusters that only lines have which are too thin are added. */
-CeldStatus celd_scribble_places (Reading *r, const CeldRun *run);
+CeldStatus celd_scribble_places (Reading *r, const CeldHost *host);
 
 /* One more cluster, round a colour. */
 CeldStatus celd_scribble_cluster_add (Reading *r, uint32_t colour);

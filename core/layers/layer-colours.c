@@ -197,10 +197,10 @@ find_portion (void *data, int i)
 }
 
 CeldStatus
-celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldRun *run)
+celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host)
 {
   Work work = { layers, ink };
 
-  celd_each (run, (int) ((layers->n_blends + PORTION - 1) / PORTION), find_portion, &work);
-  return celd_step (run, 1);
+  celd_parallel_for (host, (int) ((layers->n_blends + PORTION - 1) / PORTION), find_portion, &work);
+  return celd_progress (host, 1);
 }

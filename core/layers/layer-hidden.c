@@ -293,7 +293,7 @@ start_flat (Fill *fill)
 
 /* Laplace's equation on the free pixels; what lies beside both kinds is a wall. */
 static CeldStatus
-diffuse (const CeldRun *run, Fill *fill)
+diffuse (const CeldHost *host, Fill *fill)
 {
   size_t       w = (size_t) fill->box.width, pixels = w * (size_t) fill->box.height;
   float       *east = celd_alloc0 (pixels, sizeof *east), *south = celd_alloc0 (pixels, sizeof *south);
@@ -310,9 +310,9 @@ diffuse (const CeldRun *run, Fill *fill)
         south[p] = 1;
     }
   if (!status)
-    status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, run, &laplace);
+    status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, host, &laplace);
   if (!status)
-    status = celd_lap_solve_lanes (laplace, NULL, fill->value, TOLERANCE, 0, run, NULL);
+    status = celd_lap_solve_lanes (laplace, NULL, fill->value, TOLERANCE, 0, host, NULL);
   celd_lap_free (laplace);
   celd_free (east);
   celd_free (south);
@@ -321,7 +321,7 @@ diffuse (const CeldRun *run, Fill *fill)
 }
 
 static CeldStatus
-find_fill (const Part *part, int stroke, const CeldRun *run, Fill *fill)
+find_fill (const Part *part, int stroke, const CeldHost *host, Fill *fill)
 {
   CeldRect hidden = hidden_box (part);
   size_t   pixels;
@@ -337,7 +337,7 @@ find_fill (const Part *part, int stroke, const CeldRun *run, Fill *fill)
     sort_pixels (part, true, fill);
   if (!fill->n_known)
     return CELD_OK; /* nothing of it is the layer's alone: it stays as it is */
-  return start_flat (fill) ? CELD_OK : diffuse (run, fill);
+  return start_flat (fill) ? CELD_OK : diffuse (host, fill);
 }
 
 /* ------------------------------------------------------------------ together */
@@ -392,7 +392,7 @@ keep_pixels (const Part *part, const Fill *fill)
 
 CeldStatus
 celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
-                     const CeldRun *run)
+                     const CeldHost *host)
 {
   Part        part = { .layers = layers, .layer = layer, .ink = ink };
   Fill        fill = { 0 };
@@ -413,7 +413,7 @@ celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const Ce
       status = find_shape (&outline, &part);
     }
   if (!status && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
-      (status = find_fill (&part, stroke, run, &fill)) == CELD_OK && fill.n_known)
+      (status = find_fill (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
     status = keep_pixels (&part, &fill);
   celd_outline_clear (&outline);
   celd_free (part.curve);

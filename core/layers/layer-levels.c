@@ -35,23 +35,23 @@ find_background (const CeldOwnLevels *made, uint32_t *background)
 
 CeldStatus
 celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
-                     bool complete, const CeldRun *run, CeldLayers **layers)
+                     bool complete, const CeldHost *host, CeldLayers **layers)
 {
   uint32_t   background = 0;
   CeldStatus status = find_background (made, &background);
 
-  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, run,
+  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, host,
                                             layers);
 }
 
 CeldStatus
 celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                        const CeldLabels *corrections, const CeldColours *art, CeldExpansion method, CeldStore store,
-                       bool complete, const CeldRun *run, CeldLayers **layers)
+                       bool complete, const CeldHost *host, CeldLayers **layers)
 {
   CeldOwnLevels made;
-  CeldPart      part[2];
-  CeldRun       first = celd_run_part (&part[0], run, 0, 0.6), second = celd_run_part (&part[1], run, 0.6, 1);
+  CeldHostPart      part[2];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
   CeldStatus    status = celd_own_levels_new (ink, levels, regions, corrections, method, &first, &made);
 
   if (!status)

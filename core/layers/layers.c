@@ -156,20 +156,20 @@ find_boxes (CeldLayers *layers)
 /* ------------------------------------------------------------------ hidden parts */
 
 static CeldStatus
-complete_layers (const CeldPlane *ink, uint32_t background, const CeldRun *run, CeldLayers *layers)
+complete_layers (const CeldPlane *ink, uint32_t background, const CeldHost *host, CeldLayers *layers)
 {
   int        stroke = celd_stroke_width (ink);
   CeldStatus status = CELD_OK;
 
   for (size_t k = 0; k < layers->n && !status; k++)
     {
-      CeldPart part;
+      CeldHostPart part;
       double   turns = (double) layers->n;
-      CeldRun  turn = celd_run_part (&part, run, (double) k / turns, (double) (k + 1) / turns);
+      CeldHost turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
 
       status = celd_layer_complete (layers, k, layers->item[k].label == background, ink, stroke, &turn);
       if (!status)
-        status = celd_step (&turn, 1);
+        status = celd_progress (&turn, 1);
       for (size_t i = 0; i < layers->n_hidden[k] && !status; i++)
         grow_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
     }
@@ -272,14 +272,14 @@ celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba)
 
 CeldStatus
 celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t *level, size_t n,
-                 const CeldColours *art, uint32_t background, CeldStore store, bool complete, const CeldRun *run,
+                 const CeldColours *art, uint32_t background, CeldStore store, bool complete, const CeldHost *host,
                  CeldLayers **result)
 {
   CeldLayers *layers = NULL;
   uint32_t   *of_label;
-  CeldPart    part[2];
-  CeldRun     first = celd_run_part (&part[0], run, 0, complete ? 0.3 : 1);
-  CeldRun     second = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart    part[2];
+  CeldHost    first = celd_host_part (&part[0], host, 0, complete ? 0.3 : 1);
+  CeldHost    second = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus  status;
 
   if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->share) ||

@@ -55,7 +55,7 @@ float celd_store_colour (const CeldLayers *layers, float value);
 /* ------------------------------------------------------------------ layer-colours.c */
 
 /* Fills in the colours of the blends.  `ink` is that of the drawing. */
-CeldStatus celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldRun *run);
+CeldStatus celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host);
 
 /* ------------------------------------------------------------------ layer-outline.c */
 
@@ -124,6 +124,6 @@ void celd_cover_finish (CeldCover *cover);
 
 /* Finds the hidden part of a layer. */
 CeldStatus celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
-                                const CeldRun *run);
+                                const CeldHost *host);
 
 #endif

@@ -73,7 +73,7 @@ change_row (void *data, int y)
 }
 
 static CeldStatus
-blur_depth (Unsharp *u, double deviation, const CeldRun *run)
+blur_depth (Unsharp *u, double deviation, const CeldHost *host)
 {
   size_t     cells = (size_t) u->cells.width * (size_t) u->cells.height;
   float     *scratch = celd_alloc (cells, sizeof *scratch);
@@ -82,16 +82,16 @@ blur_depth (Unsharp *u, double deviation, const CeldRun *run)
 
   if (status == CELD_OK)
     {
-      celd_each (run, u->cells.height, average_cells, u);
+      celd_parallel_for (host, u->cells.height, average_cells, u);
       celd_blur (&kernel, &kernel, u->cells.width, u->cells.height, u->mean, scratch);
     }
   celd_free (scratch);
   celd_free (kernel.weight);
-  return status == CELD_OK ? celd_step (run, 0.5) : status;
+  return status == CELD_OK ? celd_progress (host, 0.5) : status;
 }
 
 static CeldStatus
-unsharp_mask (const CeldPlane *depth, double deviation, const CeldSettings *settings, const CeldRun *run,
+unsharp_mask (const CeldPlane *depth, double deviation, const CeldSettings *settings, const CeldHost *host,
               CeldPlane *change)
 {
   Unsharp    u = { .depth = depth, .change = change, .cells = celd_cells (depth->width, depth->height, deviation),
@@ -105,10 +105,10 @@ unsharp_mask (const CeldPlane *depth, double deviation, const CeldSettings *sett
   if (status == CELD_OK)
     {
       measure_range (&u);
-      status = blur_depth (&u, deviation, run);
+      status = blur_depth (&u, deviation, host);
     }
   if (status == CELD_OK)
-    celd_each (run, depth->height, change_row, &u);
+    celd_parallel_for (host, depth->height, change_row, &u);
   celd_free (u.column);
   celd_free (u.row);
   celd_free (u.mean);
@@ -118,7 +118,7 @@ unsharp_mask (const CeldPlane *depth, double deviation, const CeldSettings *sett
 /* ------------------------------------------------------------------ */
 
 CeldStatus
-celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run, CeldPlane *change)
+celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host, CeldPlane *change)
 {
   double deviation;
 
@@ -127,19 +127,19 @@ celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldR
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
   deviation = fmax (0.25, (double) settings->shadow_size * hypot (levels->width, levels->height));
-  return settings->enhance == CELD_ENHANCE_STACK ? celd_shadows (levels, deviation, settings, run, change)
-                                                 : unsharp_mask (levels, deviation, settings, run, change);
+  return settings->enhance == CELD_ENHANCE_STACK ? celd_shadows (levels, deviation, settings, host, change)
+                                                 : unsharp_mask (levels, deviation, settings, host, change);
 }
 
 CeldStatus
-celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run, CeldPlane *occlusion)
+celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host, CeldPlane *occlusion)
 {
   CeldSettings even = *settings;
   CeldStatus   status;
 
   even.enhance       = CELD_ENHANCE_STACK;
   even.shadow_offset = 0;
-  status             = celd_enhance (levels, &even, run, occlusion);
+  status             = celd_enhance (levels, &even, host, occlusion);
   for (int y = 0; y < occlusion->height && status == CELD_OK; y++)
     for (int x = 0; x < occlusion->width; x++)
       CELD_AT (occlusion, x, y) += 1;

@@ -57,7 +57,7 @@ pass_row (Bevel *b, int y, int from)
 }
 
 static CeldStatus
-spread (Bevel *b, const CeldRun *run)
+spread (Bevel *b, const CeldHost *host)
 {
   int        height = b->lumo->height;
   CeldStatus status = CELD_OK;
@@ -70,7 +70,7 @@ spread (Bevel *b, const CeldRun *run)
         pass_row (b, y, y - 1);
       for (int y = height - 1; y >= 0; y--)
         pass_row (b, y, y + 1);
-      status = celd_step (run, 1 - 1. / (round + 2));
+      status = celd_progress (host, 1 - 1. / (round + 2));
     }
   return status;
 }
@@ -93,7 +93,7 @@ flatten (const Bevel *b, double width)
 }
 
 CeldStatus
-celd_lumo_bevel (CeldLumo *l, const CeldRun *run)
+celd_lumo_bevel (CeldLumo *l, const CeldHost *host)
 {
   double     width = (double) l->settings->bevel * hypot (l->width, l->height);
   size_t     n = (size_t) l->width * (size_t) l->height;
@@ -111,7 +111,7 @@ celd_lumo_bevel (CeldLumo *l, const CeldRun *run)
     b.nearest[i] = NONE;
   for (size_t k = 0; k < l->n_holds; k++)
     b.nearest[l->hold[k].pixel] = (uint32_t) l->hold[k].pixel;
-  status = spread (&b, run);
+  status = spread (&b, host);
   if (status == CELD_OK)
     flatten (&b, width);
   celd_free (b.nearest);

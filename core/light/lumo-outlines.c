@@ -130,7 +130,7 @@ hold_edge (Outlines *o, int x, int y, bool down)
 }
 
 static CeldStatus
-hold_edges (Outlines *o, const CeldRun *run)
+hold_edges (Outlines *o, const CeldHost *host)
 {
   CeldLumo  *l = o->lumo;
   CeldStatus status = CELD_OK;
@@ -138,7 +138,7 @@ hold_edges (Outlines *o, const CeldRun *run)
 
   for (int y = 0; y < l->height && status == CELD_OK; y++)
     {
-      status = y % 16 ? CELD_OK : celd_step (run, (double) y / l->height);
+      status = y % 16 ? CELD_OK : celd_progress (host, (double) y / l->height);
       for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
         {
           if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_level (l, i, i + 1))
@@ -231,11 +231,11 @@ outlines_new (CeldLumo *l, Outlines *o)
 }
 
 CeldStatus
-celd_lumo_outlines (CeldLumo *l, const CeldRun *run)
+celd_lumo_outlines (CeldLumo *l, const CeldHost *host)
 {
   Outlines   o = { 0 };
-  CeldPart   part[2];
-  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.3), holding = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart   part[2];
+  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), holding = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus status = celd_parts_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
 
   if (status != CELD_OK)

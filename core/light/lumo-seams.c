@@ -177,7 +177,7 @@ look_at_edge (Seams *s, int x, int y, bool down)
 
 /* Edges with ink at one end at least, within one level. */
 static CeldStatus
-find_seams (Seams *s, const CeldRun *run)
+find_seams (Seams *s, const CeldHost *host)
 {
   CeldLumo  *l = s->lumo;
   CeldStatus status = CELD_OK;
@@ -185,7 +185,7 @@ find_seams (Seams *s, const CeldRun *run)
 
   for (int y = 0; y < l->height && status == CELD_OK; y++)
     {
-      status = y % 64 ? CELD_OK : celd_step (run, (double) y / l->height);
+      status = y % 64 ? CELD_OK : celd_progress (host, (double) y / l->height);
       for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
         {
           bool ink = !celd_is_paper (CELD_AT (l->ink, x, y));
@@ -223,12 +223,12 @@ slight_difference (const CeldPlane *depth)
 }
 
 CeldStatus
-celd_lumo_seams (CeldLumo *l, const CeldRun *run)
+celd_lumo_seams (CeldLumo *l, const CeldHost *host)
 {
   size_t     n = (size_t) l->width * (size_t) l->height, i = 0;
   Seams      s = { .lumo = l };
-  CeldPart   part[2];
-  CeldRun    measuring = celd_run_part (&part[0], run, 0, 0.5), finding = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart   part[2];
+  CeldHost   measuring = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 1);
   uint8_t   *paper = NULL;
   int32_t   *squared = NULL;
   bool       any = false;

@@ -118,12 +118,12 @@ read_box (const Work *work, const Box *box)
 }
 
 static CeldStatus
-solve_box (const Work *work, Box *box, const CeldRun *run)
+solve_box (const Work *work, Box *box, const CeldHost *host)
 {
   int          w = box->box.width, h = box->box.height;
   CeldLaplace *laplace = NULL;
-  CeldPart     part[2];
-  CeldRun      setting_up = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart     part[2];
+  CeldHost     setting_up = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   CeldStatus   status;
 
   box->n        = (size_t) w * (size_t) h;
@@ -174,7 +174,7 @@ find_boxes (const Work *work, uint8_t *held, CeldRect *box)
 }
 
 static CeldStatus
-solve_parts (Work *work, const CeldRun *run)
+solve_parts (Work *work, const CeldHost *host)
 {
   CeldRect   bounds[CELD_MOST_GROUPS], *box = celd_alloc0 (work->parts.n, sizeof *box);
   uint8_t   *held = celd_alloc0 (work->parts.n, 1);
@@ -190,8 +190,8 @@ solve_parts (Work *work, const CeldRun *run)
     }
   for (size_t g = 0; g < groups && status == CELD_OK; g++)
     {
-      CeldPart part;
-      CeldRun  share = celd_run_part (&part, run, (double) g / (double) groups, (double) (g + 1) / (double) groups);
+      CeldHostPart part;
+      CeldHost share = celd_host_part (&part, host, (double) g / (double) groups, (double) (g + 1) / (double) groups);
       Box      one = { .box = bounds[g], .group = (uint32_t) g };
 
       status = solve_box (work, &one, &share);
@@ -202,11 +202,11 @@ solve_parts (Work *work, const CeldRun *run)
 }
 
 CeldStatus
-celd_lumo_solve (CeldLumo *l, const CeldRun *run)
+celd_lumo_solve (CeldLumo *l, const CeldHost *host)
 {
   Work       work = { .lumo = l };
-  CeldPart   part[2];
-  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.1), solving = celd_run_part (&part[1], run, 0.1, 1);
+  CeldHostPart   part[2];
+  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.1), solving = celd_host_part (&part[1], host, 0.1, 1);
   CeldStatus status = celd_parts_find (l->width, l->height, l->level, NULL, &l->edges, &finding, &work.parts);
 
   if (status != CELD_OK)

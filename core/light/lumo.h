@@ -64,14 +64,14 @@ celd_lumo_level (const CeldLumo *lumo, size_t p, size_t q)
 CeldLumoSide celd_lumo_side (const CeldLumo *lumo, double x, double y, double dx, double dy);
 
 /* Finds the seams and cuts the weights along them. */
-CeldStatus celd_lumo_seams (CeldLumo *lumo, const CeldRun *run);
+CeldStatus celd_lumo_seams (CeldLumo *lumo, const CeldHost *host);
 
 /* Finds the regions and what holds them. */
-CeldStatus celd_lumo_outlines (CeldLumo *lumo, const CeldRun *run);
+CeldStatus celd_lumo_outlines (CeldLumo *lumo, const CeldHost *host);
 
-CeldStatus celd_lumo_solve (CeldLumo *lumo, const CeldRun *run);
+CeldStatus celd_lumo_solve (CeldLumo *lumo, const CeldHost *host);
 
 /* Takes the tilt away farther than the settings' bevel from a pixel's own outlines. */
-CeldStatus celd_lumo_bevel (CeldLumo *lumo, const CeldRun *run);
+CeldStatus celd_lumo_bevel (CeldLumo *lumo, const CeldHost *host);
 
 #endif

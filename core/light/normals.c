@@ -38,7 +38,7 @@ deliver (const float *tilt, double bulge, CeldVectors *normals)
 
 /* Levels, and where they are cut. */
 static CeldStatus
-weigh (CeldLumo *l, const CeldPlane *levels, const CeldRun *run)
+weigh (CeldLumo *l, const CeldPlane *levels, const CeldHost *host)
 {
   float  threshold = l->settings->ink_threshold;
   size_t n = (size_t) l->width * (size_t) l->height;
@@ -51,7 +51,7 @@ weigh (CeldLumo *l, const CeldPlane *levels, const CeldRun *run)
   l->stroke = celd_stroke_width (l->ink);
   l->edges  = (CeldEdges) { l->ink, threshold, celd_edge_reach (l->stroke) };
   celd_depth_levels (levels, l->level);
-  return celd_depth_weights (l->ink, l->level, threshold, run, l->east, l->south);
+  return celd_depth_weights (l->ink, l->level, threshold, host, l->east, l->south);
 }
 
 static bool
@@ -62,7 +62,7 @@ is_view (const void *data, int width, int height, const CeldPlane *ink)
 
 CeldStatus
 celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldPaint *hints,
-                     const CeldSettings *settings, const CeldRun *run, CeldVectors *normals)
+                     const CeldSettings *settings, const CeldHost *host, CeldVectors *normals)
 {
   if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, normals) ||
       (depth && !is_view (depth->data, depth->width, depth->height, ink)) ||
@@ -73,10 +73,10 @@ celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPl
 
   CeldLumo   l = { .ink = ink, .depth = depth, .hints = hints, .settings = settings,
                    .width = ink->width, .height = ink->height };
-  CeldPart   part[5];
-  CeldRun    weighing = celd_run_part (&part[0], run, 0, 0.1), cutting = celd_run_part (&part[1], run, 0.1, 0.2);
-  CeldRun    holding = celd_run_part (&part[2], run, 0.2, 0.3), solving = celd_run_part (&part[3], run, 0.3, 0.9);
-  CeldRun    bevelling = celd_run_part (&part[4], run, 0.9, 1);
+  CeldHostPart   part[5];
+  CeldHost   weighing = celd_host_part (&part[0], host, 0, 0.1), cutting = celd_host_part (&part[1], host, 0.1, 0.2);
+  CeldHost   holding = celd_host_part (&part[2], host, 0.2, 0.3), solving = celd_host_part (&part[3], host, 0.3, 0.9);
+  CeldHost   bevelling = celd_host_part (&part[4], host, 0.9, 1);
   CeldStatus status = weigh (&l, levels, &weighing);
 
   if (status == CELD_OK)
@@ -101,8 +101,8 @@ celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPl
 }
 
 CeldStatus
-celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings, const CeldRun *run,
+celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
               CeldVectors *normals)
 {
-  return celd_normals_hinted (ink, levels, NULL, NULL, settings, run, normals);
+  return celd_normals_hinted (ink, levels, NULL, NULL, settings, host, normals);
 }

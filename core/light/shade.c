@@ -233,7 +233,7 @@ light_row (void *data, int y)
 
 CeldStatus
 celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap, const CeldSettings *settings,
-            const CeldRun *run, CeldColours *tone, CeldPlane *gloss)
+            const CeldHost *host, CeldColours *tone, CeldPlane *gloss)
 {
   if (!CELD_SAME_SIZE (normals, tone) || !CELD_SAME_SIZE (normals, gloss) || (ink && !CELD_SAME_SIZE (normals, ink)))
     return CELD_BAD_SIZE;
@@ -248,7 +248,7 @@ celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours 
   s.matcap = matcap;
   s.tone   = tone;
   s.gloss  = gloss;
-  celd_each (run, normals->height, light_row, &s);
+  celd_parallel_for (host, normals->height, light_row, &s);
   return CELD_OK;
 }
 

@@ -224,7 +224,7 @@ join_levels (Stack *s)
 }
 
 static CeldStatus
-blur_mattes (Stack *s, const CeldRun *run)
+blur_mattes (Stack *s, const CeldHost *host)
 {
   size_t     first[CELD_MOST_LEVELS + 1];
   Share     *share = celd_alloc (s->cover.n, sizeof *share);
@@ -234,9 +234,9 @@ blur_mattes (Stack *s, const CeldRun *run)
   if (!share)
     return CELD_NO_MEMORY;
   sort_shares (&s->cover, false, CELD_MOST_LEVELS, first, share);
-  celd_each (run, s->number.n - 1, blur_level, &blurring);
+  celd_parallel_for (host, s->number.n - 1, blur_level, &blurring);
   celd_free (share);
-  status = celd_step (run, 0.5);
+  status = celd_progress (host, 0.5);
   for (int k = 1; k < s->number.n && status == CELD_OK; k++)
     status = s->status[k];
   return status == CELD_OK ? join_levels (s) : status;
@@ -326,7 +326,7 @@ clear (Stack *s)
 }
 
 CeldStatus
-celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldRun *run,
+celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldHost *host,
               CeldPlane *change)
 {
   Stack     *s = celd_alloc0 (1, sizeof *s);
@@ -340,15 +340,15 @@ celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *set
   status = prepare (s, deviation);
   s->full = settings->shadow_range * (s->number.value[s->number.n ? s->number.n - 1 : 0] - s->number.value[0]);
   if (status == CELD_OK)
-    status = celd_step (run, 0.2);
+    status = celd_progress (host, 0.2);
   if (status == CELD_OK)
     status = cover_cells (s);
   if (status == CELD_OK)
-    status = blur_mattes (s, run);
+    status = blur_mattes (s, host);
   if (status == CELD_OK)
-    status = celd_step (run, 0.6);
+    status = celd_progress (host, 0.6);
   if (status == CELD_OK)
-    celd_each (run, levels->height, light_row, s);
+    celd_parallel_for (host, levels->height, light_row, s);
   clear (s);
   celd_free (s);
   return status;

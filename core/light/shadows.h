@@ -35,7 +35,7 @@ CeldStatus celd_level_numbers (const CeldPlane *levels, CeldLevelNumbers *number
 
 /* Soft shadows that nearer levels cast on farther ones: of each pixel, the negative share of light that they take.
  * `deviation` in pixels, > 0. */
-CeldStatus celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldRun *run,
+CeldStatus celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldHost *host,
                          CeldPlane *change);
 
 #endif

@@ -95,10 +95,10 @@ is_suggestion (const CeldGraph *g, size_t link)
 
 /* Has those relations tried last that feedback.c chooses, and behind them suggestions. */
 static CeldStatus
-put_off (CeldGraph *g, const CeldKnots *knots, const CeldRun *run, const CeldKnot *knot, CeldTurn *turns, size_t n)
+put_off (CeldGraph *g, const CeldKnots *knots, const CeldHost *host, const CeldKnot *knot, CeldTurn *turns, size_t n)
 {
   bool      *broken = celd_alloc0 (g->n_links, sizeof *broken);
-  CeldStatus status = broken ? celd_feedback (g, knots, knot, turns, n, run, broken) : CELD_NO_MEMORY;
+  CeldStatus status = broken ? celd_feedback (g, knots, knot, turns, n, host, broken) : CELD_NO_MEMORY;
 
   for (size_t t = 0; t < n && status == CELD_OK; t++)
     turns[t].round = is_suggestion (g, turns[t].relation) ? 2 : broken[turns[t].relation];
@@ -110,7 +110,7 @@ put_off (CeldGraph *g, const CeldKnots *knots, const CeldRun *run, const CeldKno
 
 /* Keeps relations by turns as long as they contradict nothing. */
 static CeldStatus
-try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n, const CeldRun *run,
+try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n, const CeldHost *host,
            CeldSearch *search, CeldOrder *order)
 {
   CeldSequence sequence;
@@ -127,7 +127,7 @@ try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n
       if (!g->kept[i] && celd_search_contradiction (search, i))
         status = add_cycle (search, knots->link[i] - 1, order);
       if (status == CELD_OK && t % BETWEEN_STEPS == 0)
-        status = celd_step (run, (double) t / (double) n);
+        status = celd_progress (host, (double) t / (double) n);
     }
   search->sequence = NULL;
   celd_sequence_clear (&sequence);
@@ -136,12 +136,12 @@ try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n
 
 /* Frees the graph from contradictions. */
 static CeldStatus
-break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const CeldRun *run,
+break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const CeldHost *host,
              CeldSearch *search, CeldOrder *order)
 {
-  CeldPart   part[2];
-  CeldRun    choose = celd_run_part (&part[0], run, 0, 0.5);
-  CeldRun    try = celd_run_part (&part[1], run, on_cycle == CELD_ON_CYCLE_REPORT ? 0 : 0.5, 1);
+  CeldHostPart   part[2];
+  CeldHost   choose = celd_host_part (&part[0], host, 0, 0.5);
+  CeldHost   try = celd_host_part (&part[1], host, on_cycle == CELD_ON_CYCLE_REPORT ? 0 : 0.5, 1);
   CeldTurn  *turns = celd_alloc (g->n_links, sizeof *turns);
   size_t     n = turns ? take_turns (g, knots, turns) : 0;
   CeldStatus status = turns ? CELD_OK : CELD_NO_MEMORY;
@@ -222,7 +222,7 @@ describe_knots (CeldSearch *s, const CeldKnots *knots, CeldOrder *order)
 }
 
 CeldStatus
-celd_graph_settle (CeldGraph *g, CeldOnCycle on_cycle, const CeldRun *run, CeldOrder *order)
+celd_graph_settle (CeldGraph *g, CeldOnCycle on_cycle, const CeldHost *host, CeldOrder *order)
 {
   CeldSearch search;
   CeldKnots  knots = { 0 };
@@ -233,7 +233,7 @@ celd_graph_settle (CeldGraph *g, CeldOnCycle on_cycle, const CeldRun *run, CeldO
   if (status == CELD_OK && knots.n)
     status = describe_knots (&search, &knots, order);
   if (status == CELD_OK && knots.n)
-    status = break_knots (g, &knots, on_cycle, run, &search, order);
+    status = break_knots (g, &knots, on_cycle, host, &search, order);
   if (status == CELD_OK)
     status = complete_background (g, &search);
   celd_knots_clear (&knots);

@@ -199,7 +199,7 @@ choose (Sift *s, const CeldKnot *knot, bool *broken)
 
 /* Tries the links by turns, then sifts. */
 static CeldStatus
-sift_knots (const CeldGraph *g, const CeldTurn *turn, size_t n_turns, const bool *in, const CeldRun *run, bool *broken,
+sift_knots (const CeldGraph *g, const CeldTurn *turn, size_t n_turns, const bool *in, const CeldHost *host, bool *broken,
             Sift *s)
 {
   CeldStatus status;
@@ -222,14 +222,14 @@ sift_knots (const CeldGraph *g, const CeldTurn *turn, size_t n_turns, const bool
       for (uint32_t k = 0; k < g->n_labels; k++)
         if (celd_class_of (&s->sequence.classes, k) == k)
           moved |= sift (s, k);
-      status = celd_step (run, (double) (round + 1) / MOST_ROUNDS);
+      status = celd_progress (host, (double) (round + 1) / MOST_ROUNDS);
     }
   return status;
 }
 
 CeldStatus
 celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, const CeldTurn *turn,
-               size_t n_turns, const CeldRun *run, bool *broken)
+               size_t n_turns, const CeldHost *host, bool *broken)
 {
   bool      *in = celd_alloc0 (graph->n_links, sizeof *in), any = false;
   Sift       s = { 0 };
@@ -245,7 +245,7 @@ celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *k
       any |= !done;
     }
   if (status == CELD_OK && any)
-    status = sift_knots (graph, turn, n_turns, in, run, broken, &s);
+    status = sift_knots (graph, turn, n_turns, in, host, broken, &s);
   for (size_t k = 0; k < knots->n && status == CELD_OK && any; k++)
     if (in[knot[k].item[0]])
       choose (&s, &knot[k], broken);

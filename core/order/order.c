@@ -292,7 +292,7 @@ report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalet
 
 CeldStatus
 celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                 const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+                 const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
                  CeldProblems *problems, CeldRanks *ranks)
 {
   CeldGraph  graph  = { 0 };
@@ -305,7 +305,7 @@ celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const Cel
     return CELD_BAD_SIZE;
   status = celd_graph_new (labels, palette, relations, ink, &graph, problems);
   if (status == CELD_OK)
-    status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, run, &made);
+    status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, host, &made);
   if (status == CELD_OK)
     status = sort_levels (&graph, labels, &made, ranks ? &kept : NULL);
   if (status == CELD_OK)
@@ -313,7 +313,7 @@ celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const Cel
   if (status == CELD_OK)
     status = report_cycles (&made, labels, palette, relations, problems);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   celd_graph_clear (&graph);
   if (status != CELD_OK)
     {
@@ -335,10 +335,10 @@ celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const Cel
 
 CeldStatus
 celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-            const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+            const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
             CeldProblems *problems)
 {
-  return celd_order_keep (labels, palette, relations, ink, settings, run, order, problems, NULL);
+  return celd_order_keep (labels, palette, relations, ink, settings, host, order, problems, NULL);
 }
 
 float

@@ -203,20 +203,20 @@ celd_link_cost (const CeldGraph *graph, size_t link)
 
 /* The same for all knots, whose relations are turn[0..n_turns-1], by falling weight. */
 CeldStatus celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, const CeldTurn *turn,
-                          size_t n_turns, const CeldRun *run, bool *broken);
+                          size_t n_turns, const CeldHost *host, bool *broken);
 
 /* ------------------------------------------------------------------ conflicts.c */
 
 /* Does not keep relations that contradict heavier or earlier ones, or, unless contradictions are only to be reported,
  * those whose weight is the least in sum; appends knots and the cycle of each to `order`, and completes the last
  * link. */
-CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const CeldRun *run, CeldOrder *order);
+CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const CeldHost *host, CeldOrder *order);
 
 /* ------------------------------------------------------------------ order.c */
 
 /* The order, and if `ranks` is not NULL what it takes to add relations to it; of that n stays 0 if none can be. */
 CeldStatus celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                            const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldOrder *order,
+                            const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
                             CeldProblems *problems, CeldRanks *ranks);
 
 /* Least distance in levels that a relation asks for. */
@@ -260,7 +260,7 @@ typedef struct { CeldSplit *item; size_t n; } CeldSplits;
 /* Splits regions of `labels` until no contradiction is left that this can resolve; labels and palette grow.  After a
  * failure they are undefined, but can be cleared. */
 CeldStatus celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const CeldSettings *settings,
-                              const CeldRun *run, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits);
+                              const CeldHost *host, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits);
 
 /* Has the label been split? */
 bool celd_splits_have (const CeldSplits *splits, uint32_t label);

@@ -238,7 +238,7 @@ try_corner (Search *s, const uint32_t four[4], int x, int y)
 }
 
 static CeldStatus
-search (Search *s, const CeldLabels *labels, size_t n_labels, const CeldRun *run)
+search (Search *s, const CeldLabels *labels, size_t n_labels, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
@@ -258,20 +258,20 @@ search (Search *s, const CeldLabels *labels, size_t n_labels, const CeldRun *run
           status = try_corner (s, four, x, y);
         }
       if (status == CELD_OK && (y & 255) == 255)
-        status = celd_step (run, (double) y / labels->height);
+        status = celd_progress (host, (double) y / labels->height);
     }
   return status;
 }
 
 CeldStatus
-celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldRun *run,
+celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldHost *host,
                        CeldCornerSet **corners, size_t *n)
 {
   Search     s = { .rims = rims, .stroke = rims->stroke };
   CeldStatus status = sort_points (&s);
 
   if (status == CELD_OK)
-    status = search (&s, labels, n_labels, run);
+    status = search (&s, labels, n_labels, host);
   if (status == CELD_OK)
     {
       *corners = s.corner;

@@ -200,7 +200,7 @@ follow (Tracer *t, uint32_t label, int x, int y)
 }
 
 static CeldStatus
-follow_all (Tracer *t, const CeldRun *run)
+follow_all (Tracer *t, const CeldHost *host)
 {
   CeldRims  *r = t->rims;
   CeldStatus status = CELD_OK;
@@ -213,7 +213,7 @@ follow_all (Tracer *t, const CeldRun *run)
         if (row[x] && !(row[x] & SEEN) && (above[x] & ~SEEN) != row[x])
           status = follow (t, row[x], x, y);
       if (status == CELD_OK && (y & 255) == 255)
-        status = celd_step (run, (double) y / r->height);
+        status = celd_progress (host, (double) y / r->height);
     }
   for (size_t p = 0; p < r->stride * ((size_t) r->height + 2); p++)
     r->surface[p] &= ~SEEN;
@@ -221,7 +221,7 @@ follow_all (Tracer *t, const CeldRun *run)
 }
 
 CeldStatus
-celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldRun *run, CeldRims *rims)
+celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host, CeldRims *rims)
 {
   CeldRims   made = { .width = labels->width, .height = labels->height };
   Tracer     t = { labels, ink, n_labels, &made };
@@ -231,7 +231,7 @@ celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, 
   made.stroke = made.stroke ? made.stroke : NO_STROKE;
   status = read_surfaces (&t);
   if (status == CELD_OK)
-    status = follow_all (&t, run);
+    status = follow_all (&t, host);
   if (status == CELD_OK)
     *rims = made;
   else

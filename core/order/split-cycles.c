@@ -162,7 +162,7 @@ edge_cost (const Work *w, const Sheet *sheet, int x, int y, int u, int v)
 }
 
 static CeldStatus
-cut_sheet (const Work *w, const CeldRun *run, Sheet *sheet)
+cut_sheet (const Work *w, const CeldHost *host, Sheet *sheet)
 {
   CeldRect   box = sheet->box;
   size_t     n = (size_t) box.width * (size_t) box.height, p = 0;
@@ -182,7 +182,7 @@ cut_sheet (const Work *w, const CeldRun *run, Sheet *sheet)
             south[p] = edge_cost (w, sheet, x, y, x, y + 1);
             bound[p] = sheet->way[0][p] <= held ? BOUND : sheet->way[1][p] <= held ? -BOUND : 0;
           }
-      status = celd_maxflow (box.width, box.height, east, south, bound, run, sheet->side, &sheet->cost);
+      status = celd_maxflow (box.width, box.height, east, south, bound, host, sheet->side, &sheet->cost);
     }
   celd_free (east);
   celd_free (south);
@@ -192,7 +192,7 @@ cut_sheet (const Work *w, const CeldRun *run, Sheet *sheet)
 
 /* The cheapest cut of a cycle; *best keeps label 0 if there is none. */
 static CeldStatus
-find_cut (const Work *w, const CeldCycle *cycle, const CeldRun *run, Sheet *best)
+find_cut (const Work *w, const CeldCycle *cycle, const CeldHost *host, Sheet *best)
 {
   CeldStatus status = CELD_OK;
 
@@ -211,7 +211,7 @@ find_cut (const Work *w, const CeldCycle *cycle, const CeldRun *run, Sheet *best
       if (joined)
         status = measure_ways (w, &sheet, 1);
       if (joined && status == CELD_OK)
-        status = cut_sheet (w, run, &sheet);
+        status = cut_sheet (w, host, &sheet);
       if (joined && status == CELD_OK && (!best->label || sheet.cost < best->cost))
         {
           Sheet other = *best;
@@ -326,7 +326,7 @@ take_side (Work *w, const Sheet *sheet, CeldSplits *splits)
 
 /* Looks for contradictions, and resolves the first that a cut can resolve; *done if there is none. */
 static CeldStatus
-split_once (Work *w, const CeldRun *run, CeldSplits *splits, bool *done)
+split_once (Work *w, const CeldHost *host, CeldSplits *splits, bool *done)
 {
   CeldOrder  order = { 0 };
   Sheet      best = { 0 };
@@ -336,7 +336,7 @@ split_once (Work *w, const CeldRun *run, CeldSplits *splits, bool *done)
     return status;
   status = celd_graph_settle (&w->graph, CELD_ON_CYCLE_REPORT, NULL, &order);
   for (size_t i = 0; i < order.n_cycles && status == CELD_OK && !best.label; i++)
-    status = find_cut (w, &order.cycle[i], run, &best);
+    status = find_cut (w, &order.cycle[i], host, &best);
   *done = !best.label;
   if (status == CELD_OK && best.label)
     status = join_parts (w, &best);
@@ -350,10 +350,10 @@ split_once (Work *w, const CeldRun *run, CeldSplits *splits, bool *done)
 
 CeldStatus
 celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const CeldSettings *settings,
-                   const CeldRun *run, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits)
+                   const CeldHost *host, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits)
 {
   Work       w = { .relations = relations, .ink = ink, .labels = labels, .palette = palette };
-  CeldRun    quiet = run ? *run : (CeldRun) { 0 };
+  CeldHost   quiet = host ? *host : (CeldHost) { 0 };
   CeldStatus status = CELD_OK;
   bool       done = !relations->n;
 
@@ -364,7 +364,7 @@ celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const C
     {
       status = split_once (&w, &quiet, splits, &done);
       if (status == CELD_OK)
-        status = celd_step (run, 1 - 1 / (double) (splits->n + 1));
+        status = celd_progress (host, 1 - 1 / (double) (splits->n + 1));
     }
   return status;
 }

@@ -402,11 +402,11 @@ gathering_clear (Gathering *g)
 }
 
 CeldStatus
-celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldRun *run,
+celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldHost *host,
                   CeldPairCues **pairs, size_t *n)
 {
-  CeldPart       part[2];
-  CeldRun        first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart       part[2];
+  CeldHost       first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldRims       rims = { 0 };
   Gathering      g = { 0 };
   CeldCornerSet *corner = NULL;

@@ -96,7 +96,7 @@ odds_of (const Summary *a, const Summary *b, double range)
 
 CeldStatus
 celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                         const CeldPlane *depth, const CeldRun *run, CeldRelations *suggested)
+                         const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested)
 {
   CeldPairCues *pairs = NULL;
   double       *odds = NULL, range;
@@ -109,7 +109,7 @@ celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, c
     return CELD_BAD_SIZE;
   sample  = celd_alloc ((size_t) labels->width * (size_t) labels->height, sizeof *sample);
   summary = celd_alloc0 (palette->n + 1, sizeof *summary);
-  status  = sample && summary ? celd_cues_gather (labels, palette, ink, run, &pairs, &n) : CELD_NO_MEMORY;
+  status  = sample && summary ? celd_cues_gather (labels, palette, ink, host, &pairs, &n) : CELD_NO_MEMORY;
   if (status == CELD_OK && !(odds = celd_alloc (n, sizeof *odds)))
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
@@ -123,5 +123,5 @@ celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, c
   celd_free (summary);
   celd_free (pairs);
   celd_free (odds);
-  return status == CELD_OK ? celd_step (run, 1) : status;
+  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

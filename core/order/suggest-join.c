@@ -111,7 +111,7 @@ select_kept (const CeldGraph *graph, size_t n_own, CeldSuggest suggest, CeldRela
 CeldStatus
 celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                        const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink,
-                       const CeldRun *run, CeldRelations *both)
+                       const CeldHost *host, CeldRelations *both)
 {
   static const CeldRelations none = { 0 };
 
@@ -127,7 +127,7 @@ celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, con
     {
       status = celd_graph_new (labels, palette, &all, ink, &graph, NULL);
       if (status == CELD_OK)
-        status = celd_graph_settle (&graph, settings->on_cycle, run, &order);
+        status = celd_graph_settle (&graph, settings->on_cycle, host, &order);
       if (status == CELD_OK)
         status = select_kept (&graph, relations->n, settings->suggest, &all);
     }

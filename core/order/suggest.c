@@ -166,7 +166,7 @@ celd_suggestions_add (const CeldPairCues *pairs, const double *odds, size_t n, s
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
-celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldRun *run,
+celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldHost *host,
               CeldRelations *suggested)
 {
   CeldPairCues *pairs = NULL;
@@ -176,7 +176,7 @@ celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPl
 
   if (!CELD_SAME_SIZE (labels, labels) || (ink && !CELD_SAME_SIZE (labels, ink)))
     return CELD_BAD_SIZE;
-  status = celd_cues_gather (labels, palette, ink, run, &pairs, &n);
+  status = celd_cues_gather (labels, palette, ink, host, &pairs, &n);
   if (status == CELD_OK && !(odds = celd_alloc (n, sizeof *odds)))
     status = CELD_NO_MEMORY;
   for (size_t i = 0; i < n && status == CELD_OK; i++)
@@ -185,5 +185,5 @@ celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPl
     status = celd_suggestions_add (pairs, odds, n, palette->n, suggested);
   celd_free (pairs);
   celd_free (odds);
-  return status == CELD_OK ? celd_step (run, 1) : status;
+  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

@@ -37,7 +37,7 @@ typedef struct
 } CeldRims;
 
 /* Labels above n_labels count as none.  ink may be NULL: then all is paper. */
-CeldStatus celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldRun *run,
+CeldStatus celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host,
                           CeldRims *rims);
 void       celd_rims_clear (CeldRims *rims);                    /* accepts a zeroed record */
 
@@ -55,7 +55,7 @@ celd_surface_at (const CeldRims *rims, int x, int y)
  * NaN if that cannot be told. */
 typedef struct { float x, y; uint32_t label[3]; float turn[3]; } CeldCornerSet;
 
-CeldStatus celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldRun *run,
+CeldStatus celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldHost *host,
                                   CeldCornerSet **corners, size_t *n);
 
 /* ------------------------------------------------------------------ suggest-cues.c */
@@ -81,7 +81,7 @@ typedef struct
 } CeldPairCues;
 
 CeldStatus celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                             const CeldRun *run, CeldPairCues **pairs, size_t *n);
+                             const CeldHost *host, CeldPairCues **pairs, size_t *n);
 
 /* ------------------------------------------------------------------ suggest.c */
 

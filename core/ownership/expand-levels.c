@@ -21,14 +21,14 @@ write_levels (const CeldOwnLevels *made, CeldPlane *expanded)
 
 CeldStatus
 celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                    const CeldLabels *corrections, CeldExpansion method, const CeldRun *run, CeldPlane *expanded)
+                    const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *expanded)
 {
   CeldOwnLevels made;
   CeldStatus    status;
 
   if (!CELD_SAME_SIZE (levels, expanded))
     return CELD_BAD_SIZE;
-  status = celd_own_levels_new (ink, levels, regions, corrections, method, run, &made);
+  status = celd_own_levels_new (ink, levels, regions, corrections, method, host, &made);
   if (!status)
     write_levels (&made, expanded);
   celd_own_levels_clear (&made);
@@ -37,7 +37,7 @@ celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLab
 
 CeldStatus
 celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                      const CeldLabels *corrections, CeldExpansion method, const CeldRun *run, CeldPlane *level,
+                      const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *level,
                       CeldLabels *region, CeldPlane *share)
 {
   CeldOwnLevels made;
@@ -46,7 +46,7 @@ celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldL
   if (!CELD_SAME_SIZE (levels, level) || !CELD_SAME_SIZE (levels, share) ||
       (region && !CELD_SAME_SIZE (levels, region)))
     return CELD_BAD_SIZE;
-  status = celd_own_levels_new (ink, levels, regions, corrections, method, run, &made);
+  status = celd_own_levels_new (ink, levels, regions, corrections, method, host, &made);
   for (int y = 0; y < levels->height && !status; y++)
     for (int x = 0; x < levels->width; x++)
       {

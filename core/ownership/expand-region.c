@@ -265,18 +265,18 @@ trim_contour (Window *w)
 
 /* Laplace's equation for t over the contour.  Pieces without an axis keep what t starts from. */
 static CeldStatus
-propagate_thickness (Window *w, const CeldRun *run)
+propagate_thickness (Window *w, const CeldHost *host)
 {
   CeldLaplace *laplace = NULL;
-  CeldPart     part[2];
-  CeldRun      set_up = celd_run_part (&part[0], run, 0, 0.3), solve = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart     part[2];
+  CeldHost     set_up = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus   status;
 
   for (size_t p = 0; p < w->pixels; p++)
     if (!w->axis[p])
       w->t[p] = (float) w->most;
   if (isinf (w->most))
-    return celd_step (run, 1);
+    return celd_progress (host, 1);
   for (size_t p = 0; p < w->pixels; p++)
     if (w->contour[p])
       {
@@ -316,7 +316,7 @@ touches_others (const Window *w, int x, int y)
 
 /* Takes the small pieces of contour that are left over and touch no farther region. */
 static CeldStatus
-fill_gaps (Window *w, const CeldRun *run)
+fill_gaps (Window *w, const CeldHost *host)
 {
   CeldLabels     gaps = { 0 };
   CeldComponent *list = NULL;
@@ -327,7 +327,7 @@ fill_gaps (Window *w, const CeldRun *run)
   for (p = 0; p < w->pixels && !status; p++)
     gaps.data[p] = w->contour[p] && !w->taken[p];
   if (!status)
-    status = celd_components (&gaps, 0, false, run, &gaps, &list, &n);
+    status = celd_components (&gaps, 0, false, host, &gaps, &list, &n);
   if (status)
     goto done;
   for (int y = 0; y < w->height; y++)
@@ -355,16 +355,16 @@ write_window (const Window *w)
 }
 
 CeldStatus
-celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldRun *run)
+celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldHost *host)
 {
   Window     w = { .sheet = sheet, .k = k };
-  CeldPart   part[4];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 0.2), second = celd_run_part (&part[1], run, 0.2, 0.4);
-  CeldRun    third = celd_run_part (&part[2], run, 0.4, 0.9), fourth = celd_run_part (&part[3], run, 0.9, 1);
+  CeldHostPart   part[4];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
+  CeldHost   third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
   CeldStatus status;
 
   if (!sheet->box[k - 1].width || !find_window (&w))
-    return celd_step (run, 1);
+    return celd_progress (host, 1);
   status = open_window (&w);
   if (status)
     goto done;

@@ -79,7 +79,7 @@ number_pixels (const CeldLabels *ranks, CeldSheet *sheet)
 
 /* Frees the ink of all patches that have paper, and of those that are too small to be meant. */
 static CeldStatus
-free_ink (const CeldPlane *ink, const CeldRun *run, CeldSheet *sheet)
+free_ink (const CeldPlane *ink, const CeldHost *host, CeldSheet *sheet)
 {
   CeldLabels     level = { sheet->width, sheet->height, (size_t) sheet->width, sheet->level }, patch = { 0 };
   CeldComponent *list = NULL;
@@ -87,7 +87,7 @@ free_ink (const CeldPlane *ink, const CeldRun *run, CeldSheet *sheet)
   CeldStatus     status = celd_labels_new (sheet->width, sheet->height, &patch);
 
   if (!status)
-    status = celd_components (&level, 0, false, run, &patch, &list, &n);
+    status = celd_components (&level, 0, false, host, &patch, &list, &n);
   if (status)
     goto done;
   for (p = 0; p < n; p++)
@@ -109,7 +109,7 @@ done:
 
 /* How deep ink lies, and the box of each level. */
 static CeldStatus
-measure_sheet (const CeldRun *run, CeldSheet *sheet)
+measure_sheet (const CeldHost *host, CeldSheet *sheet)
 {
   uint8_t   *settled = celd_alloc (sheet->pixels, 1);
   CeldStatus status = settled ? CELD_OK : CELD_NO_MEMORY;
@@ -118,7 +118,7 @@ measure_sheet (const CeldRun *run, CeldSheet *sheet)
   for (p = 0; p < sheet->pixels && !status; p++)
     settled[p] = sheet->level[p] != 0;
   if (!status)
-    status = celd_distance (sheet->width, sheet->height, settled, run, sheet->depth_in_ink);
+    status = celd_distance (sheet->width, sheet->height, settled, host, sheet->depth_in_ink);
   celd_free (settled);
   for (p = 0; p < sheet->pixels && !status; p++)
     if (sheet->level[p])
@@ -136,14 +136,14 @@ measure_sheet (const CeldRun *run, CeldSheet *sheet)
 
 /* Front to back; the last level gets what is left. */
 static CeldStatus
-expand_regions (const CeldRun *run, CeldSheet *sheet)
+expand_regions (const CeldHost *host, CeldSheet *sheet)
 {
   CeldStatus status = CELD_OK;
 
   for (size_t k = sheet->n; k > 1 && !status; k--)
     {
-      CeldPart part;
-      CeldRun  turn = celd_run_part (&part, run, (double) (sheet->n - k) / (double) sheet->n,
+      CeldHostPart part;
+      CeldHost turn = celd_host_part (&part, host, (double) (sheet->n - k) / (double) sheet->n,
                                      (double) (sheet->n - k + 1) / (double) sheet->n);
 
       status = celd_expand_region (sheet, (uint32_t) k, &turn);
@@ -153,7 +153,7 @@ expand_regions (const CeldRun *run, CeldSheet *sheet)
 
 /* Free ink goes to the nearest pixel that is not free; without any it stays free. */
 static CeldStatus
-settle_rest (const CeldRun *run, CeldSheet *sheet)
+settle_rest (const CeldHost *host, CeldSheet *sheet)
 {
   uint8_t   *settled = celd_alloc (sheet->pixels, 1);
   int32_t   *nearest = celd_alloc (sheet->pixels, sizeof *nearest);
@@ -162,7 +162,7 @@ settle_rest (const CeldRun *run, CeldSheet *sheet)
   for (size_t p = 0; p < sheet->pixels && !status; p++)
     settled[p] = sheet->level[p] != 0;
   if (!status)
-    status = celd_nearest (sheet->width, sheet->height, settled, run, sheet->depth_in_ink, nearest);
+    status = celd_nearest (sheet->width, sheet->height, settled, host, sheet->depth_in_ink, nearest);
   for (size_t p = 0; p < sheet->pixels && !status; p++)
     if (!settled[p] && nearest[p] >= 0)
       sheet->level[p] = sheet->level[nearest[p]];
@@ -182,12 +182,12 @@ write_ranks (const CeldSheet *sheet, const CeldLabels *ranks, CeldLabels *expand
 }
 
 CeldStatus
-celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldRun *run, CeldLabels *expanded)
+celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host, CeldLabels *expanded)
 {
   CeldSheet  sheet = { 0 };
-  CeldPart   part[4];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 0.05), second = celd_run_part (&part[1], run, 0.05, 0.1);
-  CeldRun    third = celd_run_part (&part[2], run, 0.1, 0.9), fourth = celd_run_part (&part[3], run, 0.9, 1);
+  CeldHostPart   part[4];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 0.05), second = celd_host_part (&part[1], host, 0.05, 0.1);
+  CeldHost   third = celd_host_part (&part[2], host, 0.1, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
   CeldStatus status;
 
   if (!CELD_SAME_SIZE (ink, ranks) || !CELD_SAME_SIZE (ranks, expanded))

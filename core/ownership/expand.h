@@ -36,14 +36,14 @@ typedef struct
 
 /* See celd_expand_levels.  To be cleared whatever it returns. */
 CeldStatus celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                const CeldLabels *corrections, CeldExpansion method, const CeldRun *run,
+                                const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                 CeldOwnLevels *made);
 void       celd_own_levels_clear (CeldOwnLevels *made);
 /* layer-levels.c: the art cut by that. */
 CeldStatus celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
-                                bool complete, const CeldRun *run, CeldLayers **layers);
+                                bool complete, const CeldHost *host, CeldLayers **layers);
 
 /* Gives free ink to the foremost level that has not had its turn, k. */
-CeldStatus celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldRun *run);
+CeldStatus celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldHost *host);
 
 #endif

@@ -119,7 +119,7 @@ follow (Tracer *t, int x, int y)
 }
 
 static CeldStatus
-follow_all (Tracer *t, const CeldRun *run)
+follow_all (Tracer *t, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
@@ -131,7 +131,7 @@ follow_all (Tracer *t, const CeldRun *run)
         if (!row[x] && above[x] & INK)
           status = follow (t, x, y);
       if (status == CELD_OK && (y & 255) == 255)
-        status = celd_step (run, 0.5 * y / t->ink->height);
+        status = celd_progress (host, 0.5 * y / t->ink->height);
     }
   return status;
 }
@@ -243,7 +243,7 @@ look_through (const Tracer *t, CeldEdgePoint *p)
 }
 
 static CeldStatus
-look_through_all (const Tracer *t, const CeldRun *run)
+look_through_all (const Tracer *t, const CeldHost *host)
 {
   CeldInkEdges *e = t->edges;
 
@@ -254,20 +254,20 @@ look_through_all (const Tracer *t, const CeldRun *run)
       for (size_t i = 0; i < e->loop[k].n; i++)
         look_through (t, &e->point[e->loop[k].first + i]);
     }
-  return celd_step (run, 1);
+  return celd_progress (host, 1);
 }
 
 CeldStatus
-celd_ink_edges_new (const CeldPlane *ink, const CeldRun *run, CeldInkEdges *edges)
+celd_ink_edges_new (const CeldPlane *ink, const CeldHost *host, CeldInkEdges *edges)
 {
   CeldInkEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
   Tracer       t = { .ink = ink, .edges = &made };
   CeldStatus   status = read_chart (&t);
 
   if (status == CELD_OK)
-    status = follow_all (&t, run);
+    status = follow_all (&t, host);
   if (status == CELD_OK)
-    status = look_through_all (&t, run);
+    status = look_through_all (&t, host);
   celd_free (t.chart);
   if (status == CELD_OK)
     *edges = made;

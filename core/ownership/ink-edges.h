@@ -31,7 +31,7 @@ typedef struct
   size_t         n_loops;
 } CeldInkEdges;
 
-CeldStatus celd_ink_edges_new (const CeldPlane *ink, const CeldRun *run, CeldInkEdges *edges);
+CeldStatus celd_ink_edges_new (const CeldPlane *ink, const CeldHost *host, CeldInkEdges *edges);
 void       celd_ink_edges_clear (CeldInkEdges *edges);  /* accepts a zeroed record */
 
 /* Pixels between two places. */

@@ -153,7 +153,7 @@ number_corrections (const CeldOwnLevels *made, const CeldLabels *corrections, Ce
 
 CeldStatus
 celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                     const CeldLabels *corrections, CeldExpansion method, const CeldRun *run, CeldOwnLevels *made)
+                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnLevels *made)
 {
   CeldLabels numbered = { 0 };
   CeldStatus status;
@@ -170,7 +170,7 @@ celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLa
   if (!status && corrections)
     status = number_corrections (made, corrections, &numbered);
   if (!status)
-    status = celd_own (ink, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method, run,
+    status = celd_own (ink, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method, host,
                        &made->own);
   celd_free (numbered.data);
   return status;

@@ -236,11 +236,11 @@ find_grey (const CeldPlane *ink, CeldTiles *grey)
 }
 
 CeldStatus
-celd_owners_make (const CeldOwnersInput *input, const CeldRun *run, CeldOwnersKept *kept, CeldOwnership *ownership)
+celd_owners_make (const CeldOwnersInput *input, const CeldHost *host, CeldOwnersKept *kept, CeldOwnership *ownership)
 {
   int        w = input->ink->width, h = input->ink->height;
-  CeldPart   part[2];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart   part[2];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldPens   pens = { 0 };
   bool      *solid = NULL;
   CeldStatus status;
@@ -277,7 +277,7 @@ celd_owners_make (const CeldOwnersInput *input, const CeldRun *run, CeldOwnersKe
 
 /* Owners for new labels or levels; corrections are taken back. */
 static CeldStatus
-renew_owners (const CeldOwnersInput *in, CeldRect new_labels, const CeldRun *run, CeldOwnersKept *kept,
+renew_owners (const CeldOwnersInput *in, CeldRect new_labels, const CeldHost *host, CeldOwnersKept *kept,
               CeldTiles *tiles)
 {
   CeldPens   pens = { 0 };
@@ -288,7 +288,7 @@ renew_owners (const CeldOwnersInput *in, CeldRect new_labels, const CeldRun *run
   if (!status)
     status = celd_owners_compare (kept, in, new_labels, &pens, solid, tiles);
   if (!status)
-    status = celd_step (run, 0.5);
+    status = celd_progress (host, 0.5);
   if (!status)
     {
       replace_pens (kept, &pens, &solid);
@@ -302,7 +302,7 @@ renew_owners (const CeldOwnersInput *in, CeldRect new_labels, const CeldRun *run
 }
 
 CeldStatus
-celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels, const CeldRun *run, CeldOwnersKept *kept,
+celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels, const CeldHost *host, CeldOwnersKept *kept,
                    CeldOwnership *ownership, CeldRect *changed)
 {
   bool       same = kept->pens.n == input->n && !memcmp (kept->level, input->level, input->n * sizeof *input->level);
@@ -312,11 +312,11 @@ celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels, const Celd
   if (!status)
     take_back (kept, &tiles);
   if (!status && (!same || new_labels.width))
-    status = renew_owners (input, new_labels, run, kept, &tiles);
+    status = renew_owners (input, new_labels, host, kept, &tiles);
   if (!status)
     status = correct (input, kept, &tiles);
   if (!status)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (!status)
     *changed = renew_record (input, kept, !same, &tiles, ownership);
   else

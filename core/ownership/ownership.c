@@ -51,7 +51,7 @@ spread_labels (const CeldLabels *labels, const uint32_t *level, const CeldLabels
 
 /* Expansion spreads a level from its own pixels, so that hardly anything stays without a label. */
 static CeldStatus
-own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, const CeldRun *run,
+own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, const CeldHost *host,
                   CeldLabels *owner)
 {
   CeldLabels levels = { 0 }, found = { 0 };
@@ -62,7 +62,7 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
       CELD_AT (&levels, x, y) = level[CELD_AT (labels, x, y) - 1];
-  status = celd_expand (ink, &levels, run, &levels);
+  status = celd_expand (ink, &levels, host, &levels);
   if (!status)
     status = celd_labels_new (labels->width, labels->height, &found);
   if (!status)
@@ -78,14 +78,14 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
 /* ------------------------------------------------------------------ by outlines */
 
 static CeldStatus
-own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldRun *run,
+own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldHost *host,
                  CeldOwnership *own)
 {
   bool      *solid = celd_alloc (pens->n, sizeof *solid);
   CeldStatus status = solid ? celd_solid_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
 
   if (!status)
-    status = celd_pens_claim (pens, ink, labels, solid, run, &own->owner, &own->share);
+    status = celd_pens_claim (pens, ink, labels, solid, host, &own->owner, &own->share);
   celd_free (solid);
   return status;
 }
@@ -93,13 +93,13 @@ own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *l
 /* Either method, and then the corrections, which go by pieces of line.  The thickness has no use for pens by itself. */
 static CeldStatus
 own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n, const CeldLabels *corrections,
-         CeldExpansion method, const CeldRun *run, CeldOwnership *own)
+         CeldExpansion method, const CeldHost *host, CeldOwnership *own)
 {
   CeldInkEdges edges = { 0 };
   CeldPens     pens = { 0 };
   CeldGiven    given = { 0 };
-  CeldPart     part[2];
-  CeldRun      first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart     part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus   status = CELD_OK;
 
   if (method == CELD_EXPANSION_OUTLINES || corrections)
@@ -138,12 +138,12 @@ check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabel
 
 CeldStatus
 celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
-          const CeldLabels *corrections, CeldExpansion method, const CeldRun *run, CeldOwnership *ownership)
+          const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnership *ownership)
 {
   CeldStatus status = check (ink, labels, n, corrections, ownership);
 
   if (!status)
-    status = own_ink (ink, labels, level, n, corrections, method, run, ownership);
+    status = own_ink (ink, labels, level, n, corrections, method, host, ownership);
   if (!status)
     celd_share_edges (ink, level, ownership);
   return status;

@@ -53,9 +53,9 @@ typedef struct
 
 /* Fills in the record, from the beginning or from where it was; the ink is the same, labels differ within a rectangle
  * only.  *changed is where the record does.  After a failure the record is as it was, and nothing is kept. */
-CeldStatus celd_owners_make (const CeldOwnersInput *input, const CeldRun *run, CeldOwnersKept *kept,
+CeldStatus celd_owners_make (const CeldOwnersInput *input, const CeldHost *host, CeldOwnersKept *kept,
                              CeldOwnership *ownership);
-CeldStatus celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels, const CeldRun *run,
+CeldStatus celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels, const CeldHost *host,
                               CeldOwnersKept *kept, CeldOwnership *ownership, CeldRect *changed);
 void       celd_owners_clear (CeldOwnersKept *kept);    /* accepts a zeroed record */
 

@@ -205,7 +205,7 @@ celd_pen_claims (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i, CeldC
 
 CeldStatus
 celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
-                 const CeldRun *run, CeldLabels *owner, CeldPlane *over)
+                 const CeldHost *host, CeldLabels *owner, CeldPlane *over)
 {
   const CeldInkEdges *edges = pens->edges;
   CeldClaims          c = { pens, ink, owner, over };
@@ -222,7 +222,7 @@ celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *l
           for (size_t j = 0; j < n; j++)
             celd_claim_make (&c, &claim[j]);
         }
-      status = celd_step (run, (double) (edges->loop[k].first + edges->loop[k].n) / (double) edges->n_points);
+      status = celd_progress (host, (double) (edges->loop[k].first + edges->loop[k].n) / (double) edges->n_points);
     }
   return status == CELD_OK ? celd_claims_end (&c) : status;
 }

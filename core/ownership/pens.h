@@ -94,7 +94,7 @@ void celd_claim_make (const CeldClaims *claims, const CeldClaim *claim);
 
 /* All steps from labels to owners; `owner` may alias `labels`. */
 CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
-                            const CeldRun *run, CeldLabels *owner, CeldPlane *over);
+                            const CeldHost *host, CeldLabels *owner, CeldPlane *over);
 
 /* ------------------------------------------------------------------ pen-rest.c */
 

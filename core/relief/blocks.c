@@ -69,7 +69,7 @@ is_whole (const CeldBlocks *b, int k, int x, int y)
 
 /* All squares of 2^k pixels. */
 static CeldStatus
-join_squares (const Surface *s, int k, const CeldRun *run, CeldBlocks *b)
+join_squares (const Surface *s, int k, const CeldHost *host, CeldBlocks *b)
 {
   int w = b->width >> k, h = b->height >> k;
 
@@ -78,7 +78,7 @@ join_squares (const Surface *s, int k, const CeldRun *run, CeldBlocks *b)
     return CELD_NO_MEMORY;
   for (int y = 0; y < h; y++)
     {
-      if (celd_step (run, (k - 1 + (double) y / h) / CELD_BLOCK_SIZES) != CELD_OK)
+      if (celd_progress (host, (k - 1 + (double) y / h) / CELD_BLOCK_SIZES) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < w; x++)
         b->whole[k][(size_t) y * (size_t) w + (size_t) x] =
@@ -90,7 +90,7 @@ join_squares (const Surface *s, int k, const CeldRun *run, CeldBlocks *b)
 }
 
 CeldStatus
-celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double error, const CeldRun *run,
+celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double error, const CeldHost *host,
                  CeldBlocks *blocks)
 {
   Surface    s = { corners, relief, error };
@@ -98,7 +98,7 @@ celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double er
 
   *blocks = (CeldBlocks) { .width = relief->width, .height = relief->height };
   for (int k = 1; k < CELD_BLOCK_SIZES && status == CELD_OK; k++)
-    status = join_squares (&s, k, run, blocks);
+    status = join_squares (&s, k, host, blocks);
   return status;
 }
 

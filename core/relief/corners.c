@@ -177,7 +177,7 @@ add_corner (CeldCorners *corners, size_t place, const Corner *c)
 }
 
 CeldStatus
-celd_corners_new (const CeldRelief *r, const CeldRun *run, CeldCorners *corners)
+celd_corners_new (const CeldRelief *r, const CeldHost *host, CeldCorners *corners)
 {
   size_t     n = ((size_t) r->width + 1) * ((size_t) r->height + 1), place = 0;
   CeldStatus status = CELD_OK;
@@ -191,7 +191,7 @@ celd_corners_new (const CeldRelief *r, const CeldRun *run, CeldCorners *corners)
   for (int y = 0; y <= r->height && status == CELD_OK; y++)
     {
       if (y % 16 == 0)
-        status = celd_step (run, (double) y / r->height);
+        status = celd_progress (host, (double) y / r->height);
       for (int x = 0; x <= r->width && status == CELD_OK; x++, place++)
         {
           Corner c;

@@ -35,7 +35,7 @@ use_square (CeldMaking *m, int x, int y, int side)
 
 /* Does `body` for each square that is drawn. */
 static CeldStatus
-for_squares (CeldMaking *m, const CeldRun *run, CeldStatus (*body) (CeldMaking *m, int x, int y, int side))
+for_squares (CeldMaking *m, const CeldHost *host, CeldStatus (*body) (CeldMaking *m, int x, int y, int side))
 {
   int        w = m->relief->width, h = m->relief->height;
   CeldStatus status = CELD_OK;
@@ -44,7 +44,7 @@ for_squares (CeldMaking *m, const CeldRun *run, CeldStatus (*body) (CeldMaking *
     for (int y = 0; y < h >> k && status == CELD_OK; y++)
       {
         if (y % 32 == 0)
-          status = celd_step (run, (k + (double) y / h) / CELD_BLOCK_SIZES);
+          status = celd_progress (host, (k + (double) y / h) / CELD_BLOCK_SIZES);
         for (int x = 0; x < w >> k && status == CELD_OK; x++)
           if (celd_block_drawn (m->blocks, k, x, y))
             status = body (m, x << k, y << k, 1 << k);
@@ -61,14 +61,14 @@ mark_square (CeldMaking *m, int x, int y, int side)
 
 /* Marks the points that are used, and counts them. */
 static CeldStatus
-mark_points (CeldMaking *m, const CeldRun *run, size_t *n)
+mark_points (CeldMaking *m, const CeldHost *host, size_t *n)
 {
   const CeldCorners *c = m->corners;
   size_t             corners = ((size_t) c->width + 1) * ((size_t) c->height + 1);
   CeldStatus         status;
 
   memset (m->vertex, 0, c->n * sizeof *m->vertex);
-  status = for_squares (m, run, mark_square);
+  status = for_squares (m, host, mark_square);
   for (size_t i = 0; i < corners; i++)
     for (uint32_t p = c->first[i]; p < c->first[i + 1] && c->cracked[i]; p++)
       m->vertex[p] = 1;
@@ -241,11 +241,11 @@ find_normals (CeldReliefMesh *mesh)
 
 /* Squares of the least error with which there are not too many vertices. */
 static CeldStatus
-choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldRun *run, CeldBlocks *blocks, size_t *n)
+choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, CeldBlocks *blocks, size_t *n)
 {
   double     error = (double) settings->mesh_error;
-  CeldPart   part[2];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 1), others = celd_run_part (&part[1], run, 1, 1);
+  CeldHostPart   part[2];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 1), others = celd_host_part (&part[1], host, 1, 1);
   CeldStatus status;
 
   for (;;)
@@ -293,11 +293,11 @@ find_bottom (const CeldCorners *c, double thickness)
 }
 
 static CeldStatus
-make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldRun *run, CeldBlocks *blocks)
+make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, CeldBlocks *blocks)
 {
   size_t     n = 0;
-  CeldPart   part[2];
-  CeldRun    choosing = celd_run_part (&part[0], run, 0, 0.7), filling = celd_run_part (&part[1], run, 0.7, 1);
+  CeldHostPart   part[2];
+  CeldHost   choosing = celd_host_part (&part[0], host, 0, 0.7), filling = celd_host_part (&part[1], host, 0.7, 1);
   CeldStatus status = choose_squares (m, settings, &choosing, blocks, &n);
 
   if (status == CELD_OK)
@@ -317,7 +317,7 @@ make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldRun *run, Celd
 }
 
 CeldStatus
-celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldRun *run, CeldReliefMesh *mesh)
+celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host, CeldReliefMesh *mesh)
 {
   if (!relief->z || relief->width < 1 || relief->height < 1)
     return CELD_BAD_SIZE;
@@ -326,8 +326,8 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
 
   CeldCorners corners = { .width = 0 };
   CeldBlocks  blocks = { .width = 0 };
-  CeldPart    part[2];
-  CeldRun     cornering = celd_run_part (&part[0], run, 0, 0.2), making = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart    part[2];
+  CeldHost    cornering = celd_host_part (&part[0], host, 0, 0.2), making = celd_host_part (&part[1], host, 0.2, 1);
   CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks,
                         .solid = settings->mesh == CELD_MESH_SOLID };
   CeldStatus  status = celd_corners_new (relief, &cornering, &corners);

@@ -28,7 +28,7 @@ typedef struct
   size_t    n;
 } CeldCorners;
 
-CeldStatus celd_corners_new (const CeldRelief *relief, const CeldRun *run, CeldCorners *corners);
+CeldStatus celd_corners_new (const CeldRelief *relief, const CeldHost *host, CeldCorners *corners);
 void       celd_corners_clear (CeldCorners *corners);         /* also what was made by half */
 
 static inline size_t
@@ -58,7 +58,7 @@ typedef struct
 } CeldBlocks;
 
 /* Squares of which four triangles round the middle are at most `error` away. */
-CeldStatus celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double error, const CeldRun *run,
+CeldStatus celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double error, const CeldHost *host,
                             CeldBlocks *blocks);
 void       celd_blocks_clear (CeldBlocks *blocks);            /* also what was made by half */
 /* Is the square of 2^k pixels in column x and row y of such squares drawn? */

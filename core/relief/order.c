@@ -183,12 +183,12 @@ smooth_shift (const CeldSurface *s, double deviation, float *shift)
 
 /* Shifts of tiles, and from them those of pixels. */
 static CeldStatus
-find_shift (const Order *o, double reach, const CeldRun *run, float *shift)
+find_shift (const Order *o, double reach, const CeldHost *host, float *shift)
 {
   size_t     n = o->tiles.n;
   double    *of_tile = celd_alloc (n, sizeof *of_tile);
   Slope     *slope = celd_alloc0 (n, sizeof *slope);
-  CeldStatus status = of_tile && slope ? celd_shift_tiles (&o->tiles, o->cut, o->cuts, reach, run, of_tile)
+  CeldStatus status = of_tile && slope ? celd_shift_tiles (&o->tiles, o->cut, o->cuts, reach, host, of_tile)
                                        : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
@@ -231,7 +231,7 @@ ask_for_more (void *data, size_t near, size_t far, bool right)
 
 /* Shifts until the order is kept. */
 static CeldStatus
-keep_cuts (Order *o, const CeldRun *run, float *shift)
+keep_cuts (Order *o, const CeldHost *host, float *shift)
 {
   double     reach = REACH * hypot (o->surface->width, o->surface->height);
   CeldStatus status = CELD_OK;
@@ -240,8 +240,8 @@ keep_cuts (Order *o, const CeldRun *run, float *shift)
   o->shift = shift;
   for (int i = 0; i < MOST_TURNS && !o->kept && status == CELD_OK; i++)
     {
-      CeldPart part;
-      CeldRun  turn = celd_run_part (&part, run, (double) i / MOST_TURNS, (double) (i + 1) / MOST_TURNS);
+      CeldHostPart part;
+      CeldHost turn = celd_host_part (&part, host, (double) i / MOST_TURNS, (double) (i + 1) / MOST_TURNS);
 
       status  = find_shift (o, reach, &turn, shift);
       o->kept = true;
@@ -256,7 +256,7 @@ keep_cuts (Order *o, const CeldRun *run, float *shift)
 }
 
 CeldStatus
-celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldRun *run,
+celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldHost *host,
                  float *shift)
 {
   Order o = { .surface = surface, .z = z, .depth = depth, .step = step };
@@ -268,7 +268,7 @@ celd_keep_order (const CeldSurface *surface, const float *z, const float *depth,
   if (o.status == CELD_OK)
     {
       merge_cuts (&o);
-      o.status = keep_cuts (&o, run, shift);
+      o.status = keep_cuts (&o, host, shift);
     }
   celd_relief_tiles_clear (&o.tiles);
   celd_free (o.cut);

@@ -29,12 +29,12 @@ depth_scale (const CeldSurface *surface, const CeldSettings *settings)
 /* Depth as a tight plane: the given one, or smooth depth that each region's core holds. */
 static CeldStatus
 read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *given, const CeldSettings *settings,
-            const CeldRun *run, float *depth)
+            const CeldHost *host, float *depth)
 {
   CeldPlane made = { ink->width, ink->height, (size_t) ink->width, depth };
 
   if (!given)
-    return celd_smooth (ink, levels, NULL, settings, run, &made, NULL);
+    return celd_smooth (ink, levels, NULL, settings, host, &made, NULL);
   celd_depth_levels (given, depth);
   return CELD_OK;
 }
@@ -42,11 +42,11 @@ read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *give
 /* Height above the outline, in pixels. */
 static CeldStatus
 make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-            const CeldRun *run, Planes *p)
+            const CeldHost *host, Planes *p)
 {
   size_t     n = (size_t) surface->width * (size_t) surface->height;
-  CeldPart   part[2];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 0.6), second = celd_run_part (&part[1], run, 0.6, 1);
+  CeldHostPart   part[2];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
   CeldStatus status;
 
   if (settings->relief_from == CELD_RELIEF_NORMALS)
@@ -55,7 +55,7 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
       status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
       return status ? status : celd_round_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
     }
-  status = celd_round_inflate (surface, (double) settings->tolerance, run, p->z);
+  status = celd_round_inflate (surface, (double) settings->tolerance, host, p->z);
   for (size_t i = 0; i < n; i++)
     p->z[i] *= settings->bulge;
   return status;
@@ -74,12 +74,12 @@ mark_cut (void *data, size_t near, size_t far, bool right)
 /* All of `relief`, of which there are the planes. */
 static CeldStatus
 make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-             const CeldRun *run, Planes *p, CeldRelief *relief)
+             const CeldHost *host, Planes *p, CeldRelief *relief)
 {
   size_t     n = (size_t) surface->width * (size_t) surface->height;
   double     scale = depth_scale (surface, settings);
-  CeldPart   part[2];
-  CeldRun    rounding = celd_run_part (&part[0], run, 0, 0.4), ordering = celd_run_part (&part[1], run, 0.4, 1);
+  CeldHostPart   part[2];
+  CeldHost   rounding = celd_host_part (&part[0], host, 0, 0.4), ordering = celd_host_part (&part[1], host, 0.4, 1);
   CeldStatus status = make_round (surface, ink, levels, settings, &rounding, p);
 
   for (size_t i = 0; i < n; i++)
@@ -113,7 +113,7 @@ relief_new (int width, int height, CeldRelief *relief)
 
 CeldStatus
 celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldSettings *settings,
-             const CeldRun *run, CeldRelief *relief)
+             const CeldHost *host, CeldRelief *relief)
 {
   if (!CELD_SAME_SIZE (ink, levels) || (depth && !CELD_SAME_SIZE (ink, depth)))
     return CELD_BAD_SIZE;
@@ -125,9 +125,9 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
   Planes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
                     { .data = NULL } };
   CeldRelief  made = { .width = 0 };
-  CeldPart    part[3];
-  CeldRun     smoothing = celd_run_part (&part[0], run, 0, 0.2), cutting = celd_run_part (&part[1], run, 0.2, 0.3);
-  CeldRun     making = celd_run_part (&part[2], run, 0.3, 1);
+  CeldHostPart    part[3];
+  CeldHost    smoothing = celd_host_part (&part[0], host, 0, 0.2), cutting = celd_host_part (&part[1], host, 0.2, 0.3);
+  CeldHost    making = celd_host_part (&part[2], host, 0.3, 1);
   CeldStatus  status = p.z && p.depth && p.shift ? relief_new (ink->width, ink->height, &made) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)

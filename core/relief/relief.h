@@ -25,7 +25,7 @@ typedef struct
   uint8_t *flat;                /* does the pixel's region end nowhere, so that it stays flat? */
 } CeldSurface;
 
-CeldStatus celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldRun *run,
+CeldStatus celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldHost *host,
                              CeldSurface *surface);
 void       celd_surface_clear (CeldSurface *surface);         /* also what was made by half */
 
@@ -37,10 +37,10 @@ void celd_surface_cuts (const CeldSurface *surface, CeldCutBody body, void *data
 /* ------------------------------------------------------------------ relief-round.c */
 
 /* Height above the outline, in pixels, for bulge 1; `b` and `diagonal` are cleared workspace. */
-CeldStatus celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldRun *run, float *height);
+CeldStatus celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height);
 /* The same from normals, which already have their bulge. */
 CeldStatus celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
-                                 const CeldRun *run, float *height);
+                                 const CeldHost *host, float *height);
 
 /* ------------------------------------------------------------------ relief-tiles.c */
 
@@ -67,13 +67,13 @@ void       celd_relief_tiles_clear (CeldReliefTiles *tiles);               /* al
 
 /* Shifts of the tiles, the smallest and smoothest that keep the cuts, as relief-order.c has it. */
 CeldStatus celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach,
-                             const CeldRun *run, double *shift);
+                             const CeldHost *host, double *shift);
 
 /* ------------------------------------------------------------------ relief-order.c */
 
 /* Moves and bends the surface z as little as possible, so that at each cut the nearer side lies at least as far before
  * the other as `step` says: step x the difference of depth, which is at least 0.  `shift` is what is added to z. */
 CeldStatus celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
-                            const CeldRun *run, float *shift);
+                            const CeldHost *host, float *shift);
 
 #endif

@@ -92,13 +92,13 @@ want_slopes (Round *r)
 
 /* Solves for the height, or f. */
 static CeldStatus
-solve (Round *r, double tolerance, const CeldRun *run, float *x)
+solve (Round *r, double tolerance, const CeldHost *host, float *x)
 {
   const CeldSurface *s = r->surface;
   size_t             n = (size_t) s->width * (size_t) s->height;
-  CeldPart           part[2];
-  CeldRun            setting_up = celd_run_part (&part[0], run, 0, 0.3);
-  CeldRun            solving = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart           part[2];
+  CeldHost           setting_up = celd_host_part (&part[0], host, 0, 0.3);
+  CeldHost           solving = celd_host_part (&part[1], host, 0.3, 1);
   CeldLaplace       *laplace = NULL;
   CeldStatus         status = CELD_NO_MEMORY;
 
@@ -127,11 +127,11 @@ done:
 }
 
 CeldStatus
-celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldRun *run, float *height)
+celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height)
 {
   Round      r = { .surface = surface };
   size_t     n = (size_t) surface->width * (size_t) surface->height;
-  CeldStatus status = solve (&r, fmin (tolerance, ROUGH), run, height);
+  CeldStatus status = solve (&r, fmin (tolerance, ROUGH), host, height);
 
   for (size_t p = 0; p < n; p++)
     height[p] = sqrtf (fmaxf (height[p], 0));
@@ -139,10 +139,10 @@ celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldRun 
 }
 
 CeldStatus
-celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldRun *run,
+celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldHost *host,
                       float *height)
 {
   Round r = { .surface = surface, .normals = normals };
 
-  return solve (&r, tolerance, run, height);
+  return solve (&r, tolerance, host, height);
 }

@@ -182,7 +182,7 @@ find_length (Shift *s)
 }
 
 static CeldStatus
-descend (Shift *s, const CeldRun *run)
+descend (Shift *s, const CeldHost *host)
 {
   size_t n = s->tiles->n;
   double first = 0;
@@ -191,7 +191,7 @@ descend (Shift *s, const CeldRun *run)
     {
       double size, length;
 
-      if (celd_step (run, (double) i / MOST_STEPS) != CELD_OK)
+      if (celd_progress (host, (double) i / MOST_STEPS) != CELD_OK)
         return CELD_CANCELLED;
       look (s);
       size  = sqrt (dot (s->gradient, s->gradient, n));
@@ -209,7 +209,7 @@ descend (Shift *s, const CeldRun *run)
 }
 
 CeldStatus
-celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach, const CeldRun *run,
+celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach, const CeldHost *host,
                   double *shift)
 {
   size_t     n = tiles->n;
@@ -224,7 +224,7 @@ celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t 
   s.p = space + 3 * n, s.q = space + 4 * n, s.diagonal = space + 5 * n;
   for (size_t k = 0; k < n; k++)
     shift[k] = 0;
-  status = descend (&s, run);
+  status = descend (&s, host);
 
 done:
   celd_free (space);

@@ -50,13 +50,13 @@ join_regions (const CeldSurface *s, Regions *r)
 }
 
 static CeldStatus
-regions_new (const CeldSurface *s, const CeldRun *run, Regions *r)
+regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
 {
   CeldComponent *list = NULL;
   CeldStatus     status = celd_labels_new (s->width, s->height, &r->region);
 
   if (status == CELD_OK)
-    status = celd_depth_regions (s->width, s->height, s->level, run, &r->region, &list, &r->n);
+    status = celd_depth_regions (s->width, s->height, s->level, host, &r->region, &list, &r->n);
   celd_free (list);
   if (status != CELD_OK)
     return status;
@@ -92,7 +92,7 @@ is_end (const CeldSurface *s, const CeldJoined *joined, Regions *r, int x, int y
 
 /* Ends are told by the cuts as they were. */
 static CeldStatus
-join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
+join_ends (CeldSurface *s, Regions *r, const CeldHost *host)
 {
   CeldJoined joined;
   CeldStatus status = celd_joined_new (s->width, s->height, s->east, s->south, &joined);
@@ -100,7 +100,7 @@ join_ends (CeldSurface *s, Regions *r, const CeldRun *run)
 
   for (int y = 0; y < s->height && status == CELD_OK; y++)
     {
-      status = y % 64 ? CELD_OK : celd_step (run, (double) y / s->height);
+      status = y % 64 ? CELD_OK : celd_progress (host, (double) y / s->height);
       for (int x = 0; x < s->width && status == CELD_OK; x++, p++)
         {
           if (x + 1 < s->width && s->east[p] == 0 && is_end (s, &joined, r, x, y, false))
@@ -164,13 +164,13 @@ find_flat (CeldSurface *s, Regions *r)
 }
 
 CeldStatus
-celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldRun *run, CeldSurface *s)
+celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldHost *host, CeldSurface *s)
 {
   size_t     n = (size_t) ink->width * (size_t) ink->height;
   Regions    r = { .n = 0 };
-  CeldPart   part[3];
-  CeldRun    weighing = celd_run_part (&part[0], run, 0, 0.5), finding = celd_run_part (&part[1], run, 0.5, 0.8);
-  CeldRun    joining = celd_run_part (&part[2], run, 0.8, 1);
+  CeldHostPart   part[3];
+  CeldHost   weighing = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 0.8);
+  CeldHost   joining = celd_host_part (&part[2], host, 0.8, 1);
   CeldStatus status = CELD_OK;
 
   *s = (CeldSurface) { .width = ink->width, .height = ink->height };

@@ -241,7 +241,7 @@ seed (CeldCanvas *canvas, const CeldSpread *spread, Frame *frame, uint32_t label
 }
 
 CeldStatus
-celd_background_seed (const CeldRun *run, CeldCanvas *canvas)
+celd_background_seed (const CeldHost *host, CeldCanvas *canvas)
 {
   Frame      frame = { 0 };
   CeldSpread own = { 0 }, *spread = canvas->painted.dab && !canvas->stained ? &canvas->painted : &own;
@@ -264,5 +264,5 @@ celd_background_seed (const CeldRun *run, CeldCanvas *canvas)
     }
   celd_spread_clear (&own);
   frame_clear (&frame);
-  return status == CELD_OK ? celd_step (run, 1) : status;
+  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

@@ -161,9 +161,9 @@ gather_runs (const CeldAscent *a)
 /* ------------------------------------------------------------------ all of it */
 
 static CeldStatus
-run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldRun *run, double from, double to)
+run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldHost *host, double from, double to)
 {
-  CeldStatus status = celd_rounds (run, a->n_bands, a->n_desks, body, a, &a->first, from, to);
+  CeldStatus status = celd_parallel_rounds (host, a->n_bands, a->n_desks, body, a, &a->first, from, to);
 
   for (int i = 0; i < a->n_bands && status == CELD_OK; i++)
     status = a->band[i].failed ? CELD_NO_MEMORY : CELD_OK;
@@ -171,7 +171,7 @@ run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldRun *run
 }
 
 static CeldStatus
-ascent_new (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins, CeldAscent *a)
+ascent_new (const CeldPlot *plot, const CeldHost *host, CeldBasins *basins, CeldAscent *a)
 {
   size_t w = (size_t) plot->box.width, h = (size_t) plot->box.height, n_bands = (h + CELD_BAND - 1) / CELD_BAND;
   bool   good;
@@ -182,7 +182,7 @@ ascent_new (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins, CeldAs
     .edge    = celd_alloc (n_bands * w, 2 * sizeof *a->edge),
     .until   = celd_alloc (n_bands * w, 2 * sizeof *a->until),
     .band    = celd_alloc0 (n_bands, sizeof *a->band),
-    .n_bands = (int) n_bands, .n_desks = run && run->each ? CELD_DESKS : 1, .basins = basins,
+    .n_bands = (int) n_bands, .n_desks = host && host->each ? CELD_DESKS : 1, .basins = basins,
   };
   basins->row = celd_alloc (h + 1, sizeof *basins->row);
   good = a->edge && a->until && a->band && basins->row;
@@ -221,19 +221,19 @@ ascent_clear (CeldAscent *a)
 }
 
 CeldStatus
-celd_basins_ascend (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins)
+celd_basins_ascend (const CeldPlot *plot, const CeldHost *host, CeldBasins *basins)
 {
   CeldAscent a;
-  CeldStatus status = ascent_new (plot, run, basins, &a);
+  CeldStatus status = ascent_new (plot, host, basins, &a);
 
   if (status == CELD_OK)
-    status = run_bands (&a, celd_band_lead, run, 0, 0.8);
+    status = run_bands (&a, celd_band_lead, host, 0, 0.8);
   if (status == CELD_OK)
     status = make_basins (&a);
   if (status == CELD_OK)
     {
       lead_edges (&a);
-      status = run_bands (&a, find_runs, run, 0.8, 1);
+      status = run_bands (&a, find_runs, host, 0.8, 1);
     }
   if (status == CELD_OK)
     status = gather_runs (&a);

@@ -214,7 +214,7 @@ compare (const void *a, const void *b)
 }
 
 CeldStatus
-celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldRun *run,
+celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldHost *host,
                    CeldBorder **border, size_t *n)
 {
   Borders    b = { .ink = ink, .plot = plot, .basins = basins };
@@ -227,7 +227,7 @@ celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins 
         fetch_row (&b, y + 2);
       status = add_row (&b, y);
       if (status == CELD_OK && y % ROWS == 0)
-        status = celd_step (run, (double) (y - top) / (end - top));
+        status = celd_progress (host, (double) (y - top) / (end - top));
     }
   celd_free (b.slot);
   if (status != CELD_OK)

@@ -61,7 +61,7 @@ in_rect (CeldRect r, int x, int y)
 
 /* Signed distances in a window to what lies outside `changed`, if all of that is `value`. */
 static CeldStatus
-measure_around (const Renewal *r, CeldRect window, float value, const CeldRun *run, float *copy, int32_t *squared)
+measure_around (const Renewal *r, CeldRect window, float value, const CeldHost *host, float *copy, int32_t *squared)
 {
   CeldPlane plane = { window.width, window.height, (size_t) window.width, copy };
 
@@ -69,7 +69,7 @@ measure_around (const Renewal *r, CeldRect window, float value, const CeldRun *r
     for (int x = 0; x < window.width; x++)
       CELD_AT (&plane, x, y) = in_rect (r->changed, window.x + x, window.y + y)
                              ? value : CELD_AT (r->ink, window.x + x, window.y + y);
-  return celd_signed_distance (&plane, run, squared);
+  return celd_signed_distance (&plane, host, squared);
 }
 
 /* From (x,y) to the nearest pixel of `changed`. */
@@ -131,7 +131,7 @@ first_margin (const Renewal *r)
 
 /* Marks the basins that the change reaches; *worth becomes false if that is much of the drawing. */
 static CeldStatus
-find_touched (Renewal *r, const CeldRun *run, bool *worth)
+find_touched (Renewal *r, const CeldHost *host, bool *worth)
 {
   CeldStatus status = CELD_OK;
   double     looked_at = 0;
@@ -151,9 +151,9 @@ find_touched (Renewal *r, const CeldRun *run, bool *worth)
       copy = celd_alloc (n, sizeof *copy);
       to_ink = celd_alloc (n, sizeof *to_ink);
       to_paper = celd_alloc (n, sizeof *to_paper);
-      status = copy && to_ink && to_paper ? measure_around (r, window, 1, run, copy, to_ink) : CELD_NO_MEMORY;
+      status = copy && to_ink && to_paper ? measure_around (r, window, 1, host, copy, to_ink) : CELD_NO_MEMORY;
       if (status == CELD_OK)
-        status = measure_around (r, window, 0, run, copy, to_paper);
+        status = measure_around (r, window, 0, host, copy, to_paper);
       if (status == CELD_OK)
         found = mark_reached (r, window, to_ink, to_paper);
       celd_free (copy);
@@ -336,7 +336,7 @@ merge_borders (const Renewal *r, const uint32_t *kept, const CeldBorder *more, s
 
 /* Makes the touched basins anew, and the graph of them and those that are kept. */
 static CeldStatus
-make_anew (Renewal *r, const CeldRun *run, CeldBasins *found)
+make_anew (Renewal *r, const CeldHost *host, CeldBasins *found)
 {
   CeldRect    box = r->box, window = r->window;
   CeldPlane   view = { window.width, window.height, r->ink->stride, &CELD_AT (r->ink, window.x, window.y) };
@@ -346,13 +346,13 @@ make_anew (Renewal *r, const CeldRun *run, CeldBasins *found)
   CeldBorder *border = NULL;
   uint32_t   *to = NULL, *kept = celd_alloc (r->old->n, sizeof *kept);
   size_t      n_borders = 0;
-  CeldStatus  status = kept ? celd_signed_distance (&view, run, r->squared) : CELD_NO_MEMORY;
+  CeldStatus  status = kept ? celd_signed_distance (&view, host, r->squared) : CELD_NO_MEMORY;
 
   made.width = box.width;
   made.height = box.height;
   mark_anew (r);
   if (status == CELD_OK)
-    status = celd_basins_ascend (&plot, run, &made);
+    status = celd_basins_ascend (&plot, host, &made);
   if (status == CELD_OK && !(to = celd_alloc (made.n, sizeof *to)))
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
@@ -362,7 +362,7 @@ make_anew (Renewal *r, const CeldRun *run, CeldBasins *found)
   if (status == CELD_OK)
     {
       celd_basins_measure (found);
-      status = celd_basins_touch (r->ink, &plot, found, run, &border, &n_borders);
+      status = celd_basins_touch (r->ink, &plot, found, host, &border, &n_borders);
     }
   if (status == CELD_OK)
     status = merge_borders (r, kept, border, n_borders, found);
@@ -376,11 +376,11 @@ make_anew (Renewal *r, const CeldRun *run, CeldBasins *found)
 }
 
 CeldStatus
-celd_basins_revise (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldRun *run,
+celd_basins_revise (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldHost *host,
                     CeldBasins *found)
 {
-  CeldPart   part;
-  CeldRun    quiet = celd_run_part (&part, run, 0, 0);
+  CeldHostPart   part;
+  CeldHost   quiet = celd_host_part (&part, host, 0, 0);
   Renewal    r = { .ink = ink, .old = old, .changed = *changed };
   bool       worth = true;
   CeldStatus status;

@@ -22,11 +22,11 @@ typedef struct
 
 /* basin-ascent.c: fills in basin, n, row and run of a graph of the size of the box, areas left out.  Pixels that are
  * not made anew belong to CELD_KEPT | their old basin; outside the box nothing may be made anew. */
-CeldStatus celd_basins_ascend (const CeldPlot *plot, const CeldRun *run, CeldBasins *basins);
+CeldStatus celd_basins_ascend (const CeldPlot *plot, const CeldHost *host, CeldBasins *basins);
 
 /* basin-borders.c: the borders of the basins that width, height, basin, row and run describe, as far as a pixel of each
  * pair is made anew.  End with celd_free. */
-CeldStatus celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldRun *run,
+CeldStatus celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldHost *host,
                               CeldBorder **border, size_t *n);
 
 /* One border where both are, of the same basins. */
@@ -40,7 +40,7 @@ void celd_basins_measure (CeldBasins *basins);
 
 /* basin-renewal.c: makes *found, but for the paper, of the graph of the drawing before it changed inside a rectangle.
  * *found stays empty where that is not worth the trouble. */
-CeldStatus celd_basins_revise (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldRun *run,
+CeldStatus celd_basins_revise (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldHost *host,
                                CeldBasins *found);
 
 #endif

@@ -18,11 +18,11 @@ celd_basins_measure (CeldBasins *basins)
 
 /* Everything but stroke and costs. */
 static CeldStatus
-build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
+build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
 {
-  CeldPart   parts[3];
-  CeldRun    measuring = celd_run_part (&parts[0], run, 0, 0.4), ascending = celd_run_part (&parts[1], run, 0.4, 0.9);
-  CeldRun    touching = celd_run_part (&parts[2], run, 0.9, 1);
+  CeldHostPart   parts[3];
+  CeldHost   measuring = celd_host_part (&parts[0], host, 0, 0.4), ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
+  CeldHost   touching = celd_host_part (&parts[2], host, 0.9, 1);
   int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
   CeldPlot   plot = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL, NULL };
   CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
@@ -37,13 +37,13 @@ build (const CeldPlane *ink, const CeldRun *run, CeldBasins *basins)
   if (status == CELD_OK)
     status = celd_basins_unite (basins);
   if (status == CELD_OK)
-    status = celd_paper_new (ink, run, &basins->paper);
+    status = celd_paper_new (ink, host, &basins->paper);
   celd_free (squared);
   return status;
 }
 
 CeldStatus
-celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, CeldBasins *basins)
+celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins)
 {
   CeldBasins found = { .width = ink->width, .height = ink->height };
   CeldStatus status;
@@ -52,7 +52,7 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, Celd
     return CELD_BAD_SIZE;
   found.stroke = celd_stroke_width (ink);
   celd_costs_new (ink->width, ink->height, threshold, &found.costs);
-  status = build (ink, run, &found);
+  status = build (ink, host, &found);
   if (status == CELD_OK)
     *basins = found;
   else
@@ -61,7 +61,7 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, Celd
 }
 
 CeldStatus
-celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, CeldBasins *basins)
+celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins)
 {
   CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
   int        left = changed->x > 0 ? changed->x : 0, right = changed->x + changed->width;
@@ -75,15 +75,15 @@ celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun 
   if (inside.width < 1 || inside.height < 1)
     return CELD_OK;
   found.stroke = celd_stroke_width (ink);
-  status = found.stroke == basins->stroke ? celd_basins_revise (ink, &inside, basins, run, &found) : CELD_OK;
+  status = found.stroke == basins->stroke ? celd_basins_revise (ink, &inside, basins, host, &found) : CELD_OK;
   if (status == CELD_OK && found.basin)
     {
       found.paper = basins->paper;
       basins->paper = NULL;
-      celd_paper_renew (ink, &inside, run, found.paper);
+      celd_paper_renew (ink, &inside, host, found.paper);
     }
   else if (status == CELD_OK)
-    status = build (ink, run, &found);
+    status = build (ink, host, &found);
   if (status == CELD_OK)
     celd_basins_clear (basins);
   else

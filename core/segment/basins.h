@@ -55,19 +55,19 @@ typedef struct
 } CeldBasins;
 
 /* `threshold` is settings->ink_threshold.  A zeroed record may be cleared. */
-CeldStatus celd_basins_new (const CeldPlane *ink, float threshold, const CeldRun *run, CeldBasins *basins);
+CeldStatus celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins);
 
 /* The same after the ink has changed inside `changed`: the result is that of celd_basins_new, but only what the change
  * can reach is made again. */
-CeldStatus celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, CeldBasins *basins);
+CeldStatus celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins);
 
 void celd_basins_clear (CeldBasins *basins);
 
 /* paper-bits.c: how many of the pixels x .. end - 1 of row y are paper.  What it needs to know of the drawing is made
  * by celd_paper_new, and again inside `changed` by celd_paper_renew. */
 uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
-CeldStatus celd_paper_new (const CeldPlane *ink, const CeldRun *run, uint8_t **bits);
-void       celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, uint8_t *bits);
+CeldStatus celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits);
+void       celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits);
 
 /* The basin run that holds the pixel (x,y). */
 static inline size_t

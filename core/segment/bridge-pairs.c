@@ -251,7 +251,7 @@ progress (const CeldTipPairs *s)
 
 /* Adds all pairs within twice the reach. */
 static CeldStatus
-widen (CeldTipPairs *s, const bool *taken, const CeldRun *run)
+widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
 {
   CeldStatus status;
 
@@ -264,7 +264,7 @@ widen (CeldTipPairs *s, const bool *taken, const CeldRun *run)
     {
       status = search_round (s, s->free[i]);
       if (status == CELD_OK && (i & 255) == 255)
-        status = celd_step (run, progress (s));
+        status = celd_progress (host, progress (s));
     }
   if (s->n)
     qsort (s->pair, s->n, sizeof *s->pair, compare_pairs);
@@ -318,14 +318,14 @@ celd_tip_pairs_new (const CeldTip *tip, size_t n, int stroke)
 }
 
 CeldStatus
-celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldRun *run, const CeldTipPair **pair)
+celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldHost *host, const CeldTipPair **pair)
 {
   CeldStatus status = CELD_OK;
 
   *pair = NULL;
   while (status == CELD_OK && !*pair && (pairs->next < pairs->ready || !pairs->last))
     if (pairs->next == pairs->ready)
-      status = widen (pairs, taken, run);
+      status = widen (pairs, taken, host);
     else
       {
         const CeldTipPair *first = &pairs->pair[pairs->next++];
@@ -333,7 +333,7 @@ celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldRun *run,
         if (!taken[first->a] && !taken[first->b])
           *pair = first;
         if ((pairs->next & 4095) == 0)
-          status = celd_step (run, progress (pairs));
+          status = celd_progress (host, progress (pairs));
       }
   return status;
 }

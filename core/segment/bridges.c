@@ -111,7 +111,7 @@ build (Builder *b, const CeldTipPair *pair)
 
 /* Joins ends, the cheapest pair first. */
 static CeldStatus
-build_all (Builder *b, const CeldRun *run)
+build_all (Builder *b, const CeldHost *host)
 {
   CeldTipPairs      *pairs = celd_tip_pairs_new (b->tip, b->n, b->stroke);
   const CeldTipPair *pair = NULL;
@@ -119,7 +119,7 @@ build_all (Builder *b, const CeldRun *run)
 
   while (status == CELD_OK)
     {
-      status = celd_tip_pairs_next (pairs, b->taken, run, &pair);
+      status = celd_tip_pairs_next (pairs, b->taken, host, &pair);
       if (status != CELD_OK || !pair)
         break;
       status = build (b, pair);
@@ -137,10 +137,10 @@ celd_bridges_clear (CeldBridges *bridges)
 }
 
 CeldStatus
-celd_bridges_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldBridges *bridges)
+celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges)
 {
-  CeldPart    part[2];
-  CeldRun     ends = celd_run_part (&part[0], run, 0, 0.5), join = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart    part[2];
+  CeldHost    ends = celd_host_part (&part[0], host, 0, 0.5), join = celd_host_part (&part[1], host, 0.5, 1);
   CeldBridges found = { 0 };
   Builder     b = { .ink = ink, .stroke = stroke, .bridges = &found };
   CeldStatus  status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);

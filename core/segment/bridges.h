@@ -14,7 +14,7 @@
 typedef struct { double x, y, dx, dy; uint32_t outline; } CeldTip;
 
 /* All ends of lines, in the order of their first pixels; the caller frees them.  `stroke`: celd_stroke_width. */
-CeldStatus celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldTip **tip, size_t *n);
+CeldStatus celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldTip **tip, size_t *n);
 
 /* ------------------------------------------------------------------ bridge-pairs.c */
 
@@ -29,7 +29,7 @@ void          celd_tip_pairs_free (CeldTipPairs *pairs);         /* accepts NULL
 
 /* The next pair by cost, then by numbers, of which no tip is taken: what is taken stays so.  Valid until the next call;
  * NULL: there is none. */
-CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldRun *run, const CeldTipPair **pair);
+CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldHost *host, const CeldTipPair **pair);
 
 /* ------------------------------------------------------------------ bridges.c */
 
@@ -48,7 +48,7 @@ typedef struct
 
 /* Bridges between line ends that point to each other with nothing but paper between; each end has one at most.  Makes
  * the record. */
-CeldStatus celd_bridges_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldBridges *bridges);
+CeldStatus celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges);
 void       celd_bridges_clear (CeldBridges *bridges);            /* accepts a zeroed record */
 
 /* Draws them as lines so faint that a border across paper is dear beside them, but dark enough to part basins. */

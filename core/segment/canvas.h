@@ -86,17 +86,17 @@ CeldStatus celd_spread_share (const CeldBasins *basins, const uint32_t *part, Ce
 CeldStatus celd_dab_remove (CeldCanvas *canvas, const CeldDab *dab);
 
 /* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
-CeldStatus celd_stains_remove (const CeldRun *run, CeldCanvas *canvas);
+CeldStatus celd_stains_remove (const CeldHost *host, CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ background.c */
 
 /* Seeds along the frame where nothing reaches; marks the background in the palette. */
-CeldStatus celd_background_seed (const CeldRun *run, CeldCanvas *canvas);
+CeldStatus celd_background_seed (const CeldHost *host, CeldCanvas *canvas);
 
 /* ------------------------------------------------------------------ seeds.c: arrows as strokes */
 
 /* Seeds for each end of a relation that lies in a room which nothing reaches; canvas->reached says which those are. */
-CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas);
+CeldStatus celd_seeds_plant (const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas);
 
 /* Does an end of the relation lie in such a room? */
 bool       celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *relation);
@@ -104,7 +104,7 @@ bool       celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *rela
 /* split.c: splits regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes: what
  * is under these keeps its label.  What changes is appended to the patches, no pixel twice among them, and the discs of
  * both ends to the canvas' seeds. */
-CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels,
+CeldStatus celd_seeds_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels,
                              CeldCanvas *canvas, CeldPatches *patches);
 
 /* Has it nothing to split for the relation, whose ends are settled: not on any of the patches? */
@@ -114,20 +114,20 @@ bool       celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relat
 /* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
 
 /* Of every pixel; `labels` is tight. */
-CeldStatus celd_exact_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels);
+CeldStatus celd_exact_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels);
 
 /* walker.c: of every pixel, those that a random walker likely reaches first; `labels` is tight. */
-CeldStatus celd_walker_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels);
+CeldStatus celd_walker_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels);
 
 /* Of every basin. */
-CeldStatus celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label);
+CeldStatus celd_graph_solve (const CeldCanvas *canvas, const CeldHost *host, uint32_t *label);
 
 /* ------------------------------------------------------------------ windows.c: conflicts, solved on pixels */
 
 /* label[basin] is the answer of the basin graph.  Where a stroke lies in a basin that has another label, the basin is
  * told apart pixel by pixel, in a window round the strokes, with everything outside as it is.  Hard seeds are always
  * obeyed; soft ones where that lowers the energy. */
-CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run,
+CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host,
                                CeldPatches *patches);
 
 /* ------------------------------------------------------------------ settle.c: borders of least energy */
@@ -135,7 +135,7 @@ CeldStatus celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, 
 /* Moves the borders between `labels`, which are what basins and windows make, to where they cost less: in lines, and
  * across gaps.  The pixels that change sides are painted, and appended to the patches; after a failure some are painted
  * that are in no patch. */
-CeldStatus celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels,
+CeldStatus celd_borders_settle (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels,
                                 CeldPatches *patches);
 
 /* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
@@ -144,13 +144,13 @@ CeldStatus celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, Ce
  * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides.  No seed gets another
  * label by this.  Makes both records. */
 CeldStatus celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels,
-                               const CeldPatches *windows, const CeldRun *run, CeldClosures *closures,
+                               const CeldPatches *windows, const CeldHost *host, CeldClosures *closures,
                                CeldPatches *patches);
 
 /* ------------------------------------------------------------------ report.c */
 
 /* `seeds` are those that the artist painted, `labels` the result, `painting` what is known of it. */
 CeldStatus celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting,
-                                const CeldLabels *labels, const CeldRun *run, CeldProblems *problems);
+                                const CeldLabels *labels, const CeldHost *host, CeldProblems *problems);
 
 #endif

@@ -128,7 +128,7 @@ close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
 
 CeldStatus
 celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels,
-                    const CeldPatches *windows, const CeldRun *run, CeldClosures *closures, CeldPatches *patches)
+                    const CeldPatches *windows, const CeldHost *host, CeldClosures *closures, CeldPatches *patches)
 {
   CeldChains    chains;
   CeldRedrawing redrawing = { .canvas = canvas, .labels = labels, .chains = &chains };
@@ -139,7 +139,7 @@ celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldL
     status = celd_line_end_new (canvas->basins->stroke, &redrawing.end[k]);
   for (size_t i = 0; i < chains.n && status == CELD_OK; i++)
     {
-      status = celd_step (run, (double) i / (double) chains.n);
+      status = celd_progress (host, (double) i / (double) chains.n);
       if (status == CELD_OK)
         status = close_chain (&redrawing, &chains.item[i], &found);
     }

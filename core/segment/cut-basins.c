@@ -111,7 +111,7 @@ pull (CeldMesh *mesh, const size_t *seeds, int kept)
 }
 
 CeldStatus
-celd_cut_basins (const CeldCut *cut, const CeldRun *run, uint8_t *side, int *kept)
+celd_cut_basins (const CeldCut *cut, const CeldHost *host, uint8_t *side, int *kept)
 {
   CeldMesh   mesh = { .cut = cut };
   size_t    *seeds = celd_alloc0 (cut->n, sizeof *seeds);
@@ -126,7 +126,7 @@ celd_cut_basins (const CeldCut *cut, const CeldRun *run, uint8_t *side, int *kep
   if (status == CELD_OK && *kept >= 0)
     {
       pull (&mesh, seeds, *kept);
-      status = celd_mesh_solve (&mesh, *kept, run);
+      status = celd_mesh_solve (&mesh, *kept, host);
     }
   for (size_t k = 0; k < mesh.n && status == CELD_OK; k++)
     side[k] = mesh.node[k].side;

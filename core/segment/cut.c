@@ -165,7 +165,7 @@ tell_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
 }
 
 CeldStatus
-celd_mesh_solve (CeldMesh *mesh, int kept, const CeldRun *run)
+celd_mesh_solve (CeldMesh *mesh, int kept, const CeldHost *host)
 {
   const CeldCut *cut = mesh->cut;
   int            source = cut->discs[1 - kept].room > cut->discs[kept].room ? 1 - kept : kept;
@@ -181,7 +181,7 @@ celd_mesh_solve (CeldMesh *mesh, int kept, const CeldRun *run)
       pull[k] = source == 0 ? pull[k] : -pull[k];
     }
   if (status == CELD_OK)
-    status = celd_flow (mesh->n, mesh->link, mesh->n_links, pull, run, side, NULL);
+    status = celd_flow (mesh->n, mesh->link, mesh->n_links, pull, host, side, NULL);
   for (size_t k = 0; k < mesh->n && status == CELD_OK; k++)
     mesh->node[k].side = mesh->node[k].lost                ? CELD_OUTSIDE
                        : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
@@ -250,7 +250,7 @@ refine (CeldMesh *mesh)
 /* ------------------------------------------------------------------ the cut */
 
 CeldStatus
-celd_cut (CeldCut *cut, const CeldRun *run, int *kept)
+celd_cut (CeldCut *cut, const CeldHost *host, int *kept)
 {
   CeldMesh   mesh;
   CeldStatus status = mesh_new (cut, &mesh);
@@ -270,7 +270,7 @@ celd_cut (CeldCut *cut, const CeldRun *run, int *kept)
       for (int k = 0; k < 4; k++)
         pull_disc (&mesh, &cut->discs[k / 2].disc[k % 2], k / 2);
       celd_mesh_seeds (&mesh, pull_seeds, *kept);
-      status = celd_mesh_solve (&mesh, *kept, run);
+      status = celd_mesh_solve (&mesh, *kept, host);
       if (status == CELD_OK)
         status = celd_mesh_squares (&mesh, tell_square);
       if (status != CELD_OK || !refine (&mesh))

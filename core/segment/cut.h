@@ -90,6 +90,6 @@ CeldStatus celd_mesh_kept (CeldMesh *mesh, int *kept);
 void celd_mesh_clear (CeldMesh *mesh);                        /* accepts a zeroed record */
 
 /* Tells the side of each node by the smallest cut. */
-CeldStatus celd_mesh_solve (CeldMesh *mesh, int kept, const CeldRun *run);
+CeldStatus celd_mesh_solve (CeldMesh *mesh, int kept, const CeldHost *host);
 
 #endif

@@ -13,7 +13,7 @@
 
 /* Squared distances to paper. */
 static CeldStatus
-measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t **depth)
+measure_depth (const CeldPlane *ink, const CeldHost *host, int32_t **depth)
 {
   size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
   uint8_t   *paper = celd_alloc (n, 1);
@@ -24,7 +24,7 @@ measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t **depth)
     {
       for (size_t p = 0; p < n; p++)
         paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
-      status = celd_distance (ink->width, ink->height, paper, run, *depth);
+      status = celd_distance (ink->width, ink->height, paper, host, *depth);
     }
   celd_free (paper);
   return status;
@@ -32,14 +32,14 @@ measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t **depth)
 
 /* V_pq of all edges, as celd_multiway wants them. */
 static CeldStatus
-weigh_edges (const CeldCanvas *canvas, const CeldRun *run, int32_t *east, int32_t *south)
+weigh_edges (const CeldCanvas *canvas, const CeldHost *host, int32_t *east, int32_t *south)
 {
   const CeldPlane *ink = canvas->ink;
   const CeldCosts *costs = &canvas->basins->costs;
   int              w = ink->width, h = ink->height;
   int32_t         *depth = NULL;
   size_t           p = 0;
-  CeldStatus       status = measure_depth (ink, run, &depth);
+  CeldStatus       status = measure_depth (ink, host, &depth);
 
   for (int y = 0; y < h && status == CELD_OK; y++)
     for (int x = 0; x < w; x++, p++)
@@ -60,15 +60,15 @@ weigh_edges (const CeldCanvas *canvas, const CeldRun *run, int32_t *east, int32_
 /* ------------------------------------------------------------------ the cuts */
 
 CeldStatus
-celd_exact_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
+celd_exact_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
 {
   size_t     n = (size_t) labels->width * (size_t) labels->height, n_labels = canvas->palette.n;
   int32_t   *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
   int32_t   *vote = celd_alloc (n_labels, sizeof *vote);
   uint32_t  *order = celd_alloc (n_labels, sizeof *order);
   CeldLabels seeds = { 0 };
-  CeldPart   part[2];
-  CeldRun    weigh = celd_run_part (&part[0], run, 0, 0), cut = celd_run_part (&part[1], run, 0.1, 1);
+  CeldHostPart   part[2];
+  CeldHost   weigh = celd_host_part (&part[0], host, 0, 0), cut = celd_host_part (&part[1], host, 0.1, 1);
   CeldStatus status = east && south && vote && order ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)

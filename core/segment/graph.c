@@ -262,7 +262,7 @@ done:
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
-celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label)
+celd_graph_solve (const CeldCanvas *canvas, const CeldHost *host, uint32_t *label)
 {
   Graph      g;
   CeldStatus status = graph_new (canvas, &g);
@@ -288,7 +288,7 @@ celd_graph_solve (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label)
         g.n, g.link, g.n_links, g.vote, g.n_votes, g.fixed, g.order, canvas->palette.n
       };
 
-      status = celd_partition (&problem, run, g.label, NULL, NULL);
+      status = celd_partition (&problem, host, g.label, NULL, NULL);
     }
   for (size_t k = 0; k < canvas->basins->n && status == CELD_OK; k++)
     label[k] = g.label[g.node[k]];

@@ -257,7 +257,7 @@ search_from (Search *s, int x, int y)
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
-celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldTip **tip, size_t *n)
+celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldTip **tip, size_t *n)
 {
   Search     s = { .ink = ink, .stroke = stroke, .width = ink->width, .height = ink->height };
   CeldStatus status = read_mask (&s);
@@ -282,7 +282,7 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldRun *run, CeldT
               status = search_from (&s, x + k, y);
         }
       if (status == CELD_OK && (y & 255) == 255)
-        status = celd_step (run, (double) y / s.height);
+        status = celd_progress (host, (double) y / s.height);
     }
   celd_line_end_clear (&s.end);
   celd_free (s.mask);

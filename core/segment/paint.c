@@ -333,7 +333,7 @@ celd_dab_remove (CeldCanvas *canvas, const CeldDab *dab)
 }
 
 CeldStatus
-celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
+celd_stains_remove (const CeldHost *host, CeldCanvas *canvas)
 {
   const uint32_t *piece = canvas->cell ? canvas->cell : canvas->basins->piece;
   CeldSpread     *spread = &canvas->painted;
@@ -359,5 +359,5 @@ celd_stains_remove (const CeldRun *run, CeldCanvas *canvas)
         status = celd_dab_remove (canvas, &spread->dab[i]);
       }
   celd_free (stained);
-  return status == CELD_OK ? celd_step (run, 1) : status;
+  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

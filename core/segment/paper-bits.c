@@ -64,23 +64,23 @@ read_band (void *data, int band)
 }
 
 void
-celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldRun *run, uint8_t *bits)
+celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits)
 {
   Work work = { ink, bits, *changed };
 
   if (changed->width > 0 && changed->height > 0)
-    celd_each (run, ((changed->y + changed->height + 7) >> 3) - (changed->y >> 3), read_band, &work);
+    celd_parallel_for (host, ((changed->y + changed->height + 7) >> 3) - (changed->y >> 3), read_band, &work);
 }
 
 CeldStatus
-celd_paper_new (const CeldPlane *ink, const CeldRun *run, uint8_t **bits)
+celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits)
 {
   CeldRect all = { 0, 0, ink->width, ink->height };
   uint8_t *made = celd_alloc0 ((size_t) ((ink->width + 7) >> 3) * (size_t) ((ink->height + 7) >> 3), 8);
 
   if (!made)
     return CELD_NO_MEMORY;
-  celd_paper_renew (ink, &all, run, made);
+  celd_paper_renew (ink, &all, host, made);
   *bits = made;
   return CELD_OK;
 }

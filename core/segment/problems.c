@@ -218,7 +218,7 @@ report_unreached (const CeldCanvas *canvas, const CeldLabels *labels, CeldProble
 
 CeldStatus
 celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting,
-                     const CeldLabels *labels, const CeldRun *run, CeldProblems *problems)
+                     const CeldLabels *labels, const CeldHost *host, CeldProblems *problems)
 {
   bool       all = !canvas->settings->flats;
   CeldCanvas before = *canvas;
@@ -235,5 +235,5 @@ celd_segment_report (const CeldCanvas *canvas, const CeldSeedRows *seeds, const 
   if (all && status == CELD_OK)
     status = report_unreached (canvas, labels, problems);
   celd_spread_clear (&own);
-  return status == CELD_OK ? celd_step (run, 1) : status;
+  return status == CELD_OK ? celd_progress (host, 1) : status;
 }

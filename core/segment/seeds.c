@@ -127,7 +127,7 @@ celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *relation)
 }
 
 CeldStatus
-celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
+celd_seeds_plant (const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas)
 {
   CeldStatus status = CELD_OK;
 
@@ -146,7 +146,7 @@ celd_seeds_plant (const CeldRelations *relations, const CeldRun *run, CeldCanvas
           status = plant_relation (&relations->item[i], canvas);
         }
       if (status == CELD_OK && i % 256 == 0)
-        status = celd_step (run, (double) i / (double) relations->n);
+        status = celd_progress (host, (double) i / (double) relations->n);
     }
   return status;
 }

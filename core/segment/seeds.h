@@ -57,10 +57,10 @@ typedef struct
 
 /* Cuts the region between its ends, pixel by pixel.  *kept is the end that is nearer, within the region, to the seeds
  * of its label; -1 if the region does not join the ends: then nothing is cut. */
-CeldStatus celd_cut (CeldCut *cut, const CeldRun *run, int *kept);
+CeldStatus celd_cut (CeldCut *cut, const CeldHost *host, int *kept);
 
 /* The same between whole basins, where a narrow place parts the ends' blocks: side[i] becomes CELD_NEAR_FIRST or
  * CELD_NEAR_SECOND for basin[i]. */
-CeldStatus celd_cut_basins (const CeldCut *cut, const CeldRun *run, uint8_t *side, int *kept);
+CeldStatus celd_cut_basins (const CeldCut *cut, const CeldHost *host, uint8_t *side, int *kept);
 
 #endif

@@ -10,15 +10,15 @@
 
 CeldStatus
 celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
-              const CeldSettings *settings, const CeldRun *run,
+              const CeldSettings *settings, const CeldHost *host,
               CeldLabels *labels, CeldPalette *palette, CeldProblems *problems)
 {
   CeldSegmenter *segmenter = NULL;
   CeldSeedRows   rows = { 0 };
   CeldLabels     result = { 0 };
   CeldRect       changed;
-  CeldPart       part[2];
-  CeldRun        build = celd_run_part (&part[0], run, 0, 0.3), solve = celd_run_part (&part[1], run, 0.3, 1);
+  CeldHostPart       part[2];
+  CeldHost       build = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus     status;
 
   if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, labels))

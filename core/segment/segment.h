@@ -18,14 +18,14 @@ void           celd_segmenter_free (CeldSegmenter *segmenter);  /* accepts NULL 
  * differs from the last one of the same size; NULL: everywhere.  Of the settings ink_threshold and close_gaps matter:
  * these must be the same when solving. */
 CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
-                                   const CeldSettings *settings, const CeldRun *run);
+                                   const CeldSettings *settings, const CeldHost *host);
 
 /* Labels for these seeds.  `palette`: in, that of the seeds; out, with the regions that arrows made and the background
  * behind them.  `labels` is tight, the caller's, and as this function left it after the last call for this drawing
  * (anything the first time); *changed is where it differs from that.  Problems are appended.  The result does not
  * depend on earlier calls. */
 CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
-                                 const CeldSettings *settings, const CeldRun *run, CeldPalette *palette,
+                                 const CeldSettings *settings, const CeldHost *host, CeldPalette *palette,
                                  CeldProblems *problems, CeldLabels *labels, CeldRect *changed);
 
 /* How many of the last solve's relations, from the first on, it takes for its answer: those behind changed nothing. */

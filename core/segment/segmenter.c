@@ -63,14 +63,14 @@ celd_segmenter_closures (const CeldSegmenter *segmenter)
 
 /* Makes the basins of ink on which bridges are drawn; again what has changed, or all of them. */
 static CeldStatus
-make_basins (CeldSegmenter *s, const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldRun *run)
+make_basins (CeldSegmenter *s, const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldHost *host)
 {
   CeldBasins basins = { 0 };
   CeldStatus status;
 
   if (changed)
-    return celd_basins_renew (ink, changed, run, &s->basins);
-  status = celd_basins_new (ink, threshold, run, &basins);
+    return celd_basins_renew (ink, changed, host, &s->basins);
+  status = celd_basins_new (ink, threshold, host, &basins);
   if (status != CELD_OK)
     return status;
   celd_basins_clear (&s->basins);
@@ -91,10 +91,10 @@ keep_cells (CeldSegmenter *s)
 
 /* The same for ink without bridges: they are drawn on a copy. */
 static CeldStatus
-make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, float threshold, const CeldRun *run)
+make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host)
 {
-  CeldPart    part[2];
-  CeldRun     find = celd_run_part (&part[0], run, 0, 0.2), make = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart    part[2];
+  CeldHost    find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
   CeldBridges bridges = { 0 };
   CeldPlane   copy = { 0 };
   CeldStatus  status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &bridges);
@@ -126,7 +126,7 @@ make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, 
 
 CeldStatus
 celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
-                        const CeldSettings *settings, const CeldRun *run)
+                        const CeldSettings *settings, const CeldHost *host)
 {
   CeldSegmenter *s = segmenter;
   float          threshold = settings->ink_threshold;
@@ -139,11 +139,11 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
   celd_free (s->cell);
   s->cell = NULL;
   if (settings->close_gaps)
-    status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, run);
+    status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, host);
   else
     {
       celd_bridges_clear (&s->bridges);
-      status = make_basins (s, ink, renew ? &rect : NULL, threshold, run);
+      status = make_basins (s, ink, renew ? &rect : NULL, threshold, host);
     }
   if (status == CELD_OK)
     status = celd_painting_forget (&s->painting, &s->basins);
@@ -214,20 +214,20 @@ has_seeds (const CeldSeedRows *seeds)
 
 /* What arrows, the background and common sense make of the artist's seeds. */
 static CeldStatus
-prepare_seeds (const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas)
+prepare_seeds (const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas)
 {
   CeldStatus status;
 
   celd_canvas_weigh (canvas); /* before anything else adds seeds */
-  status = relations ? celd_seeds_plant (relations, run, canvas) : CELD_OK;
+  status = relations ? celd_seeds_plant (relations, host, canvas) : CELD_OK;
   if (status == CELD_OK && !has_seeds (&canvas->seeds))
     status = CELD_NOTHING_TO_GO_BY;
   if (status == CELD_OK && canvas->settings->flats)
     status = celd_canvas_keep_paper (canvas);
   if (status == CELD_OK)
-    status = celd_stains_remove (run, canvas);
+    status = celd_stains_remove (host, canvas);
   if (status == CELD_OK)
-    status = celd_background_seed (run, canvas);
+    status = celd_background_seed (host, canvas);
   return status;
 }
 
@@ -247,10 +247,10 @@ count_arrow_seeds (CeldCanvas *canvas)
 /* ------------------------------------------------------------------ an answer on basins */
 
 static CeldStatus
-split (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas, CeldLabels *labels)
+split (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas, CeldLabels *labels)
 {
   CeldPatches patches = { 0 };
-  CeldStatus  status = celd_seeds_split (relations, run, labels, canvas, &patches);
+  CeldStatus  status = celd_seeds_split (relations, host, labels, canvas, &patches);
 
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
@@ -260,7 +260,7 @@ split (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, Cel
 
 /* Closes gaps between labels as they are painted: a basin is called what its maximum is. */
 static CeldStatus
-close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
+close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
 {
   uint32_t    *label = celd_alloc (s->basins.n, sizeof *label);
   CeldPatches  patches = { 0 };
@@ -270,7 +270,7 @@ close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, Celd
   for (size_t k = 0; k < s->basins.n && status == CELD_OK; k++)
     label[k] = CELD_AT (labels, s->basins.basin[k].x, s->basins.basin[k].y);
   if (status == CELD_OK)
-    status = celd_closures_find (canvas, label, labels, &s->painting.patches, run, &closures, &patches);
+    status = celd_closures_find (canvas, label, labels, &s->painting.patches, host, &closures, &patches);
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
   celd_free (label);
@@ -287,10 +287,10 @@ close_gaps (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, Celd
 
 /* Without curves across gaps borders run where the energy is least. */
 static CeldStatus
-settle_borders (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
+settle_borders (CeldSegmenter *s, const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
 {
   CeldPatches patches = { 0 };
-  CeldStatus  status = celd_borders_settle (canvas, run, labels, &patches);
+  CeldStatus  status = celd_borders_settle (canvas, host, labels, &patches);
 
   if (status == CELD_OK)
     status = celd_painting_add (&s->painting, &patches, labels);
@@ -301,7 +301,7 @@ settle_borders (CeldSegmenter *s, const CeldCanvas *canvas, const CeldRun *run, 
 /* From here on the picture changes: the basins' labels, over them windows, split regions and closed gaps. */
 static CeldStatus
 repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const CeldRelations *relations,
-         const CeldRun *run, CeldCanvas *canvas, CeldLabels *labels)
+         const CeldHost *host, CeldCanvas *canvas, CeldLabels *labels)
 {
   CeldPainting old;
   CeldStatus   status;
@@ -309,13 +309,13 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
   celd_painting_begin (&s->painting, &s->basins, label, labels, &old);
   status = celd_painting_add (&s->painting, windows, labels);
   if (status == CELD_OK && relations)
-    status = split (s, relations, run, canvas, labels);
+    status = split (s, relations, host, canvas, labels);
   celd_closures_clear (&s->closures);
   celd_patches_clear (&s->redrawn);
   if (status == CELD_OK && canvas->settings->close_gaps)
-    status = close_gaps (s, canvas, run, labels);
+    status = close_gaps (s, canvas, host, labels);
   else if (status == CELD_OK)
-    status = settle_borders (s, canvas, run, labels);
+    status = settle_borders (s, canvas, host, labels);
   if (status == CELD_OK)
     status = celd_painting_end (&s->painting, &s->basins, &old, labels);
   celd_painting_clear (&old);
@@ -325,12 +325,12 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
 }
 
 static CeldStatus
-solve_on_basins (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas,
+solve_on_basins (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas,
                  CeldLabels *labels)
 {
-  CeldPart    part[3];
-  CeldRun     graph = celd_run_part (&part[0], run, 0, 0.4), pixels = celd_run_part (&part[1], run, 0.4, 0.9);
-  CeldRun     rest = celd_run_part (&part[2], run, 0.9, 0.9);
+  CeldHostPart    part[3];
+  CeldHost    graph = celd_host_part (&part[0], host, 0, 0.4), pixels = celd_host_part (&part[1], host, 0.4, 0.9);
+  CeldHost    rest = celd_host_part (&part[2], host, 0.9, 0.9);
   uint32_t   *label = celd_alloc (s->basins.n, sizeof *label);
   CeldPatches windows = { 0 };
   CeldStatus  status = label ? celd_graph_solve (canvas, &graph, label) : CELD_NO_MEMORY;
@@ -352,12 +352,12 @@ solve_on_basins (CeldSegmenter *s, const CeldRelations *relations, const CeldRun
 /* ------------------------------------------------------------------ an answer on pixels */
 
 static CeldStatus
-solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldRun *run, CeldCanvas *canvas,
+solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas,
                  CeldLabels *labels)
 {
-  CeldPart    part[3];
-  CeldRun     cuts = celd_run_part (&part[0], run, 0, 0.8), splits = celd_run_part (&part[1], run, 0.8, 1);
-  CeldRun     rest = celd_run_part (&part[2], run, 1, 1);
+  CeldHostPart    part[3];
+  CeldHost    cuts = celd_host_part (&part[0], host, 0, 0.8), splits = celd_host_part (&part[1], host, 0.8, 1);
+  CeldHost    rest = celd_host_part (&part[2], host, 1, 1);
   CeldPatches patches = { 0 };
   CeldLabels  exact;
   CeldStatus  status = celd_labels_new (labels->width, labels->height, &exact);
@@ -387,12 +387,12 @@ solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldRun
 /* ------------------------------------------------------------------ the whole */
 
 static CeldStatus
-solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relations, const CeldRun *run,
+solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relations, const CeldHost *host,
        CeldCanvas *canvas, CeldLabels *labels, CeldProblems *problems)
 {
-  CeldPart   part[3];
-  CeldRun    first = celd_run_part (&part[0], run, 0, 0), solving = celd_run_part (&part[1], run, 0.1, 0.95);
-  CeldRun    last = celd_run_part (&part[2], run, 0.95, 0.95);
+  CeldHostPart   part[3];
+  CeldHost   first = celd_host_part (&part[0], host, 0, 0), solving = celd_host_part (&part[1], host, 0.1, 0.95);
+  CeldHost   last = celd_host_part (&part[2], host, 0.95, 0.95);
   bool       arrows = relations && canvas->settings->seeds == CELD_SEEDS_AUTO;
   CeldStatus status = prepare_seeds (arrows ? relations : NULL, &first, canvas);
 
@@ -410,7 +410,7 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
 
 CeldStatus
 celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
-                      const CeldSettings *settings, const CeldRun *run, CeldPalette *palette, CeldProblems *problems,
+                      const CeldSettings *settings, const CeldHost *host, CeldPalette *palette, CeldProblems *problems,
                       CeldLabels *labels, CeldRect *changed)
 {
   CeldCanvas   canvas = { 0 };
@@ -421,11 +421,11 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
   if (status == CELD_OK)
     status = canvas_new (segmenter, seeds, palette, settings, &canvas);
   if (status == CELD_OK)
-    status = solve (segmenter, seeds, relations, run, &canvas, labels, &found);
+    status = solve (segmenter, seeds, relations, host, &canvas, labels, &found);
   for (size_t i = 0; i < found.n && status == CELD_OK; i++)
     status = celd_problem_add (problems, found.item[i]);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (status == CELD_OK)
     {
       CeldPalette old = *palette;

@@ -222,7 +222,7 @@ solve (CeldSettling *s, Window *window)
   };
   size_t        node = 0;
   int64_t       energy;
-  CeldStatus    status = celd_partition (&problem, s->run, window->label, &energy, NULL);
+  CeldStatus    status = celd_partition (&problem, s->host, window->label, &energy, NULL);
 
   if (status != CELD_OK || energy >= celd_partition_energy (&problem, window->present))
     return status;

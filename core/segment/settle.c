@@ -228,7 +228,7 @@ settle_runs (CeldSettling *s)
       celd_free (edges.item);
       edges = next;
       if (status == CELD_OK)
-        status = celd_step (s->run, 0);
+        status = celd_progress (s->host, 0);
     }
   celd_free (edges.item);
   return status;
@@ -262,7 +262,7 @@ settle_paint (CeldSettling *s)
 /* ------------------------------------------------------------------ the whole */
 
 static CeldStatus
-measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t *depth)
+measure_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth)
 {
   size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
   uint8_t   *paper = celd_alloc (n, 1);
@@ -272,7 +272,7 @@ measure_depth (const CeldPlane *ink, const CeldRun *run, int32_t *depth)
     return status;
   for (size_t p = 0; p < n; p++)
     paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
-  status = celd_distance (ink->width, ink->height, paper, run, depth);
+  status = celd_distance (ink->width, ink->height, paper, host, depth);
   celd_free (paper);
   return status;
 }
@@ -313,13 +313,13 @@ list_changes (CeldSettling *s, CeldPatches *patches)
 }
 
 CeldStatus
-celd_borders_settle (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels, CeldPatches *patches)
+celd_borders_settle (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels, CeldPatches *patches)
 {
   size_t       n = (size_t) labels->width * (size_t) labels->height;
-  CeldPart     part;
-  CeldRun      brief = celd_run_part (&part, run, 0, 0);
+  CeldHostPart     part;
+  CeldHost     brief = celd_host_part (&part, host, 0, 0);
   CeldSettling s = {
-    .canvas = canvas, .run = &brief, .labels = labels, .depth = celd_alloc (n, sizeof *s.depth)
+    .canvas = canvas, .host = &brief, .labels = labels, .depth = celd_alloc (n, sizeof *s.depth)
   };
   CeldStatus   status = s.depth ? measure_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
 

@@ -10,7 +10,7 @@
 typedef struct
 {
   const CeldCanvas *canvas;
-  const CeldRun    *run;
+  const CeldHost   *host;
   CeldLabels       *labels;
   int32_t          *depth;      /* of each pixel: its squared distance to paper */
   uint32_t         *changed;    /* pixels whose label was changed, any number of times */

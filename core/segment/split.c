@@ -315,21 +315,21 @@ take_over (Split *split, const CeldCut *cut, int kept)
 
 /* A narrow place between the ends is where two basins meet; else the cut is looked for pixel by pixel. */
 static CeldStatus
-cut_region (Split *split, CeldCut *cut, const CeldRun *run, int *kept)
+cut_region (Split *split, CeldCut *cut, const CeldHost *host, int *kept)
 {
   const CeldBasins *basins = split->canvas->basins;
   uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
   uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
   bool              narrow = !cut->any && basins->block[first] != basins->block[second];
-  CeldStatus        status = narrow ? celd_cut_basins (cut, run, split->side, kept) : CELD_OK;
+  CeldStatus        status = narrow ? celd_cut_basins (cut, host, split->side, kept) : CELD_OK;
 
   for (int y = cut->top; y <= cut->bottom && status == CELD_OK && (!narrow || *kept >= 0); y++)
     mark_row (split, cut, narrow ? split->side : NULL, y);
-  return narrow || status != CELD_OK ? status : celd_cut (cut, run, kept);
+  return narrow || status != CELD_OK ? status : celd_cut (cut, host, kept);
 }
 
 static CeldStatus
-split_region (Split *split, CeldCut *cut, size_t relation, const CeldRun *run)
+split_region (Split *split, CeldCut *cut, size_t relation, const CeldHost *host)
 {
   double     reach = CELD_REACH * celd_ends_apart (cut->end[0], cut->end[1]);
   int        kept = -1;
@@ -339,7 +339,7 @@ split_region (Split *split, CeldCut *cut, size_t relation, const CeldRun *run)
     {
       for (int i = 0; i < 2; i++)
         cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
-      status = cut_region (split, cut, run, &kept);
+      status = cut_region (split, cut, host, &kept);
       if (status == CELD_OK && kept >= 0)
         {
           status = take_over (split, cut, kept);
@@ -352,7 +352,7 @@ split_region (Split *split, CeldCut *cut, size_t relation, const CeldRun *run)
 }
 
 static CeldStatus
-split_relation (Split *split, const CeldRelations *relations, size_t i, const CeldRun *run)
+split_relation (Split *split, const CeldRelations *relations, size_t i, const CeldHost *host)
 {
   const CeldRelation *relation = &relations->item[i];
   CeldCanvas         *canvas = split->canvas;
@@ -379,7 +379,7 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
   cut.at    = split->at;
   cut.mark  = split->mark;
   cut.node  = split->node;
-  return split_region (split, &cut, i, run);
+  return split_region (split, &cut, i, host);
 }
 
 /* ------------------------------------------------------------------ all relations in turn */
@@ -424,7 +424,7 @@ celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const 
 }
 
 CeldStatus
-celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const CeldLabels *labels, CeldCanvas *canvas,
+celd_seeds_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels, CeldCanvas *canvas,
                   CeldPatches *patches)
 {
   Split      split = { .canvas = canvas, .labels = labels };
@@ -435,9 +435,9 @@ celd_seeds_split (const CeldRelations *relations, const CeldRun *run, const Celd
   status = celd_seed_rows_new (labels->width, labels->height, &split.taken);
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
-      CeldPart part;
+      CeldHostPart part;
       double   n = (double) relations->n;
-      CeldRun  one = celd_run_part (&part, run, (double) i / n, (double) (i + 1) / n);
+      CeldHost one = celd_host_part (&part, host, (double) i / n, (double) (i + 1) / n);
 
       status = split_relation (&split, relations, i, &one);
     }

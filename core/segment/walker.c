@@ -68,7 +68,7 @@ read_seeds (const CeldCanvas *canvas, Walker *w)
 }
 
 static CeldStatus
-walker_new (const CeldCanvas *canvas, const CeldRun *run, Walker *w)
+walker_new (const CeldCanvas *canvas, const CeldHost *host, Walker *w)
 {
   const CeldSettings *settings = canvas->settings;
   double              mean;
@@ -82,14 +82,14 @@ walker_new (const CeldCanvas *canvas, const CeldRun *run, Walker *w)
   w->sum   = celd_alloc0 (w->n, sizeof *w->sum);
   status   = w->east && w->south && w->lane && w->best && w->sum ? read_seeds (canvas, w) : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = celd_affinities (canvas->ink, settings->contrast, settings->weight_floor, run, w->east, w->south, &mean);
+    status = celd_affinities (canvas->ink, settings->contrast, settings->weight_floor, host, w->east, w->south, &mean);
   if (status != CELD_OK)
     walker_clear (w);
   return status;
 }
 
 static CeldStatus
-set_up (const CeldCanvas *canvas, const Walker *w, const CeldRun *run, CeldLaplace **laplace)
+set_up (const CeldCanvas *canvas, const Walker *w, const CeldHost *host, CeldLaplace **laplace)
 {
   uint8_t   *fixed = celd_alloc (w->n, 1);
   CeldStatus status = CELD_NO_MEMORY;
@@ -97,7 +97,7 @@ set_up (const CeldCanvas *canvas, const Walker *w, const CeldRun *run, CeldLapla
   for (size_t p = 0; fixed && p < w->n; p++)
     fixed[p] = w->seed[p] != 0;
   if (fixed)
-    status = celd_lap_setup (canvas->ink->width, canvas->ink->height, w->east, w->south, NULL, fixed, run, laplace);
+    status = celd_lap_setup (canvas->ink->width, canvas->ink->height, w->east, w->south, NULL, fixed, host, laplace);
   celd_free (fixed);
   return status;
 }
@@ -129,19 +129,19 @@ keep_best (Walker *w, size_t first, uint32_t *label)
 }
 
 CeldStatus
-celd_walker_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *labels)
+celd_walker_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
 {
   Walker       w;
   CeldLaplace *laplace = NULL;
-  CeldPart     part;
-  CeldRun      weighing = celd_run_part (&part, run, 0, 0.05);
+  CeldHostPart     part;
+  CeldHost     weighing = celd_host_part (&part, host, 0, 0.05);
   CeldStatus   status = walker_new (canvas, &weighing, &w);
 
   if (status != CELD_OK)
     return status;
   if (w.n_labels > 1)
     {
-      CeldRun setting_up = celd_run_part (&part, run, 0.05, 0.15);
+      CeldHost setting_up = celd_host_part (&part, host, 0.05, 0.15);
 
       status = set_up (canvas, &w, &setting_up, &laplace);
     }
@@ -151,7 +151,7 @@ celd_walker_solve (const CeldCanvas *canvas, const CeldRun *run, CeldLabels *lab
     {
       double  share = 0.85 / (double) (w.n_labels - 1), from = 0.15 + share * (double) (first - 1);
       double  to = from + share * CELD_LANES;
-      CeldRun solving = celd_run_part (&part, run, from, to < 1 ? to : 1);
+      CeldHost solving = celd_host_part (&part, host, from, to < 1 ? to : 1);
 
       start_lanes (&w, first);
       status = celd_lap_solve_lanes (laplace, NULL, w.lane, TOLERANCE, 0, &solving, NULL);

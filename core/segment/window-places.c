@@ -372,7 +372,7 @@ celd_windows_clear (CeldWindows *windows)
 }
 
 CeldStatus
-celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run, CeldWindows *windows)
+celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldWindows *windows)
 {
   Places      places = { .canvas = canvas, .label = label };
   CeldWindows found = { 0 };
@@ -388,7 +388,7 @@ celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRu
   if (status == CELD_OK && places.n_runs)
     status = make_windows (&places, &found);
   if (status == CELD_OK)
-    status = celd_step (run, 0);
+    status = celd_progress (host, 0);
   if (status == CELD_OK)
     *windows = found;
   else

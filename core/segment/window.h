@@ -17,7 +17,7 @@ typedef struct { CeldWindow *item; size_t n; uint32_t *basin; } CeldWindows; /* 
 
 /* The places where paint lies in basins of another label, and might get pixels of its own.  No two windows of a family
  * of basins overlap; families have no basin in common. */
-CeldStatus celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run,
+CeldStatus celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host,
                               CeldWindows *windows);
 void       celd_windows_clear (CeldWindows *windows);        /* accepts a zeroed record */
 

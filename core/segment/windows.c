@@ -24,7 +24,7 @@ typedef struct
 {
   const CeldCanvas *canvas;
   const uint32_t   *label;      /* of each basin */
-  const CeldRun    *run;
+  const CeldHost   *host;
   uint32_t         *free;       /* of each basin: the last window, from 1, in which it is free */
   uint32_t         *order;      /* all labels, as they are told apart */
   uint32_t         *local;      /* of each label, from 1: its place among those of this window, 0 if it is not there */
@@ -81,7 +81,7 @@ number_votes (const Solver *s, CeldWindowCells *cells)
 
 /* With two labels one cut is all there is to do. */
 static CeldStatus
-cut_in_two (const CeldPartition *problem, const CeldRun *run, uint32_t *label)
+cut_in_two (const CeldPartition *problem, const CeldHost *host, uint32_t *label)
 {
   int64_t   *terminal = celd_alloc0 (problem->n, sizeof *terminal);
   uint8_t   *side = celd_alloc (problem->n, 1);
@@ -91,7 +91,7 @@ cut_in_two (const CeldPartition *problem, const CeldRun *run, uint32_t *label)
     goto done;
   for (size_t i = 0; i < problem->n_votes; i++)
     terminal[problem->vote[i].node] += problem->vote[i].label == 1 ? problem->vote[i].cost : -problem->vote[i].cost;
-  status = celd_flow (problem->n, problem->link, problem->n_links, terminal, run, side, NULL);
+  status = celd_flow (problem->n, problem->link, problem->n_links, terminal, host, side, NULL);
   for (size_t k = 0; k < problem->n && status == CELD_OK; k++)
     label[k] = side[k] ? 1 : 2;
 
@@ -107,8 +107,8 @@ cut (Solver *s, CeldWindowCells *cells, bool *better)
 {
   size_t        n_labels = number_labels (s, cells);
   uint32_t     *order = celd_alloc (n_labels, sizeof *order), *present = celd_alloc (cells->n, sizeof *present);
-  CeldPart      part;
-  CeldRun       run = celd_run_part (&part, s->run, 0, 0);
+  CeldHostPart      part;
+  CeldHost      host = celd_host_part (&part, s->host, 0, 0);
   CeldPartition problem;
   CeldStatus    status = CELD_NO_MEMORY;
 
@@ -122,8 +122,8 @@ cut (Solver *s, CeldWindowCells *cells, bool *better)
   problem = (CeldPartition) {
     cells->n, cells->link, cells->n_links, cells->vote, cells->n_votes, NULL, order, n_labels
   };
-  status = n_labels == 2 ? cut_in_two (&problem, &run, cells->label)
-                         : celd_partition (&problem, &run, cells->label, NULL, NULL);
+  status = n_labels == 2 ? cut_in_two (&problem, &host, cells->label)
+                         : celd_partition (&problem, &host, cells->label, NULL, NULL);
   if (status != CELD_OK)
     goto done;
   *better = celd_partition_energy (&problem, cells->label) < celd_partition_energy (&problem, present);
@@ -356,7 +356,7 @@ solve_windows (Solver *s, const CeldWindows *windows)
     {
       status = solve_window (s, (uint32_t) k + 1, &windows->item[k], windows->basin);
       if (status == CELD_OK)
-        status = celd_step (s->run, (double) (k + 1) / (double) windows->n);
+        status = celd_progress (s->host, (double) (k + 1) / (double) windows->n);
     }
   celd_free (s->free);
   celd_free (s->order);
@@ -367,12 +367,12 @@ solve_windows (Solver *s, const CeldWindows *windows)
 }
 
 CeldStatus
-celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run, CeldPatches *patches)
+celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldPatches *patches)
 {
   CeldWindows windows = { 0 };
-  Solver      s = { .canvas = canvas, .label = label, .run = run };
+  Solver      s = { .canvas = canvas, .label = label, .host = host };
   size_t      before = patches->n;
-  CeldStatus  status = celd_windows_find (canvas, label, run, &windows);
+  CeldStatus  status = celd_windows_find (canvas, label, host, &windows);
 
   if (status == CELD_OK && windows.n)
     status = solve_windows (&s, &windows);

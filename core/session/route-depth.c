@@ -157,7 +157,7 @@ choose_anchors (Anchors *a)
 
 /* Makes a stage's plane and what is kept beside it; both or none of the two. */
 static CeldStatus
-smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *smoothing, const CeldRun *run,
+smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *smoothing, const CeldHost *host,
         CeldSmoother *smoother, CeldPlane *plane)
 {
   CeldPlane  depth = { 0 };
@@ -166,7 +166,7 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *
 
   smoothing->anchors = anchors->n ? &anchors->mask : NULL;
   smoothing->last    = plane->data;
-  status = celd_smooth_again (smoother, smoothing, run, &depth, &solve);
+  status = celd_smooth_again (smoother, smoothing, host, &depth, &solve);
   if (status != CELD_OK)
     return status;
   celd_session_replace (s, stage, plane, &depth);
@@ -185,7 +185,7 @@ measure_reach (CeldSession *s)
 }
 
 CeldStatus
-celd_make_depth (CeldSession *s, const CeldRun *run)
+celd_make_depth (CeldSession *s, const CeldHost *host)
 {
   Anchors       anchors = { .session = s, .side = 1 };
   CeldSmoothing smoothing = { .ink = celd_session_bent_ink (s), .levels = &s->levels, .settings = &s->settings,
@@ -197,7 +197,7 @@ celd_make_depth (CeldSession *s, const CeldRun *run)
       measure_reach (s);
       smoothing.reach = s->reach;
       choose_anchors (&anchors);
-      status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, run, &s->smoother, &s->depth);
+      status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smoother, &s->depth);
     }
   celd_free (anchors.mask.data);
   return status;
@@ -257,7 +257,7 @@ sample_levels (const CeldSession *s, CeldPlane *levels)
 }
 
 CeldStatus
-celd_make_preview (CeldSession *s, const CeldRun *run)
+celd_make_preview (CeldSession *s, const CeldHost *host)
 {
   CeldPlane     levels = { 0 };
   Anchors       anchors = { .session = s, .side = SIDE, .levels = &levels };
@@ -277,7 +277,7 @@ celd_make_preview (CeldSession *s, const CeldRun *run)
       settings.tolerance = fmaxf (settings.tolerance, PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);
-      status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, run, &s->preview_smoother, &s->preview);
+      status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, host, &s->preview_smoother, &s->preview);
     }
   celd_free (levels.data);
   celd_free (anchors.mask.data);

@@ -34,7 +34,7 @@ seed_frame (const CeldPlane *ink, const CeldLabels *labels, uint32_t from, uint3
 
 /* Marks the background in the palette, or adds it to palette and seeds, which are tight. */
 static CeldStatus
-find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
                  CeldPalette *palette)
 {
   CeldSettings plain = *settings;
@@ -47,7 +47,7 @@ find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldR
   if (status == CELD_OK)
     status = celd_palette_copy (palette, &found);
   if (status == CELD_OK)
-    status = celd_segment (ink, seeds, NULL, &plain, run, &labels, &found, NULL);
+    status = celd_segment (ink, seeds, NULL, &plain, host, &labels, &found, NULL);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
     palette->item[k].background = found.item[k].background;
   for (size_t k = palette->n; k < found.n && status == CELD_OK; k++)
@@ -70,20 +70,20 @@ find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldR
 /* ------------------------------------------------------------------ the stages */
 
 CeldStatus
-celd_make_weights (CeldSession *s, const CeldRun *run)
+celd_make_weights (CeldSession *s, const CeldHost *host)
 {
   if (!s->program)
     s->program = celd_program_new ();
-  return s->program ? celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, run) : CELD_NO_MEMORY;
+  return s->program ? celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, host) : CELD_NO_MEMORY;
 }
 
 /* Seeds and their palette with the background, for a program. */
 static CeldStatus
-set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
            CeldPalette *palette, CeldProgram *program)
 {
-  CeldPart   part[2];
-  CeldRun    finding = celd_run_part (&part[0], run, 0, 0.6), setting = celd_run_part (&part[1], run, 0.6, 1);
+  CeldHostPart   part[2];
+  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.6), setting = celd_host_part (&part[1], host, 0.6, 1);
   CeldStatus status = CELD_OK;
 
   if (palette->n && settings->background != CELD_BACKGROUND_NONE)
@@ -96,7 +96,7 @@ set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldRun *ru
 }
 
 CeldStatus
-celd_make_nodes (CeldSession *s, const CeldRun *run)
+celd_make_nodes (CeldSession *s, const CeldHost *host)
 {
   CeldLabels  seeds = { 0 };
   CeldPalette palette = { 0 };
@@ -107,7 +107,7 @@ celd_make_nodes (CeldSession *s, const CeldRun *run)
   if (status == CELD_OK)
     {
       celd_seed_rows_write (&s->seeds, &seeds);
-      status = set_nodes (&s->ink, &s->settings, run, &seeds, &palette, s->program);
+      status = set_nodes (&s->ink, &s->settings, host, &seeds, &palette, s->program);
     }
   celd_free (seeds.data);
   if (status != CELD_OK)
@@ -121,7 +121,7 @@ celd_make_nodes (CeldSession *s, const CeldRun *run)
 }
 
 CeldStatus
-celd_make_exact (CeldSession *s, const CeldRun *run)
+celd_make_exact (CeldSession *s, const CeldHost *host)
 {
   CeldPlane    depth = { 0 };
   CeldExact    exact = { 0 };
@@ -129,7 +129,7 @@ celd_make_exact (CeldSession *s, const CeldRun *run)
   CeldStatus   status = celd_plane_new (s->ink.width, s->ink.height, &depth);
 
   if (status == CELD_OK)
-    status = celd_program_solve (s->program, &s->relations, &s->settings, run, &depth, &exact, &problems);
+    status = celd_program_solve (s->program, &s->relations, &s->settings, host, &depth, &exact, &problems);
   if (status != CELD_OK)
     {
       celd_free (depth.data);
@@ -191,15 +191,15 @@ halve_relations (const CeldRelations *relations, CeldRelations *half)
 
 /* Depth of half the size. */
 static CeldStatus
-solve_half (const CeldSession *s, const CeldRun *run, CeldPlane *ink, CeldPlane *depth)
+solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlane *depth)
 {
   CeldSettings  settings = s->settings;
   CeldLabels    seeds = { 0 };
   CeldPalette   palette = { 0 };
   CeldRelations relations = { 0 };
   CeldProgram  *program = celd_program_new ();
-  CeldPart      part[2];
-  CeldRun       nodes = celd_run_part (&part[0], run, 0, 0.1), solving = celd_run_part (&part[1], run, 0.1, 1);
+  CeldHostPart      part[2];
+  CeldHost      nodes = celd_host_part (&part[0], host, 0, 0.1), solving = celd_host_part (&part[1], host, 0.1, 1);
   CeldStatus    status = program ? celd_labels_new (ink->width, ink->height, &seeds) : CELD_NO_MEMORY;
 
   settings.tolerance = settings.tolerance < PREVIEW_TOLERANCE ? PREVIEW_TOLERANCE : settings.tolerance;
@@ -225,12 +225,12 @@ solve_half (const CeldSession *s, const CeldRun *run, CeldPlane *ink, CeldPlane 
 }
 
 CeldStatus
-celd_session_exact_preview (CeldSession *session, const CeldRun *run, CeldPlane *half)
+celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half)
 {
   CeldSession *s = session;
   CeldPlane    ink = { 0 }, depth = { 0 };
-  CeldPart     part[2];
-  CeldRun      making = celd_run_part (&part[0], run, 0, 0.2), solving = celd_run_part (&part[1], run, 0.2, 1);
+  CeldHostPart     part[2];
+  CeldHost     making = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   CeldStatus   status;
 
   if (!s->drawing.luma.data)

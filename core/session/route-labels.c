@@ -75,7 +75,7 @@ keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
 }
 
 CeldStatus
-celd_make_relations (CeldSession *s, const CeldRun *run)
+celd_make_relations (CeldSession *s, const CeldHost *host)
 {
   CeldRelations all = { 0 };
   CeldProblems  problems = { 0 };
@@ -85,7 +85,7 @@ celd_make_relations (CeldSession *s, const CeldRun *run)
   if (status == CELD_OK)
     status = append_relations (&all, &s->path);
   if (status == CELD_OK && s->arrows.data)
-    status = celd_arrows_read (&s->arrows, s->settings.arrow_style, run, &all, &problems);
+    status = celd_arrows_read (&s->arrows, s->settings.arrow_style, host, &all, &problems);
   if (status == CELD_OK)
     status = append_relations (&all, &s->single);
   if (status == CELD_OK && s->valid[STAGE_LABELS])
@@ -109,13 +109,13 @@ celd_make_relations (CeldSession *s, const CeldRun *run)
 
 /* Ink for one purpose: the contours are baked into a copy of the drawing first. */
 static CeldStatus
-make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldRun *run, CeldPlane *ink)
+make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldHost *host, CeldPlane *ink)
 {
   const CeldDrawing *drawing = &s->drawing;
   int                w = drawing->luma.width, h = drawing->luma.height;
-  CeldPart           part[2];
-  CeldRun            bake = celd_run_part (&part[0], run, 0, 0.3);
-  CeldRun            rest = celd_run_part (&part[1], run, s->contours.data ? 0.3 : 0, 1);
+  CeldHostPart           part[2];
+  CeldHost           bake = celd_host_part (&part[0], host, 0, 0.3);
+  CeldHost           rest = celd_host_part (&part[1], host, s->contours.data ? 0.3 : 0, 1);
   CeldDrawing        baked = { 0 };
   CeldStatus         status = celd_plane_new (w, h, ink);
 
@@ -151,16 +151,16 @@ take_ink (CeldSession *s, CeldPlane *ink)
 }
 
 CeldStatus
-celd_make_ink (CeldSession *s, const CeldRun *run)
+celd_make_ink (CeldSession *s, const CeldHost *host)
 {
-  CeldPart   part;
-  CeldRun    first = celd_run_part (&part, run, 0, s->contours.data ? 0.5 : 1);
+  CeldHostPart   part;
+  CeldHost   first = celd_host_part (&part, host, 0, s->contours.data ? 0.5 : 1);
   CeldPlane  ink = { 0 }, depth_ink = { 0 };
   CeldStatus status = make_ink_for (s, CELD_FOR_SEGMENTATION, &first, &ink);
 
   if (status == CELD_OK && s->contours.data)
     {
-      CeldRun second = celd_run_part (&part, run, 0.5, 1);
+      CeldHost second = celd_host_part (&part, host, 0.5, 1);
 
       status = make_ink_for (s, CELD_FOR_DEPTH, &second, &depth_ink);
     }
@@ -180,7 +180,7 @@ celd_make_ink (CeldSession *s, const CeldRun *run)
 /* ------------------------------------------------------------------ seeds */
 
 CeldStatus
-celd_make_scribbles (CeldSession *s, const CeldRun *run)
+celd_make_scribbles (CeldSession *s, const CeldHost *host)
 {
   int          w = s->drawing.luma.width, h = s->drawing.luma.height;
   CeldLabels   labels = { 0 };
@@ -192,7 +192,7 @@ celd_make_scribbles (CeldSession *s, const CeldRun *run)
     {
       status = celd_labels_new (w, h, &labels);
       if (status == CELD_OK)
-        status = celd_scribbles_read (&s->scribbles, &s->settings, run, &labels, &palette);
+        status = celd_scribbles_read (&s->scribbles, &s->settings, host, &labels, &palette);
       if (status == CELD_OK)
         status = celd_seed_rows_read (&labels, &seeds);
     }
@@ -212,7 +212,7 @@ celd_make_scribbles (CeldSession *s, const CeldRun *run)
 }
 
 CeldStatus
-celd_make_seeds (CeldSession *s, const CeldRun *run)
+celd_make_seeds (CeldSession *s, const CeldHost *host)
 {
   CeldSeedRows seeds = { 0 };
   CeldPalette  palette = { 0 };
@@ -223,7 +223,7 @@ celd_make_seeds (CeldSession *s, const CeldRun *run)
   if (status == CELD_OK && s->n_strokes)
     status = celd_strokes_compose (s->stroke, s->n_strokes, &seeds, &palette);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (status != CELD_OK)
     {
       celd_seed_rows_clear (&seeds);
@@ -241,7 +241,7 @@ celd_make_seeds (CeldSession *s, const CeldRun *run)
 
 /* Tells the segmenter where the ink differs from what it knows.  What it knows after a failure, nobody knows. */
 static CeldStatus
-tell_ink (CeldSession *s, const CeldRun *run)
+tell_ink (CeldSession *s, const CeldHost *host)
 {
   bool       renew = s->known_ink.data && s->known_threshold == s->settings.ink_threshold &&
                      s->known_bridged == s->settings.close_gaps;
@@ -252,7 +252,7 @@ tell_ink (CeldSession *s, const CeldRun *run)
     return CELD_OK;
   if (renew)
     changed = celd_difference (s->known_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
-  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, run);
+  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, host);
   if (s->known_ink.data != s->ink.data)
     celd_free (s->known_ink.data);
   s->known_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
@@ -262,7 +262,7 @@ tell_ink (CeldSession *s, const CeldRun *run)
 }
 
 static CeldStatus
-prepare_segmenter (CeldSession *s, const CeldRun *run)
+prepare_segmenter (CeldSession *s, const CeldHost *host)
 {
   if (!s->segmenter)
     s->segmenter = celd_segmenter_new ();
@@ -275,7 +275,7 @@ prepare_segmenter (CeldSession *s, const CeldRun *run)
       if (status != CELD_OK)
         return status;
     }
-  return tell_ink (s, run);
+  return tell_ink (s, host);
 }
 
 /* What the segmenter does not do of its own: labels NULL where the settings ask for nothing of it, or where no
@@ -292,10 +292,10 @@ parted_clear (Parted *parted)
 
 /* Splits regions where relations contradict, and takes the ink off the new borders. */
 static CeldStatus
-split (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+split (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted *parted)
 {
   const CeldPlane *ink = celd_session_depth_ink (s);
-  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, run, &parted->labels, palette,
+  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, host, &parted->labels, palette,
                                                &parted->splits);
 
   if (status == CELD_OK && parted->splits.n)
@@ -310,14 +310,14 @@ split (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *p
 
 /* The labels of the segmenter with each region on its own, or with regions split where relations contradict. */
 static CeldStatus
-part (const CeldSession *s, const CeldRun *run, CeldPalette *palette, Parted *parted)
+part (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted *parted)
 {
   bool       apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
   bool       bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
   CeldLabels *labels = &parted->labels;
-  CeldPart   halves[2];
-  CeldRun    first = celd_run_part (&halves[0], run, 0, bend ? 0.5 : 1);
-  CeldRun    second = celd_run_part (&halves[1], run, apart ? 0.5 : 0, 1);
+  CeldHostPart   halves[2];
+  CeldHost   first = celd_host_part (&halves[0], host, 0, bend ? 0.5 : 1);
+  CeldHost   second = celd_host_part (&halves[1], host, apart ? 0.5 : 0, 1);
   CeldStatus status;
 
   if (!apart && !bend)
@@ -366,11 +366,11 @@ see_labels (CeldSession *s, CeldRect changed)
 /* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
  * compared. */
 CeldStatus
-celd_make_labels (CeldSession *s, const CeldRun *run)
+celd_make_labels (CeldSession *s, const CeldHost *host)
 {
-  CeldPart     parts[3];
-  CeldRun      tell = celd_run_part (&parts[0], run, 0, 0.5), solve = celd_run_part (&parts[1], run, 0.5, 0.9);
-  CeldRun      last = celd_run_part (&parts[2], run, 0.9, 1);
+  CeldHostPart     parts[3];
+  CeldHost     tell = celd_host_part (&parts[0], host, 0, 0.5), solve = celd_host_part (&parts[1], host, 0.5, 0.9);
+  CeldHost     last = celd_host_part (&parts[2], host, 0.9, 1);
   Parted       parted = { 0 };
   CeldPalette  palette = { 0 };
   CeldProblems problems = { 0 };

@@ -15,11 +15,11 @@ background_label (const CeldSession *s)
 }
 
 CeldStatus
-celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, const CeldRun *run,
+celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, const CeldHost *host,
                      CeldLayers **layers)
 {
-  CeldPart      part[2];
-  CeldRun       first = celd_run_part (&part[0], run, 0, 0.6), second = celd_run_part (&part[1], run, 0.6, 1);
+  CeldHostPart      part[2];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
   CeldOwnership own;
   CeldStatus    status = celd_session_ownership (s, &first, &own, NULL);
 

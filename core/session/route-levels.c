@@ -23,14 +23,14 @@ list_values (const CeldSession *s, float **list)
 }
 
 CeldStatus
-celd_make_flat (CeldSession *s, const CeldRun *run)
+celd_make_flat (CeldSession *s, const CeldHost *host)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
   float            *value = NULL;
   CeldPlane         flat = { 0 };
   CeldStatus        status = list_values (s, &value);
 
-  (void) run;
+  (void) host;
   if (status == CELD_OK)
     status = celd_plane_new (labels->width, labels->height, &flat);
   if (status == CELD_OK)
@@ -102,16 +102,16 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
 
 /* From the beginning. */
 static CeldStatus
-make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
 {
   CeldOwnership own = { 0 };
   CeldStatus    status = celd_ownership_new (input->ink->width, input->ink->height, &own);
 
   if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
-    status = celd_owners_make (input, run, &s->owners, &own);
+    status = celd_owners_make (input, host, &s->owners, &own);
   else if (status == CELD_OK)
     status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
-                       run, &own);
+                       host, &own);
   if (status == CELD_OK)
     replace_ownership (s, &own);
   celd_ownership_clear (&own);
@@ -119,10 +119,10 @@ make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
 }
 
 static CeldStatus
-renew (CeldSession *s, const CeldOwnersInput *input, const CeldRun *run)
+renew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
 {
   CeldRect   changed;
-  CeldStatus status = celd_owners_renew (input, s->new_labels, run, &s->owners, &s->ownership, &changed);
+  CeldStatus status = celd_owners_renew (input, s->new_labels, host, &s->owners, &s->ownership, &changed);
 
   if (status == CELD_OK)
     {
@@ -145,7 +145,7 @@ keep_ranks (CeldSession *s, uint32_t *rank)
 }
 
 CeldStatus
-celd_make_ownership (CeldSession *s, const CeldRun *run)
+celd_make_ownership (CeldSession *s, const CeldHost *host)
 {
   CeldLabels      corrections = { 0 };
   CeldOwnersInput input = { celd_session_bent_ink (s), celd_session_current_labels (s), NULL, s->order.level,
@@ -161,7 +161,7 @@ celd_make_ownership (CeldSession *s, const CeldRun *run)
   if (corrections.data)
     input.corrections = &corrections;
   if (status == CELD_OK)
-    status = s->rank && s->owners.level ? renew (s, &input, run) : make_anew (s, &input, run);
+    status = s->rank && s->owners.level ? renew (s, &input, host) : make_anew (s, &input, host);
   if (status == CELD_OK)
     keep_ranks (s, rank);
   else
@@ -183,7 +183,7 @@ level_at (const CeldOwnership *own, const float *value, int x, int y)
 }
 
 static CeldStatus
-make_all_levels (CeldSession *s, const float *value, const CeldRun *run)
+make_all_levels (CeldSession *s, const float *value, const CeldHost *host)
 {
   CeldPlane  levels;
   CeldStatus status = celd_plane_new (s->ownership.owner.width, s->ownership.owner.height, &levels);
@@ -192,7 +192,7 @@ make_all_levels (CeldSession *s, const float *value, const CeldRun *run)
     for (int x = 0; x < levels.width; x++)
       CELD_AT (&levels, x, y) = level_at (&s->ownership, value, x, y);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (status == CELD_OK)
     celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
   celd_free (levels.data);
@@ -219,7 +219,7 @@ renew_levels (CeldSession *s, const float *value)
 
 /* Labels that were not there before, or are not there any more, have new owners. */
 CeldStatus
-celd_make_levels (CeldSession *s, const CeldRun *run)
+celd_make_levels (CeldSession *s, const CeldHost *host)
 {
   size_t     both = s->order.n < s->n_values ? s->order.n : s->n_values;
   float     *value = NULL;
@@ -230,7 +230,7 @@ celd_make_levels (CeldSession *s, const CeldRun *run)
   if (s->value && !memcmp (s->value, value, both * sizeof *value))
     renew_levels (s, value);
   else
-    status = make_all_levels (s, value, run);
+    status = make_all_levels (s, value, host);
   if (status == CELD_OK)
     {
       celd_free (s->value);

@@ -18,13 +18,13 @@
 /* ------------------------------------------------------------------ the stages */
 
 static CeldStatus
-make_suggestions (CeldSession *s, const CeldRun *run)
+make_suggestions (CeldSession *s, const CeldHost *host)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
   CeldRelations     suggested = { 0 };
-  CeldPart          part[2];
-  CeldRun           first = celd_run_part (&part[0], run, 0, s->hint.data ? 0.5 : 1);
-  CeldRun           second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart          part[2];
+  CeldHost          first = celd_host_part (&part[0], host, 0, s->hint.data ? 0.5 : 1);
+  CeldHost          second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus        status = celd_suggest (labels, &s->palette, &s->ink, &first, &suggested);
 
   if (status == CELD_OK && s->hint.data)
@@ -41,7 +41,7 @@ make_suggestions (CeldSession *s, const CeldRun *run)
 
 /* The relations that make the order: the artist's, or those and suggestions. */
 static CeldStatus
-join_suggestions (CeldSession *s, const CeldRun *run, const CeldRelations **relations)
+join_suggestions (CeldSession *s, const CeldHost *host, const CeldRelations **relations)
 {
   CeldStatus status;
 
@@ -49,7 +49,7 @@ join_suggestions (CeldSession *s, const CeldRun *run, const CeldRelations **rela
   if (s->settings.suggest == CELD_SUGGEST_OFF)
     return CELD_OK;
   *relations = &s->joined;
-  status = celd_session_make (s, STAGE_SUGGESTIONS, run);
+  status = celd_session_make (s, STAGE_SUGGESTIONS, host);
   if (status != CELD_OK)
     return status;
   return celd_suggestions_join (celd_session_current_labels (s), &s->palette, &s->relations, &s->suggested,
@@ -57,11 +57,11 @@ join_suggestions (CeldSession *s, const CeldRun *run, const CeldRelations **rela
 }
 
 static CeldStatus
-make_order (CeldSession *s, const CeldRun *run)
+make_order (CeldSession *s, const CeldHost *host)
 {
   const CeldRelations *relations;
-  CeldPart             part[2];
-  CeldRun              first = celd_run_part (&part[0], run, 0, 0.5), second = celd_run_part (&part[1], run, 0.5, 1);
+  CeldHostPart             part[2];
+  CeldHost             first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldOrder            order = { 0 };
   CeldProblems         problems = { 0 };
   CeldStatus           status = join_suggestions (s, &first, &relations);
@@ -83,14 +83,14 @@ make_order (CeldSession *s, const CeldRun *run)
 }
 
 static CeldStatus
-make_normals (CeldSession *s, const CeldRun *run)
+make_normals (CeldSession *s, const CeldHost *host)
 {
   int         w = s->levels.width, h = s->levels.height;
   CeldVectors normals = { w, h, (size_t) w, celd_alloc ((size_t) w * (size_t) h, 3 * sizeof (float)) };
   CeldStatus  status = CELD_NO_MEMORY;
 
   if (normals.data)
-    status = celd_normals (celd_session_bent_ink (s), &s->levels, &s->settings, run, &normals);
+    status = celd_normals (celd_session_bent_ink (s), &s->levels, &s->settings, host, &normals);
   if (status != CELD_OK)
     {
       celd_free (normals.data);
@@ -103,12 +103,12 @@ make_normals (CeldSession *s, const CeldRun *run)
 }
 
 static CeldStatus
-make_shading (CeldSession *s, const CeldRun *run)
+make_shading (CeldSession *s, const CeldHost *host)
 {
   CeldPlane  shading;
   CeldStatus status = celd_plane_new (s->normals.width, s->normals.height, &shading);
 
-  (void) run;
+  (void) host;
   if (status == CELD_OK)
     status = celd_shade (&s->normals, &s->settings, &shading);
   if (status == CELD_OK)
@@ -123,7 +123,7 @@ make_shading (CeldSession *s, const CeldRun *run)
 
 static const struct
 {
-  CeldStatus (*make) (CeldSession *session, const CeldRun *run);
+  CeldStatus (*make) (CeldSession *session, const CeldHost *host);
   unsigned   needs;   /* what has to be made before; when that is forgotten, so is the stage */
   unsigned   follows; /* what has to be made before, and forgets the stage itself if need be */
   double     share; /* of the time of the whole route, for progress */
@@ -176,7 +176,7 @@ open_stages (const CeldSession *session)
 }
 
 CeldStatus
-celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run)
+celd_session_make (CeldSession *session, CeldStage stage, const CeldHost *host)
 {
   unsigned   wanted = 1u << stage, open = open_stages (session);
   double     total = 0, done = 0;
@@ -191,8 +191,8 @@ celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run)
   for (int s = 0; s < N_STAGES && status == CELD_OK; s++)
     if ((wanted & (1u << s)) && !session->valid[s])
       {
-        CeldPart part;
-        CeldRun  step = celd_run_part (&part, run, done / total, (done + stages[s].share) / total);
+        CeldHostPart part;
+        CeldHost step = celd_host_part (&part, host, done / total, (done + stages[s].share) / total);
 
         status = stages[s].make (session, &step);
         session->valid[s] = status == CELD_OK;

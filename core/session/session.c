@@ -109,13 +109,13 @@ celd_session_free (CeldSession *session)
 
 /* Makes a stage and hands over what the host has not seen of it. */
 static CeldStatus
-ask (CeldSession *s, CeldStage stage, const CeldRun *run, CeldRect *changed)
+ask (CeldSession *s, CeldStage stage, const CeldHost *host, CeldRect *changed)
 {
   CeldStatus status;
 
   if (!s->drawing.luma.data)
     return CELD_BAD_SIZE;
-  status = celd_session_make (s, stage, run);
+  status = celd_session_make (s, stage, host);
   if (status == CELD_OK)
     {
       if (changed)
@@ -126,9 +126,9 @@ ask (CeldSession *s, CeldStage stage, const CeldRun *run, CeldRect *changed)
 }
 
 CeldStatus
-celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, CeldRect *changed)
+celd_session_ink (CeldSession *session, const CeldHost *host, CeldPlane *ink, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_INK, run, changed);
+  CeldStatus status = ask (session, STAGE_INK, host, changed);
 
   if (status == CELD_OK)
     *ink = session->ink;
@@ -136,9 +136,9 @@ celd_session_ink (CeldSession *session, const CeldRun *run, CeldPlane *ink, Celd
 }
 
 CeldStatus
-celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *labels, CeldRect *changed)
+celd_session_labels (CeldSession *session, const CeldHost *host, CeldLabels *labels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_LABELS, run, changed);
+  CeldStatus status = ask (session, STAGE_LABELS, host, changed);
 
   if (status == CELD_OK)
     *labels = *celd_session_current_labels (session);
@@ -147,9 +147,9 @@ celd_session_labels (CeldSession *session, const CeldRun *run, CeldLabels *label
 
 /* The rectangle of the labels stays to be asked for. */
 CeldStatus
-celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosures **closures)
+celd_session_closures (CeldSession *session, const CeldHost *host, const CeldClosures **closures)
 {
-  CeldStatus status = session->drawing.luma.data ? celd_session_make (session, STAGE_LABELS, run) : CELD_BAD_SIZE;
+  CeldStatus status = session->drawing.luma.data ? celd_session_make (session, STAGE_LABELS, host) : CELD_BAD_SIZE;
 
   if (status == CELD_OK)
     *closures = celd_segmenter_closures (session->segmenter);
@@ -157,7 +157,7 @@ celd_session_closures (CeldSession *session, const CeldRun *run, const CeldClosu
 }
 
 CeldStatus
-celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint *paint)
+celd_session_paint_closures (CeldSession *session, const CeldHost *host, CeldPaint *paint)
 {
   const CeldClosures *closures;
   int                 width;
@@ -165,7 +165,7 @@ celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint
 
   if (!CELD_SAME_SIZE (&session->drawing.luma, paint))
     return CELD_BAD_SIZE;
-  status = celd_session_closures (session, run, &closures);
+  status = celd_session_closures (session, host, &closures);
   if (status != CELD_OK)
     return status;
   for (int y = 0; y < paint->height; y++)
@@ -176,9 +176,9 @@ celd_session_paint_closures (CeldSession *session, const CeldRun *run, CeldPaint
 }
 
 CeldStatus
-celd_session_suggestions (CeldSession *session, const CeldRun *run, const CeldRelations **suggested)
+celd_session_suggestions (CeldSession *session, const CeldHost *host, const CeldRelations **suggested)
 {
-  CeldStatus status = ask (session, STAGE_SUGGESTIONS, run, NULL);
+  CeldStatus status = ask (session, STAGE_SUGGESTIONS, host, NULL);
 
   if (status == CELD_OK)
     *suggested = &session->suggested;
@@ -204,7 +204,7 @@ choose_arrows (const CeldSession *session, CeldRelations *arrows)
 }
 
 CeldStatus
-celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPaint *paint)
+celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, CeldPaint *paint)
 {
   const CeldRelations *suggested;
   CeldRelations        arrows = { 0 };
@@ -212,7 +212,7 @@ celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPa
 
   if (!CELD_SAME_SIZE (&session->drawing.luma, paint))
     return CELD_BAD_SIZE;
-  status = celd_session_suggestions (session, run, &suggested);
+  status = celd_session_suggestions (session, host, &suggested);
   if (status == CELD_OK)
     status = choose_arrows (session, &arrows);
   if (status == CELD_OK)
@@ -226,9 +226,9 @@ celd_session_paint_suggestions (CeldSession *session, const CeldRun *run, CeldPa
 }
 
 CeldStatus
-celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **order)
+celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder **order)
 {
-  CeldStatus status = ask (session, STAGE_ORDER, run, NULL);
+  CeldStatus status = ask (session, STAGE_ORDER, host, NULL);
 
   if (status == CELD_OK)
     *order = &session->order;
@@ -236,9 +236,9 @@ celd_session_order (CeldSession *session, const CeldRun *run, const CeldOrder **
 }
 
 CeldStatus
-celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed)
+celd_session_flat (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_FLAT, run, changed);
+  CeldStatus status = ask (session, STAGE_FLAT, host, changed);
 
   if (status == CELD_OK)
     *levels = session->flat;
@@ -246,9 +246,9 @@ celd_session_flat (CeldSession *session, const CeldRun *run, CeldPlane *levels, 
 }
 
 CeldStatus
-celd_session_ownership (CeldSession *session, const CeldRun *run, CeldOwnership *ownership, CeldRect *changed)
+celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_OWNERSHIP, run, changed);
+  CeldStatus status = ask (session, STAGE_OWNERSHIP, host, changed);
 
   if (status == CELD_OK)
     *ownership = session->ownership;
@@ -256,9 +256,9 @@ celd_session_ownership (CeldSession *session, const CeldRun *run, CeldOwnership 
 }
 
 CeldStatus
-celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels, CeldRect *changed)
+celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_LEVELS, run, changed);
+  CeldStatus status = ask (session, STAGE_LEVELS, host, changed);
 
   if (status == CELD_OK)
     *levels = session->levels;
@@ -266,9 +266,9 @@ celd_session_levels (CeldSession *session, const CeldRun *run, CeldPlane *levels
 }
 
 CeldStatus
-celd_session_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane *quarter, CeldRect *changed)
+celd_session_depth_preview (CeldSession *session, const CeldHost *host, CeldPlane *quarter, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_PREVIEW, run, changed);
+  CeldStatus status = ask (session, STAGE_PREVIEW, host, changed);
 
   if (status == CELD_OK)
     *quarter = session->preview;
@@ -276,9 +276,9 @@ celd_session_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane 
 }
 
 CeldStatus
-celd_session_depth (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed)
+celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_DEPTH, run, changed);
+  CeldStatus status = ask (session, STAGE_DEPTH, host, changed);
 
   if (status == CELD_OK)
     *depth = session->depth;
@@ -286,9 +286,9 @@ celd_session_depth (CeldSession *session, const CeldRun *run, CeldPlane *depth, 
 }
 
 CeldStatus
-celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *normals, CeldRect *changed)
+celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *normals, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_NORMALS, run, changed);
+  CeldStatus status = ask (session, STAGE_NORMALS, host, changed);
 
   if (status == CELD_OK)
     *normals = session->normals;
@@ -296,9 +296,9 @@ celd_session_normals (CeldSession *session, const CeldRun *run, CeldVectors *nor
 }
 
 CeldStatus
-celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shading, CeldRect *changed)
+celd_session_shading (CeldSession *session, const CeldHost *host, CeldPlane *shading, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_SHADING, run, changed);
+  CeldStatus status = ask (session, STAGE_SHADING, host, changed);
 
   if (status == CELD_OK)
     *shading = session->shading;
@@ -306,9 +306,9 @@ celd_session_shading (CeldSession *session, const CeldRun *run, CeldPlane *shadi
 }
 
 CeldStatus
-celd_session_exact (CeldSession *session, const CeldRun *run, CeldPlane *depth, CeldRect *changed)
+celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_EXACT, run, changed);
+  CeldStatus status = ask (session, STAGE_EXACT, host, changed);
 
   if (status == CELD_OK)
     *depth = session->exact_depth;

@@ -111,7 +111,7 @@ struct CeldSession
 void celd_session_forget (CeldSession *session, CeldStage stage);
 
 /* Makes what `stage` needs and does not hold, and the stage itself. */
-CeldStatus celd_session_make (CeldSession *session, CeldStage stage, const CeldRun *run);
+CeldStatus celd_session_make (CeldSession *session, CeldStage stage, const CeldHost *host);
 
 /* Everything made: for a drawing of another size, and at the end. */
 void celd_session_clear_results (CeldSession *session);
@@ -130,17 +130,17 @@ CeldStatus celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRow
 /* ------------------------------------------------------------------ route-labels.c */
 
 /* Relations forget the labels if these change with them. */
-CeldStatus celd_make_relations (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_ink       (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_scribbles (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_seeds     (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_labels    (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_relations (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_ink       (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_scribbles (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_seeds     (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_labels    (CeldSession *session, const CeldHost *host);
 
 /* ------------------------------------------------------------------ route-levels.c */
 
-CeldStatus celd_make_flat      (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_ownership (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_levels    (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_flat      (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_ownership (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_levels    (CeldSession *session, const CeldHost *host);
 
 /* Would relation i, behind all others, leave the labels as they are?  For as long as these hold. */
 bool celd_session_spares (const CeldSession *session, const CeldRelation *relation);
@@ -151,8 +151,8 @@ void celd_session_clear_ownership (CeldSession *session);
 
 /* ------------------------------------------------------------------ route-depth.c */
 
-CeldStatus celd_make_preview (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_depth   (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_preview (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_depth   (CeldSession *session, const CeldHost *host);
 
 /* The ink for depth, and the same without what lies along the borders of splits: what depth is cut by. */
 const CeldPlane *celd_session_depth_ink (const CeldSession *session);
@@ -165,9 +165,9 @@ void celd_session_bend (CeldSession *session, CeldPlane *bent);
 void celd_session_new_depth_ink (CeldSession *session, const CeldPlane *ink);
 /* ------------------------------------------------------------------ route-exact.c */
 
-CeldStatus celd_make_weights (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_nodes   (CeldSession *session, const CeldRun *run);
-CeldStatus celd_make_exact   (CeldSession *session, const CeldRun *run);
+CeldStatus celd_make_weights (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_nodes   (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_exact   (CeldSession *session, const CeldHost *host);
 
 /* ------------------------------------------------------------------ changes.c */
 

@@ -334,7 +334,7 @@ grow (CeldNetwork *network, int tree, uint32_t p)
 
 /* Grows the nodes that are active in this tree now. */
 static CeldStatus
-grow_round (CeldNetwork *network, int tree, const CeldRun *run, size_t *steps)
+grow_round (CeldNetwork *network, int tree, const CeldHost *host, size_t *steps)
 {
   CeldStatus status = CELD_OK;
 
@@ -346,7 +346,7 @@ grow_round (CeldNetwork *network, int tree, const CeldRun *run, size_t *steps)
       if (network->node[p].tree == tree)
         grow (network, tree, p);
       if (++*steps % 65536 == 0)
-        status = celd_step (run, 0); /* how much is left to do cannot be told */
+        status = celd_progress (host, 0); /* how much is left to do cannot be told */
     }
   return status;
 }
@@ -372,14 +372,14 @@ take_down (CeldNetwork *network)
 }
 
 CeldStatus
-celd_network_drain (CeldNetwork *network, const CeldRun *run)
+celd_network_drain (CeldNetwork *network, const CeldHost *host)
 {
   const size_t *source = &network->active[CELD_SOURCE].n, *sink = &network->active[CELD_SINK].n;
   size_t        steps = 0;
   CeldStatus    status = CELD_OK;
 
   while (*source && status == CELD_OK)
-    status = grow_round (network, *sink && *sink < *source ? CELD_SINK : CELD_SOURCE, run, &steps);
+    status = grow_round (network, *sink && *sink < *source ? CELD_SINK : CELD_SOURCE, host, &steps);
   take_down (network);
   return status;
 }
@@ -387,7 +387,7 @@ celd_network_drain (CeldNetwork *network, const CeldRun *run)
 /* ------------------------------------------------------------------ one cut */
 
 CeldStatus
-celd_flow (size_t n, const CeldLink *link, size_t n_links, const int64_t *terminal, const CeldRun *run, uint8_t *side,
+celd_flow (size_t n, const CeldLink *link, size_t n_links, const int64_t *terminal, const CeldHost *host, uint8_t *side,
            int64_t *flow)
 {
   CeldNetwork network;
@@ -404,9 +404,9 @@ celd_flow (size_t n, const CeldLink *link, size_t n_links, const int64_t *termin
         celd_network_root (&network, (uint32_t) p);
       sum += terminal[p] > 0 ? terminal[p] : 0;
     }
-  status = celd_network_drain (&network, run);
+  status = celd_network_drain (&network, host);
   if (status == CELD_OK)
-    status = celd_step (run, 1);
+    status = celd_progress (host, 1);
   if (status != CELD_OK)
     goto done;
   for (size_t p = 0; p < n; p++)

@@ -56,6 +56,6 @@ void celd_network_root (CeldNetwork *network, uint32_t p);
 
 /* Moves excess to nodes that lack some until no way is left, and fills in `reached`.  If it is cancelled the state
  * still stands for the same cuts. */
-CeldStatus celd_network_drain (CeldNetwork *network, const CeldRun *run);
+CeldStatus celd_network_drain (CeldNetwork *network, const CeldHost *host);
 
 #endif

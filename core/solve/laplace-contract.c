@@ -239,7 +239,7 @@ list_edges (const Contraction *c, uint32_t *place)
 }
 
 CeldStatus
-celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed, const CeldRun *run,
+celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed, const CeldHost *host,
                        CeldWeights *coarse)
 {
   uint32_t    n = celd_weights_cells (coarse);
@@ -254,7 +254,7 @@ celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const u
   if (place && coarse->east && coarse->south && coarse->sink && coarse->cell)
     {
       status = CELD_OK;
-      celd_each (run, coarse->height, contract_row, &c);
+      celd_parallel_for (host, coarse->height, contract_row, &c);
     }
   for (int row = 0; row < coarse->height && status == CELD_OK; row++)
     status = push_row (&c, row);

@@ -17,9 +17,9 @@
 /* ------------------------------------------------------------------ vectors */
 
 CeldStatus
-celd_coarse_new (const CeldLevels *levels, int lanes, const CeldRun *run, CeldCoarse *cycle)
+celd_coarse_new (const CeldLevels *levels, int lanes, const CeldHost *host, CeldCoarse *cycle)
 {
-  *cycle = (CeldCoarse) { .levels = levels, .run = run, .lanes = lanes };
+  *cycle = (CeldCoarse) { .levels = levels, .host = host, .lanes = lanes };
   cycle->bottom = celd_alloc (levels->bottom.n, (size_t) lanes * sizeof *cycle->bottom);
   if (!cycle->bottom)
     return CELD_NO_MEMORY;

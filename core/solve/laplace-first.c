@@ -177,7 +177,7 @@ sweep (const CeldCoarse *cycle, Pass *p, int stages, void (*body) (void *pass, i
   bool             small = (size_t) level->n * (size_t) cycle->lanes < SMALL;
   bool             shared = level[1].height * (CELD_STRIP / 2) < level->height; /* a cell may lie in several strips */
 
-  celd_sweep (small || shared ? NULL : cycle->run, level->height, stages, body, p, &p->phase);
+  celd_sweep (small || shared ? NULL : cycle->host, level->height, stages, body, p, &p->phase);
 }
 
 #define PASS(name, stages) \

@@ -247,7 +247,7 @@ aggregate (CeldAggregation *a)
   a->coarse->width  = (a->graph->width + 1) / 2;
   a->coarse->height = (a->graph->height + 1) / 2;
   mark_open_extra (a);
-  celd_each (a->run, a->coarse->height, aggregate_row, a);
+  celd_parallel_for (a->host, a->coarse->height, aggregate_row, a);
   for (int row = 0; row < a->coarse->height; row++)
     count += a->row_count[row];
   return count;
@@ -266,13 +266,13 @@ pair_up (CeldAggregation *a, uint32_t most)
 /* ------------------------------------------------------------------ coarsening */
 
 static CeldStatus
-aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldRun *run, CeldAggregation *a)
+aggregation_new (const CeldWeights *fine, CeldWeights *coarse, const CeldHost *host, CeldAggregation *a)
 {
   uint32_t n = celd_weights_cells (fine) + fine->n_extra;
 
   *coarse = (CeldWeights) { 0 };
   *a = (CeldAggregation) {
-    .graph = fine, .coarse = coarse, .run = run,
+    .graph = fine, .coarse = coarse, .host = host,
     .best = celd_alloc (n, sizeof *a->best),
     .link = celd_alloc (n, sizeof *a->link),
     .parent = celd_alloc (n, sizeof *a->parent),
@@ -299,16 +299,16 @@ begin_parts (CeldWeights *pixels)
 }
 
 CeldStatus
-celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse, uint32_t **coarser)
+celd_weights_coarsen (CeldWeights *fine, const CeldHost *host, CeldWeights *coarse, uint32_t **coarser)
 {
   CeldAggregation a;
-  CeldStatus      status = aggregation_new (fine, coarse, run, &a);
+  CeldStatus      status = aggregation_new (fine, coarse, host, &a);
   uint32_t        most;
 
   if (status == CELD_OK && fine->weak)
     status = begin_parts (fine);
   if (status == CELD_OK)
-    status = celd_weights_ground (fine, run);
+    status = celd_weights_ground (fine, host);
   if (status != CELD_OK)
     goto done;
   most = (uint32_t) (FEWER * celd_weights_see (&a));
@@ -322,7 +322,7 @@ celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse
   if (status == CELD_OK)
     status = celd_weights_number (&a);
   if (status == CELD_OK)
-    status = celd_weights_contract (fine, a.link, a.mixed, run, coarse);
+    status = celd_weights_contract (fine, a.link, a.mixed, host, coarse);
 
 done:
   if (status == CELD_OK)

@@ -39,7 +39,7 @@ typedef struct
 {
   const CeldWeights *graph;
   CeldWeights       *coarse;
-  const CeldRun     *run;
+  const CeldHost    *host;
   float              most;        /* weight of the strongest link of all */
   float             *best;        /* weight of the strongest link */
   uint32_t          *link;        /* the node at its other end; in the end the aggregate */
@@ -58,7 +58,7 @@ uint32_t celd_weights_see (CeldAggregation *a);
 /* ------------------------------------------------------------------ laplace-ground.c */
 
 /* Cuts the edges of nodes that their sinks hold far more; what is at the other ends is held by these edges. */
-CeldStatus celd_weights_ground (CeldWeights *graph, const CeldRun *run);
+CeldStatus celd_weights_ground (CeldWeights *graph, const CeldHost *host);
 
 /* ------------------------------------------------------------------ laplace-pairs.c */
 
@@ -76,6 +76,6 @@ CeldStatus celd_weights_number (CeldAggregation *a);
 
 /* Edges and sinks of the coarse graph, whose sizes are known.  mixed: of each coarse cell; only for those of 2 x 2. */
 CeldStatus celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed,
-                                  const CeldRun *run, CeldWeights *coarse);
+                                  const CeldHost *host, CeldWeights *coarse);
 
 #endif

@@ -146,7 +146,7 @@ cut_extra (const Ground *o)
 }
 
 CeldStatus
-celd_weights_ground (CeldWeights *graph, const CeldRun *run)
+celd_weights_ground (CeldWeights *graph, const CeldHost *host)
 {
   uint32_t   n = celd_weights_cells (graph);
   Ground     o = {
@@ -157,7 +157,7 @@ celd_weights_ground (CeldWeights *graph, const CeldRun *run)
 
   if (status == CELD_OK)
     {
-      celd_each (run, (graph->height + CELD_STRIP - 1) / CELD_STRIP, mark_strip, &o);
+      celd_parallel_for (host, (graph->height + CELD_STRIP - 1) / CELD_STRIP, mark_strip, &o);
       if (graph->n_extra)
         mark_extra (&o, sum);
       for (int y = 0; y < graph->height; y++)

@@ -256,7 +256,7 @@ invert_row (void *data, int y)
 
 /* *linked: nodes that have an edge. */
 static CeldStatus
-lay_out (const CeldWeights *g, const CeldRun *run, CeldLevel *level, uint32_t *linked)
+lay_out (const CeldWeights *g, const CeldHost *host, CeldLevel *level, uint32_t *linked)
 {
   Layout     o = { .graph = g, .level = level, .count = celd_alloc ((size_t) g->height, sizeof *o.count) };
   CeldStatus status = level_new (g, level);
@@ -265,12 +265,12 @@ lay_out (const CeldWeights *g, const CeldRun *run, CeldLevel *level, uint32_t *l
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
-      celd_each (run, g->height, lay_out_row, &o);
+      celd_parallel_for (host, g->height, lay_out_row, &o);
       status = lay_out_extra (g, level);
     }
   if (status == CELD_OK)
     {
-      celd_each (run, g->height, invert_row, &o);
+      celd_parallel_for (host, g->height, invert_row, &o);
       *linked = invert (level->n_extra, level->sink + 2 * level->plane, level->inverse + 2 * level->plane);
       for (int y = 0; y < g->height; y++)
         *linked += o.count[y];
@@ -300,7 +300,7 @@ lay_out_coarser_row (void *data, int y)
 }
 
 static CeldStatus
-lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, const CeldRun *run,
+lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, const CeldHost *host,
                  const CeldLevel *next, CeldLevel *level)
 {
   uint32_t n = (uint32_t) g->width * (uint32_t) g->height;
@@ -311,7 +311,7 @@ lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, c
 
   if (!(level->coarser = celd_alloc0 (pixels ? level->plane : level->n, sizeof *level->coarser)))
     return CELD_NO_MEMORY;
-  celd_each (run, g->height, lay_out_coarser_row, &o);
+  celd_parallel_for (host, g->height, lay_out_coarser_row, &o);
   for (uint32_t k = 0; k < g->n_extra; k++)
     level->coarser[2 * level->plane + k] = place_of (next, coarser[n + k]);
   return CELD_OK;
@@ -367,17 +367,17 @@ done:
 
 /* The next graph, and the way there. */
 static CeldStatus
-coarsen (CeldWeights *graph, const CeldRun *run, CeldLevel *level)
+coarsen (CeldWeights *graph, const CeldHost *host, CeldLevel *level)
 {
   CeldWeights coarse;
   CeldLevel   next;
   uint32_t   *coarser = NULL;
-  CeldStatus  status  = celd_weights_coarsen (graph, run, &coarse, &coarser);
+  CeldStatus  status  = celd_weights_coarsen (graph, host, &coarse, &coarser);
 
   if (status != CELD_OK)
     return status;
   next   = level_shape (&coarse);
-  status = lay_out_coarser (graph, coarser, coarse.doublings, run, &next, level);
+  status = lay_out_coarser (graph, coarser, coarse.doublings, host, &next, level);
   celd_free (coarser);
   celd_weights_clear (graph);
   *graph = coarse;
@@ -385,7 +385,7 @@ coarsen (CeldWeights *graph, const CeldRun *run, CeldLevel *level)
 }
 
 CeldStatus
-celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels)
+celd_levels_new (CeldWeights *graph, const CeldHost *host, CeldLevels *levels)
 {
   bool       last = false;
   double     left = 1;          /* each level is about half of what is left */
@@ -397,14 +397,14 @@ celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels)
     {
       CeldLevel *level = &levels->level[levels->n++];
 
-      status = celd_step (run, 1 - left);
+      status = celd_progress (host, 1 - left);
       left  /= 2;
       if (status == CELD_OK)
-        status = lay_out (graph, run, level, &linked);
+        status = lay_out (graph, host, level, &linked);
       if (status != CELD_OK)
         break;
       last   = levels->n == CELD_MAX_LEVELS || (levels->n > 1 && linked <= BOTTOM);
-      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, run, level);
+      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, host, level);
     }
   if (status != CELD_OK)
     celd_levels_clear (levels);

@@ -77,7 +77,7 @@ celd_weights_see (CeldAggregation *a)
   const CeldWeights *g = a->graph;
   uint32_t           n = celd_weights_cells (g), linked = 0, most = 0;
 
-  celd_each (a->run, (g->height + CELD_STRIP - 1) / CELD_STRIP, see_strip, a);
+  celd_parallel_for (a->host, (g->height + CELD_STRIP - 1) / CELD_STRIP, see_strip, a);
   for (int y = 0; y < g->height; y++)
     {
       most = a->row_most[y] > most ? a->row_most[y] : most;

@@ -115,15 +115,15 @@ celd_weights_number (CeldAggregation *a)
 {
   CeldWeights *coarse = a->coarse;
 
-  celd_each (a->run, coarse->height, number_row, a);
+  celd_parallel_for (a->host, coarse->height, number_row, a);
   for (int row = 0; row < coarse->height; row++)
     coarse->row_extra[row + 1] = coarse->row_extra[row] + a->row_count[row];
   coarse->n_extra = coarse->row_extra[coarse->height];
-  celd_each (a->run, coarse->height, shift_row, a);
+  celd_parallel_for (a->host, coarse->height, shift_row, a);
   if (!a->graph->part)
     return CELD_OK;
   if (!(coarse->part = celd_alloc0 ((size_t) celd_weights_cells (coarse) + coarse->n_extra, 1)))
     return CELD_NO_MEMORY;
-  celd_each (a->run, coarse->height, carry_row, a);
+  celd_parallel_for (a->host, coarse->height, carry_row, a);
   return CELD_OK;
 }

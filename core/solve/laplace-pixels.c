@@ -38,19 +38,19 @@ strips (const CeldLaplace *l)
 }
 
 CeldStatus
-celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run, CeldSolution *s)
+celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldHost *host, CeldSolution *s)
 {
   const CeldLevel *level = &laplace->levels.level[0];
   float          **vector[] = { &s->x, &s->r, &s->p, &s->q, &s->z, &s->t, &s->black };
 
-  *s = (CeldSolution) { .laplace = laplace, .run = run, .lanes = lanes, .b = b, .user = x };
+  *s = (CeldSolution) { .laplace = laplace, .host = host, .lanes = lanes, .b = b, .user = x };
   for (size_t v = 0; v < sizeof vector / sizeof *vector; v++)
     if (!(*vector[v] = celd_alloc0 (level->plane, (size_t) lanes * sizeof (float))))
       return CELD_NO_MEMORY;
   s->row     = celd_alloc ((size_t) laplace->height, SUMS * CELD_LANES * sizeof *s->row);
   s->scratch = celd_alloc0 ((size_t) strips (laplace) * 3 * level->stride, (size_t) lanes * sizeof *s->scratch);
   s->side    = celd_alloc ((size_t) strips (laplace) * level->stride, (size_t) lanes * sizeof *s->side);
-  return s->row && s->scratch && s->side ? celd_coarse_new (&laplace->levels, lanes, run, &s->cycle) : CELD_NO_MEMORY;
+  return s->row && s->scratch && s->side ? celd_coarse_new (&laplace->levels, lanes, host, &s->cycle) : CELD_NO_MEMORY;
 }
 
 void
@@ -266,7 +266,7 @@ SWEEP (pixels_up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
 /* ------------------------------------------------------------------ the passes */
 
 #define RUN_SWEEP(pass, stages, name) \
-  celd_sweep ((pass)->s->run, (pass)->level->height, stages, \
+  celd_sweep ((pass)->s->host, (pass)->level->height, stages, \
               (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass, &(pass)->phase)
 
 /* A pass with these coefficients of a step, or without one. */

@@ -52,7 +52,7 @@ typedef struct
 
 /* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge and for those that
  * their sink holds, whose edges `fine` loses. */
-CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldRun *run, CeldWeights *coarse, uint32_t **coarser);
+CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldHost *host, CeldWeights *coarse, uint32_t **coarser);
 void       celd_weights_clear (CeldWeights *graph);                           /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ laplace-levels.c: what is solved on */
@@ -95,7 +95,7 @@ celd_level_place (const CeldLevel *level, int x, int y)
 }
 
 /* graph: the pixels, without extra nodes; it is used up, and still has to be cleared. */
-CeldStatus celd_levels_new (CeldWeights *graph, const CeldRun *run, CeldLevels *levels);
+CeldStatus celd_levels_new (CeldWeights *graph, const CeldHost *host, CeldLevels *levels);
 void       celd_levels_clear (CeldLevels *levels);                        /* accepts a zeroed one */
 
 /* ------------------------------------------------------------------ laplace-cycle.c: the coarse levels */
@@ -111,13 +111,13 @@ typedef struct
 typedef struct
 {
   const CeldLevels *levels;
-  const CeldRun    *run;
+  const CeldHost   *host;
   int               lanes;      /* 1 or CELD_LANES */
   CeldLevelVectors  vectors[CELD_MAX_LEVELS];
   double           *bottom;     /* right-hand side and solution */
 } CeldCoarse;
 
-CeldStatus celd_coarse_new (const CeldLevels *levels, int lanes, const CeldRun *run, CeldCoarse *cycle);
+CeldStatus celd_coarse_new (const CeldLevels *levels, int lanes, const CeldHost *host, CeldCoarse *cycle);
 void       celd_coarse_free (CeldCoarse *cycle);                            /* accepts a zeroed one */
 /* a x + c step of vectors[1] becomes approximately the solution for its b, which is used up. */
 void       celd_coarse_solve (CeldCoarse *cycle);
@@ -150,7 +150,7 @@ struct CeldLaplace
 
 /* The graph of the free pixels; `held`, `held_row` and `weak` of the system. */
 CeldStatus celd_system_copy (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
-                             const CeldRun *run, CeldLaplace *laplace, CeldWeights *graph);
+                             const CeldHost *host, CeldLaplace *laplace, CeldWeights *graph);
 
 /* ------------------------------------------------------------------ laplace-direct.c: small systems */
 
@@ -181,7 +181,7 @@ void       celd_floating_shift (const CeldLaplace *laplace, int lanes, const dou
 typedef struct
 {
   const CeldLaplace *laplace;
-  const CeldRun     *run;
+  const CeldHost    *host;
   int                lanes;
   const float       *b;         /* the caller's, or NULL; and the caller's x */
   const double      *b_mean;    /* of each floating component, NULL if there is none: to be left out */
@@ -201,7 +201,7 @@ typedef struct
   double zr[CELD_LANES], zq[CELD_LANES], zt[CELD_LANES], largest[CELD_LANES], low[CELD_LANES], high[CELD_LANES];
 } CeldMeasure;
 
-CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldRun *run,
+CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldHost *host,
                               CeldSolution *s);
 void       celd_solution_free (CeldSolution *s);                          /* accepts a zeroed one */
 /* laplace-residual.c: */

@@ -231,7 +231,7 @@ settle_strip (void *data, int strip)
 static void
 run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
 {
-  celd_sweep (pass->s->run, pass->level->height, 1, pass->s->lanes == 1 ? single : lanes, pass, &pass->phase);
+  celd_sweep (pass->s->host, pass->level->height, 1, pass->s->lanes == 1 ? single : lanes, pass, &pass->phase);
 }
 
 void

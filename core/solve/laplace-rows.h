@@ -82,12 +82,12 @@ celd_row_ready (int row, int from, int to, int height, int stage)
 
 /* Runs `stages` rounds of a sweep's body; `phase` is the body's. */
 static inline void
-celd_sweep (const CeldRun *run, int height, int stages, void (*body) (void *pass, int i), void *pass, int *phase)
+celd_sweep (const CeldHost *host, int height, int stages, void (*body) (void *pass, int i), void *pass, int *phase)
 {
   int strips = (height + CELD_STRIP - 1) / CELD_STRIP;
 
   for (*phase = 0; *phase < stages; ++*phase)
-    celd_each (run, *phase ? strips - 1 : strips, body, pass);
+    celd_parallel_for (host, *phase ? strips - 1 : strips, body, pass);
 }
 
 /* Defines the bodies name_single and name_lanes of a sweep over Pass, whose stages are stage (pass, row, lanes).  Names

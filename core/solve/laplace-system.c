@@ -184,7 +184,7 @@ differ (const Copy *c)
 
 CeldStatus
 celd_system_copy (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
-                  const CeldRun *run, CeldLaplace *l, CeldWeights *g)
+                  const CeldHost *host, CeldLaplace *l, CeldWeights *g)
 {
   size_t     w = (size_t) l->width, h = (size_t) l->height, n = w * h, strips = (h + CELD_STRIP - 1) / CELD_STRIP;
   Copy       c = { east, south, diagonal, fixed, l, g, celd_alloc (strips, w), celd_alloc (h, sizeof *c.least),
@@ -196,14 +196,14 @@ celd_system_copy (const float *east, const float *south, const float *diagonal, 
   l->held_row = celd_alloc0 (h + 1, sizeof *l->held_row);
   if (!c.mark || !c.least || !c.most || !g->east || !g->south || !g->sink || !l->held_row)
     goto done;
-  celd_each (run, (int) strips, copy_strip, &c);
+  celd_parallel_for (host, (int) strips, copy_strip, &c);
   for (size_t y = 0; y < h; y++)
     l->held_row[y + 1] += l->held_row[y];
   l->weak = g->weak = differ (&c);
   l->held = celd_alloc (l->held_row[h], sizeof *l->held);
   if (!l->held)
     goto done;
-  celd_each (run, (int) strips, hold_strip, &c);
+  celd_parallel_for (host, (int) strips, hold_strip, &c);
   status = CELD_OK;
 
 done:

@@ -69,7 +69,7 @@ celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float
 
 CeldStatus
 celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
-                const uint8_t *fixed, const CeldRun *run, CeldLaplace **laplace)
+                const uint8_t *fixed, const CeldHost *host, CeldLaplace **laplace)
 {
   CeldLaplace *l = celd_alloc0 (1, sizeof *l);
   CeldWeights    graph = { 0 };
@@ -79,15 +79,15 @@ celd_lap_setup (int width, int height, const float *east, const float *south, co
     return CELD_NO_MEMORY;
   l->width  = width;
   l->height = height;
-  status    = celd_step (run, 0);
+  status    = celd_progress (host, 0);
   if (status == CELD_OK)
-    status = celd_system_copy (east, south, diagonal, fixed, run, l, &graph);
+    status = celd_system_copy (east, south, diagonal, fixed, host, l, &graph);
   if (status == CELD_OK)
     status = celd_floating_find (&graph, l);
   if (status == CELD_OK)
     {
       l->direct = celd_is_direct (&graph, l->weak);
-      status    = l->direct ? celd_direct_new (&graph, l) : celd_levels_new (&graph, run, &l->levels);
+      status    = l->direct ? celd_direct_new (&graph, l) : celd_levels_new (&graph, host, &l->levels);
     }
   celd_weights_clear (&graph);
   if (status == CELD_OK)
@@ -221,18 +221,18 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
 
       first = round <= 1 ? solve->error : first;
       done  = fmax (done, share_done (first, solve->error, tolerance));
-      if (celd_step (s->run, done) != CELD_OK)
+      if (celd_progress (s->host, done) != CELD_OK)
         return CELD_CANCELLED;
     }
 }
 
 static CeldStatus
 converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x, double tolerance, int most,
-          const CeldRun *run, CeldSolve *solve)
+          const CeldHost *host, CeldSolve *solve)
 {
   CeldSolution s;
   Lane        *lane   = celd_alloc ((size_t) lanes, sizeof *lane);
-  CeldStatus   status = celd_solution_new (l, lanes, b, x, run, &s);
+  CeldStatus   status = celd_solution_new (l, lanes, b, x, host, &s);
 
   s.b_mean = b_mean;
   if (!lane)
@@ -251,7 +251,7 @@ converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean,
 
 /* One solution, or CELD_LANES of them. */
 static CeldStatus
-solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, int most, const CeldRun *run,
+solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, int most, const CeldHost *host,
              CeldSolve *solve)
 {
   size_t     means = (size_t) l->n_floating + 1;
@@ -269,7 +269,7 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
   if (b_mean)
     celd_floating_means (l, lanes, b, b_mean);
   status = l->direct ? celd_direct_solve (l, lanes, b, b_mean, x)
-                     : converge (l, lanes, b, b_mean, x, tolerance, most, run, solve);
+                     : converge (l, lanes, b, b_mean, x, tolerance, most, host, solve);
   celd_floating_means (l, lanes, x, after);
   celd_floating_shift (l, lanes, before, after, x);
   celd_free (mean);
@@ -278,7 +278,7 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
 
 CeldStatus
 celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
-                const CeldRun *run, CeldSolve *solve)
+                const CeldHost *host, CeldSolve *solve)
 {
   size_t     n = (size_t) laplace->width * (size_t) laplace->height;
   CeldSolve  worst = { .converged = true };
@@ -286,8 +286,8 @@ celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double
 
   for (int k = 0; k < nrhs && status == CELD_OK; k++)
     {
-      CeldPart  part;
-      CeldRun   share  = celd_run_part (&part, run, (double) k / nrhs, (double) (k + 1) / nrhs);
+      CeldHostPart  part;
+      CeldHost  share  = celd_host_part (&part, host, (double) k / nrhs, (double) (k + 1) / nrhs);
       size_t    offset = (size_t) k * n;
       CeldSolve one;
 
@@ -303,10 +303,10 @@ celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double
 
 CeldStatus
 celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
-                      const CeldRun *run, CeldSolve *solve)
+                      const CeldHost *host, CeldSolve *solve)
 {
   CeldSolve  worst;
-  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, most, run, &worst);
+  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, most, host, &worst);
 
   if (solve)
     *solve = worst;

@@ -332,7 +332,7 @@ adopt (Grid *grid, size_t p)
 /* ------------------------------------------------------------------ the cut */
 
 static CeldStatus
-solve (Grid *grid, const CeldRun *run)
+solve (Grid *grid, const CeldHost *host)
 {
   for (size_t steps = 1; grid->actives.n; steps++)
     {
@@ -346,15 +346,15 @@ solve (Grid *grid, const CeldRun *run)
           while (grid->orphans.n)
             adopt (grid, queue_take (&grid->orphans));
         }
-      if (steps % 65536 == 0 && celd_step (run, 0) != CELD_OK) /* how much is left to do cannot be told */
+      if (steps % 65536 == 0 && celd_progress (host, 0) != CELD_OK) /* how much is left to do cannot be told */
         return CELD_CANCELLED;
     }
-  return celd_step (run, 1);
+  return celd_progress (host, 1);
 }
 
 CeldStatus
 celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
-              const CeldRun *run, uint8_t *side, int64_t *flow)
+              const CeldHost *host, uint8_t *side, int64_t *flow)
 {
   Grid       grid = { 0 };
   CeldStatus status;
@@ -365,7 +365,7 @@ celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, 
   if (status != CELD_OK)
     goto done;
   plant (&grid, east, south, terminal);
-  status = solve (&grid, run);
+  status = solve (&grid, host);
   if (status != CELD_OK)
     goto done;
   for (int y = 0; y < height; y++)

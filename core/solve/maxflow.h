@@ -14,7 +14,7 @@
  * terminal[i] > 0: capacity from the source; < 0: capacity to the sink.  side[i] becomes 1 where the node is reachable
  * from the source in the residual graph, 0 elsewhere.  *flow (may be NULL) is the cut's value. */
 CeldStatus celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
-                         const CeldRun *run, uint8_t *side, int64_t *flow);
+                         const CeldHost *host, uint8_t *side, int64_t *flow);
 
 /* ------------------------------------------------------------------ multiway.c: many labels on a grid */
 
@@ -31,6 +31,6 @@ typedef struct
 } CeldMultiway;
 
 /* Gives every pixel with label[p] == 0 a label.  Others keep theirs; of these only hard seeds matter to the rest. */
-CeldStatus celd_multiway (const CeldMultiway *problem, const CeldRun *run, uint32_t *label);
+CeldStatus celd_multiway (const CeldMultiway *problem, const CeldHost *host, uint32_t *label);
 
 #endif

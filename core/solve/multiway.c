@@ -20,7 +20,7 @@ typedef struct { uint32_t id; size_t from, mid, to; int left, top, right, bottom
 typedef struct
 {
   const CeldMultiway *problem;
-  const CeldRun      *run;
+  const CeldHost     *host;
   uint32_t *label;
   uint32_t *piece;               /* 0: decided */
   uint32_t *queue;               /* pixels of the piece that is being filled */
@@ -247,14 +247,14 @@ cut (Solver *s, const Piece *piece)
   uint8_t   *side = celd_alloc (n, 1);
   Piece      first = *piece, others = *piece;
   double     done = (double) s->decided / (double) s->total;
-  CeldPart   part;
-  CeldRun    run = celd_run_part (&part, s->run, done, done);
+  CeldHostPart   part;
+  CeldHost   host = celd_host_part (&part, s->host, done, done);
   CeldStatus status = CELD_NO_MEMORY;
 
   if (!east || !south || !terminal || !side)
     goto done;
   lay_out (s, piece, east, south, terminal);
-  status = celd_maxflow (w, h, east, south, terminal, &run, side, NULL);
+  status = celd_maxflow (w, h, east, south, terminal, &host, side, NULL);
   if (status != CELD_OK)
     goto done;
   first.id = ++s->last_id;
@@ -293,11 +293,11 @@ begin (Solver *s)
 }
 
 CeldStatus
-celd_multiway (const CeldMultiway *problem, const CeldRun *run, uint32_t *label)
+celd_multiway (const CeldMultiway *problem, const CeldHost *host, uint32_t *label)
 {
   size_t     n = (size_t) problem->width * (size_t) problem->height;
   Piece      all = { 1, 0, 0, problem->n_labels, 0, 0, problem->width - 1, problem->height - 1 };
-  Solver     s = { .problem = problem, .run = run, .label = label };
+  Solver     s = { .problem = problem, .host = host, .label = label };
   CeldStatus status = CELD_NO_MEMORY;
 
   s.piece = celd_alloc (n, sizeof *s.piece);

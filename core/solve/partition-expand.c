@@ -211,7 +211,7 @@ find_loose (Expansion *e)
 
 /* *changed: did any node take the label? */
 static CeldStatus
-expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
+expand (Expansion *e, uint32_t alpha, const CeldHost *host, bool *changed)
 {
   CeldNetwork *network = &e->graph->network;
   CeldStatus   status;
@@ -222,7 +222,7 @@ expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
   for (size_t i = 0; i < e->n_loose; i++)
     if (network->node[e->loose[i]].excess && network->node[e->loose[i]].tree == CELD_NO_TREE)
       celd_network_root (network, e->loose[i]);
-  status = celd_network_drain (network, run);
+  status = celd_network_drain (network, host);
   if (status != CELD_OK)
     return status;
   open_alpha (e, alpha);
@@ -236,7 +236,7 @@ expand (Expansion *e, uint32_t alpha, const CeldRun *run, bool *changed)
 }
 
 CeldStatus
-celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
+celd_partition_expand (CeldPartitionGraph *graph, const CeldHost *host)
 {
   Expansion  e = { .graph = graph };
   uint32_t   alpha = 0;
@@ -250,14 +250,14 @@ celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run)
   if (!e.held || !e.wanted || !e.loose || !e.is_loose)
     goto done;
   lay_out (&e);
-  status = celd_step (run, 0); /* how often all labels have to be tried cannot be told */
+  status = celd_progress (host, 0); /* how often all labels have to be tried cannot be told */
   while (status == CELD_OK && settled < graph->n_ranks)
     {
       bool changed = false;
 
-      status = expand (&e, alpha, run, &changed);
+      status = expand (&e, alpha, host, &changed);
       if (status == CELD_OK)
-        status = celd_step (run, 0);
+        status = celd_progress (host, 0);
       settled = changed ? 1 : settled + 1; /* twice in a row is of no use */
       if (++alpha == graph->n_ranks)
         alpha = 0;

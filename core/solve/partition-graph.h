@@ -30,9 +30,9 @@ CeldStatus celd_partition_graph_new (const CeldPartition *problem, CeldPartition
 void       celd_partition_graph_clear (CeldPartitionGraph *graph); /* accepts a zeroed one */
 
 /* partition-greedy.c: a first answer. */
-CeldStatus celd_partition_greedy (CeldPartitionGraph *graph, const CeldRun *run);
+CeldStatus celd_partition_greedy (CeldPartitionGraph *graph, const CeldHost *host);
 
 /* partition-expand.c: a better one. */
-CeldStatus celd_partition_expand (CeldPartitionGraph *graph, const CeldRun *run);
+CeldStatus celd_partition_expand (CeldPartitionGraph *graph, const CeldHost *host);
 
 #endif

@@ -172,14 +172,14 @@ lay_out (Greedy *g, const Piece *piece)
 }
 
 static CeldStatus
-cut (Greedy *g, const Piece *piece, const CeldRun *run)
+cut (Greedy *g, const Piece *piece, const CeldHost *host)
 {
   CeldNetwork *network = &g->graph->network;
   Piece        first = *piece, others = *piece;
   double       done = (double) g->decided / (double) g->graph->n;
-  CeldPart     part;
-  CeldRun      still = celd_run_part (&part, run, done, done);
-  CeldStatus   status = celd_step (run, done);
+  CeldHostPart     part;
+  CeldHost     still = celd_host_part (&part, host, done, done);
+  CeldStatus   status = celd_progress (host, done);
 
   if (status != CELD_OK)
     return status;
@@ -198,7 +198,7 @@ cut (Greedy *g, const Piece *piece, const CeldRun *run)
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
-celd_partition_greedy (CeldPartitionGraph *graph, const CeldRun *run)
+celd_partition_greedy (CeldPartitionGraph *graph, const CeldHost *host)
 {
   size_t     n = graph->n;
   Greedy     g = { .graph = graph, .last_id = 1 };
@@ -218,12 +218,12 @@ celd_partition_greedy (CeldPartitionGraph *graph, const CeldRun *run)
       g.item[p]  = p;
     }
   find_pieces (&g, &none, &all);
-  status = celd_step (run, 0);
+  status = celd_progress (host, 0);
   while (status == CELD_OK && g.n_todo)
     {
       Piece piece = g.todo[--g.n_todo];
 
-      status = cut (&g, &piece, run);
+      status = cut (&g, &piece, host);
     }
 
 done:

@@ -37,11 +37,11 @@ read_labels (const CeldPartition *problem, const CeldPartitionGraph *graph, uint
 }
 
 CeldStatus
-celd_partition (const CeldPartition *problem, const CeldRun *run, uint32_t *label, int64_t *energy, int64_t *greedy)
+celd_partition (const CeldPartition *problem, const CeldHost *host, uint32_t *label, int64_t *energy, int64_t *greedy)
 {
   CeldPartitionGraph graph = { 0 };
-  CeldPart           part[2];
-  CeldRun            half[2] = { celd_run_part (&part[0], run, 0, 0.5), celd_run_part (&part[1], run, 0.5, 1) };
+  CeldHostPart           part[2];
+  CeldHost           half[2] = { celd_host_part (&part[0], host, 0, 0.5), celd_host_part (&part[1], host, 0.5, 1) };
   uint32_t          *result = celd_alloc (problem->n, sizeof *result);
   CeldStatus         status = result ? celd_partition_graph_new (problem, &graph) : CELD_NO_MEMORY;
   int64_t            before, after;

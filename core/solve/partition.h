@@ -28,7 +28,7 @@ typedef struct
  * then alpha-expansion lowers the energy until no expansion does.  *energy and *greedy (may be NULL) are the energies
  * after and before expansion: energy <= greedy.  A connected part of the graph that no label reaches gets the first
  * label of the order.  The order of nodes, links and votes does not matter. */
-CeldStatus celd_partition (const CeldPartition *problem, const CeldRun *run, uint32_t *label, int64_t *energy,
+CeldStatus celd_partition (const CeldPartition *problem, const CeldHost *host, uint32_t *label, int64_t *energy,
                            int64_t *greedy);
 
 /* The energy of any labelling. */
@@ -37,7 +37,7 @@ int64_t celd_partition_energy (const CeldPartition *problem, const uint32_t *lab
 /* flow.c: minimum cut of a graph, exact.  Link k joins a and b with the same capacity both ways.  terminal[i] > 0:
  * capacity from the source; < 0: to the sink.  side[i] becomes 1 where node i can be reached from the source in the
  * residual graph, else 0.  *flow (may be NULL) is the cut's value. */
-CeldStatus celd_flow (size_t n, const CeldLink *link, size_t n_links, const int64_t *terminal, const CeldRun *run,
+CeldStatus celd_flow (size_t n, const CeldLink *link, size_t n_links, const int64_t *terminal, const CeldHost *host,
                       uint8_t *side, int64_t *flow);
 
 #endif

@@ -259,7 +259,7 @@ make_row (Maker *m, const CeldPlane *depth, int y)
 /* ------------------------------------------------------------------ */
 
 static CeldStatus
-make_rows (Maker *m, const CeldPlane *depth, const CeldRun *run, double from)
+make_rows (Maker *m, const CeldPlane *depth, const CeldHost *host, double from)
 {
   CeldStatus status = CELD_OK;
 
@@ -267,28 +267,28 @@ make_rows (Maker *m, const CeldPlane *depth, const CeldRun *run, double from)
     {
       make_row (m, depth, y);
       if (y % 64 == 63)
-        status = celd_step (run, from + 0.5 * y / depth->height);
+        status = celd_progress (host, from + 0.5 * y / depth->height);
     }
   return status;
 }
 
 /* Counts all pieces, makes room, and makes them. */
 static CeldStatus
-make_scene (Maker *m, const CeldPlane *depth, const CeldRun *run)
+make_scene (Maker *m, const CeldPlane *depth, const CeldHost *host)
 {
   size_t     groups = m->scene->n_parts;
-  CeldStatus status = make_rows (m, depth, run, 0);
+  CeldStatus status = make_rows (m, depth, host, 0);
 
   for (size_t k = 0; k < groups && !status; k++)
     status = celd_spans_new (m->spans[k], m->pixels[k], &m->scene->part[k]);
   celd_free (m->spans);
   m->spans = NULL;
-  return status ? status : make_rows (m, depth, run, 0.5);
+  return status ? status : make_rows (m, depth, host, 0.5);
 }
 
 CeldStatus
 celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
-                     const CeldSettings *settings, const CeldRun *run, CeldScene **result)
+                     const CeldSettings *settings, const CeldHost *host, CeldScene **result)
 {
   Maker      m = { .art = art, .ink = ink };
   double     least, most, steps;
@@ -312,7 +312,7 @@ celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPla
       m.near   = celd_alloc ((size_t) depth->width, sizeof *m.near);
       m.spans  = celd_alloc0 (m.scene->n_parts, sizeof *m.spans);
       m.pixels = celd_alloc0 (m.scene->n_parts, sizeof *m.pixels);
-      status = m.near && m.spans && m.pixels ? make_scene (&m, depth, run) : CELD_NO_MEMORY;
+      status = m.near && m.spans && m.pixels ? make_scene (&m, depth, host) : CELD_NO_MEMORY;
     }
   if (!status)
     status = celd_scene_sort (m.scene);

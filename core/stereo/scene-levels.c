@@ -6,13 +6,13 @@
 
 CeldStatus
 celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldColours *art,
-                      CeldExpansion method, const CeldRun *run, CeldScene **scene)
+                      CeldExpansion method, const CeldHost *host, CeldScene **scene)
 {
   CeldOwnLevels made;
   CeldLayers   *layers = NULL;
-  CeldPart      part[3];
-  CeldRun       first = celd_run_part (&part[0], run, 0, 0.3), second = celd_run_part (&part[1], run, 0.3, 0.9);
-  CeldRun       third = celd_run_part (&part[2], run, 0.9, 1);
+  CeldHostPart      part[3];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.3), second = celd_host_part (&part[1], host, 0.3, 0.9);
+  CeldHost      third = celd_host_part (&part[2], host, 0.9, 1);
   CeldStatus    status = celd_own_levels_new (ink, levels, NULL, NULL, method, &first, &made);
 
   if (!status)

@@ -237,14 +237,14 @@ draw_band (void *data, int band)
 }
 
 static CeldStatus
-draw (const CeldScene *scene, Move move, const CeldRun *run, CeldColours *view)
+draw (const CeldScene *scene, Move move, const CeldHost *host, CeldColours *view)
 {
   int  bands = (scene->height + BAND - 1) / BAND;
   View v = { scene, move, view, celd_alloc ((size_t) bands, line_bytes (scene->width)) };
 
   if (!v.scratch)
     return CELD_NO_MEMORY;
-  celd_each (run, bands, draw_band, &v);
+  celd_parallel_for (host, bands, draw_band, &v);
   celd_free (v.scratch);
   return CELD_OK;
 }
@@ -277,7 +277,7 @@ turn_row (const Turn *t, int y, Line *line)
 
 /* Moves group `group` of the scene, and makes a part of the turned scene of it. */
 static CeldStatus
-turn_group (Turn *t, uint32_t group, Line *line, const CeldRun *run, CeldSpans *to)
+turn_group (Turn *t, uint32_t group, Line *line, const CeldHost *host, CeldSpans *to)
 {
   const CeldScene *scene = t->view->scene;
   size_t           n = (size_t) scene->width * (size_t) scene->height;
@@ -293,7 +293,7 @@ turn_group (Turn *t, uint32_t group, Line *line, const CeldRun *run, CeldSpans *
       turn_row (t, y, line);
     }
   return celd_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour, t->near,
-                                group, run, to);
+                                group, host, to);
 }
 
 static uint32_t
@@ -307,7 +307,7 @@ count_groups (const CeldScene *scene)
 }
 
 static CeldStatus
-turn_scene (const CeldScene *scene, Move move, const CeldRun *run, CeldScene **turned)
+turn_scene (const CeldScene *scene, Move move, const CeldHost *host, CeldScene **turned)
 {
   size_t     n = (size_t) scene->width * (size_t) scene->height;
   uint32_t   groups = count_groups (scene);
@@ -326,9 +326,9 @@ turn_scene (const CeldScene *scene, Move move, const CeldRun *run, CeldScene **t
       line.first = line.width;
       for (uint32_t k = 0; k < groups && !status; k++)
         {
-          status = turn_group (&t, k, &line, run, &(*turned)->part[k]);
+          status = turn_group (&t, k, &line, host, &(*turned)->part[k]);
           if (!status)
-            status = celd_step (run, 0.8 * (k + 1) / groups);
+            status = celd_progress (host, 0.8 * (k + 1) / groups);
         }
     }
   if (!status)
@@ -341,16 +341,16 @@ turn_scene (const CeldScene *scene, Move move, const CeldRun *run, CeldScene **t
 
 /* Rows, and then columns. */
 static CeldStatus
-draw_both_ways (const CeldScene *scene, Move across, Move along, const CeldRun *run, CeldColours *view)
+draw_both_ways (const CeldScene *scene, Move across, Move along, const CeldHost *host, CeldColours *view)
 {
   CeldColours tall = { scene->height, scene->width, (size_t) scene->height, NULL };
   CeldScene  *turned = NULL;
-  CeldStatus  status = turn_scene (scene, across, run, &turned);
+  CeldStatus  status = turn_scene (scene, across, host, &turned);
 
   if (!status)
     tall.data = celd_alloc ((size_t) scene->width * (size_t) scene->height, 4 * sizeof *tall.data);
   if (!status)
-    status = tall.data ? draw (turned, along, run, &tall) : CELD_NO_MEMORY;
+    status = tall.data ? draw (turned, along, host, &tall) : CELD_NO_MEMORY;
   for (int y = 0; y < view->height && !status; y++)
     for (int x = 0; x < view->width; x++)
       memcpy (CELD_RGBA (view, x, y), CELD_RGBA (&tall, y, x), 4 * sizeof *view->data);
@@ -362,7 +362,7 @@ draw_both_ways (const CeldScene *scene, Move across, Move along, const CeldRun *
 /* ------------------------------------------------------------------ */
 
 CeldStatus
-celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings, const CeldRun *run,
+celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings, const CeldHost *host,
                  CeldColours *view)
 {
   double     half, screen;
@@ -378,6 +378,6 @@ celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *
   screen = scene->least + (double) settings->convergence * (scene->most - scene->least);
   across = (Move) { camera.squeeze, scene->width / 2.0, camera.x * half, screen };
   along  = (Move) { 1, scene->height / 2.0, camera.y * half, screen };
-  status = camera.y != 0 ? draw_both_ways (scene, across, along, run, view) : draw (scene, across, run, view);
-  return status ? status : celd_step (run, 1);
+  status = camera.y != 0 ? draw_both_ways (scene, across, along, host, view) : draw (scene, across, host, view);
+  return status ? status : celd_progress (host, 1);
 }

@@ -87,7 +87,7 @@ next_run (const float *rgba, int n, int x, int *first)
 
 CeldStatus
 celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *near, uint32_t group,
-                       const CeldRun *run, CeldSpans *spans)
+                       const CeldHost *host, CeldSpans *spans)
 {
   size_t     w = (size_t) box.width, n = 0, pixels = 0;
   CeldStatus status;
@@ -112,7 +112,7 @@ celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *
           celd_span_close (span, width);
         }
       if (y % 256 == 255)
-        status = celd_step (run, 0);
+        status = celd_progress (host, 0);
     }
   return status;
 }
@@ -259,7 +259,7 @@ fill_rows (const Part *p)
 }
 
 static CeldStatus
-add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldRun *run, CeldScene *scene)
+add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldHost *host, CeldScene *scene)
 {
   CeldRect   box = celd_layers_item (layers, layer)->box;
   size_t     n = (size_t) box.width * (size_t) box.height;
@@ -272,9 +272,9 @@ add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldRun *run, 
   if (p->art && p->near && p->known)
     {
       celd_layers_paint (layers, layer, p->art);
-      celd_each (run, (box.height + BAND - 1) / BAND, prepare_band, p);
+      celd_parallel_for (host, (box.height + BAND - 1) / BAND, prepare_band, p);
       fill_rows (p);
-      status = celd_spans_of_picture (box, scene->width, p->art, p->near, (uint32_t) layer, run, &scene->part[layer]);
+      status = celd_spans_of_picture (box, scene->width, p->art, p->near, (uint32_t) layer, host, &scene->part[layer]);
     }
   celd_free (p->art);
   celd_free (p->near);
@@ -284,7 +284,7 @@ add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldRun *run, 
 
 CeldStatus
 celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, const CeldPlane *depth,
-                      const CeldRun *run, CeldScene **result)
+                      const CeldHost *host, CeldScene **result)
 {
   size_t     n = celd_layers_count (layers);
   Part       part = { .own = ownership, .depth = depth };
@@ -298,12 +298,12 @@ celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, 
   status = celd_scene_new (depth->width, depth->height, n, &scene);
   for (size_t k = 0; k < n && !status; k++)
     {
-      CeldPart turn;
-      CeldRun  short_run = celd_run_part (&turn, run, 0, 0);
+      CeldHostPart turn;
+      CeldHost short_run = celd_host_part (&turn, host, 0, 0);
 
       status = add_layer (&part, layers, k, &short_run, scene);
       if (!status)
-        status = celd_step (run, (double) (k + 1) / (double) n);
+        status = celd_progress (host, (double) (k + 1) / (double) n);
     }
   if (!status)
     {

@@ -67,7 +67,7 @@ void      celd_span_close (CeldSceneSpan *span, int width);
 
 /* All that is not transparent in a picture: `rgba` premultiplied and `near` as large as the box. */
 CeldStatus celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *near, uint32_t group,
-                                  const CeldRun *run, CeldSpans *spans);
+                                  const CeldHost *host, CeldSpans *spans);
 
 /* Once all parts are there. */
 CeldStatus celd_scene_sort (CeldScene *scene);

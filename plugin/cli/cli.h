@@ -89,10 +89,10 @@ typedef struct CliThreads CliThreads;
 
 typedef struct { const char *stage; double seconds; } CliTiming;
 
-/* The command's CeldRun: a bar on stderr, cancelled by SIGINT, with the time that each stage took. */
+/* The command's CeldHost: a bar on stderr, cancelled by SIGINT, with the time that each stage took. */
 typedef struct
 {
-  CeldRun     run;
+  CeldHost    host;
   GArray     *timings;     /* CliTiming */
   gint64      began;       /* of the stage, in microseconds */
   gint64      drawn;       /* when the bar was drawn last; 0 = there is no bar on the screen */

@@ -52,7 +52,7 @@ cli_enhance (const CliOptions *options)
       CeldStatus status;
 
       cli_run_stage (&run, "shadows");
-      status = celd_enhance (&levels, &options->settings, &run.run, &change);
+      status = celd_enhance (&levels, &options->settings, &run.host, &change);
       good = cli_run_finish (&run, status) && write_results (options, &levels, &change, &art);
     }
   g_free (levels.data);

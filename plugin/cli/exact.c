@@ -11,10 +11,10 @@ make (CeldSession *session, CliRun *run, CeldPlane *depth)
   CeldStatus status;
 
   cli_run_stage (run, "ink");
-  status = celd_session_ink (session, &run->run, &ink, NULL);
+  status = celd_session_ink (session, &run->host, &ink, NULL);
   cli_run_stage (run, "depth");
   if (status == CELD_OK)
-    status = celd_session_exact (session, &run->run, depth, NULL);
+    status = celd_session_exact (session, &run->host, depth, NULL);
   return cli_run_finish (run, status);
 }
 

@@ -63,41 +63,41 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
   CeldStatus status;
 
   cli_run_stage (run, "ink");
-  status = celd_session_ink (session, &run->run, &ink, NULL);
+  status = celd_session_ink (session, &run->host, &ink, NULL);
   cli_run_stage (run, "labels");
   if (status == CELD_OK)
-    status = celd_session_labels (session, &run->run, &results->labels, NULL);
+    status = celd_session_labels (session, &run->host, &results->labels, NULL);
   if (status == CELD_OK)
-    status = celd_session_closures (session, &run->run, &results->closures);
+    status = celd_session_closures (session, &run->host, &results->closures);
   if (status == CELD_OK && (options->suggestions || options->suggested_arrows || options->settings.suggest))
-    status = celd_session_suggestions (session, &run->run, &results->suggestions);
+    status = celd_session_suggestions (session, &run->host, &results->suggestions);
   if (status != CELD_OK || !whole_route)
     return status;
   cli_run_stage (run, "order");
-  status = celd_session_order (session, &run->run, &results->order);
+  status = celd_session_order (session, &run->host, &results->order);
   if (status == CELD_OK && options->order)
-    status = celd_session_flat (session, &run->run, &results->flat, NULL);
+    status = celd_session_flat (session, &run->host, &results->flat, NULL);
   if (options->levels || options->depth || options->normals || options->shading)
     cli_run_stage (run, "levels");
   if (status == CELD_OK && options->levels)
-    status = celd_session_levels (session, &run->run, &results->levels, NULL);
+    status = celd_session_levels (session, &run->host, &results->levels, NULL);
   if (options->depth)
     cli_run_stage (run, "depth");
   if (status == CELD_OK && options->depth)
-    status = celd_session_depth (session, &run->run, &results->depth, NULL);
+    status = celd_session_depth (session, &run->host, &results->depth, NULL);
   if (options->normals || options->shading)
     cli_run_stage (run, "normals");
   if (status == CELD_OK && options->normals)
-    status = celd_session_normals (session, &run->run, &results->normals, NULL);
+    status = celd_session_normals (session, &run->host, &results->normals, NULL);
   if (status == CELD_OK && options->shading)
-    status = celd_session_shading (session, &run->run, &results->shading, NULL);
+    status = celd_session_shading (session, &run->host, &results->shading, NULL);
   return status;
 }
 
 /* Paints a layer of the drawing's size, and writes it. */
 static bool
 write_layer (CeldSession *session, const char *path, const Results *results,
-             CeldStatus (*make_layer) (CeldSession *session, const CeldRun *run, CeldPaint *paint))
+             CeldStatus (*make_layer) (CeldSession *session, const CeldHost *host, CeldPaint *paint))
 {
   int       w = results->labels.width, h = results->labels.height;
   CeldPaint paint = { w, h, (size_t) w, g_try_new (uint8_t, 4 * (gsize) w * (gsize) h) };

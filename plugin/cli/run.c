@@ -67,7 +67,7 @@ cli_run_begin (CliRun *run, bool quiet)
   sigaction (SIGINT, &action, NULL);
   sigaction (SIGTERM, &action, NULL);
   *run = (CliRun) {
-    .run     = { progress, each, run },
+    .host     = { progress, each, run },
     .timings = g_array_new (FALSE, FALSE, sizeof (CliTiming)),
     .visible = !quiet && isatty (STDERR_FILENO),
     .threads = cli_threads_new (),

@@ -15,21 +15,21 @@ make (const CeldColours *art, CliRun *run, CliScene *s)
   CeldStatus    status;
 
   cli_run_stage (run, "labels");
-  status = celd_session_labels (s->session, &run->run, &labels, NULL);
+  status = celd_session_labels (s->session, &run->host, &labels, NULL);
   cli_run_stage (run, "order");
   if (status == CELD_OK)
-    status = celd_session_order (s->session, &run->run, &s->order);
+    status = celd_session_order (s->session, &run->host, &s->order);
   cli_run_stage (run, "depth");
   if (status == CELD_OK)
-    status = celd_session_depth (s->session, &run->run, &s->depth, NULL);
+    status = celd_session_depth (s->session, &run->host, &s->depth, NULL);
   cli_run_stage (run, "layers");
   if (status == CELD_OK)
-    status = celd_session_layers (s->session, art, CELD_STORE_FLOAT, &run->run, &layers);
+    status = celd_session_layers (s->session, art, CELD_STORE_FLOAT, &run->host, &layers);
   cli_run_stage (run, "scene");
   if (status == CELD_OK)
-    status = celd_session_ownership (s->session, &run->run, &own, NULL);
+    status = celd_session_ownership (s->session, &run->host, &own, NULL);
   if (status == CELD_OK)
-    status = celd_scene_of_layers (layers, &own, &s->depth, &run->run, &s->scene);
+    status = celd_scene_of_layers (layers, &own, &s->depth, &run->host, &s->scene);
   celd_layers_free (layers);
   return cli_run_finish (run, status);
 }
@@ -86,8 +86,8 @@ paint (void *host, size_t frame, float *rgba)
   const Frames   *f = host;
   const CliScene *s = f->scene;
   CeldColours     view = { s->depth.width, s->depth.height, (size_t) s->depth.width, rgba };
-  CeldRun         quiet = { NULL, s->run->run.each, s->run->run.host };
-  bool            going = s->run->run.progress (s->run->run.host, (double) frame / f->frames);
+  CeldHost        quiet = { NULL, s->run->host.each, s->run->host.data };
+  bool            going = s->run->host.progress (s->run->host.data, (double) frame / f->frames);
 
   return going && celd_scene_view (s->scene, f->camera (s, (int) frame), s->settings, &quiet, &view) == CELD_OK;
 }

@@ -177,14 +177,14 @@ crop (const Shade *whole, const CeldRect *cell)
 }
 
 static CeldStatus
-make_ink (const CeldSettings *settings, const CeldRun *run, Shade *s)
+make_ink (const CeldSettings *settings, const CeldHost *host, Shade *s)
 {
   CeldDrawing *drawing = &s->layers.drawing;
   CeldStatus   status = CELD_OK;
 
   if (s->layers.contours.data)
-    status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_DEPTH, settings->ink, run, drawing);
-  return status == CELD_OK ? celd_ink (drawing, settings->ink, run, &s->ink) : status;
+    status = celd_contours_bake (drawing, &s->layers.contours, CELD_FOR_DEPTH, settings->ink, host, drawing);
+  return status == CELD_OK ? celd_ink (drawing, settings->ink, host, &s->ink) : status;
 }
 
 /* What maps hold: normals as 0.5 + 0.5 n, occlusion, and the brightness of the art, from which engines make highlights;
@@ -216,7 +216,7 @@ fill_maps (const Shade *s, float *encoded)
 }
 
 static CeldStatus
-make_maps (const CliOptions *options, const CeldRun *run, Shade *s)
+make_maps (const CliOptions *options, const CeldHost *host, Shade *s)
 {
   static const float blank[CLI_MAPS][3] = { { 0.5f, 0.5f, 1 }, { 1, 1, 1 }, { 0, 0, 0 } };
   float             *row = g_try_new (float, 4 * (gsize) s->art.width);
@@ -226,30 +226,30 @@ make_maps (const CliOptions *options, const CeldRun *run, Shade *s)
     fill_maps (s, row);
   g_free (row);
   for (int map = 0; map < CLI_MAPS && status == CELD_OK; map++)
-    status = celd_pad_colours (options->padding, blank[map], run, &s->maps[map]);
+    status = celd_pad_colours (options->padding, blank[map], host, &s->maps[map]);
   return status;
 }
 
 static CeldStatus
-shade_cell (const CliOptions *options, const CeldRun *run, Shade *s)
+shade_cell (const CliOptions *options, const CeldHost *host, Shade *s)
 {
   const CeldSettings *settings = &options->settings;
-  CeldStatus          status = make_ink (settings, run, s);
+  CeldStatus          status = make_ink (settings, host, s);
 
   if (status == CELD_OK)
     status = celd_normals_hinted (&s->ink, &s->levels, s->depth.data ? &s->depth : NULL,
-                                  s->hints.data ? &s->hints : NULL, settings, run, &s->normals);
+                                  s->hints.data ? &s->hints : NULL, settings, host, &s->normals);
   if (status == CELD_OK && s->shading.data)
     status = celd_shade (&s->normals, settings, &s->shading);
   if (status == CELD_OK && s->tone.data)
-    status = celd_light (&s->normals, &s->ink, s->matcap.data ? &s->matcap : NULL, settings, run, &s->tone, &s->gloss);
+    status = celd_light (&s->normals, &s->ink, s->matcap.data ? &s->matcap : NULL, settings, host, &s->tone, &s->gloss);
   if (status == CELD_OK && s->occlusion.data)
-    status = celd_occlusion (&s->levels, settings, run, &s->occlusion);
+    status = celd_occlusion (&s->levels, settings, host, &s->occlusion);
   if (status == CELD_OK && options->directx)
     for (int y = 0; y < s->normals.height; y++)
       for (int x = 0; x < s->normals.width; x++)
         s->normals.data[3 * ((size_t) y * s->normals.stride + (size_t) x) + 1] *= -1;
-  return status == CELD_OK && options->maps ? make_maps (options, run, s) : status;
+  return status == CELD_OK && options->maps ? make_maps (options, host, s) : status;
 }
 
 /* Cells know nothing of each other. */
@@ -258,7 +258,7 @@ shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 {
   CeldRect   cell = { 0, 0, s->levels.width / options->grid_columns, s->levels.height / options->grid_rows };
   bool       one = options->grid_columns * options->grid_rows == 1;
-  CeldRun    quiet = { NULL, run->run.each, run->run.host };
+  CeldHost   quiet = { NULL, run->host.each, run->host.data };
   CeldStatus status = CELD_OK;
 
   cli_run_stage (run, "shade");
@@ -267,7 +267,7 @@ shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
       {
         Shade part = crop (s, &cell);
 
-        status = cli_run_cancelled () ? CELD_CANCELLED : shade_cell (options, one ? &run->run : &quiet, &part);
+        status = cli_run_cancelled () ? CELD_CANCELLED : shade_cell (options, one ? &run->host : &quiet, &part);
       }
   return cli_run_finish (run, status);
 }

@@ -53,7 +53,8 @@ paint (void *host, size_t layer, float *rgba)
 
       babl_process (painter->fish, row, row, box->width);
     }
-  return painter->run->run.progress (painter->run, (double) layer / (double) celd_layers_count (painter->layers));
+  return painter->run->host.progress (painter->run->host.data,
+                                      (double) layer / (double) celd_layers_count (painter->layers));
 }
 
 static bool
@@ -100,13 +101,13 @@ make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run
   CeldStatus status;
 
   cli_run_stage (run, "labels");
-  status = celd_session_labels (session, &run->run, &labels, NULL);
+  status = celd_session_labels (session, &run->host, &labels, NULL);
   cli_run_stage (run, "order");
   if (status == CELD_OK)
-    status = celd_session_order (session, &run->run, order);
+    status = celd_session_order (session, &run->host, order);
   cli_run_stage (run, "layers");
   if (status == CELD_OK)
-    status = celd_session_layers (session, art, store, &run->run, layers);
+    status = celd_session_layers (session, art, store, &run->host, layers);
   return cli_run_finish (run, status);
 }
 

@@ -18,9 +18,9 @@ make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, Cli
     return false;
   cli_run_stage (run, "ink");
   if (layers->contours.data)
-    status = celd_contours_bake (drawing, &layers->contours, purpose, mode, &run->run, drawing);
+    status = celd_contours_bake (drawing, &layers->contours, purpose, mode, &run->host, drawing);
   if (status == CELD_OK)
-    status = celd_ink (drawing, mode, &run->run, ink);
+    status = celd_ink (drawing, mode, &run->host, ink);
   return cli_run_finish (run, status);
 }
 
@@ -106,13 +106,13 @@ load_ordering (const CliOptions *options, Ordering *o)
 static CeldStatus
 make_suggestions (const CeldPlane *ink, const CeldSettings *settings, Ordering *o)
 {
-  const CeldRun *run = &o->run.run;
-  CeldStatus     status = celd_suggest (&o->labels, &o->palette, ink, run, &o->suggestions);
+  const CeldHost *host = &o->run.host;
+  CeldStatus     status = celd_suggest (&o->labels, &o->palette, ink, host, &o->suggestions);
 
   if (status == CELD_OK && o->hint.data)
-    status = celd_suggest_from_depth (&o->labels, &o->palette, ink, &o->hint, run, &o->suggestions);
+    status = celd_suggest_from_depth (&o->labels, &o->palette, ink, &o->hint, host, &o->suggestions);
   if (status == CELD_OK && settings->suggest)
-    status = celd_suggestions_join (&o->labels, &o->palette, &o->relations, &o->suggestions, settings, ink, run,
+    status = celd_suggestions_join (&o->labels, &o->palette, &o->relations, &o->suggestions, settings, ink, host,
                                     &o->relations);
   return status;
 }
@@ -122,17 +122,17 @@ make_order (const CliOptions *options, Ordering *o)
 {
   const CeldSettings *settings = &options->settings;
   const CeldPlane    *ink = o->ink.data ? &o->ink : NULL;
-  const CeldRun      *run = &o->run.run;
+  const CeldHost     *host = &o->run.host;
   CeldStatus          status = celd_background_mark (&o->labels, ink, settings, &o->palette);
 
   if (status == CELD_OK && settings->same_colour == CELD_SAME_COLOUR_SEPARATE)
-    status = celd_separate (run, &o->labels, &o->palette);
+    status = celd_separate (host, &o->labels, &o->palette);
   if (status == CELD_OK && o->layers.arrows.data)
-    status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, run, &o->relations, &o->problems);
+    status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, host, &o->relations, &o->problems);
   if (status == CELD_OK && (options->suggestions || settings->suggest))
     status = make_suggestions (ink, settings, o);
   if (status == CELD_OK)
-    status = celd_order (&o->labels, &o->palette, &o->relations, ink, settings, run, &o->order, &o->problems);
+    status = celd_order (&o->labels, &o->palette, &o->relations, ink, settings, host, &o->order, &o->problems);
   return status;
 }
 
@@ -234,7 +234,7 @@ cli_expand (const CliOptions *options)
     {
       cli_run_stage (&step.run, "levels");
       good = cli_run_finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL,
-                                                            NULL, options->settings.expansion, &step.run.run,
+                                                            NULL, options->settings.expansion, &step.run.host,
                                                             &step.levels)) &&
              cli_write_depth (options->levels, &step.levels, nearest_level (&step.levels));
     }
@@ -279,7 +279,7 @@ cli_smooth (const CliOptions *options)
 
       cli_run_stage (&step.run, "depth");
       good = cli_run_finish (&step.run, celd_smooth (&step.ink, &step.levels, anchors.data ? &anchors : NULL,
-                                                     &options->settings, &step.run.run, &step.levels, &solve)) &&
+                                                     &options->settings, &step.run.host, &step.levels, &solve)) &&
              cli_write_depth (options->depth, &step.levels, nearest);
     }
   if (good && !solve.converged && !options->quiet)
@@ -316,7 +316,7 @@ make_mesh (const CliOptions *options, const CeldRelief *relief, CliRun *run)
   bool           good;
 
   cli_run_stage (run, "mesh");
-  status = celd_relief_mesh (relief, &s, &run->run, &mesh);
+  status = celd_relief_mesh (relief, &s, &run->host, &mesh);
   if (status == CELD_BAD_VALUE) /* the settings are good */
     {
       cli_run_stage (run, NULL);
@@ -359,7 +359,7 @@ cli_relief (const CliOptions *options)
     {
       cli_run_stage (&step.run, "relief");
       good = cli_run_finish (&step.run, celd_relief (&step.ink, &step.levels, depth.data ? &depth : NULL,
-                                                     &options->settings, &step.run.run, &relief));
+                                                     &options->settings, &step.run.host, &relief));
     }
   if (good && options->height)
     good = cli_write_heights (options->height, &(CeldPlane) { relief.width, relief.height, (size_t) relief.width,

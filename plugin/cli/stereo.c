@@ -19,7 +19,7 @@ make_pair (const CliScene *s, CeldColours view[2])
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
       cli_run_stage (s->run, i ? "right" : "left");
-      status = celd_scene_view (s->scene, celd_camera_eye (i ? 1 : -1), s->settings, &s->run->run, &view[i]);
+      status = celd_scene_view (s->scene, celd_camera_eye (i ? 1 : -1), s->settings, &s->run->host, &view[i]);
     }
   if (status == CELD_OK && s->settings->floating_window)
     status = celd_stereo_window (&s->depth, s->settings, &view[0], &view[1]);
@@ -104,11 +104,11 @@ write_quilt (const CliOptions *options, const CliScene *s)
   cli_run_stage (s->run, "views");
   for (int i = 0; good && i < s->frames && status == CELD_OK; i++)
     {
-      CeldRun     quiet = { NULL, s->run->run.each, s->run->run.host };
+      CeldHost    quiet = { NULL, s->run->host.each, s->run->host.data };
       size_t      first = (size_t) ((rows - 1 - i / columns) * h) * quilt.stride + (size_t) (i % columns * w);
       CeldColours tile = { w, h, quilt.stride, quilt.data + 4 * first };
 
-      status = s->run->run.progress (s->run->run.host, (double) i / s->frames)
+      status = s->run->host.progress (s->run->host.data, (double) i / s->frames)
                  ? celd_scene_view (s->scene, camera (s, i), s->settings, &quiet, &tile) : CELD_CANCELLED;
     }
   cli_run_stage (s->run, NULL);

@@ -135,7 +135,7 @@ typedef struct { double set_up, solve; CeldSolve how; } Timed;
 
 /* From nothing: free pixels start at 0. */
 static Timed
-solve (const System *s, double error, const CeldRun *run, double (*clock) (void), float *x)
+solve (const System *s, double error, const CeldHost *host, double (*clock) (void), float *x)
 {
   static float *none;
   CeldLaplace  *laplace = NULL;
@@ -146,10 +146,10 @@ solve (const System *s, double error, const CeldRun *run, double (*clock) (void)
   for (size_t p = 0; p < s->n; p++)
     x[p] = s->fixed[p] ? s->value[p] : 0;
   start = clock ();
-  must (celd_lap_setup (s->width, s->height, s->east, s->south, NULL, s->fixed, run, &laplace));
+  must (celd_lap_setup (s->width, s->height, s->east, s->south, NULL, s->fixed, host, &laplace));
   answer.set_up = clock () - start;
   start = clock ();
-  must (celd_lap_solve (laplace, 1, none, x, error, run, &answer.how));
+  must (celd_lap_solve (laplace, 1, none, x, error, host, &answer.how));
   answer.solve = clock () - start;
   celd_lap_free (laplace);
   return answer;
@@ -196,14 +196,14 @@ measure_threads (const System *s, int runs)
 {
   float  *x = celd_alloc (s->n, sizeof *x);
   double  one[MOST_RUNS], two[MOST_RUNS];
-  CeldRun run = { NULL, each_on_two, NULL };
+  CeldHost host = { NULL, each_on_two, NULL };
 
   pthread_barrier_init (&helper.gate, NULL, 2);
   if (pthread_create (&helper.thread, NULL, help, NULL))
     must (CELD_NO_MEMORY);
   for (int i = 0; i < runs; i++)
     {
-      Timed alone = solve (s, 1e-3, NULL, clock_seconds, x), both = solve (s, 1e-3, &run, clock_seconds, x);
+      Timed alone = solve (s, 1e-3, NULL, clock_seconds, x), both = solve (s, 1e-3, &host, clock_seconds, x);
 
       one[i] = alone.set_up + alone.solve;
       two[i] = both.set_up + both.solve;

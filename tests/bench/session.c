@@ -18,24 +18,24 @@
 #define ID   1                  /* of the stroke or relation that comes and goes */
 
 /* What is asked for, in this order: a preview, and the same in full. */
-typedef CeldStatus Ask (CeldSession *session, const CeldRun *run, CeldPlane *plane);
+typedef CeldStatus Ask (CeldSession *session, const CeldHost *host, CeldPlane *plane);
 
 static CeldStatus
-ask_depth_preview (CeldSession *session, const CeldRun *run, CeldPlane *plane)
+ask_depth_preview (CeldSession *session, const CeldHost *host, CeldPlane *plane)
 {
-  return celd_session_depth_preview (session, run, plane, NULL);
+  return celd_session_depth_preview (session, host, plane, NULL);
 }
 
 static CeldStatus
-ask_depth (CeldSession *session, const CeldRun *run, CeldPlane *plane)
+ask_depth (CeldSession *session, const CeldHost *host, CeldPlane *plane)
 {
-  return celd_session_depth (session, run, plane, NULL);
+  return celd_session_depth (session, host, plane, NULL);
 }
 
 static CeldStatus
-ask_exact (CeldSession *session, const CeldRun *run, CeldPlane *plane)
+ask_exact (CeldSession *session, const CeldHost *host, CeldPlane *plane)
 {
-  return celd_session_exact (session, run, plane, NULL);
+  return celd_session_exact (session, host, plane, NULL);
 }
 
 static double

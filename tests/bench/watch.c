@@ -16,12 +16,12 @@
 
 /* ------------------------------------------------------------------ the exact cuts */
 
-CeldStatus __real_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label);
-CeldStatus __wrap_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label);
+CeldStatus __real_celd_multiway (const CeldMultiway *m, const CeldHost *host, uint32_t *label);
+CeldStatus __wrap_celd_multiway (const CeldMultiway *m, const CeldHost *host, uint32_t *label);
 CeldStatus __real_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south,
-                                const int32_t *terminal, const CeldRun *run, uint8_t *side, int64_t *flow);
+                                const int32_t *terminal, const CeldHost *host, uint8_t *side, int64_t *flow);
 CeldStatus __wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south,
-                                const int32_t *terminal, const CeldRun *run, uint8_t *side, int64_t *flow);
+                                const int32_t *terminal, const CeldHost *host, uint8_t *side, int64_t *flow);
 
 bool    keep_problem, use_boost;
 Problem problem;
@@ -48,7 +48,7 @@ copy (const void *from, size_t count, size_t size)
 }
 
 CeldStatus
-__wrap_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label)
+__wrap_celd_multiway (const CeldMultiway *m, const CeldHost *host, uint32_t *label)
 {
   size_t n = (size_t) m->width * (size_t) m->height;
 
@@ -61,15 +61,15 @@ __wrap_celd_multiway (const CeldMultiway *m, const CeldRun *run, uint32_t *label
         copy (m->order, m->n_labels, sizeof *m->order), m->n_labels
       };
     }
-  return __real_celd_multiway (m, run, label);
+  return __real_celd_multiway (m, host, label);
 }
 
 CeldStatus
 __wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *south, const int32_t *terminal,
-                     const CeldRun *run, uint8_t *side, int64_t *flow)
+                     const CeldHost *host, uint8_t *side, int64_t *flow)
 {
   return use_boost ? boost_maxflow (width, height, east, south, terminal, side, flow)
-                   : __real_celd_maxflow (width, height, east, south, terminal, run, side, flow);
+                   : __real_celd_maxflow (width, height, east, south, terminal, host, side, flow);
 }
 
 /* ------------------------------------------------------------------ steps of the engine */
@@ -99,25 +99,25 @@ parts_reset (void)
   }
 
 STEP (PART_READ, celd_scribbles_read,
-      (const CeldPaint *scribbles, const CeldSettings *settings, const CeldRun *run, CeldLabels *seeds,
+      (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
        CeldPalette *palette),
-      (scribbles, settings, run, seeds, palette))
+      (scribbles, settings, host, seeds, palette))
 STEP (PART_BUILD, celd_basins_new,
-      (const CeldPlane *ink, float threshold, const CeldRun *run, CeldBasins *basins), (ink, threshold, run, basins))
-STEP (PART_STAINS, celd_stains_remove, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
-STEP (PART_BACKGROUND, celd_background_seed, (const CeldRun *run, CeldCanvas *canvas), (run, canvas))
-STEP (PART_GRAPH, celd_graph_solve, (const CeldCanvas *canvas, const CeldRun *run, uint32_t *label),
-      (canvas, run, label))
+      (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins), (ink, threshold, host, basins))
+STEP (PART_STAINS, celd_stains_remove, (const CeldHost *host, CeldCanvas *canvas), (host, canvas))
+STEP (PART_BACKGROUND, celd_background_seed, (const CeldHost *host, CeldCanvas *canvas), (host, canvas))
+STEP (PART_GRAPH, celd_graph_solve, (const CeldCanvas *canvas, const CeldHost *host, uint32_t *label),
+      (canvas, host, label))
 STEP (PART_PARTITION, celd_partition,
-      (const CeldPartition *m, const CeldRun *run, uint32_t *label, int64_t *energy, int64_t *greedy),
-      (m, run, label, energy, greedy))
+      (const CeldPartition *m, const CeldHost *host, uint32_t *label, int64_t *energy, int64_t *greedy),
+      (m, host, label, energy, greedy))
 STEP (PART_WINDOWS, celd_windows_solve,
-      (const CeldCanvas *canvas, const uint32_t *label, const CeldRun *run, CeldPatches *patches),
-      (canvas, label, run, patches))
+      (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldPatches *patches),
+      (canvas, label, host, patches))
 STEP (PART_CLOSURES, celd_closures_find,
       (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
-       const CeldRun *run, CeldClosures *closures, CeldPatches *patches),
-      (canvas, label, labels, windows, run, closures, patches))
+       const CeldHost *host, CeldClosures *closures, CeldPatches *patches),
+      (canvas, label, labels, windows, host, closures, patches))
 STEP (PART_PAINTING, celd_painting_end,
       (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, const CeldLabels *labels),
       (painting, basins, old, labels))
@@ -126,5 +126,5 @@ STEP (PART_PAINTING, celd_painting_measure,
       (painting, basins, labels, palette))
 STEP (PART_REPORT, celd_segment_report,
       (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting, const CeldLabels *labels,
-       const CeldRun *run, CeldProblems *problems),
-      (canvas, seeds, painting, labels, run, problems))
+       const CeldHost *host, CeldProblems *problems),
+      (canvas, seeds, painting, labels, host, problems))

@@ -67,10 +67,10 @@ scene_free (Scene *s)
 }
 
 static inline CeldStatus
-scene_solve (Scene *s, const CeldRun *run)
+scene_solve (Scene *s, const CeldHost *host)
 {
   s->problems.n = 0;
-  return celd_depth_exact (&s->ink, &s->seeds, &s->palette, &s->relations, &s->settings, run, &s->depth, &s->exact,
+  return celd_depth_exact (&s->ink, &s->seeds, &s->palette, &s->relations, &s->settings, host, &s->depth, &s->exact,
                            &s->problems);
 }
 

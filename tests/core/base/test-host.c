@@ -26,25 +26,25 @@ mark (void *data, int i)
 static void
 nobody_listens (void)
 {
-  CeldRun silent = { 0 };
+  CeldHost silent = { 0 };
 
-  CHECK (celd_step (NULL, 0.5) == CELD_OK);
-  CHECK (celd_step (&silent, 0.5) == CELD_OK);
+  CHECK (celd_progress (NULL, 0.5) == CELD_OK);
+  CHECK (celd_progress (&silent, 0.5) == CELD_OK);
 }
 
 static void
 parts_of_parts (void)
 {
   Host     host = { 0 };
-  CeldRun  whole = { listen, NULL, &host };
-  CeldPart outer, inner;
-  CeldRun  half = celd_run_part (&outer, &whole, 0.5, 1), quarter = celd_run_part (&inner, &half, 0, 0.5);
+  CeldHost whole = { listen, NULL, &host };
+  CeldHostPart outer, inner;
+  CeldHost half = celd_host_part (&outer, &whole, 0.5, 1), quarter = celd_host_part (&inner, &half, 0, 0.5);
 
-  CHECK (celd_step (&quarter, 0) == CELD_OK);
+  CHECK (celd_progress (&quarter, 0) == CELD_OK);
   NEAR (host.last, 0.5, 1e-12);
-  CHECK (celd_step (&quarter, 1) == CELD_OK);
+  CHECK (celd_progress (&quarter, 1) == CELD_OK);
   NEAR (host.last, 0.75, 1e-12);
-  CHECK (celd_step (&half, 1) == CELD_OK);
+  CHECK (celd_progress (&half, 1) == CELD_OK);
   NEAR (host.last, 1, 1e-12);
   CHECK (host.calls == 3);
 }
@@ -53,25 +53,25 @@ static void
 cancel_comes_through (void)
 {
   Host     host = { .stop = true };
-  CeldRun  whole = { listen, NULL, &host };
-  CeldPart part;
-  CeldRun  inner = celd_run_part (&part, &whole, 0, 0.5);
+  CeldHost whole = { listen, NULL, &host };
+  CeldHostPart part;
+  CeldHost inner = celd_host_part (&part, &whole, 0, 0.5);
 
-  CHECK (celd_step (&inner, 0.1) == CELD_CANCELLED);
+  CHECK (celd_progress (&inner, 0.1) == CELD_CANCELLED);
 }
 
 static void
 each_once (void)
 {
-  CeldRun  lent = { .each = check_backwards };
-  CeldPart part;
-  CeldRun  inner = celd_run_part (&part, &lent, 0, 1);
+  CeldHost lent = { .each = check_backwards };
+  CeldHostPart part;
+  CeldHost inner = celd_host_part (&part, &lent, 0, 1);
   int      count[9] = { 0 };
 
-  celd_each (NULL, 9, mark, count);
-  celd_each (&lent, 9, mark, count);
-  celd_each (&inner, 9, mark, count);
-  celd_each (&inner, 0, mark, count);
+  celd_parallel_for (NULL, 9, mark, count);
+  celd_parallel_for (&lent, 9, mark, count);
+  celd_parallel_for (&inner, 9, mark, count);
+  celd_parallel_for (&inner, 0, mark, count);
   for (int i = 0; i < 9; i++)
     CHECK (count[i] == 3);
 }

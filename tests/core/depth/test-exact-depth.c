@@ -306,12 +306,12 @@ every_report_cancels (void)
 
   for (int answer = 0; answer < 100; answer++)
     {
-      CeldRun    run = { check_count_down, NULL, &left };
+      CeldHost   host = { check_count_down, NULL, &left };
       CeldStatus status;
 
       left = answer;
       s.depth.data[0] = -7;
-      status = scene_solve (&s, &run);
+      status = scene_solve (&s, &host);
       if (status == CELD_OK)
         break;
       CHECK (status == CELD_CANCELLED && s.problems.n == 0 && !s.exact.node && s.depth.data[0] == -7);

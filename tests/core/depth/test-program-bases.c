@@ -350,7 +350,7 @@ threads_change_nothing (void)
 {
   uint32_t seed = 21;
   Picture  p, q;
-  CeldRun  backwards = { NULL, check_backwards, NULL };
+  CeldHost backwards = { NULL, check_backwards, NULL };
   size_t   point[2] = { 0 };
 
   do
@@ -386,11 +386,11 @@ a_cancel_leaves_no_nodes (void)
   while (!has_all (&p, 10));
   for (int answer = 0; answer < 100; answer++)
     {
-      CeldRun    run = { check_count_down, NULL, &left };
+      CeldHost   host = { check_count_down, NULL, &left };
       CeldStatus status;
 
       left   = answer;
-      status = celd_bases_make (&p.bases, p.node, 10, NULL, 0, 1e-6, &run, &solve);
+      status = celd_bases_make (&p.bases, p.node, 10, NULL, 0, 1e-6, &host, &solve);
       if (status == CELD_OK)
         break;
       CHECK (status == CELD_CANCELLED && p.bases.n == 0 && !p.bases.node && !p.bases.n_groups);

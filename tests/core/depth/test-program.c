@@ -129,13 +129,13 @@ a_cancelled_edit_can_be_made_again (void)
   CeldProgram *p = celd_program_new ();
   CeldExact    exact = { 0 };
   int          left = 0, reports = 0;
-  CeldRun      run = { check_count_down, NULL, &left };
+  CeldHost     host = { check_count_down, NULL, &left };
 
   CHECK (celd_program_set_ink (p, &s.ink, &s.settings, NULL) == CELD_OK);
   CHECK (celd_program_set_seeds (p, &s.seeds, &s.palette, s.settings.same_colour, NULL) == CELD_OK);
   CHECK (celd_program_solve (p, &s.relations, &s.settings, NULL, &depth, &exact, NULL) == CELD_OK);
   scene_relate (&s, "#010000 > #040000; 0,5 > 3,3; 22,0 > 22,5; 8,0 > #020000");
-  while (celd_program_solve (p, &s.relations, &s.settings, &run, &depth, &exact, NULL) == CELD_CANCELLED)
+  while (celd_program_solve (p, &s.relations, &s.settings, &host, &depth, &exact, NULL) == CELD_CANCELLED)
     left = ++reports;
   CHECK (reports > 1);
   check_fresh (&s, &exact, &depth);

@@ -136,7 +136,7 @@ failure_leaves_results_alone (void)
 {
   uint32_t       data[2] = { 1, 2 }, result[2] = { 7, 7 };
   CeldLabels     l = { 2, 1, 2, data }, c = { 2, 1, 2, result }, tall = { 1, 2, 1, result };
-  CeldRun        stop = { check_refuse, NULL, NULL };
+  CeldHost       stop = { check_refuse, NULL, NULL };
   CeldComponent *list = NULL;
   size_t         n = 5;
 

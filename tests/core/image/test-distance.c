@@ -150,7 +150,7 @@ jobs_in_any_order_and_cancel (void)
   static float   value[600 * 70];
   static int32_t squared[600 * 70], other[600 * 70];
   CeldPlane      ink = { 600, 70, 600, value };
-  CeldRun        backwards = { NULL, check_backwards, NULL }, stop = { check_refuse, NULL, NULL };
+  CeldHost       backwards = { NULL, check_backwards, NULL }, stop = { check_refuse, NULL, NULL };
   uint32_t       state = 5;
 
   for (int p = 0; p < 600 * 70; p++)

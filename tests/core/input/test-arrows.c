@@ -160,7 +160,7 @@ bad_input (void)
   CeldPaint empty = blank (40, 3), full = blank (60, 40), paint = blank (100, 100);
   Arrow     a = straight (0, 4, FILLED, 16);
   double    last = 0;
-  CeldRun   run = { stop, NULL, &last };
+  CeldHost  host = { stop, NULL, &last };
   Answer    answer;
 
   for (int style = CELD_ARROW_HEAD; style <= CELD_ARROW_TAPER; style++)
@@ -179,7 +179,7 @@ bad_input (void)
     }
   CHECK (celd_arrows_read (&none, CELD_ARROW_HEAD, NULL, &answer.relations, NULL) == CELD_BAD_SIZE);
   draw_arrow (&paint, &a, GREEN);
-  CHECK (celd_arrows_read (&paint, CELD_ARROW_HEAD, &run, &answer.relations, &answer.problems) == CELD_CANCELLED);
+  CHECK (celd_arrows_read (&paint, CELD_ARROW_HEAD, &host, &answer.relations, &answer.problems) == CELD_CANCELLED);
   CHECK (answer.relations.n == 0 && answer.problems.n == 0 && last > 0.7);
   forget (&answer);
   free (empty.data);

@@ -134,12 +134,12 @@ static void
 nothing_is_joined_when_cancelled_or_without_strokes (void)
 {
   Sheet  *s = sheet_new ();
-  CeldRun run = { .progress = check_refuse };
+  CeldHost host = { .progress = check_refuse };
 
   draw (s, 0, 20, 0, 20, SIDE - 1);
   CHECK (!join (s, 0, SIDE - 1));
   draw (s, 1, 10, 18, 17, 19);
-  CHECK (celd_contour_join (&s->bake, &run) == CELD_CANCELLED);
+  CHECK (celd_contour_join (&s->bake, &host) == CELD_CANCELLED);
   CHECK (!memchr (s->wall, 1, sizeof s->wall));
   free (s);
 }

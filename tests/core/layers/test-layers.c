@@ -260,7 +260,7 @@ static void
 threads_make_no_difference (void)
 {
   uint32_t state = 11;
-  CeldRun  backwards = { .each = check_backwards };
+  CeldHost backwards = { .each = check_backwards };
 
   for (int round = 0; round < 50; round++)
     {
@@ -429,7 +429,7 @@ bad_input_is_refused (void)
   LayerScene  s = layer_scene (6, 5);
   CeldLayers *layers = NULL;
   CeldColours small = { 5, 5, 6, s.art.data };
-  CeldRun     refuse = { .progress = check_refuse };
+  CeldHost    refuse = { .progress = check_refuse };
 
   CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &small, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_BAD_SIZE);
   CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 0, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_NOTHING_TO_GO_BY);

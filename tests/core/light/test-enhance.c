@@ -225,7 +225,7 @@ static void
 the_order_of_jobs_does_not_matter (void)
 {
   static float first[W * H];
-  CeldRun      run = { NULL, check_backwards, NULL };
+  CeldHost     host = { NULL, check_backwards, NULL };
 
   for (int way = CELD_ENHANCE_STACK; way <= (int) CELD_ENHANCE_CONTRAST; way++)
     {
@@ -234,7 +234,7 @@ the_order_of_jobs_does_not_matter (void)
       draw_discs (7, 6);
       CHECK (celd_enhance (&level_plane, &s, NULL, &change_plane) == CELD_OK);
       memcpy (first, change, sizeof first);
-      CHECK (celd_enhance (&level_plane, &s, &run, &change_plane) == CELD_OK);
+      CHECK (celd_enhance (&level_plane, &s, &host, &change_plane) == CELD_OK);
       CHECK (!memcmp (first, change, sizeof first));
     }
 }
@@ -244,13 +244,13 @@ hosts_can_cancel_and_bad_input_is_refused (void)
 {
   CeldSettings s = blur_of (3, CELD_ENHANCE_STACK);
   CeldPlane    small = { W - 1, H, W, change };
-  CeldRun      run = { check_refuse, NULL, NULL };
+  CeldHost     host = { check_refuse, NULL, NULL };
 
   draw_discs (7, 6);
   for (int way = CELD_ENHANCE_STACK; way <= (int) CELD_ENHANCE_CONTRAST; way++)
     {
       s.enhance = (CeldEnhance) way;
-      CHECK (celd_enhance (&level_plane, &s, &run, &change_plane) == CELD_CANCELLED);
+      CHECK (celd_enhance (&level_plane, &s, &host, &change_plane) == CELD_CANCELLED);
     }
   CHECK (celd_enhance (&level_plane, &s, NULL, &small) == CELD_BAD_SIZE);
   s.shadow_size = 0;

@@ -285,7 +285,7 @@ cancelled (void)
   Case         c;
   CeldPalette  palette;
   int          calls = 1;
-  CeldRun      run   = { refuse, NULL, &calls };
+  CeldHost     host   = { refuse, NULL, &calls };
   CeldOrder    order = { 0 };
   CeldProblems problems = { 0 };
 
@@ -294,11 +294,11 @@ cancelled (void)
   while (c.n < 15);
   palette = (CeldPalette) { c.region, (size_t) c.n_labels };
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &run, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) == CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   calls = 2;
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &run, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) == CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   celd_problems_clear (&problems);
 }

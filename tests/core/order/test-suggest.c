@@ -294,12 +294,12 @@ static void
 stops_when_asked (void)
 {
   const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
-  const CeldRun      run = { .progress = check_refuse };
+  const CeldHost     host = { .progress = check_refuse };
   CeldRelations      suggested = { 0 };
   Sheets             s;
 
   sheets_open (40, 300, sheet, 2, 2, &s);
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, &run, &suggested) == CELD_CANCELLED && !suggested.n);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, &host, &suggested) == CELD_CANCELLED && !suggested.n);
   celd_relations_clear (&suggested);
   sheets_close (&s);
 }

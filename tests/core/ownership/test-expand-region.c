@@ -174,9 +174,9 @@ a_cancelled_region_takes_nothing (void)
   static const char *const sheet[] = { "222####111", "222####111", NULL };
   CeldLabels levels = art_labels (sheet);
   CeldSheet  s = sheet_open (&levels);
-  CeldRun    run = { .progress = check_refuse };
+  CeldHost   host = { .progress = check_refuse };
 
-  CHECK (celd_expand_region (&s, 2, &run) == CELD_CANCELLED);
+  CHECK (celd_expand_region (&s, 2, &host) == CELD_CANCELLED);
   NEAR (differing (&levels, sheet), 0, 0);
   free (levels.data);
   free (s.depth_in_ink);

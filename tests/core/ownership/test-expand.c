@@ -320,10 +320,10 @@ progress_rises_and_cancel_changes_nothing (void)
     "AAAAAAAAA", "AA#####AA", "A##BBB##A", "A#BBBBB#A", "A##BBB##A", "AA#####AA", "AAAAAAAAA", NULL };
   Picture                  p = picture_of (rows);
   double                   state[2] = { 1e9, 0 };
-  CeldRun                  run = { count_down, NULL, state };
+  CeldHost                 host = { count_down, NULL, state };
   int                      calls;
 
-  CHECK (celd_expand (&p.ink, &p.ranks, &run, &p.expanded) == CELD_OK);
+  CHECK (celd_expand (&p.ink, &p.ranks, &host, &p.expanded) == CELD_OK);
   CHECK (state[1] > 0.9);
   calls = (int) (1e9 - state[0]);
   for (int k = 0; k < calls; k++)
@@ -331,7 +331,7 @@ progress_rises_and_cancel_changes_nothing (void)
       state[0] = k;
       state[1] = 0;
       memset (p.expanded.data, 77, p.expanded.stride * (size_t) p.expanded.height * sizeof (uint32_t));
-      CHECK (celd_expand (&p.ink, &p.ranks, &run, &p.expanded) == CELD_CANCELLED);
+      CHECK (celd_expand (&p.ink, &p.ranks, &host, &p.expanded) == CELD_CANCELLED);
       CHECK (p.expanded.data[0] == 0x4d4d4d4d && p.expanded.data[31] == 0x4d4d4d4d);
     }
   picture_free (&p);

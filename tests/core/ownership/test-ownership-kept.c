@@ -338,7 +338,7 @@ cancelled_edits_do_no_harm (void)
 {
   uint32_t        seed = 5;
   Page            page;
-  CeldRun         run = { .progress = refuse };
+  CeldHost        host = { .progress = refuse };
   CeldOwnersKept  kept = { 0 };
   CeldOwnership   own, old;
   CeldOwnersInput in;
@@ -350,9 +350,9 @@ cancelled_edits_do_no_harm (void)
   CHECK (celd_owners_make (&in, NULL, &kept, &own) == CELD_OK);
   copy_record (&own, &old);
   page.level[1] = 9;
-  CHECK (celd_owners_renew (&in, (CeldRect) { 0 }, &run, &kept, &own, &changed) == CELD_CANCELLED);
+  CHECK (celd_owners_renew (&in, (CeldRect) { 0 }, &host, &kept, &own, &changed) == CELD_CANCELLED);
   CHECK (!kept.level && !memcmp (own.owner.data, old.owner.data, WIDTH * HEIGHT * sizeof (uint32_t)));
-  CHECK (celd_owners_make (&in, &run, &kept, &own) == CELD_CANCELLED && !kept.level);
+  CHECK (celd_owners_make (&in, &host, &kept, &own) == CELD_CANCELLED && !kept.level);
   CHECK (!memcmp (own.owner.data, old.owner.data, WIDTH * HEIGHT * sizeof (uint32_t)));
   celd_owners_clear (&kept);
   celd_ownership_clear (&own);

@@ -335,11 +335,11 @@ hosts_can_cancel_and_bad_input_is_refused (void)
 {
   CeldSettings   s = settings_of (CELD_MESH_SURFACE, 0.5);
   CeldReliefMesh m = { 0 };
-  CeldRun        run = { check_refuse, NULL, NULL };
+  CeldHost       host = { check_refuse, NULL, NULL };
   CeldRelief     none = { 0 };
 
   draw_hills (5);
-  CHECK (celd_relief_mesh (&relief, &s, &run, &m) == CELD_CANCELLED);
+  CHECK (celd_relief_mesh (&relief, &s, &host, &m) == CELD_CANCELLED);
   CHECK (celd_relief_mesh (&none, &s, NULL, &m) == CELD_BAD_SIZE);
   s.mesh_size = 0;
   CHECK (celd_relief_mesh (&relief, &s, NULL, &m) == CELD_BAD_VALUE);

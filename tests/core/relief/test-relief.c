@@ -345,10 +345,10 @@ hosts_can_cancel_and_bad_input_is_refused (void)
 {
   Picture      p = half_parted ();
   CeldPlane    small = { 159, 120, 160, p.levels.data };
-  CeldRun      run = { check_refuse, NULL, NULL };
+  CeldHost     host = { check_refuse, NULL, NULL };
   CeldSettings s = celd_settings ();
 
-  CHECK (celd_relief (&p.ink, &p.levels, NULL, &s, &run, &p.relief) == CELD_CANCELLED);
+  CHECK (celd_relief (&p.ink, &p.levels, NULL, &s, &host, &p.relief) == CELD_CANCELLED);
   CHECK (celd_relief (&p.ink, &small, NULL, &s, NULL, &p.relief) == CELD_BAD_SIZE);
   CHECK (celd_relief (&p.ink, &p.levels, &small, &s, NULL, &p.relief) == CELD_BAD_SIZE);
   s.relief_depth = -1;

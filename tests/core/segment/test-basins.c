@@ -163,11 +163,11 @@ static void
 threads_and_cancel (void)
 {
   CeldPlane  ink = { 300, 200, 300, malloc (300 * 200 * sizeof (float)) };
-  CeldRun    backwards = { NULL, check_backwards, NULL };
+  CeldHost   backwards = { NULL, check_backwards, NULL };
   CeldBasins serial = { 0 }, other = { 0 };
   uint32_t   state = 5;
   int        left = 0, round = 0;
-  CeldRun    cancel = { check_count_down, NULL, &left };
+  CeldHost   cancel = { check_count_down, NULL, &left };
   CeldRect   changed = { 140, 90, 20, 20 };
 
   draw_cells (&state, 25, 2, &ink);

@@ -132,12 +132,12 @@ static void
 cancelled_nothing_is_made (void)
 {
   static const CeldPatches none = { 0 };
-  CeldRun                  run = { .progress = check_refuse };
+  CeldHost                 host = { .progress = check_refuse };
   Scene                    s;
 
   draw_detour (&s);
   scene_basins (&s);
-  CHECK (celd_closures_find (&s.canvas, s.label, &s.labels, &none, &run, &s.closures, &s.patches) == CELD_CANCELLED);
+  CHECK (celd_closures_find (&s.canvas, s.label, &s.labels, &none, &host, &s.closures, &s.patches) == CELD_CANCELLED);
   CHECK (!s.closures.item && !s.closures.n && !s.patches.item && !s.patches.n);
   scene_close (&s);
 }

@@ -360,12 +360,12 @@ cancel_at_any_time_leaves_results (void)
   for (int n = 0; ; n++)
     {
       int          left = n, changed = 0;
-      CeldRun      run = { check_count_down, NULL, &left };
+      CeldHost     host = { check_count_down, NULL, &left };
       CeldPlane    ink = art_plane (two_rooms);
       CeldLabels   seeds = art_labels (two_scribbles), labels = art_labels (two_rooms);
       CeldPalette  palette = letters (3);
       CeldProblems problems = { 0 };
-      CeldStatus   status = celd_segment (&ink, &seeds, NULL, &settings, &run, &labels, &palette, &problems);
+      CeldStatus   status = celd_segment (&ink, &seeds, NULL, &settings, &host, &labels, &palette, &problems);
 
       for (int i = 0; i < 180; i++)
         changed += labels.data[i] != 0;

@@ -315,12 +315,12 @@ cancel_everywhere (CeldSettings settings, uint32_t seed)
   for (int steps = 0; status == CELD_CANCELLED && steps < 1000; steps++)
     {
       int     left = steps;
-      CeldRun run = { check_count_down, NULL, &left };
+      CeldHost host = { check_count_down, NULL, &left };
 
       paint_stroke (&page, 1 + check_random (&page.state, LABELS));
       celd_palette_clear (&page.palette);
       page.palette = colours ();
-      status = celd_segmenter_solve (page.segmenter, &page.seeds, NULL, &settings, &run, &page.palette, NULL,
+      status = celd_segmenter_solve (page.segmenter, &page.seeds, NULL, &settings, &host, &page.palette, NULL,
                                      &page.labels, &page.changed);
       CHECK (status == CELD_OK || status == CELD_CANCELLED);
       paint_stroke (&page, 0);

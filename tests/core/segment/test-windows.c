@@ -558,11 +558,11 @@ cancel_leaves_the_patches (void)
     "....................", "....................", "..............BBB...", "..............BBB...",
     "....................", NULL
   };
-  CeldRun run = { check_refuse, NULL, NULL };
+  CeldHost host = { check_refuse, NULL, NULL };
   Scene   s;
 
   art_scene (&s, room, one_basin, "A", painted, 2, 1);
-  CHECK (celd_windows_solve (&s.canvas, s.label, &run, &s.patches) == CELD_CANCELLED);
+  CHECK (celd_windows_solve (&s.canvas, s.label, &host, &s.patches) == CELD_CANCELLED);
   CHECK (s.patches.n == 0);
   scene_close (&s);
 }

@@ -69,11 +69,11 @@ static void
 cancel_some (CeldSession *edited, uint32_t *r, float seen[W * H])
 {
   int       left = (int) pick (r, 60);
-  CeldRun   run = { check_count_down, NULL, &left };
+  CeldHost  host = { check_count_down, NULL, &left };
   CeldPlane depth;
   CeldRect  changed;
 
-  if (pick (r, 3) == 0 && celd_session_depth (edited, &run, &depth, &changed) == CELD_OK)
+  if (pick (r, 3) == 0 && celd_session_depth (edited, &host, &depth, &changed) == CELD_OK)
     see (&depth, changed, seen);
 }
 
@@ -318,7 +318,7 @@ what_changes_nothing_expands_nothing (void)
   static Page      page;
   uint32_t         r = 6;
   CeldSession     *s = draw_discs (&page, &r, 0);
-  CeldRun          refuse = { .progress = check_refuse };
+  CeldHost         refuse = { .progress = check_refuse };
   uint8_t          on[16];
   CeldMask         mask = { 4, 4, 4, on };
   CeldSettings     settings = celd_settings ();

@@ -240,10 +240,10 @@ cancelled_edits_do_no_harm (void)
       for (int step = 0; step < 30 && !check_bad; step++)
         {
           int        left = (int) pick (&r, 12);
-          CeldRun    run = { check_count_down, NULL, &left };
+          CeldHost   host = { check_count_down, NULL, &left };
           CeldLabels labels;
           CeldRect   changed = { -1, -1, -1, -1 };
-          CeldStatus status = celd_session_labels (edited, &run, &labels, &changed);
+          CeldStatus status = celd_session_labels (edited, &host, &labels, &changed);
 
           CHECK (status == CELD_OK || status == CELD_CANCELLED || status == CELD_NOTHING_TO_GO_BY);
           if (status == CELD_OK)

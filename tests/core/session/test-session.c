@@ -186,7 +186,7 @@ setting_the_same_makes_nothing_again (void)
   CeldSession   *s = scene ();
   CeldPlane      shading;
   int            left = 0;
-  CeldRun        none = { .progress = check_count_down, .host = &left };
+  CeldHost       none = { .progress = check_count_down, .data = &left };
 
   CHECK (celd_session_set_contours (s, &layer) == CELD_OK);
   CHECK (celd_session_shading (s, NULL, &shading, NULL) == CELD_OK);
@@ -241,8 +241,8 @@ cancel_leaves_it_usable (void)
     {
       CeldSession *s = scene ();
       int          left = k;
-      CeldRun      run = { check_count_down, NULL, &left };
-      CeldStatus   status = celd_session_depth (s, &run, &depth, NULL);
+      CeldHost     host = { check_count_down, NULL, &left };
+      CeldStatus   status = celd_session_depth (s, &host, &depth, NULL);
 
       CHECK (status == CELD_OK || status == CELD_CANCELLED);
       CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);

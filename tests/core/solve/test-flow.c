@@ -17,9 +17,9 @@ typedef struct
 } Problem;
 
 static CeldStatus
-solve (const Problem *p, const CeldRun *run, uint8_t *side, int64_t *flow)
+solve (const Problem *p, const CeldHost *host, uint8_t *side, int64_t *flow)
 {
-  return celd_flow (p->n, p->link, p->n_links, p->terminal, run, side, flow);
+  return celd_flow (p->n, p->link, p->n_links, p->terminal, host, side, flow);
 }
 
 /* Each pair of nodes is linked with a chance of share in 16. */
@@ -223,11 +223,11 @@ static void
 cancel_leaves_results (void)
 {
   static Problem p = { 2, 1, { { 0, 1, 5 } }, { 1, -1 } };
-  const CeldRun  run = { check_refuse, NULL, NULL };
+  const CeldHost host = { check_refuse, NULL, NULL };
   uint8_t        side[2] = { 9, 9 };
   int64_t        flow = 77;
 
-  CHECK (solve (&p, &run, side, &flow) == CELD_CANCELLED);
+  CHECK (solve (&p, &host, side, &flow) == CELD_CANCELLED);
   CHECK (side[0] == 9 && side[1] == 9 && flow == 77);
 }
 

@@ -25,12 +25,12 @@ threads_change_nothing (void)
   System       s = random_system (150, 170, &seed);
   float       *x = calloc (pixels (&s), sizeof *x);
   Patience     patience = { 1000, 0, false };
-  CeldRun      run = { impatient, check_backwards, &patience }, setting_up = { NULL, check_backwards, NULL };
+  CeldHost     host = { impatient, check_backwards, &patience }, setting_up = { NULL, check_backwards, NULL };
   CeldLaplace *l = NULL;
 
   solve (&s, 1e-4);
   CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &setting_up, &l) == CELD_OK);
-  CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &run, NULL) == CELD_OK);
+  CHECK (celd_lap_solve (l, 1, s.b, x, 1e-4, &host, NULL) == CELD_OK);
   CHECK (memcmp (x, s.x, pixels (&s) * sizeof *x) == 0);
   CHECK (!patience.fell);
   celd_lap_free (l);
@@ -47,7 +47,7 @@ threads_change_nothing_round_fixed_pixels (void)
   size_t   n = pixels (&s);
   uint8_t *fixed = calloc (n, 1);
   float   *one = calloc (n, sizeof *one), *two = calloc (n, sizeof *two);
-  CeldRun  run = { NULL, check_backwards, NULL };
+  CeldHost host = { NULL, check_backwards, NULL };
 
   for (size_t i = 0; i < n; i++)
     {
@@ -61,8 +61,8 @@ threads_change_nothing_round_fixed_pixels (void)
     {
       CeldLaplace *l = NULL;
 
-      CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, k ? &run : NULL, &l) == CELD_OK);
-      CHECK (celd_lap_solve (l, 1, NULL, k ? two : one, 1e-5, k ? &run : NULL, NULL) == CELD_OK);
+      CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, NULL, fixed, k ? &host : NULL, &l) == CELD_OK);
+      CHECK (celd_lap_solve (l, 1, NULL, k ? two : one, 1e-5, k ? &host : NULL, NULL) == CELD_OK);
       celd_lap_free (l);
     }
   CHECK (memcmp (one, two, n * sizeof *one) == 0);
@@ -79,14 +79,14 @@ threads_change_nothing_in_lanes (void)
   System       s = random_system (210, 190, &seed);
   size_t       n = pixels (&s) * CELD_LANES;
   float       *b = malloc (n * sizeof *b), *x = calloc (n, sizeof *x), *other = calloc (n, sizeof *other);
-  CeldRun      run = { NULL, check_backwards, NULL };
+  CeldHost     host = { NULL, check_backwards, NULL };
   CeldLaplace *l = NULL;
 
   for (size_t i = 0; i < n; i++)
     b[i] = s.b[i / CELD_LANES] * (float) (i % CELD_LANES);
   CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, NULL, &l) == CELD_OK);
   CHECK (celd_lap_solve_lanes (l, b, x, 1e-4, 0, NULL, NULL) == CELD_OK);
-  CHECK (celd_lap_solve_lanes (l, b, other, 1e-4, 0, &run, NULL) == CELD_OK);
+  CHECK (celd_lap_solve_lanes (l, b, other, 1e-4, 0, &host, NULL) == CELD_OK);
   CHECK (memcmp (x, other, n * sizeof *x) == 0);
   celd_lap_free (l);
   free (b);
@@ -101,16 +101,16 @@ a_host_can_cancel (void)
   uint32_t     seed = 23;
   System       s = random_system (150, 170, &seed);
   Patience     patience = { 2, 0, false };
-  CeldRun      run = { impatient, NULL, &patience };
+  CeldHost     host = { impatient, NULL, &patience };
   CeldLaplace *l = NULL;
 
   CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, NULL, &l) == CELD_OK);
-  CHECK (celd_lap_solve (l, 1, s.b, s.x, 1e-9, &run, NULL) == CELD_CANCELLED);
+  CHECK (celd_lap_solve (l, 1, s.b, s.x, 1e-9, &host, NULL) == CELD_CANCELLED);
   CHECK (isfinite (s.x[0]));
   celd_lap_free (l);
   patience = (Patience) { 1, 0, false };
   l = NULL;
-  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &run, &l) == CELD_CANCELLED && !l);
+  CHECK (celd_lap_setup (s.w, s.h, s.east, s.south, s.diagonal, NULL, &host, &l) == CELD_CANCELLED && !l);
   system_free (&s);
 }
 

@@ -205,11 +205,11 @@ static void
 cancel_and_bad_sizes_leave_results (void)
 {
   const int32_t capacity[4] = { 5, 5, 5, 5 }, terminal[4] = { 1, 0, 0, -1 };
-  const CeldRun run = { check_refuse, NULL, NULL };
+  const CeldHost host = { check_refuse, NULL, NULL };
   uint8_t       side[4] = { 9, 9, 9, 9 };
   int64_t       flow = 77;
 
-  CHECK (celd_maxflow (2, 2, capacity, capacity, terminal, &run, side, &flow) == CELD_CANCELLED);
+  CHECK (celd_maxflow (2, 2, capacity, capacity, terminal, &host, side, &flow) == CELD_CANCELLED);
   CHECK (celd_maxflow (0, 2, capacity, capacity, terminal, NULL, side, &flow) == CELD_BAD_SIZE);
   CHECK (celd_maxflow (2, CELD_MAX_SIDE + 1, capacity, capacity, terminal, NULL, side, &flow) == CELD_BAD_SIZE);
   CHECK (side[0] == 9 && side[3] == 9 && flow == 77);

@@ -16,11 +16,11 @@ typedef struct
 } Problem;
 
 static CeldStatus
-solve (const Problem *p, const CeldRun *run, uint32_t *label)
+solve (const Problem *p, const CeldHost *host, uint32_t *label)
 {
   CeldMultiway m = { p->width, p->height, p->east, p->south, p->seed, p->vote, p->order, p->n_labels };
 
-  return celd_multiway (&m, run, label);
+  return celd_multiway (&m, host, label);
 }
 
 static Problem
@@ -178,9 +178,9 @@ cancel_stops (void)
   uint32_t state = 3, label[MOST] = { 0 };
   Problem  p = random_problem (&state, 20, 20, 5, 100);
   int      left = 0;
-  CeldRun  run = { check_count_down, NULL, &left };
+  CeldHost host = { check_count_down, NULL, &left };
 
-  CHECK (solve (&p, &run, label) == CELD_CANCELLED);
+  CHECK (solve (&p, &host, label) == CELD_CANCELLED);
 }
 
 int

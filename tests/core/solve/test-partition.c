@@ -503,11 +503,11 @@ cancel_leaves_results (void)
 {
   static Problem p = { .n = 2, .n_labels = 1, .order = { 1 } };
   CeldPartition  m = view (&p);
-  const CeldRun  run = { check_refuse, NULL, NULL };
+  const CeldHost host = { check_refuse, NULL, NULL };
   uint32_t       label[2] = { 7, 7 };
   int64_t        energy = 5, greedy = 6;
 
-  CHECK (celd_partition (&m, &run, label, &energy, &greedy) == CELD_CANCELLED);
+  CHECK (celd_partition (&m, &host, label, &energy, &greedy) == CELD_CANCELLED);
   CHECK (label[0] == 7 && label[1] == 7 && energy == 5 && greedy == 6);
 }
 

@@ -49,7 +49,7 @@ new_colours (int width, int height)
 
 /* A view with so many pixels between depth 1 and 0. */
 static CeldColours
-look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, double convergence, const CeldRun *run)
+look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, double convergence, const CeldHost *host)
 {
   CeldColours  view = new_colours (s->width, s->height);
   CeldSettings settings = celd_settings ();
@@ -58,8 +58,8 @@ look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, do
 
   settings.disparity   = (float) (pixels / s->width);
   settings.convergence = (float) convergence;
-  CHECK (celd_scene_of_layers (layers, &s->own, depth, run, &scene) == CELD_OK);
-  CHECK (celd_scene_view (scene, celd_camera_eye (eye), &settings, run, &view) == CELD_OK);
+  CHECK (celd_scene_of_layers (layers, &s->own, depth, host, &scene) == CELD_OK);
+  CHECK (celd_scene_view (scene, celd_camera_eye (eye), &settings, host, &view) == CELD_OK);
   celd_scene_free (scene);
   celd_layers_free (layers);
   return view;
@@ -219,7 +219,7 @@ the_order_of_jobs_does_not_matter (void)
 {
   CeldPlane   depth;
   LayerScene  s = draw_sheet (&depth);
-  CeldRun     backwards = { NULL, check_backwards, NULL };
+  CeldHost    backwards = { NULL, check_backwards, NULL };
   CeldColours one = look (&s, &depth, 0.7, 9, 0.4, NULL), other = look (&s, &depth, 0.7, 9, 0.4, &backwards);
 
   CHECK (!memcmp (one.data, other.data, 4 * W * H * sizeof (float)));
@@ -498,7 +498,7 @@ bad_input_is_refused (void)
   CeldLayers  *layers = cut (&s);
   CeldScene   *scene = NULL;
   CeldCamera   eye = celd_camera_eye (1);
-  CeldRun      refuses = { check_refuse, NULL, NULL };
+  CeldHost     refuses = { check_refuse, NULL, NULL };
 
   depth.data[77] = NAN;
   depth.data[78] = INFINITY;
