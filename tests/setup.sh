@@ -94,17 +94,22 @@ use_build ()
 # ------------------------------------------------------------------ steps of a test run
 
 passed=0 failed=0 skipped=0
+spent= started=
 
 # step NAME COMMAND...: adds up the counts of the command's last line `N passed, N failed[, N skipped]`; without such a
 # line the command itself is one test.  Its output is shown if it fails, and kept in $logs.
 step ()
 {
-  local name=$1 log begin status counts step_failed
+  local name=$1 log begin seconds status counts step_failed
   shift
   log=$logs/$(echo "$name" | tr -c 'a-zA-Z0-9\n' -).log
   begin=$(date +%s)
+  started=${started:-$begin}
   "$@" >"$log" 2>&1 </dev/null
   status=$?
+  seconds=$(($(date +%s) - begin))
+  spent=$spent$(printf '%6d s  %s' $seconds "$name")'
+'
   counts=$(sed -nE 's/^([a-z]+: )?([0-9]+) passed, ([0-9]+) failed(, ([0-9]+) skipped)?$/\2 \3 \5/p' "$log" | tail -n 1)
   [ -n "$counts" ] || counts=$([ $status = 0 ] && echo 1 0 || echo 0 1)
   # shellcheck disable=SC2086
@@ -113,15 +118,17 @@ step ()
   [ $status = 0 ] || [ "$step_failed" -gt 0 ] || step_failed=1
   passed=$((passed + $1)) failed=$((failed + step_failed)) skipped=$((skipped + ${3:-0}))
   printf '%-44s %4d s   %s passed, %s failed, %s skipped.\n' \
-    "$name" $(($(date +%s) - begin)) "$1" "$step_failed" "${3:-0}"
+    "$name" $seconds "$1" "$step_failed" "${3:-0}"
   [ "$step_failed" = 0 ] || { sed 's/^/    /' "$log" | tail -n 60; echo "    (all of it: $log)"; }
   [ "${3:-0}" = 0 ] || grep -i skip "$log" | sed 's/^/    /' | head
   [ "$step_failed" = 0 ]
 }
 
-# step_end: the closing line, and its exit status; in CI a skipped test is a failed one
+# step_end: where the time went, and the closing line with its exit status; in CI a skipped test is a failed one
 step_end ()
 {
+  printf '\nSeconds, longest first:\n%s%6d s  in all\n\n' "$(printf %s "$spent" | sort -rn)
+" $(($(date +%s) - started))
   if [ "${CI-}" = true ]; then
     failed=$((failed + skipped))
     skipped=0
