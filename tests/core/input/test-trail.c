@@ -99,12 +99,13 @@ widths_and_centres (void)
 
   CHECK (celd_trail_x (&t, start) == 0 && celd_trail_y (&t, start) == 2);
   celd_trail_follow (&t, &start, 1);
-  NEAR (celd_trail_length (&t), 19, 1);
-  NEAR (celd_trail_width (&t, 2, 8), 2, 0.1);
-  NEAR (celd_trail_width (&t, 12, 18), 4, 0.1);
-  NEAR (celd_trail_centre (&t, 2, 8).x, 5.2, 0.5);
-  NEAR (celd_trail_centre (&t, 2, 8).y, 3, 0.1);
-  NEAR (celd_trail_centre (&t, 100, 200).x, 9.5, 10); /* beyond the end: some place of the stroke */
+  NEAR (celd_trail_length (&t), 19, 0); /* the farthest pixel is at 16 + 2 sqrt 2 */
+  NEAR (celd_trail_width (&t, 2, 8), 2, 1e-9);
+  NEAR (celd_trail_width (&t, 12, 18), 4, 1e-9);
+  NEAR (celd_trail_centre (&t, 2, 8).x, 5, 1e-9); /* columns 2 to 7 */
+  NEAR (celd_trail_centre (&t, 2, 8).y, 3, 1e-9);
+  NEAR (celd_trail_centre (&t, 100, 200).x, (2 * 9 * 14.5 + 2 * 19 * 9.5) / 56, 1e-9); /* beyond the end: of all pixels */
+  NEAR (celd_trail_centre (&t, 100, 200).y, 3, 1e-9);
   forget (&t, pixels);
 }
 

@@ -186,29 +186,78 @@ all_normals_have_unit_length (void)
     }
 }
 
-/* A small disc in front of a large one: the large one does not bend along it. */
+/* n_x and n_y of a disc with a round hole: harmonic, those of the outline on the disc's edge, without slope across the
+ * hole's.  Gauss-Seidel with over-relaxation on the pixels, two planes of `side` x `side`. */
+static double *
+solve_disc_with_hole (int side, Disc disc, Disc hole)
+{
+  double *plane = calloc ((size_t) (2 * side * side), sizeof *plane);
+
+  for (int pass = 0; pass <= 600; pass++)
+    for (int y = 1; y < side - 1; y++)
+      for (int x = 1; x < side - 1; x++)
+        {
+          double  u = x + 0.5 - disc.x, v = disc.y - y - 0.5, r = hypot (u, v);
+          double *at = plane + 2 * (y * side + x);
+
+          if (r >= disc.radius)
+            {
+              at[0] = u / r;
+              at[1] = v / r;
+            }
+          else if (hypot (x + 0.5 - hole.x, y + 0.5 - hole.y) >= hole.radius)
+            for (int c = 0; c < 2; c++)
+              {
+                double sum = 0, n = 0;
+
+                for (int k = 0; k < 4; k++)
+                  {
+                    int dx = k < 2 ? 2 * k - 1 : 0, dy = k < 2 ? 0 : 2 * k - 5;
+
+                    if (hypot (x + dx + 0.5 - hole.x, y + dy + 0.5 - hole.y) < hole.radius)
+                      continue;
+                    sum += at[2 * (dy * side + dx) + c];
+                    n++;
+                  }
+                at[c] += 1.95 * (sum / n - at[c]);
+              }
+        }
+  return plane;
+}
+
+/* A small disc in front of a large one: the large one does not bend along it, but goes on as if cut out. */
 static void
 only_the_nearer_side_bends (void)
 {
+  enum { SIDE = 180 };
   Disc    large = { 90, 90, 80 }, small = { 120, 90, 30 };
-  Picture p = picture (180, 180), alone = picture (180, 180);
-  double  largest;
+  Picture p = picture (SIDE, SIDE);
+  double *wanted = solve_disc_with_hole (SIDE, large, small), largest, sum = 0, count = 0, worst = 0;
 
   put_disc (&p, large, 3, 1);
-  put_disc (&alone, large, 3, 1);
   put_disc (&p, small, 3, 2);
   make (&p, 1);
-  make (&alone, 1);
   NEAR (compare_disc (&p, small, &largest), 0, 1.5);
-  for (int y = 40; y < 140; y++) /* left of the small disc the large one is nearly what it was */
-    {
-      const float *n = CELD_XYZ (&alone.normals, 86, y);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        const double *n = wanted + 2 * (y * SIDE + x);
+        double        from_edge = large.radius - hypot (x + 0.5 - large.x, y + 0.5 - large.y);
+        double        from_hole = hypot (x + 0.5 - small.x, y + 0.5 - small.y) - small.radius;
 
-      NEAR (angle (&p, 86, y, (double) n[0], (double) n[1], (double) n[2]), 0, 22);
-      CHECK (CELD_XYZ (&p.normals, 86, y)[2] > 0.7f);
-    }
+        if (from_edge > 4 && from_hole > 4)
+          {
+            double a = angle (&p, x, y, n[0], n[1], sqrt (fmax (0, 1 - n[0] * n[0] - n[1] * n[1])));
+
+            worst = fmax (worst, a);
+            sum += a;
+            count++;
+          }
+      }
+  NEAR (sum / count, 0, 0.5);
+  NEAR (worst, 0, 2);
+  free (wanted);
   picture_free (&p);
-  picture_free (&alone);
 }
 
 /* Along a border the normal of the farther side does not change across it; that of the nearer side does. */

@@ -230,7 +230,15 @@ a_gap_at_the_frame_ends_there (void)
       CELD_AT (&s.labels, x, y) = y >= 31 + (x > 40 && x < 52 ? 5 : 0) ? 2 : 1;
   CHECK (scene_find (&s, NULL) == CELD_OK);
   NEAR (s.closures.n, 1, 0);
-  NEAR (s.closures.item[0].place[0].y, 30.5, 6);
+  if (s.closures.n == 1)
+    {
+      const CeldClosure *c = &s.closures.item[0];
+
+      NEAR (c->place[0].x, 37.25, 1.25); /* between the line's last place and the rim of its round tip */
+      NEAR (c->place[0].y, 30.5, 0.1);
+      NEAR (c->place[c->n - 1].x, 60, 0.1);
+      NEAR (c->place[c->n - 1].y, 31, 0.1);
+    }
   scene_apply (&s);
   for (int x = 40; x < 60; x++)
     CHECK (CELD_AT (&s.labels, x, 29) == 1 && CELD_AT (&s.labels, x, 32) == 2);

@@ -356,8 +356,9 @@ static void
 cancel_at_any_time_leaves_results (void)
 {
   CeldSettings settings = celd_settings ();
+  bool         finished = false;
 
-  for (int n = 0; ; n++)
+  for (int n = 0; !finished && n < 1000; n++)
     {
       int          left = n, changed = 0;
       CeldHost     host = { check_count_down, NULL, &left };
@@ -374,9 +375,10 @@ cancel_at_any_time_leaves_results (void)
       celd_palette_clear (&palette);
       celd_problems_clear (&problems);
       free (ink.data), free (seeds.data), free (labels.data);
-      if (status == CELD_OK || n > 1000)
-        break;
+      finished = status == CELD_OK;
+      CHECK (!finished || n > 3); /* there were places to stop at */
     }
+  CHECK (finished);
 }
 
 /* Rows farther apart than their width, seeds in place, NaN for paper, seeds without a colour. */

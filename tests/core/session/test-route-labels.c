@@ -228,6 +228,8 @@ relations_one_by_one (void)
 static void
 cancelled_edits_do_no_harm (void)
 {
+  int cancelled = 0, finished = 0;
+
   for (uint32_t seed = 1; seed <= 6 && !check_bad; seed++)
     {
       static uint32_t seen[W * H];
@@ -239,13 +241,15 @@ cancelled_edits_do_no_harm (void)
       apply (edited, &state);
       for (int step = 0; step < 30 && !check_bad; step++)
         {
-          int        left = (int) pick (&r, 12);
+          int        left = (int) pick (&r, 60);
           CeldHost   host = { check_count_down, NULL, &left };
           CeldLabels labels;
           CeldRect   changed = { -1, -1, -1, -1 };
           CeldStatus status = celd_session_labels (edited, &host, &labels, &changed);
 
           CHECK (status == CELD_OK || status == CELD_CANCELLED || status == CELD_NOTHING_TO_GO_BY);
+          cancelled += status == CELD_CANCELLED;
+          finished += status == CELD_OK;
           if (status == CELD_OK)
             for (int y = changed.y; y < changed.y + changed.height; y++)
               memcpy (seen + y * W + changed.x, &CELD_AT (&labels, changed.x, y),
@@ -259,6 +263,7 @@ cancelled_edits_do_no_harm (void)
         }
       celd_session_free (edited);
     }
+  CHECK (cancelled >= 20 && finished >= 20); /* of 180 */
 }
 
 /* ------------------------------------------------------------------ what an edit redoes */

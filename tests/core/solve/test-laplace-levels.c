@@ -54,27 +54,40 @@ no_aggregate_reaches_over_a_wall_or_its_cell (void)
   free (first);
 }
 
-/* A weak pixel between two strong halves of a cell hangs on one of them. */
+/* A cell in which a pixel hangs weakly between two parts that no edge joins: it goes with the one that holds it more,
+ * and the parts stay apart.  `first` and `second` are the weights of its edges to them. */
 static void
-a_leaf_joins_nothing (void)
+check_leaf (float first, float second)
 {
-  CeldWeights graph = random_graph (4, 2, 1), coarse;
-  uint32_t *node = NULL;
+  enum { SIDE = 20, UPPER = 10 * SIDE + 10, LEAF = UPPER + 1, BELOW = UPPER + SIDE, OTHER = BELOW + 1, LONE = 8 * SIDE + 8 };
+  CeldWeights graph = random_graph (SIDE, SIDE, 1), coarse;
+  uint32_t   *node = NULL;
 
-  for (int i = 0; i < 8; i++)
-    graph.east[i] = graph.south[i] = 0;
-  graph.east[0]  = 0.01f; /* 1 is weak */
-  graph.south[1] = 0.01f;
-  graph.east[1]  = 0.01f;
-  graph.south[0] = 0;
-  graph.east[5] = graph.east[2] = graph.south[2] = 1;
-  graph.east[4] = 0;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      graph.east[i]  = i % SIDE < SIDE - 1;
+      graph.south[i] = i / SIDE < SIDE - 1;
+      graph.sink[i]  = 1e-6f;
+    }
+  graph.east[UPPER]  = first;
+  graph.south[LEAF]  = second;
+  graph.east[LEAF] = graph.south[LEAF - SIDE] = graph.east[BELOW] = 0;
+  graph.east[LONE] = graph.east[LONE - 1] = graph.south[LONE] = graph.south[LONE - SIDE] = 0;
   CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
-  CHECK (node[0] != node[5] && (node[1] == node[0] || node[1] == node[5] || node[1] != node[2]));
-  CHECK (node[4] == CELD_NO_NODE);
+  CHECK (coarse.width == SIDE / 2 && coarse.n_extra == 1); /* nothing has been paired up, only that cell has two nodes */
+  CHECK (node[UPPER] == node[BELOW] && node[UPPER] != node[OTHER]);
+  CHECK (node[LEAF] == node[first > second ? UPPER : OTHER]);
+  CHECK (node[LONE] == CELD_NO_NODE && node[LONE + 1] == node[LONE + 1 + SIDE]);
   celd_weights_clear (&graph);
   celd_weights_clear (&coarse);
   free (node);
+}
+
+static void
+a_leaf_hangs_on_what_holds_it_more (void)
+{
+  check_leaf (0.02f, 0.01f);
+  check_leaf (0.01f, 0.02f);
 }
 
 /* Nothing is lost or made up between the pixels and the levels: sums over what crosses aggregates. */
@@ -202,7 +215,7 @@ int
 main (void)
 {
   RUN (no_aggregate_reaches_over_a_wall_or_its_cell);
-  RUN (a_leaf_joins_nothing);
+  RUN (a_leaf_hangs_on_what_holds_it_more);
   RUN (weights_and_sinks_are_sums);
   RUN (the_layout_keeps_the_graph);
   RUN (levels_become_small_quickly);

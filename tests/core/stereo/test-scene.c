@@ -504,8 +504,7 @@ bad_input_is_refused (void)
   depth.data[78] = INFINITY;
   depth.data[79] = -3e38f;
   CHECK (celd_scene_of_layers (layers, &s.own, &depth, &refuses, &scene) == CELD_CANCELLED);
-  CHECK (celd_scene_of_depth (&s.art, &s.ink, &depth, &settings, &refuses, &scene) == CELD_OK || !scene);
-  celd_scene_free (scene);
+  CHECK (!scene);
   for (int way = 0; way < 2; way++)
     {
       settings.disparity = 0.1f;
@@ -541,6 +540,27 @@ bad_input_is_refused (void)
   layer_scene_close (&s);
 }
 
+/* Progress is reported every 64 rows. */
+static void
+a_scene_of_depth_can_be_cancelled (void)
+{
+  CeldColours  art = new_colours (3, 70);
+  CeldPlane    ink, depth;
+  CeldSettings settings = celd_settings ();
+  CeldScene   *scene = NULL;
+  CeldHost     refuses = { check_refuse, NULL, NULL };
+
+  CHECK (celd_plane_new (3, 70, &ink) == CELD_OK && celd_plane_new (3, 70, &depth) == CELD_OK);
+  memset (ink.data, 0, 3 * 70 * sizeof *ink.data);
+  memset (depth.data, 0, 3 * 70 * sizeof *depth.data);
+  CHECK (celd_scene_of_depth (&art, &ink, &depth, &settings, &refuses, &scene) == CELD_CANCELLED && !scene);
+  CHECK (celd_scene_of_depth (&art, &ink, &depth, &settings, NULL, &scene) == CELD_OK && scene);
+  celd_scene_free (scene);
+  free (ink.data);
+  free (depth.data);
+  free (art.data);
+}
+
 int
 main (void)
 {
@@ -559,5 +579,6 @@ main (void)
   RUN (odd_sizes_are_fine);
   RUN (constant_depth_is_flat);
   RUN (bad_input_is_refused);
+  RUN (a_scene_of_depth_can_be_cancelled);
   return DONE;
 }
