@@ -5,7 +5,7 @@
  *   depth-cores.c     which pixels hold a region that has no anchor
  *   depth-solve.c     the parts in which depth is not constant
  *   smooth.c          the step
- *   route-depth.c     a session's depth and its preview
+ *   session/stage-depth.c  a session's depth and its preview
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -313,7 +313,7 @@ take_relation (CeldSession *s, const CeldRelation *relation)
   const CeldLabels *labels = celd_session_current_labels (s);
   uint32_t          near, far;
 
-  if (!s->ranks.n || !celd_session_spares (s, relation))
+  if (!s->ranks.n || !celd_session_relation_keeps_labels (s, relation))
     return false;
   near = celd_term_label (labels, &s->palette, &s->ink, &relation->nearer, &s->ranks.stroke);
   far  = celd_term_label (labels, &s->palette, &s->ink, &relation->farther, &s->ranks.stroke);

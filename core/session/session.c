@@ -1,9 +1,7 @@
-/* The session object, and what the host asks for.  What it sets is in session-input.c, how results are made in route.c.
+/* What the host asks of a session.  What it sets is in session-input.c; how results are made in stages.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/depth.h"
-#include "depth/program.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "segment/segment.h"
@@ -14,96 +12,6 @@
 
 #define THINNEST 2 /* pixels: a closure that can be seen, and that nothing leaks past when it is a virtual contour */
 #define SLENDER  0.6 /* stroke widths: an arrow beside the drawing's lines */
-
-CeldSession *
-celd_session_new (void)
-{
-  CeldSession *s = celd_alloc0 (1, sizeof *s);
-
-  if (s)
-    s->settings = celd_settings ();
-  return s;
-}
-
-void
-celd_session_clear_results (CeldSession *session)
-{
-  CeldSession *s = session;
-
-  celd_session_forget (s, STAGE_RELATIONS);
-  celd_session_forget (s, STAGE_INK);
-  celd_session_forget (s, STAGE_SCRIBBLES);
-  for (int i = 0; i < N_STAGES; i++)
-    {
-      celd_problems_clear (&s->problems[i]);
-      s->unseen[i] = (CeldRect) { 0 };
-    }
-  celd_relations_clear (&s->relations);
-  celd_relations_clear (&s->suggested);
-  celd_relations_clear (&s->joined);
-  celd_palette_clear (&s->layer_palette);
-  celd_palette_clear (&s->seed_palette);
-  celd_palette_clear (&s->palette);
-  celd_seed_rows_clear (&s->layer_seeds);
-  celd_seed_rows_clear (&s->seeds);
-  celd_order_clear (&s->order);
-  celd_ranks_clear (&s->ranks);
-  celd_segmenter_free (s->segmenter);
-  celd_program_free (s->program);
-  celd_palette_clear (&s->exact_palette);
-  celd_exact_clear (&s->exact);
-  if (s->known_ink.data != s->ink.data)
-    celd_free (s->known_ink.data);
-  celd_free (s->ink.data);
-  celd_free (s->depth_ink.data);
-  celd_free (s->solved.data);
-  celd_free (s->separated.data);
-  celd_free (s->flat.data);
-  celd_free (s->levels.data);
-  celd_session_clear_ownership (s);
-  celd_free (s->preview.data);
-  celd_free (s->depth.data);
-  celd_free (s->block_ink.data);
-  celd_free (s->bent_ink.data);
-  celd_free (s->splits.item);
-  celd_smoother_clear (&s->smoother);
-  celd_smoother_clear (&s->preview_smoother);
-  celd_free (s->shading.data);
-  celd_free (s->exact_preview.data);
-  celd_free (s->exact_depth.data);
-  celd_free (s->normals.data);
-  s->segmenter = NULL;
-  s->program   = NULL;
-  s->reach     = 0;
-  s->known_ink = s->ink = s->depth_ink = s->block_ink = s->bent_ink = (CeldPlane) { 0 };
-  s->splits = (CeldSplits) { 0 };
-  s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
-  s->solved  = s->separated = (CeldLabels) { 0 };
-  s->normals = (CeldVectors) { 0 };
-  s->exact_preview = s->exact_depth = (CeldPlane) { 0 };
-}
-
-void
-celd_session_free (CeldSession *session)
-{
-  if (!session)
-    return;
-  celd_session_clear_results (session);
-  celd_problems_clear (&session->all_problems);
-  celd_relations_clear (&session->text);
-  celd_relations_clear (&session->path);
-  celd_relations_clear (&session->single);
-  celd_strokes_clear (session->stroke, session->n_strokes);
-  celd_free (session->stroke);
-  celd_free (session->scribbles.data);
-  celd_free (session->corrections.data);
-  celd_free (session->arrows.data);
-  celd_free (session->contours.data);
-  celd_free (session->hint.data);
-  celd_free (session->drawing.luma.data);
-  celd_free (session->drawing.alpha.data);
-  celd_free (session);
-}
 
 /* ------------------------------------------------------------------ asking */
 
@@ -119,8 +27,8 @@ ask (CeldSession *s, CeldStage stage, const CeldHost *host, CeldRect *changed)
   if (status == CELD_OK)
     {
       if (changed)
-        *changed = s->unseen[stage];
-      s->unseen[stage] = (CeldRect) { 0 };
+        *changed = s->unreported[stage];
+      s->unreported[stage] = (CeldRect) { 0 };
     }
   return status;
 }
@@ -255,6 +163,33 @@ celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnershi
   return status;
 }
 
+/* The label of the background if it lies behind all others; 0 if there is none, or a relation says that something is
+ * behind it. */
+static uint32_t
+background_label (const CeldSession *s)
+{
+  for (size_t k = 0; k < s->palette.n; k++)
+    if (s->palette.item[k].background)
+      return s->order.level[k] == 0 ? (uint32_t) k + 1 : 0;
+  return 0;
+}
+
+/* Layers are large and seldom asked for, so the session does not keep them. */
+CeldStatus
+celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, const CeldHost *host,
+                     CeldLayers **layers)
+{
+  CeldHostPart  part[2];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldOwnership own;
+  CeldStatus    status = celd_session_ownership (s, &first, &own, NULL);
+
+  if (status == CELD_OK)
+    status = celd_layers_cut (celd_session_depth_ink (s), &own, s->order.level, s->order.n, art, background_label (s),
+                              store, s->settings.complete, &second, layers);
+  return status;
+}
+
 CeldStatus
 celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
@@ -312,6 +247,27 @@ celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth
 
   if (status == CELD_OK)
     *depth = session->exact_depth;
+  return status;
+}
+
+CeldStatus
+celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half)
+{
+  CeldHostPart part[2];
+  CeldHost     making = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
+  CeldStatus   status;
+
+  if (!session->drawing.luma.data)
+    return CELD_BAD_SIZE;
+  status = celd_session_make (session, STAGE_RELATIONS, NULL);
+  if (status == CELD_OK)
+    status = celd_session_make (session, STAGE_INK, &making);
+  if (status == CELD_OK)
+    status = celd_session_make (session, STAGE_SEEDS, NULL);
+  if (status == CELD_OK)
+    status = celd_make_exact_preview (session, &solving);
+  if (status == CELD_OK)
+    *half = session->exact_preview;
   return status;
 }
 

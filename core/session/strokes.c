@@ -14,13 +14,6 @@
 
 /* ------------------------------------------------------------------ setting */
 
-void
-celd_strokes_clear (CeldStroke *stroke, size_t n)
-{
-  for (size_t i = 0; i < n; i++)
-    celd_free (stroke[i].span);
-}
-
 /* The painted pixels of a mask. */
 static CeldStatus
 read_spans (const CeldMask *mask, CeldStroke *stroke)

@@ -74,16 +74,16 @@ other_scribbles_build_nothing (void)
 
   CHECK (is_fresh (k, drawing, scribbles));
   CHECK (session_of (k) != NULL);
-  ink = session_of (k)->known_ink.data;
+  ink = session_of (k)->segmenter_ink.data;
   CHECK (ink != NULL);
   memcpy (first, result + 4 * (40 * WIDTH + 45), 4);
   gegl_node_set (k.scribbles, "buffer", other, NULL);
   CHECK (is_fresh (k, drawing, other));
   CHECK (memcmp (first, result + 4 * (40 * WIDTH + 45), 4) != 0);
-  CHECK (session_of (k)->known_ink.data == ink);
+  CHECK (session_of (k)->segmenter_ink.data == ink);
   gegl_node_set (k.node, "hardness", 1.0, NULL);
   get_output (k.node, "R'G'B'A u8", result);
-  CHECK (session_of (k)->known_ink.data == ink);
+  CHECK (session_of (k)->segmenter_ink.data == ink);
   g_object_unref (k.graph);
 }
 
@@ -96,10 +96,10 @@ another_drawing_is_noticed (void)
   const float *ink;
 
   CHECK (is_fresh (k, drawing, scribbles));
-  ink = session_of (k)->known_ink.data;
+  ink = session_of (k)->segmenter_ink.data;
   gegl_node_set (k.drawing, "buffer", open_drawing, NULL);
   CHECK (is_fresh (k, open_drawing, scribbles));
-  CHECK (session_of (k)->known_ink.data != ink);
+  CHECK (session_of (k)->segmenter_ink.data != ink);
 
   gegl_node_set (k.drawing, "buffer", painted, NULL);
   CHECK (is_fresh (k, painted, scribbles));

@@ -31,12 +31,6 @@ same_ends (const CeldRelation *a, const CeldRelation *b)
   return a->equal == b->equal && celd_term_same (&a->nearer, &b->nearer) && celd_term_same (&a->farther, &b->farther);
 }
 
-bool
-celd_session_spares (const CeldSession *session, const CeldRelation *relation)
-{
-  return celd_segmenter_spares (session->segmenter, relation, &session->settings, &session->solved);
-}
-
 /* No relation contradicts others, on labels that none has split. */
 static CeldStatus
 agree (const CeldSession *s, const CeldRelations *relations, bool *agreed)
@@ -68,7 +62,7 @@ keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
   if (same < celd_segmenter_acting (s->segmenter) || (bend && s->splits.n))
     return CELD_OK;
   for (size_t i = same; i < relations->n; i++)
-    if (!celd_session_spares (s, &relations->item[i]))
+    if (!celd_session_relation_keeps_labels (s, &relations->item[i]))
       return CELD_OK;
   *kept = true;
   return bend ? agree (s, relations, kept) : CELD_OK;
@@ -113,7 +107,7 @@ make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldHost *host, CeldPla
 {
   const CeldDrawing *drawing = &s->drawing;
   int                w = drawing->luma.width, h = drawing->luma.height;
-  CeldHostPart           part[2];
+  CeldHostPart       part[2];
   CeldHost           bake = celd_host_part (&part[0], host, 0, 0.3);
   CeldHost           rest = celd_host_part (&part[1], host, s->contours.data ? 0.3 : 0, 1);
   CeldDrawing        baked = { 0 };
@@ -139,12 +133,12 @@ make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldHost *host, CeldPla
 static void
 take_ink (CeldSession *s, CeldPlane *ink)
 {
-  CeldRect changed = celd_difference (s->ink.data, ink->data, ink->width, ink->height, sizeof (float));
+  CeldRect changed = celd_changed_rect (s->ink.data, ink->data, ink->width, ink->height, sizeof (float));
 
   if (!changed.width)
     return;
-  celd_session_see (s, STAGE_INK, changed);
-  if (s->ink.data != s->known_ink.data)
+  celd_session_add_change (s, STAGE_INK, changed);
+  if (s->ink.data != s->segmenter_ink.data)
     celd_free (s->ink.data);
   s->ink = *ink;
   ink->data = NULL;
@@ -153,10 +147,10 @@ take_ink (CeldSession *s, CeldPlane *ink)
 CeldStatus
 celd_make_ink (CeldSession *s, const CeldHost *host)
 {
-  CeldHostPart   part;
-  CeldHost   first = celd_host_part (&part, host, 0, s->contours.data ? 0.5 : 1);
-  CeldPlane  ink = { 0 }, depth_ink = { 0 };
-  CeldStatus status = make_ink_for (s, CELD_FOR_SEGMENTATION, &first, &ink);
+  CeldHostPart part;
+  CeldHost     first = celd_host_part (&part, host, 0, s->contours.data ? 0.5 : 1);
+  CeldPlane    ink = { 0 }, depth_ink = { 0 };
+  CeldStatus   status = make_ink_for (s, CELD_FOR_SEGMENTATION, &first, &ink);
 
   if (status == CELD_OK && s->contours.data)
     {
@@ -166,7 +160,7 @@ celd_make_ink (CeldSession *s, const CeldHost *host)
     }
   if (status == CELD_OK)
     {
-      celd_session_new_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
+      celd_session_note_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
       take_ink (s, &ink);
       celd_free (s->depth_ink.data);
       s->depth_ink = depth_ink;
@@ -243,21 +237,21 @@ celd_make_seeds (CeldSession *s, const CeldHost *host)
 static CeldStatus
 tell_ink (CeldSession *s, const CeldHost *host)
 {
-  bool       renew = s->known_ink.data && s->known_threshold == s->settings.ink_threshold &&
-                     s->known_bridged == s->settings.close_gaps;
+  bool       renew = s->segmenter_ink.data && s->segmenter_threshold == s->settings.ink_threshold &&
+                     s->segmenter_bridged == s->settings.close_gaps;
   CeldRect   changed = { 0 };
   CeldStatus status;
 
-  if (renew && s->known_ink.data == s->ink.data)
+  if (renew && s->segmenter_ink.data == s->ink.data)
     return CELD_OK;
   if (renew)
-    changed = celd_difference (s->known_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
+    changed = celd_changed_rect (s->segmenter_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
   status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, host);
-  if (s->known_ink.data != s->ink.data)
-    celd_free (s->known_ink.data);
-  s->known_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
-  s->known_threshold = s->settings.ink_threshold;
-  s->known_bridged   = s->settings.close_gaps;
+  if (s->segmenter_ink.data != s->ink.data)
+    celd_free (s->segmenter_ink.data);
+  s->segmenter_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
+  s->segmenter_threshold = s->settings.ink_threshold;
+  s->segmenter_bridged   = s->settings.close_gaps;
   return status;
 }
 
@@ -268,9 +262,9 @@ prepare_segmenter (CeldSession *s, const CeldHost *host)
     s->segmenter = celd_segmenter_new ();
   if (!s->segmenter)
     return CELD_NO_MEMORY;
-  if (!s->solved.data)
+  if (!s->segmented.data)
     {
-      CeldStatus status = celd_labels_new (s->ink.width, s->ink.height, &s->solved);
+      CeldStatus status = celd_labels_new (s->ink.width, s->ink.height, &s->segmented);
 
       if (status != CELD_OK)
         return status;
@@ -280,14 +274,14 @@ prepare_segmenter (CeldSession *s, const CeldHost *host)
 
 /* What the segmenter does not do of its own: labels NULL where the settings ask for nothing of it, or where no
  * contradiction needs it. */
-typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane bent; } Parted;
+typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane split_ink; } Parted;
 
 static void
 parted_clear (Parted *parted)
 {
   celd_free (parted->labels.data);
   celd_free (parted->splits.item);
-  celd_free (parted->bent.data);
+  celd_free (parted->split_ink.data);
 }
 
 /* Splits regions where relations contradict, and takes the ink off the new borders. */
@@ -299,11 +293,11 @@ split (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted 
                                                &parted->splits);
 
   if (status == CELD_OK && parted->splits.n)
-    status = celd_plane_new (ink->width, ink->height, &parted->bent);
+    status = celd_plane_new (ink->width, ink->height, &parted->split_ink);
   if (status == CELD_OK && parted->splits.n)
     {
-      memcpy (parted->bent.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
-      celd_splits_erase (&parted->splits, &parted->labels, celd_stroke_width (ink), &parted->bent);
+      memcpy (parted->split_ink.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
+      celd_splits_erase (&parted->splits, &parted->labels, celd_stroke_width (ink), &parted->split_ink);
     }
   return status;
 }
@@ -312,20 +306,20 @@ split (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted 
 static CeldStatus
 part (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted *parted)
 {
-  bool       apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
-  bool       bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
-  CeldLabels *labels = &parted->labels;
-  CeldHostPart   halves[2];
-  CeldHost   first = celd_host_part (&halves[0], host, 0, bend ? 0.5 : 1);
-  CeldHost   second = celd_host_part (&halves[1], host, apart ? 0.5 : 0, 1);
-  CeldStatus status;
+  bool         apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
+  bool         bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
+  CeldLabels  *labels = &parted->labels;
+  CeldHostPart halves[2];
+  CeldHost     first = celd_host_part (&halves[0], host, 0, bend ? 0.5 : 1);
+  CeldHost     second = celd_host_part (&halves[1], host, apart ? 0.5 : 0, 1);
+  CeldStatus   status;
 
   if (!apart && !bend)
     return CELD_OK;
-  status = celd_labels_new (s->solved.width, s->solved.height, labels);
+  status = celd_labels_new (s->segmented.width, s->segmented.height, labels);
   if (status != CELD_OK)
     return status;
-  memcpy (labels->data, s->solved.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
+  memcpy (labels->data, s->segmented.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
   if (apart)
     status = celd_separate (&first, labels, palette);
   if (status == CELD_OK && bend)
@@ -350,16 +344,10 @@ report_splits (const CeldSplits *splits, CeldProblems *problems)
   return status;
 }
 
-const CeldLabels *
-celd_session_current_labels (const CeldSession *session)
-{
-  return session->separated.data ? &session->separated : &session->solved;
-}
-
 static void
 see_labels (CeldSession *s, CeldRect changed)
 {
-  celd_session_see (s, STAGE_LABELS, changed);
+  celd_session_add_change (s, STAGE_LABELS, changed);
   s->new_labels = celd_rect_union (s->new_labels, changed);
 }
 
@@ -368,7 +356,7 @@ see_labels (CeldSession *s, CeldRect changed)
 CeldStatus
 celd_make_labels (CeldSession *s, const CeldHost *host)
 {
-  CeldHostPart     parts[3];
+  CeldHostPart parts[3];
   CeldHost     tell = celd_host_part (&parts[0], host, 0, 0.5), solve = celd_host_part (&parts[1], host, 0.5, 0.9);
   CeldHost     last = celd_host_part (&parts[2], host, 0.9, 1);
   Parted       parted = { 0 };
@@ -381,7 +369,7 @@ celd_make_labels (CeldSession *s, const CeldHost *host)
     status = celd_palette_copy (&s->seed_palette, &palette);
   if (status == CELD_OK)
     status = celd_segmenter_solve (s->segmenter, &s->seeds, &s->relations, &s->settings, &solve, &palette, &problems,
-                                   &s->solved, &changed);
+                                   &s->segmented, &changed);
   if (status == CELD_OK && !s->separated.data)
     see_labels (s, changed);
   if (status == CELD_OK)
@@ -397,10 +385,10 @@ celd_make_labels (CeldSession *s, const CeldHost *host)
       return status;
     }
   if (parted.labels.data || s->separated.data)
-    see_labels (s, celd_difference (celd_session_current_labels (s)->data,
-                                    parted.labels.data ? parted.labels.data : s->solved.data,
-                                    s->solved.width, s->solved.height, sizeof (uint32_t)));
-  celd_session_bend (s, &parted.bent);
+    see_labels (s, celd_changed_rect (celd_session_current_labels (s)->data,
+                                    parted.labels.data ? parted.labels.data : s->segmented.data,
+                                    s->segmented.width, s->segmented.height, sizeof (uint32_t)));
+  celd_session_set_split_ink (s, &parted.split_ink);
   celd_free (s->separated.data);
   celd_free (s->splits.item);
   celd_palette_clear (&s->palette);

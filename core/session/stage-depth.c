@@ -17,23 +17,11 @@
 #define PREVIEW_TOLERANCE 1e-3f  /* what can be seen */
 #define END_RADIUS        2.0    /* pixels round a relation's end that keep its level */
 
-const CeldPlane *
-celd_session_depth_ink (const CeldSession *s)
-{
-  return s->depth_ink.data ? &s->depth_ink : &s->ink;
-}
-
-const CeldPlane *
-celd_session_bent_ink (const CeldSession *s)
-{
-  return s->bent_ink.data ? &s->bent_ink : celd_session_depth_ink (s);
-}
-
 /* What is made from the old ink has to be looked at where the new one differs. */
 static void
 change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
 {
-  CeldRect changed = celd_difference (old->data, new->data, new->width, new->height, sizeof *new->data);
+  CeldRect changed = celd_changed_rect (old->data, new->data, new->width, new->height, sizeof *new->data);
   CeldRect blocks = { changed.x / SIDE, changed.y / SIDE, (changed.x + changed.width + SIDE - 1) / SIDE,
                       (changed.y + changed.height + SIDE - 1) / SIDE };
 
@@ -41,29 +29,29 @@ change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
     return;
   blocks.width  -= blocks.x;
   blocks.height -= blocks.y;
-  celd_free (s->block_ink.data);
-  s->block_ink = (CeldPlane) { 0 };
-  s->reach     = 0;
+  celd_free (s->preview_ink.data);
+  s->preview_ink = (CeldPlane) { 0 };
+  s->edge_radius     = 0;
   celd_session_forget_ownership (s);
   s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
   s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
 }
 
 void
-celd_session_new_depth_ink (CeldSession *s, const CeldPlane *ink)
+celd_session_note_depth_ink (CeldSession *s, const CeldPlane *ink)
 {
   change_ink (s, celd_session_depth_ink (s), ink);
 }
 
 void
-celd_session_bend (CeldSession *s, CeldPlane *bent)
+celd_session_set_split_ink (CeldSession *s, CeldPlane *split_ink)
 {
-  if (!s->bent_ink.data && !bent->data)
+  if (!s->split_ink.data && !split_ink->data)
     return;
-  change_ink (s, celd_session_bent_ink (s), bent->data ? bent : celd_session_depth_ink (s));
-  celd_free (s->bent_ink.data);
-  s->bent_ink = *bent;
-  *bent = (CeldPlane) { 0 };
+  change_ink (s, celd_session_split_ink (s), split_ink->data ? split_ink : celd_session_depth_ink (s));
+  celd_free (s->split_ink.data);
+  s->split_ink = *split_ink;
+  *split_ink = (CeldPlane) { 0 };
 }
 
 /* ------------------------------------------------------------------ anchors */
@@ -169,7 +157,7 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *
   status = celd_smooth_again (smoother, smoothing, host, &depth, &solve);
   if (status != CELD_OK)
     return status;
-  celd_session_replace (s, stage, plane, &depth);
+  celd_session_replace_plane (s, stage, plane, &depth);
   celd_problems_clear (&s->problems[stage]);
   if (stage == STAGE_DEPTH && !solve.converged)
     status = celd_problem_add (&s->problems[stage], (CeldProblem) {
@@ -178,24 +166,24 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *
 }
 
 static void
-measure_reach (CeldSession *s)
+measure_edge_radius (CeldSession *s)
 {
-  if (!s->reach)
-    s->reach = celd_edge_reach (celd_stroke_width (celd_session_bent_ink (s)));
+  if (!s->edge_radius)
+    s->edge_radius = celd_edge_reach (celd_stroke_width (celd_session_split_ink (s)));
 }
 
 CeldStatus
 celd_make_depth (CeldSession *s, const CeldHost *host)
 {
   Anchors       anchors = { .session = s, .side = 1 };
-  CeldSmoothing smoothing = { .ink = celd_session_bent_ink (s), .levels = &s->levels, .settings = &s->settings,
+  CeldSmoothing smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
   CeldStatus    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
 
   if (status == CELD_OK)
     {
-      measure_reach (s);
-      smoothing.reach = s->reach;
+      measure_edge_radius (s);
+      smoothing.reach = s->edge_radius;
       choose_anchors (&anchors);
       status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smoother, &s->depth);
     }
@@ -262,18 +250,18 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
   CeldPlane     levels = { 0 };
   Anchors       anchors = { .session = s, .side = SIDE, .levels = &levels };
   CeldSettings  settings = s->settings;
-  CeldSmoothing smoothing = { .ink = &s->block_ink, .levels = &levels, .settings = &settings,
+  CeldSmoothing smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
                               .speck = CELD_SPECK / (SIDE * SIDE) };
-  CeldStatus    status = s->block_ink.data ? CELD_OK : pool_ink (celd_session_bent_ink (s), &s->block_ink);
+  CeldStatus    status = s->preview_ink.data ? CELD_OK : pool_ink (celd_session_split_ink (s), &s->preview_ink);
 
   if (status == CELD_OK)
-    status = celd_plane_new (s->block_ink.width, s->block_ink.height, &levels);
+    status = celd_plane_new (s->preview_ink.width, s->preview_ink.height, &levels);
   if (status == CELD_OK)
     status = celd_mask_new (levels.width, levels.height, &anchors.mask);
   if (status == CELD_OK)
     {
-      measure_reach (s);
-      smoothing.reach    = s->reach / SIDE;
+      measure_edge_radius (s);
+      smoothing.reach    = s->edge_radius / SIDE;
       settings.tolerance = fmaxf (settings.tolerance, PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);

@@ -386,7 +386,7 @@ the_segmenter_hears_of_new_ink_alone (void)
   State          state;
   CeldSession   *s = finished (&state);
   CeldDrawing    drawing = { .luma = { W, H, W, state.luma } };
-  const float   *known = s->known_ink.data;
+  const float   *known = s->segmenter_ink.data;
   uint8_t        on[4] = { 1, 1, 1, 1 };
   CeldSettings   settings = state.settings;
   CeldLabels     labels;
@@ -400,16 +400,16 @@ the_segmenter_hears_of_new_ink_alone (void)
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
   CHECK (celd_session_set_contours (s, &(CeldPaint) { W, H, W, blank }) == CELD_OK);
   CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
-  CHECK (s->known_ink.data == known && s->ink.data == known);
+  CHECK (s->segmenter_ink.data == known && s->ink.data == known);
 
   draw_frame (state.luma, (CeldRect) { 44, 20, 9, 9 }, 0);
   CHECK (celd_session_ink (s, NULL, &ink, &changed) == CELD_OK);
   CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
   CHECK (celd_session_ink (s, NULL, &ink, &changed) == CELD_OK);
   CHECK (changed.x >= 43 && changed.y >= 19 && changed.x + changed.width <= 54 && changed.y + changed.height <= 30);
-  CHECK (s->known_ink.data == known && s->ink.data != known); /* it has not been asked yet */
+  CHECK (s->segmenter_ink.data == known && s->ink.data != known); /* it has not been asked yet */
   CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
-  CHECK (s->known_ink.data == s->ink.data && s->ink.data != known);
+  CHECK (s->segmenter_ink.data == s->ink.data && s->ink.data != known);
   celd_session_free (s);
 }
 

@@ -74,7 +74,9 @@ celd_make_weights (CeldSession *s, const CeldHost *host)
 {
   if (!s->program)
     s->program = celd_program_new ();
-  return s->program ? celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, host) : CELD_NO_MEMORY;
+  if (!s->program)
+    return CELD_NO_MEMORY;
+  return celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, host);
 }
 
 /* Seeds and their palette with the background, for a program. */
@@ -140,7 +142,7 @@ celd_make_exact (CeldSession *s, const CeldHost *host)
   celd_problems_clear (&s->problems[STAGE_EXACT]);
   s->exact = exact;
   s->problems[STAGE_EXACT] = problems;
-  celd_session_replace (s, STAGE_EXACT, &s->exact_depth, &depth);
+  celd_session_replace_plane (s, STAGE_EXACT, &s->exact_depth, &depth);
   celd_free (depth.data);
   return CELD_OK;
 }
@@ -198,7 +200,7 @@ solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlan
   CeldPalette   palette = { 0 };
   CeldRelations relations = { 0 };
   CeldProgram  *program = celd_program_new ();
-  CeldHostPart      part[2];
+  CeldHostPart  part[2];
   CeldHost      nodes = celd_host_part (&part[0], host, 0, 0.1), solving = celd_host_part (&part[1], host, 0.1, 1);
   CeldStatus    status = program ? celd_labels_new (ink->width, ink->height, &seeds) : CELD_NO_MEMORY;
 
@@ -225,27 +227,15 @@ solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlan
 }
 
 CeldStatus
-celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half)
+celd_make_exact_preview (CeldSession *s, const CeldHost *host)
 {
-  CeldSession *s = session;
-  CeldPlane    ink = { 0 }, depth = { 0 };
-  CeldHostPart     part[2];
-  CeldHost     making = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
-  CeldStatus   status;
+  CeldPlane  ink = { 0 }, depth = { 0 };
+  CeldStatus status = celd_plane_new ((s->ink.width + 1) / 2, (s->ink.height + 1) / 2, &ink);
 
-  if (!s->drawing.luma.data)
-    return CELD_BAD_SIZE;
-  status = celd_session_make (s, STAGE_RELATIONS, NULL);
-  if (status == CELD_OK)
-    status = celd_session_make (s, STAGE_INK, &making);
-  if (status == CELD_OK)
-    status = celd_session_make (s, STAGE_SEEDS, NULL);
-  if (status == CELD_OK)
-    status = celd_plane_new ((s->ink.width + 1) / 2, (s->ink.height + 1) / 2, &ink);
   if (status == CELD_OK)
     status = celd_plane_new (ink.width, ink.height, &depth);
   if (status == CELD_OK)
-    status = solve_half (s, &solving, &ink, &depth);
+    status = solve_half (s, host, &ink, &depth);
   celd_free (ink.data);
   if (status != CELD_OK)
     {
@@ -253,6 +243,6 @@ celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlan
       return status;
     }
   celd_free (s->exact_preview.data);
-  *half = s->exact_preview = depth;
+  s->exact_preview = depth;
   return CELD_OK;
 }

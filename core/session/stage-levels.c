@@ -37,7 +37,7 @@ celd_make_flat (CeldSession *s, const CeldHost *host)
     {
       for (size_t p = 0; p < (size_t) flat.width * (size_t) flat.height; p++)
         flat.data[p] = value[labels->data[p] - 1];
-      celd_session_replace (s, STAGE_FLAT, &s->flat, &flat);
+      celd_session_replace_plane (s, STAGE_FLAT, &s->flat, &flat);
     }
   celd_free (value);
   celd_free (flat.data);
@@ -45,30 +45,6 @@ celd_make_flat (CeldSession *s, const CeldHost *host)
 }
 
 /* ------------------------------------------------------------------ whose the ink is */
-
-void
-celd_session_forget_ownership (CeldSession *session)
-{
-  celd_free (session->rank);
-  session->rank = NULL;
-  celd_owners_clear (&session->owners);
-}
-
-/* What the levels were made from is not there any more. */
-static void
-forget_values (CeldSession *s)
-{
-  celd_free (s->value);
-  s->value = NULL;
-}
-
-void
-celd_session_clear_ownership (CeldSession *session)
-{
-  celd_session_forget_ownership (session);
-  celd_ownership_clear (&session->ownership);
-  forget_values (session);
-}
 
 /* The labels of the artist's strokes over ink; none without such a layer. */
 static CeldStatus
@@ -90,11 +66,12 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
 {
   const CeldOwnership *old = &s->ownership;
   int                  w = new->owner.width, h = new->owner.height;
+  CeldRect             owner = celd_changed_rect (old->owner.data, new->owner.data, w, h, sizeof (uint32_t));
+  CeldRect             under = celd_changed_rect (old->under.data, new->under.data, w, h, sizeof (uint32_t));
+  CeldRect             share = celd_changed_rect (old->share.data, new->share.data, w, h, sizeof (float));
 
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->owner.data, new->owner.data, w, h, sizeof (uint32_t)));
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->under.data, new->under.data, w, h, sizeof (uint32_t)));
-  celd_session_see (s, STAGE_OWNERSHIP, celd_difference (old->share.data, new->share.data, w, h, sizeof (float)));
-  forget_values (s);
+  celd_session_add_change (s, STAGE_OWNERSHIP, celd_rect_union (celd_rect_union (owner, under), share));
+  celd_session_forget_values (s);
   celd_ownership_clear (&s->ownership);
   s->ownership = *new;
   *new = (CeldOwnership) { 0 };
@@ -126,7 +103,7 @@ renew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
 
   if (status == CELD_OK)
     {
-      celd_session_see (s, STAGE_OWNERSHIP, changed);
+      celd_session_add_change (s, STAGE_OWNERSHIP, changed);
       s->new_owners = celd_rect_union (s->new_owners, changed);
     }
   return status;
@@ -137,9 +114,9 @@ static void
 keep_ranks (CeldSession *s, uint32_t *rank)
 {
   memcpy (rank, s->order.level, s->order.n * sizeof *rank);
-  celd_free (s->rank);
-  s->rank    = rank;
-  s->n_ranks = s->order.n;
+  celd_free (s->owned_level);
+  s->owned_level    = rank;
+  s->n_owned = s->order.n;
   s->new_labels      = (CeldRect) { 0 };
   s->new_corrections = false;
 }
@@ -148,20 +125,21 @@ CeldStatus
 celd_make_ownership (CeldSession *s, const CeldHost *host)
 {
   CeldLabels      corrections = { 0 };
-  CeldOwnersInput input = { celd_session_bent_ink (s), celd_session_current_labels (s), NULL, s->order.level,
+  CeldOwnersInput input = { celd_session_split_ink (s), celd_session_current_labels (s), NULL, s->order.level,
                             s->order.n };
   uint32_t       *rank;
   CeldStatus      status;
 
-  if (s->rank && s->n_ranks == s->order.n && !memcmp (s->rank, s->order.level, s->order.n * sizeof *s->rank) &&
-      !s->new_labels.width && !s->new_corrections)
+  if (s->owned_level && s->n_owned == s->order.n &&
+      !memcmp (s->owned_level, s->order.level, s->order.n * sizeof *s->owned_level) && !s->new_labels.width &&
+      !s->new_corrections)
     return CELD_OK;
   rank   = celd_alloc (s->order.n, sizeof *rank);
   status = rank ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
   if (corrections.data)
     input.corrections = &corrections;
   if (status == CELD_OK)
-    status = s->rank && s->owners.level ? renew (s, &input, host) : make_anew (s, &input, host);
+    status = s->owned_level && s->owners.level ? renew (s, &input, host) : make_anew (s, &input, host);
   if (status == CELD_OK)
     keep_ranks (s, rank);
   else
@@ -194,7 +172,7 @@ make_all_levels (CeldSession *s, const float *value, const CeldHost *host)
   if (status == CELD_OK)
     status = celd_progress (host, 1);
   if (status == CELD_OK)
-    celd_session_replace (s, STAGE_LEVELS, &s->levels, &levels);
+    celd_session_replace_plane (s, STAGE_LEVELS, &s->levels, &levels);
   celd_free (levels.data);
   return status;
 }
@@ -214,7 +192,7 @@ renew_levels (CeldSession *s, const float *value)
           changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
         CELD_AT (&s->levels, x, y) = level;
       }
-  celd_session_see (s, STAGE_LEVELS, changed);
+  celd_session_add_change (s, STAGE_LEVELS, changed);
 }
 
 /* Labels that were not there before, or are not there any more, have new owners. */

@@ -1,0 +1,231 @@
+/* The state of a session: creating, clearing and freeing it, which results are valid, and where they have changed
+ * since the host last asked for them.
+ *
+ * Everything else in this folder uses this file; it calls none of the others.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "session/session.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ validity */
+
+#define NEEDS(stage) (1u << STAGE_##stage)
+
+/* The results that a stage is made from.  A stage names earlier stages only. */
+static const unsigned needs[N_STAGES] = {
+  [STAGE_SEEDS]       = NEEDS (SCRIBBLES),
+  [STAGE_LABELS]      = NEEDS (INK) | NEEDS (SEEDS),
+  [STAGE_SUGGESTIONS] = NEEDS (LABELS),
+  [STAGE_ORDER]       = NEEDS (LABELS) | NEEDS (RELATIONS),
+  [STAGE_FLAT]        = NEEDS (ORDER),
+  [STAGE_OWNERSHIP]   = NEEDS (ORDER),
+  [STAGE_LEVELS]      = NEEDS (OWNERSHIP),
+  [STAGE_PREVIEW]     = NEEDS (ORDER),
+  [STAGE_DEPTH]       = NEEDS (LEVELS),
+  [STAGE_NORMALS]     = NEEDS (LEVELS),
+  [STAGE_SHADING]     = NEEDS (NORMALS),
+  [STAGE_WEIGHTS]     = NEEDS (INK),
+  [STAGE_NODES]       = NEEDS (SEEDS) | NEEDS (WEIGHTS),
+  [STAGE_EXACT]       = NEEDS (NODES) | NEEDS (RELATIONS),
+};
+
+unsigned
+celd_stage_needs (CeldStage stage)
+{
+  return needs[stage];
+}
+
+void
+celd_session_forget (CeldSession *session, CeldStage stage)
+{
+  unsigned gone = 1u << stage;
+
+  for (int s = 0; s < N_STAGES; s++)
+    {
+      if (needs[s] & gone)
+        gone |= 1u << s;
+      if (gone & (1u << s))
+        session->valid[s] = false;
+    }
+}
+
+void
+celd_session_forget_ownership (CeldSession *session)
+{
+  celd_free (session->owned_level);
+  session->owned_level = NULL;
+  celd_owners_clear (&session->owners);
+}
+
+void
+celd_session_forget_values (CeldSession *session)
+{
+  celd_free (session->value);
+  session->value = NULL;
+}
+
+/* ------------------------------------------------------------------ changes */
+
+CeldRect
+celd_changed_rect (const void *old, const void *new, int width, int height, size_t pixel)
+{
+  CeldRect      all = { 0, 0, width, height }, found = { 0 };
+  const uint8_t *a = old, *b = new;
+  size_t        row = (size_t) width * pixel;
+
+  if (!old)
+    return all;
+  for (int y = 0; y < height; y++, a += row, b += row)
+    if (memcmp (a, b, row))
+      {
+        size_t first = 0, last = row - 1;
+
+        while (a[first] == b[first])
+          first++;
+        while (a[last] == b[last])
+          last--;
+        first /= pixel;
+        last  /= pixel;
+        found  = celd_rect_union (found, (CeldRect) { (int) first, y, (int) (last - first) + 1, 1 });
+      }
+  return found;
+}
+
+void
+celd_session_add_change (CeldSession *session, CeldStage stage, CeldRect changed)
+{
+  session->unreported[stage] = celd_rect_union (session->unreported[stage], changed);
+}
+
+void
+celd_session_replace_plane (CeldSession *session, CeldStage stage, CeldPlane *old, CeldPlane *new)
+{
+  celd_session_add_change (session, stage,
+                           celd_changed_rect (old->data, new->data, new->width, new->height, sizeof (float)));
+  celd_free (old->data);
+  *old = *new;
+  new->data = NULL;
+}
+
+/* ------------------------------------------------------------------ current results */
+
+const CeldLabels *
+celd_session_current_labels (const CeldSession *session)
+{
+  return session->separated.data ? &session->separated : &session->segmented;
+}
+
+const CeldPlane *
+celd_session_depth_ink (const CeldSession *session)
+{
+  return session->depth_ink.data ? &session->depth_ink : &session->ink;
+}
+
+const CeldPlane *
+celd_session_split_ink (const CeldSession *session)
+{
+  return session->split_ink.data ? &session->split_ink : celd_session_depth_ink (session);
+}
+
+bool
+celd_session_relation_keeps_labels (const CeldSession *session, const CeldRelation *relation)
+{
+  return celd_segmenter_spares (session->segmenter, relation, &session->settings, &session->segmented);
+}
+
+/* ------------------------------------------------------------------ the object */
+
+CeldSession *
+celd_session_new (void)
+{
+  CeldSession *s = celd_alloc0 (1, sizeof *s);
+
+  if (s)
+    s->settings = celd_settings ();
+  return s;
+}
+
+void
+celd_session_clear_results (CeldSession *session)
+{
+  CeldSession *s = session;
+
+  celd_session_forget (s, STAGE_RELATIONS);
+  celd_session_forget (s, STAGE_INK);
+  celd_session_forget (s, STAGE_SCRIBBLES);
+  for (int i = 0; i < N_STAGES; i++)
+    {
+      celd_problems_clear (&s->problems[i]);
+      s->unreported[i] = (CeldRect) { 0 };
+    }
+  celd_relations_clear (&s->relations);
+  celd_relations_clear (&s->suggested);
+  celd_relations_clear (&s->joined);
+  celd_palette_clear (&s->layer_palette);
+  celd_palette_clear (&s->seed_palette);
+  celd_palette_clear (&s->palette);
+  celd_seed_rows_clear (&s->layer_seeds);
+  celd_seed_rows_clear (&s->seeds);
+  celd_order_clear (&s->order);
+  celd_ranks_clear (&s->ranks);
+  celd_segmenter_free (s->segmenter);
+  celd_program_free (s->program);
+  celd_palette_clear (&s->exact_palette);
+  celd_exact_clear (&s->exact);
+  if (s->segmenter_ink.data != s->ink.data)
+    celd_free (s->segmenter_ink.data);
+  celd_free (s->ink.data);
+  celd_free (s->depth_ink.data);
+  celd_free (s->segmented.data);
+  celd_free (s->separated.data);
+  celd_free (s->flat.data);
+  celd_free (s->levels.data);
+  celd_session_forget_ownership (s);
+  celd_session_forget_values (s);
+  celd_ownership_clear (&s->ownership);
+  celd_free (s->preview.data);
+  celd_free (s->depth.data);
+  celd_free (s->preview_ink.data);
+  celd_free (s->split_ink.data);
+  celd_free (s->splits.item);
+  celd_smoother_clear (&s->smoother);
+  celd_smoother_clear (&s->preview_smoother);
+  celd_free (s->shading.data);
+  celd_free (s->exact_preview.data);
+  celd_free (s->exact_depth.data);
+  celd_free (s->normals.data);
+  s->segmenter   = NULL;
+  s->program     = NULL;
+  s->edge_radius = 0;
+  s->segmenter_ink = s->ink = s->depth_ink = s->preview_ink = s->split_ink = (CeldPlane) { 0 };
+  s->splits = (CeldSplits) { 0 };
+  s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
+  s->segmented = s->separated = (CeldLabels) { 0 };
+  s->normals = (CeldVectors) { 0 };
+  s->exact_preview = s->exact_depth = (CeldPlane) { 0 };
+}
+
+void
+celd_session_free (CeldSession *session)
+{
+  if (!session)
+    return;
+  celd_session_clear_results (session);
+  celd_problems_clear (&session->all_problems);
+  celd_relations_clear (&session->text);
+  celd_relations_clear (&session->path);
+  celd_relations_clear (&session->single);
+  for (size_t i = 0; i < session->n_strokes; i++)
+    celd_free (session->stroke[i].span);
+  celd_free (session->stroke);
+  celd_free (session->scribbles.data);
+  celd_free (session->corrections.data);
+  celd_free (session->arrows.data);
+  celd_free (session->contours.data);
+  celd_free (session->hint.data);
+  celd_free (session->drawing.luma.data);
+  celd_free (session->drawing.alpha.data);
+  celd_free (session);
+}
