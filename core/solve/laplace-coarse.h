@@ -20,7 +20,6 @@ typedef struct
   CeldLevelVectors       *next;
   float                   a[CELD_LANES];
   double                 *sum;
-  int                     phase;
 } CeldPass;
 
 /* x += the next level's solution, at the places from .. to-1 */

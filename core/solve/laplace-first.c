@@ -14,14 +14,6 @@ typedef CeldPass Pass;
 /* Black numbers of a vector. */
 #define BLACK(v) ((v) + p->level->plane * (size_t) lanes)
 
-CELD_INLINE void
-nothing (const Pass *p, int y, int lanes)
-{
-  (void) p;
-  (void) y;
-  (void) lanes;
-}
-
 /* Red ones from x = 0, and black ones from these. */
 CELD_INLINE void
 guess_row (const Pass *p, int y, int lanes)
@@ -165,28 +157,51 @@ reduce_row (const Pass *p, int y, int lanes)
   celd_keep_sum (sum + CELD_LANES, &after, lanes);
 }
 
-SWEEP (down, 2, guess_row, restrict_row, nothing, nothing)
-SWEEP (correct, 1, correct_row, nothing, nothing, nothing)
-SWEEP (up, 3, relax_black_row, relax_red_row, apply_row, nothing)
-SWEEP (reduce, 1, reduce_row, nothing, nothing, nothing)
+ROW_PASS (first_guess, guess_row)
+ROW_PASS (first_restrict, restrict_row)
+ROW_PASS (first_correct, correct_row)
+ROW_PASS (first_relax_black, relax_black_row)
+ROW_PASS (first_relax_red, relax_red_row)
+ROW_PASS (first_apply, apply_row)
+ROW_PASS (first_reduce, reduce_row)
 
-static void
-sweep (const CeldCoarse *cycle, Pass *p, int stages, void (*body) (void *pass, int i))
+/* The threads that a pass is worth. */
+static const CeldHost *
+threads_of (const CeldCoarse *cycle, const Pass *p)
 {
-  const CeldLevel *level = p->level;
-  bool             small = (size_t) level->n * (size_t) cycle->lanes < SMALL;
-  bool             shared = level[1].height * (CELD_STRIP / 2) < level->height; /* a cell may lie in several strips */
-
-  celd_sweep (small || shared ? NULL : cycle->host, level->height, stages, body, p, &p->phase);
+  return (size_t) p->level->n * (size_t) cycle->lanes < SMALL ? NULL : cycle->host;
 }
 
-#define PASS(name, stages) \
-  void celd_first_##name (const CeldCoarse *cycle, CeldPass *p) \
-  { \
-    sweep (cycle, p, stages, cycle->lanes == 1 ? name##_single : name##_lanes); \
-  }
+#define RUN_PASS(cycle, p, host, name) \
+  celd_row_pass (host, (p)->level->height, (cycle)->lanes == 1 ? name##_single : name##_lanes, p)
 
-PASS (down, 2)
-PASS (correct, 1)
-PASS (up, 3)
-PASS (reduce, 1)
+void
+celd_first_down (const CeldCoarse *cycle, CeldPass *p)
+{
+  const CeldHost *host = threads_of (cycle, p);
+
+  RUN_PASS (cycle, p, host, first_guess);
+  RUN_PASS (cycle, p, celd_strips_share (p->level) ? NULL : host, first_restrict);
+}
+
+void
+celd_first_correct (const CeldCoarse *cycle, CeldPass *p)
+{
+  RUN_PASS (cycle, p, threads_of (cycle, p), first_correct);
+}
+
+void
+celd_first_up (const CeldCoarse *cycle, CeldPass *p)
+{
+  const CeldHost *host = threads_of (cycle, p);
+
+  RUN_PASS (cycle, p, host, first_relax_black);
+  RUN_PASS (cycle, p, host, first_relax_red);
+  RUN_PASS (cycle, p, host, first_apply);
+}
+
+void
+celd_first_reduce (const CeldCoarse *cycle, CeldPass *p)
+{
+  RUN_PASS (cycle, p, threads_of (cycle, p), first_reduce);
+}

@@ -25,8 +25,6 @@ typedef struct
   CeldSolution    *s;
   const CeldLevel *level;
   float            alpha[CELD_LANES], beta[CELD_LANES];
-  bool             step;        /* is there a step to take first? */
-  int              phase;
 } Pass;
 
 /* ------------------------------------------------------------------ memory */
@@ -71,14 +69,6 @@ celd_solution_free (CeldSolution *s)
 
 /* ------------------------------------------------------------------ down: a step, and the first half of the cycle */
 
-CELD_INLINE void
-nothing (const Pass *pass, int y, int lanes)
-{
-  (void) pass;
-  (void) y;
-  (void) lanes;
-}
-
 /* Keeps the largest of a row: of every lane, or of all eight. */
 CELD_INLINE void
 keep_largest (double *largest, const float *of, int lanes)
@@ -100,8 +90,6 @@ step_row (const Pass *pass, int y, int lanes)
   float               low[8], high[8];
   double             *row = s->row + (size_t) y * SUMS * CELD_LANES;
 
-  if (!pass->step)
-    return;
   for (int k = 0; k < 8; k++)
     low[k] = high[k] = -INFINITY;
   for (EACH_PLACE (level, y, i))
@@ -160,8 +148,9 @@ restrict_row (const Pass *pass, int y, int lanes)
     }
 }
 
-SWEEP (pixels_step, 1, step_row, nothing, nothing, nothing)
-SWEEP (pixels_down, 3, step_row, guess_row, restrict_row, nothing)
+ROW_PASS (pixels_step, step_row)
+ROW_PASS (pixels_guess, guess_row)
+ROW_PASS (pixels_restrict, restrict_row)
 
 /* ------------------------------------------------------------------ up: the second half, and S z */
 
@@ -260,20 +249,22 @@ apply_row (const Pass *pass, int y, int lanes)
   keep_largest (row + 3 * CELD_LANES, largest, lanes);
 }
 
-SWEEP (pixels_correct, 1, correct_row, nothing, nothing, nothing)
-SWEEP (pixels_up, 4, relax_black_row, relax_red_row, rise_row, apply_row)
+ROW_PASS (pixels_correct, correct_row)
+ROW_PASS (pixels_relax_black, relax_black_row)
+ROW_PASS (pixels_relax_red, relax_red_row)
+ROW_PASS (pixels_rise, rise_row)
+ROW_PASS (pixels_apply, apply_row)
 
 /* ------------------------------------------------------------------ the passes */
 
-#define RUN_SWEEP(pass, stages, name) \
-  celd_sweep ((pass)->s->host, (pass)->level->height, stages, \
-              (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass, &(pass)->phase)
+#define RUN_PASS(pass, host, name) \
+  celd_row_pass (host, (pass)->level->height, (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass)
 
 /* A pass with these coefficients of a step, or without one. */
 static Pass
 pass_of (CeldSolution *s, const double *alpha, const double *beta)
 {
-  Pass pass = { .s = s, .level = &s->laplace->levels.level[0], .step = alpha != NULL };
+  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
 
   for (int k = 0; k < s->lanes && alpha; k++)
     {
@@ -304,25 +295,27 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
 {
   Pass              pass = pass_of (s, alpha, beta);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
+  const CeldHost   *host = s->host;
 
-  if (fresh)
-    {
-      RUN_SWEEP (&pass, 1, pixels_step);
-      celd_pixels_refresh (s);
-      pass.step = false;
-    }
-  memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-  RUN_SWEEP (&pass, 3, pixels_down);
   if (alpha)
     {
+      RUN_PASS (&pass, host, pixels_step);
       gather (s, 0, true, m->low);
       gather (s, 1, true, m->high);
       for (int k = 0; k < s->lanes; k++)
         m->low[k] = -m->low[k];
     }
+  if (fresh)
+    celd_pixels_refresh (s);
+  memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
+  RUN_PASS (&pass, host, pixels_guess);
+  RUN_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, pixels_restrict);
   celd_coarse_solve (&s->cycle);
-  RUN_SWEEP (&pass, 1, pixels_correct);
-  RUN_SWEEP (&pass, 4, pixels_up);
+  RUN_PASS (&pass, host, pixels_correct);
+  RUN_PASS (&pass, host, pixels_relax_black);
+  RUN_PASS (&pass, host, pixels_relax_red);
+  RUN_PASS (&pass, host, pixels_rise);
+  RUN_PASS (&pass, host, pixels_apply);
   gather (s, 0, false, m->zr);
   gather (s, 1, false, m->zq);
   gather (s, 2, false, m->zt);

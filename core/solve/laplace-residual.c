@@ -16,7 +16,6 @@ typedef struct
   CeldSolution    *s;
   const CeldLevel *level;
   bool             deliver;     /* the result, rather than the residual */
-  int              phase;
 } Pass;
 
 /* ------------------------------------------------------------------ right-hand sides */
@@ -231,7 +230,7 @@ settle_strip (void *data, int strip)
 static void
 run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
 {
-  celd_sweep (pass->s->host, pass->level->height, 1, pass->s->lanes == 1 ? single : lanes, pass, &pass->phase);
+  celd_row_pass (pass->s->host, pass->level->height, pass->s->lanes == 1 ? single : lanes, pass);
 }
 
 void

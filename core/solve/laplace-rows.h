@@ -66,63 +66,38 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
           (coarse)[(level)->coarser[(i) + k_]] += (pull)[k_]; \
   while (0)
 
-/* ------------------------------------------------------------------ sweeps
+/* ------------------------------------------------------------------ passes
  *
- * A sweep takes the rows through several stages, of which each needs its rows y-1 .. y+1 from the stage before and may
- * overwrite what that one has read there.  One strip of rows runs through all stages while it is in the cache, as far
- * as its own rows allow; the rows beside borders of strips follow in rounds of their own.  So threads share strips, and
- * none can change the result. */
+ * A pass takes every row once; its rows are independent of each other, so that strips of them go to the host's threads
+ * and none can change the result. */
 
-/* May stage `stage` take this row of the strip from .. to-1 before the other strips are done? */
-static inline bool
-celd_row_ready (int row, int from, int to, int height, int stage)
-{
-  return row >= (from ? from + stage : 0) && row < (to < height ? to - stage : height);
-}
-
-/* Runs `stages` rounds of a sweep's body; `phase` is the body's. */
-static inline void
-celd_sweep (const CeldHost *host, int height, int stages, void (*body) (void *pass, int i), void *pass, int *phase)
-{
-  int strips = (height + CELD_STRIP - 1) / CELD_STRIP;
-
-  for (*phase = 0; *phase < stages; ++*phase)
-    celd_parallel_for (host, *phase ? strips - 1 : strips, body, pass);
-}
-
-/* Defines the bodies name_single and name_lanes of a sweep over Pass, whose stages are stage (pass, row, lanes).  Names
- * are unique in core: clang makes what chooses between clones global. */
-#define SWEEP(name, stages, first, second, third, fourth) \
-  CELD_INLINE void name (void *data, int i, int lanes) \
+/* Defines name_single and name_lanes, which take the rows of a strip: row (pass, y, lanes).  Names are unique in core:
+ * clang makes what chooses between clones global. */
+#define ROW_PASS(name, row) \
+  CELD_INLINE void name (void *data, int strip, int lanes) \
   { \
     Pass *p = data; \
-    int   height = p->level->height, from = i * CELD_STRIP, end = from + CELD_STRIP, to = end < height ? end : height; \
+    int   from = strip * CELD_STRIP, end = from + CELD_STRIP, to = end < p->level->height ? end : p->level->height; \
 \
-    if (p->phase) \
-      for (int y = to - p->phase; y < to + p->phase && y < height; y++) \
-        { \
-          if (p->phase == 1) \
-            second (p, y, lanes); \
-          if (p->phase == 2) \
-            third (p, y, lanes); \
-          if (p->phase == 3) \
-            fourth (p, y, lanes); \
-        } \
-    else \
-      for (int y = from; y < to + (stages) - 1; y++) \
-        { \
-          if (y < to) \
-            first (p, y, lanes); \
-          if ((stages) > 1 && celd_row_ready (y - 1, from, to, height, 1)) \
-            second (p, y - 1, lanes); \
-          if ((stages) > 2 && celd_row_ready (y - 2, from, to, height, 2)) \
-            third (p, y - 2, lanes); \
-          if ((stages) > 3 && celd_row_ready (y - 3, from, to, height, 3)) \
-            fourth (p, y - 3, lanes); \
-        } \
+    for (int y = from; y < to; y++) \
+      row (p, y, lanes); \
   } \
   CELD_CLONES static void name##_single (void *data, int strip) { name (data, strip, 1); } \
   CELD_CLONES static void name##_lanes (void *data, int strip) { name (data, strip, CELD_LANES); }
+
+/* Runs the body of a pass for all strips. */
+static inline void
+celd_row_pass (const CeldHost *host, int height, void (*body) (void *pass, int strip), void *pass)
+{
+  celd_each (host, (height + CELD_STRIP - 1) / CELD_STRIP, body, pass);
+}
+
+/* Do strips of the level share coarse nodes?  Only if its cells join more rows than a strip has. */
+static inline bool
+celd_strips_share (const CeldLevel *level)
+{
+  return level[1].height * (CELD_STRIP / 2) < level->height;
+}
 
 /* Keeps the sums of a row: of every lane, or of all eight. */
 CELD_INLINE void
