@@ -15,7 +15,6 @@ typedef struct
 {
   const CeldWeights *fine;
   const uint32_t    *coarser;
-  const uint8_t     *mixed;
   CeldWeights       *coarse;
   Edge              *edge;
   size_t             n;
@@ -63,30 +62,6 @@ add_sink (const Contraction *c, uint32_t i, uint32_t cell)
     c->coarse->cell[to - n] = cell;
 }
 
-/* A coarse cell of 2 x 2 nodes: plain sums, if it and its neighbours are of a piece. */
-static inline void
-add_four (const Contraction *c, uint32_t x, uint32_t row)
-{
-  const CeldWeights *fine = c->fine;
-  uint32_t           many = (uint32_t) c->coarse->width, cell = row * many + x, w = (uint32_t) fine->width;
-  uint32_t           i = 2 * row * w + 2 * x;
-  bool               east = x + 1 < many, south = row + 1 < (uint32_t) c->coarse->height;
-
-  if (!c->mixed[cell] && !(east && c->mixed[cell + 1]) && !(south && c->mixed[cell + many]))
-    {
-      c->coarse->east[cell]  = east ? fine->east[i + 1] + fine->east[i + w + 1] : 0;
-      c->coarse->south[cell] = south ? fine->south[i + w] + fine->south[i + w + 1] : 0;
-      c->coarse->sink[cell]  = (fine->sink[i] + fine->sink[i + 1]) + (fine->sink[i + w] + fine->sink[i + w + 1]);
-      return;
-    }
-  for (uint32_t k = 0; k < 4; k++)
-    if (2 * x + k % 2 < w && 2 * row + k / 2 < (uint32_t) fine->height)
-      {
-        add_cell (c, 2 * x + k % 2, 2 * row + k / 2);
-        add_sink (c, i + k / 2 * w + k % 2, cell);
-      }
-}
-
 static void
 contract_row (void *data, int row)
 {
@@ -96,16 +71,12 @@ contract_row (void *data, int row)
   uint32_t           w = (uint32_t) fine->width, n = celd_weights_cells (fine);
   uint32_t           first = (uint32_t) row * (uint32_t) c->coarse->width;
 
-  if (c->coarse->doublings == 1)
-    for (uint32_t x = 0; x < (uint32_t) c->coarse->width; x++)
-      add_four (c, x, (uint32_t) row);
-  else
-    for (uint32_t y = nodes.from; y < nodes.to; y++)
-      for (uint32_t x = 0; x < w; x++)
-        {
-          add_cell (c, x, y);
-          add_sink (c, y * w + x, first + (x >> c->coarse->doublings));
-        }
+  for (uint32_t y = nodes.from; y < nodes.to; y++)
+    for (uint32_t x = 0; x < w; x++)
+      {
+        add_cell (c, x, y);
+        add_sink (c, y * w + x, first + (x >> c->coarse->doublings));
+      }
   for (uint32_t k = nodes.extra; k < nodes.extra_end; k++)
     add_sink (c, n + k, celd_weights_above (fine, fine->cell[k], c->coarse));
 }
@@ -172,19 +143,15 @@ push_extra (Contraction *c, uint32_t k)
 static CeldStatus
 push_row (Contraction *c, int row)
 {
-  CeldNodes      nodes = celd_weights_nodes (c->fine, c->coarse, row);
-  uint32_t       w = (uint32_t) c->fine->width, n = celd_weights_cells (c->coarse), side = 1u << c->coarse->doublings;
-  const uint8_t *mixed = c->mixed + (size_t) row * (size_t) c->coarse->width;
-  int            cells = c->coarse->row_extra[row] < c->coarse->row_extra[row + 1] ? c->coarse->width : 0;
-  CeldStatus     status = CELD_OK;
+  CeldNodes  nodes = celd_weights_nodes (c->fine, c->coarse, row);
+  uint32_t   w = (uint32_t) c->fine->width, n = celd_weights_cells (c->coarse);
+  CeldStatus status = CELD_OK;
 
-#define NEXT(x) (side == 2 ? celd_next_marked (cells, mixed, x) : (x))
-  for (int cell = NEXT (0); cell < cells; cell = NEXT (cell + 1))
+  if (c->coarse->row_extra[row] < c->coarse->row_extra[row + 1])
     for (uint32_t y = nodes.from; y < nodes.to; y++)
-      for (uint32_t x = (uint32_t) cell * side; x < ((uint32_t) cell + 1) * side && x < w && status == CELD_OK; x++)
+      for (uint32_t x = 0; x < w && status == CELD_OK; x++)
         if (c->coarser[y * w + x] >= n)
           status = push_first (c, x, y);
-#undef NEXT
   for (uint32_t k = nodes.extra; k < nodes.extra_end && status == CELD_OK; k++)
     status = push_extra (c, k);
   return status;
@@ -239,12 +206,11 @@ list_edges (const Contraction *c, uint32_t *place)
 }
 
 CeldStatus
-celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed, const CeldHost *host,
-                       CeldWeights *coarse)
+celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const CeldHost *host, CeldWeights *coarse)
 {
   uint32_t    n = celd_weights_cells (coarse);
   uint32_t   *place = celd_alloc ((size_t) n + coarse->n_extra, sizeof *place);
-  Contraction c = { fine, coarser, mixed, coarse, NULL, 0 };
+  Contraction c = { fine, coarser, coarse, NULL, 0 };
   CeldStatus  status = CELD_NO_MEMORY;
 
   coarse->east  = celd_alloc0 (n, sizeof *coarse->east);

@@ -110,34 +110,6 @@ join_row (CeldAggregation *a, bool leaves, uint32_t y)
   return found;
 }
 
-/* The same for two rows of cells of 2 x 2 nodes, nearly all of which are of a piece. */
-static inline bool
-join_pair_of_rows (CeldAggregation *a, bool leaves, uint32_t y)
-{
-  const CeldWeights *g = a->graph;
-  uint32_t           w = (uint32_t) g->width, i = y * w, *parent = a->parent;
-  const float       *east = g->east, *south = g->south;
-  float              strong = STRONG * a->most;
-  bool               found = false;
-
-  for (uint32_t x = 0; x + 1 < w; x += 2, i += 2)
-    if (east[i] >= strong && east[i + w] >= strong && south[i] >= strong && south[i + 1] >= strong && strong > 0)
-      {
-        if (!leaves)
-          parent[i + 1] = parent[i + w] = parent[i + w + 1] = i;
-      }
-    else
-      {
-        found |= join_edge (a, leaves, i, i + 1, east[i]);
-        found |= join_edge (a, leaves, i, i + w, south[i]);
-        found |= join_edge (a, leaves, i + 1, i + w + 1, south[i + 1]);
-        found |= join_edge (a, leaves, i + w, i + w + 1, east[i + w]);
-      }
-  if (w % 2)
-    found |= join_edge (a, leaves, i, i + w, south[i]);
-  return found;
-}
-
 /* Joins an extra node with its neighbours in its coarse cell. */
 static inline bool
 join_extra (CeldAggregation *a, bool leaves, uint32_t k)
@@ -158,11 +130,8 @@ join_nodes (CeldAggregation *a, bool leaves, const CeldNodes *nodes)
 {
   bool found = false;
 
-  if (a->coarse->doublings == 1 && nodes->to - nodes->from == 2)
-    found = join_pair_of_rows (a, leaves, nodes->from);
-  else
-    for (uint32_t y = nodes->from; y < nodes->to; y++)
-      found |= join_row (a, leaves, y);
+  for (uint32_t y = nodes->from; y < nodes->to; y++)
+    found |= join_row (a, leaves, y);
   for (uint32_t k = nodes->extra; k < nodes->extra_end; k++)
     found |= join_extra (a, leaves, k);
   return found;
@@ -316,13 +285,12 @@ celd_weights_coarsen (CeldWeights *fine, const CeldHost *host, CeldWeights *coar
     status = pair_up (&a, most);
   if (status != CELD_OK)
     goto done;
-  a.mixed  = celd_alloc (celd_weights_cells (coarse), 1);
   coarse->row_extra = celd_alloc0 ((size_t) coarse->height + 1, sizeof *coarse->row_extra);
-  status = a.mixed && coarse->row_extra ? CELD_OK : CELD_NO_MEMORY;
+  status = coarse->row_extra ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = celd_weights_number (&a);
   if (status == CELD_OK)
-    status = celd_weights_contract (fine, a.link, a.mixed, host, coarse);
+    status = celd_weights_contract (fine, a.link, host, coarse);
 
 done:
   if (status == CELD_OK)
@@ -337,6 +305,5 @@ done:
   celd_free (a.open);
   celd_free (a.row_most);
   celd_free (a.row_count);
-  celd_free (a.mixed);
   return status;
 }

@@ -39,7 +39,7 @@ typedef struct
 {
   const CeldWeights *graph;
   CeldWeights       *coarse;
-  const CeldHost    *host;
+  const CeldHost     *host;
   float              most;        /* weight of the strongest link of all */
   float             *best;        /* weight of the strongest link */
   uint32_t          *link;        /* the node at its other end; in the end the aggregate */
@@ -47,7 +47,7 @@ typedef struct
   uint8_t           *open;        /* does what it is part of go on beyond its coarse cell? */
   uint32_t          *row_most;    /* of each fine row: bits of the strongest link */
   uint32_t          *row_count;   /* of each fine row: nodes with a link; of each coarse row: aggregates */
-  uint8_t           *mixed;       /* of each coarse cell: are its nodes not one aggregate? */
+  uint8_t           *taken;       /* of each coarse cell: has an aggregate its number? */
 } CeldAggregation;
 
 /* ------------------------------------------------------------------ laplace-links.c */
@@ -72,10 +72,8 @@ CeldStatus celd_weights_number (CeldAggregation *a);
 
 /* ------------------------------------------------------------------ laplace-contract.c */
 
-#define CELD_MIXED 0x80 /* a cell that is not of a piece */
-
-/* Edges and sinks of the coarse graph, whose sizes are known.  mixed: of each coarse cell; only for those of 2 x 2. */
-CeldStatus celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const uint8_t *mixed,
-                                  const CeldHost *host, CeldWeights *coarse);
+/* Edges and sinks of the coarse graph, whose sizes are known. */
+CeldStatus celd_weights_contract (const CeldWeights *fine, const uint32_t *coarser, const CeldHost *host,
+                                  CeldWeights *coarse);
 
 #endif

@@ -9,7 +9,7 @@
 
 /* Numbers the aggregate of node i, which lies in a coarse cell; *count is the next number of an extra one. */
 static inline void
-number_node (CeldAggregation *a, uint32_t i, uint32_t cell, uint8_t *taken, uint32_t *count)
+number_node (CeldAggregation *a, uint32_t i, uint32_t cell, uint32_t *count)
 {
   uint32_t root = celd_root (a->parent, i);
 
@@ -17,29 +17,16 @@ number_node (CeldAggregation *a, uint32_t i, uint32_t cell, uint8_t *taken, uint
     a->link[i] = CELD_NO_NODE;
   else if (root != i)
     a->link[i] = a->link[root]; /* a root comes before its members */
-  else if (!taken[cell])
+  else if (!a->taken[cell])
     {
-      taken[cell] = 1;
+      a->taken[cell] = 1;
       a->link[i]  = cell;
     }
   else
     a->link[i] = (*count)++;
 }
 
-/* First nodes of a cell of 2 x 2, if they are one aggregate. */
-static inline bool
-number_four (CeldAggregation *a, uint32_t i, uint32_t w, uint32_t cell)
-{
-  const uint32_t *parent = a->parent;
-
-  if (parent[i] != i || parent[i + 1] != i || parent[i + w] != i || parent[i + w + 1] != i)
-    return false;
-  a->link[i] = a->link[i + 1] = a->link[i + w] = a->link[i + w + 1] = cell;
-  return true;
-}
-
-/* The nodes of a row of coarse cells.  What is taken is marked in `mixed` for the time being.  Extra aggregates count
- * from the first one of the row. */
+/* The nodes of a row of coarse cells.  Extra aggregates count from the first one of the row. */
 static void
 number_row (void *data, int row)
 {
@@ -49,31 +36,14 @@ number_row (void *data, int row)
   CeldNodes          nodes = celd_weights_nodes (g, coarse, row);
   uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g), cells = celd_weights_cells (coarse);
   uint32_t           cell = (uint32_t) row * (uint32_t) coarse->width, side = 1u << coarse->doublings, count = cells;
-  bool               pair = side == 2 && nodes.to - nodes.from == 2;
 
   for (uint32_t x0 = 0, c = cell; x0 < w; x0 += side, c++)
-    {
-      bool done = pair && x0 + 1 < w && number_four (a, nodes.from * w + x0, w, c);
-
-      a->mixed[c] = done;
-      for (uint32_t y = nodes.from; y < nodes.to && !done; y++)
-        for (uint32_t x = x0; x < x0 + side && x < w; x++)
-          number_node (a, y * w + x, c, a->mixed, &count);
-    }
+    for (uint32_t y = nodes.from; y < nodes.to; y++)
+      for (uint32_t x = x0; x < x0 + side && x < w; x++)
+        number_node (a, y * w + x, c, &count);
   for (uint32_t k = nodes.extra; k < nodes.extra_end; k++)
-    number_node (a, n + k, celd_weights_above (g, g->cell[k], coarse), a->mixed, &count);
+    number_node (a, n + k, celd_weights_above (g, g->cell[k], coarse), &count);
   a->row_count[row] = count - cells;
-  if (coarse->doublings > 1)
-    return;
-  for (uint32_t x = 0; x < (uint32_t) coarse->width; x++)
-    {
-      uint32_t i = nodes.from * w + 2 * x, c = cell + x;
-
-      bool four = nodes.to - nodes.from == 2 && 2 * x + 1 < w && a->link[i] == c && a->link[i + 1] == c &&
-                  a->link[i + w] == c && a->link[i + w + 1] == c;
-
-      a->mixed[c] = four ? 0 : CELD_MIXED;
-    }
 }
 
 /* Extra aggregates of a row come after those of the rows before. */
@@ -115,7 +85,10 @@ celd_weights_number (CeldAggregation *a)
 {
   CeldWeights *coarse = a->coarse;
 
+  if (!(a->taken = celd_alloc0 (celd_weights_cells (coarse), 1)))
+    return CELD_NO_MEMORY;
   celd_parallel_for (a->host, coarse->height, number_row, a);
+  celd_free (a->taken);
   for (int row = 0; row < coarse->height; row++)
     coarse->row_extra[row + 1] = coarse->row_extra[row] + a->row_count[row];
   coarse->n_extra = coarse->row_extra[coarse->height];

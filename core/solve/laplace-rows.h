@@ -89,7 +89,7 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
 static inline void
 celd_row_pass (const CeldHost *host, int height, void (*body) (void *pass, int strip), void *pass)
 {
-  celd_each (host, (height + CELD_STRIP - 1) / CELD_STRIP, body, pass);
+  celd_parallel_for (host, (height + CELD_STRIP - 1) / CELD_STRIP, body, pass);
 }
 
 /* Do strips of the level share coarse nodes?  Only if its cells join more rows than a strip has. */
