@@ -1,5 +1,6 @@
 /* Pictures in and out of files, for the command line and the GEGL operations; a C face for OpenImageIO, which is C++.
  *
+ * Files are read in a process of its own: damaged ones can crash a reader, or make it ask for any amount of memory.
  * Reading: open a file, look at its parts (the layers of a PSD, the parts of an EXR, the pages of a TIFF; one part in
  * an ordinary picture), read the parts that are wanted.  Every part comes as large as the canvas, at its place on it,
  * transparent around.  Alpha is straight, whatever the file does.
@@ -7,7 +8,8 @@
  * stack of layers.
  *
  * Colour stays as it is in the file: encoded by the embedded profile (sRGB if there is none), or linear light; the
- * caller converts.  No function of this file throws, prints or keeps global state.
+ * caller converts.  No function of this file throws or prints; all may be called from any thread, a file from one at a
+ * time.  The only global state is the process that reads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -35,6 +37,11 @@ typedef struct
   bool        linear;    /* linear light (EXR, HDR); else encoded */
   int         bits;      /* of a channel: 8, 16, 32 */
 } CeldIoPart;
+
+/* For programs that have one thread when they call this: copies this program to be the process that reads, which costs
+ * 2 ms.  Without it the first file that is opened starts the program celdepth-read, in 0.2 s: it lies beside the module
+ * or program that this library is part of, or where it is installed. */
+void celd_io_fork_reader (void);
 
 CeldIoFile *celd_io_open  (const char *path, CeldIoError *error);        /* NULL: see error */
 void        celd_io_close (CeldIoFile *file);                            /* accepts NULL */

@@ -28,13 +28,11 @@ struct IoFailure : std::runtime_error
 // IEC 61966-2-1.
 float encode_srgb (float value);
 
-// Does the work; turns whatever it throws into the sentence "Cannot read "page.psd": ...".
+// Does the work; false, and why not, if it throws.
 template <typename Work>
 bool
-guarded (const char *verb, const std::string &path, CeldIoError *error, Work work)
+succeeds (std::string &why, Work work)
 {
-  std::string why;
-
   try
     {
       work ();
@@ -55,6 +53,18 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
   while (!why.empty () && (why.back () == '\n' || why.back () == ' '))
     why.pop_back ();
   std::replace (why.begin (), why.end (), '\n', ' ');
+  return false;
+}
+
+// Does the work; turns whatever it throws into the sentence "Cannot read "page.psd": ...".
+template <typename Work>
+bool
+guarded (const char *verb, const std::string &path, CeldIoError *error, Work work)
+{
+  std::string why;
+
+  if (succeeds (why, work))
+    return true;
   std::snprintf (error->text, sizeof error->text, "Cannot %s \"%s\": %s", verb, path.c_str (), why.c_str ());
   return false;
 }

@@ -1,252 +1,307 @@
-// Reading of pictures: every part comes as large as the canvas and with straight alpha.
-//
-// Pixels are read in strips, so that a layer costs its own floats and little more.  OpenImageIO is asked to leave
-// straight alpha alone; files that hold premultiplied alpha (EXR, some TIFF) are divided here.
+// The reading of pictures as the rest of celdepth sees it: it happens in another process (read-server.cpp), which may
+// crash without harm, and comes here through a socket.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "celdepth-io.hpp"
+#include "read-wire.hpp"
 
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
-
-#include <algorithm>
-#include <cstdlib>
+#include <cerrno>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <vector>
 
-using OIIO::ImageSpec;
-using OIIO::Strutil::iequals;
+#include <dlfcn.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
-struct Part
+struct DescribedPart
 {
-  ImageSpec   spec;
-  std::string name;
   CeldIoPart  face;
-  bool        covers; // the whole canvas
+  std::string name, profile;
 };
 
 struct CeldIoFile
 {
-  std::string                       path;
-  std::unique_ptr<OIIO::ImageInput> input;
-  std::vector<Part>                 parts;
-  int                               width, height;
+  std::string                path; // as it was given
+  std::unique_ptr<Wire>      wire;
+  std::vector<DescribedPart> parts;
+  int                        width, height;
 };
 
-// ------------------------------------------------------------------ channels
+// ------------------------------------------------------------------ the process that reads
 
-// The channel of that name, either bare or as the last word of a longer name ("N.X"); -1 if there is none.
+constexpr const char *helper_name = "celdepth-read";
+
+// Both ends are closed in programs that are started meanwhile.
+struct SocketPair
+{
+  int ours = -1, theirs = -1;
+
+  SocketPair ()
+  {
+    int ends[2];
+
+    if (socketpair (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends))
+      throw IoFailure ("too many files are open.");
+    ours = ends[0], theirs = ends[1];
+  }
+  ~SocketPair ()
+  {
+    for (int end : { ours, theirs })
+      if (end >= 0)
+        close (end);
+  }
+  SocketPair (const SocketPair &) = delete;
+  SocketPair &operator= (const SocketPair &) = delete;
+};
+
 static int
-find_channel (const ImageSpec &spec, const std::string &name)
+take (int &descriptor)
 {
-  const auto &names = spec.channelnames;
+  const int taken = descriptor;
 
-  for (size_t i = 0; i < names.size (); i++)
-    if (iequals (names[i], name))
-      return int (i);
-  for (size_t i = 0; i < names.size (); i++)
-    if (OIIO::Strutil::iends_with (names[i], "." + name))
-      return int (i);
-  return -1;
+  descriptor = -1;
+  return taken;
 }
 
-struct Channels
+// The helper beside this module or program, where a build or a user puts it; else where it is installed.
+static std::string
+find_helper ()
 {
-  int red, green, blue, alpha; // alpha -1: none
+  Dl_info here;
+
+  if (dladdr (reinterpret_cast<const void *> (&celd_io_open), &here) && here.dli_fname)
+    {
+      const std::filesystem::path beside = std::filesystem::path (here.dli_fname).replace_filename (helper_name);
+
+      if (access (beside.c_str (), X_OK) == 0)
+        return beside;
+    }
+  return std::string (CELD_LIBEXEC_FOLDER) + "/" + helper_name;
+}
+
+// Waits until the process that was started has made its own one and left.
+static void
+wait_for_starter (pid_t process)
+{
+  while (waitpid (process, nullptr, 0) < 0 && errno == EINTR)
+    continue;
+}
+
+// By posix_spawn: a host that has threads must not fork.
+static void
+start_helper (const SocketPair &pair)
+{
+  const std::string          helper = find_helper ();
+  char                      *words[] = { const_cast<char *> (helper.c_str ()), nullptr };
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t          attributes;
+  sigset_t                   none, all;
+  pid_t                      process;
+  int                        status;
+
+  sigemptyset (&none);
+  sigfillset (&all);
+  posix_spawnattr_init (&attributes);
+  posix_spawnattr_setsigmask (&attributes, &none);
+  posix_spawnattr_setsigdefault (&attributes, &all);
+  posix_spawnattr_setflags (&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawn_file_actions_init (&files);
+  posix_spawn_file_actions_adddup2 (&files, pair.theirs, control_descriptor);
+  status = posix_spawn (&process, helper.c_str (), &files, &attributes, words, environ);
+  posix_spawn_file_actions_destroy (&files);
+  posix_spawnattr_destroy (&attributes);
+  if (status)
+    throw IoFailure ("the program " + helper + ", which reads files, cannot be started.");
+  wait_for_starter (process);
+}
+
+// The server's socket; -1 before the first file.
+struct Server
+{
+  std::mutex mutex;
+  int        control = -1;
+
+  ~Server ()
+  {
+    if (control >= 0)
+      close (control);
+  }
 };
 
-static Channels
-colour_channels (const ImageSpec &spec)
-{
-  Channels c = { find_channel (spec, "R"), find_channel (spec, "G"), find_channel (spec, "B"),
-                 find_channel (spec, "A") };
+static Server server;
 
-  if (c.red < 0 || c.green < 0 || c.blue < 0)
-    c.red = find_channel (spec, "N.X"), c.green = find_channel (spec, "N.Y"), c.blue = find_channel (spec, "N.Z");
-  if (c.red < 0 || c.green < 0 || c.blue < 0)
-    c.red = c.green = c.blue = std::max (find_channel (spec, "Y"), 0);
-  return c;
+// A conversation with a new worker; null if the server is gone, or cannot make one.
+static std::unique_ptr<Wire>
+ask_for_worker (int control)
+{
+  SocketPair            pair;
+  std::unique_ptr<Wire> wire;
+
+  if (!send_descriptor (control, pair.theirs))
+    return nullptr;
+  close (take (pair.theirs));
+  wire = std::make_unique<Wire> (take (pair.ours));
+  try
+    {
+      if (wire->receive<uint32_t> () == wire_greeting)
+        return wire;
+    }
+  catch (const WireFailure &)
+    {
+      return nullptr;
+    }
+  throw IoFailure ("the program " + std::string (helper_name) + " is of another version of celdepth.");
 }
 
-// ------------------------------------------------------------------ opening
+// The server leaves when nobody wants it for a while; then there is a new one.
+static std::unique_ptr<Wire>
+start_worker ()
+{
+  const std::lock_guard<std::mutex> lock (server.mutex);
+  std::unique_ptr<Wire>             wire;
 
+  if (server.control >= 0)
+    wire = ask_for_worker (server.control);
+  if (!wire)
+    {
+      SocketPair pair;
+
+      if (server.control >= 0)
+        close (take (server.control));
+      start_helper (pair);
+      server.control = take (pair.ours);
+      close (take (pair.theirs));
+      wire = ask_for_worker (server.control);
+    }
+  if (!wire)
+    throw IoFailure ("the program " + std::string (helper_name) + ", which reads files, does not answer.");
+  return wire;
+}
+
+void
+celd_io_fork_reader (void)
+{
+  const std::lock_guard<std::mutex> lock (server.mutex);
+  int                               ends[2];
+  pid_t                             process;
+
+  if (server.control >= 0 || socketpair (AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends))
+    return;
+  process = fork ();
+  if (process == 0)
+    {
+      close (ends[0]);
+      if (fork () == 0)
+        serve_readers (ends[1], -1);
+      _exit (0);
+    }
+  close (ends[1]);
+  if (process > 0)
+    wait_for_starter (process);
+  server.control = ends[0];
+}
+
+// ------------------------------------------------------------------ conversations
+
+// The reason that the worker gives.
+static void
+check_answer (const Wire &wire)
+{
+  if (wire.receive<Answer> () != Answer::good)
+    throw IoFailure (wire.receive_text ());
+}
+
+// Does the work; says of a worker that is gone what the artist can know.
+template <typename Work>
 static bool
-is_linear (const ImageSpec &spec, const char *format)
+guarded_talk (const std::string &path, CeldIoError *error, Work work)
 {
-  return iequals (format, "openexr") ||
-         OIIO::Strutil::istarts_with (spec.get_string_attribute ("oiio:ColorSpace"), "lin");
-}
-
-// OpenImageIO tells where the layer of a PSD lies, but calls the layer's own size the full one, and says of the last
-// layer only that alpha is straight, which it is in all.
-static void
-place_layer (ImageSpec &spec, const ImageSpec &merged)
-{
-  spec.full_x = spec.full_y = 0;
-  spec.full_width = merged.full_width;
-  spec.full_height = merged.full_height;
-  spec.attribute ("oiio:UnassociatedAlpha", 1);
+  return guarded ("read", path, error, [&] {
+    try
+      {
+        work ();
+      }
+    catch (const WireFailure &)
+      {
+        throw IoFailure ("it is damaged (reading it crashed, or took too much time or memory).");
+      }
+  });
 }
 
 static void
-describe (Part &part, int width, int height, const char *format)
+receive_part (const Wire &wire, DescribedPart &part)
 {
-  const ImageSpec &spec = part.spec;
-  Channels         c = colour_channels (spec);
-  int64_t          left = int64_t (spec.x) - spec.full_x, top = int64_t (spec.y) - spec.full_y;
-
-  part.covers = left <= 0 && top <= 0 && left + spec.width >= width && top + spec.height >= height;
-  part.name = spec.get_string_attribute ("oiio:subimagename");
-  if (part.name.empty ())
-    part.name = spec.get_string_attribute ("tiff:PageName");
-  part.face.alpha = c.alpha >= 0 || !part.covers;
-  part.face.grey = c.red == c.green && c.red == c.blue;
-  part.face.linear = is_linear (spec, format);
-  part.face.bits = int (8 * spec.format.basesize ());
+  part.name = wire.receive_text ();
+  part.face.alpha = wire.receive<uint8_t> ();
+  part.face.grey = wire.receive<uint8_t> ();
+  part.face.linear = wire.receive<uint8_t> ();
+  part.face.bits = wire.receive<int> ();
+  part.profile = wire.receive_text (longest_profile);
 }
 
 static void
 open_file (CeldIoFile &file)
 {
-  std::filesystem::file_status status = std::filesystem::status (file.path);
-  ImageSpec                    wishes;
-
-  if (!std::filesystem::exists (status))
-    throw IoFailure ("there is no such file.");
-  if (std::filesystem::is_directory (status))
-    throw IoFailure ("it is a folder.");
-  wishes.attribute ("oiio:UnassociatedAlpha", 1);
-  file.input = OIIO::ImageInput::open (file.path, &wishes);
-  if (!file.input)
-    throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; "
-                     "save XCF, ORA and KRA as PSD). " + OIIO::geterror ());
-  for (int i = 0; file.input->seek_subimage (i, 0); i++)
-    file.parts.push_back ({ file.input->spec (i, 0), "", {}, false });
-  file.input->geterror (); // of the search beyond the last part
-  if (file.parts.empty ())
-    throw IoFailure ("it holds no picture.");
-  file.width = file.parts[0].spec.full_width;
-  file.height = file.parts[0].spec.full_height;
+  file.wire = start_worker ();
+  file.wire->send (Request::open);
+  file.wire->send_text (std::filesystem::absolute (file.path).string ());
+  check_answer (*file.wire);
+  file.width = file.wire->receive<int> ();
+  file.height = file.wire->receive<int> ();
   if (file.width < 1 || file.height < 1 || file.width > CELD_MAX_SIDE || file.height > CELD_MAX_SIDE)
-    throw IoFailure ("its size of " + std::to_string (file.width) + " x " + std::to_string (file.height) +
-                     " pixels is outside 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
-  if (iequals (file.input->format_name (), "psd"))
-    for (Part &part : file.parts)
-      place_layer (part.spec, file.parts[0].spec);
-  for (Part &part : file.parts)
-    describe (part, file.width, file.height, file.input->format_name ());
-  for (Part &part : file.parts)
+    throw WireFailure ("no size that a worker sends");
+  for (uint64_t n = file.wire->receive<uint64_t> (); n > 0; n--)
+    {
+      file.parts.emplace_back ();
+      receive_part (*file.wire, file.parts.back ());
+    }
+  if (file.parts.empty ())
+    throw WireFailure ("no parts");
+  for (DescribedPart &part : file.parts)
     part.face.name = part.name.c_str ();
 }
 
-// ------------------------------------------------------------------ pixels
-
-// Layers may stick out of the canvas, but not without end: sums of places stay within int.
-constexpr int64_t farthest_place = 1 << 24;
-
+// Into a picture of the canvas, with `floats` numbers a pixel.
 static void
-check_part (const CeldIoFile &file, size_t index)
+read_pixels (const CeldIoFile &file, size_t part, Request request, size_t floats, float *pixels)
 {
-  const ImageSpec &spec = file.parts.at (index).spec;
+  const Wire  &wire = *file.wire;
+  const size_t width = size_t (file.width), height = size_t (file.height);
+  CeldRect     seen;
+  int          y;
 
-  if (spec.full_width != file.width || spec.full_height != file.height)
-    throw IoFailure ("its part " + std::to_string (index) + " has another size than its first.");
-  if (spec.deep || spec.depth > 1)
-    throw IoFailure ("deep and volume pictures cannot be used.");
-  if (spec.width > 2 * CELD_MAX_SIDE || spec.height > 2 * CELD_MAX_SIDE || spec.nchannels < 1 ||
-      std::abs (int64_t (spec.x) - spec.full_x) > farthest_place ||
-      std::abs (int64_t (spec.y) - spec.full_y) > farthest_place)
-    throw IoFailure ("its part " + std::to_string (index) + " is too large or too far outside.");
-}
-
-// Calls take (pixel of the part, place on the canvas) for each pixel of the part that lies on the canvas.
-template <typename Take>
-static void
-read_pixels (CeldIoFile &file, size_t index, Take take)
-{
-  const ImageSpec   &spec = file.parts[index].spec;
-  const int          left = spec.x - spec.full_x, top = spec.y - spec.full_y, n = spec.nchannels, part = int (index);
-  const size_t       row = size_t (spec.width) * size_t (n);
-  const int          unit = std::max (spec.tile_height, 1);
-  const int          rows = int (std::min<size_t> ((size_t (1) << 22) / std::max<size_t> (row, 1), 256));
-  const int          strip = std::max (rows / unit, 1) * unit;
-  std::vector<float> pixels (row * size_t (std::min (strip, std::max (spec.height, 0))));
-
-  for (int y = 0; spec.width > 0 && y < spec.height; y += strip)
+  wire.send (request);
+  wire.send (uint64_t (part));
+  check_answer (wire);
+  seen = wire.receive<CeldRect> ();
+  if (seen.x < 0 || seen.y < 0 || seen.width < 0 || seen.height < 0 || seen.width > file.width - seen.x ||
+      seen.height > file.height - seen.y)
+    throw WireFailure ("no rectangle that a worker sends");
+  // What is overwritten stays untouched: a damaged file of 20000 x 20000 pixels must not cost the memory that it asks for.
+  if (seen.width < file.width || seen.height < file.height)
+    std::fill (pixels, pixels + floats * width * height, 0.f);
+  y = seen.y;
+  for (int32_t rows; (rows = wire.receive<int32_t> ()) != 0;)
     {
-      int  end = std::min (y + strip, spec.height);
-      bool good = spec.tile_width
-                    ? file.input->read_tiles (part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z,
-                                              spec.z + 1, 0, n, OIIO::TypeFloat, pixels.data ())
-                    : file.input->read_scanlines (part, 0, spec.y + y, spec.y + end, spec.z, 0, n, OIIO::TypeFloat,
-                                                  pixels.data ());
-
-      // Of a TIFF that is cut short the error is kept, but reading counts as good.
-      if (!good || file.input->has_error ())
-        throw IoFailure ("it is damaged or cut short (" + file.input->geterror () + ").");
-      for (int j = std::max (y, -top); j < std::min (end, file.height - top); j++)
-        for (int i = std::max (0, -left); i < std::min (spec.width, file.width - left); i++)
-          take (pixels.data () + size_t (j - y) * row + size_t (i) * size_t (n),
-                size_t (j + top) * size_t (file.width) + size_t (i + left));
+      if (rows == -1)
+        throw IoFailure (wire.receive_text ());
+      if (rows < 0 || rows > seen.y + seen.height - y)
+        throw WireFailure ("no number of rows that a worker sends");
+      if (seen.width == file.width)
+        wire.receive (pixels + floats * width * size_t (y), sizeof (float) * floats * width * size_t (rows));
+      else
+        for (int j = y; j < y + rows; j++)
+          wire.receive (pixels + floats * (width * size_t (j) + size_t (seen.x)),
+                        sizeof (float) * floats * size_t (seen.width));
+      y += rows;
     }
-}
-
-static void
-read_colours (CeldIoFile &file, size_t index, float *rgba)
-{
-  const ImageSpec &spec = file.parts.at (index).spec;
-  const Channels   c = colour_channels (spec);
-  const bool       premultiplied = c.alpha >= 0 && !spec.get_int_attribute ("oiio:UnassociatedAlpha");
-
-  check_part (file, index);
-  // Not where it is overwritten: a damaged file of 20000 x 20000 pixels must not cost the memory that it asks for.
-  if (!file.parts[index].covers)
-    std::fill (rgba, rgba + 4 * size_t (file.width) * size_t (file.height), 0.f);
-  read_pixels (file, index, [=] (const float *pixel, size_t place) {
-    float *out = rgba + 4 * place;
-    float  alpha = c.alpha >= 0 ? pixel[c.alpha] : 1.f;
-    float  divisor = premultiplied && alpha > 0 ? alpha : 1.f;
-
-    out[0] = pixel[c.red] / divisor;
-    out[1] = pixel[c.green] / divisor;
-    out[2] = pixel[c.blue] / divisor;
-    out[3] = alpha;
-  });
-}
-
-// value = offset + factor * stored.
-struct Scale
-{
-  int   channel;
-  float offset, factor;
-};
-
-static Scale
-value_scale (const ImageSpec &spec)
-{
-  const float farthest = spec.get_float_attribute (note_farthest, 0.f);
-  const float range    = spec.get_float_attribute (note_nearest, 1.f) - farthest;
-  const float near     = spec.get_float_attribute ("near", 1.f);
-  const float far      = spec.get_float_attribute ("far", 2.f);
-  const int   v = find_channel (spec, "depth.V"), z = find_channel (spec, "Z");
-
-  if (v < 0 && z >= 0 && find_channel (spec, "X") < 0 && far > near)
-    return { z, farthest + range * far / (far - near), -range / (far - near) };
-  return { v >= 0 ? v : colour_channels (spec).red, farthest, range };
-}
-
-static void
-read_values (CeldIoFile &file, size_t index, float *values)
-{
-  const Scale scale = value_scale (file.parts.at (index).spec);
-
-  check_part (file, index);
-  if (!file.parts[index].covers)
-    std::fill (values, values + size_t (file.width) * size_t (file.height), 0.f);
-  read_pixels (file, index, [=] (const float *pixel, size_t place) {
-    values[place] = scale.offset + scale.factor * pixel[scale.channel];
-  });
+  if (y < seen.y + seen.height && seen.width)
+    throw WireFailure ("rows are missing");
 }
 
 // ------------------------------------------------------------------ the C face
@@ -256,7 +311,7 @@ celd_io_open (const char *path, CeldIoError *error)
 {
   CeldIoFile *file = nullptr;
 
-  if (guarded ("read", path, error, [&] {
+  if (guarded_talk (path, error, [&] {
         file = new CeldIoFile ();
         file->path = path;
         open_file (*file);
@@ -296,11 +351,23 @@ celd_io_part (const CeldIoFile *file, size_t part)
   return &file->parts[part].face;
 }
 
+// The letters of ASCII only, whatever the language.
+static bool
+same_name (const std::string &a, const char *b)
+{
+  const auto lower = [] (char c) { return c >= 'A' && c <= 'Z' ? char (c - 'A' + 'a') : c; };
+  size_t     i = 0;
+
+  while (i < a.size () && b[i] && lower (a[i]) == lower (b[i]))
+    i++;
+  return i == a.size () && !b[i];
+}
+
 size_t
 celd_io_find (const CeldIoFile *file, const char *name)
 {
   for (size_t i = 0; i < file->parts.size (); i++)
-    if (iequals (file->parts[i].name, name))
+    if (same_name (file->parts[i].name, name))
       return i;
   return CELD_NO_INDEX;
 }
@@ -308,25 +375,20 @@ celd_io_find (const CeldIoFile *file, const char *name)
 const char *
 celd_io_profile (const CeldIoFile *file, size_t part, size_t *size)
 {
-  // The layers of a PSD share the profile of the file, which OpenImageIO hangs on some parts only.
-  for (size_t i : { part, size_t (0) })
-    if (const auto *profile = file->parts[i].spec.find_attribute ("ICCProfile"))
-      {
-        *size = size_t (profile->datasize ());
-        return static_cast<const char *> (profile->data ());
-      }
-  *size = 0;
-  return nullptr;
+  const std::string &profile = file->parts[part].profile;
+
+  *size = profile.size ();
+  return profile.empty () ? nullptr : profile.data ();
 }
 
 bool
 celd_io_read_colours (CeldIoFile *file, size_t part, float *rgba, CeldIoError *error)
 {
-  return guarded ("read", file->path, error, [&] { read_colours (*file, part, rgba); });
+  return guarded_talk (file->path, error, [&] { read_pixels (*file, part, Request::colours, 4, rgba); });
 }
 
 bool
 celd_io_read_values (CeldIoFile *file, size_t part, float *values, CeldIoError *error)
 {
-  return guarded ("read", file->path, error, [&] { read_values (*file, part, values); });
+  return guarded_talk (file->path, error, [&] { read_pixels (*file, part, Request::values, 1, values); });
 }

@@ -113,7 +113,10 @@ main (int argc, char **argv)
     }
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
     if (!strcmp (word, commands[i].name))
-      return run_command (&commands[i], argc - 1, argv + 1);
+      {
+        celd_io_fork_reader (); /* before there are threads */
+        return run_command (&commands[i], argc - 1, argv + 1);
+      }
   if (word[0])
     cli_say ("There is no command '%s'.", word);
   print_help (stderr);

@@ -8,6 +8,8 @@
 #include "page.h"
 
 #include <glib/gstdio.h>
+#include <signal.h>
+#include <unistd.h>
 
 static const char *examples;
 static char       *folder;
@@ -161,6 +163,57 @@ what_cannot_be_read_is_said (void)
   g_object_unref (graph);
 }
 
+/* Ends the processes that read for this one: their environment has its folder. */
+static int
+kill_readers (void)
+{
+  GDir       *processes = g_dir_open ("/proc", 0, NULL);
+  const char *name;
+  int         killed = 0;
+
+  while ((name = g_dir_read_name (processes)))
+    {
+      int   process = atoi (name);
+      char *path = g_build_filename ("/proc", name, "environ", NULL), *all = NULL;
+      gsize size = 0;
+      bool  ours = false;
+
+      if (process > 0 && process != getpid () && g_file_get_contents (path, &all, &size, NULL))
+        for (const char *setting = all; setting < all + size; setting += strlen (setting) + 1)
+          ours = ours || g_str_has_suffix (setting, folder);
+      if (ours)
+        killed += kill (process, SIGKILL) == 0;
+      g_free (all);
+      g_free (path);
+    }
+  g_dir_close (processes);
+  return killed;
+}
+
+/* As a damaged file ends them: the host lives, says one sentence, and the next file is read. */
+static void
+readers_may_die (void)
+{
+  GeglNode     *graph = gegl_node_new (), *node = gegl_node_new_child (graph, "operation", "celdepth:oiio-load", NULL);
+  char         *psd = g_build_filename (examples, "monkey", "monkey.psd", NULL);
+  GeglRectangle box;
+
+  be_quiet ();
+  gegl_node_set (node, "path", psd, NULL);
+  box = gegl_node_get_bounding_box (node);
+  CHECK (box.width > 0 && times_said == 0);
+  CHECK (kill_readers () >= 1);
+  gegl_node_process (node);
+  CHECK (times_said == 1 && SAYS ("monkey.psd") && SAYS ("crashed") && warnings == 0);
+  be_quiet ();
+  gegl_node_set (node, "part", 1, NULL);
+  box = gegl_node_get_bounding_box (node);
+  gegl_node_process (node);
+  CHECK (box.width > 0 && times_said == 0 && warnings == 0);
+  g_free (psd);
+  g_object_unref (graph);
+}
+
 static void
 what_cannot_be_written_is_said (void)
 {
@@ -202,6 +255,7 @@ main (int argc, char **argv)
   gegl_init (&argc, &argv);
   examples = argc > 1 ? argv[1] : "examples";
   folder = g_dir_make_tmp ("celdepth-XXXXXX", NULL);
+  g_setenv ("CELDEPTH_TEST_FOLDER", folder, TRUE);
   make_page ();
   start_to_listen ();
   RUN (depth_comes_back);
@@ -209,6 +263,7 @@ main (int argc, char **argv)
   RUN (labels_keep_their_colours);
   RUN (layers_are_found_by_name);
   RUN (what_cannot_be_read_is_said);
+  RUN (readers_may_die);
   RUN (what_cannot_be_written_is_said);
   failed = DONE;
   stop_to_listen ();

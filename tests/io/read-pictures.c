@@ -1,0 +1,53 @@
+/* Reads every part of every file that it is told of, for the test of damaged files.
+ *
+ *   read-pictures < NAMES      one a line; says "good W H PARTS" or the error, a line for each
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "celdepth-io.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Files of the test are smaller: the memory of a larger canvas is the caller's affair. */
+#define MOST_PIXELS ((size_t) 1 << 24)
+
+static bool
+read_parts (CeldIoFile *file, CeldIoError *error)
+{
+  size_t pixels = (size_t) celd_io_width (file) * (size_t) celd_io_height (file);
+  float *rgba;
+  bool   good = true;
+
+  if (pixels > MOST_PIXELS)
+    return true;
+  rgba = malloc (4 * sizeof (float) * pixels);
+  for (size_t i = 0; good && i < celd_io_parts (file); i++)
+    good = celd_io_read_colours (file, i, rgba, error) && celd_io_read_values (file, i, rgba, error);
+  free (rgba);
+  return good;
+}
+
+int
+main (void)
+{
+  char name[1024];
+
+  celd_io_fork_reader ();
+  while (fgets (name, sizeof name, stdin))
+    {
+      CeldIoError error = { "" };
+      CeldIoFile *file;
+
+      name[strcspn (name, "\n")] = 0;
+      file = celd_io_open (name, &error);
+      if (file && read_parts (file, &error))
+        printf ("good %d %d %zu\n", celd_io_width (file), celd_io_height (file), celd_io_parts (file));
+      else
+        printf ("%s\n", error.text);
+      celd_io_close (file);
+      fflush (stdout);
+    }
+  return 0;
+}
