@@ -1,11 +1,16 @@
-/* What the files of smooth depth share: eq. (3) taken apart, and what is kept of it between edits.
+/* Smooth depth, eq. (3), and what normals and relief share with it.
  *
- *   depth-weights.c   where depth is cut
- *   depth-parts.c     what hangs together
- *   depth-cores.c     which pixels hold a region that has no anchor
- *   depth-solve.c     the parts in which depth is not constant
- *   smooth.c          the step
- *   session/stage-depth.c  a session's depth and its preview
+ *   smooth.c            the step: smooth depth from levels, and what an edit changed
+ *   smooth-equations.c  its equations, solved component by component
+ *   cores.c             which pixels hold a region that has no anchor
+ *   discontinuities.c   the weights v_pq: where depth is cut
+ *   boxed-solver.c      Laplacian systems of components, solved in their bounding boxes
+ *   run-components.c    connected components as runs of pixels
+ *   detours.c           whether a cut ends nearby
+ *
+ * The exact program, eq. (1) and (2), has the header exact.h.
+ *
+ * All planes here are tight (stride = width) unless they are CeldPlane or CeldMask.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,141 +19,195 @@
 
 #include "image/image.h"
 
-/* ------------------------------------------------------------------ depth-weights.c */
+/* ------------------------------------------------------------------ discontinuities.c */
 
-/* What decides v_pq where levels differ: the least ink as far as `reach` round both pixels, which counts as 0 at or
- * below the threshold. */
-typedef struct { const CeldPlane *ink; float threshold; int reach; } CeldEdges;
+/* What decides v_pq where levels differ: the least ink within `radius` pixels of both pixels; at or below the threshold
+ * it counts as 0. */
+typedef struct { const CeldPlane *ink; float threshold; int radius; } CeldDepthEdges;
 
-/* How far ink matters in a drawing with strokes of this width. */
-int celd_edge_reach (int stroke);
+/* The radius for a drawing with strokes of this width, in pixels: half of it, 1 .. 12. */
+int celd_edge_radius (int stroke);
 
-/* v_pq of the pixel (x,y) and its right (right 1, down 0) or lower neighbour (0, 1), which lies in the picture; the
- * first function is for levels that differ. */
-float celd_edge_across (const CeldEdges *edges, int x, int y, int right, int down);
+/* v_pq of pixel (x,y) and its right (right 1, down 0) or lower neighbour (right 0, down 1), which must lie in the
+ * picture.  The first function is for levels that differ; the second for any, and gives 1 where they are equal. */
+float celd_discontinuity_weight (const CeldDepthEdges *edges, int x, int y, int right, int down);
 
 static inline float
-celd_edge_weight (const CeldEdges *edges, const float *level, int x, int y, int right, int down)
+celd_edge_weight (const CeldDepthEdges *edges, const float *level, int x, int y, int right, int down)
 {
   const float *here = level + (size_t) y * (size_t) edges->ink->width + (size_t) x;
 
-  return here[0] == here[right ? 1 : edges->ink->width] ? 1 : celd_edge_across (edges, x, y, right, down);
+  return here[0] == here[right ? 1 : edges->ink->width] ? 1 : celd_discontinuity_weight (edges, x, y, right, down);
 }
 
-/* ------------------------------------------------------------------ depth-parts.c */
+/* v_pq of all edges, for celd_lap_setup: in [0,1], 0 across a depth discontinuity and where the picture ends.  `level`,
+ * east and south have the size of the ink. */
+CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
+                               float *east, float *south);
 
-/* Pixels x .. end - 1 of a row, each joined to the next. */
-typedef struct { int x, end; uint32_t part; } CeldStretch;
+/* Copies levels to a tight plane of finite numbers: NaN and infinity read as the farthest level, -0 as 0. */
+void celd_depth_levels (const CeldPlane *levels, float *level);
 
-/* Connected parts, 0 .. n-1 in reading order of their first pixels. */
+/* The connected regions of one level; results as of celd_components. */
+CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
+                               CeldComponent **list, size_t *n);
+
+/* ------------------------------------------------------------------ run-components.c */
+
+/* Pixels x .. end - 1 of a row, each connected to the next. */
+typedef struct { int x, end; uint32_t component; } CeldPixelRun;
+
+/* Connected components 0 .. n-1, in reading order of their first pixels. */
 typedef struct
 {
-  int          width, height;
-  size_t      *row;             /* the stretches of row y are stretch[row[y]] .. stretch[row[y+1] - 1] */
-  CeldStretch *stretch;
-  size_t       n;
-} CeldParts;
+  int           width, height;
+  size_t       *row;            /* the runs of row y are run[row[y]] .. run[row[y+1] - 1], from left to right */
+  CeldPixelRun *run;
+  size_t        n;
+} CeldRunComponents;
 
-/* What is joined: pixels that are not fixed (NULL: none is), across edges where v_pq > 0; with edges NULL where levels
- * are equal.  Tight planes. */
-CeldStatus celd_parts_find (int width, int height, const float *level, const uint8_t *fixed, const CeldEdges *edges,
-                            const CeldHost *host, CeldParts *parts);
-void celd_parts_clear (CeldParts *parts);                     /* accepts a zeroed record */
+/* Finds the components of the pixels that are not fixed (`fixed` NULL: of all), 4-connected across edges with v_pq > 0;
+ * with `edges` NULL across those where levels are equal.  Makes the record. */
+CeldStatus celd_run_components_find (int width, int height, const float *level, const uint8_t *fixed,
+                                     const CeldDepthEdges *edges, const CeldHost *host, CeldRunComponents *components);
+void celd_run_components_clear (CeldRunComponents *components); /* accepts a zeroed record */
 
-/* Is any pixel of the stretch of row y marked? */
-bool celd_stretch_marked (const CeldParts *parts, const CeldStretch *stretch, int y, const uint8_t *mark);
+/* The component of pixel (x,y), which must be in one. */
+uint32_t celd_run_component_at (const CeldRunComponents *components, int x, int y);
 
-/* The smallest box of boxes[k] and the stretch; width 0: nothing yet. */
-void celd_box_add (CeldRect *box, const CeldStretch *stretch, int y);
+/* Whether any pixel of this run of row y is 1 in `mark`, of the size of the picture. */
+bool celd_run_marked (const CeldRunComponents *components, const CeldPixelRun *run, int y, const uint8_t *mark);
 
-/* Puts n boxes into groups of such as are cheaper gone through together; a box of width 0 gets CELD_NO_GROUP.
- * bounds[g] is the box of group g; returns how many there are. */
-#define CELD_NO_GROUP   UINT32_MAX
+/* Calls for every run `s` of the rows y = from .. end - 1. */
+#define CELD_EACH_RUN(components, from, end, y, s) \
+  for (int y = (from); y < (end); y++) \
+    for (const CeldPixelRun *s = (components)->run + (components)->row[y], \
+         *end_ = (components)->run + (components)->row[y + 1]; s < end_; s++)
+
+/* ------------------------------------------------------------------ boxed-solver.c */
+
+/* Extends a bounding box by a run of row y; a box of width 0 is empty. */
+void celd_box_add_run (CeldRect *box, const CeldPixelRun *run, int y);
+
+/* Groups n boxes, such that boxes in one group are cheaper to process together; an empty one gets CELD_NO_GROUP.
+ * bounds[g] is the bounding box of group g; returns the number of groups. */
+#define CELD_NO_GROUP    UINT32_MAX
 #define CELD_MOST_GROUPS 32
 size_t celd_boxes_group (const CeldRect *box, size_t n, uint32_t *group, CeldRect bounds[CELD_MOST_GROUPS]);
 
-/* ------------------------------------------------------------------ depth-cores.c */
+/* The Laplacian system of one group's components in their bounding box, zero before it is written.  Planes have
+ * rect.width x rect.height pixels; b and x one plane for each right-hand side. */
+typedef struct
+{
+  CeldRect                 rect;
+  const CeldRunComponents *components;
+  const uint32_t          *group_of;     /* of each component */
+  uint32_t                 group;
+  size_t                   n;            /* pixels */
+  float                   *east, *south, *diagonal, *b, *x;
+} CeldBox;
 
-enum { CELD_FREE, CELD_ANCHOR, CELD_CORE };                   /* what a pixel of `fixed` may be */
+/* The index of pixel (x,y) of the picture in the planes of the box. */
+static inline size_t
+celd_box_pixel (const CeldBox *box, int x, int y)
+{
+  return (size_t) (y - box->rect.y) * (size_t) box->rect.width + (size_t) (x - box->rect.x);
+}
 
-/* Marks the cores of regions without an anchor in `fixed`.  Regions of fewer pixels than `speck` have none.  `changed`
- * (NULL: everything) are the pixels whose level or whose neighbour's level is not what it was when `last` was made:
- * cores that lie elsewhere are taken from there. */
+/* Calls for every run `s` of the components that are solved in the box. */
+#define CELD_EACH_BOX_RUN(box, y, s) \
+  CELD_EACH_RUN ((box)->components, (box)->rect.y, (box)->rect.y + (box)->rect.height, y, s) \
+    if ((box)->group_of[s->component] == (box)->group)
+
+/* What to solve: the components whose bounds are not empty. */
+typedef struct
+{
+  const CeldRunComponents *components;
+  const CeldRect          *bounds;       /* of each component */
+  int                      n_rhs;        /* right-hand sides, 1 or 2 */
+  double (*write) (const void *data, CeldBox *box); /* fills in the system and the start x; returns the tolerance */
+  void   (*read)  (void *data, const CeldBox *box, CeldSolve *solve); /* takes x; may rescale solve->error */
+  void    *data;
+} CeldBoxedSystem;
+
+/* Lowers *worst to the worse of two results, member by member; start it as converged. */
+void celd_solve_join (CeldSolve *worst, const CeldSolve *one);
+
+/* Solves all groups one after the other; *solve is the worst of their results. */
+CeldStatus celd_boxed_solve (const CeldBoxedSystem *system, const CeldHost *host, CeldSolve *solve);
+
+/* ------------------------------------------------------------------ cores.c */
+
+enum { CELD_FREE, CELD_ANCHOR, CELD_CORE };                   /* values of `fixed` */
+
+/* Marks the cores of regions without an anchor in `fixed`.  Regions of fewer pixels than `speck` get none.  `changed`
+ * (NULL: everything) marks the pixels whose level, or a neighbour's, is not what it was when `last` was made; cores of
+ * regions without such a pixel are copied from there. */
 CeldStatus celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
                             const uint8_t *last, const CeldHost *host, uint8_t *fixed);
 
-/* ------------------------------------------------------------------ depth-solve.c */
+/* ------------------------------------------------------------------ smooth-equations.c */
 
+/* Minimize  sum v_pq (d_p - d_q)^2  with d = level at the fixed pixels. */
 typedef struct
 {
   int            width, height;
   const float   *level;         /* of every pixel, finite */
-  const uint8_t *fixed;         /* which keep theirs */
-  CeldEdges      edges;
-  const uint8_t *changed;       /* pixels of whose equation anything is new; NULL: of all */
-  const float   *last;          /* depth before, where `changed` is not NULL; else a start, or NULL */
-  double         tolerance, range; /* largest error of depth, as a share of that range */
-} CeldSystem;
+  const uint8_t *fixed;         /* not 0: depth is the level there */
+  CeldDepthEdges edges;
+  const uint8_t *changed;       /* marks the pixels whose equation is new; NULL: all are */
+  const float   *last;          /* the solution before; where to start from if `changed` is NULL (NULL: from levels) */
+  double         tolerance;     /* largest error of depth as a share of `range` */
+  double         range;         /* largest minus least level */
+} CeldSmoothEquations;
 
-/* All of `depth`, which is tight.  On failure it is undefined. */
-CeldStatus celd_system_solve (const CeldSystem *system, const CeldHost *host, float *depth, CeldSolve *solve);
+/* Fills in `depth`, which is undefined after a failure.  Components without a new equation keep the last solution. */
+CeldStatus celd_smooth_equations_solve (const CeldSmoothEquations *equations, const CeldHost *host, float *depth,
+                                        CeldSolve *solve);
 
 /* ------------------------------------------------------------------ smooth.c */
 
-/* What smooth depth was made from last; 5 bytes a pixel. */
+/* What smooth depth was last made from; 5 bytes a pixel.  Starts as zero. */
 typedef struct
 {
   int      width, height;
-  float   *level;               /* NULL: nothing is known */
+  float   *level;               /* NULL: nothing is kept */
   uint8_t *fixed;
   float    threshold;
-  double   error;               /* within which it was made, in the unit of the levels */
-  int      reach;
-  CeldRect new_ink;             /* where the ink has changed since; the owner of the ink says so */
-} CeldSmoother;
+  double   error;               /* largest error that depth was allowed, in the unit of the levels */
+  int      radius;
+  CeldRect new_ink;             /* where the ink has changed since then: set by the caller */
+} CeldSmoothState;
 
 typedef struct
 {
   const CeldPlane    *ink, *levels;
   const CeldMask     *anchors;  /* NULL: none */
   const CeldSettings *settings;
-  int                 reach;    /* as celd_edge_reach has it */
-  size_t              speck;    /* smaller regions hold nothing */
-  const float        *last;     /* tight; the depth that `smoother` tells of; NULL if there is none */
-} CeldSmoothing;
+  int                 radius;   /* celd_edge_radius of the ink */
+  size_t              speck;    /* least pixels of a region that is held by its core */
+  const float        *last;     /* the depth that the state belongs to; NULL: none */
+} CeldSmoothInput;
 
-/* As celd_smooth; makes the plane.  `smoother` (NULL: nothing is kept) remembers it: where nothing changed since, depth
- * is the last one bit by bit, elsewhere it starts from that. */
-CeldStatus celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *smoothing, const CeldHost *host,
-                              CeldPlane *depth, CeldSolve *solve);
-void celd_smoother_clear (CeldSmoother *smoother);            /* accepts a zeroed record */
+#define CELD_SPECK 16           /* pixels, for CeldSmoothInput; chosen, as in celd_separate */
 
-#define CELD_SPECK 16           /* pixels of a region that is not held, as in celd_separate */
+/* Smooth depth as celd_smooth; makes the plane.  `state` (may be NULL) remembers what it was made from: the next time,
+ * depth stays bit by bit the same in components that nothing changed, and starts from the last depth elsewhere. */
+CeldStatus celd_smooth_update (CeldSmoothState *state, const CeldSmoothInput *input, const CeldHost *host,
+                               CeldPlane *depth, CeldSolve *solve);
+void celd_smooth_state_clear (CeldSmoothState *state);        /* accepts a zeroed record */
 
-/* ------------------------------------------------------------------ smooth.c, depth-weights.c: where depth is cut */
+/* ------------------------------------------------------------------ detours.c */
 
-/* Levels as a tight plane; what is not finite reads as the farthest level. */
-void celd_depth_levels (const CeldPlane *levels, float *level);
+/* Which pixels are connected to their right and lower neighbours: one bit each, in rows of `words` words. */
+typedef struct { int height; size_t words; uint64_t *east, *south; } CeldPixelLinks;
 
-/* Connected regions of one level, as celd_components gives them. */
-CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
-                               CeldComponent **list, size_t *n);
+/* From weights as for celd_lap_setup: connected where they are above 0.  To be cleared even after a failure. */
+CeldStatus celd_pixel_links_new   (int width, int height, const float *east, const float *south, CeldPixelLinks *links);
+void       celd_pixel_links_clear (CeldPixelLinks *links);
 
-/* Edge weights v_pq of eq. (3) for celd_lap_setup: 1 where levels are equal, 0 across a depth discontinuity, else the
- * least ink around.  `level` is a tight plane of the size of the ink. */
-CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
-                               float *east, float *south);
-
-/* ------------------------------------------------------------------ way-round.c */
-
-/* Which pixels are joined to their right and lower neighbours: a bit each, rows of so many words. */
-typedef struct { int height; size_t words; uint64_t *east, *south; } CeldJoined;
-
-/* By weights above 0, as in celd_lap_setup. */
-CeldStatus celd_joined_new   (int width, int height, const float *east, const float *south, CeldJoined *joined);
-void       celd_joined_clear (CeldJoined *joined);           /* also what was made by half */
-
-/* Is there a short way from the pixel (x,y) to its right, or else its lower neighbour? */
-bool       celd_way_round    (const CeldJoined *joined, int x, int y, bool down);
+/* Whether a path connects pixel (x,y) with its right neighbour (`down`: its lower one) within the square of 15 pixels
+ * around it: then a cut between the two ends nearby, and separates nothing. */
+bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down);
 
 #endif

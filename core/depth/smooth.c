@@ -67,7 +67,7 @@ mark_round (int width, int height, int x, int y, uint8_t *changed)
 }
 
 static void
-mark_levels (const CeldSmoother *old, const float *level, uint8_t *changed)
+mark_levels (const CeldSmoothState *old, const float *level, uint8_t *changed)
 {
   size_t w = (size_t) old->width;
 
@@ -83,7 +83,7 @@ mark_levels (const CeldSmoother *old, const float *level, uint8_t *changed)
 }
 
 static void
-mark_fixed (const CeldSmoother *old, const uint8_t *fixed, uint8_t *changed)
+mark_fixed (const CeldSmoothState *old, const uint8_t *fixed, uint8_t *changed)
 {
   size_t w = (size_t) old->width;
 
@@ -100,10 +100,10 @@ mark_fixed (const CeldSmoother *old, const uint8_t *fixed, uint8_t *changed)
 
 /* Everything whose weights may have seen the new ink. */
 static void
-mark_ink (const CeldSmoother *old, uint8_t *changed)
+mark_ink (const CeldSmoothState *old, uint8_t *changed)
 {
   CeldRect ink = old->new_ink;
-  int      far = old->reach + 1;
+  int      far = old->radius + 1;
 
   for (int y = ink.y - far; ink.width && y < ink.y + ink.height + far; y++)
     for (int x = ink.x - far; y >= 0 && y < old->height && x < ink.x + ink.width + far; x++)
@@ -145,15 +145,15 @@ range_of (const float *level, size_t n)
 
 /* Is what is kept worth comparing with?  Not if it was made less exactly, or cut elsewhere. */
 static bool
-is_of_use (const CeldSmoother *old, const CeldSmoothing *s, const Planes *p)
+is_of_use (const CeldSmoothState *old, const CeldSmoothInput *s, const Planes *p)
 {
   return old && old->level && s->last && old->width == p->width && old->height == p->height &&
-         old->threshold == s->settings->ink_threshold && old->reach == s->reach &&
+         old->threshold == s->settings->ink_threshold && old->radius == s->radius &&
          old->error <= (double) s->settings->tolerance * p->range;
 }
 
 static CeldStatus
-planes_new (const CeldSmoother *old, const CeldSmoothing *s, Planes *p)
+planes_new (const CeldSmoothState *old, const CeldSmoothInput *s, Planes *p)
 {
   size_t n;
 
@@ -179,18 +179,18 @@ planes_new (const CeldSmoother *old, const CeldSmoothing *s, Planes *p)
 
 /* The smoother takes the planes that it keeps. */
 static void
-remember (CeldSmoother *smoother, const CeldSmoothing *s, const CeldSolve *solve, Planes *p)
+remember (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldSolve *solve, Planes *p)
 {
-  celd_smoother_clear (smoother);
-  *smoother = (CeldSmoother) { p->width, p->height, p->level, p->fixed, s->settings->ink_threshold,
-                               solve->converged ? (double) s->settings->tolerance * p->range : INFINITY, s->reach,
+  celd_smooth_state_clear (smoother);
+  *smoother = (CeldSmoothState) { p->width, p->height, p->level, p->fixed, s->settings->ink_threshold,
+                               solve->converged ? (double) s->settings->tolerance * p->range : INFINITY, s->radius,
                                { 0 } };
   p->level = NULL;
   p->fixed = NULL;
 }
 
 CeldStatus
-celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldHost *host, CeldPlane *depth,
+celd_smooth_update (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldHost *host, CeldPlane *depth,
                    CeldSolve *solve)
 {
   CeldHostPart   part[2];
@@ -203,8 +203,8 @@ celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldHos
                               &holding, p.fixed);
   if (status == CELD_OK)
     {
-      CeldSystem system = { p.width, p.height, p.level, p.fixed,
-                            { s->ink, s->settings->ink_threshold, s->reach }, p.changed, s->last,
+      CeldSmoothEquations system = { p.width, p.height, p.level, p.fixed,
+                            { s->ink, s->settings->ink_threshold, s->radius }, p.changed, s->last,
                             (double) s->settings->tolerance, p.range };
 
       if (p.changed)
@@ -212,7 +212,7 @@ celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldHos
           mark_fixed (smoother, p.fixed, p.changed);
           mark_ink (smoother, p.changed);
         }
-      status = celd_system_solve (&system, &solving, p.depth, solve);
+      status = celd_smooth_equations_solve (&system, &solving, p.depth, solve);
     }
   if (status == CELD_OK)
     {
@@ -229,18 +229,18 @@ celd_smooth_again (CeldSmoother *smoother, const CeldSmoothing *s, const CeldHos
 }
 
 void
-celd_smoother_clear (CeldSmoother *smoother)
+celd_smooth_state_clear (CeldSmoothState *smoother)
 {
   celd_free (smoother->level);
   celd_free (smoother->fixed);
-  *smoother = (CeldSmoother) { 0 };
+  *smoother = (CeldSmoothState) { 0 };
 }
 
 CeldStatus
 celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors, const CeldSettings *settings,
              const CeldHost *host, CeldPlane *depth, CeldSolve *solve)
 {
-  CeldSmoothing smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
+  CeldSmoothInput smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
   CeldPlane     made = { 0 };
   CeldSolve     how;
   CeldStatus    status;
@@ -249,8 +249,8 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
-  smoothing.reach = celd_edge_reach (celd_stroke_width (ink));
-  status = celd_smooth_again (NULL, &smoothing, host, &made, &how);
+  smoothing.radius = celd_edge_radius (celd_stroke_width (ink));
+  status = celd_smooth_update (NULL, &smoothing, host, &made, &how);
   for (int y = 0; y < depth->height && status == CELD_OK; y++)
     memcpy (&CELD_AT (depth, 0, y), &CELD_AT (&made, 0, y), (size_t) depth->width * sizeof *depth->data);
   if (status == CELD_OK && solve)

@@ -109,8 +109,8 @@ celd_lumo_bevel (CeldLumo *l, const CeldHost *host)
   b.far = (int64_t) (width * width) + 1;
   for (size_t i = 0; i < n; i++)
     b.nearest[i] = NONE;
-  for (size_t k = 0; k < l->n_holds; k++)
-    b.nearest[l->hold[k].pixel] = (uint32_t) l->hold[k].pixel;
+  for (size_t k = 0; k < l->n_constraints; k++)
+    b.nearest[l->constraint[k].pixel] = (uint32_t) l->constraint[k].pixel;
   status = spread (&b, host);
   if (status == CELD_OK)
     flatten (&b, width);

@@ -23,7 +23,7 @@
 typedef struct
 {
   CeldLumo  *lumo;
-  CeldJoined joined;
+  CeldPixelLinks links;
   uint8_t   *front, *behind;    /* of each region: has it an outline, is it behind one? */
   double     gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
 } Outlines;
@@ -65,72 +65,60 @@ outward (const Outlines *o, float near, int x, int y, int east, int south, doubl
 /* ------------------------------------------------------------------ holds */
 
 static CeldStatus
-add_hold (CeldLumo *l, size_t pixel, double x, double y)
+add_constraint (CeldLumo *l, size_t pixel, double x, double y)
 {
-  CeldHold *hold = celd_grow (l->hold, l->n_holds + 1, sizeof *hold);
+  CeldNormalConstraint *constraint = celd_grow (l->constraint, l->n_constraints + 1, sizeof *constraint);
 
-  if (!hold)
+  if (!constraint)
     return CELD_NO_MEMORY;
-  hold[l->n_holds++] = (CeldHold) { pixel, (float) x, (float) y };
-  l->hold            = hold;
+  constraint[l->n_constraints++] = (CeldNormalConstraint) { pixel, (float) x, (float) y };
+  l->constraint = constraint;
   return CELD_OK;
 }
 
 static uint32_t
 region_of (const CeldLumo *l, size_t pixel)
 {
-  int    x = (int) (pixel % (size_t) l->width);
-  size_t y = pixel / (size_t) l->width, low = l->regions.row[y], high = l->regions.row[y + 1];
-
-  while (high - low > 1)
-    {
-      size_t middle = low + (high - low) / 2;
-
-      if (l->regions.stretch[middle].x <= x)
-        low = middle;
-      else
-        high = middle;
-    }
-  return l->regions.stretch[low].part;
+  return celd_lumo_component (l, &l->regions, pixel);
 }
 
 /* A depth discontinuity: its nearer side bends, unless hints say otherwise. */
 static CeldStatus
-hold_edge (Outlines *o, int x, int y, bool down)
+constrain_edge (Outlines *o, int x, int y, bool down)
 {
   CeldLumo  *l = o->lumo;
   size_t     p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
   size_t     near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
-  CeldLumoSide   over = CELD_UNPAINTED, under = CELD_UNPAINTED;
+  CeldLumoHint   over = CELD_UNPAINTED, under = CELD_UNPAINTED;
   double     nx, ny;
   CeldStatus status = CELD_OK;
 
-  if (celd_way_round (&o->joined, x, y, down))
+  if (celd_has_detour (&o->links, x, y, down))
     return CELD_OK;
   outward (o, l->level[near], x, y, !down, down, &nx, &ny);
   if (l->hints)
     {
       double mx = x + (down ? 0.5 : 1), my = y + (down ? 1 : 0.5);
 
-      over  = celd_lumo_side (l, mx, my, -nx, -ny);
-      under = celd_lumo_side (l, mx, my, nx, ny);
+      over  = celd_lumo_hint (l, mx, my, -nx, -ny);
+      under = celd_lumo_hint (l, mx, my, nx, ny);
     }
   o->behind[region_of (l, far)] = 1;
   if (over != CELD_UNDER || under == CELD_BOTH)
     {
       o->front[region_of (l, near)] = 1;
-      status = add_hold (l, near, nx, -ny);
+      status = add_constraint (l, near, nx, -ny);
     }
   if (status == CELD_OK && (under == CELD_OVER || under == CELD_BOTH || over == CELD_BOTH))
     {
       o->front[region_of (l, far)] = 1;
-      status = add_hold (l, far, -nx, ny);
+      status = add_constraint (l, far, -nx, ny);
     }
   return status;
 }
 
 static CeldStatus
-hold_edges (Outlines *o, const CeldHost *host)
+constrain_edges (Outlines *o, const CeldHost *host)
 {
   CeldLumo  *l = o->lumo;
   CeldStatus status = CELD_OK;
@@ -141,53 +129,53 @@ hold_edges (Outlines *o, const CeldHost *host)
       status = y % 16 ? CELD_OK : celd_progress (host, (double) y / l->height);
       for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
         {
-          if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_level (l, i, i + 1))
-            status = hold_edge (o, x, y, false);
+          if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_same_level (l, i, i + 1))
+            status = constrain_edge (o, x, y, false);
           if (status == CELD_OK && y + 1 < l->height && l->south[i] <= 0 &&
-              !celd_lumo_level (l, i, i + (size_t) l->width))
-            status = hold_edge (o, x, y, true);
+              !celd_lumo_same_level (l, i, i + (size_t) l->width))
+            status = constrain_edge (o, x, y, true);
         }
     }
   return status;
 }
 
 static bool
-is_open (const Outlines *o, const CeldSeam *seam)
+is_open (const Outlines *o, const CeldCrease *crease)
 {
   size_t w = (size_t) o->lumo->width;
 
-  return celd_way_round (&o->joined, (int) (seam->pixel % w), (int) (seam->pixel / w), seam->down);
+  return celd_has_detour (&o->links, (int) (crease->pixel % w), (int) (crease->pixel / w), crease->down);
 }
 
 /* Strokes that are painted to bend are outlines of their region. */
 static void
-mark_painted_seams (Outlines *o)
+mark_painted_creases (Outlines *o)
 {
-  for (size_t i = 0; i < o->lumo->n_seams; i++)
-    if (o->lumo->seam[i].painted && !is_open (o, &o->lumo->seam[i]))
-      o->front[region_of (o->lumo, o->lumo->seam[i].pixel)] = 1;
+  for (size_t i = 0; i < o->lumo->n_creases; i++)
+    if (o->lumo->crease[i].painted && !is_open (o, &o->lumo->crease[i]))
+      o->front[region_of (o->lumo, o->lumo->crease[i].pixel)] = 1;
 }
 
 /* Both sides of strokes inside a part. */
 static CeldStatus
-hold_seams (Outlines *o)
+constrain_creases (Outlines *o)
 {
   CeldLumo  *l = o->lumo;
   CeldStatus status = CELD_OK;
 
-  for (size_t i = 0; i < l->n_seams && status == CELD_OK; i++)
+  for (size_t i = 0; i < l->n_creases && status == CELD_OK; i++)
     {
-      const CeldSeam *seam = &l->seam[i];
-      size_t          p = seam->pixel, q = p + (seam->down ? (size_t) l->width : 1);
+      const CeldCrease *crease = &l->crease[i];
+      size_t          p = crease->pixel, q = p + (crease->down ? (size_t) l->width : 1);
 
-      if (l->flat[region_of (l, p)] || is_open (o, seam))
+      if (l->flat[region_of (l, p)] || is_open (o, crease))
         continue;
       for (int side = 0; side < 2 && status == CELD_OK; side++)
         {
-          float s = side ? -seam->strength[1] : seam->strength[0];
+          float s = side ? -crease->strength[1] : crease->strength[0];
 
-          if (seam->strength[side] > 0)
-            status = add_hold (l, side ? q : p, (double) (s * seam->x), (double) (-s * seam->y));
+          if (crease->strength[side] > 0)
+            status = add_constraint (l, side ? q : p, (double) (s * crease->x), (double) (-s * crease->y));
         }
     }
   return status;
@@ -195,7 +183,7 @@ hold_seams (Outlines *o)
 
 /* Where the frame cuts off what is not flat. */
 static CeldStatus
-hold_frame (CeldLumo *l)
+constrain_frame (CeldLumo *l)
 {
   CeldStatus status = CELD_OK;
 
@@ -207,9 +195,9 @@ hold_frame (CeldLumo *l)
         if (l->flat[region_of (l, p)])
           continue;
         if (status == CELD_OK && (x == 0 || x + 1 == l->width))
-          status = add_hold (l, p, (x + 1 == l->width) - (x == 0), 0);
+          status = add_constraint (l, p, (x + 1 == l->width) - (x == 0), 0);
         if (status == CELD_OK && (y == 0 || y + 1 == l->height))
-          status = add_hold (l, p, 0, (y == 0) - (y + 1 == l->height));
+          status = add_constraint (l, p, 0, (y == 0) - (y + 1 == l->height));
       }
   return status;
 }
@@ -222,7 +210,7 @@ outlines_new (CeldLumo *l, Outlines *o)
   *o = (Outlines) { .lumo = l };
   o->front  = celd_alloc0 (l->regions.n + 1, 1);
   o->behind = celd_alloc0 (l->regions.n + 1, 1);
-  if (!o->front || !o->behind || celd_joined_new (l->width, l->height, l->east, l->south, &o->joined) != CELD_OK)
+  if (!o->front || !o->behind || celd_pixel_links_new (l->width, l->height, l->east, l->south, &o->links) != CELD_OK)
     return CELD_NO_MEMORY;
   for (int i = 0; i < 2 * REACH + 2; i++)
     for (int j = 0; j < 2 * REACH + 2; j++)
@@ -236,24 +224,24 @@ celd_lumo_outlines (CeldLumo *l, const CeldHost *host)
   Outlines   o = { 0 };
   CeldHostPart   part[2];
   CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), holding = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus status = celd_parts_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
+  CeldStatus status = celd_run_components_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
 
   if (status != CELD_OK)
     return status;
   l->flat = celd_alloc0 (l->regions.n + 1, 1);
   status  = l->flat ? outlines_new (l, &o) : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = hold_edges (&o, &holding);
+    status = constrain_edges (&o, &holding);
   if (status == CELD_OK)
     {
-      mark_painted_seams (&o);
+      mark_painted_creases (&o);
       for (size_t k = 0; k < l->regions.n; k++)
         l->flat[k] = o.behind[k] && !o.front[k];
-      status = hold_seams (&o);
+      status = constrain_creases (&o);
     }
   if (status == CELD_OK && l->settings->frame_outline)
-    status = hold_frame (l);
-  celd_joined_clear (&o.joined);
+    status = constrain_frame (l);
+  celd_pixel_links_clear (&o.links);
   celd_free (o.front);
   celd_free (o.behind);
   return status;

@@ -1,10 +1,4 @@
-/* What the files of Lumo normals [Joh02] share.
- *
- *   lumo-seams.c      strokes inside a part, and what painted hints say of both sides of a line
- *   lumo-outlines.c   which sides of which edges bend, and where to
- *   lumo-solve.c      the normals between them
- *   lumo-bevel.c      bent along outlines only
- *   normals.c         the step
+/* What the files of Lumo normals share; normals.c is the step, and lists the files in their order.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,38 +7,42 @@
 
 #include "depth/depth.h"
 
-/* What a pixel next to an outline is held to; y up. */
-typedef struct { size_t pixel; float x, y; } CeldHold;
+/* What n_x and n_y of a pixel beside an outline are drawn to; y up. */
+typedef struct { size_t pixel; float x, y; } CeldNormalConstraint;
 
-/* A side of a line: what the artist painted there. */
-typedef enum { CELD_UNPAINTED, CELD_UNDER, CELD_BOTH, CELD_OVER } CeldLumoSide;
+/* A hint that the artist painted on one side of a line: nothing, black, grey or white. */
+typedef enum { CELD_UNPAINTED, CELD_UNDER, CELD_BOTH, CELD_OVER } CeldLumoHint;
 
-/* The edge of a pixel to its right or lower neighbour along the middle of a stroke inside a part. */
+/* An edge between a pixel and its right or lower neighbour, in the middle of a stroke inside a region: the surface is
+ * cut there, and bends on one side or both. */
 typedef struct
 {
   uint32_t pixel;
-  bool     down, painted;       /* painted: a hint says so */
-  float    x, y;                /* unit vector across, from the pixel to its neighbour; y down */
-  float    strength[2];         /* how much the pixel and its neighbour bend there, 0 .. 1 */
-} CeldSeam;
+  bool     down;                /* to the lower neighbour */
+  bool     painted;             /* because of a hint */
+  float    x, y;                /* unit vector across the stroke, from the pixel to its neighbour; y down */
+  float    strength[2];         /* how much the pixel and its neighbour bend, 0 .. 1 */
+} CeldCrease;
 
+/* The step's inputs and intermediate results.  Planes are tight and of the size of the ink. */
 typedef struct
 {
-  const CeldPlane    *ink;
-  const CeldPlane    *depth;    /* may be NULL */
-  const CeldPaint    *hints;    /* may be NULL */
-  const CeldSettings *settings;
-  int                 width, height, stroke; /* stroke: width of the drawing's strokes */
-  CeldEdges           edges;
-  float              *level;    /* tight planes */
-  float              *east, *south; /* weights; 0: cut */
-  CeldSeam           *seam;
-  size_t              n_seams;
-  CeldParts           regions;  /* connected, of one level */
-  uint8_t            *flat;     /* of each region: it has no outline of its own, and faces the viewer */
-  CeldHold           *hold;     /* in any order */
-  size_t              n_holds;
-  float              *tilt;     /* n_x and n_y of each pixel, y up */
+  const CeldPlane      *ink;
+  const CeldPlane      *depth;       /* may be NULL */
+  const CeldPaint      *hints;       /* may be NULL */
+  const CeldSettings   *settings;
+  int                   width, height;
+  int                   stroke;      /* width of the drawing's strokes in pixels */
+  CeldDepthEdges        edges;
+  float                *level;
+  float                *east, *south; /* weights; 0 where the surface is cut */
+  CeldCrease           *crease;
+  size_t                n_creases;
+  CeldRunComponents     regions;     /* connected regions of one level */
+  uint8_t              *flat;        /* of each region, 1: without an outline of its own, it faces the viewer */
+  CeldNormalConstraint *constraint;  /* in any order; several of one pixel add up */
+  size_t                n_constraints;
+  float                *tilt;        /* n_x and n_y of each pixel, y up */
 } CeldLumo;
 
 static inline size_t
@@ -53,25 +51,32 @@ celd_lumo_pixel (const CeldLumo *lumo, int x, int y)
   return (size_t) y * (size_t) lumo->width + (size_t) x;
 }
 
-/* Have two pixels one level? */
+/* The component of a pixel. */
+static inline uint32_t
+celd_lumo_component (const CeldLumo *lumo, const CeldRunComponents *components, size_t pixel)
+{
+  return celd_run_component_at (components, (int) (pixel % (size_t) lumo->width), (int) (pixel / (size_t) lumo->width));
+}
+
+/* Whether two pixels have the same level. */
 static inline bool
-celd_lumo_level (const CeldLumo *lumo, size_t p, size_t q)
+celd_lumo_same_level (const CeldLumo *lumo, size_t p, size_t q)
 {
   return lumo->level[p] >= lumo->level[q] && lumo->level[p] <= lumo->level[q];
 }
 
-/* Round this place, a few pixels away along (dx,dy), y down: what is painted beside the line. */
-CeldLumoSide celd_lumo_side (const CeldLumo *lumo, double x, double y, double dx, double dy);
+/* lumo-creases.c: the first hint along the unit vector (dx,dy) from the place (x,y), y down, within about 1.5 stroke
+ * widths; lumo->hints must not be NULL. */
+CeldLumoHint celd_lumo_hint (const CeldLumo *lumo, double x, double y, double dx, double dy);
 
-/* Finds the seams and cuts the weights along them. */
-CeldStatus celd_lumo_seams (CeldLumo *lumo, const CeldHost *host);
+/* lumo-creases.c: finds the creases, and cuts the weights along them. */
+CeldStatus celd_lumo_creases (CeldLumo *lumo, const CeldHost *host);
 
-/* Finds the regions and what holds them. */
+/* lumo-outlines.c: finds the regions, which of them are flat, and all constraints. */
 CeldStatus celd_lumo_outlines (CeldLumo *lumo, const CeldHost *host);
 
-CeldStatus celd_lumo_solve (CeldLumo *lumo, const CeldHost *host);
-
-/* Takes the tilt away farther than the settings' bevel from a pixel's own outlines. */
+/* lumo-bevel.c: fades the tilt out with the distance from a region's own outlines, to nothing at settings->bevel times
+ * the picture's diagonal; does nothing for a bevel of 0. */
 CeldStatus celd_lumo_bevel (CeldLumo *lumo, const CeldHost *host);
 
 #endif

@@ -1,7 +1,7 @@
 /* A picture as a surface with cracks: where depth jumps, the surface is cut; the nearer side ends there, the farther
  * one goes on behind it.
  *
- * Where depth is cut is said in depth-weights.c.  A virtual border also has such edges at its ends, where it runs into
+ * Where depth is cut is said in depth/discontinuities.c.  A virtual border also has such edges at its ends, where it runs into
  * the ink of another contour; there the surface goes on, as it does all round: an edge counts as cut only if there is
  * no short way round it.  A region that ends nowhere, but is behind others, stays flat, and so does what has no border
  * at all: the paper.
@@ -82,20 +82,20 @@ round_up (float *weight, size_t n)
 
 /* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
 static bool
-is_end (const CeldSurface *s, const CeldJoined *joined, Regions *r, int x, int y, bool down)
+is_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int x, int y, bool down)
 {
   const uint32_t *region = &CELD_AT (&r->region, x, y);
 
   return celd_root (r->parent, region[0]) == celd_root (r->parent, region[down ? s->width : 1]) &&
-         celd_way_round (joined, x, y, down);
+         celd_has_detour (joined, x, y, down);
 }
 
 /* Ends are told by the cuts as they were. */
 static CeldStatus
 join_ends (CeldSurface *s, Regions *r, const CeldHost *host)
 {
-  CeldJoined joined;
-  CeldStatus status = celd_joined_new (s->width, s->height, s->east, s->south, &joined);
+  CeldPixelLinks joined;
+  CeldStatus status = celd_pixel_links_new (s->width, s->height, s->east, s->south, &joined);
   size_t     p = 0;
 
   for (int y = 0; y < s->height && status == CELD_OK; y++)
@@ -109,7 +109,7 @@ join_ends (CeldSurface *s, Regions *r, const CeldHost *host)
             s->south[p] = 1;
         }
     }
-  celd_joined_clear (&joined);
+  celd_pixel_links_clear (&joined);
   return status;
 }
 

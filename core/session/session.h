@@ -20,7 +20,7 @@
 #define CELD_SESSION_H
 
 #include "depth/depth.h"
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "ownership/ownership.h"
@@ -101,8 +101,8 @@ struct CeldSession
   float         *value;                        /* encoded level of each label in `levels`; NULL: make all levels anew */
   size_t         n_values;
   CeldRect       new_owners;                   /* where the ownership is newer than `levels` */
-  CeldSmoother   smoother, preview_smoother;   /* what depth and its preview were made from */
-  int            edge_radius;                  /* celd_edge_reach of split_ink; 0: not measured */
+  CeldSmoothState smooth_state, preview_state; /* what depth and its preview were made from */
+  int            edge_radius;                  /* celd_edge_radius of split_ink; 0: not measured */
   CeldPlane      preview_ink;                  /* of blocks of pixels; data NULL: to be made */
   CeldVectors    normals;
   CeldProgram   *program;                      /* NULL: none yet */

@@ -33,8 +33,8 @@ change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
   s->preview_ink = (CeldPlane) { 0 };
   s->edge_radius     = 0;
   celd_session_forget_ownership (s);
-  s->smoother.new_ink         = celd_rect_union (s->smoother.new_ink, changed);
-  s->preview_smoother.new_ink = celd_rect_union (s->preview_smoother.new_ink, blocks);
+  s->smooth_state.new_ink         = celd_rect_union (s->smooth_state.new_ink, changed);
+  s->preview_state.new_ink = celd_rect_union (s->preview_state.new_ink, blocks);
 }
 
 void
@@ -145,8 +145,8 @@ choose_anchors (Anchors *a)
 
 /* Makes a stage's plane and what is kept beside it; both or none of the two. */
 static CeldStatus
-smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *smoothing, const CeldHost *host,
-        CeldSmoother *smoother, CeldPlane *plane)
+smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothInput *smoothing, const CeldHost *host,
+        CeldSmoothState *state, CeldPlane *plane)
 {
   CeldPlane  depth = { 0 };
   CeldSolve  solve;
@@ -154,7 +154,7 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothing *
 
   smoothing->anchors = anchors->n ? &anchors->mask : NULL;
   smoothing->last    = plane->data;
-  status = celd_smooth_again (smoother, smoothing, host, &depth, &solve);
+  status = celd_smooth_update (state, smoothing, host, &depth, &solve);
   if (status != CELD_OK)
     return status;
   celd_session_replace_plane (s, stage, plane, &depth);
@@ -169,23 +169,23 @@ static void
 measure_edge_radius (CeldSession *s)
 {
   if (!s->edge_radius)
-    s->edge_radius = celd_edge_reach (celd_stroke_width (celd_session_split_ink (s)));
+    s->edge_radius = celd_edge_radius (celd_stroke_width (celd_session_split_ink (s)));
 }
 
 CeldStatus
 celd_make_depth (CeldSession *s, const CeldHost *host)
 {
   Anchors       anchors = { .session = s, .side = 1 };
-  CeldSmoothing smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
+  CeldSmoothInput smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
   CeldStatus    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
 
   if (status == CELD_OK)
     {
       measure_edge_radius (s);
-      smoothing.reach = s->edge_radius;
+      smoothing.radius = s->edge_radius;
       choose_anchors (&anchors);
-      status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smoother, &s->depth);
+      status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smooth_state, &s->depth);
     }
   celd_free (anchors.mask.data);
   return status;
@@ -250,7 +250,7 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
   CeldPlane     levels = { 0 };
   Anchors       anchors = { .session = s, .side = SIDE, .levels = &levels };
   CeldSettings  settings = s->settings;
-  CeldSmoothing smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
+  CeldSmoothInput smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
                               .speck = CELD_SPECK / (SIDE * SIDE) };
   CeldStatus    status = s->preview_ink.data ? CELD_OK : pool_ink (celd_session_split_ink (s), &s->preview_ink);
 
@@ -261,11 +261,11 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
   if (status == CELD_OK)
     {
       measure_edge_radius (s);
-      smoothing.reach    = s->edge_radius / SIDE;
+      smoothing.radius    = s->edge_radius / SIDE;
       settings.tolerance = fmaxf (settings.tolerance, PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);
-      status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, host, &s->preview_smoother, &s->preview);
+      status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, host, &s->preview_state, &s->preview);
     }
   celd_free (levels.data);
   celd_free (anchors.mask.data);

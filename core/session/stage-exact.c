@@ -8,7 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "image/image.h"
 #include "session/session.h"
 

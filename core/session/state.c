@@ -190,8 +190,8 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->preview_ink.data);
   celd_free (s->split_ink.data);
   celd_free (s->splits.item);
-  celd_smoother_clear (&s->smoother);
-  celd_smoother_clear (&s->preview_smoother);
+  celd_smooth_state_clear (&s->smooth_state);
+  celd_smooth_state_clear (&s->preview_state);
   celd_free (s->shading.data);
   celd_free (s->exact_preview.data);
   celd_free (s->exact_depth.data);

@@ -1,4 +1,4 @@
-/* Solves the scenes on stdin for test-exact-depth.py.  A scene is width, height, weight floor, the ink, the label of
+/* Solves the scenes on stdin for test-exact-program.py.  A scene is width, height, weight floor, the ink, the label of
  * each pixel, and relations as "x y x y gap" after their number, a gap of 0 for an equality.  Its answer is a line:
  * status, energy, gap, violation, the weights to the right and down of each pixel, the number of nodes with x, y and
  * depth of each, and the depth of each pixel.

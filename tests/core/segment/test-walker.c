@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "image/image.h"
 #include "segment/canvas.h"
 #include "solve/laplace.h"
@@ -78,7 +78,7 @@ the_likeliest_label_wins (void)
       CeldLabels      seeds = { W, H, W, painted }, labels = { W, H, W, found };
       CeldSettings    settings = celd_settings ();
       CeldCanvas      canvas = { .settings = &settings, .ink = &ink };
-      CeldBases       bases = { .width = W, .height = H, .east = east, .south = south };
+      CeldHarmonicBases       bases = { .width = W, .height = H, .east = east, .south = south };
       CeldSolve       solve;
       double          mean;
       uint32_t        n = 2 + check_random (&seed, MOST - 1);

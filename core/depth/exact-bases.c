@@ -9,7 +9,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/program.h"
+#include "depth/depth.h"
+#include "depth/exact.h"
 #include "solve/laplace.h"
 
 #define BAND 16 /* rows that one thread composes at once */
@@ -17,7 +18,7 @@
 /* ------------------------------------------------------------------ lanes */
 
 CeldStatus
-celd_bases_grow (CeldBases *b, size_t n_groups)
+celd_bases_grow (CeldHarmonicBases *b, size_t n_groups)
 {
   while (b->n_groups < n_groups)
     {
@@ -35,21 +36,21 @@ celd_bases_grow (CeldBases *b, size_t n_groups)
 }
 
 void
-celd_bases_shrink (CeldBases *b, size_t n_groups)
+celd_bases_shrink (CeldHarmonicBases *b, size_t n_groups)
 {
   while (b->n_groups > n_groups)
     celd_free (b->group[--b->n_groups]);
 }
 
 void
-celd_bases_clear (CeldBases *bases)
+celd_bases_clear (CeldHarmonicBases *bases)
 {
   celd_bases_shrink (bases, 0);
   celd_free (bases->group);
   celd_free (bases->node);
   celd_free (bases->pixel);
   celd_free (bases->stiffness);
-  *bases = (CeldBases) {
+  *bases = (CeldHarmonicBases) {
     .width = bases->width, .height = bases->height, .east = bases->east, .south = bases->south
   };
 }
@@ -58,7 +59,7 @@ celd_bases_clear (CeldBases *bases)
 
 /* From which old node each new one starts: the one that had its first pixel of any; 0 = none. */
 static void
-find_starts (const CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+find_starts (const CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
              uint32_t *start)
 {
   for (size_t p = 0; b->node && p < (size_t) b->width * (size_t) b->height; p++)
@@ -70,7 +71,7 @@ find_starts (const CeldBases *b, const uint32_t *node, uint32_t n_sets, const si
 
 typedef struct
 {
-  CeldBases      *bases;
+  CeldHarmonicBases      *bases;
   const uint32_t *start;        /* of each new node */
   uint32_t        n_old, n_new;
   float          *work;         /* of each row: the old bases of a pixel */
@@ -81,7 +82,7 @@ static void
 start_row (void *data, int y)
 {
   Start     *s = data;
-  CeldBases *b = s->bases;
+  CeldHarmonicBases *b = s->bases;
   size_t     w = (size_t) b->width, first = (size_t) y * w;
   float     *old = s->work + (size_t) y * ((size_t) s->n_old + 1);
 
@@ -105,7 +106,7 @@ start_row (void *data, int y)
 
 /* Takes over the nodes; the bases are what a solution starts from. */
 static CeldStatus
-place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+place_nodes (CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
              const CeldHost *host)
 {
   size_t     pixels = (size_t) b->width * (size_t) b->height;
@@ -140,7 +141,7 @@ place_nodes (CeldBases *b, const uint32_t *node, uint32_t n_sets, const size_t *
 }
 
 CeldStatus
-celd_bases_set_up (const CeldBases *b, const CeldHost *host, CeldLaplace **laplace)
+celd_bases_set_up (const CeldHarmonicBases *b, const CeldHost *host, CeldLaplace **laplace)
 {
   size_t     pixels = (size_t) b->width * (size_t) b->height;
   uint8_t   *fixed = celd_alloc (pixels, 1);
@@ -156,7 +157,7 @@ celd_bases_set_up (const CeldBases *b, const CeldHost *host, CeldLaplace **lapla
 
 /* What a solution leaves a little outside [0,1] goes back; nodes are exact. */
 static void
-clean_group (const CeldBases *b, size_t group)
+clean_group (const CeldHarmonicBases *b, size_t group)
 {
   float *h = b->group[group];
 
@@ -165,19 +166,11 @@ clean_group (const CeldBases *b, size_t group)
       *h = b->node[p] ? b->node[p] == group * CELD_LANES + k + 2 : *h > 0 ? *h < 1 ? *h : 1 : 0;
 }
 
-void
-celd_solve_join (CeldSolve *worst, const CeldSolve *one)
-{
-  worst->converged  = worst->converged && one->converged;
-  worst->iterations = one->iterations > worst->iterations ? one->iterations : worst->iterations;
-  worst->error      = one->error > worst->error ? one->error : worst->error;
-}
-
 CeldStatus
-celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
+celd_bases_make (CeldHarmonicBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
                  double tolerance, const CeldHost *host, CeldSolve *solve)
 {
-  CeldBases   *b = bases;
+  CeldHarmonicBases   *b = bases;
   CeldLaplace *laplace = NULL;
   CeldSolve    worst = { .converged = true };
   CeldHostPart     part[2];
@@ -212,7 +205,7 @@ celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const 
 
 typedef struct
 {
-  const CeldBases *bases;
+  const CeldHarmonicBases *bases;
   CeldPlane       *depth;
   float           *value;       /* of each lane: u_k - u_1 */
   float            base, low, high;
@@ -234,7 +227,7 @@ static void
 compose_band (void *data, int band)
 {
   const Composition *c = data;
-  const CeldBases   *b = c->bases;
+  const CeldHarmonicBases   *b = c->bases;
 
   for (int y = band * BAND; y < b->height && y < (band + 1) * BAND; y++)
     {
@@ -250,7 +243,7 @@ compose_band (void *data, int band)
 }
 
 CeldStatus
-celd_bases_compose (const CeldBases *bases, const double *u, const CeldHost *host, CeldPlane *depth)
+celd_bases_compose (const CeldHarmonicBases *bases, const double *u, const CeldHost *host, CeldPlane *depth)
 {
   Composition c = {
     bases, depth, celd_alloc0 (bases->n_groups, CELD_LANES * sizeof (float)), (float) u[0], (float) u[0], (float) u[0]

@@ -11,20 +11,20 @@
 #include "depth/depth.h"
 #include "image/image.h"
 
-#define MOST_REACH 12 /* pixels: half a stroke at most, for solid areas are none */
+#define LARGEST_RADIUS 12 /* pixels: half a stroke at most, for solid areas are none */
 
 int
-celd_edge_reach (int stroke)
+celd_edge_radius (int stroke)
 {
   int reach = (stroke + 1) / 2;
 
-  return reach < 1 ? 1 : reach > MOST_REACH ? MOST_REACH : reach;
+  return reach < 1 ? 1 : reach > LARGEST_RADIUS ? LARGEST_RADIUS : reach;
 }
 
 /* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
  * paper. */
 static float
-least_ink (const CeldEdges *b, int x0, int y0, int x1, int y1)
+least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
 {
   float least = 1;
 
@@ -36,12 +36,12 @@ least_ink (const CeldEdges *b, int x0, int y0, int x1, int y1)
 }
 
 float
-celd_edge_across (const CeldEdges *b, int x, int y, int right, int down)
+celd_discontinuity_weight (const CeldDepthEdges *b, int x, int y, int right, int down)
 {
   float least = least_ink (b, x, y, x + right, y + down); /* enough on closed contours */
 
   if (least > b->threshold)
-    least = least_ink (b, x - b->reach, y - b->reach, x + right + b->reach, y + down + b->reach);
+    least = least_ink (b, x - b->radius, y - b->radius, x + right + b->radius, y + down + b->radius);
   return least <= b->threshold ? 0 : least;
 }
 
@@ -58,18 +58,18 @@ compare_levels (const float *restrict a, const float *restrict b, int n, float *
 }
 
 static void
-weigh_row (const CeldEdges *b, const float *level, int n, int y, int right, float *weight, uint8_t *differs)
+weigh_row (const CeldDepthEdges *b, const float *level, int n, int y, int right, float *weight, uint8_t *differs)
 {
   compare_levels (level, level + (right ? 1 : b->ink->width), n, weight, differs);
   for (int x = celd_next_marked (n, differs, 0); x < n; x = celd_next_marked (n, differs, x + 1))
-    weight[x] = celd_edge_across (b, x, y, right, !right);
+    weight[x] = celd_discontinuity_weight (b, x, y, right, !right);
 }
 
 CeldStatus
 celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
                     float *east, float *south)
 {
-  CeldEdges b = { ink, threshold, celd_edge_reach (celd_stroke_width (ink)) };
+  CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)) };
   size_t     w = (size_t) ink->width;
   uint8_t   *differs = celd_alloc (w, 1);
   CeldStatus status = differs ? CELD_OK : CELD_NO_MEMORY;

@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "image/image.h"
 
 #define MOST_ADDED    8 /* more new points at once: as well solve for all nodes, CELD_LANES at a time */
@@ -72,7 +72,7 @@ celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSett
   p->sigma *= (double) settings->contrast;
   p->ink    = ink;
   p->stroke = -1;
-  p->bases  = (CeldBases) { .width = ink->width, .height = ink->height, .east = p->east, .south = p->south };
+  p->bases  = (CeldHarmonicBases) { .width = ink->width, .height = ink->height, .east = p->east, .south = p->south };
   return CELD_OK;
 }
 
@@ -174,7 +174,7 @@ make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance
 static CeldStatus
 drop_spare (CeldProgram *p, const size_t *point, size_t n_points)
 {
-  CeldBases *b = &p->bases;
+  CeldHarmonicBases *b = &p->bases;
   bool      *wanted = celd_alloc0 ((size_t) b->n + 1, sizeof *wanted);
   size_t     spare = 0;
 

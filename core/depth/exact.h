@@ -24,24 +24,24 @@ typedef struct
                                  * (k - 2) % CELD_LANES of pixel p in group[(k - 2) / CELD_LANES] */
   size_t       n_groups;
   double      *stiffness;       /* n x n: K_kl = sum over edges of w_pq (h_k(p) - h_k(q)) (h_l(p) - h_l(q)) */
-} CeldBases;
+} CeldHarmonicBases;
 
 /* Nodes for these pixels, all at once: bases and stiffness.  Whatever the tolerance, bases are exactly 1 and 0 on the
  * nodes.  node: tight, 0 .. n_sets; each pixel of a point in none, and no two alike; at least one node has a pixel.
  * Starts from the bases that there are; `bases` needs width, height and weights before the first call.  After a failure
  * there are no nodes. */
-CeldStatus celd_bases_make (CeldBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point,
+CeldStatus celd_bases_make (CeldHarmonicBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point,
                             size_t n_points, double tolerance, const CeldHost *host, CeldSolve *solve);
 
 /* No nodes any more. */
-void       celd_bases_clear (CeldBases *bases);
+void       celd_bases_clear (CeldHarmonicBases *bases);
 
 /* depth = sum of u_k h_k, within the extremes of u. */
-CeldStatus celd_bases_compose (const CeldBases *bases, const double *u, const CeldHost *host, CeldPlane *depth);
+CeldStatus celd_bases_compose (const CeldHarmonicBases *bases, const double *u, const CeldHost *host, CeldPlane *depth);
 
 /* What program-nodes.c shares: the first lane of a basis, not of node 1; groups that so many nodes need. */
 static inline float *
-celd_bases_lane (const CeldBases *b, uint32_t node)
+celd_bases_lane (const CeldHarmonicBases *b, uint32_t node)
 {
   return b->group[(node - 2) / CELD_LANES] + (node - 2) % CELD_LANES;
 }
@@ -53,33 +53,31 @@ celd_bases_groups (uint32_t n)
 }
 
 /* At least so many groups, of which new ones are zero; and at most so many. */
-CeldStatus celd_bases_grow (CeldBases *b, size_t n_groups);
-void       celd_bases_shrink (CeldBases *b, size_t n_groups);
+CeldStatus celd_bases_grow (CeldHarmonicBases *b, size_t n_groups);
+void       celd_bases_shrink (CeldHarmonicBases *b, size_t n_groups);
 
 /* The solver that knows the nodes. */
-CeldStatus celd_bases_set_up (const CeldBases *b, const CeldHost *host, CeldLaplace **laplace);
-/* The worst of solutions: with `converged` to begin with. */
-void       celd_solve_join (CeldSolve *worst, const CeldSolve *one);
+CeldStatus celd_bases_set_up (const CeldHarmonicBases *b, const CeldHost *host, CeldLaplace **laplace);
 
 /* ------------------------------------------------------------------ program-nodes.c: nodes come and go */
 
 /* One more node for each of these pixels, which are in none: one solution each.  After a failure the nodes are those
  * before. */
-CeldStatus celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance,
+CeldStatus celd_bases_add (CeldHarmonicBases *bases, const size_t *point, size_t n_points, double tolerance,
                            const CeldHost *host, CeldSolve *solve);
 
 /* Lets go of a single pixel, not node 1, without a solution.  The last node takes its number. */
-void       celd_bases_drop (CeldBases *bases, uint32_t node);
+void       celd_bases_drop (CeldHarmonicBases *bases, uint32_t node);
 
 /* ------------------------------------------------------------------ program-stiffness.c */
 
 /* Fills in the stiffness of the bases: the energies of their pairs, so that an inexact basis raises the energy of the
  * result a little, to second order, but never breaks a constraint. */
-CeldStatus celd_stiffness (CeldBases *bases, const CeldHost *host);
+CeldStatus celd_stiffness (CeldHarmonicBases *bases, const CeldHost *host);
 
 /* The energies of one more basis, a tight plane: with each of the n bases, and of its own.  room: as many numbers as
  * celd_stiffness_room says for so many nodes or more. */
-void       celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldHost *host, double *room,
+void       celd_stiffness_of (const CeldHarmonicBases *bases, const float *basis, const CeldHost *host, double *room,
                               double *with, double *own);
 size_t     celd_stiffness_room (size_t n);
 
@@ -121,7 +119,7 @@ struct CeldProgram
   CeldPalette      palette;     /* of the nodes */
   uint32_t        *label;       /* of each node: its label as the caller numbers them */
   bool             stale;       /* the nodes are not those of the bases */
-  CeldBases        bases;
+  CeldHarmonicBases        bases;
   double           tolerance;   /* that the bases were made to */
   CeldSolve        solve;       /* how that went */
 };

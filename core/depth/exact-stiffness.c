@@ -9,7 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "solve/laplace.h"
 
 #define BANDS  8   /* at most */
@@ -18,7 +18,7 @@
 
 typedef struct
 {
-  const CeldBases *bases;
+  const CeldHarmonicBases *bases;
   double          *sum;     /* of each band: its n_groups x n_groups blocks of SQUARE */
   double          *work;    /* of each band: differences of a piece, plain and weighted, of each group */
   bool            *steep;   /* of each band and group: does it differ along the piece? */
@@ -66,7 +66,7 @@ take_differences (int n, size_t next, const float *restrict h, const float *rest
 static void
 add_piece (Sums *s, int band, size_t p, int n, size_t next, const float *weight)
 {
-  const CeldBases *b      = s->bases;
+  const CeldHarmonicBases *b      = s->bases;
   size_t           groups = b->n_groups, piece = PIECE * CELD_LANES;
   double          *work = s->work + (size_t) band * groups * 2 * piece;
   double          *sum = s->sum + (size_t) band * groups * groups * SQUARE;
@@ -87,7 +87,7 @@ static void
 add_band (void *data, int band)
 {
   Sums            *s = data;
-  const CeldBases *b = s->bases;
+  const CeldHarmonicBases *b = s->bases;
   int64_t          h = b->height;
   int              first = (int) (h * band / BANDS), end = (int) (h * (band + 1) / BANDS), w = b->width;
 
@@ -141,7 +141,7 @@ complete (size_t n, double *k)
 }
 
 CeldStatus
-celd_stiffness (CeldBases *bases, const CeldHost *host)
+celd_stiffness (CeldHarmonicBases *bases, const CeldHost *host)
 {
   size_t     groups = bases->n_groups;
   Sums       s = {
@@ -169,7 +169,7 @@ celd_stiffness (CeldBases *bases, const CeldHost *host)
 
 /* ------------------------------------------------------------------ one more basis */
 
-typedef struct { const CeldBases *bases; const float *basis; double *sum; } Products; /* of each band: n_lanes + 1 */
+typedef struct { const CeldHarmonicBases *bases; const float *basis; double *sum; } Products; /* of each band: n_lanes + 1 */
 
 static void
 add_edge (const Products *s, size_t p, size_t q, double weight, double *sum)
@@ -190,7 +190,7 @@ static void
 multiply_band (void *data, int band)
 {
   const Products  *s = data;
-  const CeldBases *b = s->bases;
+  const CeldHarmonicBases *b = s->bases;
   size_t           w = (size_t) b->width, h = (size_t) b->height, from = (size_t) band;
   size_t           p = w * (h * from / BANDS), end = w * (h * (from + 1) / BANDS);
   double          *sum = s->sum + (size_t) band * (b->n_groups * CELD_LANES + 1);
@@ -211,7 +211,7 @@ celd_stiffness_room (size_t n)
 }
 
 void
-celd_stiffness_of (const CeldBases *bases, const float *basis, const CeldHost *host, double *room, double *with,
+celd_stiffness_of (const CeldHarmonicBases *bases, const float *basis, const CeldHost *host, double *room, double *with,
                    double *own)
 {
   size_t   lanes = bases->n_groups * CELD_LANES;

@@ -16,7 +16,7 @@ typedef struct
 {
   int          width, height;
   const float *level;
-  CeldParts    regions;
+  CeldRunComponents    regions;
   CeldRect    *box;             /* of each region that is to be measured; width 0: the others */
   int32_t     *deepest;         /* of each region: squared distance of its deepest pixel */
   uint32_t    *group;
@@ -34,13 +34,13 @@ look_at_regions (const Cores *c, const uint8_t *changed, const uint8_t *last, Re
   for (int y = 0; y < c->height; y++)
     for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
       {
-        const CeldStretch *s = &c->regions.stretch[i];
-        Region            *r = &region[s->part];
+        const CeldPixelRun *s = &c->regions.run[i];
+        Region            *r = &region[s->component];
         const size_t       first = (size_t) y * (size_t) c->width + (size_t) s->x, n = (size_t) (s->end - s->x);
 
         r->area    += n;
         r->held     = r->held || memchr (c->fixed + first, CELD_ANCHOR, n);
-        r->changed  = r->changed || !changed || celd_stretch_marked (&c->regions, s, y, changed);
+        r->changed  = r->changed || !changed || celd_run_marked (&c->regions, s, y, changed);
         r->had_core = r->had_core || (changed && memchr (last + first, CELD_CORE, n));
       }
 }
@@ -52,14 +52,14 @@ take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *la
   for (int y = 0; y < c->height; y++)
     for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
       {
-        const CeldStretch *s = &c->regions.stretch[i];
-        const Region      *r = &region[s->part];
+        const CeldPixelRun *s = &c->regions.run[i];
+        const Region      *r = &region[s->component];
         const size_t       first = (size_t) y * (size_t) c->width;
 
         if (r->held || r->area < speck)
           continue;
         if (r->changed || !r->had_core)
-          celd_box_add (&c->box[s->part], s, y);
+          celd_box_add_run (&c->box[s->component], s, y);
         else
           memcpy (c->fixed + first + s->x, last + first + s->x, (size_t) (s->end - s->x));
       }
@@ -77,12 +77,10 @@ on_border (const Cores *c, int x, int y)
          (y > 0 && here[-c->width] != here[0]) || (y + 1 < c->height && here[c->width] != here[0]);
 }
 
-/* Calls for every stretch of the group's regions. */
-#define EACH_STRETCH(c, bounds, g, y, s) \
-  for (int y = (bounds).y; y < (bounds).y + (bounds).height; y++) \
-    for (const CeldStretch *s = (c)->regions.stretch + (c)->regions.row[y], \
-         *end_ = (c)->regions.stretch + (c)->regions.row[y + 1]; s < end_; s++) \
-      if ((c)->group[s->part] == (g))
+/* Calls for every run of the group's regions. */
+#define EACH_GROUP_RUN(c, bounds, g, y, s) \
+  CELD_EACH_RUN (&(c)->regions, (bounds).y, (bounds).y + (bounds).height, y, s) \
+    if ((c)->group[s->component] == (g))
 
 /* The cores of one group's regions. */
 static CeldStatus
@@ -96,20 +94,20 @@ measure (const Cores *c, uint32_t g, CeldRect box, const CeldHost *host)
 #define IN_BOX(x, y) ((size_t) ((y) - box.y) * (size_t) box.width + (size_t) ((x) - box.x))
   if (status == CELD_OK)
     {
-      EACH_STRETCH (c, box, g, y, s)
+      EACH_GROUP_RUN (c, box, g, y, s)
         for (int x = s->x; x < s->end; x++)
           border[IN_BOX (x, y)] = on_border (c, x, y);
       status = celd_distance (box.width, box.height, border, host, squared);
     }
   if (status == CELD_OK)
     {
-      EACH_STRETCH (c, box, g, y, s)
+      EACH_GROUP_RUN (c, box, g, y, s)
         for (int x = s->x; x < s->end; x++)
-          if (squared[IN_BOX (x, y)] > c->deepest[s->part])
-            c->deepest[s->part] = squared[IN_BOX (x, y)];
-      EACH_STRETCH (c, box, g, y, s)
+          if (squared[IN_BOX (x, y)] > c->deepest[s->component])
+            c->deepest[s->component] = squared[IN_BOX (x, y)];
+      EACH_GROUP_RUN (c, box, g, y, s)
         for (int x = s->x; x < s->end; x++)
-          if (squared[IN_BOX (x, y)] >= c->deepest[s->part] / 4)
+          if (squared[IN_BOX (x, y)] >= c->deepest[s->component] / 4)
             c->fixed[(size_t) y * (size_t) c->width + (size_t) x] = CELD_CORE;
     }
 #undef IN_BOX
@@ -159,10 +157,10 @@ celd_cores_mark (int width, int height, const float *level, size_t speck, const 
   Cores      c = { .width = width, .height = height, .level = level, .fixed = fixed };
   CeldHostPart   part[2];
   CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), measuring = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus status  = celd_parts_find (width, height, level, NULL, NULL, &finding, &c.regions);
+  CeldStatus status  = celd_run_components_find (width, height, level, NULL, NULL, &finding, &c.regions);
 
   if (status == CELD_OK)
     status = mark_cores (&c, speck, changed, last, &measuring);
-  celd_parts_clear (&c.regions);
+  celd_run_components_clear (&c.regions);
   return status;
 }

@@ -25,11 +25,11 @@ set_bits (const float *weight, int n, uint64_t *bits)
 }
 
 CeldStatus
-celd_joined_new (int width, int height, const float *east, const float *south, CeldJoined *joined)
+celd_pixel_links_new (int width, int height, const float *east, const float *south, CeldPixelLinks *joined)
 {
   size_t w = (size_t) width, words = (w + 63) / 64;
 
-  *joined = (CeldJoined) {
+  *joined = (CeldPixelLinks) {
     height, words, celd_alloc0 ((size_t) height * words, sizeof *joined->east),
     celd_alloc0 ((size_t) height * words, sizeof *joined->south),
   };
@@ -44,7 +44,7 @@ celd_joined_new (int width, int height, const float *east, const float *south, C
 }
 
 void
-celd_joined_clear (CeldJoined *joined)
+celd_pixel_links_clear (CeldPixelLinks *joined)
 {
   celd_free (joined->east);
   celd_free (joined->south);
@@ -54,7 +54,7 @@ celd_joined_clear (CeldJoined *joined)
 
 /* The bits of the pixels x - REACH .. x + REACH of row y; 0 outside the picture. */
 static inline uint32_t
-window_row (const CeldJoined *g, const uint64_t *bits, int x, int y)
+window_row (const CeldPixelLinks *g, const uint64_t *bits, int x, int y)
 {
   const uint64_t *row = bits + (size_t) y * g->words;
   int             from = x - REACH, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
@@ -77,7 +77,7 @@ spread (uint32_t seen, uint32_t east)
 }
 
 bool
-celd_way_round (const CeldJoined *g, int x, int y, bool down)
+celd_has_detour (const CeldPixelLinks *g, int x, int y, bool down)
 {
   uint32_t east[WINDOW], south[WINDOW], seen[WINDOW] = { 0 };
   bool     grown = true;

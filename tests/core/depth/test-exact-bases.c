@@ -3,12 +3,12 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "solve/laplace.h"
 
 #define MOST 400 /* pixels of a test's picture */
 
-typedef struct { int w, h; float east[MOST], south[MOST]; uint32_t node[MOST]; CeldBases bases; } Picture;
+typedef struct { int w, h; float east[MOST], south[MOST]; uint32_t node[MOST]; CeldHarmonicBases bases; } Picture;
 
 static void
 start (Picture *p, int w, int h)
@@ -32,7 +32,7 @@ make (Picture *p, uint32_t n_sets, const size_t *point, size_t n_points)
 
 /* h_k of pixel i. */
 static double
-basis (const CeldBases *b, uint32_t k, size_t i)
+basis (const CeldHarmonicBases *b, uint32_t k, size_t i)
 {
   double rest = 1;
 
@@ -71,7 +71,7 @@ laplacian (const Picture *p, double *a)
 static void
 oracle_bases (const Picture *p, double *h)
 {
-  const CeldBases *b = &p->bases;
+  const CeldHarmonicBases *b = &p->bases;
   int              n = p->w * p->h;
   double          *a = malloc ((size_t) (n * n) * sizeof *a);
 
@@ -109,7 +109,7 @@ oracle_bases (const Picture *p, double *h)
 static void
 check_bases (const Picture *p, double error)
 {
-  const CeldBases *b = &p->bases;
+  const CeldHarmonicBases *b = &p->bases;
   int              n = p->w * p->h;
   double          *h = malloc ((size_t) n * b->n * sizeof *h), *a = malloc ((size_t) (n * n) * sizeof *a);
 

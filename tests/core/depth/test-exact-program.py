@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The exact program against cvxopt's interior-point method on the whole program, eq. (2) with a variable a pixel.
 
-Usage: test-exact-depth.py SOLVE-EXACT
+Usage: test-exact-program.py SOLVE-EXACT
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """

@@ -6,7 +6,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/program.h"
+#include "depth/depth.h"
+#include "depth/exact.h"
 #include "solve/laplace.h"
 
 /* ------------------------------------------------------------------ one more node */
@@ -14,7 +15,7 @@
 /* The basis of node n + 1 at pixel p from g, the answer to a source there that knows the nodes of the set-up: those
  * that were added since have what it takes to make it 0 on them, too. */
 static void
-make_basis (const CeldBases *b, size_t p, float *g)
+make_basis (const CeldHarmonicBases *b, size_t p, float *g)
 {
   size_t pixels = (size_t) b->width * (size_t) b->height;
 
@@ -36,7 +37,7 @@ make_basis (const CeldBases *b, size_t p, float *g)
 
 /* K' of the bases h_k - a_k h and h, from the energies of h with the others and its own; a_k = h_k (p). */
 static void
-extend_stiffness (const CeldBases *b, const double *a, const double *with, double own, double *k)
+extend_stiffness (const CeldHarmonicBases *b, const double *a, const double *with, double own, double *k)
 {
   size_t n = b->n, m = n + 1;
 
@@ -50,7 +51,7 @@ extend_stiffness (const CeldBases *b, const double *a, const double *with, doubl
 
 /* The other bases give up their share, and the new one takes its lane. */
 static void
-give_up_shares (const CeldBases *b, const double *a, const float *basis)
+give_up_shares (const CeldHarmonicBases *b, const double *a, const float *basis)
 {
   size_t pixels = (size_t) b->width * (size_t) b->height;
 
@@ -88,7 +89,7 @@ room_clear (Room *room)
 }
 
 static CeldStatus
-room_new (CeldBases *b, size_t n_points, Room *room)
+room_new (CeldHarmonicBases *b, size_t n_points, Room *room)
 {
   size_t pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
 
@@ -113,7 +114,7 @@ room_new (CeldBases *b, size_t n_points, Room *room)
 
 /* Node n + 1 at pixel p, with the basis in g; k: for its stiffness. */
 static void
-insert (CeldBases *b, size_t p, const float *g, const CeldHost *host, Room *room, double *k)
+insert (CeldHarmonicBases *b, size_t p, const float *g, const CeldHost *host, Room *room, double *k)
 {
   size_t  n = b->n;
   double *a = room->share, own;
@@ -134,7 +135,7 @@ insert (CeldBases *b, size_t p, const float *g, const CeldHost *host, Room *room
 
 /* The answers to sources at the points. */
 static CeldStatus
-solve_points (const CeldBases *b, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
+solve_points (const CeldHarmonicBases *b, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
               float *g, CeldSolve *solve)
 {
   size_t       pixels = (size_t) b->width * (size_t) b->height;
@@ -163,10 +164,10 @@ solve_points (const CeldBases *b, const size_t *point, size_t n_points, double t
 }
 
 CeldStatus
-celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
+celd_bases_add (CeldHarmonicBases *bases, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
                 CeldSolve *solve)
 {
-  CeldBases *b = bases;
+  CeldHarmonicBases *b = bases;
   size_t     pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
   Room       room;
   double    *k, *old = b->stiffness;
@@ -200,7 +201,7 @@ celd_bases_add (CeldBases *bases, const size_t *point, size_t n_points, double t
 
 /* Its basis goes to the others: the sum of their values that makes it harmonic there. */
 static void
-hand_over_basis (const CeldBases *b, uint32_t node)
+hand_over_basis (const CeldHarmonicBases *b, uint32_t node)
 {
   size_t        n = b->n, pixels = (size_t) b->width * (size_t) b->height;
   const double *row  = b->stiffness + (node - 1) * n;
@@ -225,7 +226,7 @@ hand_over_basis (const CeldBases *b, uint32_t node)
 
 /* K without the node, whose value is what costs least; row and column of the last node move to its place. */
 static void
-reduce_stiffness (CeldBases *b, uint32_t node)
+reduce_stiffness (CeldHarmonicBases *b, uint32_t node)
 {
   size_t  n = b->n, at = node - 1;
   double *k = b->stiffness, own = k[at * n + at];
@@ -243,9 +244,9 @@ reduce_stiffness (CeldBases *b, uint32_t node)
 }
 
 void
-celd_bases_drop (CeldBases *bases, uint32_t node)
+celd_bases_drop (CeldHarmonicBases *bases, uint32_t node)
 {
-  CeldBases *b = bases;
+  CeldHarmonicBases *b = bases;
   size_t     pixels = (size_t) b->width * (size_t) b->height, *pixel = &b->pixel[node - b->n_sets - 1];
   float     *to = celd_bases_lane (b, node), *last = celd_bases_lane (b, b->n);
 

@@ -15,7 +15,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
-#include "depth/program.h"
+#include "depth/exact.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "solve/quadratic.h"
@@ -167,7 +167,7 @@ static CeldStatus
 settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldHost *host, Problem *q,
                   CeldProblems *problems)
 {
-  const CeldBases *b = &p->bases;
+  const CeldHarmonicBases *b = &p->bases;
   CeldLabels       nodes = { b->width, b->height, (size_t) b->width, b->node };
   size_t           before = problems ? problems->n : 0;
   CeldStatus       status = celd_graph_new (&nodes, &q->palette, &q->relations, NULL, &q->graph, problems);

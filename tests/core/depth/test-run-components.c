@@ -25,25 +25,25 @@ parts_are_what_a_flood_finds (void)
   for (uint32_t round = 0, r = 5; round < 60; round++)
     {
       CeldPlane  ink = ink_of (&picture);
-      CeldEdges edges = { &ink, 0.25f, 1 };
-      CeldParts  parts = { 0 };
+      CeldDepthEdges edges = { &ink, 0.25f, 1 };
+      CeldRunComponents  parts = { 0 };
       bool       regions = round % 2;
       int        part[N], n, covered = 0;
 
       random_picture (&r, &picture);
       weigh (regions);
       n = flood_parts (regions ? NULL : picture.fixed, weight, part);
-      CHECK (celd_parts_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &edges, NULL,
+      CHECK (celd_run_components_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &edges, NULL,
                               &parts) == CELD_OK);
       CHECK (parts.n == (size_t) n);
       for (int y = 0; y < H; y++)
         for (size_t i = parts.row[y]; i < parts.row[y + 1]; i++)
-          for (int x = parts.stretch[i].x; x < parts.stretch[i].end; x++, covered++)
-            CHECK (part[y * W + x] == (int) parts.stretch[i].part + 1);
+          for (int x = parts.run[i].x; x < parts.run[i].end; x++, covered++)
+            CHECK (part[y * W + x] == (int) parts.run[i].component + 1);
       for (int i = 0; i < N; i++)
         covered -= part[i] != 0;
       CHECK (covered == 0);
-      celd_parts_clear (&parts);
+      celd_run_components_clear (&parts);
     }
 }
 

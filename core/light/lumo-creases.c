@@ -1,6 +1,6 @@
-/* Strokes inside a part: wrinkles, folds, seams, which need not end what they are drawn on.
+/* Strokes inside a part: wrinkles, folds, creases, which need not end what they are drawn on.
  *
- * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a seam of a quilt, or of
+ * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a crease of a quilt, or of
  * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come
  * before that, as in [Joh02]: white beside a line makes its side bend ("over"), black lets it run on ("under"), grey
  * bends both sides; at outlines, too.
@@ -21,15 +21,15 @@
 #define SLIGHT    0.005f /* difference of smooth depth, as a share of its range, that is none */
 #define NEAR_LINE 3     /* pixels beyond the stroke where hints are looked for */
 
-typedef struct { CeldLumo *lumo; int32_t *nearest; float slight; } Seams;
+typedef struct { CeldLumo *lumo; int32_t *nearest; float slight; } Creases;
 
 /* A pixel of a stroke, or beside it, and the way to its paper. */
 typedef struct { int x, y, dx, dy; size_t paper; } Flank;
 
 /* ------------------------------------------------------------------ hints */
 
-CeldLumoSide
-celd_lumo_side (const CeldLumo *l, double x, double y, double dx, double dy)
+CeldLumoHint
+celd_lumo_hint (const CeldLumo *l, double x, double y, double dx, double dy)
 {
   double reach = 1.5 * l->stroke + NEAR_LINE;
 
@@ -52,7 +52,7 @@ celd_lumo_side (const CeldLumo *l, double x, double y, double dx, double dy)
 /* ------------------------------------------------------------------ the middle of a stroke */
 
 static Flank
-flank_of (const Seams *s, int x, int y)
+flank_of (const Creases *s, int x, int y)
 {
   const CeldLumo *l = s->lumo;
   size_t          paper = (size_t) s->nearest[celd_lumo_pixel (l, x, y)];
@@ -62,12 +62,12 @@ flank_of (const Seams *s, int x, int y)
 
 /* Do two neighbours belong to two sides of one stroke?  Of a stroke one pixel wide the other may be its paper. */
 static bool
-is_middle (const Seams *s, const Flank *p, const Flank *q)
+is_middle (const Creases *s, const Flank *p, const Flank *q)
 {
   double a = hypot (p->dx, p->dy), b = hypot (q->dx, q->dy);
   size_t i = celd_lumo_pixel (s->lumo, p->x, p->y);
 
-  if (!celd_lumo_level (s->lumo, i, p->paper) || !celd_lumo_level (s->lumo, i, q->paper) ||
+  if (!celd_lumo_same_level (s->lumo, i, p->paper) || !celd_lumo_same_level (s->lumo, i, q->paper) ||
       a > s->lumo->stroke + 1 || b > s->lumo->stroke + 1)
     return false;
   if (!(a > 0) && !(b > 0))
@@ -116,16 +116,16 @@ across (const CeldLumo *l, const Flank *p, const Flank *q, double *nx, double *n
 
 /* How much both sides bend; is that painted? */
 static bool
-strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny, float strength[2])
+strengths (const Creases *s, const Flank *p, const Flank *q, double nx, double ny, float strength[2])
 {
   const CeldLumo *l = s->lumo;
-  CeldLumoSide        side[2] = { CELD_UNPAINTED, CELD_UNPAINTED };
+  CeldLumoHint        side[2] = { CELD_UNPAINTED, CELD_UNPAINTED };
   double          mx = 0.5 * (p->x + q->x) + 0.5, my = 0.5 * (p->y + q->y) + 0.5;
 
   if (l->hints)
     {
-      side[0] = celd_lumo_side (l, mx, my, -nx, -ny);
-      side[1] = celd_lumo_side (l, mx, my, nx, ny);
+      side[0] = celd_lumo_hint (l, mx, my, -nx, -ny);
+      side[1] = celd_lumo_hint (l, mx, my, nx, ny);
     }
   if (side[0] != CELD_UNPAINTED || side[1] != CELD_UNPAINTED)
     {
@@ -151,33 +151,33 @@ strengths (const Seams *s, const Flank *p, const Flank *q, double nx, double ny,
 }
 
 static CeldStatus
-look_at_edge (Seams *s, int x, int y, bool down)
+look_at_edge (Creases *s, int x, int y, bool down)
 {
   CeldLumo *l = s->lumo;
   size_t    i = celd_lumo_pixel (l, x, y);
   Flank     p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
-  CeldSeam  seam = { (uint32_t) i, down, false, 0, 0, { 0, 0 } }, *grown;
+  CeldCrease  crease = { (uint32_t) i, down, false, 0, 0, { 0, 0 } }, *grown;
   double    nx, ny;
 
   if (!is_middle (s, &p, &q))
     return CELD_OK;
   across (l, &p, &q, &nx, &ny);
-  seam.painted = strengths (s, &p, &q, nx, ny, seam.strength);
-  if (!(seam.strength[0] > 0) && !(seam.strength[1] > 0))
+  crease.painted = strengths (s, &p, &q, nx, ny, crease.strength);
+  if (!(crease.strength[0] > 0) && !(crease.strength[1] > 0))
     return CELD_OK;
-  grown = celd_grow (l->seam, l->n_seams + 1, sizeof *grown);
+  grown = celd_grow (l->crease, l->n_creases + 1, sizeof *grown);
   if (!grown)
     return CELD_NO_MEMORY;
-  seam.x  = (float) nx;
-  seam.y  = (float) ny;
-  l->seam = grown;
-  l->seam[l->n_seams++] = seam;
+  crease.x  = (float) nx;
+  crease.y  = (float) ny;
+  l->crease = grown;
+  l->crease[l->n_creases++] = crease;
   return CELD_OK;
 }
 
 /* Edges with ink at one end at least, within one level. */
 static CeldStatus
-find_seams (Seams *s, const CeldHost *host)
+find_creases (Creases *s, const CeldHost *host)
 {
   CeldLumo  *l = s->lumo;
   CeldStatus status = CELD_OK;
@@ -191,10 +191,10 @@ find_seams (Seams *s, const CeldHost *host)
           bool ink = !celd_is_paper (CELD_AT (l->ink, x, y));
 
           if (x + 1 < l->width && (ink || !celd_is_paper (CELD_AT (l->ink, x + 1, y))) &&
-              celd_lumo_level (l, i, i + 1))
+              celd_lumo_same_level (l, i, i + 1))
             status = look_at_edge (s, x, y, false);
           if (status == CELD_OK && y + 1 < l->height && (ink || !celd_is_paper (CELD_AT (l->ink, x, y + 1))) &&
-              celd_lumo_level (l, i, i + (size_t) l->width))
+              celd_lumo_same_level (l, i, i + (size_t) l->width))
             status = look_at_edge (s, x, y, true);
         }
     }
@@ -204,8 +204,8 @@ find_seams (Seams *s, const CeldHost *host)
 static void
 cut (CeldLumo *l)
 {
-  for (size_t i = 0; i < l->n_seams; i++)
-    (l->seam[i].down ? l->south : l->east)[l->seam[i].pixel] = 0;
+  for (size_t i = 0; i < l->n_creases; i++)
+    (l->crease[i].down ? l->south : l->east)[l->crease[i].pixel] = 0;
 }
 
 static float
@@ -223,10 +223,10 @@ slight_difference (const CeldPlane *depth)
 }
 
 CeldStatus
-celd_lumo_seams (CeldLumo *l, const CeldHost *host)
+celd_lumo_creases (CeldLumo *l, const CeldHost *host)
 {
   size_t     n = (size_t) l->width * (size_t) l->height, i = 0;
-  Seams      s = { .lumo = l };
+  Creases      s = { .lumo = l };
   CeldHostPart   part[2];
   CeldHost   measuring = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 1);
   uint8_t   *paper = NULL;
@@ -250,7 +250,7 @@ celd_lumo_seams (CeldLumo *l, const CeldHost *host)
   s.slight = l->depth ? slight_difference (l->depth) : 0;
   status   = celd_nearest (l->width, l->height, paper, &measuring, squared, s.nearest);
   if (status == CELD_OK)
-    status = find_seams (&s, &finding);
+    status = find_creases (&s, &finding);
   if (status == CELD_OK)
     cut (l);
 

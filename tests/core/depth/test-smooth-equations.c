@@ -11,7 +11,7 @@
 #define RANGE     3 /* of the levels of a picture, at most */
 
 /* What a picture says, by definition. */
-typedef struct { float weight[N][4]; int part[N], n; } Facts;
+typedef struct { float weight[N][4]; int component[N], n; } Facts;
 
 static void
 find_facts (const Picture *p, Facts *f)
@@ -21,7 +21,7 @@ find_facts (const Picture *p, Facts *f)
   for (int i = 0; i < N; i++)
     for (int k = 0, n = neighbours (i, near); k < n; k++)
       f->weight[i][k] = plain_weight (p, THRESHOLD, REACH, i, near[k]);
-  f->n = flood_parts (p->fixed, f->weight, f->part);
+  f->n = flood_parts (p->fixed, f->weight, f->component);
 }
 
 /* Successive over-relaxation, until nothing moves; what floats gets the mean of its levels. */
@@ -38,19 +38,19 @@ relax (const Picture *p, const Facts *f, double depth[N])
   memset (held, 0, sizeof held);
   for (int i = 0; i < N; i++)
     {
-      sum[f->part[i]]   += (double) p->level[i];
-      count[f->part[i]] += 1;
+      sum[f->component[i]]   += (double) p->level[i];
+      count[f->component[i]] += 1;
       for (int k = 0, n = neighbours (i, near); k < n; k++)
         if (p->fixed[near[k]] && f->weight[i][k] > 0)
-          held[f->part[i]] = true;
+          held[f->component[i]] = true;
     }
   for (int i = 0; i < N; i++)
-    depth[i] = p->fixed[i] || held[f->part[i]] ? (double) p->level[i] : sum[f->part[i]] / count[f->part[i]];
+    depth[i] = p->fixed[i] || held[f->component[i]] ? (double) p->level[i] : sum[f->component[i]] / count[f->component[i]];
   while (moved > 1e-9)
     {
       moved = 0;
       for (int i = 0; i < N; i++)
-        if (!p->fixed[i] && held[f->part[i]])
+        if (!p->fixed[i] && held[f->component[i]])
           {
             double weighted = 0, weights = 0;
 
@@ -69,10 +69,10 @@ static void
 solve (Picture *p, float depth[N])
 {
   CeldPlane  ink = ink_of (p);
-  CeldSystem system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH }, NULL, NULL, TOLERANCE, RANGE };
+  CeldSmoothEquations system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH }, NULL, NULL, TOLERANCE, RANGE };
   CeldSolve  how = { 0 };
 
-  CHECK (celd_system_solve (&system, NULL, depth, &how) == CELD_OK);
+  CHECK (celd_smooth_equations_solve (&system, NULL, depth, &how) == CELD_OK);
   CHECK (how.converged && how.error <= TOLERANCE);
 }
 
@@ -147,7 +147,7 @@ is_touched (const Picture *now, const Picture *old, const Facts *facts, const Fa
   int near[4];
 
   for (int i = 0; i < N; i++)
-    if (facts->part[i] == part)
+    if (facts->component[i] == part)
       {
         if (now->level[i] != old->level[i] || now->fixed[i] != old->fixed[i])
           return true;
@@ -160,18 +160,18 @@ is_touched (const Picture *now, const Picture *old, const Facts *facts, const Fa
 }
 
 static void
-again (CeldSmoother *smoother, Picture *p, const CeldPlane *last, CeldPlane *depth)
+again (CeldSmoothState *smoother, Picture *p, const CeldPlane *last, CeldPlane *depth)
 {
   CeldSettings  settings = celd_settings ();
   CeldPlane     ink = ink_of (p), levels = { W, H, W, p->level };
   CeldMask      anchors = { W, H, W, p->fixed };
-  CeldSmoothing smoothing = { &ink, &levels, &anchors, &settings, REACH, CELD_SPECK, last->data };
+  CeldSmoothInput smoothing = { &ink, &levels, &anchors, &settings, REACH, CELD_SPECK, last->data };
   CeldSolve     how;
 
   settings.hold_rest     = false;
   settings.ink_threshold = THRESHOLD / 100.f;
   settings.tolerance     = (float) TOLERANCE;
-  CHECK (celd_smooth_again (smoother, &smoothing, NULL, depth, &how) == CELD_OK);
+  CHECK (celd_smooth_update (smoother, &smoothing, NULL, depth, &how) == CELD_OK);
   CHECK (how.converged);
 }
 
@@ -185,7 +185,7 @@ an_edit_solves_what_it_touches (void)
 
   for (uint32_t round = 0, r = 11; round < 12; round++)
     {
-      CeldSmoother smoother = { 0 };
+      CeldSmoothState smoother = { 0 };
       CeldPlane    last = { 0 }, depth;
       bool         inked = false;
 
@@ -205,7 +205,7 @@ an_edit_solves_what_it_touches (void)
               solved += touched;
               kept   += !touched;
               for (int i = 0; i < N && !touched && !inked; i++)
-                CHECK (facts.part[i] != part || depth.data[i] == last.data[i]);
+                CHECK (facts.component[i] != part || depth.data[i] == last.data[i]);
             }
           celd_free (last.data);
           last   = depth;
@@ -215,7 +215,7 @@ an_edit_solves_what_it_touches (void)
           inked = smoother.new_ink.width > 0;
         }
       celd_free (last.data);
-      celd_smoother_clear (&smoother);
+      celd_smooth_state_clear (&smoother);
     }
   CHECK (kept > 50 && solved > 50);
 }
@@ -225,7 +225,7 @@ static void
 untouched_parts_are_not_solved (void)
 {
   static Picture picture;
-  CeldSmoother   smoother = { 0 };
+  CeldSmoothState   smoother = { 0 };
   CeldPlane      none = { 0 }, first, second;
 
   for (int i = 0; i < N; i++)
@@ -245,7 +245,7 @@ untouched_parts_are_not_solved (void)
   CHECK (first.data[5] >= 1);
   celd_free (first.data);
   celd_free (second.data);
-  celd_smoother_clear (&smoother);
+  celd_smooth_state_clear (&smoother);
 }
 
 int

@@ -1,4 +1,4 @@
-/* The exact program on scenes that can be checked by hand; random ones are in test-exact-depth.py.
+/* The exact program on scenes that can be checked by hand; random ones are in test-exact-program.py.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
