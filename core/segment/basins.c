@@ -1,11 +1,17 @@
-/* The basin graph of a drawing, step by step.
+/* The record of a basin graph, and its paper as bits: how much of it stands under a run of pixels, as is asked of every
+ * painted run after every stroke.
+ *
+ * The drawing itself is 32 times as large, and the strokes of an artist lie all over it, so that nearly every look at
+ * it is a miss of the cache.  A byte is 8 pixels of a row, and 8 rows of such bytes stand together, so that 64 x 8
+ * pixels share a line of the cache.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
-#include "segment/costs.h"
+
+#define PACK 64 /* bytes at a time */
 
 void
 celd_basins_measure (CeldBasins *basins)
@@ -14,83 +20,6 @@ celd_basins_measure (CeldBasins *basins)
     for (size_t i = basins->row[y], end = basins->row[y + 1]; i < end; i++)
       basins->basin[basins->run[i].basin].area +=
         (uint32_t) ((i + 1 < end ? basins->run[i + 1].x : basins->width) - basins->run[i].x);
-}
-
-/* Everything but stroke and costs. */
-static CeldStatus
-build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
-{
-  CeldHostPart   parts[3];
-  CeldHost   measuring = celd_host_part (&parts[0], host, 0, 0.4), ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
-  CeldHost   touching = celd_host_part (&parts[2], host, 0.9, 1);
-  int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
-  CeldPlot   plot = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL, NULL };
-  CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
-
-  if (status == CELD_OK)
-    status = celd_basins_ascend (&plot, &ascending, basins);
-  if (status == CELD_OK)
-    {
-      celd_basins_measure (basins);
-      status = celd_basins_touch (ink, &plot, basins, &touching, &basins->border, &basins->n_borders);
-    }
-  if (status == CELD_OK)
-    status = celd_basins_unite (basins);
-  if (status == CELD_OK)
-    status = celd_paper_new (ink, host, &basins->paper);
-  celd_free (squared);
-  return status;
-}
-
-CeldStatus
-celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins)
-{
-  CeldBasins found = { .width = ink->width, .height = ink->height };
-  CeldStatus status;
-
-  if (!CELD_SAME_SIZE (ink, ink))
-    return CELD_BAD_SIZE;
-  found.stroke = celd_stroke_width (ink);
-  celd_costs_new (ink->width, ink->height, threshold, &found.costs);
-  status = build (ink, host, &found);
-  if (status == CELD_OK)
-    *basins = found;
-  else
-    celd_basins_clear (&found);
-  return status;
-}
-
-CeldStatus
-celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins)
-{
-  CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
-  int        left = changed->x > 0 ? changed->x : 0, right = changed->x + changed->width;
-  int        top = changed->y > 0 ? changed->y : 0, bottom = changed->y + changed->height;
-  CeldRect   inside = { left, top, (right < ink->width ? right : ink->width) - left,
-                        (bottom < ink->height ? bottom : ink->height) - top };
-  CeldStatus status;
-
-  if (!CELD_SAME_SIZE (ink, ink) || ink->width != basins->width || ink->height != basins->height)
-    return CELD_BAD_SIZE;
-  if (inside.width < 1 || inside.height < 1)
-    return CELD_OK;
-  found.stroke = celd_stroke_width (ink);
-  status = found.stroke == basins->stroke ? celd_basins_revise (ink, &inside, basins, host, &found) : CELD_OK;
-  if (status == CELD_OK && found.basin)
-    {
-      found.paper = basins->paper;
-      basins->paper = NULL;
-      celd_paper_renew (ink, &inside, host, found.paper);
-    }
-  else if (status == CELD_OK)
-    status = build (ink, host, &found);
-  if (status == CELD_OK)
-    celd_basins_clear (basins);
-  else
-    celd_basins_clear (&found);
-  if (status == CELD_OK)
-    *basins = found;
-  return status;
 }
 
 void
@@ -105,4 +34,106 @@ celd_basins_clear (CeldBasins *basins)
   celd_free (basins->room);
   celd_free (basins->piece);
   *basins = (CeldBasins) { 0 };
+}
+
+/* ------------------------------------------------------------------ paper as bits */
+
+/* The byte of pixels 8 column .. 8 column + 7 of row y. */
+static inline size_t
+byte_of (int width, int column, int y)
+{
+  return ((size_t) (y >> 3) * (size_t) ((width + 7) >> 3) + (size_t) column) << 3 | (size_t) (y & 7);
+}
+
+typedef struct { const CeldPlane *ink; uint8_t *bits; CeldRect rect; } Work;
+
+/* Bytes of 0 or 1 for n pixels, and 0 up to the next multiple of 8. */
+static void
+find_paper (const float *restrict ink, int n, uint8_t *restrict paper)
+{
+  for (int i = 0; i < n; i++)
+    paper[i] = celd_is_paper (ink[i]);
+  for (int i = n; i & 7; i++)
+    paper[i] = 0;
+}
+
+/* Eight such bytes as bits of one: a product moves them side by side. */
+static uint8_t
+pack (const uint8_t *paper)
+{
+  uint64_t b = paper[0] | (uint64_t) paper[1] << 8 | (uint64_t) paper[2] << 16 | (uint64_t) paper[3] << 24 |
+               (uint64_t) paper[4] << 32 | (uint64_t) paper[5] << 40 | (uint64_t) paper[6] << 48 |
+               (uint64_t) paper[7] << 56;
+
+  return (uint8_t) (b * 0x0102040810204080 >> 56);
+}
+
+/* Rows come in bands of 8, so that jobs share no line of the cache. */
+static void
+read_band (void *data, int band)
+{
+  const Work *work = data;
+  int         w = work->ink->width, first = work->rect.x >> 3, end = (work->rect.x + work->rect.width + 7) >> 3;
+  int         top = (work->rect.y & ~7) + 8 * band, bottom = work->rect.y + work->rect.height;
+  uint8_t     paper[8 * PACK];
+
+  for (int y = top; y < top + 8 && y < bottom; y++)
+    for (int column = first; column < end; column += PACK)
+      {
+        int      columns = end - column < PACK ? end - column : PACK;
+        int      pixels = w - 8 * column < 8 * columns ? w - 8 * column : 8 * columns;
+        uint8_t *bits = work->bits + byte_of (w, column, y);
+
+        find_paper (&CELD_AT (work->ink, 8 * column, y), pixels, paper);
+        for (int k = 0; k < columns; k++)
+          bits[8 * k] = pack (paper + 8 * k);
+      }
+}
+
+void
+celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits)
+{
+  Work work = { ink, bits, *changed };
+
+  if (changed->width > 0 && changed->height > 0)
+    celd_parallel_for (host, ((changed->y + changed->height + 7) >> 3) - (changed->y >> 3), read_band, &work);
+}
+
+CeldStatus
+celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits)
+{
+  CeldRect all = { 0, 0, ink->width, ink->height };
+  uint8_t *made = celd_alloc0 ((size_t) ((ink->width + 7) >> 3) * (size_t) ((ink->height + 7) >> 3), 8);
+
+  if (!made)
+    return CELD_NO_MEMORY;
+  celd_paper_renew (ink, &all, host, made);
+  *bits = made;
+  return CELD_OK;
+}
+
+static inline uint32_t
+count_bits (unsigned byte)
+{
+  static const uint8_t of_half[16] = { 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4 };
+
+  return (uint32_t) of_half[byte & 15] + of_half[byte >> 4];
+}
+
+uint32_t
+celd_paper_count (const CeldBasins *basins, int y, int x, int end)
+{
+  int            first = x >> 3, last = (end - 1) >> 3;
+  const uint8_t *byte = basins->paper + byte_of (basins->width, first, y);
+  unsigned       from_x = 0xffu << (x & 7) & 0xffu, to_end = 0xffu >> (7 - ((end - 1) & 7));
+  uint32_t       n;
+
+  if (x >= end)
+    return 0;
+  if (first == last)
+    return count_bits (*byte & from_x & to_end);
+  n = count_bits (*byte & from_x);
+  for (byte += 8; ++first < last; byte += 8)
+    n += count_bits (*byte);
+  return n + count_bits (*byte & to_end);
 }

@@ -10,7 +10,35 @@
 #ifndef CELD_BASINS_H
 #define CELD_BASINS_H
 
-#include "segment/costs.h"
+#include "base/base.h"
+
+/* ------------------------------------------------------------------ costs.c */
+
+#define CELD_COST_UNIT 16       /* of an edge inside ink: energies are integers */
+#define CELD_INK_STEPS 1024     /* of the table by ink */
+#define CELD_DEEPEST   1024     /* squared pixels: from here on ink costs no less */
+
+typedef struct
+{
+  int     width, height;
+  double  white;                         /* K: what an edge of paper costs more than one of ink */
+  int32_t by_ink[CELD_INK_STEPS + 1];    /* from ink to paper */
+  int32_t deep[CELD_DEEPEST + 1];        /* taken off by the squared distance to paper */
+  int32_t margin;                        /* edges of paper along the frame stand for so many */
+} CeldCosts;
+
+/* `threshold` is settings->ink_threshold. */
+void celd_costs_new (int width, int height, float threshold, CeldCosts *costs);
+
+/* V between two neighbouring pixels: their ink, their squared distances to paper (0 or less for paper), and whether
+ * both are outermost pixels on one side of the picture. */
+int32_t celd_cost (const CeldCosts *costs, float ink, float other_ink, int32_t depth, int32_t other_depth,
+                   bool along_frame);
+
+/* The squared distance of every pixel to the nearest paper, 0 on paper: a tight plane of the picture's size. */
+CeldStatus celd_ink_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth);
+
+/* ------------------------------------------------------------------ basins */
 
 typedef struct
 {
@@ -61,9 +89,14 @@ CeldStatus celd_basins_new (const CeldPlane *ink, float threshold, const CeldHos
  * can reach is made again. */
 CeldStatus celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins);
 
+/* Puts the basins of this ink in place of those of *basins: with `changed` as celd_basins_renew, else as
+ * celd_basins_new.  After a failure *basins is as before. */
+CeldStatus celd_basins_make (const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldHost *host,
+                             CeldBasins *basins);
+
 void celd_basins_clear (CeldBasins *basins);
 
-/* paper-bits.c: how many of the pixels x .. end - 1 of row y are paper.  What it needs to know of the drawing is made
+/* How many of the pixels x .. end - 1 of row y are paper.  What it needs to know of the drawing is made
  * by celd_paper_new, and again inside `changed` by celd_paper_renew. */
 uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
 CeldStatus celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits);

@@ -14,6 +14,7 @@
 #include "segment/closures.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define FAINT 0.499f            /* ink of a bridge */
 
@@ -290,4 +291,52 @@ celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins 
   if (status == CELD_OK)
     status = join_parts (bridges, 2.0 * basins->stroke, ink, basins, basins->room, &basins->n_rooms);
   return status;
+}
+
+/* ------------------------------------------------------------------ basins of a drawing with bridges */
+
+/* Remembers what the bridges part, before pieces are joined over them. */
+static CeldStatus
+keep_cells (const CeldBasins *basins, uint32_t **cell)
+{
+  *cell = celd_alloc (basins->n, sizeof **cell);
+  if (!*cell)
+    return CELD_NO_MEMORY;
+  memcpy (*cell, basins->piece, basins->n * sizeof **cell);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
+                          CeldBridges *bridges, CeldBasins *basins, uint32_t **cell)
+{
+  CeldHostPart    part[2];
+  CeldHost    find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
+  CeldBridges made = { 0 };
+  CeldPlane   copy = { 0 };
+  CeldStatus  status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &made);
+
+  if (status == CELD_OK && changed)
+    status = celd_bridges_compare (bridges, &made, changed);
+  if (status == CELD_OK && made.n)
+    status = celd_plane_new (ink->width, ink->height, &copy);
+  for (int y = 0; y < ink->height && copy.data; y++)
+    memcpy (&CELD_AT (&copy, 0, y), &CELD_AT (ink, 0, y), (size_t) ink->width * sizeof *copy.data);
+  if (status == CELD_OK && made.n)
+    celd_bridges_draw (&made, &copy);
+  if (status == CELD_OK)
+    status = celd_basins_make (made.n ? &copy : ink, changed, threshold, &make, basins);
+  if (status == CELD_OK && made.n)
+    status = keep_cells (basins, cell);
+  if (status == CELD_OK)
+    status = celd_bridges_join (&made, ink, basins);
+  celd_free (copy.data);
+  if (status != CELD_OK)
+    {
+      celd_bridges_clear (&made);
+      return status;
+    }
+  celd_bridges_clear (bridges);
+  *bridges = made;
+  return CELD_OK;
 }

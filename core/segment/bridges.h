@@ -61,4 +61,11 @@ CeldStatus celd_bridges_compare (const CeldBridges *old, const CeldBridges *new,
  * `ink` is without bridges. */
 CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins);
 
+/* Finds the bridges of a drawing, and makes the basins of the drawing with the bridges on it.  `changed`: where the
+ * drawing differs from the one that *bridges and *basins are of, grown by where bridges differ; NULL: both are made from
+ * the beginning.  *cell, which is NULL before, gets each basin's piece without joining pieces over bridges; it stays NULL
+ * where there are no bridges.  After a failure *bridges are the old ones, and *basins may be the new ones. */
+CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
+                                     CeldBridges *bridges, CeldBasins *basins, uint32_t **cell);
+
 #endif

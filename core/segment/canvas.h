@@ -9,7 +9,6 @@
 #include "segment/basins.h"
 #include "segment/bridges.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 
 /* ------------------------------------------------------------------ records */
 
@@ -55,8 +54,19 @@ celd_canvas_obeys (const CeldCanvas *canvas)
 
 /* ------------------------------------------------------------------ canvas.c */
 
+/* The seeds that the palette knows, and its labels without what an earlier answer said of them, on a canvas that has
+ * its settings, drawing and basins; to be cleared also after a failure. */
+CeldStatus celd_canvas_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldCanvas *canvas);
+void       celd_canvas_clear (CeldCanvas *canvas);
+
 /* One more label, without seeds so far: *label is its number. */
 CeldStatus celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label);
+
+/* One more label for an arrow's end, of a colour that is far from all others. */
+CeldStatus celd_hue_add (CeldCanvas *canvas, uint32_t *label);
+
+/* Enters the seeds of labels that arrows made into the palette. */
+void celd_canvas_count_arrow_seeds (CeldCanvas *canvas);
 
 /* What a seed's pixel costs with another label: CELD_HARD where it must be obeyed. */
 int32_t celd_canvas_vote (const CeldCanvas *canvas, uint32_t label);

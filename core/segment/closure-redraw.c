@@ -10,7 +10,7 @@
  */
 #include "image/image.h"
 #include "segment/closures.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 
 #include <stdlib.h>
 

@@ -6,7 +6,6 @@
 #define CELD_CLOSURES_H
 
 #include "segment/canvas.h"
-#include "segment/patches.h"
 
 #include <math.h>
 
@@ -84,7 +83,7 @@ void celd_line_end_none (CeldCorner corner, CeldLineEnd *end);
 /* Puts the end, which is not a tip, where a line coming from the other end reaches its ink, or the nearest ink. */
 void celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end);
 
-/* ------------------------------------------------------------------ closure-curves.c */
+/* ------------------------------------------------------------------ closures.c */
 
 #define CELD_CURVE_PLACES 65
 

@@ -10,7 +10,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "segment/costs.h"
+#include "image/image.h"
+#include "segment/basins.h"
 
 #include <math.h>
 
@@ -51,4 +52,20 @@ celd_cost (const CeldCosts *costs, float ink, float other_ink, int32_t depth, in
   if (along_frame && 2 * i >= CELD_INK_STEPS)
     return costs->by_ink[i] * costs->margin;
   return costs->by_ink[i] - (d < 1 ? 0 : costs->deep[d < CELD_DEEPEST ? d : CELD_DEEPEST]);
+}
+
+CeldStatus
+celd_ink_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth)
+{
+  size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
+  uint8_t   *paper = celd_alloc (n, 1);
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!paper)
+    return status;
+  for (size_t p = 0; p < n; p++)
+    paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
+  status = celd_distance (ink->width, ink->height, paper, host, depth);
+  celd_free (paper);
+  return status;
 }

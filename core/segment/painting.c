@@ -4,10 +4,38 @@
  */
 #include "segment/basins.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* ------------------------------------------------------------------ patches: a list that grows */
+
+CeldStatus
+celd_patch_add (CeldPatches *patches, CeldPatch patch)
+{
+  CeldPatch *item = patches->n ? &patches->item[patches->n - 1] : NULL;
+
+  if (item && item->y == patch.y && item->end == patch.x && item->label == patch.label)
+    {
+      item->end = patch.end; /* added pixel by pixel, they are one run all the same */
+      return CELD_OK;
+    }
+  item = celd_grow (patches->item, patches->n + 1, sizeof *item);
+  if (!item)
+    return CELD_NO_MEMORY;
+  patches->item = item;
+  item[patches->n++] = patch;
+  return CELD_OK;
+}
+
+void
+celd_patches_clear (CeldPatches *patches)
+{
+  celd_free (patches->item);
+  *patches = (CeldPatches) { 0 };
+}
+
+/* ------------------------------------------------------------------ the record */
 
 void
 celd_painting_clear (CeldPainting *painting)
@@ -150,14 +178,9 @@ patch_row (const CeldPainting *painting, const CeldBasins *basins, const CeldLab
   read_basins (basins, painting->label, y, x, end, row);
   for (int i = x; i < end && status == CELD_OK; i++)
     {
-      uint32_t   label = CELD_AT (labels, i, y);
-      CeldPatch *last = patches->n ? &patches->item[patches->n - 1] : NULL;
+      uint32_t label = CELD_AT (labels, i, y);
 
-      if (label == row[i - x])
-        continue;
-      if (last && last->y == y && last->end == i && last->label == label)
-        last->end = i + 1;
-      else
+      if (label != row[i - x])
         status = celd_patch_add (patches, (CeldPatch) { y, i, i + 1, label });
     }
   return status;

@@ -8,7 +8,6 @@
 #include "segment/basins.h"
 #include "segment/canvas.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 
 #define SMALLEST_SHARE 2000 /* regions below 1/2000 of the picture are not worth a word */
 #define SMALLEST_WIDTH 3    /* nor are those below the square of so many stroke widths */

@@ -10,7 +10,6 @@
 #include "segment/bridges.h"
 #include "segment/canvas.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 #include "segment/segment.h"
 
 #include <string.h>
@@ -61,69 +60,6 @@ celd_segmenter_closures (const CeldSegmenter *segmenter)
   return &segmenter->closures;
 }
 
-/* Makes the basins of ink on which bridges are drawn; again what has changed, or all of them. */
-static CeldStatus
-make_basins (CeldSegmenter *s, const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldHost *host)
-{
-  CeldBasins basins = { 0 };
-  CeldStatus status;
-
-  if (changed)
-    return celd_basins_renew (ink, changed, host, &s->basins);
-  status = celd_basins_new (ink, threshold, host, &basins);
-  if (status != CELD_OK)
-    return status;
-  celd_basins_clear (&s->basins);
-  s->basins = basins;
-  return CELD_OK;
-}
-
-/* Remembers what the bridges part, before pieces are joined over them. */
-static CeldStatus
-keep_cells (CeldSegmenter *s)
-{
-  s->cell = celd_alloc (s->basins.n, sizeof *s->cell);
-  if (!s->cell)
-    return CELD_NO_MEMORY;
-  memcpy (s->cell, s->basins.piece, s->basins.n * sizeof *s->cell);
-  return CELD_OK;
-}
-
-/* The same for ink without bridges: they are drawn on a copy. */
-static CeldStatus
-make_bridged_basins (CeldSegmenter *s, const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host)
-{
-  CeldHostPart    part[2];
-  CeldHost    find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
-  CeldBridges bridges = { 0 };
-  CeldPlane   copy = { 0 };
-  CeldStatus  status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &bridges);
-
-  if (status == CELD_OK && changed)
-    status = celd_bridges_compare (&s->bridges, &bridges, changed);
-  if (status == CELD_OK && bridges.n)
-    status = celd_plane_new (ink->width, ink->height, &copy);
-  for (int y = 0; y < ink->height && copy.data; y++)
-    memcpy (&CELD_AT (&copy, 0, y), &CELD_AT (ink, 0, y), (size_t) ink->width * sizeof *copy.data);
-  if (status == CELD_OK && bridges.n)
-    celd_bridges_draw (&bridges, &copy);
-  if (status == CELD_OK)
-    status = make_basins (s, bridges.n ? &copy : ink, changed, threshold, &make);
-  if (status == CELD_OK && bridges.n)
-    status = keep_cells (s);
-  if (status == CELD_OK)
-    status = celd_bridges_join (&bridges, ink, &s->basins);
-  celd_free (copy.data);
-  if (status != CELD_OK)
-    {
-      celd_bridges_clear (&bridges);
-      return status;
-    }
-  celd_bridges_clear (&s->bridges);
-  s->bridges = bridges;
-  return CELD_OK;
-}
-
 CeldStatus
 celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
                         const CeldSettings *settings, const CeldHost *host)
@@ -139,11 +75,11 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
   celd_free (s->cell);
   s->cell = NULL;
   if (settings->close_gaps)
-    status = make_bridged_basins (s, ink, renew ? &rect : NULL, threshold, host);
+    status = celd_bridges_make_basins (ink, renew ? &rect : NULL, threshold, host, &s->bridges, &s->basins, &s->cell);
   else
     {
       celd_bridges_clear (&s->bridges);
-      status = make_basins (s, ink, renew ? &rect : NULL, threshold, host);
+      status = celd_basins_make (ink, renew ? &rect : NULL, threshold, host, &s->basins);
     }
   if (status == CELD_OK)
     status = celd_painting_forget (&s->painting, &s->basins);
@@ -159,49 +95,6 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
 }
 
 /* ------------------------------------------------------------------ the seeds */
-
-/* The seeds that the palette knows, and its labels without what an earlier answer said of them. */
-static CeldStatus
-canvas_new (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldPalette *palette, const CeldSettings *settings,
-            CeldCanvas *canvas)
-{
-  CeldStatus status;
-
-  *canvas = (CeldCanvas) {
-    .settings = settings, .ink = &s->ink, .basins = &s->basins, .bridges = &s->bridges, .cell = s->cell,
-    .kept = &s->spread
-  };
-  status = celd_seed_rows_copy (seeds, &canvas->seeds);
-  for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
-    {
-      CeldRegion region = palette->item[k];
-      uint32_t   label;
-
-      region.seeds      = 0;
-      region.background = false;
-      status = celd_canvas_add (canvas, region, &label);
-    }
-  for (int y = 0; y < seeds->height && status == CELD_OK; y++)
-    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
-      {
-        const CeldSeedRun *run = &seeds->row[y].run[i];
-
-        if (run->label <= palette->n)
-          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
-        else
-          status = celd_seed_rows_paint (&canvas->seeds, y, run->x, run->end, 0);
-      }
-  return status;
-}
-
-static void
-canvas_clear (CeldCanvas *canvas)
-{
-  celd_seed_rows_clear (&canvas->seeds);
-  celd_spread_clear (&canvas->painted);
-  celd_palette_clear (&canvas->palette);
-  celd_free (canvas->reached);
-}
 
 static bool
 has_seeds (const CeldSeedRows *seeds)
@@ -229,19 +122,6 @@ prepare_seeds (const CeldRelations *relations, const CeldHost *host, CeldCanvas 
   if (status == CELD_OK)
     status = celd_background_seed (host, canvas);
   return status;
-}
-
-static void
-count_arrow_seeds (CeldCanvas *canvas)
-{
-  for (int y = 0; y < canvas->seeds.height; y++)
-    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
-      {
-        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
-
-        if (canvas->palette.item[run->label - 1].origin == CELD_FROM_ARROW)
-          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
-      }
 }
 
 /* ------------------------------------------------------------------ an answer on basins */
@@ -402,7 +282,7 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
     status = solve_on_basins (s, arrows ? relations : NULL, &solving, canvas, labels);
   if (status == CELD_OK)
     {
-      count_arrow_seeds (canvas);
+      celd_canvas_count_arrow_seeds (canvas);
       status = celd_segment_report (canvas, seeds, &s->painting, labels, &last, problems);
     }
   return status;
@@ -413,13 +293,16 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
                       const CeldSettings *settings, const CeldHost *host, CeldPalette *palette, CeldProblems *problems,
                       CeldLabels *labels, CeldRect *changed)
 {
-  CeldCanvas   canvas = { 0 };
+  CeldCanvas   canvas = {
+    .settings = settings, .ink = &segmenter->ink, .basins = &segmenter->basins, .bridges = &segmenter->bridges,
+    .cell = segmenter->cell, .kept = &segmenter->spread
+  };
   CeldProblems found = { 0 };
   size_t       before = problems ? problems->n : 0;
   CeldStatus   status = celd_settings_check (settings);
 
   if (status == CELD_OK)
-    status = canvas_new (segmenter, seeds, palette, settings, &canvas);
+    status = celd_canvas_new (seeds, palette, &canvas);
   if (status == CELD_OK)
     status = solve (segmenter, seeds, relations, host, &canvas, labels, &found);
   for (size_t i = 0; i < found.n && status == CELD_OK; i++)
@@ -442,7 +325,7 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
   else if (problems)
     problems->n = before;
   celd_problems_clear (&found);
-  canvas_clear (&canvas);
+  celd_canvas_clear (&canvas);
   return status;
 }
 
@@ -466,4 +349,40 @@ celd_segmenter_spares (const CeldSegmenter *segmenter, const CeldRelation *relat
     return true;
   return s->reached && !celd_seeds_wanted (&canvas, relation) &&
          celd_seeds_apart (&canvas, relation, labels, &s->redrawn);
+}
+
+/* ------------------------------------------------------------------ in one call, for those who keep nothing */
+
+CeldStatus
+celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,
+              const CeldSettings *settings, const CeldHost *host,
+              CeldLabels *labels, CeldPalette *palette, CeldProblems *problems)
+{
+  CeldSegmenter *segmenter = NULL;
+  CeldSeedRows   rows = { 0 };
+  CeldLabels     result = { 0 };
+  CeldRect       changed;
+  CeldHostPart       part[2];
+  CeldHost       build = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus     status;
+
+  if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, labels))
+    return CELD_BAD_SIZE;
+  status = celd_settings_check (settings);
+  if (status != CELD_OK)
+    return status;
+  segmenter = celd_segmenter_new ();
+  status = segmenter ? celd_segmenter_set_ink (segmenter, ink, NULL, settings, &build) : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = celd_seed_rows_read (seeds, &rows);
+  if (status == CELD_OK)
+    status = celd_labels_new (ink->width, ink->height, &result);
+  if (status == CELD_OK)
+    status = celd_segmenter_solve (segmenter, &rows, relations, settings, &solve, palette, problems, &result, &changed);
+  for (int y = 0; y < ink->height && status == CELD_OK; y++)
+    memcpy (&CELD_AT (labels, 0, y), &CELD_AT (&result, 0, y), (size_t) ink->width * sizeof *labels->data);
+  celd_segmenter_free (segmenter);
+  celd_seed_rows_clear (&rows);
+  celd_free (result.data);
+  return status;
 }

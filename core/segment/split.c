@@ -10,8 +10,8 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/patches.h"
-#include "segment/seeds.h"
+#include "segment/painting.h"
+#include "segment/splits.h"
 #include "solve/maxflow.h"
 
 #include <math.h>

@@ -5,8 +5,7 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/window-cells.h"
-#include "segment/window.h"
+#include "segment/windows.h"
 #include "solve/maxflow.h"
 
 #include <string.h>

@@ -9,9 +9,8 @@
  */
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/patches.h"
-#include "segment/window.h"
+#include "segment/painting.h"
+#include "segment/windows.h"
 #include "solve/partition.h"
 
 #include <string.h>

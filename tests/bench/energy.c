@@ -5,7 +5,7 @@
  */
 #include "bench.h"
 #include "image/image.h"
-#include "segment/costs.h"
+#include "segment/basins.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>

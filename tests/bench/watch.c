@@ -7,7 +7,6 @@
 #include "segment/basins.h"
 #include "segment/canvas.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 

@@ -5,11 +5,10 @@
 #ifndef CANVAS_H
 #define CANVAS_H
 
+#include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "check.h"
 
 typedef struct { CeldPlane ink; CeldSettings settings; CeldBasins basins; CeldCanvas canvas; } Sketch;
 

@@ -5,11 +5,11 @@
 #ifndef SCENE_H
 #define SCENE_H
 
+#include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/patches.h"
-#include "check.h"
+#include "segment/painting.h"
 
 #define MOST_LABELS 8
 

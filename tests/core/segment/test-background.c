@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "random-sketch.h"
 #include "image/image.h"
+#include "random-sketch.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
 

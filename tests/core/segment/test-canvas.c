@@ -4,8 +4,8 @@
  */
 #include "canvas.h"
 #include "image/image.h"
+#include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
 #include "solve/maxflow.h"
 
 enum { W = 19, H = 13 };

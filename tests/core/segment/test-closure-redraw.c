@@ -2,10 +2,10 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "scene.h"
 #include "image/image.h"
+#include "scene.h"
 #include "segment/canvas.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 
 /* Lays something across the straight way between two tips, while the old border makes a detour below it. */
 static void

@@ -2,9 +2,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "scene.h"
 #include "image/image.h"
-#include "segment/patches.h"
+#include "scene.h"
+#include "segment/painting.h"
 
 #define SIZE 161
 

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "segment/costs.h"
+#include "segment/basins.h"
 
 static CeldCosts
 costs_of (int width, int height, float threshold)

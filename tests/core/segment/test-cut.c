@@ -6,8 +6,7 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/seeds.h"
+#include "segment/splits.h"
 #include "solve/maxflow.h"
 
 enum { SIDE = 120, PIXELS = SIDE * SIDE };

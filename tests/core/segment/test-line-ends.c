@@ -2,8 +2,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "scene.h"
 #include "image/image.h"
+#include "scene.h"
 #include "segment/bridges.h"
 
 #define SIDE 160

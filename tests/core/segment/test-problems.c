@@ -7,7 +7,6 @@
 #include "segment/basins.h"
 #include "segment/canvas.h"
 #include "segment/painting.h"
-#include "segment/patches.h"
 
 /* The labels as basins that have the label of their maximum, and patches where that is not all of it. */
 static void

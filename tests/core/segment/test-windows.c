@@ -7,8 +7,7 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 #include "solve/maxflow.h"
 
 

@@ -6,7 +6,6 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "segment/basin-ascent.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
 

@@ -14,7 +14,7 @@
 #include "segment/bridges.h"
 #include "segment/canvas.h"
 #include "segment/closures.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -8,10 +8,9 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/window-cells.h"
-#include "segment/window.h"
+#include "segment/windows.h"
 
 #include <string.h>
 

@@ -4,8 +4,9 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
+#include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/settle.h"
+#include "segment/refinement.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -39,6 +40,32 @@ static int
 most (int a, int b)
 {
   return a > b ? a : b;
+}
+
+/* ------------------------------------------------------------------ pixels */
+
+int32_t
+celd_settling_cost (const CeldSettling *s, int x, int y, bool south)
+{
+  const CeldPlane *ink = s->canvas->ink;
+  size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
+  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
+
+  return celd_cost (&s->canvas->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south), s->depth[p],
+                    s->depth[south ? p + w : p + 1], frame);
+}
+
+CeldStatus
+celd_settling_set (CeldSettling *s, int x, int y, uint32_t label)
+{
+  uint32_t *changed = celd_grow (s->changed, s->n_changed + 1, sizeof *changed);
+
+  if (!changed)
+    return CELD_NO_MEMORY;
+  s->changed = changed;
+  changed[s->n_changed++] = (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x;
+  CELD_AT (s->labels, x, y) = label;
+  return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ gaps */

@@ -17,13 +17,13 @@ typedef struct
   size_t            n_changed;
 } CeldSettling;
 
-/* V between (x,y) and the pixel below, or to the right. */
+/* settle-gaps.c: V between (x,y) and the pixel below, or to the right. */
 int32_t celd_settling_cost (const CeldSettling *s, int x, int y, bool south);
 
 /* Gives a pixel another label. */
 CeldStatus celd_settling_set (CeldSettling *s, int x, int y, uint32_t label);
 
-/* settle-gaps.c: borders across paper, solved on pixels in windows round them. */
+/* Borders across paper, solved on pixels in windows round them. */
 CeldStatus celd_settle_gaps (CeldSettling *s);
 
 #endif

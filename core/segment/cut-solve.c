@@ -1,13 +1,15 @@
-/* Which end of a cut is nearer to the seeds that the region has: ways lead from node to node and avoid ink.
+/* The smallest cut of the graph of a region; and which end of it is nearer to the seeds that the region has: ways lead
+ * from node to node and avoid ink.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "segment/cut.h"
-#include "segment/seeds.h"
+#include "segment/splits.h"
+#include "solve/maxflow.h"
 
 #include <math.h>
 
-#define INK_STEP 8 /* times as long as a step on paper */
+#define INK_STEP  8                     /* times as long as a step on paper */
+#define HARD_PULL ((int64_t) 1 << 48)
 
 /* The links by node: those of node k are link[first[k]] to link[first[k + 1] - 1]. */
 typedef struct { size_t *first, *link; uint32_t *queue; double *way; bool *queued; } Ways;
@@ -168,4 +170,45 @@ celd_mesh_kept (CeldMesh *mesh, int *kept)
     }
   ways_clear (&ways);
   return status;
+}
+
+/* ------------------------------------------------------------------ the smallest cut */
+
+CeldStatus
+celd_mesh_solve (CeldMesh *mesh, int kept, const CeldHost *host)
+{
+  const CeldCut *cut = mesh->cut;
+  int            source = cut->discs[1 - kept].room > cut->discs[kept].room ? 1 - kept : kept;
+  int64_t       *pull = celd_alloc (mesh->n, sizeof *pull);
+  uint8_t       *side = celd_alloc (mesh->n, 1);
+  CeldStatus     status = pull && side ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; k < mesh->n && status == CELD_OK; k++)
+    {
+      const CeldCutNode *node = &mesh->node[k];
+
+      pull[k] = node->lost ? 0 : node->pull + HARD_PULL * (node->pulled[0] - node->pulled[1]);
+      pull[k] = source == 0 ? pull[k] : -pull[k];
+    }
+  if (status == CELD_OK)
+    status = celd_flow (mesh->n, mesh->link, mesh->n_links, pull, host, side, NULL);
+  for (size_t k = 0; k < mesh->n && status == CELD_OK; k++)
+    mesh->node[k].side = mesh->node[k].lost                ? CELD_OUTSIDE
+                       : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
+  celd_free (pull);
+  celd_free (side);
+  return status;
+}
+
+void
+celd_mesh_clear (CeldMesh *mesh)
+{
+  celd_free (mesh->size);
+  celd_free (mesh->open);
+  celd_free (mesh->kind);
+  celd_free (mesh->stack);
+  celd_free (mesh->node);
+  celd_free (mesh->link);
+  celd_free (mesh->loose);
+  celd_free (mesh->recent);
 }

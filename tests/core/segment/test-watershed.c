@@ -5,7 +5,6 @@
 #include "basin-drawings.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/costs.h"
 
 /* ------------------------------------------------------------------ the definition, slowly */
 

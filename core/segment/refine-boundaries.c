@@ -8,10 +8,10 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
+#include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/patches.h"
-#include "segment/settle.h"
+#include "segment/painting.h"
+#include "segment/refinement.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>
@@ -24,30 +24,6 @@ typedef struct { int x, y; bool south; } Edge;
 typedef struct { Edge *item; size_t n; } Edges;
 
 /* ------------------------------------------------------------------ pixels */
-
-int32_t
-celd_settling_cost (const CeldSettling *s, int x, int y, bool south)
-{
-  const CeldPlane *ink = s->canvas->ink;
-  size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
-  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
-
-  return celd_cost (&s->canvas->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south), s->depth[p],
-                    s->depth[south ? p + w : p + 1], frame);
-}
-
-CeldStatus
-celd_settling_set (CeldSettling *s, int x, int y, uint32_t label)
-{
-  uint32_t *changed = celd_grow (s->changed, s->n_changed + 1, sizeof *changed);
-
-  if (!changed)
-    return CELD_NO_MEMORY;
-  s->changed = changed;
-  changed[s->n_changed++] = (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x;
-  CELD_AT (s->labels, x, y) = label;
-  return CELD_OK;
-}
 
 /* What a pixel with this label costs: its borders, and its stroke. */
 static int64_t
@@ -261,22 +237,6 @@ settle_paint (CeldSettling *s)
 
 /* ------------------------------------------------------------------ the whole */
 
-static CeldStatus
-measure_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth)
-{
-  size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
-  uint8_t   *paper = celd_alloc (n, 1);
-  CeldStatus status = CELD_NO_MEMORY;
-
-  if (!paper)
-    return status;
-  for (size_t p = 0; p < n; p++)
-    paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
-  status = celd_distance (ink->width, ink->height, paper, host, depth);
-  celd_free (paper);
-  return status;
-}
-
 static int
 compare_pixels (const void *a, const void *b)
 {
@@ -321,7 +281,7 @@ celd_borders_settle (const CeldCanvas *canvas, const CeldHost *host, CeldLabels 
   CeldSettling s = {
     .canvas = canvas, .host = &brief, .labels = labels, .depth = celd_alloc (n, sizeof *s.depth)
   };
-  CeldStatus   status = s.depth ? measure_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
+  CeldStatus   status = s.depth ? celd_ink_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = settle_paint (&s);

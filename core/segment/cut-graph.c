@@ -8,9 +8,7 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/costs.h"
-#include "segment/cut.h"
-#include "segment/seeds.h"
+#include "segment/splits.h"
 #include "solve/partition.h"
 
 #include <string.h>

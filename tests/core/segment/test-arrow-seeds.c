@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 
 typedef struct
 {

@@ -3,9 +3,9 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
+#include "segment/basins.h"
 #include "segment/canvas.h"
-#include "segment/costs.h"
-#include "segment/window.h"
+#include "segment/windows.h"
 #include "solve/partition.h"
 
 CeldStatus

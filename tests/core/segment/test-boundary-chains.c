@@ -4,7 +4,7 @@
  */
 #include "scene.h"
 #include "segment/closures.h"
-#include "segment/patches.h"
+#include "segment/painting.h"
 
 static void
 find (const char *const *art, const CeldPatches *windows, Scene *s, CeldChains *chains)

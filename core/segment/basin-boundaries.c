@@ -6,7 +6,6 @@
  */
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
-#include "segment/costs.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,204 @@
+/* Which basins a change of the drawing inside a rectangle R can reach.
+ *
+ * A pixel's distance is another one only if R is nearer to it than what lies outside R and ends its paper or ink.  Such
+ * pixels, found in a window round R that is grown until they do not touch its edge, lie in touched basins; with three
+ * pixels to spare, so do their neighbours.  No other basin loses a pixel, since neither the relief nor a step is another
+ * one there.
+ *
+ * Cost: by the box of the touched basins and as much around it as distances in it are long.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/basin-steps.h"
+#include "segment/basins.h"
+
+#include <math.h>
+
+#define SPARE       3      /* pixels: more than two diagonal steps */
+#define FIRST_REACH 0.75   /* of how wide the basins at R are: most changes reach half as far */
+#define LOOKED_AT   0.2    /* of all pixels, in windows; from there on, and */
+#define MADE        0.6    /* from here on, it is as fast to build anew */
+
+typedef struct
+{
+  const CeldPlane  *ink;
+  const CeldBasins *old;
+  CeldRect          changed;
+  uint8_t          *touched;  /* by old basin */
+  double            deepest;  /* least bound known of the distances in touched basins */
+} Search;
+
+static CeldRect
+grow_rect (CeldRect r, int margin, int width, int height)
+{
+  int left = r.x > margin ? r.x - margin : 0, top = r.y > margin ? r.y - margin : 0;
+  int right = r.x + r.width < width - margin ? r.x + r.width + margin : width;
+  int bottom = r.y + r.height < height - margin ? r.y + r.height + margin : height;
+
+  return (CeldRect) { left, top, right - left, bottom - top };
+}
+
+/* The share of the drawing that lies in a rectangle. */
+static double
+share_of (const CeldPlane *ink, CeldRect r)
+{
+  return (double) r.width * r.height / ((double) ink->width * ink->height);
+}
+
+static inline bool
+in_rect (CeldRect r, int x, int y)
+{
+  return x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
+}
+
+/* ------------------------------------------------------------------ which basins are touched */
+
+/* Signed distances in a window to what lies outside `changed`, if all of that is `value`. */
+static CeldStatus
+measure_around (const Search *r, CeldRect window, float value, const CeldHost *host, float *copy, int32_t *squared)
+{
+  CeldPlane plane = { window.width, window.height, (size_t) window.width, copy };
+
+  for (int y = 0; y < window.height; y++)
+    for (int x = 0; x < window.width; x++)
+      CELD_AT (&plane, x, y) = in_rect (r->changed, window.x + x, window.y + y)
+                             ? value : CELD_AT (r->ink, window.x + x, window.y + y);
+  return celd_signed_distance (&plane, host, squared);
+}
+
+/* From (x,y) to the nearest pixel of `changed`. */
+static inline double
+distance_to (CeldRect changed, int x, int y)
+{
+  int dx = x < changed.x ? changed.x - x : x >= changed.x + changed.width ? x - changed.x - changed.width + 1 : 0;
+  int dy = y < changed.y ? changed.y - y : y >= changed.y + changed.height ? y - changed.y - changed.height + 1 : 0;
+
+  return sqrt ((double) dx * dx + (double) dy * dy);
+}
+
+/* Marks the basins of the pixels of a window that the change may reach.  to_ink, to_paper: distances there to what lies
+ * outside `changed`.  False if that goes on beyond the window. */
+static bool
+mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *to_paper)
+{
+  CeldRect inner = { window.x + (window.x > 0), window.y + (window.y > 0), 0, 0 };
+
+  inner.width = window.x + window.width - (window.x + window.width < r->ink->width) - inner.x;
+  inner.height = window.y + window.height - (window.y + window.height < r->ink->height) - inner.y;
+  for (int y = window.y; y < window.y + window.height; y++)
+    {
+      const CeldBasinRun *run = r->old->run + r->old->row[y], *end = r->old->run + r->old->row[y + 1];
+
+      for (int x = window.x; x < window.x + window.width; x++, to_ink++, to_paper++)
+        {
+          bool    within = in_rect (r->changed, x, y);
+          int32_t squared = within ? (*to_ink > -*to_paper ? *to_ink : -*to_paper) : *to_ink > 0 ? *to_ink : -*to_paper;
+          double  distance = sqrt (squared);
+
+          if (!within && distance + SPARE <= distance_to (r->changed, x, y))
+            continue;
+          if (!in_rect (inner, x, y))
+            return false;
+          while (run + 1 < end && run[1].x <= x)
+            run++;
+          r->touched[run->basin] = 1;
+          r->deepest = distance > r->deepest ? distance : r->deepest;
+        }
+    }
+  return true;
+}
+
+/* How far to look for what the change reaches, to begin with. */
+static int
+first_margin (const Search *r)
+{
+  const CeldBasins *old = r->old;
+  int32_t           widest = 0;
+
+  for (int y = r->changed.y; y < r->changed.y + r->changed.height; y++)
+    for (size_t i = old->row[y]; i < old->row[y + 1]; i++)
+      if (old->run[i].x < r->changed.x + r->changed.width && old->basin[old->run[i].basin].squared > widest &&
+          (i + 1 == old->row[y + 1] || old->run[i + 1].x > r->changed.x))
+        widest = old->basin[old->run[i].basin].squared;
+  return 4 * SPARE + (int) (FIRST_REACH * sqrt (widest));
+}
+
+/* Marks the basins that the change reaches; *worth becomes false if that is much of the drawing. */
+static CeldStatus
+find_touched (Search *r, const CeldHost *host, bool *worth)
+{
+  CeldStatus status = CELD_OK;
+  double     looked_at = 0;
+  bool       found = false;
+
+  for (int margin = first_margin (r); !found && status == CELD_OK; margin += margin / 2)
+    {
+      CeldRect window = grow_rect (r->changed, margin, r->ink->width, r->ink->height);
+      size_t   n = (size_t) window.width * (size_t) window.height;
+      float   *copy;
+      int32_t *to_ink, *to_paper;
+
+      looked_at += share_of (r->ink, window);
+      *worth = looked_at < LOOKED_AT;
+      if (!*worth)
+        return CELD_OK;
+      copy = celd_alloc (n, sizeof *copy);
+      to_ink = celd_alloc (n, sizeof *to_ink);
+      to_paper = celd_alloc (n, sizeof *to_paper);
+      status = copy && to_ink && to_paper ? measure_around (r, window, 1, host, copy, to_ink) : CELD_NO_MEMORY;
+      if (status == CELD_OK)
+        status = measure_around (r, window, 0, host, copy, to_paper);
+      if (status == CELD_OK)
+        found = mark_reached (r, window, to_ink, to_paper);
+      celd_free (copy);
+      celd_free (to_ink);
+      celd_free (to_paper);
+    }
+  return status;
+}
+
+/* The box of the touched basins, and how deep they are. */
+static void
+find_box (Search *r, CeldBasinChange *change)
+{
+  const CeldBasins *old = r->old;
+  int               left = old->width, top = old->height, right = 0, bottom = 0;
+
+  for (int y = 0; y < old->height; y++)
+    for (size_t i = old->row[y]; i < old->row[y + 1]; i++)
+      if (r->touched[old->run[i].basin])
+        {
+          int end = celd_basin_run_end (old, i, y);
+
+          left = old->run[i].x < left ? old->run[i].x : left;
+          right = end > right ? end : right;
+          top = y < top ? y : top;
+          bottom = y + 1;
+        }
+  for (size_t k = 0; k < old->n; k++)
+    if (r->touched[k] && sqrt (old->basin[k].squared) > r->deepest)
+      r->deepest = sqrt (old->basin[k].squared);
+  if (r->deepest < old->stroke + 4) /* ink around leads to paper from a stroke's width deep */
+    r->deepest = old->stroke + 4;
+  change->box = grow_rect ((CeldRect) { left, top, right - left, bottom - top }, 1, old->width, old->height);
+  change->window = grow_rect (change->box, (int) r->deepest + SPARE, old->width, old->height);
+}
+
+CeldStatus
+celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old, const CeldRect *changed, const CeldHost *host,
+                         CeldBasinChange *change)
+{
+  Search     r = { .ink = ink, .old = old, .changed = *changed, .touched = celd_alloc0 (old->n, 1) };
+  CeldStatus status = CELD_NO_MEMORY;
+
+  *change = (CeldBasinChange) { .touched = r.touched, .worth = true };
+  if (r.touched)
+    status = find_touched (&r, host, &change->worth);
+  if (status == CELD_OK && change->worth)
+    {
+      find_box (&r, change);
+      change->worth = share_of (ink, change->window) < MADE;
+    }
+  return status;
+}

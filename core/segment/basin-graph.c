@@ -1,0 +1,326 @@
+/* The basin graph of a drawing, step by step; and that of a drawing that has changed inside a rectangle, from the graph
+ * before.
+ *
+ * The pixels of the basins that the change touches (basin-change.c) are led anew, to maxima among them or into basins that
+ * are kept; borders are the old ones between kept basins, and all pairs with a pixel of touched basins.
+ *
+ * Cost of an update: by the box of the touched basins; the list of runs is copied.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+#include "segment/basin-steps.h"
+#include "segment/basins.h"
+
+typedef struct
+{
+  const CeldPlane  *ink;
+  const CeldBasins *old;
+  CeldBasinChange   change;
+  int32_t          *squared;  /* signed distance in the window */
+  uint8_t          *anew;     /* of the box: lies in a touched basin */
+} Update;
+
+/* ------------------------------------------------------------------ from the beginning */
+
+/* Everything but stroke and costs. */
+static CeldStatus
+build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
+{
+  CeldHostPart   parts[3];
+  CeldHost   measuring = celd_host_part (&parts[0], host, 0, 0.4), ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
+  CeldHost   touching = celd_host_part (&parts[2], host, 0.9, 1);
+  int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
+  CeldPlot   plot = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL, NULL };
+  CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    status = celd_basins_ascend (&plot, &ascending, basins);
+  if (status == CELD_OK)
+    {
+      celd_basins_measure (basins);
+      status = celd_basins_touch (ink, &plot, basins, &touching, &basins->border, &basins->n_borders);
+    }
+  if (status == CELD_OK)
+    status = celd_basins_unite (basins);
+  if (status == CELD_OK)
+    status = celd_paper_new (ink, host, &basins->paper);
+  celd_free (squared);
+  return status;
+}
+
+CeldStatus
+celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins)
+{
+  CeldBasins found = { .width = ink->width, .height = ink->height };
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (ink, ink))
+    return CELD_BAD_SIZE;
+  found.stroke = celd_stroke_width (ink);
+  celd_costs_new (ink->width, ink->height, threshold, &found.costs);
+  status = build (ink, host, &found);
+  if (status == CELD_OK)
+    *basins = found;
+  else
+    celd_basins_clear (&found);
+  return status;
+}
+
+/* ------------------------------------------------------------------ new basins among kept ones */
+
+static void
+mark_anew (Update *u)
+{
+  const CeldBasins *old = u->old;
+  uint8_t          *anew = u->anew;
+
+  for (int y = u->change.box.y; y < u->change.box.y + u->change.box.height; y++)
+    {
+      const CeldBasinRun *run = old->run + old->row[y], *end = old->run + old->row[y + 1];
+
+      for (int x = u->change.box.x; x < u->change.box.x + u->change.box.width; x++)
+        {
+          while (run + 1 < end && run[1].x <= x)
+            run++;
+          *anew++ = u->change.touched[run->basin];
+        }
+    }
+}
+
+/* The basins of both, in reading order; to[k] is the number of basin k of the new ones, kept[k] of the old ones. */
+static CeldStatus
+merge_basins (const Update *u, const CeldBasins *made, uint32_t *to, uint32_t *kept, CeldBasins *found)
+{
+  const CeldBasins *old = u->old;
+  size_t            n = 0;
+
+  found->basin = celd_alloc (old->n + made->n, sizeof *found->basin);
+  if (!found->basin)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0, j = 0; i < old->n || j < made->n; n++)
+    {
+      const CeldBasin *p = &old->basin[i], *q = &made->basin[j];
+
+      if (i < old->n && u->change.touched[i])
+        {
+          i++;
+          n--;
+        }
+      else if (j == made->n || (i < old->n && (p->y < q->y || (p->y == q->y && p->x < q->x))))
+        {
+          kept[i++] = (uint32_t) n;
+          found->basin[n] = *p;
+          found->basin[n].area = 0;
+        }
+      else
+        {
+          to[j++] = (uint32_t) n;
+          found->basin[n] = *q;
+        }
+    }
+  found->n = n;
+  return CELD_OK;
+}
+
+/* Appends the runs of row `y` of a graph, as far as they lie between the columns from and end, with other numbers; the
+ * row starts in column `left`. */
+static void
+copy_runs (const CeldBasins *from_graph, int y, int left, int from, int end, const uint32_t *to, const uint32_t *kept,
+           size_t start, CeldBasins *found, size_t *n)
+{
+  const CeldBasinRun *run = from_graph->run + from_graph->row[y], *last = from_graph->run + from_graph->row[y + 1];
+
+  for (; run < last && left + run->x < end && from < end; run++)
+    {
+      int      x = left + run->x > from ? left + run->x : from;
+      uint32_t basin = run->basin & CELD_KEPT ? kept[run->basin - CELD_KEPT] : to[run->basin];
+
+      if ((run + 1 < last && left + run[1].x <= from) || (*n > start && found->run[*n - 1].basin == basin))
+        continue;
+      found->run[(*n)++] = (CeldBasinRun) { x, basin };
+    }
+}
+
+/* The old runs, and in the box those of `made`. */
+static CeldStatus
+merge_runs (const Update *u, const CeldBasins *made, const uint32_t *to, const uint32_t *kept, CeldBasins *found)
+{
+  const CeldBasins *old = u->old;
+  CeldRect          box = u->change.box;
+  size_t            n = 0, most = old->row[old->height] + made->row[made->height] + 2 * (size_t) box.height;
+
+  found->row = celd_alloc ((size_t) old->height + 1, sizeof *found->row);
+  found->run = celd_alloc (most, sizeof *found->run);
+  if (!found->row || !found->run)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < old->height; y++)
+    {
+      bool   crosses = y >= box.y && y < box.y + box.height;
+      size_t start = found->row[y] = n;
+
+      copy_runs (old, y, 0, 0, crosses ? box.x : old->width, kept, kept, start, found, &n);
+      if (!crosses)
+        continue;
+      copy_runs (made, y - box.y, box.x, box.x, box.x + box.width, to, kept, start, found, &n);
+      copy_runs (old, y, 0, box.x + box.width, old->width, kept, kept, start, found, &n);
+    }
+  found->row[old->height] = n;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ borders */
+
+static int
+compare_borders (const CeldBorder *p, const CeldBorder *q)
+{
+  if (p->a != q->a)
+    return p->a < q->a ? -1 : 1;
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/* The borders between kept basins, and those that pixels made anew have; where they are the same, one. */
+static CeldStatus
+merge_borders (const Update *u, const uint32_t *kept, const CeldBorder *more, size_t n_more, CeldBasins *found)
+{
+  const CeldBasins *old = u->old;
+  size_t            n = 0, j = 0;
+
+  found->border = celd_alloc (old->n_borders + n_more, sizeof *found->border);
+  if (!found->border)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < old->n_borders; i++)
+    {
+      CeldBorder border = old->border[i];
+
+      if (u->change.touched[border.a] || u->change.touched[border.b])
+        continue;
+      border.a = kept[border.a];
+      border.b = kept[border.b];
+      while (j < n_more && compare_borders (&more[j], &border) < 0)
+        found->border[n++] = more[j++];
+      if (j < n_more && compare_borders (&more[j], &border) == 0)
+        celd_border_add (&border, &more[j++]);
+      found->border[n++] = border;
+    }
+  while (j < n_more)
+    found->border[n++] = more[j++];
+  found->n_borders = n;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+/* Makes the touched basins anew, and the graph of them and those that are kept. */
+static CeldStatus
+make_anew (Update *u, const CeldHost *host, CeldBasins *found)
+{
+  CeldRect    box = u->change.box, window = u->change.window;
+  CeldPlane   view = { window.width, window.height, u->ink->stride, &CELD_AT (u->ink, window.x, window.y) };
+  CeldPlot    plot = { box, u->squared + (size_t) (box.y - window.y) * (size_t) window.width + (box.x - window.x),
+                       (size_t) window.width, u->old->stroke, u->anew, u->old };
+  CeldBasins  made = { 0 };
+  CeldBorder *border = NULL;
+  uint32_t   *to = NULL, *kept = celd_alloc (u->old->n, sizeof *kept);
+  size_t      n_borders = 0;
+  CeldStatus  status = kept ? celd_signed_distance (&view, host, u->squared) : CELD_NO_MEMORY;
+
+  made.width = box.width;
+  made.height = box.height;
+  mark_anew (u);
+  if (status == CELD_OK)
+    status = celd_basins_ascend (&plot, host, &made);
+  if (status == CELD_OK && !(to = celd_alloc (made.n, sizeof *to)))
+    status = CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = merge_basins (u, &made, to, kept, found);
+  if (status == CELD_OK)
+    status = merge_runs (u, &made, to, kept, found);
+  if (status == CELD_OK)
+    {
+      celd_basins_measure (found);
+      status = celd_basins_touch (u->ink, &plot, found, host, &border, &n_borders);
+    }
+  if (status == CELD_OK)
+    status = merge_borders (u, kept, border, n_borders, found);
+  if (status == CELD_OK)
+    status = celd_basins_unite (found);
+  celd_free (border);
+  celd_free (to);
+  celd_free (kept);
+  celd_basins_clear (&made);
+  return status;
+}
+
+/* Makes *found, but for the paper, of the graph before the change; it stays empty where that is not worth the trouble. */
+static CeldStatus
+update (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldHost *host, CeldBasins *found)
+{
+  CeldHostPart part;
+  CeldHost     quiet = celd_host_part (&part, host, 0, 0);
+  Update       u = { .ink = ink, .old = old };
+  CeldStatus   status = celd_basins_find_change (ink, old, changed, &quiet, &u.change);
+
+  if (status == CELD_OK && u.change.worth)
+    {
+      CeldRect window = u.change.window, box = u.change.box;
+
+      u.squared = celd_alloc ((size_t) window.width * (size_t) window.height, sizeof *u.squared);
+      u.anew = celd_alloc ((size_t) box.width * (size_t) box.height, 1);
+      status = u.squared && u.anew ? make_anew (&u, &quiet, found) : CELD_NO_MEMORY;
+    }
+  celd_free (u.squared);
+  celd_free (u.anew);
+  celd_free (u.change.touched);
+  return status;
+}
+
+CeldStatus
+celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins)
+{
+  CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
+  int        left = changed->x > 0 ? changed->x : 0, right = changed->x + changed->width;
+  int        top = changed->y > 0 ? changed->y : 0, bottom = changed->y + changed->height;
+  CeldRect   inside = { left, top, (right < ink->width ? right : ink->width) - left,
+                        (bottom < ink->height ? bottom : ink->height) - top };
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (ink, ink) || ink->width != basins->width || ink->height != basins->height)
+    return CELD_BAD_SIZE;
+  if (inside.width < 1 || inside.height < 1)
+    return CELD_OK;
+  found.stroke = celd_stroke_width (ink);
+  status = found.stroke == basins->stroke ? update (ink, &inside, basins, host, &found) : CELD_OK;
+  if (status == CELD_OK && found.basin)
+    {
+      found.paper = basins->paper;
+      basins->paper = NULL;
+      celd_paper_renew (ink, &inside, host, found.paper);
+    }
+  else if (status == CELD_OK)
+    status = build (ink, host, &found);
+  if (status == CELD_OK)
+    celd_basins_clear (basins);
+  else
+    celd_basins_clear (&found);
+  if (status == CELD_OK)
+    *basins = found;
+  return status;
+}
+
+CeldStatus
+celd_basins_make (const CeldPlane *ink, const CeldRect *changed, float threshold, const CeldHost *host,
+                  CeldBasins *basins)
+{
+  CeldBasins made = { 0 };
+  CeldStatus status;
+
+  if (changed)
+    return celd_basins_renew (ink, changed, host, basins);
+  status = celd_basins_new (ink, threshold, host, &made);
+  if (status != CELD_OK)
+    return status;
+  celd_basins_clear (basins);
+  *basins = made;
+  return CELD_OK;
+}
