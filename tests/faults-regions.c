@@ -5,8 +5,8 @@
 #include "faults.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 
 static CeldStatus
 ink_step (const CeldHost *host, Results *r)
@@ -121,14 +121,14 @@ walker_step (const CeldHost *host, Results *r)
 static CeldStatus
 windows_step (const CeldHost *host, Results *r)
 {
-  static float   page[4 * W * H];
-  CeldPlane      ink = { 2 * W, 2 * H, 2 * W, page };
-  CeldSettings   hard = scene_settings;
-  CeldBasins     basins = { 0 };
-  CeldCanvas     canvas = { .settings = &hard, .ink = &ink, .basins = &basins };
-  CeldPatches    patches = { 0 };
-  uint32_t       label[2];
-  CeldStatus     status;
+  static float    page[4 * W * H];
+  CeldPlane       ink = { 2 * W, 2 * H, 2 * W, page };
+  CeldSettings    hard = scene_settings;
+  CeldBasins      basins = { 0 };
+  CeldSegmentTask task = { .settings = &hard, .ink = &ink, .basins = &basins };
+  CeldPatches     patches = { 0 };
+  uint32_t        label[2];
+  CeldStatus      status;
 
   (void) r;
   hard.hardness = 1;
@@ -136,22 +136,22 @@ windows_step (const CeldHost *host, Results *r)
     page[p] = 1;
   status = celd_basins_new (&ink, scene_settings.ink_threshold, NULL, &basins);
   if (status == CELD_OK)
-    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+    status = celd_seed_rows_new (2 * W, 2 * H, &task.seeds);
   for (int y = 30; y < 70 && status == CELD_OK; y++)
     {
-      status = celd_seed_rows_paint (&canvas.seeds, y, 40, 48, 2);
+      status = celd_seed_rows_paint (&task.seeds, y, 40, 48, 2);
       if (status == CELD_OK)
-        status = celd_seed_rows_paint (&canvas.seeds, y, 54, 62, 2);
+        status = celd_seed_rows_paint (&task.seeds, y, 54, 62, 2);
     }
   for (int k = 0; k < 2 && status == CELD_OK; k++)
-    status = celd_canvas_add (&canvas, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &label[k]);
+    status = celd_task_add_label (&task, (CeldRegion) { .colour = { 0, 0, 0, 255 } }, &label[k]);
   if (status == CELD_OK && basins.n == 1)
-    status = celd_windows_solve (&canvas, label, host, &patches);
+    status = celd_windows_solve (&task, label, host, &patches);
   if (status == CELD_OK && !patches.n)
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   celd_basins_clear (&basins);
-  celd_seed_rows_clear (&canvas.seeds);
-  celd_palette_clear (&canvas.palette);
+  celd_seed_rows_clear (&task.seeds);
+  celd_palette_clear (&task.palette);
   celd_patches_clear (&patches);
   return status;
 }
@@ -165,7 +165,7 @@ closures_step (const CeldHost *host, Results *r)
   CeldPlane       ink = { 2 * W, 2 * H, 2 * W, page };
   CeldLabels      labels = { 2 * W, 2 * H, 2 * W, painted };
   CeldBasins      basins = { 0 };
-  CeldCanvas      canvas = { .settings = &scene_settings, .ink = &ink, .basins = &basins };
+  CeldSegmentTask task = { .settings = &scene_settings, .ink = &ink, .basins = &basins };
   CeldPatches     windows = { 0 }, patches = { 0 };
   CeldClosures    closures = { 0 };
   uint32_t        label[64] = { 0 };
@@ -181,7 +181,7 @@ closures_step (const CeldHost *host, Results *r)
       }
   status = celd_basins_new (&ink, scene_settings.ink_threshold, NULL, &basins);
   if (status == CELD_OK)
-    status = celd_seed_rows_new (2 * W, 2 * H, &canvas.seeds);
+    status = celd_seed_rows_new (2 * W, 2 * H, &task.seeds);
   if (status == CELD_OK && basins.n > 64)
     status = CELD_BAD_VALUE;
   for (size_t k = 0; k < basins.n && status == CELD_OK; k++)
@@ -189,11 +189,11 @@ closures_step (const CeldHost *host, Results *r)
   for (int p = 0; p < 4 * W * H && status == CELD_OK; p++)
     painted[p] = label[celd_basin_at (&basins, p % (2 * W), p / (2 * W))];
   if (status == CELD_OK)
-    status = celd_closures_find (&canvas, label, &labels, &windows, host, &closures, &patches);
+    status = celd_closures_find (&task, label, &labels, &windows, host, &closures, &patches);
   if (status == CELD_OK && (!closures.n || !patches.n))
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   celd_basins_clear (&basins);
-  celd_seed_rows_clear (&canvas.seeds);
+  celd_seed_rows_clear (&task.seeds);
   celd_patches_clear (&patches);
   celd_closures_clear (&closures);
   return status;
@@ -207,7 +207,7 @@ basins_step (const CeldHost *host, Results *r)
   CeldPlane    ink = { 4 * W, 4 * H, 4 * W, page };
   CeldBasins   basins = { 0 };
   CeldRect     changed = { 58, 70, 6, 4 };
-  CeldHostPart     parts[2];
+  CeldHostPart parts[2];
   CeldHost     building = celd_host_part (&parts[0], host, 0, 0.9), renewing = celd_host_part (&parts[1], host, 0.9, 1);
   CeldStatus   status;
 
@@ -220,7 +220,7 @@ basins_step (const CeldHost *host, Results *r)
     for (int x = 58; x < 64; x++)
       CELD_AT (&ink, x, y) = 1;
   if (status == CELD_OK)
-    status = celd_basins_renew (&ink, &changed, &renewing, &basins);
+    status = celd_basins_update (&ink, &changed, &renewing, &basins);
   celd_basins_clear (&basins);
   return status;
 }

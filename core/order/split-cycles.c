@@ -34,7 +34,7 @@ typedef struct
   const CeldPlane     *ink;
   CeldLabels          *labels;
   CeldPalette         *palette;
-  CeldCosts            costs;
+  CeldSmoothnessCosts  costs;
   double               apart;   /* least distance of two anchors */
   CeldGraph            graph;
 } Work;
@@ -158,7 +158,7 @@ edge_cost (const Work *w, const Sheet *sheet, int x, int y, int u, int v)
     return 0;
   a = CELD_AT (w->ink, box.x + x, box.y + y);
   b = CELD_AT (w->ink, box.x + u, box.y + v);
-  return celd_cost (&w->costs, a, b, !celd_is_paper (a), !celd_is_paper (b), false);
+  return celd_smoothness_cost (&w->costs, a, b, !celd_is_paper (a), !celd_is_paper (b), false);
 }
 
 static CeldStatus
@@ -358,7 +358,7 @@ celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const C
   bool       done = !relations->n;
 
   quiet.progress = NULL; /* nobody knows how many cuts there will be */
-  celd_costs_new (labels->width, labels->height, settings->ink_threshold, &w.costs);
+  celd_smoothness_costs_new (labels->width, labels->height, settings->ink_threshold, &w.costs);
   w.apart = fmax (NEAREST, FAR_APART * celd_stroke_width (ink));
   while (!done && status == CELD_OK && splits->n < 2 * relations->n) /* each cut parts two of their ends */
     {

@@ -15,8 +15,8 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
 #include "segment/splits.h"
+#include "segment/task.h"
 
 #include <math.h>
 
@@ -27,22 +27,22 @@
 /* ------------------------------------------------------------------ ends of relations */
 
 CeldRelationEnd
-celd_end_find (const CeldCanvas *canvas, const CeldTerm *term)
+celd_relation_end_find (const CeldSegmentTask *task, const CeldTerm *term)
 {
-  const CeldBasins *basins = canvas->basins;
-  CeldRelationEnd           end = { 0 };
+  const CeldBasins *basins = task->basins;
+  CeldRelationEnd   end = { 0 };
 
   if (term->by_colour || !(term->x >= 0 && term->y >= 0 && term->x < basins->width && term->y < basins->height))
     return end;
   end.x     = (int) term->x;
   end.y     = (int) term->y;
-  end.there = celd_is_paper (CELD_AT (canvas->ink, end.x, end.y)) ||
-              celd_paper_near (canvas->ink, basins->stroke, &end.x, &end.y);
+  end.there = celd_is_paper (CELD_AT (task->ink, end.x, end.y)) ||
+              celd_paper_near (task->ink, basins->stroke, &end.x, &end.y);
   return end;
 }
 
 double
-celd_ends_apart (CeldRelationEnd a, CeldRelationEnd b)
+celd_relation_end_distance (CeldRelationEnd a, CeldRelationEnd b)
 {
   return hypot (a.x - b.x, a.y - b.y);
 }
@@ -94,44 +94,44 @@ to_ink (const CeldPlane *ink, int x, int y, double limit)
 
 /* ------------------------------------------------------------------ discs */
 
-typedef struct { const CeldCanvas *canvas; CeldRelationEnd end; double reach, widest; } Search;
+typedef struct { const CeldSegmentTask *task; CeldRelationEnd end; double farthest, widest; } Search;
 
 static double
-shorter_side (const CeldCanvas *canvas)
+shorter_side (const CeldSegmentTask *task)
 {
-  return canvas->basins->width < canvas->basins->height ? canvas->basins->width : canvas->basins->height;
+  return task->basins->width < task->basins->height ? task->basins->width : task->basins->height;
 }
 
 /* The largest disc round (x,y) that touches no ink, this squared distance away. */
-static CeldDisc
+static CeldSeedDisc
 disc_of (const Search *search, int x, int y, int32_t squared)
 {
   double radius = fmin (sqrt (squared) - 0.5, search->widest);
 
-  radius = fmin (radius, search->reach - hypot (x - search->end.x, y - search->end.y));
-  return (CeldDisc) { x, y, fmax (0, radius) };
+  radius = fmin (radius, search->farthest - hypot (x - search->end.x, y - search->end.y));
+  return (CeldSeedDisc) { x, y, fmax (0, radius) };
 }
 
-static CeldDisc
+static CeldSeedDisc
 disc_at (const Search *search, int x, int y, double most)
 {
-  double limit = fmin (most, search->reach - hypot (x - search->end.x, y - search->end.y));
+  double limit = fmin (most, search->farthest - hypot (x - search->end.x, y - search->end.y));
 
-  return disc_of (search, x, y, to_ink (search->canvas->ink, x, y, fmax (0, limit) + 1));
+  return disc_of (search, x, y, to_ink (search->task->ink, x, y, fmax (0, limit) + 1));
 }
 
 /* One step to where the disc is larger, without leaving the paper that the disc covers; false on a summit. */
 static bool
-climb (const Search *search, int step, CeldDisc *disc)
+climb (const Search *search, int step, CeldSeedDisc *disc)
 {
-  const CeldPlane *ink = search->canvas->ink;
-  CeldDisc         best = *disc;
+  const CeldPlane *ink = search->task->ink;
+  CeldSeedDisc     best = *disc;
 
   for (int v = -1; v <= 1; v++)
     for (int u = -1; u <= 1; u++)
       {
-        int      x = disc->x + u * step, y = disc->y + v * step;
-        CeldDisc other;
+        int          x = disc->x + u * step, y = disc->y + v * step;
+        CeldSeedDisc other;
 
         if (x < 0 || y < 0 || x >= ink->width || y >= ink->height || !celd_is_paper (CELD_AT (ink, x, y)))
           continue;
@@ -146,8 +146,8 @@ climb (const Search *search, int step, CeldDisc *disc)
 }
 
 /* Climbs in ever shorter steps, each less than the disc is wide: no line of ink is stepped over. */
-static CeldDisc
-climb_to_summit (const Search *search, CeldDisc disc)
+static CeldSeedDisc
+climb_to_peak (const Search *search, CeldSeedDisc disc)
 {
   for (int step = (int) (disc.radius / 2); ; step /= 2)
     {
@@ -159,29 +159,29 @@ climb_to_summit (const Search *search, CeldDisc disc)
     }
 }
 
-CeldDiscs
-celd_discs_find (const CeldCanvas *canvas, CeldRelationEnd end, double reach, double widest)
+CeldSeedDiscs
+celd_seed_discs_find (const CeldSegmentTask *task, CeldRelationEnd end, double farthest, double widest)
 {
-  const CeldBasin *basin = &canvas->basins->basin[celd_basin_at (canvas->basins, end.x, end.y)];
-  Search           search = { canvas, end, reach, fmin (widest, fmax (1, shorter_side (canvas) / WIDEST)) };
-  CeldDiscs        discs = { .disc = { disc_at (&search, end.x, end.y, fmin (search.widest, ROUND)) } };
-  CeldDisc         summit = discs.disc[0];
+  const CeldBasin *basin = &task->basins->basin[celd_basin_at (task->basins, end.x, end.y)];
+  Search           search = { task, end, farthest, fmin (widest, fmax (1, shorter_side (task) / WIDEST)) };
+  CeldSeedDiscs    discs = { .disc = { disc_at (&search, end.x, end.y, fmin (search.widest, ROUND)) } };
+  CeldSeedDisc     peak = discs.disc[0];
 
   if (!basin->solid)
-    summit = disc_of (&search, basin->x, basin->y, basin->squared);
-  if (summit.radius < discs.disc[0].radius)
-    summit = discs.disc[0];
-  if (reach < INFINITY)
+    peak = disc_of (&search, basin->x, basin->y, basin->squared);
+  if (peak.radius < discs.disc[0].radius)
+    peak = discs.disc[0];
+  if (farthest < INFINITY)
     {
-      summit = climb_to_summit (&search, summit);
-      discs.room = to_ink (canvas->ink, summit.x, summit.y, 2 * search.widest);
+      peak = climb_to_peak (&search, peak);
+      discs.clearance = to_ink (task->ink, peak.x, peak.y, 2 * search.widest);
     }
-  discs.disc[1] = summit;
+  discs.disc[1] = peak;
   return discs;
 }
 
 bool
-celd_disc_row (const CeldDisc *disc, int y, int *x, int *end)
+celd_seed_disc_row (const CeldSeedDisc *disc, int y, int *x, int *end)
 {
   double left = disc->radius * disc->radius - (y - disc->y) * (y - disc->y);
   int    half = left >= 0 ? (int) sqrt (left) : 0;
@@ -204,23 +204,23 @@ has_paper (const CeldPlane *ink, int y, int x, int end)
 
 /* The rooms on whose paper the seeds of row y lie; both are runs from left to right. */
 static void
-reach_along (const CeldCanvas *canvas, int y)
+mark_seeded (const CeldSegmentTask *task, int y)
 {
-  const CeldBasins  *basins = canvas->basins;
-  const CeldSeedRow *row = &canvas->seeds.row[y];
+  const CeldBasins  *basins = task->basins;
+  const CeldSeedRow *row = &task->seeds.row[y];
   size_t             k = basins->row[y], last = basins->row[y + 1] - 1;
 
   for (size_t i = 0; i < row->n; i++)
     for (int x = row->run[i].x, end; x < row->run[i].end; x = end)
       {
-        uint32_t room;
+        uint32_t enclosure;
 
         while (k < last && basins->run[k + 1].x <= x)
           k++;
         end  = k < last && basins->run[k + 1].x < row->run[i].end ? basins->run[k + 1].x : row->run[i].end;
-        room = basins->room[basins->run[k].basin];
-        if (!canvas->reached[room])
-          canvas->reached[room] = has_paper (canvas->ink, y, x, end);
+        enclosure = basins->enclosure[basins->run[k].basin];
+        if (!task->seeded[enclosure])
+          task->seeded[enclosure] = has_paper (task->ink, y, x, end);
       }
 }
 
@@ -228,9 +228,9 @@ reach_along (const CeldCanvas *canvas, int y)
 
 /* Paints those pixels x .. end - 1 of row y that lie in the room and have no seed. */
 static CeldStatus
-paint_in_room (CeldCanvas *canvas, int y, int x, int end, uint32_t room, uint32_t label)
+paint_in_enclosure (CeldSegmentTask *task, int y, int x, int end, uint32_t enclosure, uint32_t label)
 {
-  const CeldBasins *basins = canvas->basins;
+  const CeldBasins *basins = task->basins;
   CeldStatus        status = CELD_OK;
 
   x   = x < 0 ? 0 : x;
@@ -240,8 +240,8 @@ paint_in_room (CeldCanvas *canvas, int y, int x, int end, uint32_t room, uint32_
       int next = celd_basin_run_end (basins, k, y);
 
       next = next < end ? next : end;
-      if (basins->room[basins->run[k].basin] == room)
-        status = celd_seed_rows_paint (&canvas->seeds, y, x, next, label);
+      if (basins->enclosure[basins->run[k].basin] == enclosure)
+        status = celd_seed_rows_paint (&task->seeds, y, x, next, label);
       x = next;
     }
   return status;
@@ -249,76 +249,79 @@ paint_in_room (CeldCanvas *canvas, int y, int x, int end, uint32_t room, uint32_
 
 /* A room that nothing reaches has no seed on its paper, and a disc holds no ink: there is nothing to spare. */
 static CeldStatus
-plant_disc (CeldCanvas *canvas, const CeldDisc *disc, uint32_t room, uint32_t label)
+add_disc (CeldSegmentTask *task, const CeldSeedDisc *disc, uint32_t enclosure, uint32_t label)
 {
   int        r = (int) disc->radius, top = disc->y - r, bottom = disc->y + r, x, end;
   CeldStatus status = CELD_OK;
 
-  bottom = bottom < canvas->basins->height ? bottom : canvas->basins->height - 1;
+  bottom = bottom < task->basins->height ? bottom : task->basins->height - 1;
   for (int y = top < 0 ? 0 : top; y <= bottom && status == CELD_OK; y++)
-    if (celd_disc_row (disc, y, &x, &end))
-      status = paint_in_room (canvas, y, x, end, room, label);
+    if (celd_seed_disc_row (disc, y, &x, &end))
+      status = paint_in_enclosure (task, y, x, end, enclosure, label);
   return status;
 }
 
 static uint32_t
-room_of (const CeldBasins *basins, CeldRelationEnd end)
+enclosure_of (const CeldBasins *basins, CeldRelationEnd end)
 {
-  return end.there ? basins->room[celd_basin_at (basins, end.x, end.y)] : 0;
+  return end.there ? basins->enclosure[celd_basin_at (basins, end.x, end.y)] : 0;
 }
 
 static CeldStatus
-plant_relation (const CeldRelation *relation, CeldCanvas *canvas)
+add_relation (const CeldRelation *relation, CeldSegmentTask *task)
 {
-  CeldRelationEnd    end[2] = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) };
-  uint32_t   room[2] = { room_of (canvas->basins, end[0]), room_of (canvas->basins, end[1]) }, label = 0;
-  double     widest = canvas->settings->method != CELD_METHOD_BASINS ? INFINITY : ON_BASINS;
-  double     reach = room[0] == room[1] ? CELD_REACH * celd_ends_apart (end[0], end[1]) : INFINITY;
-  CeldStatus status = CELD_OK;
+  CeldRelationEnd end[2] = { celd_relation_end_find (task, &relation->nearer),
+                             celd_relation_end_find (task, &relation->farther) };
+  uint32_t        enclosure[2] = { enclosure_of (task->basins, end[0]), enclosure_of (task->basins, end[1]) },
+  label = 0;
+  double          widest = task->settings->method != CELD_METHOD_BASINS ? INFINITY : ON_BASINS;
+  double          farthest = enclosure[0] == enclosure[1] ? CELD_DISC_RANGE * celd_relation_end_distance (end[0], end[1])
+                                                          : INFINITY;
+  CeldStatus      status = CELD_OK;
 
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
-      CeldDiscs discs;
+      CeldSeedDiscs discs;
 
-      if (!room[i] || canvas->reached[room[i]])
+      if (!enclosure[i] || task->seeded[enclosure[i]])
         continue;
       if (!label || !relation->equal)
-        status = celd_hue_add (canvas, &label);
-      discs = celd_discs_find (canvas, end[i], reach, widest);
+        status = celd_task_add_arrow_label (task, &label);
+      discs = celd_seed_discs_find (task, end[i], farthest, widest);
       for (int k = 0; k < 2 && status == CELD_OK; k++)
-        status = plant_disc (canvas, &discs.disc[k], room[i], label);
-      canvas->reached[room[i]] = true;
+        status = add_disc (task, &discs.disc[k], enclosure[i], label);
+      task->seeded[enclosure[i]] = true;
     }
   return status;
 }
 
 bool
-celd_seeds_wanted (const CeldCanvas *canvas, const CeldRelation *relation)
+celd_arrow_seeds_needed (const CeldSegmentTask *task, const CeldRelation *relation)
 {
-  uint32_t room[2] = { room_of (canvas->basins, celd_end_find (canvas, &relation->nearer)),
-                       room_of (canvas->basins, celd_end_find (canvas, &relation->farther)) };
+  uint32_t enclosure[2] = { enclosure_of (task->basins, celd_relation_end_find (task, &relation->nearer)),
+                       enclosure_of (task->basins, celd_relation_end_find (task, &relation->farther)) };
 
-  return (room[0] && !canvas->reached[room[0]]) || (room[1] && !canvas->reached[room[1]]);
+  return (enclosure[0] && !task->seeded[enclosure[0]]) || (enclosure[1] && !task->seeded[enclosure[1]]);
 }
 
 CeldStatus
-celd_seeds_plant (const CeldRelations *relations, const CeldHost *host, CeldCanvas *canvas)
+celd_arrow_seeds_add (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task)
 {
   CeldStatus status = CELD_OK;
 
   if (!relations->n)
     return CELD_OK;
-  canvas->reached = celd_alloc0 (canvas->basins->n_rooms + 1, sizeof *canvas->reached);
-  if (!canvas->reached)
+  task->seeded = celd_alloc0 (task->basins->n_enclosures + 1, sizeof *task->seeded);
+  if (!task->seeded)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < canvas->basins->height; y++)
-    reach_along (canvas, y);
+  for (int y = 0; y < task->basins->height; y++)
+    mark_seeded (task, y);
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
-      if (celd_seeds_wanted (canvas, &relations->item[i]))
+      if (celd_arrow_seeds_needed (task, &relations->item[i]))
         {
-          canvas->acting = i + 1;
-          status = plant_relation (&relations->item[i], canvas);
+          task->n_effective = i + 1;
+          status = add_relation (&relations->item[i], task);
         }
       if (status == CELD_OK && i % 256 == 0)
         status = celd_progress (host, (double) i / (double) relations->n);

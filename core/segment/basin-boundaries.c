@@ -13,22 +13,22 @@
 #define ROWS   256 /* between two reports of progress */
 #define RECENT 512
 
-typedef struct { uint32_t a, b; size_t border; } Slot; /* a = b: empty */
+typedef struct { uint32_t a, b; size_t boundary; } Slot; /* a = b: empty */
 
 typedef struct
 {
-  const CeldPlane  *ink;
-  const CeldPlot   *plot;
-  const CeldBasins *basins;
-  CeldBorder       *border;
-  size_t            n;
-  Slot             *slot;     /* open hash by the two basins */
-  size_t            n_slots;  /* a power of two, more than twice n */
-  Slot              recent[RECENT]; /* the same, as far as the last rows touch it: small enough to stay at hand */
-} Borders;
+  const CeldPlane       *ink;
+  const CeldBasinExtent *extent;
+  const CeldBasins      *basins;
+  CeldBasinBoundary     *boundary;
+  size_t                 n;
+  Slot                  *slot;           /* open hash by the two basins */
+  size_t                 n_slots;        /* a power of two, more than twice n */
+  Slot                   recent[RECENT]; /* the same, as far as the last rows touch it: small enough to stay at hand */
+} Boundaries;
 
 static Slot *
-find_slot (const Borders *b, uint32_t first, uint32_t second)
+find_slot (const Boundaries *b, uint32_t first, uint32_t second)
 {
   uint64_t key = ((uint64_t) first << 32 | second) * 0x9e3779b97f4a7c15u;
   size_t   i = (size_t) (key ^ key >> 32) & (b->n_slots - 1);
@@ -39,7 +39,7 @@ find_slot (const Borders *b, uint32_t first, uint32_t second)
 }
 
 static bool
-grow_slots (Borders *b)
+grow_slots (Boundaries *b)
 {
   size_t n_slots = b->n_slots ? 2 * b->n_slots : 1024;
   Slot  *slot = celd_alloc0 (n_slots, sizeof *slot);
@@ -50,36 +50,36 @@ grow_slots (Borders *b)
   b->slot = slot;
   b->n_slots = n_slots;
   for (size_t i = 0; i < b->n; i++)
-    *find_slot (b, b->border[i].a, b->border[i].b) = (Slot) { b->border[i].a, b->border[i].b, i };
+    *find_slot (b, b->boundary[i].a, b->boundary[i].b) = (Slot) { b->boundary[i].a, b->boundary[i].b, i };
   return true;
 }
 
 /* The border of two basins; NULL: no memory. */
-static CeldBorder *
-find_border (Borders *b, uint32_t first, uint32_t second)
+static CeldBasinBoundary *
+find_boundary (Boundaries *b, uint32_t first, uint32_t second)
 {
-  uint32_t    least = first < second ? first : second, most = first < second ? second : first;
-  Slot       *slot, *recent = &b->recent[(most ^ least * 37) % RECENT];
-  CeldBorder *border;
+  uint32_t           least = first < second ? first : second, most = first < second ? second : first;
+  Slot              *slot, *recent = &b->recent[(most ^ least * 37) % RECENT];
+  CeldBasinBoundary *boundary;
 
   if (recent->a == least && recent->b == most)
-    return &b->border[recent->border];
+    return &b->boundary[recent->boundary];
   if (2 * (b->n + 1) >= b->n_slots && !grow_slots (b))
     return NULL;
   slot = find_slot (b, least, most);
   if (slot->a != slot->b)
     {
       *recent = *slot;
-      return &b->border[slot->border];
+      return &b->boundary[slot->boundary];
     }
-  border = celd_grow (b->border, b->n + 1, sizeof *border);
-  if (!border)
+  boundary = celd_grow (b->boundary, b->n + 1, sizeof *boundary);
+  if (!boundary)
     return NULL;
   *slot = *recent = (Slot) { least, most, b->n };
-  b->border = border;
-  border += b->n++;
-  *border = (CeldBorder) { .a = least, .b = most, .saddle = -1 };
-  return border;
+  b->boundary = boundary;
+  boundary += b->n++;
+  *boundary = (CeldBasinBoundary) { .a = least, .b = most, .saddle = -1 };
+  return boundary;
 }
 
 static bool
@@ -90,80 +90,80 @@ is_outermost (const CeldPlane *ink, int x, int y)
 
 /* Does `least` at this pair come before the saddle so far?  Ties go in reading order, east before south. */
 static bool
-comes_first (const CeldBorder *border, int32_t least, int x, int y, bool south)
+comes_first (const CeldBasinBoundary *boundary, int32_t least, int x, int y, bool south)
 {
-  if (least != border->saddle)
-    return least > border->saddle;
-  if (y != border->y)
-    return y < border->y;
-  return x < border->x || (x == border->x && !south && border->south);
+  if (least != boundary->saddle)
+    return least > boundary->saddle;
+  if (y != boundary->y)
+    return y < boundary->y;
+  return x < boundary->x || (x == boundary->x && !south && boundary->south);
 }
 
 void
-celd_border_add (CeldBorder *border, const CeldBorder *more)
+celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *more)
 {
-  border->cost += more->cost;
-  border->passes += more->passes;
-  border->frame = border->frame || more->frame;
-  if (!comes_first (border, more->saddle, more->x, more->y, more->south))
+  boundary->cost += more->cost;
+  boundary->opening += more->opening;
+  boundary->frame = boundary->frame || more->frame;
+  if (!comes_first (boundary, more->saddle, more->x, more->y, more->south))
     return;
-  border->saddle = more->saddle;
-  border->x = more->x;
-  border->y = more->y;
-  border->south = more->south;
+  boundary->saddle = more->saddle;
+  boundary->x = more->x;
+  boundary->y = more->y;
+  boundary->south = more->south;
 }
 
 /* Signed distance of a pixel in the box. */
 static inline const int32_t *
-squared_at (const CeldPlot *plot, int x, int y)
+squared_at (const CeldBasinExtent *extent, int x, int y)
 {
-  return plot->squared + (ptrdiff_t) (y - plot->box.y) * (ptrdiff_t) plot->stride + (x - plot->box.x);
+  return extent->squared + (ptrdiff_t) (y - extent->box.y) * (ptrdiff_t) extent->stride + (x - extent->box.x);
 }
 
 /* Counts in the pair of (x,y) and the pixel below it, or to the right. */
 static void
-add_pair (const Borders *b, CeldBorder *border, int x, int y, bool south)
+add_pair (const Boundaries *b, CeldBasinBoundary *boundary, int x, int y, bool south)
 {
-  const CeldPlane *ink = b->ink;
-  int              qx = x + !south, qy = y + south;
-  int32_t          p = *squared_at (b->plot, x, y), q = *squared_at (b->plot, qx, qy);
-  bool             solid = b->basins->basin[border->a].solid && b->basins->basin[border->b].solid;
-  bool             passes = p > 0 && q > 0;
-  bool             along = south ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
-  CeldBorder       pair = { .passes = passes, .x = x, .y = y, .south = south };
+  const CeldPlane  *ink = b->ink;
+  int               qx = x + !south, qy = y + south;
+  int32_t           p = *squared_at (b->extent, x, y), q = *squared_at (b->extent, qx, qy);
+  bool              solid = b->basins->basin[boundary->a].solid && b->basins->basin[boundary->b].solid;
+  bool              opening = p > 0 && q > 0;
+  bool              along = south ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
+  CeldBasinBoundary pair = { .opening = opening, .x = x, .y = y, .south = south };
 
-  pair.cost = celd_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
-  pair.saddle = passes ? (p < q ? p : q) : solid ? (-p < -q ? -p : -q) : 0;
-  pair.frame = passes && is_outermost (ink, x, y) && is_outermost (ink, qx, qy);
-  celd_border_add (border, &pair);
+  pair.cost = celd_smoothness_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
+  pair.saddle = opening ? (p < q ? p : q) : solid ? (-p < -q ? -p : -q) : 0;
+  pair.frame = opening && is_outermost (ink, x, y) && is_outermost (ink, qx, qy);
+  celd_basin_boundary_add (boundary, &pair);
 }
 
 static inline bool
-is_anew (const CeldPlot *plot, int x, int y)
+is_rebuilt (const CeldBasinExtent *extent, int x, int y)
 {
-  int u = x - plot->box.x, v = y - plot->box.y;
+  int u = x - extent->box.x, v = y - extent->box.y;
 
-  if (!plot->anew)
+  if (!extent->rebuilt)
     return true;
-  return u >= 0 && v >= 0 && u < plot->box.width && v < plot->box.height &&
-         plot->anew[(size_t) v * (size_t) plot->box.width + (size_t) u];
+  return u >= 0 && v >= 0 && u < extent->box.width && v < extent->box.height &&
+         extent->rebuilt[(size_t) v * (size_t) extent->box.width + (size_t) u];
 }
 
 /* What the borders of a row will read. */
 static void
-fetch_row (const Borders *b, int y)
+fetch_row (const Boundaries *b, int y)
 {
   const CeldBasins *basins = b->basins;
 
   for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
     {
-      CELD_PREFETCH (squared_at (b->plot, basins->run[i].x, y));
+      CELD_PREFETCH (squared_at (b->extent, basins->run[i].x, y));
       CELD_PREFETCH (&CELD_AT (b->ink, basins->run[i].x, y));
     }
 }
 
 static CeldStatus
-add_row (Borders *b, int y)
+add_row (Boundaries *b, int y)
 {
   const CeldBasins   *basins = b->basins;
   const CeldBasinRun *run = basins->run + basins->row[y], *end = basins->run + basins->row[y + 1];
@@ -171,30 +171,30 @@ add_row (Borders *b, int y)
 
   for (const CeldBasinRun *r = run + 1; r < end; r++)
     {
-      CeldBorder *border;
+      CeldBasinBoundary *boundary;
 
-      if (!is_anew (b->plot, r->x - 1, y) && !is_anew (b->plot, r->x, y))
+      if (!is_rebuilt (b->extent, r->x - 1, y) && !is_rebuilt (b->extent, r->x, y))
         continue;
-      border = find_border (b, r[-1].basin, r->basin);
-      if (!border)
+      boundary = find_boundary (b, r[-1].basin, r->basin);
+      if (!boundary)
         return CELD_NO_MEMORY;
-      add_pair (b, border, r->x - 1, y, false);
+      add_pair (b, boundary, r->x - 1, y, false);
     }
   for (int x = 0, next; x < basins->width && below < below_end; x = next)
     {
-      int         run_end = run + 1 < end ? run[1].x : basins->width;
-      int         stop = below + 1 < below_end ? below[1].x : basins->width;
-      CeldBorder *border;
+      int                run_end = run + 1 < end ? run[1].x : basins->width;
+      int                stop = below + 1 < below_end ? below[1].x : basins->width;
+      CeldBasinBoundary *boundary;
 
       next = run_end < stop ? run_end : stop;
-      border = NULL;
+      boundary = NULL;
       for (x = run->basin == below->basin ? next : x; x < next; x++)
-        if (is_anew (b->plot, x, y) || is_anew (b->plot, x, y + 1))
+        if (is_rebuilt (b->extent, x, y) || is_rebuilt (b->extent, x, y + 1))
           {
-            border = border ? border : find_border (b, run->basin, below->basin);
-            if (!border)
+            boundary = boundary ? boundary : find_boundary (b, run->basin, below->basin);
+            if (!boundary)
               return CELD_NO_MEMORY;
-            add_pair (b, border, x, y, true);
+            add_pair (b, boundary, x, y, true);
           }
       run += run_end == next;
       below += stop == next;
@@ -205,7 +205,7 @@ add_row (Borders *b, int y)
 static int
 compare (const void *a, const void *b)
 {
-  const CeldBorder *p = a, *q = b;
+  const CeldBasinBoundary *p = a, *q = b;
 
   if (p->a != q->a)
     return p->a < q->a ? -1 : 1;
@@ -213,11 +213,12 @@ compare (const void *a, const void *b)
 }
 
 CeldStatus
-celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins *basins, const CeldHost *host,
-                   CeldBorder **border, size_t *n)
+celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent, const CeldBasins *basins,
+                             const CeldHost *host,
+                             CeldBasinBoundary **boundary, size_t *n)
 {
-  Borders    b = { .ink = ink, .plot = plot, .basins = basins };
-  int        top = plot->box.y, end = top + plot->box.height;
+  Boundaries    b = { .ink = ink, .extent = extent, .basins = basins };
+  int        top = extent->box.y, end = top + extent->box.height;
   CeldStatus status = CELD_OK;
 
   for (int y = top; y < end && status == CELD_OK; y++)
@@ -231,12 +232,12 @@ celd_basins_touch (const CeldPlane *ink, const CeldPlot *plot, const CeldBasins 
   celd_free (b.slot);
   if (status != CELD_OK)
     {
-      celd_free (b.border);
+      celd_free (b.boundary);
       return status;
     }
   if (b.n)
-    qsort (b.border, b.n, sizeof *b.border, compare);
-  *border = b.border;
+    qsort (b.boundary, b.n, sizeof *b.boundary, compare);
+  *boundary = b.boundary;
   *n = b.n;
   return CELD_OK;
 }

@@ -25,7 +25,7 @@ typedef struct
   const CeldPlane  *ink;
   const CeldBasins *old;
   CeldRect          changed;
-  uint8_t          *touched;  /* by old basin */
+  uint8_t          *affected; /* by old basin */
   double            deepest;  /* least bound known of the distances in touched basins */
 } Search;
 
@@ -102,7 +102,7 @@ mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *
             return false;
           while (run + 1 < end && run[1].x <= x)
             run++;
-          r->touched[run->basin] = 1;
+          r->affected[run->basin] = 1;
           r->deepest = distance > r->deepest ? distance : r->deepest;
         }
     }
@@ -126,7 +126,7 @@ first_margin (const Search *r)
 
 /* Marks the basins that the change reaches; *worth becomes false if that is much of the drawing. */
 static CeldStatus
-find_touched (Search *r, const CeldHost *host, bool *worth)
+find_affected (Search *r, const CeldHost *host, bool *worthwhile)
 {
   CeldStatus status = CELD_OK;
   double     looked_at = 0;
@@ -140,8 +140,8 @@ find_touched (Search *r, const CeldHost *host, bool *worth)
       int32_t *to_ink, *to_paper;
 
       looked_at += share_of (r->ink, window);
-      *worth = looked_at < LOOKED_AT;
-      if (!*worth)
+      *worthwhile = looked_at < LOOKED_AT;
+      if (!*worthwhile)
         return CELD_OK;
       copy = celd_alloc (n, sizeof *copy);
       to_ink = celd_alloc (n, sizeof *to_ink);
@@ -167,7 +167,7 @@ find_box (Search *r, CeldBasinChange *change)
 
   for (int y = 0; y < old->height; y++)
     for (size_t i = old->row[y]; i < old->row[y + 1]; i++)
-      if (r->touched[old->run[i].basin])
+      if (r->affected[old->run[i].basin])
         {
           int end = celd_basin_run_end (old, i, y);
 
@@ -177,7 +177,7 @@ find_box (Search *r, CeldBasinChange *change)
           bottom = y + 1;
         }
   for (size_t k = 0; k < old->n; k++)
-    if (r->touched[k] && sqrt (old->basin[k].squared) > r->deepest)
+    if (r->affected[k] && sqrt (old->basin[k].squared) > r->deepest)
       r->deepest = sqrt (old->basin[k].squared);
   if (r->deepest < old->stroke + 4) /* ink around leads to paper from a stroke's width deep */
     r->deepest = old->stroke + 4;
@@ -189,16 +189,16 @@ CeldStatus
 celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old, const CeldRect *changed, const CeldHost *host,
                          CeldBasinChange *change)
 {
-  Search     r = { .ink = ink, .old = old, .changed = *changed, .touched = celd_alloc0 (old->n, 1) };
+  Search     r = { .ink = ink, .old = old, .changed = *changed, .affected = celd_alloc0 (old->n, 1) };
   CeldStatus status = CELD_NO_MEMORY;
 
-  *change = (CeldBasinChange) { .touched = r.touched, .worth = true };
-  if (r.touched)
-    status = find_touched (&r, host, &change->worth);
-  if (status == CELD_OK && change->worth)
+  *change = (CeldBasinChange) { .affected = r.affected, .worthwhile = true };
+  if (r.affected)
+    status = find_affected (&r, host, &change->worthwhile);
+  if (status == CELD_OK && change->worthwhile)
     {
       find_box (&r, change);
-      change->worth = share_of (ink, change->window) < MADE;
+      change->worthwhile = share_of (ink, change->window) < MADE;
     }
   return status;
 }

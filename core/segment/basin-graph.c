@@ -18,7 +18,7 @@ typedef struct
   const CeldBasins *old;
   CeldBasinChange   change;
   int32_t          *squared;  /* signed distance in the window */
-  uint8_t          *anew;     /* of the box: lies in a touched basin */
+  uint8_t          *rebuilt;  /* of the box: lies in a touched basin */
 } Update;
 
 /* ------------------------------------------------------------------ from the beginning */
@@ -27,22 +27,24 @@ typedef struct
 static CeldStatus
 build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
 {
-  CeldHostPart   parts[3];
-  CeldHost   measuring = celd_host_part (&parts[0], host, 0, 0.4), ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
-  CeldHost   touching = celd_host_part (&parts[2], host, 0.9, 1);
-  int32_t   *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
-  CeldPlot   plot = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL, NULL };
-  CeldStatus status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
+  CeldHostPart    parts[3];
+  CeldHost        measuring = celd_host_part (&parts[0], host, 0, 0.4),
+  ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
+  CeldHost        touching = celd_host_part (&parts[2], host, 0.9, 1);
+  int32_t        *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
+  CeldBasinExtent extent = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL,
+                             NULL };
+  CeldStatus      status = squared ? celd_signed_distance (ink, &measuring, squared) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = celd_basins_ascend (&plot, &ascending, basins);
+    status = celd_basins_ascend (&extent, &ascending, basins);
   if (status == CELD_OK)
     {
-      celd_basins_measure (basins);
-      status = celd_basins_touch (ink, &plot, basins, &touching, &basins->border, &basins->n_borders);
+      celd_basins_count_areas (basins);
+      status = celd_basins_find_boundaries (ink, &extent, basins, &touching, &basins->boundary, &basins->n_boundaries);
     }
   if (status == CELD_OK)
-    status = celd_basins_unite (basins);
+    status = celd_basins_merge (basins);
   if (status == CELD_OK)
     status = celd_paper_new (ink, host, &basins->paper);
   celd_free (squared);
@@ -58,7 +60,7 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, Ce
   if (!CELD_SAME_SIZE (ink, ink))
     return CELD_BAD_SIZE;
   found.stroke = celd_stroke_width (ink);
-  celd_costs_new (ink->width, ink->height, threshold, &found.costs);
+  celd_smoothness_costs_new (ink->width, ink->height, threshold, &found.costs);
   status = build (ink, host, &found);
   if (status == CELD_OK)
     *basins = found;
@@ -70,10 +72,10 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, Ce
 /* ------------------------------------------------------------------ new basins among kept ones */
 
 static void
-mark_anew (Update *u)
+mark_rebuilt (Update *u)
 {
   const CeldBasins *old = u->old;
-  uint8_t          *anew = u->anew;
+  uint8_t          *rebuilt = u->rebuilt;
 
   for (int y = u->change.box.y; y < u->change.box.y + u->change.box.height; y++)
     {
@@ -83,7 +85,7 @@ mark_anew (Update *u)
         {
           while (run + 1 < end && run[1].x <= x)
             run++;
-          *anew++ = u->change.touched[run->basin];
+          *rebuilt++ = u->change.affected[run->basin];
         }
     }
 }
@@ -102,7 +104,7 @@ merge_basins (const Update *u, const CeldBasins *made, uint32_t *to, uint32_t *k
     {
       const CeldBasin *p = &old->basin[i], *q = &made->basin[j];
 
-      if (i < old->n && u->change.touched[i])
+      if (i < old->n && u->change.affected[i])
         {
           i++;
           n--;
@@ -134,7 +136,7 @@ copy_runs (const CeldBasins *from_graph, int y, int left, int from, int end, con
   for (; run < last && left + run->x < end && from < end; run++)
     {
       int      x = left + run->x > from ? left + run->x : from;
-      uint32_t basin = run->basin & CELD_KEPT ? kept[run->basin - CELD_KEPT] : to[run->basin];
+      uint32_t basin = run->basin & CELD_OLD_BASIN ? kept[run->basin - CELD_OLD_BASIN] : to[run->basin];
 
       if ((run + 1 < last && left + run[1].x <= from) || (*n > start && found->run[*n - 1].basin == basin))
         continue;
@@ -172,7 +174,7 @@ merge_runs (const Update *u, const CeldBasins *made, const uint32_t *to, const u
 /* ------------------------------------------------------------------ borders */
 
 static int
-compare_borders (const CeldBorder *p, const CeldBorder *q)
+compare_boundaries (const CeldBasinBoundary *p, const CeldBasinBoundary *q)
 {
   if (p->a != q->a)
     return p->a < q->a ? -1 : 1;
@@ -181,31 +183,32 @@ compare_borders (const CeldBorder *p, const CeldBorder *q)
 
 /* The borders between kept basins, and those that pixels made anew have; where they are the same, one. */
 static CeldStatus
-merge_borders (const Update *u, const uint32_t *kept, const CeldBorder *more, size_t n_more, CeldBasins *found)
+merge_boundaries (const Update *u, const uint32_t *kept, const CeldBasinBoundary *more, size_t n_more,
+                  CeldBasins *found)
 {
   const CeldBasins *old = u->old;
   size_t            n = 0, j = 0;
 
-  found->border = celd_alloc (old->n_borders + n_more, sizeof *found->border);
-  if (!found->border)
+  found->boundary = celd_alloc (old->n_boundaries + n_more, sizeof *found->boundary);
+  if (!found->boundary)
     return CELD_NO_MEMORY;
-  for (size_t i = 0; i < old->n_borders; i++)
+  for (size_t i = 0; i < old->n_boundaries; i++)
     {
-      CeldBorder border = old->border[i];
+      CeldBasinBoundary boundary = old->boundary[i];
 
-      if (u->change.touched[border.a] || u->change.touched[border.b])
+      if (u->change.affected[boundary.a] || u->change.affected[boundary.b])
         continue;
-      border.a = kept[border.a];
-      border.b = kept[border.b];
-      while (j < n_more && compare_borders (&more[j], &border) < 0)
-        found->border[n++] = more[j++];
-      if (j < n_more && compare_borders (&more[j], &border) == 0)
-        celd_border_add (&border, &more[j++]);
-      found->border[n++] = border;
+      boundary.a = kept[boundary.a];
+      boundary.b = kept[boundary.b];
+      while (j < n_more && compare_boundaries (&more[j], &boundary) < 0)
+        found->boundary[n++] = more[j++];
+      if (j < n_more && compare_boundaries (&more[j], &boundary) == 0)
+        celd_basin_boundary_add (&boundary, &more[j++]);
+      found->boundary[n++] = boundary;
     }
   while (j < n_more)
-    found->border[n++] = more[j++];
-  found->n_borders = n;
+    found->boundary[n++] = more[j++];
+  found->n_boundaries = n;
   return CELD_OK;
 }
 
@@ -213,23 +216,24 @@ merge_borders (const Update *u, const uint32_t *kept, const CeldBorder *more, si
 
 /* Makes the touched basins anew, and the graph of them and those that are kept. */
 static CeldStatus
-make_anew (Update *u, const CeldHost *host, CeldBasins *found)
+rebuild (Update *u, const CeldHost *host, CeldBasins *found)
 {
-  CeldRect    box = u->change.box, window = u->change.window;
-  CeldPlane   view = { window.width, window.height, u->ink->stride, &CELD_AT (u->ink, window.x, window.y) };
-  CeldPlot    plot = { box, u->squared + (size_t) (box.y - window.y) * (size_t) window.width + (box.x - window.x),
-                       (size_t) window.width, u->old->stroke, u->anew, u->old };
-  CeldBasins  made = { 0 };
-  CeldBorder *border = NULL;
-  uint32_t   *to = NULL, *kept = celd_alloc (u->old->n, sizeof *kept);
-  size_t      n_borders = 0;
-  CeldStatus  status = kept ? celd_signed_distance (&view, host, u->squared) : CELD_NO_MEMORY;
+  CeldRect           box = u->change.box, window = u->change.window;
+  CeldPlane          view = { window.width, window.height, u->ink->stride, &CELD_AT (u->ink, window.x, window.y) };
+  CeldBasinExtent    extent = { box, u->squared + (size_t) (box.y - window.y) * (size_t) window.width +
+                                (box.x - window.x),
+                       (size_t) window.width, u->old->stroke, u->rebuilt, u->old };
+  CeldBasins         made = { 0 };
+  CeldBasinBoundary *boundary = NULL;
+  uint32_t          *to = NULL, *kept = celd_alloc (u->old->n, sizeof *kept);
+  size_t             n_boundaries = 0;
+  CeldStatus         status = kept ? celd_signed_distance (&view, host, u->squared) : CELD_NO_MEMORY;
 
   made.width = box.width;
   made.height = box.height;
-  mark_anew (u);
+  mark_rebuilt (u);
   if (status == CELD_OK)
-    status = celd_basins_ascend (&plot, host, &made);
+    status = celd_basins_ascend (&extent, host, &made);
   if (status == CELD_OK && !(to = celd_alloc (made.n, sizeof *to)))
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
@@ -238,14 +242,14 @@ make_anew (Update *u, const CeldHost *host, CeldBasins *found)
     status = merge_runs (u, &made, to, kept, found);
   if (status == CELD_OK)
     {
-      celd_basins_measure (found);
-      status = celd_basins_touch (u->ink, &plot, found, host, &border, &n_borders);
+      celd_basins_count_areas (found);
+      status = celd_basins_find_boundaries (u->ink, &extent, found, host, &boundary, &n_boundaries);
     }
   if (status == CELD_OK)
-    status = merge_borders (u, kept, border, n_borders, found);
+    status = merge_boundaries (u, kept, boundary, n_boundaries, found);
   if (status == CELD_OK)
-    status = celd_basins_unite (found);
-  celd_free (border);
+    status = celd_basins_merge (found);
+  celd_free (boundary);
   celd_free (to);
   celd_free (kept);
   celd_basins_clear (&made);
@@ -261,22 +265,22 @@ update (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, co
   Update       u = { .ink = ink, .old = old };
   CeldStatus   status = celd_basins_find_change (ink, old, changed, &quiet, &u.change);
 
-  if (status == CELD_OK && u.change.worth)
+  if (status == CELD_OK && u.change.worthwhile)
     {
       CeldRect window = u.change.window, box = u.change.box;
 
       u.squared = celd_alloc ((size_t) window.width * (size_t) window.height, sizeof *u.squared);
-      u.anew = celd_alloc ((size_t) box.width * (size_t) box.height, 1);
-      status = u.squared && u.anew ? make_anew (&u, &quiet, found) : CELD_NO_MEMORY;
+      u.rebuilt = celd_alloc ((size_t) box.width * (size_t) box.height, 1);
+      status = u.squared && u.rebuilt ? rebuild (&u, &quiet, found) : CELD_NO_MEMORY;
     }
   celd_free (u.squared);
-  celd_free (u.anew);
-  celd_free (u.change.touched);
+  celd_free (u.rebuilt);
+  celd_free (u.change.affected);
   return status;
 }
 
 CeldStatus
-celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins)
+celd_basins_update (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins)
 {
   CeldBasins found = { .width = ink->width, .height = ink->height, .costs = basins->costs };
   int        left = changed->x > 0 ? changed->x : 0, right = changed->x + changed->width;
@@ -295,7 +299,7 @@ celd_basins_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost
     {
       found.paper = basins->paper;
       basins->paper = NULL;
-      celd_paper_renew (ink, &inside, host, found.paper);
+      celd_paper_update (ink, &inside, host, found.paper);
     }
   else if (status == CELD_OK)
     status = build (ink, host, &found);
@@ -316,7 +320,7 @@ celd_basins_make (const CeldPlane *ink, const CeldRect *changed, float threshold
   CeldStatus status;
 
   if (changed)
-    return celd_basins_renew (ink, changed, host, basins);
+    return celd_basins_update (ink, changed, host, basins);
   status = celd_basins_new (ink, threshold, host, &made);
   if (status != CELD_OK)
     return status;

@@ -32,16 +32,16 @@ join (Unions *unions, uint32_t a, uint32_t b)
 }
 
 static int32_t
-width_of (const CeldBorder *border)
+width_of (const CeldBasinBoundary *boundary)
 {
-  return border->frame ? INT32_MAX : border->saddle;
+  return boundary->frame ? INT32_MAX : boundary->saddle;
 }
 
 /* The widest first; ties in a fixed order. */
 static int
-compare (const void *a, const void *b)
+compare_widths (const void *a, const void *b)
 {
-  const CeldBorder *p = *(const CeldBorder *const *) a, *q = *(const CeldBorder *const *) b;
+  const CeldBasinBoundary *p = *(const CeldBasinBoundary *const *) a, *q = *(const CeldBasinBoundary *const *) b;
 
   if (width_of (p) != width_of (q))
     return width_of (p) > width_of (q) ? -1 : 1;
@@ -51,12 +51,12 @@ compare (const void *a, const void *b)
 }
 
 static bool
-parts (Unions *unions, const CeldBorder *border)
+separates (Unions *unions, const CeldBasinBoundary *boundary)
 {
-  int32_t a = unions->widest[celd_root (unions->parent, border->a)];
-  int32_t b = unions->widest[celd_root (unions->parent, border->b)];
+  int32_t a = unions->widest[celd_root (unions->parent, boundary->a)];
+  int32_t b = unions->widest[celd_root (unions->parent, boundary->b)];
 
-  return !border->frame && sqrt (a < b ? a : b) > WIDER * sqrt (border->saddle) + 1;
+  return !boundary->frame && sqrt (a < b ? a : b) > WIDER * sqrt (boundary->saddle) + 1;
 }
 
 /* Numbers unions in the order of their first basins; unless `all`, only those of paper. */
@@ -76,52 +76,53 @@ number_unions (const CeldBasins *basins, Unions *unions, bool all, uint32_t *num
 
 /* The borders over which blocks may join, the widest first. */
 static size_t
-find_passages (const CeldBasins *basins, const CeldBorder **passage)
+find_passages (const CeldBasins *basins, const CeldBasinBoundary **passage)
 {
   size_t n = 0;
 
-  for (size_t i = 0; i < basins->n_borders; i++)
+  for (size_t i = 0; i < basins->n_boundaries; i++)
     {
-      const CeldBorder *border = &basins->border[i];
+      const CeldBasinBoundary *boundary = &basins->boundary[i];
 
-      if (border->passes || (basins->basin[border->a].solid && basins->basin[border->b].solid))
-        passage[n++] = border;
+      if (boundary->opening || (basins->basin[boundary->a].solid && basins->basin[boundary->b].solid))
+        passage[n++] = boundary;
     }
   if (n)
-    qsort (passage, n, sizeof *passage, compare);
+    qsort (passage, n, sizeof *passage, compare_widths);
   return n;
 }
 
 CeldStatus
-celd_basins_unite (CeldBasins *basins)
+celd_basins_merge (CeldBasins *basins)
 {
-  Unions             unions = { celd_alloc (basins->n, sizeof (uint32_t)), celd_alloc (basins->n, sizeof (int32_t)) };
-  const CeldBorder **passage = celd_alloc (basins->n_borders, sizeof *passage);
-  int32_t            open = basins->stroke * basins->stroke;
-  CeldStatus         status = CELD_NO_MEMORY;
-  size_t             n;
+  Unions                    unions = { celd_alloc (basins->n, sizeof (uint32_t)),
+                                       celd_alloc (basins->n, sizeof (int32_t)) };
+  const CeldBasinBoundary **passage = celd_alloc (basins->n_boundaries, sizeof *passage);
+  int32_t                   open = basins->stroke * basins->stroke;
+  CeldStatus                status = CELD_NO_MEMORY;
+  size_t                    n;
 
-  basins->block = celd_alloc (basins->n, sizeof *basins->block);
-  basins->room = celd_alloc (basins->n, sizeof *basins->room);
-  basins->piece = celd_alloc (basins->n, sizeof *basins->piece);
-  if (!unions.parent || !unions.widest || !passage || !basins->block || !basins->room || !basins->piece)
+  basins->merged = celd_alloc (basins->n, sizeof *basins->merged);
+  basins->enclosure = celd_alloc (basins->n, sizeof *basins->enclosure);
+  basins->component = celd_alloc (basins->n, sizeof *basins->component);
+  if (!unions.parent || !unions.widest || !passage || !basins->merged || !basins->enclosure || !basins->component)
     goto done;
   celd_roots (unions.parent, basins->n);
   for (uint32_t k = 0; k < basins->n; k++)
     unions.widest[k] = basins->basin[k].squared;
   n = find_passages (basins, passage);
   for (size_t i = 0; i < n; i++)
-    if (!parts (&unions, passage[i]))
+    if (!separates (&unions, passage[i]))
       join (&unions, passage[i]->a, passage[i]->b);
-  basins->n_blocks = number_unions (basins, &unions, true, basins->block);
+  basins->n_merged = number_unions (basins, &unions, true, basins->merged);
   for (size_t i = 0; i < n; i++)
-    if (passage[i]->passes && width_of (passage[i]) > open)
+    if (passage[i]->opening && width_of (passage[i]) > open)
       join (&unions, passage[i]->a, passage[i]->b);
-  basins->n_rooms = number_unions (basins, &unions, false, basins->room);
+  basins->n_enclosures = number_unions (basins, &unions, false, basins->enclosure);
   for (size_t i = 0; i < n; i++)
-    if (passage[i]->passes)
+    if (passage[i]->opening)
       join (&unions, passage[i]->a, passage[i]->b);
-  basins->n_pieces = number_unions (basins, &unions, false, basins->piece);
+  basins->n_components = number_unions (basins, &unions, false, basins->component);
   status = CELD_OK;
 
 done:

@@ -14,7 +14,7 @@
 #define PACK 64 /* bytes at a time */
 
 void
-celd_basins_measure (CeldBasins *basins)
+celd_basins_count_areas (CeldBasins *basins)
 {
   for (int y = 0; y < basins->height; y++)
     for (size_t i = basins->row[y], end = basins->row[y + 1]; i < end; i++)
@@ -26,13 +26,13 @@ void
 celd_basins_clear (CeldBasins *basins)
 {
   celd_free (basins->basin);
-  celd_free (basins->border);
+  celd_free (basins->boundary);
   celd_free (basins->row);
   celd_free (basins->run);
   celd_free (basins->paper);
-  celd_free (basins->block);
-  celd_free (basins->room);
-  celd_free (basins->piece);
+  celd_free (basins->merged);
+  celd_free (basins->enclosure);
+  celd_free (basins->component);
   *basins = (CeldBasins) { 0 };
 }
 
@@ -91,7 +91,7 @@ read_band (void *data, int band)
 }
 
 void
-celd_paper_renew (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits)
+celd_paper_update (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits)
 {
   Work work = { ink, bits, *changed };
 
@@ -107,7 +107,7 @@ celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits)
 
   if (!made)
     return CELD_NO_MEMORY;
-  celd_paper_renew (ink, &all, host, made);
+  celd_paper_update (ink, &all, host, made);
   *bits = made;
   return CELD_OK;
 }

@@ -12,9 +12,9 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/bridges.h"
-#include "segment/canvas.h"
 #include "segment/closures.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,9 +24,9 @@ typedef struct
   const CeldPlane  *ink;
   const CeldLabels *labels;
   CeldChains       *chains;
-  uint32_t         *known;      /* edges of chains so far: a hash table, 0 where it is empty */
-  size_t            room, n;    /* room is a power of two */
-} Tracer;
+  uint32_t         *known;       /* edges of chains so far: a hash table, 0 where it is empty */
+  size_t            capacity, n; /* room is a power of two */
+} ChainTracer;
 
 /* Headings: 0 to the right, 1 down, 2 to the left, 3 up. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
@@ -35,7 +35,7 @@ static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 
 /* The edge that leaves a corner with a heading; from 1. */
 static uint32_t
-edge_number (const Tracer *t, CeldCorner corner, int heading)
+edge_number (const ChainTracer *t, CeldCorner corner, int heading)
 {
   uint32_t x = (uint32_t) (corner.x - (heading == 2)), y = (uint32_t) (corner.y - (heading == 3));
 
@@ -44,41 +44,41 @@ edge_number (const Tracer *t, CeldCorner corner, int heading)
 
 /* Where the edge stands in the table, or would. */
 static size_t
-edge_place (const uint32_t *known, size_t room, uint32_t edge)
+edge_place (const uint32_t *known, size_t capacity, uint32_t edge)
 {
-  size_t i = (size_t) ((uint64_t) (uint32_t) (edge * 2654435769u) * room >> 32); /* by the golden ratio [Knu73] */
+  size_t i = (size_t) ((uint64_t) (uint32_t) (edge * 2654435769u) * capacity >> 32); /* by the golden ratio [Knu73] */
 
   while (known[i] && known[i] != edge)
-    i = (i + 1) & (room - 1);
+    i = (i + 1) & (capacity - 1);
   return i;
 }
 
 static CeldStatus
-learn (Tracer *t, uint32_t edge)
+remember (ChainTracer *t, uint32_t edge)
 {
-  if (2 * t->n >= t->room)
+  if (2 * t->n >= t->capacity)
     {
-      size_t    room = t->room ? 2 * t->room : 1024;
-      uint32_t *known = celd_alloc0 (room, sizeof *known);
+      size_t    capacity = t->capacity ? 2 * t->capacity : 1024;
+      uint32_t *known = celd_alloc0 (capacity, sizeof *known);
 
       if (!known)
         return CELD_NO_MEMORY;
-      for (size_t i = 0; i < t->room; i++)
+      for (size_t i = 0; i < t->capacity; i++)
         if (t->known[i])
-          known[edge_place (known, room, t->known[i])] = t->known[i];
+          known[edge_place (known, capacity, t->known[i])] = t->known[i];
       celd_free (t->known);
       t->known = known;
-      t->room  = room;
+      t->capacity  = capacity;
     }
-  t->known[edge_place (t->known, t->room, edge)] = edge;
+  t->known[edge_place (t->known, t->capacity, edge)] = edge;
   t->n++;
   return CELD_OK;
 }
 
 static bool
-is_known (const Tracer *t, uint32_t edge)
+is_known (const ChainTracer *t, uint32_t edge)
 {
-  return t->room && t->known[edge_place (t->known, t->room, edge)];
+  return t->capacity && t->known[edge_place (t->known, t->capacity, edge)];
 }
 
 /* ------------------------------------------------------------------ pixels round a corner */
@@ -91,14 +91,14 @@ pixel_ahead (CeldCorner corner, int heading)
 }
 
 static bool
-is_inside (const Tracer *t, CeldCorner pixel)
+is_inside (const ChainTracer *t, CeldCorner pixel)
 {
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < t->labels->width && pixel.y < t->labels->height;
 }
 
 /* 0 outside. */
 static uint32_t
-label_ahead (const Tracer *t, CeldCorner corner, int heading)
+label_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 {
   CeldCorner pixel = pixel_ahead (corner, heading);
 
@@ -107,7 +107,7 @@ label_ahead (const Tracer *t, CeldCorner corner, int heading)
 
 /* 0 outside and on ink. */
 static uint32_t
-paper_ahead (const Tracer *t, CeldCorner corner, int heading)
+paper_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 {
   CeldCorner pixel = pixel_ahead (corner, heading);
 
@@ -120,7 +120,7 @@ paper_ahead (const Tracer *t, CeldCorner corner, int heading)
 /* The heading with which the edges between two labels go on, or -1.  Where four pixels meet crosswise the smaller label
  * stays connected, whichever way one comes. */
 static int
-go_on (const Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
+go_on (const ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
 {
   uint32_t l = paper_ahead (t, corner, heading), r = paper_ahead (t, corner, heading + 1);
 
@@ -147,7 +147,7 @@ add_corner (CeldChains *chains, CeldCorner corner)
 
 /* What stops a chain at this corner. */
 static CeldChainEnd
-stop_at (const Tracer *t, CeldCorner corner, int heading, CeldCorner *ink)
+stop_at (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *ink)
 {
   for (int i = 0; i < 2; i++)
     {
@@ -162,7 +162,8 @@ stop_at (const Tracer *t, CeldCorner corner, int heading, CeldCorner *ink)
 
 /* Adds this corner, which was reached with a heading, and all that follow; ends at the edge `first`, too. */
 static CeldStatus
-follow (Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right, uint32_t first, CeldChainEnd *end,
+follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right, uint32_t first,
+        CeldChainEnd *end,
         CeldCorner *ink)
 {
   CeldStatus status = add_corner (t->chains, corner);
@@ -180,7 +181,7 @@ follow (Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right
       corner.x += step_x[next];
       corner.y += step_y[next];
       heading   = next;
-      status    = learn (t, edge);
+      status    = remember (t, edge);
       if (status == CELD_OK)
         status = add_corner (t->chains, corner);
     }
@@ -189,7 +190,7 @@ follow (Tracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right
 
 /* The chain through the edge between a pixel and the one below it or to its right, if there is one and it is new. */
 static CeldStatus
-trace (Tracer *t, int x, int y, bool south)
+trace (ChainTracer *t, int x, int y, bool south)
 {
   CeldChains *chains = t->chains;
   CeldChain  *item, chain = { .first = chains->n_corners };
@@ -218,7 +219,7 @@ trace (Tracer *t, int x, int y, bool south)
     }
   chain.left  = left;
   chain.right = right;
-  status = learn (t, edge);
+  status = remember (t, edge);
   if (status == CELD_OK)
     status = follow (t, from, heading ^ 2, right, left, edge, &chain.end[0], &chain.ink[0]);
   for (size_t i = chain.first, j = chains->n_corners; status == CELD_OK && i + 1 < j; i++)
@@ -243,7 +244,7 @@ trace (Tracer *t, int x, int y, bool south)
 /* ------------------------------------------------------------------ where chains can be */
 
 static CeldStatus
-trace_patches (Tracer *t, const CeldPatches *windows)
+trace_patches (ChainTracer *t, const CeldPatches *windows)
 {
   CeldStatus status = CELD_OK;
 
@@ -265,9 +266,9 @@ trace_patches (Tracer *t, const CeldPatches *windows)
 }
 
 static int
-compare_borders (const void *a, const void *b)
+compare_boundaries (const void *a, const void *b)
 {
-  const CeldBorder *p = a, *q = b;
+  const CeldBasinBoundary *p = a, *q = b;
 
   if (p->a != q->a)
     return p->a < q->a ? -1 : 1;
@@ -276,26 +277,26 @@ compare_borders (const void *a, const void *b)
 
 /* Counts the edges of the chains from chain `first` on by the border of basins that they belong to. */
 static void
-count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, uint32_t *passes)
+count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, uint32_t *opening)
 {
   for (size_t k = first; k < chains->n; k++)
     for (size_t i = chains->item[k].first; i + 1 < chains->item[k].first + chains->item[k].n; i++)
       {
-        CeldCorner p = chains->corner[i], q = chains->corner[i + 1];
-        bool       south = p.y == q.y;
-        int        x = (p.x < q.x ? p.x : q.x) - !south, y = (p.y < q.y ? p.y : q.y) - south;
-        uint32_t   a = celd_basin_at (basins, x, y), b = celd_basin_at (basins, x + !south, y + south);
-        CeldBorder key = { .a = a < b ? a : b, .b = a < b ? b : a }, *border;
+        CeldCorner        p = chains->corner[i], q = chains->corner[i + 1];
+        bool              south = p.y == q.y;
+        int               x = (p.x < q.x ? p.x : q.x) - !south, y = (p.y < q.y ? p.y : q.y) - south;
+        uint32_t          a = celd_basin_at (basins, x, y), b = celd_basin_at (basins, x + !south, y + south);
+        CeldBasinBoundary key = { .a = a < b ? a : b, .b = a < b ? b : a }, *boundary;
 
-        border = bsearch (&key, basins->border, basins->n_borders, sizeof key, compare_borders);
-        if (border)
-          passes[border - basins->border]++;
+        boundary = bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key, compare_boundaries);
+        if (boundary)
+          opening[boundary - basins->boundary]++;
       }
 }
 
 /* Walks once round the region on the left of an edge and traces all chains on the way. */
 static CeldStatus
-walk_round (Tracer *t, CeldCorner start, int first)
+walk_around (ChainTracer *t, CeldCorner start, int first)
 {
   CeldCorner corner = start;
   int        heading = first;
@@ -323,25 +324,25 @@ walk_round (Tracer *t, CeldCorner start, int first)
 
 /* Finds the chains of borders of which some passes lie on none so far. */
 static CeldStatus
-trace_missing (Tracer *t, const CeldBasins *basins, const uint32_t *label)
+trace_missing (ChainTracer *t, const CeldBasins *basins, const uint32_t *label)
 {
-  uint32_t  *passes = celd_alloc0 (basins->n_borders, sizeof *passes);
+  uint32_t  *opening = celd_alloc0 (basins->n_boundaries, sizeof *opening);
   size_t     counted = 0;
-  CeldStatus status = passes ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status = opening ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t i = 0; i < basins->n_borders && status == CELD_OK; i++)
+  for (size_t i = 0; i < basins->n_boundaries && status == CELD_OK; i++)
     {
-      const CeldBorder *border = &basins->border[i];
-      CeldCorner        start = { border->x + !border->south, border->y + border->south };
+      const CeldBasinBoundary *boundary = &basins->boundary[i];
+      CeldCorner               start = { boundary->x + !boundary->south, boundary->y + boundary->south };
 
-      count_passes (basins, t->chains, counted, passes);
+      count_passes (basins, t->chains, counted, opening);
       counted = t->chains->n;
-      if (passes[i] >= border->passes || label[border->a] == label[border->b])
+      if (opening[i] >= boundary->opening || label[boundary->a] == label[boundary->b])
         continue;
-      if (label_ahead (t, start, border->south ? 0 : 1) != label_ahead (t, start, border->south ? 1 : 2))
-        status = walk_round (t, start, border->south ? 0 : 1);
+      if (label_ahead (t, start, boundary->south ? 0 : 1) != label_ahead (t, start, boundary->south ? 1 : 2))
+        status = walk_around (t, start, boundary->south ? 0 : 1);
     }
-  celd_free (passes);
+  celd_free (opening);
   return status;
 }
 
@@ -355,7 +356,7 @@ celd_chains_clear (CeldChains *chains)
 
 /* Chains along bridges: the borders of their basins are no passes. */
 static CeldStatus
-trace_bridges (Tracer *t, const CeldBridges *bridges)
+trace_bridges (ChainTracer *t, const CeldBridges *bridges)
 {
   CeldStatus status = CELD_OK;
 
@@ -377,26 +378,27 @@ trace_bridges (Tracer *t, const CeldBridges *bridges)
 }
 
 CeldStatus
-celd_chains_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
+celd_chains_find (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels,
+                  const CeldPatches *windows,
                   CeldChains *chains)
 {
-  const CeldBasins *basins = canvas->basins;
-  Tracer            t = { .ink = canvas->ink, .labels = labels, .chains = chains };
+  const CeldBasins *basins = task->basins;
+  ChainTracer       t = { .ink = task->ink, .labels = labels, .chains = chains };
   size_t            wanted = 0, found = 0;
   CeldStatus        status = CELD_OK;
 
   *chains = (CeldChains) { 0 };
-  for (size_t i = 0; i < basins->n_borders && status == CELD_OK; i++)
+  for (size_t i = 0; i < basins->n_boundaries && status == CELD_OK; i++)
     {
-      const CeldBorder *border = &basins->border[i];
+      const CeldBasinBoundary *boundary = &basins->boundary[i];
 
-      if (!border->passes || label[border->a] == label[border->b])
+      if (!boundary->opening || label[boundary->a] == label[boundary->b])
         continue;
-      wanted += border->passes;
-      status  = trace (&t, border->x, border->y, border->south);
+      wanted += boundary->opening;
+      status  = trace (&t, boundary->x, boundary->y, boundary->south);
     }
-  if (status == CELD_OK && canvas->bridges)
-    status = trace_bridges (&t, canvas->bridges);
+  if (status == CELD_OK && task->bridges)
+    status = trace_bridges (&t, task->bridges);
   if (status == CELD_OK)
     status = trace_patches (&t, windows);
   for (size_t k = 0; k < chains->n; k++)

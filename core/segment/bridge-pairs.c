@@ -32,20 +32,20 @@ struct CeldTipPairs
 {
   const CeldTip *tip;
   int            stroke;
-  bool           last;                    /* no pair is farther than the reach */
-  double         from, reach;             /* distances of the round: from < distance <= reach */
+  bool           last;                     /* no pair is farther than the reach */
+  double         from, most;               /* distances of the round: from < distance <= reach */
   double         left, top, width, height; /* the box of all ends */
 
-  uint32_t      *free;                    /* ends that were not taken when the round began */
-  size_t         n_free;
-  double         side;                    /* of a cell, in pixels */
-  int            columns, rows;
-  size_t        *first;                   /* of each cell, by sectors: the first of these ends in `sorted`; one more */
-  uint32_t      *sorted;                  /* the same ends by cells and sectors */
-  CeldTip       *sorted_tip;
+  uint32_t *free;                         /* ends that were not taken when the round began */
+  size_t    n_free;
+  double    side;                         /* of a cell, in pixels */
+  int       columns, rows;
+  size_t   *first;                        /* of each cell, by sectors: the first of these ends in `sorted`; one more */
+  uint32_t *sorted;                       /* the same ends by cells and sectors */
+  CeldTip  *sorted_tip;
 
-  CeldTipPair   *pair;                    /* by cost */
-  size_t         n, next, ready;          /* those before `ready` cost less than any pair of a later round */
+  CeldTipPair *pair;                      /* by cost */
+  size_t       n, next, ready;            /* those before `ready` cost less than any pair of a later round */
 };
 
 /* ------------------------------------------------------------------ a pair */
@@ -53,13 +53,13 @@ struct CeldTipPairs
 /* May two tips be joined?  What it costs: the distance, more where the lines have to turn, and less where that closes
  * an outline. */
 static bool
-judge (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
+may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
   double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y), least;
   double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
   double side = x * p->dy - y * p->dx, other_side = x * q->dy - y * q->dx;
 
-  if (length < 1 || length <= s->from || length > s->reach)
+  if (length < 1 || length <= s->from || length > s->most)
     return false;
   least = length <= NEAR * s->stroke ? TURN_NEAR : length <= FAR * s->stroke ? TURN : TURN_FAR;
   if (turn < least || other < least || (turn < BOW && other < BOW && side * other_side < 0))
@@ -111,7 +111,7 @@ sort_into_cells (CeldTipPairs *s)
 {
   size_t places, sum = 0;
 
-  s->side    = fmax (s->reach / 8, sqrt ((s->width + 1) * (s->height + 1) / (double) s->n_free));
+  s->side    = fmax (s->most / 8, sqrt ((s->width + 1) * (s->height + 1) / (double) s->n_free));
   s->columns = (int) (s->width / s->side) + 1;
   s->rows    = (int) (s->height / s->side) + 1;
   places     = (size_t) s->columns * (size_t) s->rows * SECTORS;
@@ -178,7 +178,7 @@ search_ends (CeldTipPairs *s, uint32_t i, bool far, size_t from, size_t to)
       CeldTipPair pair = { 0, i, s->sorted[k] };
 
       if (pair.b > i && (!far || may_face (&s->tip[i], &s->sorted_tip[k])) &&
-          judge (s, &s->tip[i], &s->sorted_tip[k], &pair.cost))
+          may_join (s, &s->tip[i], &s->sorted_tip[k], &pair.cost))
         status = add_pair (s, pair);
     }
   return status;
@@ -208,12 +208,12 @@ search_round (CeldTipPairs *s, uint32_t i)
   const CeldTip *tip = &s->tip[i];
   bool           far = s->from >= FAR * s->stroke;
   double         x = tip->x - s->left, y = tip->y - s->top, radius = sqrt (0.5) * s->side;
-  int            right = cell_along (x + s->reach, s->side, s->columns);
-  int            bottom = cell_along (y + s->reach, s->side, s->rows);
+  int            right = cell_along (x + s->most, s->side, s->columns);
+  int            bottom = cell_along (y + s->most, s->side, s->rows);
   CeldStatus     status = CELD_OK;
 
-  for (int row = cell_along (y - s->reach, s->side, s->rows); row <= bottom; row++)
-    for (int column = cell_along (x - s->reach, s->side, s->columns); column <= right && status == CELD_OK; column++)
+  for (int row = cell_along (y - s->most, s->side, s->rows); row <= bottom; row++)
+    for (int column = cell_along (x - s->most, s->side, s->columns); column <= right && status == CELD_OK; column++)
       {
         size_t cell = (size_t) row * (size_t) s->columns + (size_t) column;
 
@@ -256,9 +256,9 @@ widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
   CeldStatus status;
 
   forget (s, taken);
-  s->from  = s->reach;
-  s->reach = s->reach > 0 ? 2 * s->reach : fmax (1, NEAR * s->stroke);
-  s->last  = s->reach > s->width + s->height || s->n_free < 2;
+  s->from  = s->most;
+  s->most = s->most > 0 ? 2 * s->most : fmax (1, NEAR * s->stroke);
+  s->last  = s->most > s->width + s->height || s->n_free < 2;
   status   = s->n_free ? sort_into_cells (s) : CELD_OK;
   for (size_t i = 0; i < s->n_free && status == CELD_OK; i++)
     {
@@ -268,7 +268,7 @@ widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
     }
   if (s->n)
     qsort (s->pair, s->n, sizeof *s->pair, compare_pairs);
-  for (s->ready = 0; s->ready < s->n && (s->last || s->pair[s->ready].cost < (1 - ROUND_OFF) * OWN * s->reach);)
+  for (s->ready = 0; s->ready < s->n && (s->last || s->pair[s->ready].cost < (1 - ROUND_OFF) * OWN * s->most);)
     s->ready++;
   return status;
 }

@@ -140,11 +140,11 @@ celd_bridges_clear (CeldBridges *bridges)
 CeldStatus
 celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges)
 {
-  CeldHostPart    part[2];
-  CeldHost    ends = celd_host_part (&part[0], host, 0, 0.5), join = celd_host_part (&part[1], host, 0.5, 1);
-  CeldBridges found = { 0 };
-  Builder     b = { .ink = ink, .stroke = stroke, .bridges = &found };
-  CeldStatus  status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
+  CeldHostPart part[2];
+  CeldHost     ends = celd_host_part (&part[0], host, 0, 0.5), join = celd_host_part (&part[1], host, 0.5, 1);
+  CeldBridges  found = { 0 };
+  Builder      b = { .ink = ink, .stroke = stroke, .bridges = &found };
+  CeldStatus   status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
 
   if (status != CELD_OK)
     return status;
@@ -286,10 +286,10 @@ join_parts (const CeldBridges *bridges, double length, const CeldPlane *ink, con
 CeldStatus
 celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins *basins)
 {
-  CeldStatus status = join_parts (bridges, 0, ink, basins, basins->piece, &basins->n_pieces);
+  CeldStatus status = join_parts (bridges, 0, ink, basins, basins->component, &basins->n_components);
 
   if (status == CELD_OK)
-    status = join_parts (bridges, 2.0 * basins->stroke, ink, basins, basins->room, &basins->n_rooms);
+    status = join_parts (bridges, 2.0 * basins->stroke, ink, basins, basins->enclosure, &basins->n_enclosures);
   return status;
 }
 
@@ -297,18 +297,18 @@ celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins 
 
 /* Remembers what the bridges part, before pieces are joined over them. */
 static CeldStatus
-keep_cells (const CeldBasins *basins, uint32_t **cell)
+keep_components (const CeldBasins *basins, uint32_t **bridged_component)
 {
-  *cell = celd_alloc (basins->n, sizeof **cell);
-  if (!*cell)
+  *bridged_component = celd_alloc (basins->n, sizeof **bridged_component);
+  if (!*bridged_component)
     return CELD_NO_MEMORY;
-  memcpy (*cell, basins->piece, basins->n * sizeof **cell);
+  memcpy (*bridged_component, basins->component, basins->n * sizeof **bridged_component);
   return CELD_OK;
 }
 
 CeldStatus
 celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
-                          CeldBridges *bridges, CeldBasins *basins, uint32_t **cell)
+                          CeldBridges *bridges, CeldBasins *basins, uint32_t **bridged_component)
 {
   CeldHostPart    part[2];
   CeldHost    find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
@@ -327,7 +327,7 @@ celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float thresho
   if (status == CELD_OK)
     status = celd_basins_make (made.n ? &copy : ink, changed, threshold, &make, basins);
   if (status == CELD_OK && made.n)
-    status = keep_cells (basins, cell);
+    status = keep_components (basins, bridged_component);
   if (status == CELD_OK)
     status = celd_bridges_join (&made, ink, basins);
   celd_free (copy.data);

@@ -66,6 +66,6 @@ CeldStatus celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, 
  * the beginning.  *cell, which is NULL before, gets each basin's piece without joining pieces over bridges; it stays NULL
  * where there are no bridges.  After a failure *bridges are the old ones, and *basins may be the new ones. */
 CeldStatus celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
-                                     CeldBridges *bridges, CeldBasins *basins, uint32_t **cell);
+                                     CeldBridges *bridges, CeldBasins *basins, uint32_t **bridged_component);
 
 #endif

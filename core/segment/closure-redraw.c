@@ -10,7 +10,7 @@
  */
 #include "image/image.h"
 #include "segment/closures.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 #include <stdlib.h>
 
@@ -29,11 +29,11 @@ is_inside (const CeldRedrawing *r, int x, int y)
 static bool
 near_ink (const CeldRedrawing *r, int x, int y)
 {
-  int reach = 1 + r->canvas->basins->stroke / SHARP;
+  int radius = 1 + r->task->basins->stroke / SHARP;
 
-  for (int v = y - reach; v <= y + reach; v++)
-    for (int u = x - reach; u <= x + reach; u++)
-      if (is_inside (r, u, v) && !celd_is_paper (CELD_AT (r->canvas->ink, u, v)))
+  for (int v = y - radius; v <= y + radius; v++)
+    for (int u = x - radius; u <= x + radius; u++)
+      if (is_inside (r, u, v) && !celd_is_paper (CELD_AT (r->task->ink, u, v)))
         return true;
   return false;
 }
@@ -53,9 +53,9 @@ distance_to_chain (const CeldRedrawing *r, const CeldChain *chain, CeldPlace pla
 }
 
 static double
-length_of (const CeldBorderCurve *way)
+length_of (const CeldClosureCurve *curve)
 {
-  return celd_distance_between (way->place[0], way->place[way->n - 1]);
+  return celd_distance_between (curve->place[0], curve->place[curve->n - 1]);
 }
 
 static double
@@ -66,32 +66,32 @@ line_width (const CeldRedrawing *r)
 
 /* May the new border run here?  On paper of the two labels; over ink only where it begins and ends. */
 static bool
-may_run (const CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, CeldPlace place)
+is_allowed (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, CeldPlace place)
 {
   int      x = (int) floor (place.x), y = (int) floor (place.y);
   double   tip = TIP + line_width (r) / 2;
-  bool     at_end = celd_distance_between (place, way->place[0]) <= tip ||
-                    celd_distance_between (place, way->place[way->n - 1]) <= tip;
+  bool     at_end = celd_distance_between (place, curve->place[0]) <= tip ||
+                    celd_distance_between (place, curve->place[curve->n - 1]) <= tip;
   float    ink;
   uint32_t label;
 
   if (!is_inside (r, x, y))
     return at_end;
-  ink   = CELD_AT (r->canvas->ink, x, y);
+  ink   = CELD_AT (r->task->ink, x, y);
   label = CELD_AT (r->labels, x, y);
   if (!celd_is_paper (ink))
-    return at_end && (celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y));
-  return (label == chain->left || label == chain->right) && (!(ink < CELD_FAINT) || near_ink (r, x, y));
+    return at_end && (celd_line_end_contains (&r->end[0], x, y) || celd_line_end_contains (&r->end[1], x, y));
+  return (label == chain->left || label == chain->right) && (!(ink < CELD_FAINT_INK) || near_ink (r, x, y));
 }
 
 static bool
-is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
+is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve)
 {
-  double most = length_of (way) / 2 + line_width (r) + 1;
+  double most = length_of (curve) / 2 + line_width (r) + 1;
 
-  for (size_t i = 0; i + 1 < way->n; i++)
+  for (size_t i = 0; i + 1 < curve->n; i++)
     {
-      CeldPlace p = way->place[i], q = way->place[i + 1];
+      CeldPlace p = curve->place[i], q = curve->place[i + 1];
       int       steps = (int) ceil (2 * celd_distance_between (p, q));
 
       for (int k = 0; k < steps; k++)
@@ -99,7 +99,7 @@ is_free (const CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *
           double    t = (k + 0.5) / steps;
           CeldPlace place = { p.x + t * (q.x - p.x), p.y + t * (q.y - p.y) };
 
-          if (!may_run (r, chain, way, place) || (k % 4 == 0 && distance_to_chain (r, chain, place) > most))
+          if (!is_allowed (r, chain, curve, place) || (k % 4 == 0 && distance_to_chain (r, chain, place) > most))
             return false;
         }
     }
@@ -115,7 +115,7 @@ add_crossings (CeldRedrawing *r, CeldPlace p, CeldPlace q)
 
   for (int y = (int) ceil (top - 0.5); y + 0.5 < bottom; y++)
     {
-      double    x = p.x + (y + 0.5 - p.y) * (q.x - p.x) / (q.y - p.y);
+      double           x = p.x + (y + 0.5 - p.y) * (q.x - p.x) / (q.y - p.y);
       CeldRowCrossing *item = celd_grow (r->crossing, r->n_crossings + 1, sizeof *item);
 
       if (!item)
@@ -164,7 +164,7 @@ add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace 
 
 /* The outline: the old border, and the new one backwards. */
 static CeldStatus
-outline (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
+outline (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve)
 {
   const CeldCorner *corner = &r->chains->corner[chain->first];
   CeldStatus        status = CELD_OK;
@@ -173,12 +173,12 @@ outline (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
   for (size_t i = 0; i + 1 < chain->n && status == CELD_OK; i++)
     status = add_crossings (r, (CeldPlace) { corner[i].x, corner[i].y },
                             (CeldPlace) { corner[i + 1].x, corner[i + 1].y });
-  if (status == CELD_OK && !way->straight && r->end[1].n)
-    status = add_ink (r, &r->end[1], corner[chain->n - 1], way->place[way->n - 1], false);
-  for (size_t i = way->n - 1; i > 0 && status == CELD_OK; i--)
-    status = add_crossings (r, way->place[i], way->place[i - 1]);
-  if (status == CELD_OK && !way->straight && r->end[0].n)
-    status = add_ink (r, &r->end[0], corner[0], way->place[0], true);
+  if (status == CELD_OK && !curve->straight && r->end[1].n)
+    status = add_ink (r, &r->end[1], corner[chain->n - 1], curve->place[curve->n - 1], false);
+  for (size_t i = curve->n - 1; i > 0 && status == CELD_OK; i--)
+    status = add_crossings (r, curve->place[i], curve->place[i - 1]);
+  if (status == CELD_OK && !curve->straight && r->end[0].n)
+    status = add_ink (r, &r->end[0], corner[0], curve->place[0], true);
   if (r->n_crossings)
     qsort (r->crossing, r->n_crossings, sizeof *r->crossing, compare_crossings);
   return status;
@@ -188,7 +188,7 @@ outline (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way)
 static bool
 has_seed (const CeldRedrawing *r, int y, int x, int end, uint32_t label)
 {
-  const CeldSeedRow *row = &r->canvas->seeds.row[y];
+  const CeldSeedRow *row = &r->task->seeds.row[y];
 
   for (size_t i = 0; i < row->n && row->run[i].x < end; i++)
     if (row->run[i].end > x && row->run[i].label != label)
@@ -197,11 +197,11 @@ has_seed (const CeldRedrawing *r, int y, int x, int end, uint32_t label)
 }
 
 static bool
-is_flipped (const CeldRedrawing *r, int y, int x, int end)
+is_relabelled (const CeldRedrawing *r, int y, int x, int end)
 {
-  for (size_t k = 0; k < r->n_flips; k++)
-    if (y >= r->flips[k].least.y && y <= r->flips[k].most.y && end > r->flips[k].least.x && x <= r->flips[k].most.x)
-      for (size_t i = r->flips[k].first; i < r->flips[k].last; i++)
+  for (size_t k = 0; k < r->n_done; k++)
+    if (y >= r->done[k].least.y && y <= r->done[k].most.y && end > r->done[k].least.x && x <= r->done[k].most.x)
+      for (size_t i = r->done[k].first; i < r->done[k].last; i++)
         if (r->patches.item[i].y == y && r->patches.item[i].x < end && r->patches.item[i].end > x)
           return true;
   return false;
@@ -209,7 +209,7 @@ is_flipped (const CeldRedrawing *r, int y, int x, int end)
 
 /* Gives the paper in pixels x .. end - 1 of row y to `label`; *may becomes false if something stands against it. */
 static CeldStatus
-flip (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, bool *may)
+relabel (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, bool *allowed)
 {
   CeldStatus status = CELD_OK;
 
@@ -217,59 +217,59 @@ flip (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, boo
   end = end < r->labels->width ? end : r->labels->width;
   if (x >= end || y < 0 || y >= r->labels->height)
     return CELD_OK;
-  *may = !has_seed (r, y, x, end, label) && !is_flipped (r, y, x, end);
-  for (; x < end && *may && status == CELD_OK; x++)
+  *allowed = !has_seed (r, y, x, end, label) && !is_relabelled (r, y, x, end);
+  for (; x < end && *allowed && status == CELD_OK; x++)
     {
-      float    ink = CELD_AT (r->canvas->ink, x, y);
+      float    ink = CELD_AT (r->task->ink, x, y);
       uint32_t now = CELD_AT (r->labels, x, y);
 
       if (!celd_is_paper (ink))
-        *may = celd_line_end_has (&r->end[0], x, y) || celd_line_end_has (&r->end[1], x, y);
-      else if ((now != old && now != label) || ((ink < CELD_FAINT || now != old) && !near_ink (r, x, y)))
-        *may = false; /* the rims of lines may be faint, and of the right label already */
+        *allowed = celd_line_end_contains (&r->end[0], x, y) || celd_line_end_contains (&r->end[1], x, y);
+      else if ((now != old && now != label) || ((ink < CELD_FAINT_INK || now != old) && !near_ink (r, x, y)))
+        *allowed = false; /* the rims of lines may be faint, and of the right label already */
       else if (now == old)
-        status = celd_patch_add (&r->flipped, (CeldPatch) { y, x, x + 1, label });
+        status = celd_patch_add (&r->relabelled, (CeldPatch) { y, x, x + 1, label });
     }
   return status;
 }
 
-/* CeldFlips all that the outline encloses. */
+/* CeldClosurePatches all that the outline encloses. */
 static CeldStatus
-flip_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, bool *may)
+relabel_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, bool *allowed)
 {
-  double     length = length_of (way), most = length * (length / 2 + line_width (r)) + 4, area = 0;
+  double     length = length_of (curve), most = length * (length / 2 + line_width (r)) + 4, area = 0;
   int        winding = 0;
   CeldStatus status = CELD_OK;
 
-  for (size_t i = 0; i + 1 < r->n_crossings && *may && status == CELD_OK; i++)
+  for (size_t i = 0; i + 1 < r->n_crossings && *allowed && status == CELD_OK; i++)
     {
       const CeldRowCrossing *left = &r->crossing[i], *right = left + 1;
-      int             x = (int) ceil (left->x - 0.5), end = (int) ceil (right->x - 0.5);
+      int                    x = (int) ceil (left->x - 0.5), end = (int) ceil (right->x - 0.5);
 
       winding += left->sign;
       if (!winding || x >= end)
         continue;
       area += end - x;
-      *may  = winding >= -1 && winding <= 1 && area <= most;
-      if (*may && winding > 0)
-        status = flip (r, left->y, x, end, chain->left, chain->right, may);
-      else if (*may)
-        status = flip (r, left->y, x, end, chain->right, chain->left, may);
+      *allowed  = winding >= -1 && winding <= 1 && area <= most;
+      if (*allowed && winding > 0)
+        status = relabel (r, left->y, x, end, chain->left, chain->right, allowed);
+      else if (*allowed)
+        status = relabel (r, left->y, x, end, chain->right, chain->left, allowed);
     }
   return status;
 }
 
 /* Adds what the way flipped to the patches. */
 static CeldStatus
-keep_flipped (CeldRedrawing *r)
+keep_relabelled (CeldRedrawing *r)
 {
-  CeldFlips  flips = { r->patches.n, r->patches.n, { INT32_MAX, INT32_MAX }, { 0, 0 } };
-  CeldFlips *item = celd_grow (r->flips, r->n_flips + 1, sizeof *item);
+  CeldClosurePatches  done = { r->patches.n, r->patches.n, { INT32_MAX, INT32_MAX }, { 0, 0 } };
+  CeldClosurePatches *item = celd_grow (r->done, r->n_done + 1, sizeof *item);
 
   if (!item)
     return CELD_NO_MEMORY;
-  r->flips = item;
-  for (size_t i = 0; i < r->flipped.n; i++)
+  r->done = item;
+  for (size_t i = 0; i < r->relabelled.n; i++)
     {
       CeldPatch *patch = celd_grow (r->patches.item, r->patches.n + 1, sizeof *patch);
 
@@ -277,30 +277,30 @@ keep_flipped (CeldRedrawing *r)
         return CELD_NO_MEMORY;
       r->patches.item = patch;
       patch += r->patches.n++;
-      *patch = r->flipped.item[i];
-      flips.least.x = patch->x < flips.least.x ? patch->x : flips.least.x;
-      flips.least.y = patch->y < flips.least.y ? patch->y : flips.least.y;
-      flips.most.x  = patch->end > flips.most.x ? patch->end : flips.most.x;
-      flips.most.y  = patch->y > flips.most.y ? patch->y : flips.most.y;
+      *patch = r->relabelled.item[i];
+      done.least.x = patch->x < done.least.x ? patch->x : done.least.x;
+      done.least.y = patch->y < done.least.y ? patch->y : done.least.y;
+      done.most.x  = patch->end > done.most.x ? patch->end : done.most.x;
+      done.most.y  = patch->y > done.most.y ? patch->y : done.most.y;
     }
-  flips.last = r->patches.n;
-  item[r->n_flips++] = flips;
+  done.last = r->patches.n;
+  item[r->n_done++] = done;
   return CELD_OK;
 }
 
 CeldStatus
-celd_redraw (CeldRedrawing *r, const CeldChain *chain, const CeldBorderCurve *way, bool *may)
+celd_boundary_redraw (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, bool *allowed)
 {
   CeldStatus status = CELD_OK;
 
-  r->flipped.n = 0;
-  *may = is_free (r, chain, way);
-  if (*may)
-    status = outline (r, chain, way);
-  if (*may && status == CELD_OK)
-    status = flip_enclosed (r, chain, way, may);
-  if (*may && status == CELD_OK)
-    status = keep_flipped (r);
+  r->relabelled.n = 0;
+  *allowed = is_free (r, chain, curve);
+  if (*allowed)
+    status = outline (r, chain, curve);
+  if (*allowed && status == CELD_OK)
+    status = relabel_enclosed (r, chain, curve, allowed);
+  if (*allowed && status == CELD_OK)
+    status = keep_relabelled (r);
   return status;
 }
 
@@ -309,9 +309,9 @@ celd_redrawing_clear (CeldRedrawing *redrawing)
 {
   for (int k = 0; k < 2; k++)
     celd_line_end_clear (&redrawing->end[k]);
-  celd_patches_clear (&redrawing->flipped);
+  celd_patches_clear (&redrawing->relabelled);
   celd_patches_clear (&redrawing->patches);
   celd_free (redrawing->crossing);
-  celd_free (redrawing->flips);
+  celd_free (redrawing->done);
   *redrawing = (CeldRedrawing) { 0 };
 }

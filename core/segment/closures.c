@@ -14,8 +14,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "segment/canvas.h"
 #include "segment/closures.h"
+#include "segment/task.h"
 
 #include <math.h>
 
@@ -139,15 +139,15 @@ find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
 
   for (int k = 0; k < 2; k++)
     if (chain->end[k] == CELD_CHAIN_INK)
-      celd_line_end_look (r->canvas->ink, chain->ink[k], &r->end[k]);
+      celd_line_end_fit (r->task->ink, chain->ink[k], &r->end[k]);
     else
-      celd_line_end_none (corner[k ? chain->n - 1 : 0], &r->end[k]);
+      celd_line_end_set_corner (corner[k ? chain->n - 1 : 0], &r->end[k]);
   if (b->n && !b->tip)
-    celd_line_end_face (r->canvas->ink, a, b);
+    celd_line_end_aim (r->task->ink, a, b);
   if (a->n && !a->tip)
-    celd_line_end_face (r->canvas->ink, b, a);
+    celd_line_end_aim (r->task->ink, b, a);
   if (b->n && !b->tip && !a->tip)
-    celd_line_end_face (r->canvas->ink, a, b); /* once more: the narrowest place between two sides */
+    celd_line_end_aim (r->task->ink, a, b); /* once more: the narrowest place between two sides */
   if (!a->n || !b->n)
     a->tip = b->tip = false;   /* nothing says with which direction a border meets the frame */
 }
@@ -162,7 +162,7 @@ is_white (const CeldPlane *ink, const CeldChain *chain, const CeldCorner *corner
       int  y = corner[i].y < corner[i + 1].y ? corner[i].y : corner[i + 1].y;
       bool south = corner[i].y == corner[i + 1].y;
 
-      if (!(CELD_AT (ink, x, y) < CELD_FAINT) && !(CELD_AT (ink, x - !south, y - south) < CELD_FAINT))
+      if (!(CELD_AT (ink, x, y) < CELD_FAINT_INK) && !(CELD_AT (ink, x - !south, y - south) < CELD_FAINT_INK))
         return true;
     }
   return false;
@@ -173,50 +173,50 @@ static CeldStatus
 close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
 {
   const CeldCorner *corner = &r->chains->corner[chain->first];
-  CeldBorderCurve           way = { .n = 0 };
+  CeldClosureCurve  curve = { .n = 0 };
   bool              done = false;
   CeldStatus        status = CELD_OK;
 
-  if (chain->end[0] == CELD_CHAIN_LOOP || !is_white (r->canvas->ink, chain, corner))
+  if (chain->end[0] == CELD_CHAIN_LOOP || !is_white (r->task->ink, chain, corner))
     return CELD_OK;
   find_ends (r, chain, corner);
-  way.n = celd_curve_draw (&r->end[0], &r->end[1], way.place);
+  curve.n = celd_curve_draw (&r->end[0], &r->end[1], curve.place);
   for (int attempt = 0; attempt < 3 && !done && status == CELD_OK; attempt++)
     {
       if (attempt)
         {
-          way.place[1] = way.place[way.n - 1];
-          way.n        = 2;
-          way.straight = attempt == 2;
+          curve.place[1] = curve.place[curve.n - 1];
+          curve.n        = 2;
+          curve.straight = attempt == 2;
         }
-      for (int k = 0; k < 2 && way.straight; k++)
+      for (int k = 0; k < 2 && curve.straight; k++)
         {
           CeldCorner end = corner[k ? chain->n - 1 : 0];
 
-          way.place[k] = (CeldPlace) { end.x, end.y };
+          curve.place[k] = (CeldPlace) { end.x, end.y };
         }
-      status = celd_redraw (r, chain, &way, &done);
+      status = celd_boundary_redraw (r, chain, &curve, &done);
     }
   if (status != CELD_OK)
     return status;
   if (!done)
     return add_old (chain, corner, closures);
-  if (celd_distance_between (way.place[0], way.place[way.n - 1]) < SHORTEST)
+  if (celd_distance_between (curve.place[0], curve.place[curve.n - 1]) < SHORTEST)
     return CELD_OK; /* from a tip to the same tip */
-  return add_closure (chain, way.place, way.n, closures);
+  return add_closure (chain, curve.place, curve.n, closures);
 }
 
 CeldStatus
-celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels,
+celd_closures_find (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels,
                     const CeldPatches *windows, const CeldHost *host, CeldClosures *closures, CeldPatches *patches)
 {
   CeldChains    chains;
-  CeldRedrawing redrawing = { .canvas = canvas, .labels = labels, .chains = &chains };
+  CeldRedrawing redrawing = { .task = task, .labels = labels, .chains = &chains };
   CeldClosures  found = { 0 };
-  CeldStatus    status = celd_chains_find (canvas, label, labels, windows, &chains);
+  CeldStatus    status = celd_chains_find (task, label, labels, windows, &chains);
 
   for (int k = 0; k < 2 && status == CELD_OK; k++)
-    status = celd_line_end_new (canvas->basins->stroke, &redrawing.end[k]);
+    status = celd_line_end_new (task->basins->stroke, &redrawing.end[k]);
   for (size_t i = 0; i < chains.n && status == CELD_OK; i++)
     {
       status = celd_progress (host, (double) i / (double) chains.n);
@@ -240,7 +240,7 @@ celd_closures_find (const CeldCanvas *canvas, const uint32_t *label, const CeldL
 
 /* How far a place is from the piece of a line between two others. */
 static double
-distance_to_piece (CeldPlace place, CeldPlace p, CeldPlace q)
+distance_to_segment (CeldPlace place, CeldPlace p, CeldPlace q)
 {
   double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
   double t = square > 0 ? ((place.x - p.x) * x + (place.y - p.y) * y) / square : 0;
@@ -263,24 +263,24 @@ blend (uint8_t *rgba, double opacity)
 
 /* A pixel belongs to the piece that is nearest, so that it is painted once where two pieces meet. */
 static void
-paint_piece (const CeldClosure *closure, size_t i, double width, CeldPaint *paint)
+paint_segment (const CeldClosure *closure, size_t i, double width, CeldPaint *paint)
 {
   const CeldPlace *place = closure->place;
-  double           reach = width / 2 + 0.5;
-  int              left = (int) fmax (floor (fmin (place[i].x, place[i + 1].x) - reach), 0);
-  int              top = (int) fmax (floor (fmin (place[i].y, place[i + 1].y) - reach), 0);
-  int              right = (int) fmin (ceil (fmax (place[i].x, place[i + 1].x) + reach), paint->width);
-  int              bottom = (int) fmin (ceil (fmax (place[i].y, place[i + 1].y) + reach), paint->height);
+  double           radius = width / 2 + 0.5;
+  int              left = (int) fmax (floor (fmin (place[i].x, place[i + 1].x) - radius), 0);
+  int              top = (int) fmax (floor (fmin (place[i].y, place[i + 1].y) - radius), 0);
+  int              right = (int) fmin (ceil (fmax (place[i].x, place[i + 1].x) + radius), paint->width);
+  int              bottom = (int) fmin (ceil (fmax (place[i].y, place[i + 1].y) + radius), paint->height);
 
   for (int y = top; y < bottom; y++)
     for (int x = left; x < right; x++)
       {
         CeldPlace centre = { x + 0.5, y + 0.5 };
-        double    off = distance_to_piece (centre, place[i], place[i + 1]);
-        double    opacity = fmin (reach - off, fmin (width, 1));
+        double    off = distance_to_segment (centre, place[i], place[i + 1]);
+        double    opacity = fmin (radius - off, fmin (width, 1));
 
-        if (opacity <= 0 || (i && distance_to_piece (centre, place[i - 1], place[i]) <= off) ||
-            (i + 2 < closure->n && distance_to_piece (centre, place[i + 1], place[i + 2]) < off))
+        if (opacity <= 0 || (i && distance_to_segment (centre, place[i - 1], place[i]) <= off) ||
+            (i + 2 < closure->n && distance_to_segment (centre, place[i + 1], place[i + 2]) < off))
           continue;
         blend (CELD_RGBA (paint, x, y), opacity);
       }
@@ -291,5 +291,5 @@ celd_closures_paint (const CeldClosures *closures, double width, CeldPaint *pain
 {
   for (size_t k = 0; k < closures->n; k++)
     for (size_t i = 0; i + 1 < closures->item[k].n; i++)
-      paint_piece (&closures->item[k], i, width, paint);
+      paint_segment (&closures->item[k], i, width, paint);
 }

@@ -15,15 +15,15 @@
 
 #define NO_KIND UINT32_MAX
 #define FINE    4        /* pixels; in squares up to here ink costs less the deeper it is */
-#define DEPTH   4        /* pixels; deeper ink counts as this deep */
-#define COARSE_DEPTH 4   /* squared; what ink counts as in larger ones, so that cuts like the middle of lines */
+#define MOST_TO_PAPER   4        /* pixels; deeper ink counts as this deep */
+#define COARSE_TO_PAPER 4   /* squared; what ink counts as in larger ones, so that cuts like the middle of lines */
 
 /* The first x in row y from which a square has something inside; `right` if there is none.  Single pixels are told at a
  * glance, of others the visit finds out. */
 static int
-skip_outside (const CeldMesh *mesh, int x, int y, int right, int size)
+skip_outside (const CeldCutGraph *graph, int x, int y, int right, int size)
 {
-  const uint8_t *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, y);
+  const uint8_t *mark = graph->cut->mark + celd_cut_index (graph->cut, x, y);
   const uint8_t *inside = size > 1 || x >= right ? mark : memchr (mark, CELD_INSIDE, (size_t) (right - x));
 
   return inside ? x + (int) (inside - mark) : right;
@@ -31,46 +31,46 @@ skip_outside (const CeldMesh *mesh, int x, int y, int right, int size)
 
 /* The squares of a tile. */
 static CeldStatus
-visit_tile (CeldMesh *mesh, CeldSquareVisit visit, int left, int top, int right, int bottom, int size)
+visit_tile (CeldCutGraph *graph, CeldSquareVisit visit, int left, int top, int right, int bottom, int size)
 {
   CeldStatus status = CELD_OK;
 
   for (int y = top; y < bottom; y += size)
-    for (int x = left; (x = skip_outside (mesh, x, y, right, size)) < right && status == CELD_OK; x += size)
-      status = visit (mesh, x, y, x + size < right ? x + size : right, y + size < bottom ? y + size : bottom, size);
+    for (int x = left; (x = skip_outside (graph, x, y, right, size)) < right && status == CELD_OK; x += size)
+      status = visit (graph, x, y, x + size < right ? x + size : right, y + size < bottom ? y + size : bottom, size);
   return status;
 }
 
 CeldStatus
-celd_mesh_squares (CeldMesh *mesh, CeldSquareVisit visit)
+celd_cut_graph_visit_squares (CeldCutGraph *graph, CeldSquareVisit visit)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
   CeldStatus     status = CELD_OK;
 
-  for (int t = 0; t < mesh->columns * mesh->rows && status == CELD_OK; t++)
+  for (int t = 0; t < graph->columns * graph->rows && status == CELD_OK; t++)
     {
-      int left = cut->left + t % mesh->columns * CELD_CUT_SQUARE, right = left + CELD_CUT_SQUARE;
-      int top = cut->top + t / mesh->columns * CELD_CUT_SQUARE, bottom = top + CELD_CUT_SQUARE;
+      int left = cut->left + t % graph->columns * CELD_CUT_SQUARE, right = left + CELD_CUT_SQUARE;
+      int top = cut->top + t / graph->columns * CELD_CUT_SQUARE, bottom = top + CELD_CUT_SQUARE;
 
       right  = right > cut->right ? cut->right + 1 : right;
       bottom = bottom > cut->bottom ? cut->bottom + 1 : bottom;
-      if (mesh->open[t])
-        status = visit_tile (mesh, visit, left, top, right, bottom, mesh->size[t]);
+      if (graph->active[t])
+        status = visit_tile (graph, visit, left, top, right, bottom, graph->size[t]);
     }
   return status;
 }
 
 uint32_t
-celd_mesh_at (const CeldMesh *mesh, int x, int y)
+celd_cut_graph_node_at (const CeldCutGraph *graph, int x, int y)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
   int            column = (x - cut->left) / CELD_CUT_SQUARE, row = (y - cut->top) / CELD_CUT_SQUARE;
-  int            within = mesh->size[row * mesh->columns + column] - 1; /* sizes are powers of two */
-  size_t         corner = celd_cut_pixel (cut, x - ((x - cut->left) & within), y - ((y - cut->top) & within));
+  int            within = graph->size[row * graph->columns + column] - 1; /* sizes are powers of two */
+  size_t         corner = celd_cut_index (cut, x - ((x - cut->left) & within), y - ((y - cut->top) & within));
 
-  if (cut->mark[corner] == CELD_INSIDE && mesh->node[cut->node[corner]].whole)
+  if (cut->mark[corner] == CELD_INSIDE && graph->node[cut->node[corner]].whole)
     return cut->node[corner];
-  return cut->node[celd_cut_pixel (cut, x, y)];
+  return cut->node[celd_cut_index (cut, x, y)];
 }
 
 /* ------------------------------------------------------------------ nodes */
@@ -79,13 +79,13 @@ celd_mesh_at (const CeldMesh *mesh, int x, int y)
 typedef struct { bool inside, outside, ink; } Contents;
 
 static Contents
-look (const CeldMesh *mesh, int x, int y, int right, int bottom)
+look (const CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
   unsigned inside = 0, outside = 0, ink = 0;
 
   for (int v = y; v < bottom; v++)
     {
-      const uint8_t *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, v);
+      const uint8_t *mark = graph->cut->mark + celd_cut_index (graph->cut, x, v);
       uint8_t        marked = 0, unmarked = 0;
 
       for (int u = 0; u < right - x; u++)
@@ -98,7 +98,7 @@ look (const CeldMesh *mesh, int x, int y, int right, int bottom)
     }
   for (int v = y; v < bottom && inside && !outside; v++)
     {
-      const float *value = &CELD_AT (mesh->cut->canvas->ink, x, v);
+      const float *value = &CELD_AT (graph->cut->task->ink, x, v);
 
       for (int u = 0; u < right - x; u++)
         ink |= value[u] < 0.5f;
@@ -107,23 +107,23 @@ look (const CeldMesh *mesh, int x, int y, int right, int bottom)
 }
 
 static CeldStatus
-add_node (CeldMesh *mesh, CeldCutNode node)
+add_node (CeldCutGraph *graph, CeldCutNode node)
 {
-  CeldCutNode *grown = celd_grow (mesh->node, mesh->n + 1, sizeof *grown);
+  CeldCutNode *grown = celd_grow (graph->node, graph->n + 1, sizeof *grown);
 
   if (!grown)
     return CELD_NO_MEMORY;
-  mesh->node = grown;
-  mesh->node[mesh->n++] = node;
+  graph->node = grown;
+  graph->node[graph->n++] = node;
   return CELD_OK;
 }
 
 /* The kind of each pixel inside: pixels of one node are of one kind. */
 static void
-tell_kinds (CeldMesh *mesh, int x, int y, int right, int bottom)
+tell_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
-  const CeldBasins *basins = mesh->cut->canvas->basins;
-  uint32_t         *kind = mesh->kind;
+  const CeldBasins *basins = graph->cut->task->basins;
+  uint32_t         *kind = graph->kind;
 
   for (int v = y; v < bottom; v++)
     {
@@ -133,26 +133,26 @@ tell_kinds (CeldMesh *mesh, int x, int y, int right, int bottom)
         {
           if (u == celd_basin_run_end (basins, k, v))
             k++;
-          *kind++ = mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] != CELD_INSIDE ? NO_KIND
-                  : 2 * basins->run[k].basin + celd_is_paper (CELD_AT (mesh->cut->canvas->ink, u, v));
+          *kind++ = graph->cut->mark[celd_cut_index (graph->cut, u, v)] != CELD_INSIDE ? NO_KIND
+                  : 2 * basins->run[k].basin + celd_is_paper (CELD_AT (graph->cut->task->ink, u, v));
         }
     }
 }
 
 /* Gives the pixels that join pixel i of a square `width` wide, of the same kind, the number of the last node. */
 static void
-flood (CeldMesh *mesh, int x, int y, int width, int height, int i)
+flood (CeldCutGraph *graph, int x, int y, int width, int height, int i)
 {
-  uint32_t *kind = mesh->kind, same = kind[i];
+  uint32_t *kind = graph->kind, same = kind[i];
   int       n = 0;
 
-#define TAKE(j) (kind[j] = NO_KIND, mesh->stack[n++] = (uint16_t) (j))
+#define TAKE(j) (kind[j] = NO_KIND, graph->stack[n++] = (uint16_t) (j))
   TAKE (i);
   while (n)
     {
-      int j = mesh->stack[--n], u = j % width, v = j / width;
+      int j = graph->stack[--n], u = j % width, v = j / width;
 
-      mesh->cut->node[celd_cut_pixel (mesh->cut, x + u, y + v)] = (uint32_t) mesh->n - 1;
+      graph->cut->node[celd_cut_index (graph->cut, x + u, y + v)] = (uint32_t) graph->n - 1;
       if (u > 0 && kind[j - 1] == same)
         TAKE (j - 1);
       if (u + 1 < width && kind[j + 1] == same)
@@ -166,9 +166,9 @@ flood (CeldMesh *mesh, int x, int y, int width, int height, int i)
 }
 
 static CeldStatus
-number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
+number_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  Contents    has = look (mesh, x, y, right, bottom);
+  Contents    has = look (graph, x, y, right, bottom);
   CeldCutNode node = { .x = x, .y = y, .size = size, .whole = !has.outside && !has.ink, .ink = has.ink };
   CeldStatus  status = CELD_OK;
 
@@ -176,19 +176,19 @@ number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
     return CELD_OK;
   if (node.whole || size == 1)
     {
-      mesh->cut->node[celd_cut_pixel (mesh->cut, x, y)] = (uint32_t) mesh->n;
-      return add_node (mesh, node);
+      graph->cut->node[celd_cut_index (graph->cut, x, y)] = (uint32_t) graph->n;
+      return add_node (graph, node);
     }
-  tell_kinds (mesh, x, y, right, bottom);
+  tell_kinds (graph, x, y, right, bottom);
   for (int i = 0; i < (right - x) * (bottom - y) && status == CELD_OK; i++)
     {
-      if (mesh->kind[i] == NO_KIND)
+      if (graph->kind[i] == NO_KIND)
         continue;
-      node.ink   = mesh->kind[i] % 2 == 0;
-      node.basin = mesh->kind[i] / 2;
-      status     = add_node (mesh, node);
+      node.ink   = graph->kind[i] % 2 == 0;
+      node.basin = graph->kind[i] / 2;
+      status     = add_node (graph, node);
       if (status == CELD_OK)
-        flood (mesh, x, y, right - x, bottom - y, i);
+        flood (graph, x, y, right - x, bottom - y, i);
     }
   return status;
 }
@@ -197,12 +197,12 @@ number_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
 
 /* The squared distance from ink at (x,y) to paper. */
 static int32_t
-depth (const CeldPlane *ink, int x, int y)
+squared_to_paper (const CeldPlane *ink, int x, int y)
 {
-  int32_t least = DEPTH * DEPTH;
+  int32_t least = MOST_TO_PAPER * MOST_TO_PAPER;
 
-  for (int v = -DEPTH + 1; v < DEPTH; v++)
-    for (int u = -DEPTH + 1; u < DEPTH; u++)
+  for (int v = -MOST_TO_PAPER + 1; v < MOST_TO_PAPER; v++)
+    for (int u = -MOST_TO_PAPER + 1; u < MOST_TO_PAPER; u++)
       if (u * u + v * v < least && x + u >= 0 && y + v >= 0 && x + u < ink->width && y + v < ink->height &&
           celd_is_paper (CELD_AT (ink, x + u, y + v)))
         least = u * u + v * v;
@@ -210,189 +210,190 @@ depth (const CeldPlane *ink, int x, int y)
 }
 
 static int32_t
-cost_between (const CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+cost_between (const CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
 {
-  const CeldPlane *ink = mesh->cut->canvas->ink;
-  const CeldCosts *costs = &mesh->cut->canvas->basins->costs;
-  float            a = CELD_AT (ink, x, y), b = CELD_AT (ink, u, v);
-  bool             along = x == u ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
+  const CeldPlane           *ink = graph->cut->task->ink;
+  const CeldSmoothnessCosts *costs = &graph->cut->task->basins->costs;
+  float                      a = CELD_AT (ink, x, y), b = CELD_AT (ink, u, v);
+  bool                       along = x == u ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
 
   if (a >= 1 && b >= 1 && !along)
     return costs->by_ink[CELD_INK_STEPS];
   if (celd_is_paper (a) || celd_is_paper (b))
-    return celd_cost (costs, a, b, 0, 0, along);
-  return fine ? celd_cost (costs, a, b, depth (ink, x, y), depth (ink, u, v), along)
-              : celd_cost (costs, a, b, COARSE_DEPTH, COARSE_DEPTH, along);
+    return celd_smoothness_cost (costs, a, b, 0, 0, along);
+  return fine ? celd_smoothness_cost (costs, a, b, squared_to_paper (ink, x, y), squared_to_paper (ink, u, v), along)
+              : celd_smoothness_cost (costs, a, b, COARSE_TO_PAPER, COARSE_TO_PAPER, along);
 }
 
 /* Does it take looking closer to tell where the cut runs between two nodes? */
 static bool
-is_loose (const CeldCutNode *a, const CeldCutNode *b)
+is_uncertain (const CeldCutNode *a, const CeldCutNode *b)
 {
   return a->whole || b->whole || (!a->ink && !b->ink) || a->basin == b->basin;
 }
 
 static CeldStatus
-add_link (CeldMesh *mesh, uint32_t a, uint32_t b, int32_t cost)
+add_link (CeldCutGraph *graph, uint32_t a, uint32_t b, int32_t cost)
 {
-  uint32_t *recent = &mesh->recent[(a * 31u + b) % CELD_RECENT];
+  uint32_t *recent = &graph->recent[(a * 31u + b) % CELD_RECENT_LINKS];
   CeldLink *grown;
-  bool     *loose;
+  bool     *uncertain;
 
-  if (*recent < mesh->n_links && mesh->link[*recent].a == a && mesh->link[*recent].b == b)
+  if (*recent < graph->n_links && graph->link[*recent].a == a && graph->link[*recent].b == b)
     {
-      mesh->link[*recent].cost += cost;
+      graph->link[*recent].cost += cost;
       return CELD_OK;
     }
-  grown = celd_grow (mesh->link, mesh->n_links + 1, sizeof *grown);
-  mesh->link = grown ? grown : mesh->link;
-  loose = celd_grow (mesh->loose, mesh->n_links + 1, sizeof *loose);
-  mesh->loose = loose ? loose : mesh->loose;
-  if (!grown || !loose)
+  grown = celd_grow (graph->link, graph->n_links + 1, sizeof *grown);
+  graph->link = grown ? grown : graph->link;
+  uncertain = celd_grow (graph->uncertain, graph->n_links + 1, sizeof *uncertain);
+  graph->uncertain = uncertain ? uncertain : graph->uncertain;
+  if (!grown || !uncertain)
     return CELD_NO_MEMORY;
-  grown[mesh->n_links] = (CeldLink) { a, b, cost };
-  loose[mesh->n_links] = is_loose (&mesh->node[a], &mesh->node[b]);
-  *recent = (uint32_t) mesh->n_links++;
+  grown[graph->n_links] = (CeldLink) { a, b, cost };
+  uncertain[graph->n_links] = is_uncertain (&graph->node[a], &graph->node[b]);
+  *recent = (uint32_t) graph->n_links++;
   return CELD_OK;
 }
 
 /* The pixel (x,y) inside and its neighbour (u,v).  Pairs of two inside come up twice, once from each. */
 static CeldStatus
-touch (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+connect (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
 {
-  const CeldCut *cut = mesh->cut;
-  uint8_t        mark = cut->mark[celd_cut_pixel (cut, u, v)];
+  const CeldCut *cut = graph->cut;
+  uint8_t        mark = cut->mark[celd_cut_index (cut, u, v)];
   uint32_t       k, other;
 
   if (mark == CELD_OUTSIDE || (mark == CELD_INSIDE && (u < x || v < y)))
     return CELD_OK;
-  k     = celd_mesh_at (mesh, x, y);
-  other = mark == CELD_INSIDE ? celd_mesh_at (mesh, u, v) : k;
+  k     = celd_cut_graph_node_at (graph, x, y);
+  other = mark == CELD_INSIDE ? celd_cut_graph_node_at (graph, u, v) : k;
   if (other != k)
-    return add_link (mesh, k, other, cost_between (mesh, x, y, u, v, fine));
+    return add_link (graph, k, other, cost_between (graph, x, y, u, v, fine));
   if (mark == CELD_NEAR_FIRST)
-    mesh->node[k].pull += cost_between (mesh, x, y, u, v, fine);
+    graph->node[k].terminal += cost_between (graph, x, y, u, v, fine);
   if (mark == CELD_NEAR_SECOND)
-    mesh->node[k].pull -= cost_between (mesh, x, y, u, v, fine);
+    graph->node[k].terminal -= cost_between (graph, x, y, u, v, fine);
   return CELD_OK;
 }
 
 /* The pixels x .. right - 1 of row y, with the row above (step -1) or below (1). */
 static CeldStatus
-link_rows (CeldMesh *mesh, int x, int right, int y, int step, bool fine)
+link_rows (CeldCutGraph *graph, int x, int right, int y, int step, bool fine)
 {
-  const CeldCut *cut = mesh->cut;
-  const size_t   p = celd_cut_pixel (cut, 0, y);
+  const CeldCut *cut = graph->cut;
+  const size_t   p = celd_cut_index (cut, 0, y);
   CeldStatus     status = CELD_OK;
 
-  if (y + step < 0 || y + step >= cut->canvas->ink->height)
+  if (y + step < 0 || y + step >= cut->task->ink->height)
     return CELD_OK;
   for (int u = x; u < right && status == CELD_OK; u++)
     if (cut->mark[p + (size_t) u] == CELD_INSIDE)
-      status = touch (mesh, u, y, u, y + step, fine);
+      status = connect (graph, u, y, u, y + step, fine);
   return status;
 }
 
 /* The pixels y .. bottom - 1 of column x, with the column to the left (step -1) or right (1). */
 static CeldStatus
-link_columns (CeldMesh *mesh, int y, int bottom, int x, int step, bool fine)
+link_columns (CeldCutGraph *graph, int y, int bottom, int x, int step, bool fine)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
   CeldStatus     status = CELD_OK;
 
-  if (x + step < 0 || x + step >= cut->canvas->ink->width)
+  if (x + step < 0 || x + step >= cut->task->ink->width)
     return CELD_OK;
   for (int v = y; v < bottom && status == CELD_OK; v++)
-    if (cut->mark[celd_cut_pixel (cut, x, v)] == CELD_INSIDE)
-      status = touch (mesh, x, v, x + step, v, fine);
+    if (cut->mark[celd_cut_index (cut, x, v)] == CELD_INSIDE)
+      status = connect (graph, x, v, x + step, v, fine);
   return status;
 }
 
 /* Two neighbours in a square that differ, the one of lower index first. */
 static CeldStatus
-link_pair (CeldMesh *mesh, int x, int y, int u, int v, bool fine)
+link_pair (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
 {
-  return mesh->cut->mark[celd_cut_pixel (mesh->cut, x, y)] == CELD_INSIDE ? touch (mesh, x, y, u, v, fine)
-       : mesh->cut->mark[celd_cut_pixel (mesh->cut, u, v)] == CELD_INSIDE ? touch (mesh, u, v, x, y, fine) : CELD_OK;
+  return graph->cut->mark[celd_cut_index (graph->cut, x, y)] == CELD_INSIDE ? connect (graph, x, y, u, v, fine)
+       : graph->cut->mark[celd_cut_index (graph->cut, u, v)] == CELD_INSIDE ? connect (graph, u, v, x, y, fine) :
+  CELD_OK;
 }
 
 static CeldStatus
-link_within (CeldMesh *mesh, int x, int y, int right, int bottom, bool fine)
+link_within (CeldCutGraph *graph, int x, int y, int right, int bottom, bool fine)
 {
-  size_t     w = (size_t) mesh->cut->canvas->ink->width;
+  size_t     w = (size_t) graph->cut->task->ink->width;
   CeldStatus status = CELD_OK;
 
   for (int v = y; v < bottom; v++)
     {
-      const uint8_t  *mark = mesh->cut->mark + celd_cut_pixel (mesh->cut, x, v);
-      const uint32_t *node = mesh->cut->node + celd_cut_pixel (mesh->cut, x, v);
+      const uint8_t  *mark = graph->cut->mark + celd_cut_index (graph->cut, x, v);
+      const uint32_t *node = graph->cut->node + celd_cut_index (graph->cut, x, v);
 
       for (int u = x; u < right && status == CELD_OK; u++, mark++, node++)
         {
           bool inside = *mark == CELD_INSIDE;
 
           if (u + 1 < right && (mark[0] != mark[1] || (inside && node[0] != node[1])))
-            status = link_pair (mesh, u, v, u + 1, v, fine);
+            status = link_pair (graph, u, v, u + 1, v, fine);
           if (v + 1 < bottom && (mark[0] != mark[w] || (inside && node[0] != node[w])) && status == CELD_OK)
-            status = link_pair (mesh, u, v, u, v + 1, fine);
+            status = link_pair (graph, u, v, u, v + 1, fine);
         }
     }
   return status;
 }
 
 static CeldStatus
-link_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
+link_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  size_t     p = celd_cut_pixel (mesh->cut, x, y);
+  size_t     p = celd_cut_index (graph->cut, x, y);
   bool       fine = size <= FINE;
   CeldStatus status = CELD_OK;
 
-  if (mesh->cut->mark[p] != CELD_INSIDE || !mesh->node[mesh->cut->node[p]].whole)
-    status = link_within (mesh, x, y, right, bottom, fine);
+  if (graph->cut->mark[p] != CELD_INSIDE || !graph->node[graph->cut->node[p]].whole)
+    status = link_within (graph, x, y, right, bottom, fine);
   if (status == CELD_OK)
-    status = link_rows (mesh, x, right, y, -1, fine);
+    status = link_rows (graph, x, right, y, -1, fine);
   if (status == CELD_OK)
-    status = link_rows (mesh, x, right, bottom - 1, 1, fine);
+    status = link_rows (graph, x, right, bottom - 1, 1, fine);
   if (status == CELD_OK)
-    status = link_columns (mesh, y, bottom, x, -1, fine);
+    status = link_columns (graph, y, bottom, x, -1, fine);
   if (status == CELD_OK)
-    status = link_columns (mesh, y, bottom, right - 1, 1, fine);
+    status = link_columns (graph, y, bottom, right - 1, 1, fine);
   return status;
 }
 
 CeldStatus
-celd_mesh_build (CeldMesh *mesh)
+celd_cut_graph_build (CeldCutGraph *graph)
 {
   CeldStatus status;
 
-  mesh->n = mesh->n_links = 0;
-  status = celd_mesh_squares (mesh, number_square);
-  return status == CELD_OK ? celd_mesh_squares (mesh, link_square) : status;
+  graph->n = graph->n_links = 0;
+  status = celd_cut_graph_visit_squares (graph, number_square);
+  return status == CELD_OK ? celd_cut_graph_visit_squares (graph, link_square) : status;
 }
 
 /* ------------------------------------------------------------------ seeds */
 
 void
-celd_mesh_seeds (CeldMesh *mesh, CeldSeedVisit visit, int kept)
+celd_cut_graph_visit_seeds (CeldCutGraph *graph, CeldSeedVisit visit, int kept)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
 
   for (int y = cut->top; y <= cut->bottom; y++)
-    for (size_t i = 0; i < cut->canvas->seeds.row[y].n; i++)
+    for (size_t i = 0; i < cut->task->seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &cut->canvas->seeds.row[y].run[i];
+        const CeldSeedRun *run = &cut->task->seeds.row[y].run[i];
         int                last = run->end <= cut->right ? run->end : cut->right + 1;
 
         if (run->label != cut->label)
           continue;
         for (int x = run->x < cut->left ? cut->left : run->x, end; x < last; x = end)
           {
-            bool     inside = cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE;
-            uint32_t k = inside ? celd_mesh_at (mesh, x, y) : 0;
+            bool     inside = cut->mark[celd_cut_index (cut, x, y)] == CELD_INSIDE;
+            uint32_t k = inside ? celd_cut_graph_node_at (graph, x, y) : 0;
 
-            end = inside ? celd_mesh_next (&mesh->node[k], x, last) : x + 1;
+            end = inside ? celd_cut_graph_node_end (&graph->node[k], x, last) : x + 1;
             if (inside)
-              visit (mesh, k, x, end, y, kept);
+              visit (graph, k, x, end, y, kept);
           }
       }
 }

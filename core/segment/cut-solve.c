@@ -9,138 +9,138 @@
 #include <math.h>
 
 #define INK_STEP  8                     /* times as long as a step on paper */
-#define HARD_PULL ((int64_t) 1 << 48)
+#define HARD_TERMINAL ((int64_t) 1 << 48)
 
 /* The links by node: those of node k are link[first[k]] to link[first[k + 1] - 1]. */
-typedef struct { size_t *first, *link; uint32_t *queue; double *way; bool *queued; } Ways;
+typedef struct { size_t *first, *link; uint32_t *queue; double *length; bool *queued; } Paths;
 
 static void
-ways_clear (Ways *ways)
+paths_clear (Paths *paths)
 {
-  celd_free (ways->first);
-  celd_free (ways->link);
-  celd_free (ways->queue);
-  celd_free (ways->way);
-  celd_free (ways->queued);
+  celd_free (paths->first);
+  celd_free (paths->link);
+  celd_free (paths->queue);
+  celd_free (paths->length);
+  celd_free (paths->queued);
 }
 
 static CeldStatus
-ways_new (const CeldMesh *mesh, Ways *ways)
+paths_new (const CeldCutGraph *graph, Paths *paths)
 {
-  *ways = (Ways) {
-    celd_alloc0 (mesh->n + 2, sizeof *ways->first), celd_alloc (2 * mesh->n_links, sizeof *ways->link),
-    celd_alloc (mesh->n, sizeof *ways->queue), celd_alloc (mesh->n, sizeof *ways->way),
-    celd_alloc0 (mesh->n, sizeof *ways->queued)
+  *paths = (Paths) {
+    celd_alloc0 (graph->n + 2, sizeof *paths->first), celd_alloc (2 * graph->n_links, sizeof *paths->link),
+    celd_alloc (graph->n, sizeof *paths->queue), celd_alloc (graph->n, sizeof *paths->length),
+    celd_alloc0 (graph->n, sizeof *paths->queued)
   };
-  if (!ways->first || !ways->link || !ways->queue || !ways->way || !ways->queued)
+  if (!paths->first || !paths->link || !paths->queue || !paths->length || !paths->queued)
     return CELD_NO_MEMORY;
-  for (size_t i = 0; i < mesh->n_links; i++)
+  for (size_t i = 0; i < graph->n_links; i++)
     {
-      ways->first[mesh->link[i].a + 2]++;
-      ways->first[mesh->link[i].b + 2]++;
+      paths->first[graph->link[i].a + 2]++;
+      paths->first[graph->link[i].b + 2]++;
     }
-  for (size_t k = 1; k < mesh->n + 2; k++)
-    ways->first[k] += ways->first[k - 1];
-  for (size_t i = 0; i < mesh->n_links; i++)
+  for (size_t k = 1; k < graph->n + 2; k++)
+    paths->first[k] += paths->first[k - 1];
+  for (size_t i = 0; i < graph->n_links; i++)
     {
-      ways->link[ways->first[mesh->link[i].a + 1]++] = i;
-      ways->link[ways->first[mesh->link[i].b + 1]++] = i;
+      paths->link[paths->first[graph->link[i].a + 1]++] = i;
+      paths->link[paths->first[graph->link[i].b + 1]++] = i;
     }
   return CELD_OK;
 }
 
 /* The node at the other end of a link. */
 static uint32_t
-other_of (const CeldMesh *mesh, size_t link, uint32_t k)
+other_of (const CeldCutGraph *graph, size_t link, uint32_t k)
 {
-  return mesh->link[link].a == k ? mesh->link[link].b : mesh->link[link].a;
+  return graph->link[link].a == k ? graph->link[link].b : graph->link[link].a;
 }
 
 /* What does not join the first end is lost. */
 static void
-lose_others (CeldMesh *mesh, Ways *ways)
+mark_unreachable (CeldCutGraph *graph, Paths *paths)
 {
   size_t n = 0;
 
-  for (size_t k = 0; k < mesh->n; k++)
-    mesh->node[k].lost = true;
-  ways->queue[n++] = mesh->at_end[0];
-  mesh->node[mesh->at_end[0]].lost = false;
+  for (size_t k = 0; k < graph->n; k++)
+    graph->node[k].unreachable = true;
+  paths->queue[n++] = graph->at_end[0];
+  graph->node[graph->at_end[0]].unreachable = false;
   for (size_t i = 0; i < n; i++)
-    for (size_t j = ways->first[ways->queue[i]]; j < ways->first[ways->queue[i] + 1]; j++)
+    for (size_t j = paths->first[paths->queue[i]]; j < paths->first[paths->queue[i] + 1]; j++)
       {
-        uint32_t other = other_of (mesh, ways->link[j], ways->queue[i]);
+        uint32_t other = other_of (graph, paths->link[j], paths->queue[i]);
 
-        if (mesh->node[other].lost)
-          ways->queue[n++] = other;
-        mesh->node[other].lost = false;
+        if (graph->node[other].unreachable)
+          paths->queue[n++] = other;
+        graph->node[other].unreachable = false;
       }
 }
 
 static double
-step_between (const CeldMesh *mesh, size_t link)
+step_between (const CeldCutGraph *graph, size_t link)
 {
-  const CeldCutNode *a = &mesh->node[mesh->link[link].a], *b = &mesh->node[mesh->link[link].b];
+  const CeldCutNode *a = &graph->node[graph->link[link].a], *b = &graph->node[graph->link[link].b];
   double             x = (a->seeded ? a->seed_x : a->x + a->size / 2) - (b->seeded ? b->seed_x : b->x + b->size / 2);
   double             y = (a->seeded ? a->seed_y : a->y + a->size / 2) - (b->seeded ? b->seed_y : b->y + b->size / 2);
 
-  return hypot (x, y) * (a->ink || b->ink || !mesh->loose[link] ? INK_STEP : 1);
+  return hypot (x, y) * (a->ink || b->ink || !graph->uncertain[link] ? INK_STEP : 1);
 }
 
 /* The shortest way from each node to a seed: nodes wait in a ring until no way gets shorter. */
 static void
-find_ways (const CeldMesh *mesh, Ways *ways)
+find_shortest_paths (const CeldCutGraph *graph, Paths *paths)
 {
   size_t n = 0;
 
-  for (size_t k = 0; k < mesh->n; k++)
+  for (size_t k = 0; k < graph->n; k++)
     {
-      ways->way[k] = mesh->node[k].seeded && !mesh->node[k].lost ? 0 : INFINITY;
-      ways->queued[k] = ways->way[k] == 0;
-      if (ways->queued[k])
-        ways->queue[n++] = (uint32_t) k;
+      paths->length[k] = graph->node[k].seeded && !graph->node[k].unreachable ? 0 : INFINITY;
+      paths->queued[k] = paths->length[k] == 0;
+      if (paths->queued[k])
+        paths->queue[n++] = (uint32_t) k;
     }
-  for (size_t first = 0; n; n--, first = first + 1 < mesh->n ? first + 1 : 0)
+  for (size_t first = 0; n; n--, first = first + 1 < graph->n ? first + 1 : 0)
     {
-      uint32_t k = ways->queue[first];
+      uint32_t k = paths->queue[first];
 
-      ways->queued[k] = false;
-      for (size_t j = ways->first[k]; j < ways->first[k + 1]; j++)
+      paths->queued[k] = false;
+      for (size_t j = paths->first[k]; j < paths->first[k + 1]; j++)
         {
-          uint32_t other = other_of (mesh, ways->link[j], k);
-          double   way = ways->way[k] + step_between (mesh, ways->link[j]);
+          uint32_t other = other_of (graph, paths->link[j], k);
+          double   length = paths->length[k] + step_between (graph, paths->link[j]);
 
-          if (way >= ways->way[other] - 1e-9)
+          if (length >= paths->length[other] - 1e-9)
             continue;
-          ways->way[other] = way;
-          if (!ways->queued[other])
-            ways->queue[(first + n++) % mesh->n] = other;
-          ways->queued[other] = true;
+          paths->length[other] = length;
+          if (!paths->queued[other])
+            paths->queue[(first + n++) % graph->n] = other;
+          paths->queued[other] = true;
         }
     }
 }
 
 /* How far end i is from the region's seeds. */
 static double
-way_from (const CeldMesh *mesh, const Ways *ways, int i)
+path_from (const CeldCutGraph *graph, const Paths *paths, int i)
 {
-  CeldRelationEnd            end = mesh->cut->end[i];
-  const CeldCutNode *node = &mesh->node[mesh->at_end[i]];
+  CeldRelationEnd    end = graph->cut->end[i];
+  const CeldCutNode *node = &graph->node[graph->at_end[i]];
 
-  return node->seeded ? hypot (end.x - node->seed_x, end.y - node->seed_y) : ways->way[mesh->at_end[i]];
+  return node->seeded ? hypot (end.x - node->seed_x, end.y - node->seed_y) : paths->length[graph->at_end[i]];
 }
 
 void
-celd_mesh_note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y)
+celd_cut_graph_note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end, int y)
 {
-  CeldCutNode *node = &mesh->node[k];
+  CeldCutNode *node = &graph->node[k];
 
   for (int i = 0; i < 2; i++)
     {
-      CeldRelationEnd at = mesh->cut->end[i];
-      int     near = at.x < x ? x : at.x >= end ? end - 1 : at.x;
+      CeldRelationEnd at = graph->cut->end[i];
+      int             near = at.x < x ? x : at.x >= end ? end - 1 : at.x;
 
-      if (k == mesh->at_end[i] &&
+      if (k == graph->at_end[i] &&
           (!node->seeded || hypot (near - at.x, y - at.y) < hypot (node->seed_x - at.x, node->seed_y - at.y)))
         {
           node->seeded = true;
@@ -157,58 +157,59 @@ celd_mesh_note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y)
 }
 
 CeldStatus
-celd_mesh_kept (CeldMesh *mesh, int *kept)
+celd_cut_graph_find_kept_end (CeldCutGraph *graph, int *kept)
 {
-  Ways       ways;
-  CeldStatus status = ways_new (mesh, &ways);
+  Paths      paths;
+  CeldStatus status = paths_new (graph, &paths);
 
   if (status == CELD_OK)
     {
-      lose_others (mesh, &ways);
-      find_ways (mesh, &ways);
-      *kept = mesh->node[mesh->at_end[1]].lost ? -1 : way_from (mesh, &ways, 0) < way_from (mesh, &ways, 1) ? 0 : 1;
+      mark_unreachable (graph, &paths);
+      find_shortest_paths (graph, &paths);
+      *kept = graph->node[graph->at_end[1]].unreachable ? -1 :
+      path_from (graph, &paths, 0) < path_from (graph, &paths, 1) ? 0 : 1;
     }
-  ways_clear (&ways);
+  paths_clear (&paths);
   return status;
 }
 
 /* ------------------------------------------------------------------ the smallest cut */
 
 CeldStatus
-celd_mesh_solve (CeldMesh *mesh, int kept, const CeldHost *host)
+celd_cut_graph_solve (CeldCutGraph *graph, int kept, const CeldHost *host)
 {
-  const CeldCut *cut = mesh->cut;
-  int            source = cut->discs[1 - kept].room > cut->discs[kept].room ? 1 - kept : kept;
-  int64_t       *pull = celd_alloc (mesh->n, sizeof *pull);
-  uint8_t       *side = celd_alloc (mesh->n, 1);
-  CeldStatus     status = pull && side ? CELD_OK : CELD_NO_MEMORY;
+  const CeldCut *cut = graph->cut;
+  int            source = cut->discs[1 - kept].clearance > cut->discs[kept].clearance ? 1 - kept : kept;
+  int64_t       *terminal = celd_alloc (graph->n, sizeof *terminal);
+  uint8_t       *side = celd_alloc (graph->n, 1);
+  CeldStatus     status = terminal && side ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t k = 0; k < mesh->n && status == CELD_OK; k++)
+  for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
     {
-      const CeldCutNode *node = &mesh->node[k];
+      const CeldCutNode *node = &graph->node[k];
 
-      pull[k] = node->lost ? 0 : node->pull + HARD_PULL * (node->pulled[0] - node->pulled[1]);
-      pull[k] = source == 0 ? pull[k] : -pull[k];
+      terminal[k] = node->unreachable ? 0 : node->terminal + HARD_TERMINAL * (node->forced[0] - node->forced[1]);
+      terminal[k] = source == 0 ? terminal[k] : -terminal[k];
     }
   if (status == CELD_OK)
-    status = celd_flow (mesh->n, mesh->link, mesh->n_links, pull, host, side, NULL);
-  for (size_t k = 0; k < mesh->n && status == CELD_OK; k++)
-    mesh->node[k].side = mesh->node[k].lost                ? CELD_OUTSIDE
+    status = celd_flow (graph->n, graph->link, graph->n_links, terminal, host, side, NULL);
+  for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
+    graph->node[k].side = graph->node[k].unreachable                ? CELD_OUTSIDE
                        : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
-  celd_free (pull);
+  celd_free (terminal);
   celd_free (side);
   return status;
 }
 
 void
-celd_mesh_clear (CeldMesh *mesh)
+celd_cut_graph_clear (CeldCutGraph *graph)
 {
-  celd_free (mesh->size);
-  celd_free (mesh->open);
-  celd_free (mesh->kind);
-  celd_free (mesh->stack);
-  celd_free (mesh->node);
-  celd_free (mesh->link);
-  celd_free (mesh->loose);
-  celd_free (mesh->recent);
+  celd_free (graph->size);
+  celd_free (graph->active);
+  celd_free (graph->kind);
+  celd_free (graph->stack);
+  celd_free (graph->node);
+  celd_free (graph->link);
+  celd_free (graph->uncertain);
+  celd_free (graph->recent);
 }

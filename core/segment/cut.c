@@ -15,8 +15,8 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
 #include "segment/splits.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -30,22 +30,22 @@
 /* ------------------------------------------------------------------ squares */
 
 static CeldStatus
-mesh_new (const CeldCut *cut, CeldMesh *mesh)
+graph_new (const CeldCut *cut, CeldCutGraph *graph)
 {
   size_t n;
 
-  *mesh = (CeldMesh) {
+  *graph = (CeldCutGraph) {
     .cut     = cut,
     .columns = (cut->right - cut->left) / CELD_CUT_SQUARE + 1,
     .rows    = (cut->bottom - cut->top) / CELD_CUT_SQUARE + 1,
-    .kind    = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *mesh->kind),
-    .stack   = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *mesh->stack),
-    .recent  = celd_alloc0 (CELD_RECENT, sizeof *mesh->recent),
+    .kind    = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->kind),
+    .stack   = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->stack),
+    .recent  = celd_alloc0 (CELD_RECENT_LINKS, sizeof *graph->recent),
   };
-  n = (size_t) mesh->columns * (size_t) mesh->rows;
-  mesh->size = celd_alloc (n, 1);
-  mesh->open = celd_alloc (n, 1);
-  return mesh->kind && mesh->stack && mesh->recent && mesh->size && mesh->open ? CELD_OK : CELD_NO_MEMORY;
+  n = (size_t) graph->columns * (size_t) graph->rows;
+  graph->size = celd_alloc (n, 1);
+  graph->active = celd_alloc (n, 1);
+  return graph->kind && graph->stack && graph->recent && graph->size && graph->active ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* How far the interval from `a` to `b` is from one that starts at x and is a tile long. */
@@ -58,108 +58,108 @@ distance_to_tile (int a, int b, int x)
 }
 
 static void
-set_sizes (CeldMesh *mesh)
+set_sizes (CeldCutGraph *graph)
 {
-  const CeldCut *cut = mesh->cut;
-  double         apart = celd_ends_apart (cut->end[0], cut->end[1]);
+  const CeldCut *cut = graph->cut;
+  double         apart = celd_relation_end_distance (cut->end[0], cut->end[1]);
 
-  for (int t = 0; t < mesh->columns * mesh->rows; t++)
+  for (int t = 0; t < graph->columns * graph->rows; t++)
     {
-      int    x = distance_to_tile (cut->end[0].x, cut->end[1].x, cut->left + t % mesh->columns * CELD_CUT_SQUARE);
-      int    y = distance_to_tile (cut->end[0].y, cut->end[1].y, cut->top + t / mesh->columns * CELD_CUT_SQUARE);
+      int    x = distance_to_tile (cut->end[0].x, cut->end[1].x, cut->left + t % graph->columns * CELD_CUT_SQUARE);
+      int    y = distance_to_tile (cut->end[0].y, cut->end[1].y, cut->top + t / graph->columns * CELD_CUT_SQUARE);
       double wanted = fmax (apart, x > y ? x : y) / PER_REACH;
       int    size = 1;
 
       while (2 * size <= wanted && size < CELD_CUT_SQUARE)
         size *= 2;
-      mesh->size[t] = (uint8_t) size;
-      mesh->open[t] = true;
+      graph->size[t] = (uint8_t) size;
+      graph->active[t] = true;
     }
 }
 
 /* ------------------------------------------------------------------ what pulls */
 
 static bool
-in_disc (const CeldDiscs *discs, int x, int y)
+in_disc (const CeldSeedDiscs *discs, int x, int y)
 {
   int from, end;
 
   for (int k = 0; k < 2; k++)
-    if (celd_disc_row (&discs->disc[k], y, &from, &end) && x >= from && x < end)
+    if (celd_seed_disc_row (&discs->disc[k], y, &from, &end) && x >= from && x < end)
       return true;
   return false;
 }
 
 static void
-pull_disc (CeldMesh *mesh, const CeldDisc *disc, int i)
+force_disc (CeldCutGraph *graph, const CeldSeedDisc *disc, int i)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
   int            r = (int) disc->radius, x, end;
 
   for (int y = disc->y - r < cut->top ? cut->top : disc->y - r; y <= disc->y + r && y <= cut->bottom; y++)
-    if (celd_disc_row (disc, y, &x, &end))
+    if (celd_seed_disc_row (disc, y, &x, &end))
       for (x = x < cut->left ? cut->left : x; x < end && x <= cut->right;)
         {
-          bool         inside = cut->mark[celd_cut_pixel (cut, x, y)] == CELD_INSIDE;
-          CeldCutNode *node = inside ? &mesh->node[celd_mesh_at (mesh, x, y)] : NULL;
+          bool         inside = cut->mark[celd_cut_index (cut, x, y)] == CELD_INSIDE;
+          CeldCutNode *node = inside ? &graph->node[celd_cut_graph_node_at (graph, x, y)] : NULL;
 
           if (node)
-            node->pulled[i] = true;
-          x = node ? celd_mesh_next (node, x, end) : x + 1;
+            node->forced[i] = true;
+          x = node ? celd_cut_graph_node_end (node, x, end) : x + 1;
         }
 }
 
 static void
-note_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y, int kept)
+note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept)
 {
   (void) kept;
-  celd_mesh_note_seeds (mesh, k, x, end, y);
+  celd_cut_graph_note_seeds (graph, k, x, end, y);
 }
 
 static void
-pull_seeds (CeldMesh *mesh, uint32_t k, int x, int end, int y, int kept)
+add_seed_costs (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept)
 {
-  const CeldCut *cut = mesh->cut;
-  CeldCutNode   *node = &mesh->node[k];
-  int32_t        vote = celd_canvas_vote (cut->canvas, cut->label);
+  const CeldCut *cut = graph->cut;
+  CeldCutNode   *node = &graph->node[k];
+  int32_t        vote = celd_task_data_cost (cut->task, cut->label);
 
-  if (node->pulled[1 - kept] && in_disc (&cut->discs[1 - kept], x, y) && in_disc (&cut->discs[1 - kept], end - 1, y))
+  if (node->forced[1 - kept] && in_disc (&cut->discs[1 - kept], x, y) && in_disc (&cut->discs[1 - kept], end - 1, y))
     return;
   if (vote == CELD_HARD)
-    node->pulled[kept] = true;
+    node->forced[kept] = true;
   else
-    node->pull += (int64_t) (end - x) * (kept == 0 ? vote : -vote);
+    node->terminal += (int64_t) (end - x) * (kept == 0 ? vote : -vote);
 }
 
 /* ------------------------------------------------------------------ one level */
 
 /* Tells the pixels of each square by the side of their nodes; of lost nodes they are outside from now on. */
 static CeldStatus
-tell_square (CeldMesh *mesh, int x, int y, int right, int bottom, int size)
+label_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  const CeldCut *cut = mesh->cut;
-  size_t         corner = celd_cut_pixel (cut, x, y);
-  bool           whole = cut->mark[corner] == CELD_INSIDE && mesh->node[cut->node[corner]].whole;
+  const CeldCut *cut = graph->cut;
+  size_t         corner = celd_cut_index (cut, x, y);
+  bool           whole = cut->mark[corner] == CELD_INSIDE && graph->node[cut->node[corner]].whole;
 
   (void) size;
   for (int v = y; v < bottom; v++)
     {
-      uint8_t *mark = cut->mark + celd_cut_pixel (cut, 0, v);
+      uint8_t *mark = cut->mark + celd_cut_index (cut, 0, v);
 
       if (whole)
-        memset (mark + x, mesh->node[cut->node[corner]].side, (size_t) (right - x));
+        memset (mark + x, graph->node[cut->node[corner]].side, (size_t) (right - x));
       else
         for (int u = x; u < right; u++)
-          mark[u] = mark[u] == CELD_INSIDE ? mesh->node[cut->node[celd_cut_pixel (cut, u, v)]].side : mark[u];
+          mark[u] = mark[u] == CELD_INSIDE ? graph->node[cut->node[celd_cut_index (cut, u, v)]].side : mark[u];
     }
   return CELD_OK;
 }
 
 /* Takes back what is told of a node's square and those around it. */
 static void
-open_around (CeldMesh *mesh, const CeldCutNode *node)
+reactivate_around (CeldCutGraph *graph, const CeldCutNode *node)
 {
-  const CeldCut *cut = mesh->cut;
+  const CeldCut *cut = graph->cut;
   int            left = node->x - node->size, right = node->x + 2 * node->size;
   int            top = node->y - node->size, bottom = node->y + 2 * node->size;
 
@@ -169,143 +169,143 @@ open_around (CeldMesh *mesh, const CeldCutNode *node)
   bottom = bottom > cut->bottom ? cut->bottom + 1 : bottom;
   for (int y = top; y < bottom; y++)
     for (int x = left; x < right; x++)
-      if (cut->mark[celd_cut_pixel (cut, x, y)] != CELD_OUTSIDE)
-        cut->mark[celd_cut_pixel (cut, x, y)] = CELD_INSIDE;
+      if (cut->mark[celd_cut_index (cut, x, y)] != CELD_OUTSIDE)
+        cut->mark[celd_cut_index (cut, x, y)] = CELD_INSIDE;
   for (int y = (top - cut->top) / CELD_CUT_SQUARE; y <= (bottom - 1 - cut->top) / CELD_CUT_SQUARE; y++)
     for (int x = (left - cut->left) / CELD_CUT_SQUARE; x <= (right - 1 - cut->left) / CELD_CUT_SQUARE; x++)
-      mesh->open[y * mesh->columns + x] = true;
+      graph->active[y * graph->columns + x] = true;
 }
 
 /* Was something pulled to the other side than where it is? */
 static bool
-is_torn (const CeldCutNode *node)
+is_misplaced (const CeldCutNode *node)
 {
-  return (node->pulled[0] && node->side == CELD_NEAR_SECOND) || (node->pulled[1] && node->side == CELD_NEAR_FIRST);
+  return (node->forced[0] && node->side == CELD_NEAR_SECOND) || (node->forced[1] && node->side == CELD_NEAR_FIRST);
 }
 
 /* Opens a band along the cut where its squares are larger than pixels; false if they are not, anywhere.  In ink that
  * parts two basins the cut is in the middle of the line already. */
 static bool
-refine (CeldMesh *mesh)
+refine (CeldCutGraph *graph)
 {
   bool any = false;
 
-  memset (mesh->open, 0, (size_t) mesh->columns * (size_t) mesh->rows);
-  for (size_t k = 0; k < mesh->n; k++)
-    mesh->node[k].cut = mesh->node[k].size > 1 && is_torn (&mesh->node[k]);
-  for (size_t i = 0; i < mesh->n_links; i++)
+  memset (graph->active, 0, (size_t) graph->columns * (size_t) graph->rows);
+  for (size_t k = 0; k < graph->n; k++)
+    graph->node[k].cut = graph->node[k].size > 1 && is_misplaced (&graph->node[k]);
+  for (size_t i = 0; i < graph->n_links; i++)
     {
-      CeldCutNode *a = &mesh->node[mesh->link[i].a], *b = &mesh->node[mesh->link[i].b];
+      CeldCutNode *a = &graph->node[graph->link[i].a], *b = &graph->node[graph->link[i].b];
 
-      if (mesh->loose[i] && a->side != b->side && (a->size > 1 || b->size > 1))
+      if (graph->uncertain[i] && a->side != b->side && (a->size > 1 || b->size > 1))
         a->cut = b->cut = true;
     }
-  for (size_t k = 0; k < mesh->n; k++)
-    if (mesh->node[k].cut)
+  for (size_t k = 0; k < graph->n; k++)
+    if (graph->node[k].cut)
       {
-        open_around (mesh, &mesh->node[k]);
+        reactivate_around (graph, &graph->node[k]);
         any = true;
       }
-  for (int t = 0; t < mesh->columns * mesh->rows; t++)
-    if (mesh->open[t])
-      mesh->size[t] = (uint8_t) (mesh->size[t] > FINER ? mesh->size[t] / FINER : 1);
+  for (int t = 0; t < graph->columns * graph->rows; t++)
+    if (graph->active[t])
+      graph->size[t] = (uint8_t) (graph->size[t] > FINER ? graph->size[t] / FINER : 1);
   return any;
 }
 
 /* ------------------------------------------------------------------ the cut on squares */
 
 CeldStatus
-celd_cut (CeldCut *cut, const CeldHost *host, int *kept)
+celd_cut_pixels (CeldCut *cut, const CeldHost *host, int *kept)
 {
-  CeldMesh   mesh;
-  CeldStatus status = mesh_new (cut, &mesh);
+  CeldCutGraph graph;
+  CeldStatus   status = graph_new (cut, &graph);
 
   if (status != CELD_OK)
     goto done;
-  set_sizes (&mesh);
-  status = celd_mesh_build (&mesh);
+  set_sizes (&graph);
+  status = celd_cut_graph_build (&graph);
   if (status != CELD_OK)
     goto done;
   for (int i = 0; i < 2; i++)
-    mesh.at_end[i] = celd_mesh_at (&mesh, cut->end[i].x, cut->end[i].y);
-  celd_mesh_seeds (&mesh, note_seeds, 0);
-  status = celd_mesh_kept (&mesh, kept);
+    graph.at_end[i] = celd_cut_graph_node_at (&graph, cut->end[i].x, cut->end[i].y);
+  celd_cut_graph_visit_seeds (&graph, note_seeds, 0);
+  status = celd_cut_graph_find_kept_end (&graph, kept);
   while (status == CELD_OK && *kept >= 0)
     {
       for (int k = 0; k < 4; k++)
-        pull_disc (&mesh, &cut->discs[k / 2].disc[k % 2], k / 2);
-      celd_mesh_seeds (&mesh, pull_seeds, *kept);
-      status = celd_mesh_solve (&mesh, *kept, host);
+        force_disc (&graph, &cut->discs[k / 2].disc[k % 2], k / 2);
+      celd_cut_graph_visit_seeds (&graph, add_seed_costs, *kept);
+      status = celd_cut_graph_solve (&graph, *kept, host);
       if (status == CELD_OK)
-        status = celd_mesh_squares (&mesh, tell_square);
-      if (status != CELD_OK || !refine (&mesh))
+        status = celd_cut_graph_visit_squares (&graph, label_square);
+      if (status != CELD_OK || !refine (&graph))
         break;
-      status = celd_mesh_build (&mesh);
+      status = celd_cut_graph_build (&graph);
     }
 
 done:
-  celd_mesh_clear (&mesh);
+  celd_cut_graph_clear (&graph);
   return status;
 }
 
 /* ------------------------------------------------------------------ between whole basins */
 
 static CeldStatus
-add_basins (CeldMesh *mesh)
+add_basins (CeldCutGraph *graph)
 {
-  const CeldCut    *cut = mesh->cut;
-  const CeldBasins *basins = cut->canvas->basins;
+  const CeldCut    *cut = graph->cut;
+  const CeldBasins *basins = cut->task->basins;
 
-  mesh->node = celd_alloc (cut->n, sizeof *mesh->node);
-  if (!mesh->node)
+  graph->node = celd_alloc (cut->n, sizeof *graph->node);
+  if (!graph->node)
     return CELD_NO_MEMORY;
   for (size_t k = 0; k < cut->n; k++)
     {
       const CeldBasin *basin = &basins->basin[cut->basin[k]];
 
-      mesh->node[mesh->n++] = (CeldCutNode) {
+      graph->node[graph->n++] = (CeldCutNode) {
         .x = basin->x, .y = basin->y, .ink = basin->solid, .basin = cut->basin[k],
       };
     }
   for (int i = 0; i < 2; i++)
-    mesh->at_end[i] = cut->at[celd_basin_at (basins, cut->end[i].x, cut->end[i].y)] - 1;
+    graph->at_end[i] = cut->at[celd_basin_at (basins, cut->end[i].x, cut->end[i].y)] - 1;
   return CELD_OK;
 }
 
 static CeldStatus
-add_borders (CeldMesh *mesh)
+add_boundaries (CeldCutGraph *graph)
 {
-  const CeldCut    *cut = mesh->cut;
-  const CeldBasins *basins = cut->canvas->basins;
+  const CeldCut    *cut = graph->cut;
+  const CeldBasins *basins = cut->task->basins;
   size_t            n = 0;
 
-  for (size_t i = 0; i < basins->n_borders; i++)
-    n += cut->at[basins->border[i].a] && cut->at[basins->border[i].b];
-  mesh->link  = celd_alloc (n, sizeof *mesh->link);
-  mesh->loose = celd_alloc (n, sizeof *mesh->loose);
-  if (!mesh->link || !mesh->loose)
+  for (size_t i = 0; i < basins->n_boundaries; i++)
+    n += cut->at[basins->boundary[i].a] && cut->at[basins->boundary[i].b];
+  graph->link  = celd_alloc (n, sizeof *graph->link);
+  graph->uncertain = celd_alloc (n, sizeof *graph->uncertain);
+  if (!graph->link || !graph->uncertain)
     return CELD_NO_MEMORY;
-  for (size_t i = 0; i < basins->n_borders; i++)
+  for (size_t i = 0; i < basins->n_boundaries; i++)
     {
-      const CeldBorder *border = &basins->border[i];
-      uint32_t          a = cut->at[border->a], b = cut->at[border->b];
-      int64_t           glue = basins->block[border->a] == basins->block[border->b] ? GLUE : 0;
+      const CeldBasinBoundary *boundary = &basins->boundary[i];
+      uint32_t                 a = cut->at[boundary->a], b = cut->at[boundary->b];
+      int64_t                  glue = basins->merged[boundary->a] == basins->merged[boundary->b] ? GLUE : 0;
 
       if (!a || !b)
         continue;
-      mesh->loose[mesh->n_links] = border->passes > 0;
-      mesh->link[mesh->n_links++] = (CeldLink) { a - 1, b - 1, border->cost + glue };
+      graph->uncertain[graph->n_links] = boundary->opening > 0;
+      graph->link[graph->n_links++] = (CeldLink) { a - 1, b - 1, boundary->cost + glue };
     }
   return CELD_OK;
 }
 
 /* Counts the region's seeds in row y of its basins, both runs from left to right, and notes where they are. */
 static void
-count_seeds (CeldMesh *mesh, int y, size_t *seeds)
+count_seeds (CeldCutGraph *graph, int y, size_t *seeds)
 {
-  const CeldCut     *cut = mesh->cut;
-  const CeldBasins  *basins = cut->canvas->basins;
-  const CeldSeedRow *row = &cut->canvas->seeds.row[y];
+  const CeldCut     *cut = graph->cut;
+  const CeldBasins  *basins = cut->task->basins;
+  const CeldSeedRow *row = &cut->task->seeds.row[y];
 
   for (size_t i = 0; i < row->n; i++)
     {
@@ -320,54 +320,54 @@ count_seeds (CeldMesh *mesh, int y, size_t *seeds)
           if (!at)
             continue;
           seeds[at - 1] += (size_t) (end - x);
-          celd_mesh_note_seeds (mesh, at - 1, x, end, y);
+          celd_cut_graph_note_seeds (graph, at - 1, x, end, y);
         }
     }
 }
 
 /* Seeds pull to the end that is kept, but for those in the block of the other. */
 static void
-pull (CeldMesh *mesh, const size_t *seeds, int kept)
+terminal (CeldCutGraph *graph, const size_t *seeds, int kept)
 {
-  const uint32_t *block = mesh->cut->canvas->basins->block;
-  uint32_t        new_block = block[mesh->node[mesh->at_end[1 - kept]].basin];
-  int32_t         vote = celd_canvas_vote (mesh->cut->canvas, mesh->cut->label);
+  const uint32_t *merged = graph->cut->task->basins->merged;
+  uint32_t        new_merged = merged[graph->node[graph->at_end[1 - kept]].basin];
+  int32_t         vote = celd_task_data_cost (graph->cut->task, graph->cut->label);
 
-  for (size_t k = 0; k < mesh->n; k++)
+  for (size_t k = 0; k < graph->n; k++)
     {
-      CeldCutNode *node = &mesh->node[k];
+      CeldCutNode *node = &graph->node[k];
 
-      if (!seeds[k] || block[node->basin] == new_block)
+      if (!seeds[k] || merged[node->basin] == new_merged)
         continue;
-      node->pulled[kept] = vote == CELD_HARD;
+      node->forced[kept] = vote == CELD_HARD;
       if (vote != CELD_HARD)
-        node->pull = (int64_t) seeds[k] * (kept == 0 ? vote : -vote);
+        node->terminal = (int64_t) seeds[k] * (kept == 0 ? vote : -vote);
     }
-  mesh->node[mesh->at_end[0]].pulled[0] = true;
-  mesh->node[mesh->at_end[1]].pulled[1] = true;
+  graph->node[graph->at_end[0]].forced[0] = true;
+  graph->node[graph->at_end[1]].forced[1] = true;
 }
 
 CeldStatus
 celd_cut_basins (const CeldCut *cut, const CeldHost *host, uint8_t *side, int *kept)
 {
-  CeldMesh   mesh = { .cut = cut };
-  size_t    *seeds = celd_alloc0 (cut->n, sizeof *seeds);
-  CeldStatus status = seeds ? add_basins (&mesh) : CELD_NO_MEMORY;
+  CeldCutGraph graph = { .cut = cut };
+  size_t      *seeds = celd_alloc0 (cut->n, sizeof *seeds);
+  CeldStatus   status = seeds ? add_basins (&graph) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = add_borders (&mesh);
+    status = add_boundaries (&graph);
   for (int y = cut->top; y <= cut->bottom && status == CELD_OK; y++)
-    count_seeds (&mesh, y, seeds);
+    count_seeds (&graph, y, seeds);
   if (status == CELD_OK)
-    status = celd_mesh_kept (&mesh, kept);
+    status = celd_cut_graph_find_kept_end (&graph, kept);
   if (status == CELD_OK && *kept >= 0)
     {
-      pull (&mesh, seeds, *kept);
-      status = celd_mesh_solve (&mesh, *kept, host);
+      terminal (&graph, seeds, *kept);
+      status = celd_cut_graph_solve (&graph, *kept, host);
     }
-  for (size_t k = 0; k < mesh.n && status == CELD_OK; k++)
-    side[k] = mesh.node[k].side;
+  for (size_t k = 0; k < graph.n && status == CELD_OK; k++)
+    side[k] = graph.node[k].side;
   celd_free (seeds);
-  celd_mesh_clear (&mesh);
+  celd_cut_graph_clear (&graph);
   return status;
 }

@@ -17,8 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-#define REACH         4         /* stroke widths */
-#define LEAST_REACH   16        /* pixels; shorter ends say nothing about directions */
+#define RADIUS         4         /* stroke widths */
+#define LEAST_RADIUS   16        /* pixels; shorter ends say nothing about directions */
 #define FINE          7         /* pixels across a stroke are enough */
 #define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
 #define SHORTEST      6         /* pixels: dots and specks point nowhere */
@@ -30,19 +30,19 @@
 CeldStatus
 celd_line_end_new (int stroke, CeldLineEnd *end)
 {
-  int    step = stroke / FINE > 1 ? stroke / FINE : 1, reach = REACH * stroke / step;
+  int    step = stroke / FINE > 1 ? stroke / FINE : 1, radius = RADIUS * stroke / step;
   size_t n;
 
-  reach = reach < LEAST_REACH ? LEAST_REACH : reach;
-  n     = (size_t) (2 * reach + 1) * (size_t) (2 * reach + 1);
+  radius = radius < LEAST_RADIUS ? LEAST_RADIUS : radius;
+  n     = (size_t) (2 * radius + 1) * (size_t) (2 * radius + 1);
   *end  = (CeldLineEnd) {
     .step  = step,
-    .reach = reach,
-    .mine  = celd_alloc0 (n, 1),
+    .radius = radius,
+    .member  = celd_alloc0 (n, 1),
     .pixel = celd_alloc (n, sizeof *end->pixel),
     .from  = celd_alloc (n, sizeof *end->from),
   };
-  if (end->mine && end->pixel && end->from)
+  if (end->member && end->pixel && end->from)
     return CELD_OK;
   celd_line_end_clear (end);
   return CELD_NO_MEMORY;
@@ -51,7 +51,7 @@ celd_line_end_new (int stroke, CeldLineEnd *end)
 void
 celd_line_end_clear (CeldLineEnd *end)
 {
-  celd_free (end->mine);
+  celd_free (end->member);
   celd_free (end->pixel);
   celd_free (end->from);
   *end = (CeldLineEnd) { 0 };
@@ -72,15 +72,15 @@ steps (const CeldLineEnd *end, int pixel)
 static uint8_t *
 place_of (const CeldLineEnd *end, int u, int v)
 {
-  int side = 2 * end->reach + 1;
+  int side = 2 * end->radius + 1;
 
-  u += end->reach;
-  v += end->reach;
-  return u < 0 || v < 0 || u >= side || v >= side ? NULL : &end->mine[v * side + u];
+  u += end->radius;
+  v += end->radius;
+  return u < 0 || v < 0 || u >= side || v >= side ? NULL : &end->member[v * side + u];
 }
 
 bool
-celd_line_end_has (const CeldLineEnd *end, int x, int y)
+celd_line_end_contains (const CeldLineEnd *end, int x, int y)
 {
   int u = steps (end, x - end->middle.x), v = steps (end, y - end->middle.y), around = end->step > 1;
 
@@ -104,7 +104,7 @@ forget (CeldLineEnd *end)
 }
 
 static void
-take (const CeldPlane *ink, int u, int v, size_t from, CeldLineEnd *end)
+add_pixel (const CeldPlane *ink, int u, int v, size_t from, CeldLineEnd *end)
 {
   uint8_t *place = place_of (end, u, v);
   int      x = end->middle.x + u * end->step, y = end->middle.y + v * end->step;
@@ -128,8 +128,8 @@ gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end, Part *near, Pa
 
   forget (end);
   end->middle = pixel;
-  take (ink, 0, 0, 0, end);
-  for (int distance = 1; distance <= end->reach; distance++)
+  add_pixel (ink, 0, 0, 0, end);
+  for (int distance = 1; distance <= end->radius; distance++)
     {
       size_t to = end->n;
 
@@ -140,10 +140,10 @@ gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end, Part *near, Pa
           for (int dv = -1; dv <= 1; dv++)
             for (int du = -1; du <= 1; du++)
               if (!(distance & 1) || !du || !dv)
-                take (ink, u + du, v + dv, from, end);
+                add_pixel (ink, u + du, v + dv, from, end);
         }
       *far = (Part) { to, end->n };
-      if (2 * distance <= end->reach)
+      if (2 * distance <= end->radius)
         *near = *far;
     }
 }
@@ -277,12 +277,12 @@ place_on (const Line *line, double u)
 }
 
 static bool
-is_mine (const CeldPlane *ink, const CeldLineEnd *end, CeldPlace place)
+is_member (const CeldPlane *ink, const CeldLineEnd *end, CeldPlace place)
 {
   int x = (int) floor (place.x), y = (int) floor (place.y);
 
   return x >= 0 && y >= 0 && x < ink->width && y < ink->height && !celd_is_paper (CELD_AT (ink, x, y)) &&
-         celd_line_end_has (end, x, y);
+         celd_line_end_contains (end, x, y);
 }
 
 /* Where the middle of the line comes out of the ink; a line that was rubbed out may end hollow. */
@@ -296,7 +296,7 @@ find_tip (const CeldPlane *ink, const Line *line, CeldLineEnd *end)
       u      -= 0.25;
       end->at = place_on (line, u);
     }
-  while (u > line->least && !is_mine (ink, end, end->at));
+  while (u > line->least && !is_member (ink, end, end->at));
   end->inside = place_on (line, u - back);
   end->width  = line->width;
 }
@@ -313,7 +313,7 @@ find_direction (const Line *line, CeldLineEnd *end)
 
 /* What is near says best where the tip is, and what is farther away, where the line is heading. */
 void
-celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
+celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 {
   Part part[2] = { { 0, 0 }, { 0, 0 } };
 
@@ -338,7 +338,7 @@ celd_line_end_look (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 }
 
 void
-celd_line_end_none (CeldCorner corner, CeldLineEnd *end)
+celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end)
 {
   forget (end);
   end->tip   = false;
@@ -369,7 +369,7 @@ celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place)
 /* The ink that a border from the other end should go to.  A way of length l that turns off by the angle a from where a
  * line is heading counts l (1 + 2 (1 - cos a)): straight on, if the shortest way is not less than half as long. */
 static CeldPlace
-aim (const CeldLineEnd *from, const CeldLineEnd *end)
+aimed_place (const CeldLineEnd *from, const CeldLineEnd *end)
 {
   double    least = INFINITY;
   CeldPlace place = end->at;
@@ -388,9 +388,9 @@ aim (const CeldLineEnd *from, const CeldLineEnd *end)
 }
 
 void
-celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end)
+celd_line_end_aim (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *end)
 {
-  CeldPlace place = aim (from, end);
+  CeldPlace place = aimed_place (from, end);
   double    length = celd_distance_between (from->at, place);
   double    x = length > 0 ? (place.x - from->at.x) / length : 0, y = length > 0 ? (place.y - from->at.y) / length : 0;
 
@@ -398,7 +398,7 @@ celd_line_end_face (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *
   for (double t = 0; t < length; t += 0.25) /* the edge of that ink */
     {
       place = (CeldPlace) { from->at.x + t * x, from->at.y + t * y };
-      if (!is_mine (ink, end, place))
+      if (!is_member (ink, end, place))
         continue;
       end->at     = place;
       end->inside = (CeldPlace) { place.x + x, place.y + y };

@@ -197,7 +197,7 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
   if (inside.x < 0 || inside.y < 0 || inside.x >= s->width || inside.y >= s->height ||
       !*mask_at (s, inside.x, inside.y))
     return CELD_OK;
-  celd_line_end_look (s->ink, inside, &s->end);
+  celd_line_end_fit (s->ink, inside, &s->end);
   if (s->end.tip)
     end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
   else

@@ -9,14 +9,14 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 #include "segment/refinement.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>
 
-#define NEVER (INT64_C (1) << 50)  /* what it costs to disobey a hard stroke */
+#define DISOBEYED (INT64_C (1) << 50)  /* what it costs to disobey a hard stroke */
 
 /* The first edge of a run: between (x,y) and the pixel below, the run going to the right; or between (x,y) and the
  * pixel to the right, the run going down. */
@@ -27,26 +27,26 @@ typedef struct { Edge *item; size_t n; } Edges;
 
 /* What a pixel with this label costs: its borders, and its stroke. */
 static int64_t
-cost_of (const CeldSettling *s, int x, int y, uint32_t label)
+cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
 {
   const CeldLabels *l = s->labels;
-  uint32_t          seed = celd_seed_rows_at (&s->canvas->seeds, x, y);
+  uint32_t          seed = celd_seed_rows_at (&s->task->seeds, x, y);
   int64_t           cost = 0;
 
   if (seed && seed != label)
     {
-      int32_t vote = celd_canvas_vote (s->canvas, seed);
+      int32_t vote = celd_task_data_cost (s->task, seed);
 
-      cost = vote == CELD_HARD ? NEVER : vote;
+      cost = vote == CELD_HARD ? DISOBEYED : vote;
     }
   if (x > 0 && CELD_AT (l, x - 1, y) != label)
-    cost += celd_settling_cost (s, x - 1, y, false);
+    cost += celd_refinement_cost (s, x - 1, y, false);
   if (x + 1 < l->width && CELD_AT (l, x + 1, y) != label)
-    cost += celd_settling_cost (s, x, y, false);
+    cost += celd_refinement_cost (s, x, y, false);
   if (y > 0 && CELD_AT (l, x, y - 1) != label)
-    cost += celd_settling_cost (s, x, y - 1, true);
+    cost += celd_refinement_cost (s, x, y - 1, true);
   if (y + 1 < l->height && CELD_AT (l, x, y + 1) != label)
-    cost += celd_settling_cost (s, x, y, true);
+    cost += celd_refinement_cost (s, x, y, true);
   return cost;
 }
 
@@ -61,7 +61,7 @@ is_edge (const CeldLabels *l, int x, int y, bool south)
 
 /* Do two edges of the same direction belong to one run, if they are neighbours? */
 static bool
-same_run (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
+same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
 {
   return is_edge (l, x2, y2, south) && CELD_AT (l, x, y) == CELD_AT (l, x2, y2) &&
          CELD_AT (l, x + !south, y + south) == CELD_AT (l, x2 + !south, y2 + south);
@@ -75,7 +75,7 @@ note (const CeldLabels *l, int x, int y, bool south, Edges *edges)
 
   if (!is_edge (l, x, y, south))
     return CELD_OK;
-  while (same_run (l, x, y, x - south, y - !south, south))
+  while (same_segment (l, x, y, x - south, y - !south, south))
     {
       x -= south;
       y -= !south;
@@ -97,16 +97,16 @@ note (const CeldLabels *l, int x, int y, bool south, Edges *edges)
 
 /* All runs of the picture. */
 static CeldStatus
-find_runs (const CeldLabels *l, Edges *edges)
+find_segments (const CeldLabels *l, Edges *edges)
 {
   CeldStatus status = CELD_OK;
 
   for (int y = 0; y < l->height && status == CELD_OK; y++)
     for (int x = 0; x < l->width && status == CELD_OK; x++)
       {
-        if (is_edge (l, x, y, true) && !same_run (l, x, y, x - 1, y, true))
+        if (is_edge (l, x, y, true) && !same_segment (l, x, y, x - 1, y, true))
           status = note (l, x, y, true, edges);
-        if (is_edge (l, x, y, false) && !same_run (l, x, y, x, y - 1, false) && status == CELD_OK)
+        if (is_edge (l, x, y, false) && !same_segment (l, x, y, x, y - 1, false) && status == CELD_OK)
           status = note (l, x, y, false, edges);
       }
   return status;
@@ -114,7 +114,7 @@ find_runs (const CeldLabels *l, Edges *edges)
 
 /* The n pixels from (x,y) on take a label, if that costs less. */
 static CeldStatus
-move (CeldSettling *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
+move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
 {
   uint32_t   old = CELD_AT (s->labels, x, y);
   size_t     before = s->n_changed;
@@ -126,7 +126,7 @@ move (CeldSettling *s, int x, int y, bool south, int n, uint32_t label, bool *mo
       int px = x + i * south, py = y + i * !south;
 
       gain  += cost_of (s, px, py, old) - cost_of (s, px, py, label);
-      status = celd_settling_set (s, px, py, label);
+      status = celd_refinement_set_label (s, px, py, label);
     }
   *moved = status == CELD_OK && gain > 0;
   if (*moved)
@@ -165,7 +165,7 @@ note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
 
 /* Moves a run to one side or the other. */
 static CeldStatus
-try_run (CeldSettling *s, Edge edge, Edges *next)
+try_segment (CeldBoundaryRefinement *s, Edge edge, Edges *next)
 {
   const CeldLabels *l = s->labels;
   bool              south = edge.south, moved;
@@ -175,7 +175,7 @@ try_run (CeldSettling *s, Edge edge, Edges *next)
 
   if (!is_edge (l, x, y, south))
     return CELD_OK;
-  while (same_run (l, x, y, x + n * south, y + n * !south, south))
+  while (same_segment (l, x, y, x + n * south, y + n * !south, south))
     n++;
   one    = CELD_AT (l, x, y);
   other  = CELD_AT (l, x + !south, y + south);
@@ -190,17 +190,17 @@ try_run (CeldSettling *s, Edge edge, Edges *next)
 }
 
 static CeldStatus
-settle_runs (CeldSettling *s)
+refine_segments (CeldBoundaryRefinement *s)
 {
   Edges      edges = { 0 };
-  CeldStatus status = find_runs (s->labels, &edges);
+  CeldStatus status = find_segments (s->labels, &edges);
 
   while (edges.n && status == CELD_OK)
     {
       Edges next = { 0 };
 
       for (size_t i = 0; i < edges.n && status == CELD_OK; i++)
-        status = try_run (s, edges.item[i], &next);
+        status = try_segment (s, edges.item[i], &next);
       celd_free (edges.item);
       edges = next;
       if (status == CELD_OK)
@@ -214,9 +214,9 @@ settle_runs (CeldSettling *s)
 
 /* Paint on lines: there a border round a single pixel costs less than the stroke that it disobeys. */
 static CeldStatus
-settle_paint (CeldSettling *s)
+refine_seeds (CeldBoundaryRefinement *s)
 {
-  const CeldSeedRows *seeds = &s->canvas->seeds;
+  const CeldSeedRows *seeds = &s->task->seeds;
   CeldStatus          status = CELD_OK;
 
   for (int y = 0; y < seeds->height; y++)
@@ -229,7 +229,7 @@ settle_paint (CeldSettling *s)
             uint32_t label = CELD_AT (s->labels, x, y);
 
             if (label != run->label && cost_of (s, x, y, run->label) < cost_of (s, x, y, label))
-              status = celd_settling_set (s, x, y, run->label);
+              status = celd_refinement_set_label (s, x, y, run->label);
           }
       }
   return status;
@@ -247,7 +247,7 @@ compare_pixels (const void *a, const void *b)
 
 /* What has changed, as patches. */
 static CeldStatus
-list_changes (CeldSettling *s, CeldPatches *patches)
+list_changes (CeldBoundaryRefinement *s, CeldPatches *patches)
 {
   uint32_t   w = (uint32_t) s->labels->width;
   CeldStatus status = CELD_OK;
@@ -273,27 +273,27 @@ list_changes (CeldSettling *s, CeldPatches *patches)
 }
 
 CeldStatus
-celd_borders_settle (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels, CeldPatches *patches)
+celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels, CeldPatches *patches)
 {
-  size_t       n = (size_t) labels->width * (size_t) labels->height;
-  CeldHostPart     part;
-  CeldHost     brief = celd_host_part (&part, host, 0, 0);
-  CeldSettling s = {
-    .canvas = canvas, .host = &brief, .labels = labels, .depth = celd_alloc (n, sizeof *s.depth)
+  size_t                 n = (size_t) labels->width * (size_t) labels->height;
+  CeldHostPart           part;
+  CeldHost               brief = celd_host_part (&part, host, 0, 0);
+  CeldBoundaryRefinement s = {
+    .task = task, .host = &brief, .labels = labels, .to_paper = celd_alloc (n, sizeof *s.to_paper)
   };
-  CeldStatus   status = s.depth ? celd_ink_depth (canvas->ink, &brief, s.depth) : CELD_NO_MEMORY;
+  CeldStatus             status = s.to_paper ? celd_distance_to_paper (task->ink, &brief, s.to_paper) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = settle_paint (&s);
+    status = refine_seeds (&s);
   if (status == CELD_OK)
-    status = settle_runs (&s);
+    status = refine_segments (&s);
   if (status == CELD_OK)
-    status = celd_settle_gaps (&s);
+    status = celd_refine_gaps (&s);
   if (status == CELD_OK)
-    status = settle_runs (&s);
+    status = refine_segments (&s);
   if (status == CELD_OK)
     status = list_changes (&s, patches);
-  celd_free (s.depth);
+  celd_free (s.to_paper);
   celd_free (s.changed);
   return status;
 }

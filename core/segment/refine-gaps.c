@@ -5,8 +5,8 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
 #include "segment/refinement.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -45,18 +45,19 @@ most (int a, int b)
 /* ------------------------------------------------------------------ pixels */
 
 int32_t
-celd_settling_cost (const CeldSettling *s, int x, int y, bool south)
+celd_refinement_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
 {
-  const CeldPlane *ink = s->canvas->ink;
+  const CeldPlane *ink = s->task->ink;
   size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
   bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
 
-  return celd_cost (&s->canvas->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south), s->depth[p],
-                    s->depth[south ? p + w : p + 1], frame);
+  return celd_smoothness_cost (&s->task->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south),
+                               s->to_paper[p],
+                               s->to_paper[south ? p + w : p + 1], frame);
 }
 
 CeldStatus
-celd_settling_set (CeldSettling *s, int x, int y, uint32_t label)
+celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t label)
 {
   uint32_t *changed = celd_grow (s->changed, s->n_changed + 1, sizeof *changed);
 
@@ -95,16 +96,16 @@ note_gap (int x, int y, Boxes *boxes)
 
 /* Is the edge a border across paper? */
 static bool
-is_gap (const CeldSettling *s, int x, int y, bool south)
+is_gap (const CeldBoundaryRefinement *s, int x, int y, bool south)
 {
   int x2 = x + !south, y2 = y + south;
 
   return x2 < s->labels->width && y2 < s->labels->height && CELD_AT (s->labels, x, y) != CELD_AT (s->labels, x2, y2) &&
-         celd_is_paper (CELD_AT (s->canvas->ink, x, y)) && celd_is_paper (CELD_AT (s->canvas->ink, x2, y2));
+         celd_is_paper (CELD_AT (s->task->ink, x, y)) && celd_is_paper (CELD_AT (s->task->ink, x2, y2));
 }
 
 static CeldStatus
-find_gaps (const CeldSettling *s, Boxes *boxes)
+find_gaps (const CeldBoundaryRefinement *s, Boxes *boxes)
 {
   CeldStatus status = CELD_OK;
 
@@ -117,9 +118,9 @@ find_gaps (const CeldSettling *s, Boxes *boxes)
 
 /* The window of a gap. */
 static Box
-widen (const CeldSettling *s, Box b)
+widen (const CeldBoundaryRefinement *s, Box b)
 {
-  int margin = MARGIN + s->canvas->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
+  int margin = MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
 
   return (Box) { most (b.left - margin, 0), most (b.top - margin, 0),
                  least (b.right + margin, s->labels->width - 1), least (b.bottom + margin, s->labels->height - 1) };
@@ -146,7 +147,7 @@ local_label (Window *window, uint32_t label)
 }
 
 static void
-add_edge (const CeldSettling *s, Window *window, uint32_t node, int x, int y, int x2, int y2)
+add_edge (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x, int y, int x2, int y2)
 {
   int     w = window->box.right - window->box.left + 1;
   bool    south = x == x2;
@@ -156,21 +157,21 @@ add_edge (const CeldSettling *s, Window *window, uint32_t node, int x, int y, in
     return;
   if (!inside (&window->box, x2, y2))
     {
-      cost = celd_settling_cost (s, least (x, x2), least (y, y2), south);
+      cost = celd_refinement_cost (s, least (x, x2), least (y, y2), south);
       window->vote[window->n_votes++] = (CeldVote) { node, local_label (window, CELD_AT (s->labels, x2, y2)), cost };
     }
   else if (x2 > x || y2 > y)
     {
-      cost = celd_settling_cost (s, x, y, south);
+      cost = celd_refinement_cost (s, x, y, south);
       window->link[window->n_links++] = (CeldLink) { node, node + (uint32_t) (south ? w : 1), cost };
     }
 }
 
 static void
-add_pixel (const CeldSettling *s, Window *window, uint32_t node, int x, int y)
+add_pixel (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x, int y)
 {
-  uint32_t seed = celd_seed_rows_at (&s->canvas->seeds, x, y);
-  int32_t  vote = seed ? celd_canvas_vote (s->canvas, seed) : 0;
+  uint32_t seed = celd_seed_rows_at (&s->task->seeds, x, y);
+  int32_t  vote = seed ? celd_task_data_cost (s->task, seed) : 0;
 
   window->present[node] = local_label (window, CELD_AT (s->labels, x, y));
   window->fixed[node]   = vote == CELD_HARD ? local_label (window, seed) : 0;
@@ -183,10 +184,10 @@ add_pixel (const CeldSettling *s, Window *window, uint32_t node, int x, int y)
 }
 
 static CeldStatus
-window_new (const CeldSettling *s, Box box, Window *window)
+window_new (const CeldBoundaryRefinement *s, Box box, Window *window)
 {
   size_t   w = (size_t) (box.right - box.left + 1), h = (size_t) (box.bottom - box.top + 1), n = w * h;
-  size_t   n_labels = s->canvas->palette.n;
+  size_t   n_labels = s->task->palette.n;
   uint32_t node = 0;
 
   *window = (Window) {
@@ -227,13 +228,13 @@ window_clear (Window *window)
 
 /* Labels are told apart in the order of the whole picture. */
 static CeldStatus
-order_labels (const CeldSettling *s, Window *window)
+order_labels (const CeldBoundaryRefinement *s, Window *window)
 {
-  uint32_t  *order = celd_alloc (s->canvas->palette.n, sizeof *order);
+  uint32_t  *order = celd_alloc (s->task->palette.n, sizeof *order);
   size_t     n = 0;
-  CeldStatus status = order ? celd_canvas_order (s->canvas, order) : CELD_NO_MEMORY;
+  CeldStatus status = order ? celd_task_label_order (s->task, order) : CELD_NO_MEMORY;
 
-  for (size_t i = 0; i < s->canvas->palette.n && status == CELD_OK; i++)
+  for (size_t i = 0; i < s->task->palette.n && status == CELD_OK; i++)
     if (window->local[order[i]])
       window->order[n++] = window->local[order[i]];
   celd_free (order);
@@ -241,7 +242,7 @@ order_labels (const CeldSettling *s, Window *window)
 }
 
 static CeldStatus
-solve (CeldSettling *s, Window *window)
+solve (CeldBoundaryRefinement *s, Window *window)
 {
   CeldPartition problem = {
     window->n, window->link, window->n_links, window->vote, window->n_votes, window->fixed, window->order,
@@ -256,12 +257,12 @@ solve (CeldSettling *s, Window *window)
   for (int y = window->box.top; y <= window->box.bottom; y++)
     for (int x = window->box.left; x <= window->box.right && status == CELD_OK; x++, node++)
       if (window->label[node] != window->present[node])
-        status = celd_settling_set (s, x, y, window->global[window->label[node] - 1]);
+        status = celd_refinement_set_label (s, x, y, window->global[window->label[node] - 1]);
   return status;
 }
 
 CeldStatus
-celd_settle_gaps (CeldSettling *s)
+celd_refine_gaps (CeldBoundaryRefinement *s)
 {
   Boxes      boxes = { 0 };
   CeldStatus status = find_gaps (s, &boxes);

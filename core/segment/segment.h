@@ -29,12 +29,13 @@ CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *s
                                  CeldProblems *problems, CeldLabels *labels, CeldRect *changed);
 
 /* How many of the last solve's relations, from the first on, it takes for its answer: those behind changed nothing. */
-size_t celd_segmenter_acting (const CeldSegmenter *segmenter);
+size_t celd_segmenter_effective_relations (const CeldSegmenter *segmenter);
 
 /* Would this relation, behind those, change nothing either?  `settings` and `labels` are those of the last solve.
  * False also where that cannot be told without solving. */
-bool celd_segmenter_spares (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
-                            const CeldLabels *labels);
+bool celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation,
+                                  const CeldSettings *settings,
+                                  const CeldLabels *labels);
 
 /* The gaps that the last solve closed; borrowed. */
 const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);

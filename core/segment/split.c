@@ -9,9 +9,9 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 #include "segment/splits.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 #include <math.h>
@@ -21,16 +21,16 @@ typedef struct { int left, top, right, bottom; } Box; /* inclusive */
 
 typedef struct
 {
-  CeldCanvas       *canvas;
+  CeldSegmentTask  *task;
   const CeldLabels *labels;
-  CeldSeedRows      taken;     /* what relations have changed of the labels so far */
-  CeldSeedRows      painted;   /* seeds before any relation added some */
-  size_t           *first;     /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
-  uint32_t         *border;
-  Box              *box;       /* of each basin */
+  CeldSeedRows      taken;      /* what relations have changed of the labels so far */
+  CeldSeedRows      painted;    /* seeds before any relation added some */
+  size_t           *first;      /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
+  uint32_t         *boundary;
+  Box              *box;        /* of each basin */
   uint32_t         *basin, *at; /* the region at hand, as CeldCut has it */
-  uint8_t          *side;      /* of its basins, after a cut between basins */
-  uint8_t          *mark;      /* of each pixel, for celd_cut; CELD_OUTSIDE between two cuts */
+  uint8_t          *side;       /* of its basins, after a cut between basins */
+  uint8_t          *mark;       /* of each pixel, for celd_cut_pixels; CELD_OUTSIDE between two cuts */
   uint32_t         *node;
 } Split;
 
@@ -44,16 +44,16 @@ label_at (const Split *split, int x, int y)
 
 /* Are strokes of the label obeyed, whatever arrows say?  A flat colouring has no strokes: arrows split its areas. */
 static bool
-is_hard (const CeldCanvas *canvas, uint32_t label)
+is_hard (const CeldSegmentTask *task, uint32_t label)
 {
-  return !canvas->settings->flats && canvas->palette.item[label - 1].origin == CELD_FROM_SCRIBBLE &&
-         celd_canvas_vote (canvas, label) == CELD_HARD;
+  return !task->settings->flats && task->palette.item[label - 1].origin == CELD_FROM_SCRIBBLE &&
+         celd_task_data_cost (task, label) == CELD_HARD;
 }
 
 static bool
 on_hard_stroke (const Split *split, CeldRelationEnd end, uint32_t label)
 {
-  return is_hard (split->canvas, label) && celd_seed_rows_at (&split->painted, end.x, end.y) == label;
+  return is_hard (split->task, label) && celd_seed_rows_at (&split->painted, end.x, end.y) == label;
 }
 
 /* ------------------------------------------------------------------ work space, made for the first region */
@@ -61,19 +61,19 @@ on_hard_stroke (const Split *split, CeldRelationEnd end, uint32_t label)
 static CeldStatus
 split_new (Split *split)
 {
-  const CeldBasins *basins = split->canvas->basins;
+  const CeldBasins *basins = split->task->basins;
   size_t            n_pixels = (size_t) basins->width * (size_t) basins->height;
 
   split->first  = celd_alloc0 (basins->n + 2, sizeof *split->first);
-  split->border = celd_alloc (2 * basins->n_borders, sizeof *split->border);
+  split->boundary = celd_alloc (2 * basins->n_boundaries, sizeof *split->boundary);
   split->box    = celd_alloc (basins->n, sizeof *split->box);
   split->basin  = celd_alloc (basins->n, sizeof *split->basin);
   split->at     = celd_alloc0 (basins->n, sizeof *split->at);
   split->side   = celd_alloc (basins->n, 1);
   split->mark   = celd_alloc0 (n_pixels, 1);
   split->node   = celd_alloc (n_pixels, sizeof *split->node);
-  return split->first && split->border && split->box && split->basin && split->at && split->side && split->mark &&
-         split->node ? celd_seed_rows_copy (&split->canvas->seeds, &split->painted) : CELD_NO_MEMORY;
+  return split->first && split->boundary && split->box && split->basin && split->at && split->side && split->mark &&
+         split->node ? celd_seed_rows_copy (&split->task->seeds, &split->painted) : CELD_NO_MEMORY;
 }
 
 static void
@@ -82,7 +82,7 @@ split_clear (Split *split)
   celd_seed_rows_clear (&split->taken);
   celd_seed_rows_clear (&split->painted);
   celd_free (split->first);
-  celd_free (split->border);
+  celd_free (split->boundary);
   celd_free (split->box);
   celd_free (split->basin);
   celd_free (split->at);
@@ -92,29 +92,29 @@ split_clear (Split *split)
 }
 
 static void
-list_borders (Split *split)
+list_boundaries (Split *split)
 {
-  const CeldBasins *basins = split->canvas->basins;
+  const CeldBasins *basins = split->task->basins;
   size_t           *first = split->first;
 
-  for (size_t i = 0; i < basins->n_borders; i++)
+  for (size_t i = 0; i < basins->n_boundaries; i++)
     {
-      first[basins->border[i].a + 2]++;
-      first[basins->border[i].b + 2]++;
+      first[basins->boundary[i].a + 2]++;
+      first[basins->boundary[i].b + 2]++;
     }
   for (size_t k = 1; k < basins->n + 2; k++)
     first[k] += first[k - 1];
-  for (size_t i = 0; i < basins->n_borders; i++)
+  for (size_t i = 0; i < basins->n_boundaries; i++)
     {
-      split->border[first[basins->border[i].a + 1]++] = (uint32_t) i;
-      split->border[first[basins->border[i].b + 1]++] = (uint32_t) i;
+      split->boundary[first[basins->boundary[i].a + 1]++] = (uint32_t) i;
+      split->boundary[first[basins->boundary[i].b + 1]++] = (uint32_t) i;
     }
 }
 
 static void
 find_boxes (Split *split)
 {
-  const CeldBasins *basins = split->canvas->basins;
+  const CeldBasins *basins = split->task->basins;
 
   for (size_t k = 0; k < basins->n; k++)
     split->box[k] = (Box) { basins->width, basins->height, -1, -1 };
@@ -136,19 +136,19 @@ find_boxes (Split *split)
 static bool
 basin_has (const Split *split, uint32_t k, uint32_t label)
 {
-  const CeldBasin *basin = &split->canvas->basins->basin[k];
+  const CeldBasin *basin = &split->task->basins->basin[k];
 
   return label_at (split, basin->x, basin->y) == label;
 }
 
 /* Does the label go on from one basin to another? */
 static bool
-goes_on (const Split *split, const CeldBorder *border, uint32_t label)
+goes_on (const Split *split, const CeldBasinBoundary *boundary, uint32_t label)
 {
-  if (basin_has (split, border->a, label) && basin_has (split, border->b, label))
+  if (basin_has (split, boundary->a, label) && basin_has (split, boundary->b, label))
     return true;
-  return border->passes && label_at (split, border->x, border->y) == label &&
-         label_at (split, border->x + !border->south, border->y + border->south) == label;
+  return boundary->opening && label_at (split, boundary->x, boundary->y) == label &&
+         label_at (split, boundary->x + !boundary->south, boundary->y + boundary->south) == label;
 }
 
 static void
@@ -171,7 +171,7 @@ join (Split *split, uint32_t k, CeldCut *cut)
 static bool
 find_region (Split *split, CeldCut *cut)
 {
-  const CeldBasins *basins = split->canvas->basins;
+  const CeldBasins *basins = split->task->basins;
   uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
   uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
   bool              whole = basin_has (split, first, cut->label) && basin_has (split, second, cut->label);
@@ -182,10 +182,10 @@ find_region (Split *split, CeldCut *cut)
   for (size_t i = 0; i < cut->n; i++)
     for (size_t j = split->first[cut->basin[i]]; j < split->first[cut->basin[i] + 1]; j++)
       {
-        const CeldBorder *border = &basins->border[split->border[j]];
+        const CeldBasinBoundary *boundary = &basins->boundary[split->boundary[j]];
 
-        if (goes_on (split, border, cut->label))
-          join (split, border->a == cut->basin[i] ? border->b : border->a, cut);
+        if (goes_on (split, boundary, cut->label))
+          join (split, boundary->a == cut->basin[i] ? boundary->b : boundary->a, cut);
       }
   cut->any = !whole && !cut->at[second];
   for (uint32_t k = 0; k < basins->n && cut->any; k++)
@@ -197,7 +197,7 @@ find_region (Split *split, CeldCut *cut)
 static void
 mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
 {
-  const CeldBasins  *basins = split->canvas->basins;
+  const CeldBasins  *basins = split->task->basins;
   const CeldSeedRow *taken = &split->taken.row[y];
   const uint32_t    *label = &CELD_AT (split->labels, 0, y);
   uint8_t           *mark = cut->mark + (size_t) y * (size_t) basins->width;
@@ -255,21 +255,21 @@ obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
 
 /* The pixels of a disc that its side of the cut holds are seeds from now on. */
 static CeldStatus
-seed_disc (Split *split, const CeldDisc *disc, uint8_t side, uint32_t label)
+seed_disc (Split *split, const CeldSeedDisc *disc, uint8_t side, uint32_t label)
 {
   int        w = split->labels->width, r = (int) disc->radius, top = disc->y - r, bottom = disc->y + r, x, end;
   CeldStatus status = CELD_OK;
 
   bottom = bottom < split->labels->height ? bottom : split->labels->height - 1;
   for (int y = top < 0 ? 0 : top; y <= bottom; y++)
-    if (celd_disc_row (disc, y, &x, &end))
+    if (celd_seed_disc_row (disc, y, &x, &end))
       for (int next = x = x < 0 ? 0 : x; x < end && x < w && status == CELD_OK; x = next + 1)
         {
           const uint8_t *mark = split->mark + (size_t) y * (size_t) w;
 
           for (next = x; next < end && next < w && mark[next] == side; next++)
             ;
-          status = celd_seed_rows_paint (&split->canvas->seeds, y, x, next, label);
+          status = celd_seed_rows_paint (&split->task->seeds, y, x, next, label);
         }
   return status;
 }
@@ -301,9 +301,9 @@ take_over (Split *split, const CeldCut *cut, int kept)
 {
   const uint8_t side[2] = { CELD_NEAR_FIRST, CELD_NEAR_SECOND };
   uint32_t      label[2] = { cut->label, cut->label };
-  CeldStatus    status = celd_hue_add (split->canvas, &label[1 - kept]);
+  CeldStatus    status = celd_task_add_arrow_label (split->task, &label[1 - kept]);
 
-  if (is_hard (split->canvas, cut->label))
+  if (is_hard (split->task, cut->label))
     obey_strokes (split, cut, side[kept]);
   if (status == CELD_OK)
     status = take_side (split, cut, side[1 - kept], label[1 - kept]);
@@ -317,34 +317,34 @@ take_over (Split *split, const CeldCut *cut, int kept)
 static CeldStatus
 cut_region (Split *split, CeldCut *cut, const CeldHost *host, int *kept)
 {
-  const CeldBasins *basins = split->canvas->basins;
+  const CeldBasins *basins = split->task->basins;
   uint32_t          first = celd_basin_at (basins, cut->end[0].x, cut->end[0].y);
   uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
-  bool              narrow = !cut->any && basins->block[first] != basins->block[second];
+  bool              narrow = !cut->any && basins->merged[first] != basins->merged[second];
   CeldStatus        status = narrow ? celd_cut_basins (cut, host, split->side, kept) : CELD_OK;
 
   for (int y = cut->top; y <= cut->bottom && status == CELD_OK && (!narrow || *kept >= 0); y++)
     mark_row (split, cut, narrow ? split->side : NULL, y);
-  return narrow || status != CELD_OK ? status : celd_cut (cut, host, kept);
+  return narrow || status != CELD_OK ? status : celd_cut_pixels (cut, host, kept);
 }
 
 static CeldStatus
 split_region (Split *split, CeldCut *cut, size_t relation, const CeldHost *host)
 {
-  double     reach = CELD_REACH * celd_ends_apart (cut->end[0], cut->end[1]);
+  double     farthest = CELD_DISC_RANGE * celd_relation_end_distance (cut->end[0], cut->end[1]);
   int        kept = -1;
   CeldStatus status = CELD_OK;
 
   if (find_region (split, cut))
     {
       for (int i = 0; i < 2; i++)
-        cut->discs[i] = celd_discs_find (split->canvas, cut->end[i], reach, INFINITY);
+        cut->discs[i] = celd_seed_discs_find (split->task, cut->end[i], farthest, INFINITY);
       status = cut_region (split, cut, host, &kept);
       if (status == CELD_OK && kept >= 0)
         {
           status = take_over (split, cut, kept);
-          if (split->canvas->acting <= relation)
-            split->canvas->acting = relation + 1;
+          if (split->task->n_effective <= relation)
+            split->task->n_effective = relation + 1;
         }
     }
   leave_region (split, cut);
@@ -355,9 +355,10 @@ static CeldStatus
 split_relation (Split *split, const CeldRelations *relations, size_t i, const CeldHost *host)
 {
   const CeldRelation *relation = &relations->item[i];
-  CeldCanvas         *canvas = split->canvas;
+  CeldSegmentTask    *task = split->task;
   CeldCut             cut = {
-    .canvas = canvas, .end = { celd_end_find (canvas, &relation->nearer), celd_end_find (canvas, &relation->farther) },
+    .task = task,
+    .end  = { celd_relation_end_find (task, &relation->nearer), celd_relation_end_find (task, &relation->farther) },
   };
 
   if (relation->equal || !cut.end[0].there || !cut.end[1].there)
@@ -370,7 +371,7 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
     {
       if (split_new (split) != CELD_OK)
         return CELD_NO_MEMORY;
-      list_borders (split);
+      list_boundaries (split);
       find_boxes (split);
     }
   if (on_hard_stroke (split, cut.end[0], cut.label) && on_hard_stroke (split, cut.end[1], cut.label))
@@ -413,10 +414,11 @@ lies_on (const CeldPatches *patches, CeldRelationEnd end)
 }
 
 bool
-celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const CeldLabels *labels,
-                  const CeldPatches *patches)
+celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation, const CeldLabels *labels,
+                           const CeldPatches *patches)
 {
-  CeldRelationEnd a = celd_end_find (canvas, &relation->nearer), b = celd_end_find (canvas, &relation->farther);
+  CeldRelationEnd a = celd_relation_end_find (task, &relation->nearer),
+  b = celd_relation_end_find (task, &relation->farther);
 
   if (relation->equal || !a.there || !b.there)
     return true;
@@ -424,10 +426,11 @@ celd_seeds_apart (const CeldCanvas *canvas, const CeldRelation *relation, const 
 }
 
 CeldStatus
-celd_seeds_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels, CeldCanvas *canvas,
-                  CeldPatches *patches)
+celd_regions_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels,
+                    CeldSegmentTask *task,
+                    CeldPatches *patches)
 {
-  Split      split = { .canvas = canvas, .labels = labels };
+  Split      split = { .task = task, .labels = labels };
   CeldStatus status;
 
   if (!relations->n)
@@ -436,8 +439,8 @@ celd_seeds_split (const CeldRelations *relations, const CeldHost *host, const Ce
   for (size_t i = 0; i < relations->n && status == CELD_OK; i++)
     {
       CeldHostPart part;
-      double   n = (double) relations->n;
-      CeldHost one = celd_host_part (&part, host, (double) i / n, (double) (i + 1) / n);
+      double       n = (double) relations->n;
+      CeldHost     one = celd_host_part (&part, host, (double) i / n, (double) (i + 1) / n);
 
       status = split_relation (&split, relations, i, &one);
     }

@@ -18,10 +18,10 @@ enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80
 
 /* Row y of the relief, with low ground on both sides; all low outside the picture. */
 CELD_CLONES static void
-raise_row (const CeldAscent *a, int y, int32_t *restrict relief)
+raise_row (const CeldWatershed *a, int y, int32_t *restrict relief)
 {
   bool           inside = y >= 0 && y < a->height;
-  const int32_t *squared = a->plot->squared + (inside ? (size_t) y * a->plot->stride : 0);
+  const int32_t *squared = a->extent->squared + (inside ? (size_t) y * a->extent->stride : 0);
   int32_t        core = a->core;
 
   relief[0] = relief[a->width + 1] = INT32_MIN;
@@ -166,30 +166,31 @@ lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
 
 /* Pixels of row y that keep their old basins lead there. */
 static void
-keep_row (const CeldAscent *a, int y, uint8_t *step, uint32_t *lead)
+keep_row (const CeldWatershed *a, int y, uint8_t *step, uint32_t *lead)
 {
-  const CeldBasins   *old = a->plot->old;
-  const uint8_t      *anew = a->plot->anew + (size_t) y * (size_t) a->width;
-  int                 left = a->plot->box.x;
-  const CeldBasinRun *run = old->run + old->row[a->plot->box.y + y], *end = old->run + old->row[a->plot->box.y + y + 1];
+  const CeldBasins   *old = a->extent->old;
+  const uint8_t      *rebuilt = a->extent->rebuilt + (size_t) y * (size_t) a->width;
+  int                 left = a->extent->box.x;
+  const CeldBasinRun *run = old->run + old->row[a->extent->box.y + y], *end = old->run +
+  old->row[a->extent->box.y + y + 1];
 
   for (int x = 0; x < a->width; x++)
     {
       while (run + 1 < end && run[1].x <= left + x)
         run++;
-      if (anew[x])
+      if (rebuilt[x])
         continue;
       step[x] = KEEP;
-      lead[x] = CELD_MAXIMUM | CELD_KEPT | 2 * run->basin;
+      lead[x] = CELD_LEAD_MAXIMUM | CELD_OLD_BASIN | 2 * run->basin;
     }
 }
 
 /* Maxima lead to themselves; what else does is not known. */
 static bool
-start_row (const CeldAscent *a, int y, uint8_t *step, CeldAscentBand *band, uint32_t *lead)
+start_row (const CeldWatershed *a, int y, uint8_t *step, CeldWatershedBand *band, uint32_t *lead)
 {
   memset (lead, 0xff, (size_t) a->width * sizeof *lead);
-  if (a->plot->anew)
+  if (a->extent->rebuilt)
     keep_row (a, y, step, lead);
   for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
     if (step[x] == STAY)
@@ -199,7 +200,7 @@ start_row (const CeldAscent *a, int y, uint8_t *step, CeldAscentBand *band, uint
         if (!maximum)
           return false;
         band->maximum = maximum;
-        lead[x] = CELD_MAXIMUM | (uint32_t) (2 * band->n);
+        lead[x] = CELD_LEAD_MAXIMUM | (uint32_t) (2 * band->n);
         maximum[band->n++] = (uint32_t) (y * a->width + x);
       }
   return true;
@@ -221,54 +222,55 @@ mark_stretches (int width, const uint32_t *restrict lead, uint8_t *restrict begi
 }
 
 static bool
-note_stretches (int width, const uint32_t *lead, uint8_t *begins, CeldAscentBand *band, int row)
+note_stretches (int width, const uint32_t *lead, uint8_t *begins, CeldWatershedBand *band, int row)
 {
   size_t n = band->row[row];
 
   mark_stretches (width, lead, begins);
   for (int x = 0; x < width; x = celd_next_marked (width, begins, x + 1))
     {
-      CeldAscentRun *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
+      CeldLeadStretch *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
 
       if (!stretch)
         return false;
       band->stretch = stretch;
-      stretch[n++] = (CeldAscentRun) { x, x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x], lead[x] };
+      stretch[n++] = (CeldLeadStretch) { x, x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x], lead[x] };
     }
   band->row[row + 1] = n;
   return true;
 }
 
 void
-celd_band_lead (void *data, int job)
+celd_watershed_lead_band (void *data, int job)
 {
-  const CeldAscent *a = data;
-  const CeldDesk   *desk = &a->desk[job];
-  int               w = a->width, at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
-  size_t            row_size = (size_t) w + 2;
-  uint32_t         *lead = desk->lead + row_size + 1, place = (uint32_t) (2 * at * w);
-  CeldAscentBand         *band = &a->band[at];
+  const CeldWatershed        *a = data;
+  const CeldWatershedScratch *scratch = &a->scratch[job];
+  int                         w = a->width, at = a->first + job, top = celd_watershed_band_top (at),
+  n = celd_watershed_band_end (a, at) - top;
+  size_t                      row_size = (size_t) w + 2;
+  uint32_t                   *lead = scratch->lead + row_size + 1, place = (uint32_t) (2 * at * w);
+  CeldWatershedBand          *band = &a->band[at];
 
-  raise_row (a, top - 1, desk->relief);
-  raise_row (a, top, desk->relief + row_size);
+  raise_row (a, top - 1, scratch->relief);
+  raise_row (a, top, scratch->relief + row_size);
   for (int i = 0; i < n && !band->failed; i++)
     {
-      uint8_t *step = desk->step + (size_t) i * (size_t) w;
+      uint8_t *step = scratch->step + (size_t) i * (size_t) w;
 
-      raise_row (a, top + i + 1, desk->relief + (size_t) (i + 2) % 3 * row_size);
-      find_steps (w, desk->relief + (size_t) i % 3 * row_size, desk->relief + (size_t) (i + 1) % 3 * row_size,
-                  desk->relief + (size_t) (i + 2) % 3 * row_size, step);
+      raise_row (a, top + i + 1, scratch->relief + (size_t) (i + 2) % 3 * row_size);
+      find_steps (w, scratch->relief + (size_t) i % 3 * row_size, scratch->relief + (size_t) (i + 1) % 3 * row_size,
+                  scratch->relief + (size_t) (i + 2) % 3 * row_size, step);
       band->failed = !start_row (a, top + i, step, band, lead + (size_t) i * row_size);
     }
   for (int x = 0; x < w; x++)
     {
-      desk->lead[x + 1] = place - (uint32_t) w + (uint32_t) x;
+      scratch->lead[x + 1] = place - (uint32_t) w + (uint32_t) x;
       lead[(size_t) n * row_size + (size_t) x] = place + 2 * (uint32_t) w + (uint32_t) x;
     }
   if (!band->failed)
-    lead_rows (w, n, desk->step, lead);
+    lead_rows (w, n, scratch->step, lead);
   for (int i = 0; i < n && !band->failed; i++)
-    band->failed = !note_stretches (w, lead + (size_t) i * row_size, desk->begins, band, i);
+    band->failed = !note_stretches (w, lead + (size_t) i * row_size, scratch->begins, band, i);
   memcpy (a->edge + place, lead, (size_t) w * sizeof *lead);
   memcpy (a->edge + place + w, lead + (size_t) (n - 1) * row_size, (size_t) w * sizeof *lead);
 }

@@ -17,7 +17,7 @@
 
 /* Numbers the maxima. */
 static CeldStatus
-make_basins (const CeldAscent *a)
+make_basins (const CeldWatershed *a)
 {
   CeldBasins *basins = a->basins;
   size_t      n = 0;
@@ -36,41 +36,41 @@ make_basins (const CeldAscent *a)
       {
         uint32_t p = a->band[i].maximum[j];
         uint32_t x = p % (uint32_t) a->width, y = p / (uint32_t) a->width;
-        int32_t  squared = a->plot->squared[y * a->plot->stride + x];
+        int32_t  squared = a->extent->squared[y * a->extent->stride + x];
 
         basins->basin[a->band[i].first + j] = (CeldBasin) {
-          .x = a->plot->box.x + (int32_t) x, .y = a->plot->box.y + (int32_t) y,
+          .x = a->extent->box.x + (int32_t) x, .y = a->extent->box.y + (int32_t) y,
           .squared = squared > 0 ? squared : -squared, .solid = squared < 0,
         };
       }
   return CELD_OK;
 }
 
-/* The basin that a lead with CELD_MAXIMUM stands for. */
+/* The basin that a lead with CELD_LEAD_MAXIMUM stands for. */
 static inline uint32_t
-basin_of (const CeldAscentBand *band, uint32_t lead)
+basin_of (const CeldWatershedBand *band, uint32_t lead)
 {
-  uint32_t number = (lead & (CELD_KEPT - 1)) / 2;
+  uint32_t number = (lead & (CELD_OLD_BASIN - 1)) / 2;
 
-  return lead & CELD_KEPT ? CELD_KEPT | number : (uint32_t) band->first + number;
+  return lead & CELD_OLD_BASIN ? CELD_OLD_BASIN | number : (uint32_t) band->first + number;
 }
 
 /* Leads the outermost rows of all bands to their basins. */
 static void
-lead_edges (const CeldAscent *a)
+lead_edges (const CeldWatershed *a)
 {
   uint32_t *edge = a->edge, w = (uint32_t) a->width, n = 2 * w * (uint32_t) a->n_bands;
 
   for (uint32_t p = 0; p < n; p++)
-    if (edge[p] & CELD_MAXIMUM)
-      edge[p] = CELD_MAXIMUM | basin_of (&a->band[p / (2 * w)], edge[p]);
+    if (edge[p] & CELD_LEAD_MAXIMUM)
+      edge[p] = CELD_LEAD_MAXIMUM | basin_of (&a->band[p / (2 * w)], edge[p]);
   for (uint32_t p = 0; p < n; p++)
     {
       uint32_t to = edge[p];
 
-      while (!(to & CELD_MAXIMUM))
+      while (!(to & CELD_LEAD_MAXIMUM))
         to = edge[to];
-      for (uint32_t q = p, next; !(edge[q] & CELD_MAXIMUM); q = next)
+      for (uint32_t q = p, next; !(edge[q] & CELD_LEAD_MAXIMUM); q = next)
         {
           next = edge[q];
           edge[q] = to;
@@ -78,14 +78,14 @@ lead_edges (const CeldAscent *a)
     }
   for (uint32_t p = n; p-- > 0;)
     {
-      edge[p] &= ~CELD_MAXIMUM;
+      edge[p] &= ~CELD_LEAD_MAXIMUM;
       a->until[p] = (p + 1) % w && edge[p + 1] == edge[p] ? a->until[p + 1] : p + 1;
     }
 }
 
 /* From x on pixels of the row belong to a basin. */
 static bool
-add_run (CeldAscentBand *band, size_t row, int x, uint32_t basin)
+add_run (CeldWatershedBand *band, size_t row, int x, uint32_t basin)
 {
   CeldBasinRun *run;
 
@@ -103,10 +103,11 @@ add_run (CeldAscentBand *band, size_t row, int x, uint32_t basin)
 static void
 find_runs (void *data, int job)
 {
-  const CeldAscent *a = data;
-  int               at = a->first + job, top = celd_band_top (at), n = celd_band_end (a, at) - top;
-  CeldAscentBand         *band = &a->band[at];
-  bool              good = true;
+  const CeldWatershed *a = data;
+  int                  at = a->first + job, top = celd_watershed_band_top (at),
+  n = celd_watershed_band_end (a, at) - top;
+  CeldWatershedBand   *band = &a->band[at];
+  bool                 good = true;
 
   for (int i = 0; i < n; i++)
     {
@@ -114,11 +115,11 @@ find_runs (void *data, int job)
 
       for (size_t k = band->row[i]; k < band->row[i + 1] && good; k++)
         {
-          CeldAscentRun  s = band->stretch[k];
-          int      end = k + 1 < band->row[i + 1] ? band->stretch[k + 1].x : a->width;
-          uint32_t to = s.lead;
+          CeldLeadStretch s = band->stretch[k];
+          int             end = k + 1 < band->row[i + 1] ? band->stretch[k + 1].x : a->width;
+          uint32_t        to = s.lead;
 
-          if (to & CELD_MAXIMUM)
+          if (to & CELD_LEAD_MAXIMUM)
             good = add_run (band, row, s.x, basin_of (band, to));
           else if (!s.moves)
             good = add_run (band, row, s.x, a->edge[to]);
@@ -135,7 +136,7 @@ find_runs (void *data, int job)
 
 /* One list of runs of those of the bands. */
 static CeldStatus
-gather_runs (const CeldAscent *a)
+gather_runs (const CeldWatershed *a)
 {
   CeldBasins *basins = a->basins;
   size_t      n = 0;
@@ -149,7 +150,7 @@ gather_runs (const CeldAscent *a)
   for (int i = 0; i < a->n_bands; i++)
     {
       memcpy (basins->run + n, a->band[i].run, a->band[i].n_runs * sizeof *basins->run);
-      for (int y = celd_band_top (i); y < celd_band_end (a, i); y++)
+      for (int y = celd_watershed_band_top (i); y < celd_watershed_band_end (a, i); y++)
         basins->row[y] += n;
       n += a->band[i].n_runs;
     }
@@ -160,9 +161,9 @@ gather_runs (const CeldAscent *a)
 /* ------------------------------------------------------------------ all of it */
 
 static CeldStatus
-run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldHost *host, double from, double to)
+run_bands (CeldWatershed *a, void (*body) (void *data, int job), const CeldHost *host, double from, double to)
 {
-  CeldStatus status = celd_parallel_rounds (host, a->n_bands, a->n_desks, body, a, &a->first, from, to);
+  CeldStatus status = celd_parallel_rounds (host, a->n_bands, a->n_jobs, body, a, &a->first, from, to);
 
   for (int i = 0; i < a->n_bands && status == CELD_OK; i++)
     status = a->band[i].failed ? CELD_NO_MEMORY : CELD_OK;
@@ -170,43 +171,44 @@ run_bands (CeldAscent *a, void (*body) (void *data, int job), const CeldHost *ho
 }
 
 static CeldStatus
-ascent_new (const CeldPlot *plot, const CeldHost *host, CeldBasins *basins, CeldAscent *a)
+ascent_new (const CeldBasinExtent *extent, const CeldHost *host, CeldBasins *basins, CeldWatershed *a)
 {
-  size_t w = (size_t) plot->box.width, h = (size_t) plot->box.height, n_bands = (h + CELD_BAND - 1) / CELD_BAND;
+  size_t w = (size_t) extent->box.width, h = (size_t) extent->box.height,
+  n_bands = (h + CELD_WATERSHED_BAND - 1) / CELD_WATERSHED_BAND;
   bool   good;
 
-  *a = (CeldAscent) {
-    .plot    = plot, .width = plot->box.width, .height = plot->box.height,
-    .core    = plot->stroke > 2 ? plot->stroke * plot->stroke : 4,
+  *a = (CeldWatershed) {
+    .extent    = extent, .width = extent->box.width, .height = extent->box.height,
+    .core    = extent->stroke > 2 ? extent->stroke * extent->stroke : 4,
     .edge    = celd_alloc (n_bands * w, 2 * sizeof *a->edge),
     .until   = celd_alloc (n_bands * w, 2 * sizeof *a->until),
     .band    = celd_alloc0 (n_bands, sizeof *a->band),
-    .n_bands = (int) n_bands, .n_desks = host && host->each ? CELD_DESKS : 1, .basins = basins,
+    .n_bands = (int) n_bands, .n_jobs = host && host->each ? CELD_WATERSHED_JOBS : 1, .basins = basins,
   };
   basins->row = celd_alloc (h + 1, sizeof *basins->row);
   good = a->edge && a->until && a->band && basins->row;
-  for (int i = 0; i < a->n_desks; i++)
+  for (int i = 0; i < a->n_jobs; i++)
     {
-      a->desk[i] = (CeldDesk) {
-        .relief = celd_alloc (w + 2, 3 * sizeof *a->desk->relief),
-        .lead   = celd_alloc0 (w + 2, (CELD_BAND + 2) * sizeof *a->desk->lead),
-        .step   = celd_alloc (w, CELD_BAND * sizeof *a->desk->step),
-        .begins = celd_alloc (w, sizeof *a->desk->begins),
+      a->scratch[i] = (CeldWatershedScratch) {
+        .relief = celd_alloc (w + 2, 3 * sizeof *a->scratch->relief),
+        .lead   = celd_alloc0 (w + 2, (CELD_WATERSHED_BAND + 2) * sizeof *a->scratch->lead),
+        .step   = celd_alloc (w, CELD_WATERSHED_BAND * sizeof *a->scratch->step),
+        .begins = celd_alloc (w, sizeof *a->scratch->begins),
       };
-      good = good && a->desk[i].relief && a->desk[i].lead && a->desk[i].step && a->desk[i].begins;
+      good = good && a->scratch[i].relief && a->scratch[i].lead && a->scratch[i].step && a->scratch[i].begins;
     }
   return good ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
-ascent_clear (CeldAscent *a)
+ascent_clear (CeldWatershed *a)
 {
-  for (int i = 0; i < a->n_desks; i++)
+  for (int i = 0; i < a->n_jobs; i++)
     {
-      celd_free (a->desk[i].relief);
-      celd_free (a->desk[i].lead);
-      celd_free (a->desk[i].step);
-      celd_free (a->desk[i].begins);
+      celd_free (a->scratch[i].relief);
+      celd_free (a->scratch[i].lead);
+      celd_free (a->scratch[i].step);
+      celd_free (a->scratch[i].begins);
     }
   for (int i = 0; a->band && i < a->n_bands; i++)
     {
@@ -220,13 +222,13 @@ ascent_clear (CeldAscent *a)
 }
 
 CeldStatus
-celd_basins_ascend (const CeldPlot *plot, const CeldHost *host, CeldBasins *basins)
+celd_basins_ascend (const CeldBasinExtent *extent, const CeldHost *host, CeldBasins *basins)
 {
-  CeldAscent a;
-  CeldStatus status = ascent_new (plot, host, basins, &a);
+  CeldWatershed a;
+  CeldStatus    status = ascent_new (extent, host, basins, &a);
 
   if (status == CELD_OK)
-    status = run_bands (&a, celd_band_lead, host, 0, 0.8);
+    status = run_bands (&a, celd_watershed_lead_band, host, 0, 0.8);
   if (status == CELD_OK)
     status = make_basins (&a);
   if (status == CELD_OK)

@@ -9,7 +9,7 @@
  */
 #include "base/unions.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "segment/windows.h"
 
 #include <string.h>
@@ -17,71 +17,71 @@
 #define DARK (1 / 128.0)        /* of what paper costs: an edge of dark ink costs no more */
 
 void
-celd_cells_clear (CeldWindowCells *cells)
+celd_window_graph_clear (CeldWindowGraph *graph)
 {
-  celd_free (cells->block);
-  celd_free (cells->hard);
-  celd_free (cells->detail);
-  celd_free (cells->present);
-  celd_free (cells->label);
-  celd_free (cells->link);
-  celd_free (cells->vote);
-  *cells = (CeldWindowCells) { .canvas = NULL };
+  celd_free (graph->block);
+  celd_free (graph->hard);
+  celd_free (graph->detail);
+  celd_free (graph->present);
+  celd_free (graph->label);
+  celd_free (graph->link);
+  celd_free (graph->vote);
+  *graph = (CeldWindowGraph) { .task = NULL };
 }
 
 /* ------------------------------------------------------------------ blocks */
 
 static CeldStatus
-add_node (CeldCellBuilder *b, uint32_t present, uint32_t *node)
+add_node (CeldWindowBuilder *b, uint32_t present, uint32_t *node)
 {
-  CeldWindowCells *cells = b->cells;
-  uint32_t  *grown = celd_grow (cells->present, cells->n + 1, sizeof *grown);
+  CeldWindowGraph *graph = b->graph;
+  uint32_t        *grown = celd_grow (graph->present, graph->n + 1, sizeof *grown);
 
   if (!grown)
     return CELD_NO_MEMORY;
-  cells->present = grown;
-  *node = (uint32_t) cells->n++;
-  grown[*node] = present & CELD_CELL_LABELS;
+  graph->present = grown;
+  *node = (uint32_t) graph->n++;
+  grown[*node] = present & CELD_PART_LABELS;
   return CELD_OK;
 }
 
 /* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink
  * end at squares of 1 << square pixels a side. */
 static inline bool
-is_alike (const CeldCellBuilder *b, size_t first, int square, int x, int y, int i, int j)
+is_alike (const CeldWindowBuilder *b, size_t first, int square, int x, int y, int i, int j)
 {
-  size_t   stride = (size_t) celd_cells_width (b->cells);
+  size_t   stride = (size_t) celd_window_width (b->graph);
   size_t   p = first + (size_t) y * stride + (size_t) x, q = first + (size_t) j * stride + (size_t) i;
   uint32_t state = b->state[p];
 
   return state == b->state[q] && b->paint[p] == b->paint[q]
-         && ((state & CELD_CELL_KINDS) == 2 * CELD_CELL_KIND_INK
+         && ((state & CELD_PART_KINDS) == 2 * CELD_PART_KIND_INK
              || (x >> square == i >> square && y >> square == j >> square));
 }
 
 /* Joins pixels of a block that are of the same kind: ink in eight directions, so that a slanting line's rim is one.
  * What the row above has joined already needs no second time. */
 static void
-join_pixels (const CeldCellBuilder *b, size_t first, int w, int h, int square)
+join_pixels (const CeldWindowBuilder *b, size_t first, int w, int h, int square)
 {
-  size_t   stride = (size_t) celd_cells_width (b->cells);
-  uint32_t down = UINT32_C (1) << b->cells->shift;
+  size_t   stride = (size_t) celd_window_width (b->graph);
+  uint32_t down = UINT32_C (1) << b->graph->shift;
 
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w; x++)
       {
         uint32_t state = b->state[first + (size_t) y * stride + (size_t) x];
-        uint32_t k = ((uint32_t) y << b->cells->shift) + (uint32_t) x;
+        uint32_t k = ((uint32_t) y << b->graph->shift) + (uint32_t) x;
         bool     west = x > 0 && is_alike (b, first, square, x, y, x - 1, y);
         bool     north = y > 0 && is_alike (b, first, square, x, y, x, y - 1);
         bool     north_west = y > 0 && x > 0 && is_alike (b, first, square, x, y, x - 1, y - 1);
 
         b->parent[k] = west ? b->parent[k - 1] : k;
-        if (state & CELD_CELL_FIXED)
+        if (state & CELD_PART_FIXED)
           continue;
         if (north && !(west && north_west))
           celd_join (b->parent, k, k - down);
-        if (!(state & CELD_CELL_KINDS) || north || y == 0)
+        if (!(state & CELD_PART_KINDS) || north || y == 0)
           continue;
         if (north_west && !west)
           celd_join (b->parent, k, k - down - 1);
@@ -92,29 +92,29 @@ join_pixels (const CeldCellBuilder *b, size_t first, int w, int h, int square)
 
 /* A block of several parts: a node for each piece, and the votes of the paint on it. */
 static CeldStatus
-split_block (CeldCellBuilder *b, size_t first, int w, int h, int square, uint32_t *block)
+split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint32_t *block)
 {
-  CeldWindowCells *cells = b->cells;
-  size_t     stride = (size_t) celd_cells_width (cells), area = (size_t) 1 << 2 * cells->shift;
-  uint32_t  *detail = celd_grow (cells->detail, cells->n_details + 1, area * sizeof *detail);
-  CeldStatus status = CELD_OK;
+  CeldWindowGraph *graph = b->graph;
+  size_t           stride = (size_t) celd_window_width (graph), area = (size_t) 1 << 2 * graph->shift;
+  uint32_t        *detail = celd_grow (graph->detail, graph->n_details + 1, area * sizeof *detail);
+  CeldStatus       status = CELD_OK;
 
   if (!detail)
     return CELD_NO_MEMORY;
-  cells->detail = detail;
-  *block = CELD_CELL_MIXED | (uint32_t) cells->n_details;
-  detail += cells->n_details++ * area;
+  graph->detail = detail;
+  *block = CELD_PART_MIXED | (uint32_t) graph->n_details;
+  detail += graph->n_details++ * area;
   memset (detail, 0xff, area * sizeof *detail); /* fixed, where the block is cut off */
   join_pixels (b, first, w, h, square);
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w && status == CELD_OK; x++)
       {
         size_t   p = first + (size_t) y * stride + (size_t) x;
-        uint32_t k = (uint32_t) ((y << cells->shift) + x);
+        uint32_t k = (uint32_t) ((y << graph->shift) + x);
 
-        if (b->state[p] & CELD_CELL_FIXED)
+        if (b->state[p] & CELD_PART_FIXED)
           {
-            detail[k] = CELD_CELL_FIXED | (b->state[p] & CELD_CELL_LABELS);
+            detail[k] = CELD_PART_FIXED | (b->state[p] & CELD_PART_LABELS);
             continue;
           }
         if (b->parent[k] == k)
@@ -122,14 +122,14 @@ split_block (CeldCellBuilder *b, size_t first, int w, int h, int square, uint32_
         else
           detail[k] = detail[celd_root (b->parent, k)];
         if (status == CELD_OK && b->paint[p])
-          status = celd_cells_vote (cells, detail[k], b->paint[p], cells->canvas->soft_vote);
+          status = celd_window_graph_add_data_cost (graph, detail[k], b->paint[p], graph->task->soft_cost);
       }
   return status;
 }
 
 /* What the pixels of a block have in common, of the columns from `left` to `end` - 1; *uniform: everything? */
 static uint32_t
-common_state (const CeldCellBuilder *b, int left, int end, bool *uniform)
+common_state (const CeldWindowBuilder *b, int left, int end, bool *uniform)
 {
   uint32_t different = 0, common = UINT32_MAX;
 
@@ -143,30 +143,30 @@ common_state (const CeldCellBuilder *b, int left, int end, bool *uniform)
 }
 
 static CeldStatus
-make_block (CeldCellBuilder *b, int column, int h, uint32_t *block)
+make_block (CeldWindowBuilder *b, int column, int h, uint32_t *block)
 {
-  CeldWindowCells *cells = b->cells;
-  int        left = column << cells->shift, w = celd_cells_width (cells) - left;
-  bool       uniform;
-  uint32_t   common;
+  CeldWindowGraph *graph = b->graph;
+  int              left = column << graph->shift, w = celd_window_width (graph) - left;
+  bool             uniform;
+  uint32_t         common;
 
-  w = w < 1 << cells->shift ? w : 1 << cells->shift;
+  w = w < 1 << graph->shift ? w : 1 << graph->shift;
   common = common_state (b, left, left + w, &uniform);
-  if (common & CELD_CELL_FIXED && !b->hard[column])
+  if (common & CELD_PART_FIXED && !b->hard[column])
     {
-      *block = uniform ? CELD_CELL_FIXED | (common & CELD_CELL_LABELS) : CELD_CELL_ABOVE;
+      *block = uniform ? CELD_PART_FIXED | (common & CELD_PART_LABELS) : CELD_PART_ABOVE;
       return CELD_OK;
     }
-  if (uniform && !b->painted[column] && !(common & CELD_CELL_FIXED))
+  if (uniform && !b->painted[column] && !(common & CELD_PART_FIXED))
     return add_node (b, common, block);
-  return split_block (b, (size_t) left, w, h, cells->shift, block);
+  return split_block (b, (size_t) left, w, h, graph->shift, block);
 }
 
 /* change[i] and common[i] of the pixels in column i. */
 static void
-compare_rows (const CeldCellBuilder *b, int h)
+compare_rows (const CeldWindowBuilder *b, int h)
 {
-  size_t stride = (size_t) celd_cells_width (b->cells);
+  size_t stride = (size_t) celd_window_width (b->graph);
 
   memset (b->change, 0, stride * sizeof *b->change);
   memcpy (b->common, b->state, stride * sizeof *b->common);
@@ -179,19 +179,19 @@ compare_rows (const CeldCellBuilder *b, int h)
 }
 
 static CeldStatus
-make_row (CeldCellBuilder *b, int row, int top, int h)
+make_row (CeldWindowBuilder *b, int row, int top, int h)
 {
-  CeldWindowCells *cells = b->cells;
-  size_t     stride = (size_t) celd_cells_width (cells);
-  CeldStatus status = CELD_OK;
+  CeldWindowGraph *graph = b->graph;
+  size_t           stride = (size_t) celd_window_width (graph);
+  CeldStatus       status = CELD_OK;
 
-  b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
-  memset (b->painted, 0, (size_t) cells->columns * sizeof *b->painted);
+  b->hard = graph->hard + (size_t) row * (size_t) graph->columns;
+  memset (b->painted, 0, (size_t) graph->columns * sizeof *b->painted);
   for (int y = 0; y < h; y++)
-    celd_cells_read (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
+    celd_window_read (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
   compare_rows (b, h);
-  for (int column = 0; column < cells->columns && status == CELD_OK; column++)
-    status = make_block (b, column, h, &cells->block[(size_t) row * (size_t) cells->columns + (size_t) column]);
+  for (int column = 0; column < graph->columns && status == CELD_OK; column++)
+    status = make_block (b, column, h, &graph->block[(size_t) row * (size_t) graph->columns + (size_t) column]);
   return status;
 }
 
@@ -199,27 +199,27 @@ make_row (CeldCellBuilder *b, int row, int top, int h)
 
 /* A block that was one node becomes 4 x 4, for no part of it is near ink; others 8 x 8 and what ink is in them. */
 static CeldStatus
-make_fine_row (CeldCellBuilder *b, int row, int top, int h)
+make_fine_row (CeldWindowBuilder *b, int row, int top, int h)
 {
-  CeldWindowCells     *cells = b->cells;
-  int            w = celd_cells_width (cells);
-  const uint8_t *fine = b->fine + (size_t) row * (size_t) cells->columns;
-  uint32_t      *block = cells->block + (size_t) row * (size_t) cells->columns;
-  const uint32_t *coarse = cells->coarse->block + (size_t) row * (size_t) cells->columns;
-  CeldStatus     status = CELD_OK;
+  CeldWindowGraph *graph = b->graph;
+  int              w = celd_window_width (graph);
+  const uint8_t   *fine = b->fine + (size_t) row * (size_t) graph->columns;
+  uint32_t        *block = graph->block + (size_t) row * (size_t) graph->columns;
+  const uint32_t  *coarse = graph->coarse->block + (size_t) row * (size_t) graph->columns;
+  CeldStatus       status = CELD_OK;
 
-  for (int k = 0; k < cells->columns; k++)
-    block[k] = CELD_CELL_ABOVE;
-  if (!memchr (fine, 1, (size_t) cells->columns))
+  for (int k = 0; k < graph->columns; k++)
+    block[k] = CELD_PART_ABOVE;
+  if (!memchr (fine, 1, (size_t) graph->columns))
     return CELD_OK;
-  b->hard = cells->hard + (size_t) row * (size_t) cells->columns;
+  b->hard = graph->hard + (size_t) row * (size_t) graph->columns;
   for (int y = 0; y < h; y++)
-    celd_cells_read_again (b, top + y, fine, b->state + (size_t) y * (size_t) w, b->paint + (size_t) y * (size_t) w);
-  for (int k = 0; k < cells->columns && status == CELD_OK; k++)
+    celd_window_read_fine (b, top + y, fine, b->state + (size_t) y * (size_t) w, b->paint + (size_t) y * (size_t) w);
+  for (int k = 0; k < graph->columns && status == CELD_OK; k++)
     if (fine[k])
       {
-        int left = k << cells->shift, right = left + (1 << cells->shift) < w ? left + (1 << cells->shift) : w;
-        int square = cells->shift - (coarse[k] & CELD_CELL_MIXED ? 3 : 2);
+        int left = k << graph->shift, right = left + (1 << graph->shift) < w ? left + (1 << graph->shift) : w;
+        int square = graph->shift - (coarse[k] & CELD_PART_MIXED ? 3 : 2);
 
         status = split_block (b, (size_t) left, right - left, h, square > 0 ? square : 0, &block[k]);
       }
@@ -230,84 +230,84 @@ make_fine_row (CeldCellBuilder *b, int row, int top, int h)
 
 /* Ink from here on costs more to cross than dark ink does. */
 static float
-end_of_dark (const CeldCosts *costs)
+end_of_dark (const CeldSmoothnessCosts *costs)
 {
   int i = 0;
 
-  while (i < CELD_INK_STEPS && costs->by_ink[i] <= CELD_COST_UNIT * (1 + costs->white * DARK))
+  while (i < CELD_INK_STEPS && costs->by_ink[i] <= CELD_COST_UNIT * (1 + costs->paper_cost * DARK))
     i++;
   return (float) i / CELD_INK_STEPS;
 }
 
 /* b->cells has its place; what it gets besides is left to the caller to free. */
 static CeldStatus
-build (CeldCellBuilder *b)
+build (CeldWindowBuilder *b)
 {
-  CeldWindowCells        *cells = b->cells;
-  const CeldWindow *window = &cells->window;
-  int               size = 1 << cells->shift;
-  size_t            w = (size_t) celd_cells_width (cells);
+  CeldWindowGraph  *graph = b->graph;
+  const CeldWindow *window = &graph->window;
+  int               size = 1 << graph->shift;
+  size_t            w = (size_t) celd_window_width (graph);
   CeldStatus        status = CELD_NO_MEMORY;
 
-  cells->columns = (window->right - window->left + size) >> cells->shift;
-  cells->rows    = (window->bottom - window->top + size) >> cells->shift;
-  cells->block   = celd_alloc ((size_t) cells->columns * (size_t) cells->rows, sizeof *cells->block);
-  cells->hard    = celd_alloc0 ((size_t) cells->columns * (size_t) cells->rows, sizeof *cells->hard);
-  b->dark        = end_of_dark (&cells->canvas->basins->costs);
-  b->state       = celd_alloc (w << cells->shift, sizeof *b->state);
-  b->paint       = celd_alloc (w << cells->shift, sizeof *b->paint);
+  graph->columns = (window->right - window->left + size) >> graph->shift;
+  graph->rows    = (window->bottom - window->top + size) >> graph->shift;
+  graph->block   = celd_alloc ((size_t) graph->columns * (size_t) graph->rows, sizeof *graph->block);
+  graph->hard    = celd_alloc0 ((size_t) graph->columns * (size_t) graph->rows, sizeof *graph->hard);
+  b->dark        = end_of_dark (&graph->task->basins->costs);
+  b->state       = celd_alloc (w << graph->shift, sizeof *b->state);
+  b->paint       = celd_alloc (w << graph->shift, sizeof *b->paint);
   b->change      = celd_alloc (w, sizeof *b->change);
   b->common      = celd_alloc (w, sizeof *b->common);
-  b->painted     = celd_alloc ((size_t) cells->columns, sizeof *b->painted);
-  b->parent      = celd_alloc ((size_t) 1 << 2 * cells->shift, sizeof *b->parent);
-  if (cells->block && cells->hard && b->state && b->paint && b->change && b->common && b->painted && b->parent)
+  b->painted     = celd_alloc ((size_t) graph->columns, sizeof *b->painted);
+  b->parent      = celd_alloc ((size_t) 1 << 2 * graph->shift, sizeof *b->parent);
+  if (graph->block && graph->hard && b->state && b->paint && b->change && b->common && b->painted && b->parent)
     status = CELD_OK;
-  for (int row = 0; row < cells->rows && status == CELD_OK; row++)
+  for (int row = 0; row < graph->rows && status == CELD_OK; row++)
     {
       int top = window->top + row * size, h = window->bottom + 1 - top;
 
       status = (b->fine ? make_fine_row : make_row) (b, row, top, h < size ? h : size);
     }
   if (status == CELD_OK)
-    status = celd_cells_link (cells);
+    status = celd_window_graph_connect (graph);
   if (status == CELD_OK)
-    cells->label = celd_alloc (cells->n, sizeof *cells->label);
+    graph->label = celd_alloc (graph->n, sizeof *graph->label);
   celd_free (b->state);
   celd_free (b->paint);
   celd_free (b->change);
   celd_free (b->common);
   celd_free (b->painted);
   celd_free (b->parent);
-  return status != CELD_OK || cells->label ? status : CELD_NO_MEMORY;
+  return status != CELD_OK || graph->label ? status : CELD_NO_MEMORY;
 }
 
 static CeldStatus
-keep (CeldStatus status, CeldWindowCells *made, CeldWindowCells *cells)
+keep (CeldStatus status, CeldWindowGraph *made, CeldWindowGraph *graph)
 {
   if (status == CELD_OK)
-    *cells = *made;
+    *graph = *made;
   else
-    celd_cells_clear (made);
+    celd_window_graph_clear (made);
   return status;
 }
 
 CeldStatus
-celd_cells_new (const CeldCanvas *canvas, const uint32_t *label, const uint32_t *free, uint32_t id,
-                const CeldWindow *window, int shift, CeldWindowCells *cells)
+celd_window_graph_new (const CeldSegmentTask *task, const uint32_t *label, const uint32_t *free, uint32_t id,
+                       const CeldWindow *window, int shift, CeldWindowGraph *graph)
 {
-  CeldWindowCells       made = { .canvas = canvas, .basin_label = label, .window = *window, .shift = shift };
-  CeldCellBuilder b = { .cells = &made, .free = free, .id = id };
+  CeldWindowGraph       made = { .task = task, .basin_label = label, .window = *window, .shift = shift };
+  CeldWindowBuilder b = { .graph = &made, .free = free, .id = id };
 
-  return keep (build (&b), &made, cells);
+  return keep (build (&b), &made, graph);
 }
 
 CeldStatus
-celd_cells_refine (const CeldWindowCells *coarse, const uint8_t *fine, CeldWindowCells *cells)
+celd_window_graph_refine (const CeldWindowGraph *coarse, const uint8_t *fine, CeldWindowGraph *graph)
 {
-  CeldWindowCells       made = {
-    .canvas = coarse->canvas, .coarse = coarse, .window = coarse->window, .shift = coarse->shift
+  CeldWindowGraph   made = {
+    .task = coarse->task, .coarse = coarse, .window = coarse->window, .shift = coarse->shift
   };
-  CeldCellBuilder b = { .cells = &made, .fine = fine };
+  CeldWindowBuilder b = { .graph = &made, .fine = fine };
 
-  return keep (build (&b), &made, cells);
+  return keep (build (&b), &made, graph);
 }

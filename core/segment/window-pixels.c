@@ -4,7 +4,7 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "segment/windows.h"
 #include "solve/maxflow.h"
 
@@ -14,17 +14,17 @@
 
 /* The rim of the window is as it is, but where the picture ends. */
 static void
-read_basins (CeldCellBuilder *b, int y, uint32_t *state)
+read_basins (CeldWindowBuilder *b, int y, uint32_t *state)
 {
-  const CeldWindow *w = &b->cells->window;
-  const CeldBasins *basins = b->cells->canvas->basins;
+  const CeldWindow *w = &b->graph->window;
+  const CeldBasins *basins = b->graph->task->basins;
   bool              rim = (y == w->top && y > 0) || (y == w->bottom && y + 1 < basins->height);
   size_t            i = celd_basin_run_at (basins, y, w->left, &b->hint);
 
   for (int x = w->left, end; x <= w->right; x = end, i++)
     {
       uint32_t basin = basins->run[i].basin;
-      uint32_t here = b->cells->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_CELL_FIXED : 0);
+      uint32_t here = b->graph->basin_label[basin] | (rim || b->free[basin] != b->id ? CELD_PART_FIXED : 0);
 
       end = celd_basin_run_end (basins, i, y);
       end = end <= w->right ? end : w->right + 1;
@@ -32,42 +32,42 @@ read_basins (CeldCellBuilder *b, int y, uint32_t *state)
         state[k - w->left] = here;
     }
   if (w->left > 0)
-    state[0] |= CELD_CELL_FIXED;
+    state[0] |= CELD_PART_FIXED;
   if (w->right + 1 < basins->width)
-    state[w->right - w->left] |= CELD_CELL_FIXED;
+    state[w->right - w->left] |= CELD_PART_FIXED;
 }
 
 /* What is fixed has no kind. */
 static void
-read_ink (const CeldCellBuilder *b, int y, int x, int end, uint32_t *state)
+read_ink (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
 {
-  const float *ink = &CELD_AT (b->cells->canvas->ink, b->cells->window.left, y);
+  const float *ink = &CELD_AT (b->graph->task->ink, b->graph->window.left, y);
 
   for (int i = x; i < end; i++)
-    state[i] += CELD_CELL_KIND_INK * ((uint32_t) (ink[i] < PAPER) + (uint32_t) (ink[i] < b->dark)) *
+    state[i] += CELD_PART_KIND_INK * ((uint32_t) (ink[i] < PAPER) + (uint32_t) (ink[i] < b->dark)) *
                 (1 - (state[i] >> 31));
 }
 
 /* Hard paint on pixel k of a row.  What is not free is another window's. */
 static inline void
-obey (const CeldCellBuilder *b, uint32_t label, int k, uint32_t *state)
+obey (const CeldWindowBuilder *b, uint32_t label, int k, uint32_t *state)
 {
-  if (*state & CELD_CELL_FIXED)
+  if (*state & CELD_PART_FIXED)
     return;
-  if ((*state & CELD_CELL_LABELS) != label)
-    b->hard[k >> b->cells->shift] = true;
-  *state = CELD_CELL_FIXED | label;
+  if ((*state & CELD_PART_LABELS) != label)
+    b->hard[k >> b->graph->shift] = true;
+  *state = CELD_PART_FIXED | label;
 }
 
 static void
-read_paint (const CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
+read_paint (const CeldWindowBuilder *b, int y, uint32_t *state, uint32_t *paint)
 {
-  const CeldCanvas  *canvas = b->cells->canvas;
-  const CeldWindow  *w = &b->cells->window;
-  const CeldSeedRow *row = &canvas->seeds.row[y];
-  size_t             low = 0, high = row->n;
+  const CeldSegmentTask *task = b->graph->task;
+  const CeldWindow      *w = &b->graph->window;
+  const CeldSeedRow     *row = &task->seeds.row[y];
+  size_t                 low = 0, high = row->n;
 
-  memset (paint, 0, (size_t) celd_cells_width (b->cells) * sizeof *paint);
+  memset (paint, 0, (size_t) celd_window_width (b->graph) * sizeof *paint);
   while (low < high)
     {
       size_t middle = low + (high - low) / 2;
@@ -80,7 +80,7 @@ read_paint (const CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
   for (size_t i = low; i < row->n && row->run[i].x <= w->right; i++)
     {
       uint32_t l = row->run[i].label;
-      bool     hard = celd_canvas_vote (canvas, l) == CELD_HARD;
+      bool     hard = celd_task_data_cost (task, l) == CELD_HARD;
       int      x = row->run[i].x > w->left ? row->run[i].x - w->left : 0;
       int      end = (row->run[i].end <= w->right ? row->run[i].end : w->right + 1) - w->left;
 
@@ -89,42 +89,42 @@ read_paint (const CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
           obey (b, l, k, &state[k]);
         else
           paint[k] = l;
-      for (int k = x >> b->cells->shift; k <= (end - 1) >> b->cells->shift && !hard; k++)
+      for (int k = x >> b->graph->shift; k <= (end - 1) >> b->graph->shift && !hard; k++)
         b->painted[k] = true;
     }
 }
 
 /* The labels that the coarser cells have found are the present ones now. */
 static void
-read_cells (const CeldCellBuilder *b, int y, int x, int end, uint32_t *state)
+read_coarse (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
 {
-  const CeldWindowCells *coarse = b->cells->coarse;
+  const CeldWindowGraph *coarse = b->graph->coarse;
 
   for (int i = x; i < end; i++)
     {
-      uint32_t part = celd_cell_at (coarse, coarse->window.left + i, y);
+      uint32_t part = celd_window_part_at (coarse, coarse->window.left + i, y);
 
-      state[i] = (part & CELD_CELL_FIXED) | celd_cell_label (coarse, part);
+      state[i] = (part & CELD_PART_FIXED) | celd_window_part_label (coarse, part);
     }
   read_ink (b, y, x, end, state);
 }
 
 void
-celd_cells_read (CeldCellBuilder *b, int y, uint32_t *state, uint32_t *paint)
+celd_window_read (CeldWindowBuilder *b, int y, uint32_t *state, uint32_t *paint)
 {
   read_basins (b, y, state);
-  read_ink (b, y, 0, celd_cells_width (b->cells), state);
+  read_ink (b, y, 0, celd_window_width (b->graph), state);
   read_paint (b, y, state, paint);
 }
 
 void
-celd_cells_read_again (CeldCellBuilder *b, int y, const uint8_t *fine, uint32_t *state, uint32_t *paint)
+celd_window_read_fine (CeldWindowBuilder *b, int y, const uint8_t *fine, uint32_t *state, uint32_t *paint)
 {
-  const CeldWindowCells *cells = b->cells;
-  int              w = celd_cells_width (cells);
+  const CeldWindowGraph *graph = b->graph;
+  int                    w = celd_window_width (graph);
 
-  for (int k = 0; k < cells->columns; k++)
+  for (int k = 0; k < graph->columns; k++)
     if (fine[k])
-      read_cells (b, y, k << cells->shift, (k + 1) << cells->shift < w ? (k + 1) << cells->shift : w, state);
+      read_coarse (b, y, k << graph->shift, (k + 1) << graph->shift < w ? (k + 1) << graph->shift : w, state);
   read_paint (b, y, state, paint);
 }

@@ -9,32 +9,32 @@
 #include "base/unions.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "segment/windows.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define ROOM 8                  /* pixels round the foreign paint, besides a stroke's width and half the longer side */
+#define MARGIN 8                  /* pixels round the foreign paint, besides a stroke's width and half the longer side */
 
 /* A run of paint in a basin of another label. */
 typedef struct { int32_t y, x, end; uint32_t label, basin; } Run;
 
-typedef struct { CeldWindow box; bool open; } Clump;
+typedef struct { CeldWindow box; bool wanted; } Cluster;
 
 typedef struct
 {
-  const CeldCanvas *canvas;
-  const uint32_t   *label;      /* of each basin */
-  size_t            hint;
-  Run              *run;        /* in reading order */
-  size_t            n_runs;
-  uint32_t         *clump_of;   /* of each run: a set of unions.h, in the end its number */
-  Clump            *clump;
-  size_t            n_clumps;
-  uint32_t         *family;     /* of each basin: another one of its family, or itself */
-} Places;
+  const CeldSegmentTask *task;
+  const uint32_t        *label;      /* of each basin */
+  size_t                 hint;
+  Run                   *run;        /* in reading order */
+  size_t                 n_runs;
+  uint32_t              *cluster_of; /* of each run: a set of unions.h, in the end its number */
+  Cluster               *cluster;
+  size_t                 n_clusters;
+  uint32_t              *group;      /* of each basin: another one of its family, or itself */
+} WindowSearch;
 
 /* ------------------------------------------------------------------ foreign paint */
 
@@ -53,23 +53,23 @@ celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint)
 }
 
 static CeldStatus
-add_run (Places *places, Run run)
+add_run (WindowSearch *search, Run run)
 {
-  Run *runs = celd_grow (places->run, places->n_runs + 1, sizeof *runs);
+  Run *runs = celd_grow (search->run, search->n_runs + 1, sizeof *runs);
 
   if (!runs)
     return CELD_NO_MEMORY;
-  places->run = runs;
-  runs[places->n_runs++] = run;
+  search->run = runs;
+  runs[search->n_runs++] = run;
   return CELD_OK;
 }
 
 static CeldStatus
-compare_seeds (Places *places, int y, const CeldSeedRun *seeds)
+compare_seeds (WindowSearch *search, int y, const CeldSeedRun *seeds)
 {
-  const CeldBasins *basins = places->canvas->basins;
+  const CeldBasins *basins = search->task->basins;
   CeldStatus        status = CELD_OK;
-  size_t            i = celd_basin_run_at (basins, y, seeds->x, &places->hint);
+  size_t            i = celd_basin_run_at (basins, y, seeds->x, &search->hint);
 
   for (int x = seeds->x, end; x < seeds->end && status == CELD_OK; x = end, i++)
     {
@@ -77,21 +77,21 @@ compare_seeds (Places *places, int y, const CeldSeedRun *seeds)
 
       end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
       end = end < seeds->end ? end : seeds->end;
-      if (places->label[basin] != seeds->label)
-        status = add_run (places, (Run) { y, x, end, seeds->label, basin });
+      if (search->label[basin] != seeds->label)
+        status = add_run (search, (Run) { y, x, end, seeds->label, basin });
     }
   return status;
 }
 
 static CeldStatus
-find_runs (Places *places)
+find_runs (WindowSearch *search)
 {
-  const CeldSeedRows *seeds = &places->canvas->seeds;
+  const CeldSeedRows *seeds = &search->task->seeds;
   CeldStatus          status = CELD_OK;
 
   for (int y = 0; y < seeds->height && status == CELD_OK; y++)
     for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
-      status = compare_seeds (places, y, &seeds->row[y].run[i]);
+      status = compare_seeds (search, y, &seeds->row[y].run[i]);
   return status;
 }
 
@@ -99,20 +99,20 @@ find_runs (Places *places)
 
 /* Joins runs that touch, in one row or in two, be it by a corner. */
 static void
-join_runs (Places *places)
+join_runs (WindowSearch *search)
 {
-  const Run *run = places->run;
+  const Run *run = search->run;
   size_t     above = 0;         /* no run before it touches run i, or one behind that */
 
-  celd_roots (places->clump_of, places->n_runs);
-  for (size_t i = 1; i < places->n_runs; i++)
+  celd_roots (search->cluster_of, search->n_runs);
+  for (size_t i = 1; i < search->n_runs; i++)
     {
       if (run[i - 1].y == run[i].y && run[i - 1].end == run[i].x)
-        celd_join (places->clump_of, (uint32_t) i - 1, (uint32_t) i);
+        celd_join (search->cluster_of, (uint32_t) i - 1, (uint32_t) i);
       while (run[above].y < run[i].y - 1 || (run[above].y == run[i].y - 1 && run[above].end < run[i].x))
         above++;
       for (size_t k = above; run[k].y < run[i].y && run[k].x <= run[i].end; k++)
-        celd_join (places->clump_of, (uint32_t) k, (uint32_t) i);
+        celd_join (search->cluster_of, (uint32_t) k, (uint32_t) i);
     }
 }
 
@@ -127,25 +127,25 @@ widen (CeldWindow *box, const CeldWindow *other)
 
 /* Roots come first among the runs of a clump, so numbers go by first runs. */
 static CeldStatus
-number_clumps (Places *places)
+number_clusters (WindowSearch *search)
 {
-  const Run *run = places->run;
-  uint32_t  *clump_of;
+  const Run *run = search->run;
+  uint32_t  *cluster_of;
 
-  places->clump    = celd_alloc (places->n_runs, sizeof *places->clump);
-  places->clump_of = clump_of = celd_alloc (places->n_runs, sizeof *clump_of);
-  if (!places->clump || !clump_of)
+  search->cluster    = celd_alloc (search->n_runs, sizeof *search->cluster);
+  search->cluster_of = cluster_of = celd_alloc (search->n_runs, sizeof *cluster_of);
+  if (!search->cluster || !cluster_of)
     return CELD_NO_MEMORY;
-  join_runs (places);
-  for (size_t i = 0; i < places->n_runs; i++)
+  join_runs (search);
+  for (size_t i = 0; i < search->n_runs; i++)
     {
       CeldWindow box = { run[i].x, run[i].y, run[i].end - 1, run[i].y, 0, 0, 0 };
-      bool       root = clump_of[i] == i;
+      bool       root = cluster_of[i] == i;
 
-      clump_of[i] = root ? (uint32_t) places->n_clumps : clump_of[clump_of[i]];
+      cluster_of[i] = root ? (uint32_t) search->n_clusters : cluster_of[cluster_of[i]];
       if (root)
-        places->clump[places->n_clumps++] = (Clump) { box, false };
-      widen (&places->clump[clump_of[i]].box, &box);
+        search->cluster[search->n_clusters++] = (Cluster) { box, false };
+      widen (&search->cluster[cluster_of[i]].box, &box);
     }
   return CELD_OK;
 }
@@ -154,16 +154,16 @@ number_clumps (Places *places)
 
 /* Hard paint is obeyed wherever it lies; soft paint on ink alone asks for nothing that shows. */
 static void
-open_clumps (Places *places)
+select_clusters (WindowSearch *search)
 {
-  for (size_t i = 0; i < places->n_runs; i++)
+  for (size_t i = 0; i < search->n_runs; i++)
     {
-      const Run *run = &places->run[i];
-      bool      *open = &places->clump[places->clump_of[i]].open;
+      const Run *run = &search->run[i];
+      bool      *wanted = &search->cluster[search->cluster_of[i]].wanted;
 
-      *open = *open || celd_canvas_vote (places->canvas, run->label) == CELD_HARD;
-      for (int x = run->x; x < run->end && !*open; x++)
-        *open = celd_is_paper (CELD_AT (places->canvas->ink, x, run->y));
+      *wanted = *wanted || celd_task_data_cost (search->task, run->label) == CELD_HARD;
+      for (int x = run->x; x < run->end && !*wanted; x++)
+        *wanted = celd_is_paper (CELD_AT (search->task->ink, x, run->y));
     }
 }
 
@@ -172,30 +172,30 @@ open_clumps (Places *places)
 /* Basins with foreign paint are of a family if paper joins them, or a clump.  Ink between two of them is worth nothing:
  * they may as well be looked at one by one. */
 static CeldStatus
-find_families (Places *places)
+group_basins (WindowSearch *search)
 {
-  const CeldBasins *basins = places->canvas->basins;
+  const CeldBasins *basins = search->task->basins;
   bool             *foreign = celd_alloc0 (basins->n, sizeof *foreign);
-  uint32_t         *first = celd_alloc (places->n_clumps, sizeof *first); /* a basin of each clump */
+  uint32_t         *first = celd_alloc (search->n_clusters, sizeof *first); /* a basin of each clump */
 
-  places->family = celd_alloc (basins->n, sizeof *places->family);
-  if (!foreign || !first || !places->family)
+  search->group = celd_alloc (basins->n, sizeof *search->group);
+  if (!foreign || !first || !search->group)
     {
       celd_free (foreign);
       celd_free (first);
       return CELD_NO_MEMORY;
     }
-  celd_roots (places->family, basins->n);
-  for (size_t i = places->n_runs; i-- > 0;)
-    first[places->clump_of[i]] = places->run[i].basin;
-  for (size_t i = 0; i < places->n_runs; i++)
+  celd_roots (search->group, basins->n);
+  for (size_t i = search->n_runs; i-- > 0;)
+    first[search->cluster_of[i]] = search->run[i].basin;
+  for (size_t i = 0; i < search->n_runs; i++)
     {
-      foreign[places->run[i].basin] = true;
-      celd_join (places->family, first[places->clump_of[i]], places->run[i].basin);
+      foreign[search->run[i].basin] = true;
+      celd_join (search->group, first[search->cluster_of[i]], search->run[i].basin);
     }
-  for (size_t i = 0; i < basins->n_borders; i++)
-    if (basins->border[i].passes && foreign[basins->border[i].a] && foreign[basins->border[i].b])
-      celd_join (places->family, basins->border[i].a, basins->border[i].b);
+  for (size_t i = 0; i < basins->n_boundaries; i++)
+    if (basins->boundary[i].opening && foreign[basins->boundary[i].a] && foreign[basins->boundary[i].b])
+      celd_join (search->group, basins->boundary[i].a, basins->boundary[i].b);
   celd_free (foreign);
   celd_free (first);
   return CELD_OK;
@@ -204,15 +204,15 @@ find_families (Places *places)
 /* ------------------------------------------------------------------ windows */
 
 static void
-make_room (const CeldBasins *basins, CeldWindow *box)
+add_margin (const CeldBasins *basins, CeldWindow *box)
 {
   int w = box->right - box->left, h = box->bottom - box->top;
-  int room = ROOM + basins->stroke + (w > h ? w : h) / 2;
+  int margin = MARGIN + basins->stroke + (w > h ? w : h) / 2;
 
-  box->left   = box->left > room ? box->left - room : 0;
-  box->top    = box->top > room ? box->top - room : 0;
-  box->right  = box->right < basins->width - 1 - room ? box->right + room : basins->width - 1;
-  box->bottom = box->bottom < basins->height - 1 - room ? box->bottom + room : basins->height - 1;
+  box->left   = box->left > margin ? box->left - margin : 0;
+  box->top    = box->top > margin ? box->top - margin : 0;
+  box->right  = box->right < basins->width - 1 - margin ? box->right + margin : basins->width - 1;
+  box->bottom = box->bottom < basins->height - 1 - margin ? box->bottom + margin : basins->height - 1;
 }
 
 static bool
@@ -226,8 +226,8 @@ compare_windows (const void *a, const void *b)
 {
   const CeldWindow *p = a, *q = b;
 
-  if (p->family != q->family)
-    return p->family < q->family ? -1 : 1;
+  if (p->group != q->group)
+    return p->group < q->group ? -1 : 1;
   if (p->top != q->top)
     return p->top < q->top ? -1 : 1;
   return p->left < q->left ? -1 : p->left > q->left;
@@ -237,7 +237,7 @@ compare_windows (const void *a, const void *b)
 static bool
 may_overlap (const CeldWindow *p, const CeldWindow *q)
 {
-  return q->family == p->family && q->top <= p->bottom;
+  return q->group == p->group && q->top <= p->bottom;
 }
 
 /* Unites windows of a family that overlap until none do; the united ones are larger and may overlap others. */
@@ -272,21 +272,21 @@ merge (CeldWindows *windows)
 
 /* The window of a run's family that holds it; windows->n if there is none.  Windows of a family do not overlap. */
 static size_t
-window_of (const Places *places, const CeldWindows *windows, const Run *run)
+window_of (const WindowSearch *search, const CeldWindows *windows, const Run *run)
 {
-  uint32_t family = celd_root (places->family, run->basin);
+  uint32_t group = celd_root (search->group, run->basin);
   size_t   low = 0, high = windows->n;
 
   while (low < high)
     {
       size_t middle = low + (high - low) / 2;
 
-      if (windows->item[middle].family < family)
+      if (windows->item[middle].group < group)
         low = middle + 1;
       else
         high = middle;
     }
-  for (; low < windows->n && windows->item[low].family == family; low++)
+  for (; low < windows->n && windows->item[low].group == group; low++)
     if (windows->item[low].left <= run->x && run->x <= windows->item[low].right && windows->item[low].top <= run->y
         && run->y <= windows->item[low].bottom)
       return low;
@@ -295,23 +295,23 @@ window_of (const Places *places, const CeldWindows *windows, const Run *run)
 
 /* The basins in which foreign paint lies, by window. */
 static CeldStatus
-list_basins (Places *places, CeldWindows *windows)
+list_basins (WindowSearch *search, CeldWindows *windows)
 {
-  uint32_t *last = celd_alloc0 (places->canvas->basins->n, sizeof *last); /* by basin: its last window, from 1 */
+  uint32_t *last = celd_alloc0 (search->task->basins->n, sizeof *last); /* by basin: its last window, from 1 */
   size_t   *begin = celd_alloc0 (windows->n + 1, sizeof *begin);
   size_t    n = 0;
 
-  windows->basin = celd_alloc (places->n_runs, sizeof *windows->basin);
+  windows->basin = celd_alloc (search->n_runs, sizeof *windows->basin);
   if (!last || !begin || !windows->basin)
     {
       celd_free (last);
       celd_free (begin);
       return CELD_NO_MEMORY;
     }
-  for (size_t i = 0; i < places->n_runs; i++)
+  for (size_t i = 0; i < search->n_runs; i++)
     {
-      places->clump_of[i] = (uint32_t) window_of (places, windows, &places->run[i]); /* clumps are of no more use */
-      begin[places->clump_of[i]]++;
+      search->cluster_of[i] = (uint32_t) window_of (search, windows, &search->run[i]); /* clumps are of no more use */
+      begin[search->cluster_of[i]]++;
     }
   for (size_t k = 0; k < windows->n; k++)
     {
@@ -320,9 +320,9 @@ list_basins (Places *places, CeldWindows *windows)
       begin[k] = n;
       n += runs;
     }
-  for (size_t i = 0; i < places->n_runs; i++)
-    if (places->clump_of[i] < windows->n)
-      windows->basin[begin[places->clump_of[i]]++] = places->run[i].basin;
+  for (size_t i = 0; i < search->n_runs; i++)
+    if (search->cluster_of[i] < windows->n)
+      windows->basin[begin[search->cluster_of[i]]++] = search->run[i].basin;
   n = 0;
   for (size_t k = 0, i = 0; k < windows->n; k++)
     {
@@ -341,24 +341,24 @@ list_basins (Places *places, CeldWindows *windows)
 }
 
 static CeldStatus
-make_windows (Places *places, CeldWindows *windows)
+make_windows (WindowSearch *search, CeldWindows *windows)
 {
-  windows->item = celd_alloc (places->n_clumps, sizeof *windows->item);
+  windows->item = celd_alloc (search->n_clusters, sizeof *windows->item);
   if (!windows->item)
     return CELD_NO_MEMORY;
-  for (size_t i = 0; i < places->n_runs; i++)
+  for (size_t i = 0; i < search->n_runs; i++)
     {
-      Clump *clump = &places->clump[places->clump_of[i]];
+      Cluster *cluster = &search->cluster[search->cluster_of[i]];
 
-      if (!clump->open)
+      if (!cluster->wanted)
         continue;
-      windows->item[windows->n] = clump->box;
-      windows->item[windows->n].family = celd_root (places->family, places->run[i].basin);
-      make_room (places->canvas->basins, &windows->item[windows->n++]);
-      clump->open = false;
+      windows->item[windows->n] = cluster->box;
+      windows->item[windows->n].group = celd_root (search->group, search->run[i].basin);
+      add_margin (search->task->basins, &windows->item[windows->n++]);
+      cluster->wanted = false;
     }
   merge (windows);
-  return list_basins (places, windows);
+  return list_basins (search, windows);
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -372,30 +372,30 @@ celd_windows_clear (CeldWindows *windows)
 }
 
 CeldStatus
-celd_windows_find (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldWindows *windows)
+celd_windows_find (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host, CeldWindows *windows)
 {
-  Places      places = { .canvas = canvas, .label = label };
-  CeldWindows found = { 0 };
-  CeldStatus  status = find_runs (&places);
+  WindowSearch search = { .task = task, .label = label };
+  CeldWindows  found = { 0 };
+  CeldStatus   status = find_runs (&search);
 
-  if (status == CELD_OK && places.n_runs)
-    status = number_clumps (&places);
-  if (status == CELD_OK && places.n_runs)
+  if (status == CELD_OK && search.n_runs)
+    status = number_clusters (&search);
+  if (status == CELD_OK && search.n_runs)
     {
-      open_clumps (&places);
-      status = find_families (&places);
+      select_clusters (&search);
+      status = group_basins (&search);
     }
-  if (status == CELD_OK && places.n_runs)
-    status = make_windows (&places, &found);
+  if (status == CELD_OK && search.n_runs)
+    status = make_windows (&search, &found);
   if (status == CELD_OK)
     status = celd_progress (host, 0);
   if (status == CELD_OK)
     *windows = found;
   else
     celd_windows_clear (&found);
-  celd_free (places.run);
-  celd_free (places.clump);
-  celd_free (places.clump_of);
-  celd_free (places.family);
+  celd_free (search.run);
+  celd_free (search.cluster);
+  celd_free (search.cluster_of);
+  celd_free (search.group);
   return status;
 }

@@ -59,7 +59,7 @@ keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
   *kept = false;
   while (same < old->n && same < relations->n && same_ends (&old->item[same], &relations->item[same]))
     same++;
-  if (same < celd_segmenter_acting (s->segmenter) || (bend && s->splits.n))
+  if (same < celd_segmenter_effective_relations (s->segmenter) || (bend && s->splits.n))
     return CELD_OK;
   for (size_t i = same; i < relations->n; i++)
     if (!celd_session_relation_keeps_labels (s, &relations->item[i]))

@@ -132,7 +132,7 @@ celd_session_split_ink (const CeldSession *session)
 bool
 celd_session_relation_keeps_labels (const CeldSession *session, const CeldRelation *relation)
 {
-  return celd_segmenter_spares (session->segmenter, relation, &session->settings, &session->segmented);
+  return celd_segmenter_is_redundant (session->segmenter, relation, &session->settings, &session->segmented);
 }
 
 /* ------------------------------------------------------------------ the object */

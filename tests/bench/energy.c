@@ -13,12 +13,12 @@
 Costs
 costs_of (const CeldPlane *ink, float threshold)
 {
-  int       w = ink->width, h = ink->height;
-  size_t    n = (size_t) w * (size_t) h, p = 0;
-  CeldCosts table;
-  uint8_t  *paper = malloc (n);
-  int32_t  *depth = malloc (n * sizeof *depth);
-  Costs     costs = { calloc (n, sizeof *costs.east), calloc (n, sizeof *costs.south) };
+  int                 w = ink->width, h = ink->height;
+  size_t              n = (size_t) w * (size_t) h, p = 0;
+  CeldSmoothnessCosts table;
+  uint8_t            *paper = malloc (n);
+  int32_t            *depth = malloc (n * sizeof *depth);
+  Costs               costs = { calloc (n, sizeof *costs.east), calloc (n, sizeof *costs.south) };
 
   if (!paper || !depth || !costs.east || !costs.south)
     abort ();
@@ -26,7 +26,7 @@ costs_of (const CeldPlane *ink, float threshold)
     paper[p] = celd_is_paper (ink->data[p]);
   if (celd_distance (w, h, paper, NULL, depth) != CELD_OK)
     abort ();
-  celd_costs_new (w, h, threshold, &table);
+  celd_smoothness_costs_new (w, h, threshold, &table);
   p = 0;
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w; x++, p++)
@@ -34,11 +34,11 @@ costs_of (const CeldPlane *ink, float threshold)
         size_t below = p + (size_t) w;
 
         if (x + 1 < w)
-          costs.east[p] = celd_cost (&table, ink->data[p], ink->data[p + 1], depth[p], depth[p + 1],
-                                     y == 0 || y + 1 == h);
+          costs.east[p] = celd_smoothness_cost (&table, ink->data[p], ink->data[p + 1], depth[p], depth[p + 1],
+                                                y == 0 || y + 1 == h);
         if (y + 1 < h)
-          costs.south[p] = celd_cost (&table, ink->data[p], ink->data[below], depth[p], depth[below],
-                                      x == 0 || x + 1 == w);
+          costs.south[p] = celd_smoothness_cost (&table, ink->data[p], ink->data[below], depth[p], depth[below],
+                                                 x == 0 || x + 1 == w);
       }
   free (paper);
   free (depth);

@@ -108,8 +108,8 @@ measure_basins (const Case *c, const CeldPlane *ink)
       if (i == 0)
         {
           print_number ("basins", (double) basins.n);
-          print_number ("borders", (double) basins.n_borders);
-          print_number ("blocks", (double) basins.n_blocks);
+          print_number ("borders", (double) basins.n_boundaries);
+          print_number ("blocks", (double) basins.n_merged);
           print_number ("stroke width", basins.stroke);
           print_number ("basins kept", (double) (after.live - before.live) / (double) c->n);
           print_number ("basins peak", (double) (after.peak - before.live) / (double) c->n);
@@ -123,7 +123,7 @@ measure_basins (const Case *c, const CeldPlane *ink)
 static void
 measure_strokes (const Case *c, const char *method, int n, CeldSession *session)
 {
-  Answer before = answer_of (c, session), after;
+  Answer  before = answer_of (c, session), after;
   double *time = calloc ((size_t) n, sizeof *time), *removed = calloc ((size_t) n, sizeof *removed);
   double  width = brush_width (&c->scribbles), worst = -1, parts[N_PARTS] = { 0 };
   Stroke  slowest = { 0 };

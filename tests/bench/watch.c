@@ -5,8 +5,8 @@
 #include "bench.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -90,7 +90,7 @@ parts_reset (void)
   CeldStatus \
   __wrap_##name parameters \
   { \
-    double     start = seconds (); \
+    double start = seconds (); \
     CeldStatus status = __real_##name arguments; \
  \
     part_seconds[part] += seconds () - start; \
@@ -103,27 +103,27 @@ STEP (PART_READ, celd_scribbles_read,
       (scribbles, settings, host, seeds, palette))
 STEP (PART_BUILD, celd_basins_new,
       (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins), (ink, threshold, host, basins))
-STEP (PART_STAINS, celd_stains_remove, (const CeldHost *host, CeldCanvas *canvas), (host, canvas))
-STEP (PART_BACKGROUND, celd_background_seed, (const CeldHost *host, CeldCanvas *canvas), (host, canvas))
-STEP (PART_GRAPH, celd_graph_solve, (const CeldCanvas *canvas, const CeldHost *host, uint32_t *label),
-      (canvas, host, label))
+STEP (PART_STAINS, celd_spills_remove, (const CeldHost *host, CeldSegmentTask *task), (host, task))
+STEP (PART_BACKGROUND, celd_background_seed, (const CeldHost *host, CeldSegmentTask *task), (host, task))
+STEP (PART_GRAPH, celd_basin_graph_solve, (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label),
+      (task, host, label))
 STEP (PART_PARTITION, celd_partition,
       (const CeldPartition *m, const CeldHost *host, uint32_t *label, int64_t *energy, int64_t *greedy),
       (m, host, label, energy, greedy))
 STEP (PART_WINDOWS, celd_windows_solve,
-      (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldPatches *patches),
-      (canvas, label, host, patches))
+      (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host, CeldPatches *patches),
+      (task, label, host, patches))
 STEP (PART_CLOSURES, celd_closures_find,
-      (const CeldCanvas *canvas, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
+      (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels, const CeldPatches *windows,
        const CeldHost *host, CeldClosures *closures, CeldPatches *patches),
-      (canvas, label, labels, windows, host, closures, patches))
-STEP (PART_PAINTING, celd_painting_end,
-      (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, const CeldLabels *labels),
-      (painting, basins, old, labels))
-STEP (PART_PAINTING, celd_painting_measure,
-      (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette),
-      (painting, basins, labels, palette))
+      (task, label, labels, windows, host, closures, patches))
+STEP (PART_PAINTING, celd_labelling_end,
+      (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old, const CeldLabels *labels),
+      (labelling, basins, old, labels))
+STEP (PART_PAINTING, celd_labelling_measure,
+      (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette),
+      (labelling, basins, labels, palette))
 STEP (PART_REPORT, celd_segment_report,
-      (const CeldCanvas *canvas, const CeldSeedRows *seeds, const CeldPainting *painting, const CeldLabels *labels,
+      (const CeldSegmentTask *task, const CeldSeedRows *seeds, const CeldLabelling *labelling, const CeldLabels *labels,
        const CeldHost *host, CeldProblems *problems),
-      (canvas, seeds, painting, labels, host, problems))
+      (task, seeds, labelling, labels, host, problems))

@@ -5,8 +5,8 @@
 #ifndef BASIN_DRAWINGS_H
 #define BASIN_DRAWINGS_H
 
-#include "segment/basins.h"
 #include "check.h"
+#include "segment/basins.h"
 
 #define THRESHOLD 0.25f /* of the ink */
 
@@ -76,21 +76,21 @@ static inline int
 differences (const CeldBasins *p, const CeldBasins *q)
 {
   int n = p->width != q->width || p->height != q->height || p->stroke != q->stroke || p->n != q->n ||
-          p->n_borders != q->n_borders || p->n_blocks != q->n_blocks || p->n_rooms != q->n_rooms ||
-          p->n_pieces != q->n_pieces || memcmp (&p->costs, &q->costs, sizeof p->costs);
+          p->n_boundaries != q->n_boundaries || p->n_merged != q->n_merged || p->n_enclosures != q->n_enclosures ||
+          p->n_components != q->n_components || memcmp (&p->costs, &q->costs, sizeof p->costs);
 
   for (size_t k = 0; k < p->n && !n; k++)
     {
       const CeldBasin *a = &p->basin[k], *b = &q->basin[k];
 
       n += a->x != b->x || a->y != b->y || a->squared != b->squared || a->solid != b->solid || a->area != b->area ||
-           p->block[k] != q->block[k] || p->room[k] != q->room[k] || p->piece[k] != q->piece[k];
+           p->merged[k] != q->merged[k] || p->enclosure[k] != q->enclosure[k] || p->component[k] != q->component[k];
     }
-  for (size_t k = 0; k < p->n_borders && !n; k++)
+  for (size_t k = 0; k < p->n_boundaries && !n; k++)
     {
-      const CeldBorder *a = &p->border[k], *b = &q->border[k];
+      const CeldBasinBoundary *a = &p->boundary[k], *b = &q->boundary[k];
 
-      n += a->a != b->a || a->b != b->b || a->passes != b->passes || a->saddle != b->saddle || a->frame != b->frame ||
+      n += a->a != b->a || a->b != b->b || a->opening != b->opening || a->saddle != b->saddle || a->frame != b->frame ||
            a->south != b->south || a->x != b->x || a->y != b->y || a->cost != b->cost;
     }
   for (int y = 0; y <= p->height && !n; y++)

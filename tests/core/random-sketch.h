@@ -5,7 +5,7 @@
 #ifndef RANDOM_SKETCH_H
 #define RANDOM_SKETCH_H
 
-#include "canvas.h"
+#include "sketch.h"
 
 enum { W = 23, H = 17 };
 

@@ -8,21 +8,21 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 
 #define MOST_LABELS 8
 
 /* Basin k is label k + 1, in however many places it is. */
 typedef struct
 {
-  CeldPlane    ink;
-  CeldLabels   labels;
-  CeldBasins   basins;
-  CeldCanvas   canvas;
-  uint32_t     label[MOST_LABELS];
-  CeldClosures closures;
-  CeldPatches  patches;
+  CeldPlane       ink;
+  CeldLabels      labels;
+  CeldBasins      basins;
+  CeldSegmentTask task;
+  uint32_t        label[MOST_LABELS];
+  CeldClosures    closures;
+  CeldPatches     patches;
 } Scene;
 
 /* Paper, all of label 1. */
@@ -32,7 +32,7 @@ scene_open (int width, int height, Scene *s)
   *s = (Scene) { 0 };
   CHECK (celd_plane_new (width, height, &s->ink) == CELD_OK);
   CHECK (celd_labels_new (width, height, &s->labels) == CELD_OK);
-  CHECK (celd_seed_rows_new (width, height, &s->canvas.seeds) == CELD_OK);
+  CHECK (celd_seed_rows_new (width, height, &s->task.seeds) == CELD_OK);
   for (int p = 0; p < width * height; p++)
     {
       s->ink.data[p]    = 1;
@@ -74,16 +74,16 @@ scene_line (Scene *s, CeldPlace p, CeldPlace q, double width)
 }
 
 static inline void
-scene_border (Scene *s, int x, int y, bool south)
+scene_boundary (Scene *s, int x, int y, bool south)
 {
-  uint32_t    a = CELD_AT (&s->labels, x, y) - 1, b = CELD_AT (&s->labels, x + !south, y + south) - 1, i;
-  CeldBorder *border = s->basins.border;
+  uint32_t           a = CELD_AT (&s->labels, x, y) - 1, b = CELD_AT (&s->labels, x + !south, y + south) - 1, i;
+  CeldBasinBoundary *boundary = s->basins.boundary;
 
   if (a == b || CELD_AT (&s->ink, x, y) < 0.5f || CELD_AT (&s->ink, x + !south, y + south) < 0.5f)
     return;
   i = a < b ? a * MOST_LABELS + b : b * MOST_LABELS + a; /* the table is filled without gaps only by scene_find */
-  if (!border[i].passes++)
-    border[i] = (CeldBorder) { i / MOST_LABELS, i % MOST_LABELS, 1, 1, false, south, x, y, 1 };
+  if (!boundary[i].opening++)
+    boundary[i] = (CeldBasinBoundary) { i / MOST_LABELS, i % MOST_LABELS, 1, 1, false, south, x, y, 1 };
 }
 
 /* The basins, each border with the first of its passes in reading order as the pair of its saddle.  Basins meet in as
@@ -98,7 +98,7 @@ scene_basins (Scene *s)
   *b = (CeldBasins) { .width = w, .height = h, .n = MOST_LABELS, .stroke = celd_stroke_width (&s->ink) };
   b->row    = malloc (((size_t) h + 1) * sizeof *b->row);
   b->run    = malloc ((size_t) w * (size_t) h * sizeof *b->run);
-  b->border = calloc (MOST_LABELS * MOST_LABELS, sizeof *b->border);
+  b->boundary = calloc (MOST_LABELS * MOST_LABELS, sizeof *b->boundary);
   for (int y = 0; y < h; y++)
     {
       b->row[y] = n;
@@ -109,19 +109,19 @@ scene_basins (Scene *s)
           if (!x || label != CELD_AT (&s->labels, x - 1, y))
             b->run[n++] = (CeldBasinRun) { x, label - 1 };
           if (x + 1 < w)
-            scene_border (s, x, y, false);
+            scene_boundary (s, x, y, false);
           if (y + 1 < h)
-            scene_border (s, x, y, true);
+            scene_boundary (s, x, y, true);
         }
     }
   b->row[h] = n;
   for (size_t i = 0; i < MOST_LABELS * MOST_LABELS; i++)
-    if (b->border[i].passes)
-      b->border[b->n_borders++] = b->border[i];
+    if (b->boundary[i].opening)
+      b->boundary[b->n_boundaries++] = b->boundary[i];
   for (uint32_t k = 0; k < MOST_LABELS; k++)
     s->label[k] = k + 1;
-  s->canvas.ink    = &s->ink;
-  s->canvas.basins = b;
+  s->task.ink    = &s->ink;
+  s->task.basins = b;
 }
 
 static inline CeldStatus
@@ -130,7 +130,7 @@ scene_find (Scene *s, const CeldPatches *windows)
   static const CeldPatches none = { 0 };
 
   scene_basins (s);
-  return celd_closures_find (&s->canvas, s->label, &s->labels, windows ? windows : &none, NULL, &s->closures,
+  return celd_closures_find (&s->task, s->label, &s->labels, windows ? windows : &none, NULL, &s->closures,
                              &s->patches);
 }
 
@@ -138,7 +138,7 @@ scene_find (Scene *s, const CeldPatches *windows)
 static inline void
 scene_apply (Scene *s)
 {
-  int     w = s->ink.width, h = s->ink.height, bad = 0;
+  int      w = s->ink.width, h = s->ink.height, bad = 0;
   uint8_t *seen = calloc ((size_t) w * (size_t) h, 1);
 
   for (size_t i = 0; i < s->patches.n; i++)
@@ -146,12 +146,12 @@ scene_apply (Scene *s)
       {
         int      y = s->patches.item[i].y;
         uint32_t new = s->patches.item[i].label, *label = &CELD_AT (&s->labels, x, y);
-        uint32_t seed = celd_seed_rows_at (&s->canvas.seeds, x, y);
+        uint32_t seed = celd_seed_rows_at (&s->task.seeds, x, y);
         bool     pair = false;
 
-        for (size_t k = 0; k < s->basins.n_borders; k++)
-          pair |= s->basins.border[k].a + 1 == (*label < new ? *label : new) &&
-                  s->basins.border[k].b + 1 == (*label < new ? new : *label);
+        for (size_t k = 0; k < s->basins.n_boundaries; k++)
+          pair |= s->basins.boundary[k].a + 1 == (*label < new ? *label : new) &&
+                  s->basins.boundary[k].b + 1 == (*label < new ? new : *label);
         bad += x < 0 || y < 0 || x >= w || y >= h || seen[y * w + x]++ || CELD_AT (&s->ink, x, y) < 0.5f || !pair ||
                (seed && seed != new);
         *label = new;
@@ -167,8 +167,8 @@ scene_close (Scene *s)
   free (s->labels.data);
   free (s->basins.row);
   free (s->basins.run);
-  free (s->basins.border);
-  celd_seed_rows_clear (&s->canvas.seeds);
+  free (s->basins.boundary);
+  celd_seed_rows_clear (&s->task.seeds);
   celd_closures_clear (&s->closures);
   celd_patches_clear (&s->patches);
 }
@@ -181,7 +181,7 @@ scene_deviation (const CeldClosure *closure, CeldPlace p, CeldPlace q)
 
   for (size_t i = 0; i < closure->n; i++)
     most = fmax (most, fabs ((closure->place[i].x - p.x) * (q.y - p.y) - (closure->place[i].y - p.y) * (q.x - p.x)) /
-                       hypot (q.x - p.x, q.y - p.y));
+                 hypot (q.x - p.x, q.y - p.y));
   return most;
 }
 

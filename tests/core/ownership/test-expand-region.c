@@ -2,9 +2,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "canvas.h"
 #include "image/image.h"
 #include "ownership/expand.h"
+#include "sketch.h"
 
 /* Digits are levels, '#' is free ink. */
 static CeldSheet

@@ -5,8 +5,8 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 
 typedef struct
 {
@@ -47,7 +47,7 @@ case_clear (Case *c)
 
 #define LABEL(x, y) CELD_AT (&c.labels, x, y)
 
-static const char *const rooms[] = {
+static const char *const enclosures[] = {
   "........................",
   ".######################.",
   ".#.......#......#.....#.",
@@ -61,7 +61,7 @@ static const char *const rooms[] = {
 static void
 ends_make_regions (void)
 {
-  Case c = segment (rooms, "4.5,4.5 > 12.5,4.5", celd_settings ());
+  Case c = segment (enclosures, "4.5,4.5 > 12.5,4.5", celd_settings ());
 
   CHECK (c.status == CELD_OK && c.palette.n == 3); /* the third room goes along with one of them, or the background */
   CHECK (LABEL (4, 4) == 1 && LABEL (2, 2) == 1 && LABEL (8, 6) == 1);
@@ -75,7 +75,7 @@ ends_make_regions (void)
 static void
 equal_ends_make_one_region (void)
 {
-  Case c = segment (rooms, "4.5,4.5 = 19.5,4.5", celd_settings ());
+  Case c = segment (enclosures, "4.5,4.5 = 19.5,4.5", celd_settings ());
 
   CHECK (c.palette.n == 2);
   CHECK (LABEL (4, 4) == 1 && LABEL (19, 4) == 1 && LABEL (0, 0) == 2);
@@ -86,7 +86,7 @@ equal_ends_make_one_region (void)
 static void
 ends_on_ink_and_outside (void)
 {
-  Case c = segment (rooms, "1.5,4.5 > 12.5,4.5; 19.5,4.5 > 900,3", celd_settings ());
+  Case c = segment (enclosures, "1.5,4.5 > 12.5,4.5; 19.5,4.5 > 900,3", celd_settings ());
 
   CHECK (c.status == CELD_OK && c.palette.n == 3);
   CHECK (LABEL (12, 4) == 2 && LABEL (19, 4) == 3);
@@ -106,8 +106,8 @@ scribbled_regions_stay (void)
     ".#.......#......#.....#.",
     ".######################.",
     "........................", NULL };
-  CeldSettings settings = celd_settings ();
-  Case         c = segment (drawing, "4,5 > 12,5; 12,5 > 19,4", settings);
+  CeldSettings      settings = celd_settings ();
+  Case              c = segment (drawing, "4,5 > 12,5; 12,5 > 19,4", settings);
 
   CHECK (c.palette.n == 4 && LABEL (4, 5) == 1 && LABEL (12, 5) == 2 && LABEL (19, 4) == 4 && LABEL (0, 8) == 3);
   case_clear (&c);
@@ -116,7 +116,7 @@ scribbled_regions_stay (void)
   CHECK (c.palette.n == 3 && LABEL (4, 5) == 1 && LABEL (12, 5) == 2);
   case_clear (&c);
   settings.seeds = CELD_SEEDS_SCRIBBLES;
-  c = segment (rooms, "4,5 > 12,5", settings);
+  c = segment (enclosures, "4,5 > 12,5", settings);
   CHECK (c.status == CELD_NOTHING_TO_GO_BY);
   case_clear (&c);
 }
@@ -125,7 +125,7 @@ scribbled_regions_stay (void)
 static void
 colours_differ (void)
 {
-  Case c = segment (rooms, "4,4 > 12,4; 12,4 > 19,4; 19,4 > 0,0", celd_settings ());
+  Case c = segment (enclosures, "4,4 > 12,4; 12,4 > 19,4; 19,4 > 0,0", celd_settings ());
 
   CHECK (c.palette.n == 4);
   for (size_t i = 0; i < c.palette.n; i++)
@@ -196,7 +196,7 @@ scribbled_regions_are_split (void)
     ".######################################.",
     "........................................", NULL };
   const char *const arrow[] = { "9.5,6.5 > 30.5,6.5", "30.5,6.5 > 9.5,6.5" };
-  Case c;
+  Case              c;
 
   for (int i = 0; i < 2; i++)
     {
@@ -216,7 +216,7 @@ static void
 close_ends (void)
 {
   const char *const blank[] = { "........", "........", "........", "........", NULL };
-  Case c = segment (blank, "3,1 > 4,1; 3,1 > 3.4,1.2", celd_settings ());
+  Case              c = segment (blank, "3,1 > 4,1; 3,1 > 3.4,1.2", celd_settings ());
 
   CHECK (c.status == CELD_OK && LABEL (3, 1) != LABEL (4, 1));
   case_clear (&c);
@@ -242,7 +242,7 @@ hourglasses_part_at_the_waist (void)
     ".#..............###...............#.",
     ".##################################.",
     "....................................", NULL };
-  Case c = segment (drawing, "4,10 > 31,4", celd_settings ());
+  Case              c = segment (drawing, "4,10 > 31,4", celd_settings ());
 
   CHECK (c.palette.n == 3 && LABEL (4, 10) != LABEL (31, 4));
   for (int y = 2; y < 13; y++)
@@ -264,8 +264,8 @@ corridors_are_cut_across (void)
     "#............................................#",
     "#............................................#",
     "##############################################", NULL };
-  Case c = segment (drawing, "8,3 > 37,3", celd_settings ());
-  int  first = 1;
+  Case              c = segment (drawing, "8,3 > 37,3", celd_settings ());
+  int               first = 1;
 
   CHECK (c.palette.n >= 2 && LABEL (8, 3) != LABEL (37, 3));
   while (first < 45 && LABEL (first, 1) == LABEL (8, 3))
@@ -293,7 +293,7 @@ relations_split_in_turn (void)
     "#..............#..............#..............#",
     "#..............#..............#..............#",
     "##############################################", NULL };
-  Case c = segment (drawing, "23,2 > 4,4; 40,6 > 23,8; 4,8 > 23,2", celd_settings ());
+  Case              c = segment (drawing, "23,2 > 4,4; 40,6 > 23,8; 4,8 > 23,2", celd_settings ());
 
   CHECK (LABEL (23, 5) == 1 && LABEL (17, 2) == 1 && LABEL (28, 8) == 1);
   CHECK (LABEL (4, 5) != 1 && LABEL (13, 8) == LABEL (4, 5) && LABEL (1, 1) == LABEL (4, 5));
@@ -400,33 +400,33 @@ add_random_relations (uint32_t *random, CeldRelations *relations)
 
 /* Is a pixel under a hard stroke of its label? */
 static bool
-is_kept (const CeldCanvas *canvas, const CeldLabels *labels, int x, int y)
+is_kept (const CeldSegmentTask *task, const CeldLabels *labels, int x, int y)
 {
-  uint32_t label = celd_seed_rows_at (&canvas->seeds, x, y);
+  uint32_t label = celd_seed_rows_at (&task->seeds, x, y);
 
-  return label && canvas->palette.item[label - 1].hard && CELD_AT (labels, x, y) == label;
+  return label && task->palette.item[label - 1].hard && CELD_AT (labels, x, y) == label;
 }
 
 /* What changes, changes to a new label, no pixel twice, none under a hard stroke; no connected region keeps both ends
  * of an inequality, unless hard strokes keep both. */
 static void
-check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *labels)
+check_split (CeldSegmentTask *task, const CeldRelations *relations, CeldLabels *labels)
 {
   static bool    changed[PAGE][PAGE], kept[PAGE][PAGE];
-  size_t         before = canvas->palette.n, n;
+  size_t         before = task->palette.n, n;
   CeldPatches    patches = { 0 };
   CeldComponent *list = NULL;
 
   memset (changed, 0, sizeof changed);
   for (int y = 0; y < PAGE; y++)
     for (int x = 0; x < PAGE; x++)
-      kept[y][x] = is_kept (canvas, labels, x, y);
-  CHECK (celd_seeds_split (relations, NULL, labels, canvas, &patches) == CELD_OK);
+      kept[y][x] = is_kept (task, labels, x, y);
+  CHECK (celd_regions_split (relations, NULL, labels, task, &patches) == CELD_OK);
   for (size_t i = 0; i < patches.n; i++)
     {
       CeldPatch patch = patches.item[i];
 
-      CHECK (patch.label > before && patch.label <= canvas->palette.n && patch.x < patch.end);
+      CHECK (patch.label > before && patch.label <= task->palette.n && patch.x < patch.end);
       for (int x = patch.x; x < patch.end; x++)
         {
           CHECK (!changed[patch.y][x] && !kept[patch.y][x]);
@@ -446,7 +446,7 @@ check_split (CeldCanvas *canvas, const CeldRelations *relations, CeldLabels *lab
         continue;
       if (kept[y][x] && kept[v][u])
         continue;
-      if ((x != u || y != v) && CELD_AT (canvas->ink, x, y) > 0.5f && CELD_AT (canvas->ink, u, v) > 0.5f)
+      if ((x != u || y != v) && CELD_AT (task->ink, x, y) > 0.5f && CELD_AT (task->ink, u, v) > 0.5f)
         CHECK (CELD_AT (labels, x, y) != CELD_AT (labels, u, v));
     }
   celd_patches_clear (&patches);
@@ -463,31 +463,32 @@ random_regions_are_split (void)
 
   for (int i = 0; i < 150; i++)
     {
-      CeldPlane     ink = { PAGE, PAGE, PAGE, ink_data };
-      CeldLabels    labels = { PAGE, PAGE, PAGE, label_data };
-      CeldSettings  settings = celd_settings ();
-      CeldBasins    basins = { 0 };
-      CeldRelations relations = { 0 };
-      CeldCanvas    canvas = { .settings = &settings, .ink = &ink, .basins = &basins, .soft_vote = 500 };
-      uint32_t      label, n = 1 + check_random (&random, 3);
+      CeldPlane       ink = { PAGE, PAGE, PAGE, ink_data };
+      CeldLabels      labels = { PAGE, PAGE, PAGE, label_data };
+      CeldSettings    settings = celd_settings ();
+      CeldBasins      basins = { 0 };
+      CeldRelations   relations = { 0 };
+      CeldSegmentTask task = { .settings = &settings, .ink = &ink, .basins = &basins, .soft_cost = 500 };
+      uint32_t        label, n = 1 + check_random (&random, 3);
 
       random_page (&random, &ink, &labels, n);
       add_random_relations (&random, &relations);
       CHECK (celd_basins_new (&ink, settings.ink_threshold, NULL, &basins) == CELD_OK);
-      CHECK (celd_seed_rows_new (PAGE, PAGE, &canvas.seeds) == CELD_OK);
+      CHECK (celd_seed_rows_new (PAGE, PAGE, &task.seeds) == CELD_OK);
       for (uint32_t k = 0; k < n; k++)
-        celd_canvas_add (&canvas, (CeldRegion) { .colour = { (uint8_t) (99 * k), 7, 7, 255 }, .hard = k == 1 }, &label);
+        celd_task_add_label (&task, (CeldRegion) { .colour = { (uint8_t) (99 * k), 7, 7, 255 }, .hard = k == 1 },
+                             &label);
       for (int k = (int) check_random (&random, 9); k > 0; k--)
         {
           int x = (int) check_random (&random, PAGE), y = (int) check_random (&random, PAGE);
 
-          celd_seed_rows_paint (&canvas.seeds, y, x, x + 9, CELD_AT (&labels, x, y));
+          celd_seed_rows_paint (&task.seeds, y, x, x + 9, CELD_AT (&labels, x, y));
         }
-      check_split (&canvas, &relations, &labels);
+      check_split (&task, &relations, &labels);
       celd_basins_clear (&basins);
       celd_relations_clear (&relations);
-      celd_seed_rows_clear (&canvas.seeds);
-      celd_palette_clear (&canvas.palette);
+      celd_seed_rows_clear (&task.seeds);
+      celd_palette_clear (&task.palette);
     }
 }
 

@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "random-sketch.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 
 /* Seeds after celd_background_seed; returns the number of the background's label, 0 if none is marked. */
 static uint32_t
@@ -13,10 +13,10 @@ seed (Sketch *s, const char *const *wanted)
 {
   uint32_t marked = 0;
 
-  CHECK (celd_background_seed (NULL, &s->canvas) == CELD_OK);
-  NEAR (seeds_differing (&s->canvas.seeds, wanted), 0, 0);
-  for (size_t k = 0; k < s->canvas.palette.n; k++)
-    if (s->canvas.palette.item[k].background)
+  CHECK (celd_background_seed (NULL, &s->task) == CELD_OK);
+  NEAR (seeds_differing (&s->task.seeds, wanted), 0, 0);
+  for (size_t k = 0; k < s->task.palette.n; k++)
+    if (s->task.palette.item[k].background)
       {
         CHECK (!marked);
         marked = (uint32_t) k + 1;
@@ -35,11 +35,11 @@ nobodys_frame_is_a_transparent_label_of_its_own (void)
 
   sketch_open (&s, ring, figure_only, 1);
   NEAR (seed (&s, framed), 2, 0);
-  NEAR (s.canvas.palette.n, 2, 0);
-  if (s.canvas.palette.n == 2)
+  NEAR (s.task.palette.n, 2, 0);
+  if (s.task.palette.n == 2)
     {
-      CHECK (s.canvas.palette.item[1].origin == CELD_FROM_BACKGROUND && s.canvas.palette.item[1].hard);
-      NEAR (s.canvas.palette.item[1].colour[3], 0, 0);
+      CHECK (s.task.palette.item[1].origin == CELD_FROM_BACKGROUND && s.task.palette.item[1].hard);
+      NEAR (s.task.palette.item[1].colour[3], 0, 0);
     }
   sketch_close (&s);
 }
@@ -48,11 +48,11 @@ static void
 a_painted_frame_stays_as_it_is (void)
 {
   static const char *const painted[] = { ".......", ".......", "...A...", ".......", ".......", ".BB....", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, ring, painted, 2);
   NEAR (seed (&s, painted), 2, 0);
-  NEAR (s.canvas.palette.n, 2, 0);
+  NEAR (s.task.palette.n, 2, 0);
   sketch_close (&s);
 }
 
@@ -68,16 +68,16 @@ the_settings_choose (void)
 
   sketch_open (&s, ring, figure_only, 2);
   s.settings.background = CELD_BACKGROUND_COLOUR;
-  memcpy (s.settings.background_colour, s.canvas.palette.item[1].colour, 3);
+  memcpy (s.settings.background_colour, s.task.palette.item[1].colour, 3);
   NEAR (seed (&s, framed), 2, 0);
-  NEAR (s.canvas.palette.n, 2, 0);
+  NEAR (s.task.palette.n, 2, 0);
   sketch_close (&s);
 
   sketch_open (&s, ring, figure_only, 1);
   s.settings.background = CELD_BACKGROUND_COLOUR;
   memset (s.settings.background_colour, 99, 3);
   NEAR (seed (&s, framed), 2, 0);
-  NEAR (s.canvas.palette.n == 2 ? s.canvas.palette.item[1].colour[1] : 0, 99, 0);
+  NEAR (s.task.palette.n == 2 ? s.task.palette.item[1].colour[1] : 0, 99, 0);
   sketch_close (&s);
 }
 
@@ -88,11 +88,11 @@ a_corner_cut_off_joins_the_background (void)
   static const char *const paper[] = { "1111#22", "11111#2", "111111#", "1111111", NULL };
   static const char *const painted[] = { ".......", ".AA....", ".......", ".......", NULL };
   static const char *const wanted[] = { ".....AA", ".AA...A", ".......", ".......", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 1);
   NEAR (seed (&s, wanted), 1, 0);
-  NEAR (s.canvas.palette.n, 1, 0);
+  NEAR (s.task.palette.n, 1, 0);
   sketch_close (&s);
 }
 
@@ -103,7 +103,7 @@ a_figure_that_the_frame_cuts_off_is_not_the_background (void)
   static const char *const paper[] = { "11111111", "11111111", "1######1", "1#2222#1", NULL };
   static const char *const painted[] = { "........", "........", "........", "...A....", NULL };
   static const char *const wanted[] = { "BBBBBBBB", "B......B", "B......B", "B..A...B", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 1);
   NEAR (seed (&s, wanted), 2, 0);
@@ -118,15 +118,15 @@ a_stroke_that_runs_out_does_not_hold_the_frame (void)
   static const char *const paper[] = { "1111111", "11#####", "11#2222", "11#####", "1111111", NULL };
   static const char *const painted[] = { ".......", ".......", ".AAAAA.", ".......", ".......", NULL };
   static const char *const wanted[] = { "BBBBBBB", "B......", "B.AAAA.", "B......", "BBBBBBB", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 1);
   NEAR (seed (&s, wanted), 2, 0);
   sketch_close (&s);
   sketch_open (&s, paper, painted, 1);
   s.settings.hardness = 1;
-  CHECK (celd_background_seed (NULL, &s.canvas) == CELD_OK);
-  CHECK (s.canvas.palette.n == 1 && s.canvas.palette.item[0].background);
+  CHECK (celd_background_seed (NULL, &s.task) == CELD_OK);
+  CHECK (s.task.palette.n == 1 && s.task.palette.item[0].background);
   sketch_close (&s);
 }
 
@@ -143,11 +143,11 @@ a_stroke_over_hatching_holds_the_frame (void)
   static const char *const wanted[] = {
     "AAAAAAA.......AAAAAAA", "A.......AAAAA.......A", "AAAAAAA.......AAAAAAA", NULL
   };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 1);
   NEAR (seed (&s, wanted), 1, 0);
-  NEAR (s.canvas.palette.n, 1, 0);
+  NEAR (s.task.palette.n, 1, 0);
   sketch_close (&s);
 }
 
@@ -155,12 +155,12 @@ a_stroke_over_hatching_holds_the_frame (void)
 static void
 behind_a_gap_the_piece_counts (void)
 {
-  static const char *const rooms[] = { "1111#22", "1111122", "1111#22", "1111111", NULL };
+  static const char *const enclosures[] = { "1111#22", "1111122", "1111#22", "1111111", NULL };
   static const char *const painted[] = { ".......", ".AA....", ".......", ".......", NULL };
-  Sketch s;
+  Sketch                   s;
 
-  sketch_open (&s, rooms, painted, 1);
-  s.basins.piece[1] = 1;
+  sketch_open (&s, enclosures, painted, 1);
+  s.basins.component[1] = 1;
   NEAR (seed (&s, painted), 1, 0);
   sketch_close (&s);
 }
@@ -172,7 +172,7 @@ flecks_in_solid_ink_are_left_alone (void)
 {
   static const char *const solid[] = { "111#000", "111#000", "111#000", "111#000", NULL };
   static const char *const painted[] = { ".......", ".A..B..", "......B", ".......", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, solid, painted, 2);
   s.ink.data[1 * 7 + 4] = s.ink.data[2 * 7 + 6] = s.ink.data[3 * 7 + 6] = 1;
@@ -189,7 +189,7 @@ an_obeyed_stroke_under_a_bridge_stays (void)
   static const char *const corner[] = { "1111#22", "1111#22", "11111##", "1111111", NULL };
   static const char *const painted[] = { "......B", ".AA....", ".......", ".......", NULL };
   static const char *const wanted[] = { ".....AB", ".AA...A", ".......", ".......", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, corner, painted, 2);
   s.settings.hardness = 1;
@@ -204,7 +204,7 @@ an_obeyed_stroke_under_a_bridge_stays (void)
 /* ------------------------------------------------------------------ the same by pixels */
 
 /* What the slow version knows of each pixel. */
-typedef struct { CeldLabels painted, room; uint32_t stroke[W * H], piece[W * H]; bool all_count; } Pixels;
+typedef struct { CeldLabels painted, enclosure; uint32_t stroke[W * H], component[W * H]; bool all_count; } Pixels;
 
 /* Does the stroke of pixel p count in its part?  *across: because it runs on along the frame. */
 static bool
@@ -214,7 +214,7 @@ slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], 
   bool home = false;
 
   for (int q = 0; q < W * H; q++)
-    if (s->stroke[q] == s->stroke[p] && s->room.data[q])
+    if (s->stroke[q] == s->stroke[p] && s->enclosure.data[q])
       {
         total++;
         in[part[q]]++;
@@ -260,23 +260,24 @@ slow_background (Pixels *s, const CeldPlane *ink)
   size_t  *frame, n;
   uint32_t holder[4 * (W + H)], of_room[5], of_piece[5], label = 0;
   int      along[5] = { 0 }, held[5] = { 0 };
-  bool     lost[5] = { false }, rooms[5] = { false }, pieces[5] = { false }, across[5] = { false };
+  bool     lost[5] = { false }, enclosures[5] = { false }, pieces[5] = { false }, across[5] = { false };
 
   CHECK (celd_frame (ink, W, H, 1, &frame, &n) == CELD_OK);
   for (size_t i = 0; i < n; i++)
-    rooms[s->room.data[frame[i]]] = pieces[s->piece[frame[i]]] = true;
+    enclosures[s->enclosure.data[frame[i]]] = pieces[s->component[frame[i]]] = true;
   for (uint32_t k = 1; k <= 4; k++)
     {
-      of_room[k]  = slow_holder (s, s->room.data, rooms, k, across);
-      of_piece[k] = slow_holder (s, s->piece, pieces, k, across);
+      of_room[k]  = slow_holder (s, s->enclosure.data, enclosures, k, across);
+      of_piece[k] = slow_holder (s, s->component, pieces, k, across);
     }
   for (size_t i = 0; i < n; i++)
-    along[s->room.data[frame[i]]]++;
+    along[s->enclosure.data[frame[i]]]++;
   for (size_t i = 0; i < n; i++)
     {
-      uint32_t room = s->room.data[frame[i]];
+      uint32_t enclosure = s->enclosure.data[frame[i]];
 
-      holder[i] = of_room[room] || 4 * along[room] >= (int) n ? of_room[room] : of_piece[s->piece[frame[i]]];
+      holder[i] = of_room[enclosure] || 4 * along[enclosure] >= (int) n ? of_room[enclosure] :
+      of_piece[s->component[frame[i]]];
       held[holder[i]]++;
     }
   for (uint32_t l = 1; l <= 3; l++)
@@ -292,9 +293,9 @@ slow_background (Pixels *s, const CeldPlane *ink)
   if (!label && held[0])
     label = 4;
   for (size_t i = 0; i < n; i++)
-    lost[s->room.data[frame[i]]] |= !holder[i];
+    lost[s->enclosure.data[frame[i]]] |= !holder[i];
   for (int p = 0; p < W * H; p++)
-    if (s->room.data[p] && lost[s->room.data[p]])
+    if (s->enclosure.data[p] && lost[s->enclosure.data[p]])
       s->painted.data[p] = 0;
   for (size_t i = 0; i < n; i++)
     if (!holder[i])
@@ -307,7 +308,7 @@ static void
 seeds_are_those_of_the_pixels (void)
 {
   uint32_t state = 4;
-  int      own = 0, stained = 0;
+  int      own = 0, spilled = 0;
 
   for (int round = 0; round < 300; round++)
     {
@@ -326,33 +327,33 @@ seeds_are_those_of_the_pixels (void)
         }
       sketch_open (&s, paper_rows, painted_rows, 3);
       s.settings.hardness = round % 4 ? 0.05f : 1;
-      pixels = (Pixels) { .painted = art_labels (painted_rows), .room = art_labels (paper_rows),
+      pixels = (Pixels) { .painted = art_labels (painted_rows), .enclosure = art_labels (paper_rows),
                           .all_count = round % 4 == 0 };
       flood (&pixels.painted, pixels.stroke);
       if (joined) /* a room behind a gap */
-        s.basins.piece[joined] = 1;
+        s.basins.component[joined] = 1;
       for (int p = 0; p < W * H; p++)
-        pixels.piece[p] = pixels.room.data[p] == joined + 1 ? 1 : pixels.room.data[p];
+        pixels.component[p] = pixels.enclosure.data[p] == joined + 1 ? 1 : pixels.enclosure.data[p];
       if (round % 2) /* as in a segmentation: what is left of stains counts, and strokes that they have cut in two */
         {
-          CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
-          celd_seed_rows_write (&s.canvas.seeds, &pixels.painted);
+          CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
+          celd_seed_rows_write (&s.task.seeds, &pixels.painted);
           flood (&pixels.painted, pixels.stroke);
-          stained += s.canvas.stained;
+          spilled += s.task.spilled;
         }
       label = slow_background (&pixels, &s.ink);
-      CHECK (celd_background_seed (NULL, &s.canvas) == CELD_OK);
+      CHECK (celd_background_seed (NULL, &s.task) == CELD_OK);
       for (int p = 0; p < W * H; p++)
-        wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != pixels.painted.data[p];
+        wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != pixels.painted.data[p];
       NEAR (wrong, 0, 0);
-      CHECK (s.canvas.palette.n == (label == 4 ? 4 : 3));
-      CHECK (!label || s.canvas.palette.item[label - 1].background);
+      CHECK (s.task.palette.n == (label == 4 ? 4 : 3));
+      CHECK (!label || s.task.palette.item[label - 1].background);
       own += label == 4;
       sketch_close (&s);
       free (pixels.painted.data);
-      free (pixels.room.data);
+      free (pixels.enclosure.data);
     }
-  CHECK (own > 20 && own < 280 && stained > 10);
+  CHECK (own > 20 && own < 280 && spilled > 10);
 }
 
 int

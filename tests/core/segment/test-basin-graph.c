@@ -10,8 +10,8 @@ static void
 renewed_is_new (void)
 {
   static const int size[][2] = { { 1, 1 }, { 1, 90 }, { 90, 1 }, { 40, 30 }, { 150, 140 }, { 400, 70 }, { 420, 400 } };
-  uint32_t state = 23;
-  int      wrong = 0;
+  uint32_t         state = 23;
+  int              wrong = 0;
 
   for (size_t i = 0; i < sizeof size / sizeof *size; i++)
     for (int round = 0; round < 12; round++)
@@ -30,7 +30,7 @@ renewed_is_new (void)
           {
             CeldRect changed = edit (&state, &ink);
 
-            CHECK (celd_basins_renew (&ink, &changed, NULL, &kept) == CELD_OK);
+            CHECK (celd_basins_update (&ink, &changed, NULL, &kept) == CELD_OK);
             CHECK (celd_basins_new (&ink, THRESHOLD, NULL, &made) == CELD_OK);
             wrong += differences (&kept, &made);
             celd_basins_clear (&made);
@@ -43,22 +43,23 @@ renewed_is_new (void)
 
 /* Pairs of one border that are counted apart: sums, and the place of the widest pass, the first of equal ones. */
 static void
-borders_add_up (void)
+boundaries_add_up (void)
 {
-  CeldBorder sum = { .a = 1, .b = 2, .passes = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100 };
-  CeldBorder lower = { .passes = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10 };
-  CeldBorder later = { .saddle = 9, .x = 6, .y = 7, .cost = 1 }, east = { .saddle = 9, .x = 5, .y = 7, .cost = 1 };
-  CeldBorder earlier = { .saddle = 9, .x = 9, .y = 6, .south = true }, wider = { .saddle = 16, .x = 8, .y = 8 };
+  CeldBasinBoundary sum = { .a = 1, .b = 2, .opening = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100 };
+  CeldBasinBoundary lower = { .opening = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10 };
+  CeldBasinBoundary later = { .saddle = 9, .x = 6, .y = 7, .cost = 1 },
+  east = { .saddle = 9, .x = 5, .y = 7, .cost = 1 };
+  CeldBasinBoundary earlier = { .saddle = 9, .x = 9, .y = 6, .south = true }, wider = { .saddle = 16, .x = 8, .y = 8 };
 
-  celd_border_add (&sum, &lower);
-  celd_border_add (&sum, &later);
-  CHECK (sum.a == 1 && sum.b == 2 && sum.passes == 4 && sum.cost == 111 && sum.frame);
+  celd_basin_boundary_add (&sum, &lower);
+  celd_basin_boundary_add (&sum, &later);
+  CHECK (sum.a == 1 && sum.b == 2 && sum.opening == 4 && sum.cost == 111 && sum.frame);
   CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && sum.south);
-  celd_border_add (&sum, &east);
+  celd_basin_boundary_add (&sum, &east);
   CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && !sum.south && sum.cost == 112);
-  celd_border_add (&sum, &earlier);
+  celd_basin_boundary_add (&sum, &earlier);
   CHECK (sum.saddle == 9 && sum.x == 9 && sum.y == 6 && sum.south);
-  celd_border_add (&sum, &wider);
+  celd_basin_boundary_add (&sum, &wider);
   CHECK (sum.saddle == 16 && sum.x == 8 && sum.y == 8 && !sum.south);
 }
 
@@ -66,6 +67,6 @@ int
 main (void)
 {
   RUN (renewed_is_new);
-  RUN (borders_add_up);
+  RUN (boundaries_add_up);
   return DONE;
 }

@@ -17,16 +17,16 @@ find (const char *const *rows, CeldPlane *ink, CeldBasins *basins)
 
 /* The numbers of pieces, rooms and blocks must be these. */
 static void
-count (const char *const *rows, int stroke, size_t pieces, size_t rooms, size_t blocks)
+count (const char *const *rows, int stroke, size_t pieces, size_t enclosures, size_t blocks)
 {
   CeldPlane  ink;
   CeldBasins basins;
 
   find (rows, &ink, &basins);
   NEAR (basins.stroke, stroke, 0);
-  NEAR (basins.n_pieces, pieces, 0);
-  NEAR (basins.n_rooms, rooms, 0);
-  NEAR (basins.n_blocks, blocks, 0);
+  NEAR (basins.n_components, pieces, 0);
+  NEAR (basins.n_enclosures, enclosures, 0);
+  NEAR (basins.n_merged, blocks, 0);
   celd_basins_clear (&basins);
   free (ink.data);
 }
@@ -71,17 +71,17 @@ a_corridor_and_a_corner_stay_with_their_room (void)
   static const char *const corner[] = {
     "................##", "..............####", "............######", "..........########", NULL
   };
-  CeldPlane  ink;
-  CeldBasins basins;
+  CeldPlane                ink;
+  CeldBasins               basins;
 
   find (corridor, &ink, &basins);
-  CHECK (basins.n_rooms == 1);
+  CHECK (basins.n_enclosures == 1);
   for (int x = 1; x < 17; x++)
-    CHECK (basins.block[celd_basin_at (&basins, x, 5)] == basins.block[celd_basin_at (&basins, 4, 2)]);
+    CHECK (basins.merged[celd_basin_at (&basins, x, 5)] == basins.merged[celd_basin_at (&basins, 4, 2)]);
   celd_basins_clear (&basins);
   free (ink.data);
   find (corner, &ink, &basins);
-  CHECK (basins.n_rooms == 1);
+  CHECK (basins.n_enclosures == 1);
   celd_basins_clear (&basins);
   free (ink.data);
 }
@@ -97,10 +97,11 @@ a_diagonal_line_of_one_pixel_parts (void)
   for (int p = 0; p < 60 * 40; p++)
     ink.data[p] = p % 60 != p / 60 + 5;
   CHECK (celd_basins_new (&ink, THRESHOLD, NULL, &basins) == CELD_OK);
-  CHECK (basins.n_pieces == 2 && basins.n_rooms == 2 && basins.n_blocks == 2);
+  CHECK (basins.n_components == 2 && basins.n_enclosures == 2 && basins.n_merged == 2);
   for (int p = 0; p < 60 * 40; p++)
     if (p % 60 != p / 60 + 5)
-      wrong += (basins.piece[celd_basin_at (&basins, p % 60, p / 60)] == basins.piece[celd_basin_at (&basins, 0, 39)])
+      wrong += (basins.component[celd_basin_at (&basins, p % 60, p / 60)] == basins.component[celd_basin_at (&basins, 0,
+                                                                                                             39)])
                != (p % 60 < p / 60 + 5);
   CHECK (wrong == 0);
   celd_basins_clear (&basins);
@@ -122,12 +123,13 @@ a_black_disc_is_solid (void)
   CHECK (celd_basins_new (&ink, THRESHOLD, NULL, &basins) == CELD_OK);
   CHECK (basins.stroke == 3);
   core = celd_basin_at (&basins, 40, 45);
-  CHECK (basins.basin[core].solid && basins.piece[core] == 0 && basins.room[core] == 0 && basins.block[core] > 0);
+  CHECK (basins.basin[core].solid && basins.component[core] == 0 && basins.enclosure[core] == 0 &&
+         basins.merged[core] > 0);
   for (size_t k = 0; k < basins.n; k++)
     {
       const CeldBasin *basin = &basins.basin[k];
 
-      CHECK (basin->solid == (basins.block[k] == basins.block[core]));
+      CHECK (basin->solid == (basins.merged[k] == basins.merged[core]));
       CHECK (!basin->solid || (basin->x - 40) * (basin->x - 40) + (basin->y - 45) * (basin->y - 45) < 20 * 20);
     }
   CHECK (celd_basin_at (&basins, 40, 27) != core);      /* its rim goes with the paper */
@@ -139,17 +141,17 @@ static void
 pictures_without_paper_or_without_ink (void)
 {
   static const char *const black[] = { "###", "###", NULL };
-  static const char *const white[] = { "...", "...", NULL };
+  static const char *const paper_cost[] = { "...", "...", NULL };
   static const char *const dot[] = { ".", NULL };
-  static const char *const *const all[] = { black, white, dot };
-  CeldPlane                        ink;
-  CeldBasins                       basins;
+  static const char *const *const all[] = { black, paper_cost, dot };
+  CeldPlane  ink;
+  CeldBasins basins;
 
   for (int i = 0; i < 3; i++)
     {
       find (all[i], &ink, &basins);
-      CHECK (basins.n == 1 && basins.n_blocks == 1 && basins.n_borders == 0 && basins.basin[0].squared == INT32_MAX);
-      CHECK (basins.basin[0].solid == (i == 0) && basins.n_pieces == (i > 0) && basins.n_rooms == (i > 0));
+      CHECK (basins.n == 1 && basins.n_merged == 1 && basins.n_boundaries == 0 && basins.basin[0].squared == INT32_MAX);
+      CHECK (basins.basin[0].solid == (i == 0) && basins.n_components == (i > 0) && basins.n_enclosures == (i > 0));
       CHECK (basins.basin[0].area == (uint32_t) (ink.width * ink.height));
       celd_basins_clear (&basins);
       free (ink.data);
@@ -185,7 +187,7 @@ threads_and_cancel (void)
     for (int x = 140; x < 160; x++)
       CELD_AT (&ink, x, y) = 1;
   left = round = 0;
-  while (celd_basins_renew (&ink, &changed, &cancel, &other) == CELD_CANCELLED && round < 1000)
+  while (celd_basins_update (&ink, &changed, &cancel, &other) == CELD_CANCELLED && round < 1000)
     {
       CHECK (differences (&serial, &other) == 0);
       left = ++round;
@@ -212,8 +214,8 @@ bad_sizes (void)
   CHECK (celd_basins_new (&wide, THRESHOLD, NULL, &basins) == CELD_BAD_SIZE && !basins.n);
   CHECK (celd_basins_new (&good, THRESHOLD, NULL, &basins) == CELD_OK);
   CHECK (celd_basins_new (&good, THRESHOLD, NULL, &made) == CELD_OK);
-  CHECK (celd_basins_renew (&smaller, &all, NULL, &basins) == CELD_BAD_SIZE);
-  CHECK (celd_basins_renew (&good, &outside, NULL, &basins) == CELD_OK);
+  CHECK (celd_basins_update (&smaller, &all, NULL, &basins) == CELD_BAD_SIZE);
+  CHECK (celd_basins_update (&good, &outside, NULL, &basins) == CELD_OK);
   CHECK (differences (&basins, &made) == 0);
   celd_basins_clear (&basins);
   celd_basins_clear (&made);

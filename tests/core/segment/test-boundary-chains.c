@@ -4,7 +4,7 @@
  */
 #include "scene.h"
 #include "segment/closures.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 static void
 find (const char *const *art, const CeldPatches *windows, Scene *s, CeldChains *chains)
@@ -13,7 +13,7 @@ find (const char *const *art, const CeldPatches *windows, Scene *s, CeldChains *
 
   scene_read (art, s);
   scene_basins (s);
-  CHECK (celd_chains_find (&s->canvas, s->label, &s->labels, windows ? windows : &none, chains) == CELD_OK);
+  CHECK (celd_chains_find (&s->task, s->label, &s->labels, windows ? windows : &none, chains) == CELD_OK);
 }
 
 static void
@@ -21,8 +21,8 @@ a_gap_in_a_line_is_one_chain (void)
 {
   static const char *const art[] = { "AAAAAAAA", "##AAAA##", "BBBABBBB", "BBBBBBBB", NULL };
   static const CeldCorner  way[] = { { 2, 2 }, { 3, 2 }, { 3, 3 }, { 4, 3 }, { 4, 2 }, { 5, 2 }, { 6, 2 } };
-  Scene      s;
-  CeldChains chains;
+  Scene                    s;
+  CeldChains               chains;
 
   find (art, NULL, &s, &chains);
   NEAR (chains.n, 1, 0);
@@ -44,9 +44,9 @@ static void
 chains_stop_at_the_frame_and_at_third_labels (void)
 {
   static const char *const art[] = { "AAAABBBB", "AAAABBBB", "AAAABBBB", "CCCCCCCC", "CCCCCCCC", NULL };
-  Scene      s;
-  CeldChains chains;
-  int        ends[4] = { 0 };
+  Scene                    s;
+  CeldChains               chains;
+  int                      ends[4] = { 0 };
 
   find (art, NULL, &s, &chains);
   NEAR (chains.n, 3, 0);
@@ -64,20 +64,20 @@ chains_stop_at_the_frame_and_at_third_labels (void)
 
 /* The only pair of labels meets in three gaps, on both sides of a hole in the line. */
 static void
-gaps_that_no_border_names_are_found (void)
+gaps_that_no_boundary_names_are_found (void)
 {
   static const char *const art[] = { "BBBBBBBBBB", "BB##AA##BB", "BB#AAAA#BB", "BBAAAAAABB", "BB#AAAA#BB", "BB######BB",
                                      "BBBBBBBBBB", NULL };
-  Scene      s;
-  CeldChains chains;
-  size_t     edges = 0;
+  Scene                    s;
+  CeldChains               chains;
+  size_t                   edges = 0;
 
   find (art, NULL, &s, &chains);
-  NEAR (s.basins.n_borders, 1, 0);
+  NEAR (s.basins.n_boundaries, 1, 0);
   NEAR (chains.n, 3, 0);
   for (size_t k = 0; k < chains.n; k++)
     edges += chains.item[k].n - 1;
-  NEAR (edges, s.basins.border[0].passes, 0);
+  NEAR (edges, s.basins.boundary[0].opening, 0);
   celd_chains_clear (&chains);
   scene_close (&s);
 }
@@ -87,9 +87,9 @@ static void
 crossings_are_passed_one_way (void)
 {
   static const char *const art[] = { "AAAAAA", "AAABBB", "AAABBB", "BBBAAA", "BBBAAA", "BBBAAA", NULL };
-  Scene      s;
-  CeldChains chains;
-  size_t     edges = 0;
+  Scene                    s;
+  CeldChains               chains;
+  size_t                   edges = 0;
 
   find (art, NULL, &s, &chains);
   NEAR (chains.n, 2, 0);
@@ -98,7 +98,7 @@ crossings_are_passed_one_way (void)
       edges += chains.item[k].n - 1;
       CHECK (chains.item[k].end[0] == CELD_CHAIN_FRAME && chains.item[k].end[1] == CELD_CHAIN_FRAME);
     }
-  NEAR (edges, s.basins.border[0].passes, 0);
+  NEAR (edges, s.basins.boundary[0].opening, 0);
   celd_chains_clear (&chains);
   scene_close (&s);
 }
@@ -108,9 +108,9 @@ an_island_of_a_patch_is_a_loop (void)
 {
   static const char *const art[] = { "AAAAAA", "AABBAA", "AABBAA", "AAAAAA", NULL };
   static CeldPatch         item[] = { { 1, 2, 4, 2 }, { 2, 2, 4, 2 } };
-  CeldPatches windows = { item, 2 };
-  Scene       s;
-  CeldChains  chains;
+  CeldPatches              windows = { item, 2 };
+  Scene                    s;
+  CeldChains               chains;
 
   find (art, &windows, &s, &chains);
   NEAR (chains.n, 1, 0);
@@ -132,10 +132,10 @@ random_pictures (void)
   for (int round = 0; round < 400; round++)
     {
       static const CeldPatches none = { 0 };
-      int        w = 2 + (int) check_random (&state, 30), h = 2 + (int) check_random (&state, 30);
-      size_t     edges = 0, wanted = 0;
-      Scene      s;
-      CeldChains chains;
+      int                      w = 2 + (int) check_random (&state, 30), h = 2 + (int) check_random (&state, 30);
+      size_t                   edges = 0, wanted = 0;
+      Scene                    s;
+      CeldChains               chains;
 
       scene_open (w, h, &s);
       for (int y = 0; y < h; y++)
@@ -145,9 +145,9 @@ random_pictures (void)
             CELD_AT (&s.ink, x, y) = check_random (&state, 4) ? 1.f : 0.f;
           }
       scene_basins (&s);
-      CHECK (celd_chains_find (&s.canvas, s.label, &s.labels, &none, &chains) == CELD_OK);
-      for (size_t k = 0; k < s.basins.n_borders; k++)
-        wanted += s.basins.border[k].passes;
+      CHECK (celd_chains_find (&s.task, s.label, &s.labels, &none, &chains) == CELD_OK);
+      for (size_t k = 0; k < s.basins.n_boundaries; k++)
+        wanted += s.basins.boundary[k].opening;
       for (size_t k = 0; k < chains.n; k++)
         edges += chains.item[k].n - 1;
       NEAR (edges, wanted, 0);
@@ -161,7 +161,7 @@ main (void)
 {
   RUN (a_gap_in_a_line_is_one_chain);
   RUN (chains_stop_at_the_frame_and_at_third_labels);
-  RUN (gaps_that_no_border_names_are_found);
+  RUN (gaps_that_no_boundary_names_are_found);
   RUN (crossings_are_passed_one_way);
   RUN (an_island_of_a_patch_is_a_loop);
   RUN (random_pictures);

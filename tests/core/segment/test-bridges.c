@@ -101,14 +101,15 @@ basins_part_at_a_bridge (void)
   bridged = basins_of (&s.ink);
   inside  = celd_basin_at (&bridged, SIDE / 2, SIDE / 2);
   outside = celd_basin_at (&bridged, 5, 5);
-  CHECK (bridged.block[inside] != bridged.block[outside] && bridged.piece[inside] != bridged.piece[outside]);
-  CHECK (bridged.n_pieces == plain.n_pieces + 1);
+  CHECK (bridged.merged[inside] != bridged.merged[outside] && bridged.component[inside] != bridged.component[outside]);
+  CHECK (bridged.n_components == plain.n_components + 1);
   for (size_t i = 0; i < bridges.n_pixels; i++)
     CELD_AT (&s.ink, bridges.pixel[i].x, bridges.pixel[i].y) = 1;
   CHECK (celd_bridges_join (&bridges, &s.ink, &bridged) == CELD_OK);
-  CHECK (bridged.n_pieces == plain.n_pieces && bridged.n_rooms == plain.n_rooms);
-  CHECK (bridged.piece[inside] == bridged.piece[outside] && bridged.room[inside] == bridged.room[outside]);
-  CHECK (bridged.block[inside] != bridged.block[outside]);
+  CHECK (bridged.n_components == plain.n_components && bridged.n_enclosures == plain.n_enclosures);
+  CHECK (bridged.component[inside] == bridged.component[outside] &&
+         bridged.enclosure[inside] == bridged.enclosure[outside]);
+  CHECK (bridged.merged[inside] != bridged.merged[outside]);
   celd_basins_clear (&plain);
   celd_basins_clear (&bridged);
   celd_bridges_clear (&bridges);

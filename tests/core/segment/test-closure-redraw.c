@@ -4,8 +4,8 @@
  */
 #include "image/image.h"
 #include "scene.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 
 /* Lays something across the straight way between two tips, while the old border makes a detour below it. */
 static void
@@ -20,7 +20,7 @@ draw_detour (Scene *s)
 }
 
 static void
-check_old_border (Scene *s)
+check_old_boundary (Scene *s)
 {
   CHECK (scene_find (s, NULL) == CELD_OK);
   NEAR (s->patches.n, 0, 0);
@@ -55,7 +55,7 @@ ink_of_others_is_never_crossed_or_enclosed (void)
       for (int x = 48; x < 50; x++)
         for (int y = k % 2 ? 34 : 26; y < 36; y++)
           CELD_AT (&s.ink, x, y) = (float) ink[k / 2];
-      check_old_border (&s);
+      check_old_boundary (&s);
     }
 }
 
@@ -67,7 +67,7 @@ a_third_label_is_never_enclosed (void)
   draw_detour (&s);
   for (int x = 48; x < 52; x++)
     CELD_AT (&s.labels, x, 35) = 3;
-  check_old_border (&s);
+  check_old_boundary (&s);
 }
 
 static void
@@ -76,10 +76,10 @@ seeds_keep_their_label (void)
   Scene s;
 
   draw_detour (&s);
-  CHECK (celd_seed_rows_paint (&s.canvas.seeds, 34, 50, 51, 1) == CELD_OK);
-  check_old_border (&s);
+  CHECK (celd_seed_rows_paint (&s.task.seeds, 34, 50, 51, 1) == CELD_OK);
+  check_old_boundary (&s);
   draw_detour (&s);
-  CHECK (celd_seed_rows_paint (&s.canvas.seeds, 34, 50, 51, 2) == CELD_OK); /* it was overruled; now it is obeyed */
+  CHECK (celd_seed_rows_paint (&s.task.seeds, 34, 50, 51, 2) == CELD_OK); /* it was overruled; now it is obeyed */
   CHECK (scene_find (&s, NULL) == CELD_OK);
   scene_apply (&s);
   NEAR (CELD_AT (&s.labels, 50, 34), 2, 0);
@@ -96,7 +96,7 @@ faint_lines_are_followed (void)
   for (int x = 29; x < 71; x++)
     for (int y = 30; y < 40; y++)
       if (CELD_AT (&s.labels, x, y) == 1 && (CELD_AT (&s.labels, x, y + 1) == 2 || CELD_AT (&s.labels, x + 1, y) == 2 ||
-                                              CELD_AT (&s.labels, x - 1, y) == 2))
+                                             CELD_AT (&s.labels, x - 1, y) == 2))
         CELD_AT (&s.ink, x, y) = fminf (CELD_AT (&s.ink, x, y), 0.6f);
   CHECK (scene_find (&s, NULL) == CELD_OK);
   NEAR (s.patches.n, 0, 0);
@@ -137,7 +137,7 @@ cancelled_nothing_is_made (void)
 
   draw_detour (&s);
   scene_basins (&s);
-  CHECK (celd_closures_find (&s.canvas, s.label, &s.labels, &none, &host, &s.closures, &s.patches) == CELD_CANCELLED);
+  CHECK (celd_closures_find (&s.task, s.label, &s.labels, &none, &host, &s.closures, &s.patches) == CELD_CANCELLED);
   CHECK (!s.closures.item && !s.closures.n && !s.patches.item && !s.patches.n);
   scene_close (&s);
 }

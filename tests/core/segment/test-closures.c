@@ -4,7 +4,7 @@
  */
 #include "image/image.h"
 #include "scene.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 #define SIZE 161
 
@@ -274,7 +274,7 @@ static void
 a_gap_one_pixel_wide_is_a_closure (void)
 {
   static const char *const art[] = { "AAAAAAAAAAA", "AAAAAAAAAAA", "#####A#####", "BBBBBBBBBBB", "BBBBBBBBBBB", NULL };
-  Scene s;
+  Scene                    s;
 
   scene_read (art, &s);
   CHECK (scene_find (&s, NULL) == CELD_OK);
@@ -321,7 +321,7 @@ random_pictures_stay_sound (void)
             if (!check_random (&state, 50))
               CELD_AT (&s.labels, x, y) = 1 + check_random (&state, 4);
             if (!check_random (&state, 200))
-              CHECK (celd_seed_rows_paint (&s.canvas.seeds, y, x, x + 1, CELD_AT (&s.labels, x, y)) == CELD_OK);
+              CHECK (celd_seed_rows_paint (&s.task.seeds, y, x, x + 1, CELD_AT (&s.labels, x, y)) == CELD_OK);
           }
       twin = s;
       CHECK (scene_find (&s, NULL) == CELD_OK);
@@ -337,7 +337,7 @@ random_pictures_stay_sound (void)
       celd_patches_clear (&twin.patches);
       free (twin.basins.row);
       free (twin.basins.run);
-      free (twin.basins.border);
+      free (twin.basins.boundary);
       scene_close (&s);
     }
   CHECK (patches > 300);

@@ -5,21 +5,21 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
 #include "segment/splits.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 enum { SIDE = 120, PIXELS = SIDE * SIDE };
 
 typedef struct
 {
-  CeldPlane    ink;
-  CeldSettings settings;
-  CeldBasins   basins;
-  CeldCanvas   canvas;
-  uint32_t     basin[PIXELS], at[PIXELS], node[PIXELS];
-  uint8_t      mark[PIXELS];
-  CeldCut      cut;
+  CeldPlane       ink;
+  CeldSettings    settings;
+  CeldBasins      basins;
+  CeldSegmentTask task;
+  uint32_t        basin[PIXELS], at[PIXELS], node[PIXELS];
+  uint8_t         mark[PIXELS];
+  CeldCut         cut;
 } Page;
 
 /* The whole page is one region of label 1. */
@@ -33,19 +33,19 @@ page_open (Page *page, CeldPlane ink, int x, int y, int u, int v)
   page->ink      = ink;
   page->settings = celd_settings ();
   CHECK (celd_basins_new (&page->ink, page->settings.ink_threshold, NULL, &page->basins) == CELD_OK);
-  page->canvas = (CeldCanvas) {
-    .settings = &page->settings, .ink = &page->ink, .basins = &page->basins, .soft_vote = 1,
+  page->task = (CeldSegmentTask) {
+    .settings = &page->settings, .ink = &page->ink, .basins = &page->basins, .soft_cost = 1,
   };
-  CHECK (celd_seed_rows_new (ink.width, ink.height, &page->canvas.seeds) == CELD_OK);
-  celd_canvas_add (&page->canvas, (CeldRegion) { .colour = { 1, 2, 3, 255 } }, &label);
+  CHECK (celd_seed_rows_new (ink.width, ink.height, &page->task.seeds) == CELD_OK);
+  celd_task_add_label (&page->task, (CeldRegion) { .colour = { 1, 2, 3, 255 } }, &label);
   page->cut = (CeldCut) {
-    .canvas = &page->canvas, .label = 1, .right = ink.width - 1, .bottom = ink.height - 1,
+    .task = &page->task, .label = 1, .right = ink.width - 1, .bottom = ink.height - 1,
     .end = { { true, x, y }, { true, u, v } }, .basin = page->basin, .n = page->basins.n, .at = page->at,
     .mark = page->mark, .node = page->node,
   };
-  reach = CELD_REACH * celd_ends_apart (page->cut.end[0], page->cut.end[1]);
+  reach = CELD_DISC_RANGE * celd_relation_end_distance (page->cut.end[0], page->cut.end[1]);
   for (int i = 0; i < 2; i++)
-    page->cut.discs[i] = celd_discs_find (&page->canvas, page->cut.end[i], reach, INFINITY);
+    page->cut.discs[i] = celd_seed_discs_find (&page->task, page->cut.end[i], reach, INFINITY);
   for (uint32_t k = 0; k < page->basins.n; k++)
     {
       page->basin[k] = k;
@@ -59,8 +59,8 @@ page_close (Page *page)
 {
   free (page->ink.data);
   celd_basins_clear (&page->basins);
-  celd_seed_rows_clear (&page->canvas.seeds);
-  celd_palette_clear (&page->canvas.palette);
+  celd_seed_rows_clear (&page->task.seeds);
+  celd_palette_clear (&page->task.palette);
 }
 
 #define MARK(x, y) page.mark[(y) * page.ink.width + (x)]
@@ -82,9 +82,9 @@ weigh (const Page *page, int32_t *east, int32_t *south)
         const float *ink = page->ink.data + p;
 
         east[p] = x + 1 < w
-                ? celd_cost (&page->basins.costs, ink[0], ink[1], depth[p], depth[p + 1], y == 0 || y == h - 1) : 0;
+                ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[1], depth[p], depth[p + 1], y == 0 || y == h - 1) : 0;
         south[p] = y + 1 < h
-                 ? celd_cost (&page->basins.costs, ink[0], ink[w], depth[p], depth[p + w], x == 0 || x == w - 1) : 0;
+                 ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[w], depth[p], depth[p + w], x == 0 || x == w - 1) : 0;
       }
   free (paper);
   free (depth);
@@ -118,7 +118,7 @@ least_energy (const Page *page, const int32_t *east, const int32_t *south)
 
   for (int k = 0; k < 4; k++)
     for (int y = 0; y < h; y++)
-      if (celd_disc_row (&page->cut.discs[k / 2].disc[k % 2], y, &x, &end))
+      if (celd_seed_disc_row (&page->cut.discs[k / 2].disc[k % 2], y, &x, &end))
         for (x = x < 0 ? 0 : x; x < end && x < w; x++)
           terminal[y * w + x] = k < 2 ? (1 << 30) - 1 : 1 - (1 << 30);
   CHECK (celd_maxflow (w, h, east, south, terminal, NULL, side, &flow) == CELD_OK);
@@ -180,7 +180,7 @@ as_good_as_exact (void)
       page_open (&page, ink, x, y, u, v);
       weigh (&page, east, south);
       least = least_energy (&page, east, south);
-      CHECK (celd_cut (&page.cut, NULL, &kept) == CELD_OK && kept >= 0);
+      CHECK (celd_cut_pixels (&page.cut, NULL, &kept) == CELD_OK && kept >= 0);
       found = energy (&page, east, south);
       CHECK (MARK (x, y) == CELD_NEAR_FIRST && MARK (u, v) == CELD_NEAR_SECOND);
       CHECK (found >= least && (double) found <= 1.25 * (double) least);
@@ -197,11 +197,11 @@ as_good_as_exact (void)
 static void
 outside_stays (void)
 {
-  static Page             page;
+  static Page              page;
   static const char *const art[] = {
     "...........................", "...........................", "...........................",
     "...........................", "...........................", NULL };
-  int kept = -2;
+  int                      kept = -2;
 
   page_open (&page, art_plane (art), 2, 2, 10, 2);
   for (int y = 0; y < 5; y++)
@@ -209,7 +209,7 @@ outside_stays (void)
       MARK (15, y) = MARK (16, y) = CELD_OUTSIDE;
       MARK (6, y) = y == 2 ? CELD_INSIDE : CELD_OUTSIDE;
     }
-  CHECK (celd_cut (&page.cut, NULL, &kept) == CELD_OK && kept == 1); /* no seed: the second end */
+  CHECK (celd_cut_pixels (&page.cut, NULL, &kept) == CELD_OK && kept == 1); /* no seed: the second end */
   for (int y = 0; y < 5; y++)
     for (int x = 0; x < 27; x++)
       CHECK (MARK (x, y) == (x > 14 || (x == 6 && y != 2) ? CELD_OUTSIDE : x < 6 ? CELD_NEAR_FIRST
@@ -217,7 +217,7 @@ outside_stays (void)
   memset (page.mark, CELD_INSIDE, 27 * 5);
   for (int y = 0; y < 5; y++)
     MARK (6, y) = CELD_OUTSIDE;
-  CHECK (celd_cut (&page.cut, NULL, &kept) == CELD_OK && kept == -1);
+  CHECK (celd_cut_pixels (&page.cut, NULL, &kept) == CELD_OK && kept == -1);
   CHECK (MARK (2, 2) == CELD_INSIDE && MARK (10, 2) == CELD_INSIDE);
   page_close (&page);
 }
@@ -226,19 +226,19 @@ outside_stays (void)
 static void
 nearer_end_is_kept (void)
 {
-  static Page             page;
+  static Page              page;
   static const char *const art[] = {
     "...........................", "...........................", "...........................",
     "...........................", "...........................", "#########################..",
     "#########################..", "...........................", "...........................",
     "...........................", "...........................", "...........................", NULL };
-  int kept = -2;
+  int                      kept = -2;
 
   for (int i = 0; i < 2; i++)
     {
       page_open (&page, art_plane (art), i ? 2 : 23, i ? 9 : 2, i ? 23 : 2, i ? 2 : 9);
-      CHECK (celd_seed_rows_paint (&page.canvas.seeds, 3, 2, 5, 1) == CELD_OK); /* above the line, on the left */
-      CHECK (celd_cut (&page.cut, NULL, &kept) == CELD_OK && kept == i);
+      CHECK (celd_seed_rows_paint (&page.task.seeds, 3, 2, 5, 1) == CELD_OK); /* above the line, on the left */
+      CHECK (celd_cut_pixels (&page.cut, NULL, &kept) == CELD_OK && kept == i);
       CHECK (MARK (3, 3) == (i ? CELD_NEAR_SECOND : CELD_NEAR_FIRST));
       page_close (&page);
     }
@@ -248,17 +248,17 @@ nearer_end_is_kept (void)
 static void
 basins_part_at_the_waist (void)
 {
-  static Page             page;
-  static uint8_t          side[PIXELS];
+  static Page              page;
+  static uint8_t           side[PIXELS];
   static const char *const art[] = {
     "#########################", "#...........#...........#", "#...........#...........#", "#...........#...........#",
     "#...........#...........#", "#.......................#", "#.......................#", "#...........#...........#",
     "#...........#...........#", "#...........#...........#", "#...........#...........#", "#########################",
     NULL };
-  int kept = -2;
+  int                      kept = -2;
 
   page_open (&page, art_plane (art), 5, 5, 19, 5);
-  CHECK (celd_seed_rows_paint (&page.canvas.seeds, 3, 18, 20, 1) == CELD_OK);
+  CHECK (celd_seed_rows_paint (&page.task.seeds, 3, 18, 20, 1) == CELD_OK);
   CHECK (celd_cut_basins (&page.cut, NULL, side, &kept) == CELD_OK && kept == 1);
   for (int y = 1; y < 11; y++)
     for (int x = 1; x < 24; x++)

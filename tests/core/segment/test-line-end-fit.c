@@ -22,7 +22,7 @@ look (const Scene *s, int stroke, double x, double y, CeldLineEnd *end)
           nearest = (CeldCorner) { u, v };
         }
   CHECK (celd_line_end_new (stroke, end) == CELD_OK);
-  celd_line_end_look (&s->ink, nearest, end);
+  celd_line_end_fit (&s->ink, nearest, end);
 }
 
 /* From the corner of the tip as well as from its middle, thin lines and thick ones, at any angle. */
@@ -123,11 +123,11 @@ sides_are_met_ahead (void)
   look (&s, 4, 52, 83, &from);
   look (&s, 4, 53, 98, &end);
   CHECK (from.tip && !end.tip);
-  celd_line_end_face (&s.ink, &from, &end);
+  celd_line_end_aim (&s.ink, &from, &end);
   NEAR (end.at.y, 98, 0.6);
   NEAR (end.at.x, 59, 2.5);             /* straight on it would be 60.8, the shortest way about 51 */
   from.tip = false;
-  celd_line_end_face (&s.ink, &from, &end);
+  celd_line_end_aim (&s.ink, &from, &end);
   NEAR (end.at.x, from.at.x, 1);
   celd_line_end_clear (&from);
   celd_line_end_clear (&end);

@@ -150,9 +150,9 @@ small_pages (void)
   static const char *const art[] = {
     "..............", "..............", "..############", "..............", "......#.......", "..............", NULL
   };
-  CeldTip  *tip = NULL;
-  CeldPlane ink = art_plane (art), one = { 1, 1, 1, (float[]) { 0 } };
-  size_t    n = 0;
+  CeldTip                 *tip = NULL;
+  CeldPlane                ink = art_plane (art), one = { 1, 1, 1, (float[]) { 0 } };
+  size_t                   n = 0;
 
   CHECK (celd_line_ends_find (&one, 1, NULL, &tip, &n) == CELD_OK && n == 0);
   celd_free (tip);

@@ -47,14 +47,14 @@ counts_are_those_of_the_drawing (void)
         pixel[p] = check_random (&state, 7) ? (float) check_random (&state, 21) / 20 : NAN;
       CHECK (celd_paper_new (&ink, NULL, &basins.paper) == CELD_OK);
       check_counts (&ink, &basins);
-      celd_paper_renew (&ink, &changed, NULL, basins.paper); /* nothing has changed */
+      celd_paper_update (&ink, &changed, NULL, basins.paper); /* nothing has changed */
       check_counts (&ink, &basins);
       changed.width  = 1 + (int) check_random (&state, (uint32_t) (w - changed.x));
       changed.height = 1 + (int) check_random (&state, (uint32_t) (h - changed.y));
       for (int y = changed.y; y < changed.y + changed.height; y++)
         for (int x = changed.x; x < changed.x + changed.width; x++)
           CELD_AT (&ink, x, y) = (float) check_random (&state, 2);
-      celd_paper_renew (&ink, &changed, NULL, basins.paper);
+      celd_paper_update (&ink, &changed, NULL, basins.paper);
       check_counts (&ink, &basins);
       celd_free (basins.paper);
     }

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 static void
 runs_that_continue_one_another_are_one (void)

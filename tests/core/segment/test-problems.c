@@ -2,36 +2,36 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "canvas.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
+#include "sketch.h"
 
 /* The labels as basins that have the label of their maximum, and patches where that is not all of it. */
 static void
-paint (const CeldBasins *b, const CeldLabels *labels, CeldPainting *painting)
+paint (const CeldBasins *b, const CeldLabels *labels, CeldLabelling *labelling)
 {
-  *painting = (CeldPainting) { .label = calloc (b->n, sizeof *painting->label) };
+  *labelling = (CeldLabelling) { .label = calloc (b->n, sizeof *labelling->label) };
   for (size_t k = 0; k < b->n; k++)
-    painting->label[k] = CELD_AT (labels, b->basin[k].x, b->basin[k].y);
+    labelling->label[k] = CELD_AT (labels, b->basin[k].x, b->basin[k].y);
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
       {
         uint32_t l = CELD_AT (labels, x, y);
 
-        if (l != painting->label[celd_basin_at (b, x, y)])
-          CHECK (celd_patch_add (&painting->patches, (CeldPatch) { y, x, x + 1, l }) == CELD_OK);
+        if (l != labelling->label[celd_basin_at (b, x, y)])
+          CHECK (celd_patch_add (&labelling->patches, (CeldPatch) { y, x, x + 1, l }) == CELD_OK);
       }
 }
 
 /* A canvas whose labels are `labels`, with their areas counted, and what is reported of it. */
-typedef struct { Sketch sketch; CeldLabels labels; CeldPainting painting; CeldProblems problems; } Case;
+typedef struct { Sketch sketch; CeldLabels labels; CeldLabelling labelling; CeldProblems problems; } Case;
 
 static void
 report (Case *c, const char *const *paper, const char *const *painted, const char *const *labels, size_t n, bool flats)
 {
-  CeldCanvas *canvas = &c->sketch.canvas;
+  CeldSegmentTask *task = &c->sketch.task;
 
   sketch_open (&c->sketch, paper, painted, n);
   c->problems = (CeldProblems) { 0 };
@@ -39,9 +39,9 @@ report (Case *c, const char *const *paper, const char *const *painted, const cha
   c->labels = art_labels (labels);
   for (int p = 0; p < c->labels.width * c->labels.height; p++)
     if (c->labels.data[p])
-      canvas->palette.item[c->labels.data[p] - 1].area++;
-  paint (&c->sketch.basins, &c->labels, &c->painting);
-  CHECK (celd_segment_report (canvas, &canvas->seeds, &c->painting, &c->labels, NULL, &c->problems) == CELD_OK);
+      task->palette.item[c->labels.data[p] - 1].area++;
+  paint (&c->sketch.basins, &c->labels, &c->labelling);
+  CHECK (celd_segment_report (task, &task->seeds, &c->labelling, &c->labels, NULL, &c->problems) == CELD_OK);
 }
 
 static void
@@ -49,7 +49,7 @@ case_close (Case *c)
 {
   celd_problems_clear (&c->problems);
   free (c->labels.data);
-  celd_painting_clear (&c->painting);
+  celd_labelling_clear (&c->labelling);
   sketch_close (&c->sketch);
 }
 
@@ -72,7 +72,7 @@ a_stroke_that_lost_its_majority_is_overruled (void)
 {
   static const char *const painted[] = { "AAAA....", "..BBB...", "BBBBB..C", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AABAAAAA", "BBCCCCCC", NULL };
-  Case c;
+  Case                     c;
 
   report (&c, paper, painted, labels, 3, false);
   NEAR (c.problems.n, 1, 0);
@@ -89,7 +89,7 @@ half_a_stroke_and_scraps_are_not_worth_a_word (void)
   static const char *const ninth[] = { "AAAAAAAA", "........", "B......A", NULL };
   static const char *const eighth[] = { "AAAAAAA.", "........", "B......A", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "BBAAAAAB", NULL };
-  Case c;
+  Case                     c;
 
   report (&c, paper, half, labels, 2, false);
   NEAR (c.problems.n, 0, 0);
@@ -107,7 +107,7 @@ a_lost_colour_is_told_once (void)
 {
   static const char *const painted[] = { "AAAA....", "....B..B", "BBBB....", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
-  Case c;
+  Case                     c;
 
   report (&c, paper, painted, labels, 2, true);
   NEAR (c.problems.n, 1, 0);
@@ -120,20 +120,21 @@ a_lost_colour_is_told_once (void)
 static void
 closed_regions_without_a_stroke_are_unreached (void)
 {
-  static const char *const rooms[] = { "111111111111", "1#####1####1", "1#222#1#33#1", "1#222#1#33#1", "1#222#1#33#1",
+  static const char *const enclosures[] = { "111111111111", "1#####1####1", "1#222#1#33#1", "1#222#1#33#1",
+                                            "1#222#1#33#1",
                                        "1#####1####1", NULL };
   static const char *const painted[] = { "AAAA........", "............", "............", "............",
                                          "............", "............", NULL };
   static const char *const labels[] = { "AAAAAAAAAAAA", "AAAAAAAAAAAA", "AAABBAAAAAAA", "AABBBAAAAAAA",
                                         "AABBBAAAAAAA", "AAAAAAAAAAAA", NULL };
-  Case c;
+  Case                     c;
 
-  report (&c, rooms, painted, labels, 2, false);
+  report (&c, enclosures, painted, labels, 2, false);
   NEAR (c.problems.n, 1, 0);
   if (c.problems.n == 1)
     check_problem (&c, 0, (CeldProblem) { CELD_PROBLEM_REGION_UNREACHED, 3, 3, 2, 0, CELD_NO_INDEX });
   case_close (&c);
-  report (&c, rooms, painted, labels, 2, true);
+  report (&c, enclosures, painted, labels, 2, true);
   NEAR (c.problems.n, 0, 0);
   case_close (&c);
 }
@@ -144,15 +145,15 @@ unknown_labels_are_passed_over (void)
 {
   static const char *const painted[] = { "AAAA....", "........", "........", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
-  CeldCanvas *canvas;
-  Case        c;
+  CeldSegmentTask         *task;
+  Case                     c;
 
   report (&c, paper, painted, labels, 1, false);
-  canvas = &c.sketch.canvas;
-  CHECK (celd_seed_rows_paint (&canvas->seeds, 2, 4, 5, 7) == CELD_OK);
-  CHECK (celd_seed_rows_paint (&canvas->seeds, 2, 5, 6, UINT32_MAX) == CELD_OK);
-  CHECK (celd_segment_report (canvas, &canvas->seeds, &c.painting, &c.labels, NULL, &c.problems) == CELD_OK);
-  CHECK (celd_segment_report (canvas, &canvas->seeds, &c.painting, &c.labels, NULL, NULL) == CELD_OK);
+  task = &c.sketch.task;
+  CHECK (celd_seed_rows_paint (&task->seeds, 2, 4, 5, 7) == CELD_OK);
+  CHECK (celd_seed_rows_paint (&task->seeds, 2, 5, 6, UINT32_MAX) == CELD_OK);
+  CHECK (celd_segment_report (task, &task->seeds, &c.labelling, &c.labels, NULL, &c.problems) == CELD_OK);
+  CHECK (celd_segment_report (task, &task->seeds, &c.labelling, &c.labels, NULL, NULL) == CELD_OK);
   NEAR (c.problems.n, 0, 0);
   case_close (&c);
 }
@@ -202,11 +203,11 @@ gather (const CeldSeedRows *seeds, const CeldLabels *labels, int p, bool seen[W 
 static void
 check_without_basins (Case *c)
 {
-  CeldProblems again = { 0 };
-  CeldCanvas  *canvas = &c->sketch.canvas;
-  CeldPainting none = { .label = calloc (c->sketch.basins.n, sizeof *none.label) };
+  CeldProblems     again = { 0 };
+  CeldSegmentTask *task = &c->sketch.task;
+  CeldLabelling    none = { .label = calloc (c->sketch.basins.n, sizeof *none.label) };
 
-  CHECK (celd_segment_report (canvas, &canvas->seeds, &none, &c->labels, NULL, &again) == CELD_OK);
+  CHECK (celd_segment_report (task, &task->seeds, &none, &c->labels, NULL, &again) == CELD_OK);
   NEAR (again.n, c->problems.n, 0);
   for (size_t i = 0; i < again.n && again.n == c->problems.n; i++)
     CHECK (again.item[i].kind == c->problems.item[i].kind && again.item[i].label == c->problems.item[i].label);
@@ -238,17 +239,17 @@ overruled_strokes_are_those_of_the_pixels (void)
       for (int p = 0; p < W * H; p++)
         {
           const CeldProblem *problem = n < lost ? &c.problems.item[n] : NULL;
-          uint32_t           l = celd_seed_rows_at (&c.sketch.canvas.seeds, p % W, p / W);
+          uint32_t           l = celd_seed_rows_at (&c.sketch.task.seeds, p % W, p / W);
           int                area = 0, overruled = 0;
 
           if (!l || seen[p])
             continue;
-          gather (&c.sketch.canvas.seeds, &c.labels, p, seen, &area, &overruled);
-          if (2 * overruled <= area || 8 * (size_t) area < c.sketch.canvas.palette.item[l - 1].seeds)
+          gather (&c.sketch.task.seeds, &c.labels, p, seen, &area, &overruled);
+          if (2 * overruled <= area || 8 * (size_t) area < c.sketch.task.palette.item[l - 1].seeds)
             continue;
           CHECK (problem && problem->label == l && problem->other && problem->other != l &&
                  seen[problem->y * W + problem->x] && CELD_AT (&c.labels, problem->x, problem->y) != l &&
-                 celd_seed_rows_at (&c.sketch.canvas.seeds, problem->x, problem->y) == l);
+                 celd_seed_rows_at (&c.sketch.task.seeds, problem->x, problem->y) == l);
           n++;
         }
       NEAR (lost, n, 0);

@@ -6,17 +6,17 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 typedef struct
 {
-  CeldPlane    ink;
-  CeldSettings settings;
-  CeldBasins   basins;          /* what the costs are, no more */
-  CeldCanvas   canvas;
-  int32_t     *depth;
+  CeldPlane       ink;
+  CeldSettings    settings;
+  CeldBasins      basins;       /* what the costs are, no more */
+  CeldSegmentTask task;
+  int32_t        *depth;
 } Scene;
 
 /* ------------------------------------------------------------------ scenes */
@@ -31,12 +31,12 @@ scene_open (Scene *s, CeldPlane ink, const CeldLabels *painted, size_t n, float 
   *s = (Scene) { .ink = ink, .settings = celd_settings () };
   s->settings.hardness = hardness;
   s->basins = (CeldBasins) { .width = ink.width, .height = ink.height, .stroke = 2 };
-  celd_costs_new (ink.width, ink.height, s->settings.ink_threshold, &s->basins.costs);
-  s->canvas = (CeldCanvas) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
-  CHECK (celd_seed_rows_read (painted, &s->canvas.seeds) == CELD_OK);
+  celd_smoothness_costs_new (ink.width, ink.height, s->settings.ink_threshold, &s->basins.costs);
+  s->task = (CeldSegmentTask) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
+  CHECK (celd_seed_rows_read (painted, &s->task.seeds) == CELD_OK);
   for (size_t k = 0; k < n; k++)
-    celd_canvas_add (&s->canvas, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
-  celd_canvas_weigh (&s->canvas);
+    celd_task_add_label (&s->task, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
+  celd_task_set_soft_cost (&s->task);
   s->depth = malloc (pixels * sizeof *s->depth);
   for (size_t p = 0; p < pixels; p++)
     paper[p] = celd_is_paper (ink.data[p]);
@@ -49,8 +49,8 @@ scene_close (Scene *s)
 {
   free (s->ink.data);
   free (s->depth);
-  celd_seed_rows_clear (&s->canvas.seeds);
-  celd_palette_clear (&s->canvas.palette);
+  celd_seed_rows_clear (&s->task.seeds);
+  celd_palette_clear (&s->task.palette);
 }
 
 /* The paper's energy; of hard seeds what no border can cost. */
@@ -65,20 +65,22 @@ energy (const Scene *s, const CeldLabels *l)
       {
         float    ink = CELD_AT (&s->ink, x, y);
         int32_t  depth = s->depth[y * w + x];
-        uint32_t seed = celd_seed_rows_at (&s->canvas.seeds, x, y), label = CELD_AT (l, x, y);
+        uint32_t seed = celd_seed_rows_at (&s->task.seeds, x, y), label = CELD_AT (l, x, y);
 
         if (seed && seed != label)
           {
-            int32_t vote = celd_canvas_vote (&s->canvas, seed);
+            int32_t vote = celd_task_data_cost (&s->task, seed);
 
             sum += vote == CELD_HARD ? INT64_C (1) << 40 : vote;
           }
         if (x + 1 < w && label != CELD_AT (l, x + 1, y))
-          sum += celd_cost (&s->basins.costs, ink, CELD_AT (&s->ink, x + 1, y), depth, s->depth[y * w + x + 1],
-                            y == 0 || y + 1 == h);
+          sum += celd_smoothness_cost (&s->basins.costs, ink, CELD_AT (&s->ink, x + 1, y), depth,
+                                       s->depth[y * w + x + 1],
+                                       y == 0 || y + 1 == h);
         if (y + 1 < h && label != CELD_AT (l, x, y + 1))
-          sum += celd_cost (&s->basins.costs, ink, CELD_AT (&s->ink, x, y + 1), depth, s->depth[(y + 1) * w + x],
-                            x == 0 || x + 1 == w);
+          sum += celd_smoothness_cost (&s->basins.costs, ink, CELD_AT (&s->ink, x, y + 1), depth,
+                                       s->depth[(y + 1) * w + x],
+                                       x == 0 || x + 1 == w);
       }
   return sum;
 }
@@ -141,7 +143,7 @@ some_run_gains (const Scene *s, CeldLabels *l)
                  CELD_AT (l, x + n * south + !south, y + n * !south + south) == b)
             n++;
           if (south ? x > 0 && CELD_AT (l, x - 1, y) == a && CELD_AT (l, x - 1, y + 1) == b
-                    : y > 0 && CELD_AT (l, x, y - 1) == a && CELD_AT (l, x + 1, y - 1) == b)
+              : y > 0 && CELD_AT (l, x, y - 1) == a && CELD_AT (l, x + 1, y - 1) == b)
             n = 0;              /* not the first edge of its run */
           for (int side = 0; n && side < 2; side++)
             {
@@ -158,7 +160,7 @@ some_run_gains (const Scene *s, CeldLabels *l)
 }
 
 static void
-random_borders_settle (void)
+random_boundaries_settle (void)
 {
   uint32_t state = 7;
 
@@ -174,7 +176,7 @@ random_borders_settle (void)
       after = before;
       after.data = malloc (n * sizeof *after.data);
       memcpy (after.data, before.data, n * sizeof *after.data);
-      CHECK (celd_borders_settle (&s.canvas, NULL, &after, &patches) == CELD_OK);
+      CHECK (celd_boundaries_refine (&s.task, NULL, &after, &patches) == CELD_OK);
       CHECK (energy (&s, &after) <= energy (&s, &before));
       CHECK (!some_run_gains (&s, &after));
       for (size_t i = 0; i < patches.n; i++)
@@ -217,9 +219,9 @@ gap_costs_what_exact_cuts_do (void)
             CELD_AT (&l, x, y) = radius < (angle > 0.4 ? 25 : 19) ? 1 : 2;
           }
       scene_open (&s, ink, &painted, 2, 1);
-      CHECK (celd_exact_solve (&s.canvas, NULL, &exact) == CELD_OK);
+      CHECK (celd_lazybrush_solve (&s.task, NULL, &exact) == CELD_OK);
       CHECK (energy (&s, &l) > energy (&s, &exact));
-      CHECK (celd_borders_settle (&s.canvas, NULL, &l, &patches) == CELD_OK);
+      CHECK (celd_boundaries_refine (&s.task, NULL, &l, &patches) == CELD_OK);
       NEAR ((double) energy (&s, &l) / (double) energy (&s, &exact), 1, 0.01);
       celd_patches_clear (&patches);
       free (painted.data);
@@ -232,7 +234,7 @@ gap_costs_what_exact_cuts_do (void)
 int
 main (void)
 {
-  RUN (random_borders_settle);
+  RUN (random_boundaries_settle);
   RUN (gap_costs_what_exact_cuts_do);
   return DONE;
 }

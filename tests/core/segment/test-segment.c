@@ -142,7 +142,7 @@ a_stroke_closes_gaps_of_its_length (void)
     "...............C....",
     "....................",
     "....................", NULL };
-  Case c = segment (gappy, scribbles, 3, celd_settings ());
+  Case              c = segment (gappy, scribbles, 3, celd_settings ());
 
   CHECK (c.status == CELD_OK);
   CHECK (differing (&c, two_regions) == 0);
@@ -200,7 +200,7 @@ overruled_and_lost_are_told (void)
     "....................",
     "....................",
     "....................", NULL };
-  Case c = segment (two_rooms, scribbles, 3, celd_settings ());
+  Case              c = segment (two_rooms, scribbles, 3, celd_settings ());
 
   CHECK (c.status == CELD_OK);
   CHECK (count_problems (&c, CELD_PROBLEM_COLOUR_LOST) == 1);
@@ -227,7 +227,7 @@ thin_grey_lines_close (void)
     ".4.......4........4.",
     ".444444444444444444.",
     "....................", NULL };
-  Case c = segment (grey, two_scribbles, 3, celd_settings ());
+  Case              c = segment (grey, two_scribbles, 3, celd_settings ());
 
   CHECK (differing (&c, two_regions) == 0);
   case_clear (&c);
@@ -246,8 +246,8 @@ flat_colours (void)
     "ADBBBBBBBDCCCCCCCCDA",
     "ADDDDDDDDDDDDDDDDDDA",
     "AAAAAAAAAAAAAAAAAAAA", NULL };
-  CeldSettings settings = celd_settings ();
-  Case         c;
+  CeldSettings      settings = celd_settings ();
+  Case              c;
 
   settings.flats = true;
   c = segment (two_rooms, flats, 5, settings);
@@ -285,8 +285,8 @@ background_is_added (void)
     "C.AAAAAAA.BBBBBBBB.C",
     "C..................C",
     "CCCCCCCCCCCCCCCCCCCC", NULL };
-  CeldSettings settings = celd_settings ();
-  Case         c = segment (two_rooms, inside_only, 2, settings);
+  CeldSettings      settings = celd_settings ();
+  Case              c = segment (two_rooms, inside_only, 2, settings);
 
   CHECK (c.palette.n == 3 && c.palette.item[2].background && c.palette.item[2].origin == CELD_FROM_BACKGROUND);
   CHECK (c.palette.item[2].colour[3] == 0 && c.palette.item[2].seeds == 0);
@@ -316,7 +316,7 @@ background_on_both_sides (void)
   const char *const spanning[] = { "....#....#....", "....#....#....", "....#....#....", "....#....#....", NULL };
   const char *const scribbles[] = { "..............", ".AAA..BB......", "..............", "..............", NULL };
   const char *const wanted[] = { "AAAA.BBBB.AAAA", "AAAA.BBBB.AAAA", "AAAA.BBBB.AAAA", "AAAA.BBBB.AAAA", NULL };
-  Case c = segment (spanning, scribbles, 2, celd_settings ());
+  Case              c = segment (spanning, scribbles, 2, celd_settings ());
 
   CHECK (c.palette.n == 2 && c.palette.item[0].background);
   CHECK (differing (&c, wanted) == 0);
@@ -329,7 +329,7 @@ static void
 nothing_to_go_by (void)
 {
   const char *const none[] = { "....", "....", NULL };
-  Case c = segment (none, none, 0, celd_settings ());
+  Case              c = segment (none, none, 0, celd_settings ());
 
   CHECK (c.status == CELD_NOTHING_TO_GO_BY && c.palette.n == 0 && c.problems.n == 0);
   case_clear (&c);
@@ -340,7 +340,7 @@ tiny_pictures (void)
 {
   const char *const ink[] = { ".", NULL }, *const black[] = { "#", NULL }, *const seed[] = { "A", NULL };
   const char *const row[] = { "...#...", NULL }, *const ends[] = { "A.....B", NULL };
-  Case c = segment (ink, seed, 1, celd_settings ());
+  Case              c = segment (ink, seed, 1, celd_settings ());
 
   CHECK (c.status == CELD_OK && c.labels.data[0] == 1 && c.palette.item[0].area == 1);
   case_clear (&c);
@@ -434,7 +434,7 @@ a_gap_is_closed_like_by_hand (void)
       CeldLabels   labels = { SIDE, SIDE, SIDE, calloc (SIDE * SIDE, sizeof (uint32_t)) };
       CeldPalette  palette = letters (2);
       CeldSettings settings = celd_settings ();
-      int          borders = 0;
+      int          boundaries = 0;
 
       for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++)
@@ -462,9 +462,9 @@ a_gap_is_closed_like_by_hand (void)
                 continue;
               worst = fmax (worst, fabs (((x + u + 1) * 0.5 - SIDE / 2) * cos (at) +
                                          ((y + v + 1) * 0.5 - SIDE / 2) * sin (at) - chord));
-              borders++;
+              boundaries++;
             }
-      CHECK (borders >= 40 && borders <= 120);
+      CHECK (boundaries >= 40 && boundaries <= 120);
       CHECK (worst <= 3);
       CHECK (CELD_AT (&labels, SIDE / 2, SIDE / 2 + 60) == 1 && CELD_AT (&labels, 2, SIDE - 3) == 2);
       celd_palette_clear (&palette);

@@ -315,7 +315,7 @@ cancel_everywhere (CeldSettings settings, uint32_t seed)
   solve (&page, NULL, &settings);
   for (; status == CELD_CANCELLED && steps < 1000; steps++)
     {
-      int     left = steps;
+      int      left = steps;
       CeldHost host = { check_count_down, NULL, &left };
 
       paint_stroke (&page, 1 + check_random (&page.state, LABELS));

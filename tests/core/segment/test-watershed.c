@@ -104,10 +104,10 @@ outermost (const Slow *s, int p)
 }
 
 /* The border of two basins by definition; `pairs` 0 if they do not touch. */
-static CeldBorder
-slow_border (const Slow *s, const CeldBasins *basins, int a, int b, int *pairs)
+static CeldBasinBoundary
+slow_boundary (const Slow *s, const CeldBasins *basins, int a, int b, int *pairs)
 {
-  CeldBorder border = { .a = (uint32_t) a, .b = (uint32_t) b, .saddle = -1 };
+  CeldBasinBoundary boundary = { .a = (uint32_t) a, .b = (uint32_t) b, .saddle = -1 };
 
   *pairs = 0;
   for (int p = 0; p < s->w * s->h; p++)
@@ -123,24 +123,25 @@ slow_border (const Slow *s, const CeldBasins *basins, int a, int b, int *pairs)
         dq = s->squared[q];
         along = south ? x == 0 || x == s->w - 1 : y == 0 || y == s->h - 1;
         ++*pairs;
-        border.cost += celd_cost (&basins->costs, CELD_AT (&s->ink, x, y), CELD_AT (&s->ink, u, v), -dp, -dq, along);
+        boundary.cost += celd_smoothness_cost (&basins->costs, CELD_AT (&s->ink, x, y), CELD_AT (&s->ink, u, v), -dp,
+                                               -dq, along);
         if (dp > 0 && dq > 0)
           {
-            border.passes++;
-            border.frame = border.frame || (outermost (s, p) && outermost (s, q));
+            boundary.opening++;
+            boundary.frame = boundary.frame || (outermost (s, p) && outermost (s, q));
             least = dp < dq ? dp : dq;
           }
         else if (basins->basin[a].solid && basins->basin[b].solid)
           least = -(dp > dq ? dp : dq);
-        if (least > border.saddle)
+        if (least > boundary.saddle)
           {
-            border.saddle = least;
-            border.x = x;
-            border.y = y;
-            border.south = south;
+            boundary.saddle = least;
+            boundary.x = x;
+            boundary.y = y;
+            boundary.south = south;
           }
       }
-  return border;
+  return boundary;
 }
 
 /* ------------------------------------------------------------------ comparisons */
@@ -184,72 +185,73 @@ same_runs (const Slow *s, const CeldBasins *basins)
 }
 
 static void
-same_borders (const Slow *s, const CeldBasins *basins)
+same_boundaries (const Slow *s, const CeldBasins *basins)
 {
   size_t n = 0;
 
   for (int a = 0; a < (int) basins->n; a++)
     for (int b = a + 1; b < (int) basins->n; b++)
       {
-        int               pairs;
-        CeldBorder        wanted = slow_border (s, basins, a, b, &pairs);
-        const CeldBorder *border = &basins->border[n];
+        int                      pairs;
+        CeldBasinBoundary        wanted = slow_boundary (s, basins, a, b, &pairs);
+        const CeldBasinBoundary *boundary = &basins->boundary[n];
 
         if (!pairs)
           continue;
-        CHECK (n < basins->n_borders);
-        if (n++ >= basins->n_borders)
+        CHECK (n < basins->n_boundaries);
+        if (n++ >= basins->n_boundaries)
           return;
-        CHECK (border->a == wanted.a && border->b == wanted.b && border->passes == wanted.passes);
-        CHECK (border->saddle == wanted.saddle && border->frame == wanted.frame && border->cost == wanted.cost);
-        CHECK (border->x == wanted.x && border->y == wanted.y && border->south == wanted.south);
+        CHECK (boundary->a == wanted.a && boundary->b == wanted.b && boundary->opening == wanted.opening);
+        CHECK (boundary->saddle == wanted.saddle && boundary->frame == wanted.frame && boundary->cost == wanted.cost);
+        CHECK (boundary->x == wanted.x && boundary->y == wanted.y && boundary->south == wanted.south);
       }
-  CHECK (n == basins->n_borders);
+  CHECK (n == basins->n_boundaries);
 }
 
 /* Pieces are the components of paper; rooms part pieces, and blocks rooms; no number is left out. */
 static void
 right_unions (const Slow *s, const CeldBasins *basins)
 {
-  size_t         n = (size_t) (s->w * s->h), n_pieces = 0;
+  size_t         n = (size_t) (s->w * s->h), n_components = 0;
   CeldLabels     paper = { s->w, s->h, (size_t) s->w, malloc (n * sizeof (uint32_t)) };
   CeldComponent *list = NULL;
-  uint32_t      *room_of = calloc (basins->n_blocks + 1, sizeof *room_of), least = 0;
-  uint32_t      *piece_of = calloc (basins->n_rooms + 1, sizeof *piece_of);
+  uint32_t      *room_of = calloc (basins->n_merged + 1, sizeof *room_of), least = 0;
+  uint32_t      *piece_of = calloc (basins->n_enclosures + 1, sizeof *piece_of);
   int            wrong = 0;
 
   for (size_t p = 0; p < n; p++)
     paper.data[p] = slow_paper (s, (int) p);
-  CHECK (celd_components (&paper, 0, false, NULL, &paper, &list, &n_pieces) == CELD_OK);
-  CHECK (basins->n_pieces == n_pieces);
+  CHECK (celd_components (&paper, 0, false, NULL, &paper, &list, &n_components) == CELD_OK);
+  CHECK (basins->n_components == n_components);
   piece_of[0] = 0;
   for (size_t p = 0; p < n; p++) /* the same partition of paper: one number for another */
     {
-      uint32_t piece = basins->piece[s->basin[p]];
+      uint32_t component = basins->component[s->basin[p]];
 
-      if (!paper.data[p] || !n_pieces)
+      if (!paper.data[p] || !n_components)
         continue;
-      wrong += piece == 0;
+      wrong += component == 0;
       for (size_t q = p; q-- > 0 && q + (size_t) s->w >= p;)
         if (paper.data[q])
-          wrong += (paper.data[q] == paper.data[p]) != (basins->piece[s->basin[q]] == piece);
+          wrong += (paper.data[q] == paper.data[p]) != (basins->component[s->basin[q]] == component);
     }
   for (size_t k = 0; k < basins->n; k++)
     {
-      uint32_t block = basins->block[k], room = basins->room[k], piece = basins->piece[k];
+      uint32_t merged = basins->merged[k], enclosure = basins->enclosure[k], component = basins->component[k];
       bool     solid = basins->basin[k].solid;
 
-      wrong += block < 1 || block > basins->n_blocks || room > basins->n_rooms || piece > basins->n_pieces;
-      wrong += (room == 0) != solid || (piece == 0) != solid;
-      wrong += block > least + 1;
-      least = block > least ? block : least;
-      wrong += room_of[block] && room_of[block] != room + 1;
-      room_of[block] = room + 1;
-      wrong += room && piece_of[room] && piece_of[room] != piece;
-      piece_of[room] = piece;
+      wrong += merged < 1 || merged > basins->n_merged || enclosure > basins->n_enclosures ||
+      component > basins->n_components;
+      wrong += (enclosure == 0) != solid || (component == 0) != solid;
+      wrong += merged > least + 1;
+      least = merged > least ? merged : least;
+      wrong += room_of[merged] && room_of[merged] != enclosure + 1;
+      room_of[merged] = enclosure + 1;
+      wrong += enclosure && piece_of[enclosure] && piece_of[enclosure] != component;
+      piece_of[enclosure] = component;
     }
   CHECK (wrong == 0);
-  CHECK (least == basins->n_blocks);
+  CHECK (least == basins->n_merged);
   free (paper.data);
   free (room_of);
   free (piece_of);
@@ -266,7 +268,7 @@ compare (const CeldPlane *ink)
   CHECK (basins.stroke == celd_stroke_width (ink));
   slow_new (ink, basins.stroke, &slow);
   same_runs (&slow, &basins);
-  same_borders (&slow, &basins);
+  same_boundaries (&slow, &basins);
   right_unions (&slow, &basins);
   slow_clear (&slow);
   celd_basins_clear (&basins);
@@ -278,7 +280,7 @@ random_drawings (void)
 {
   static const int size[][2] = { { 1, 1 }, { 1, 30 }, { 30, 1 }, { 2, 2 }, { 3, 7 }, { 17, 13 }, { 31, 40 }, { 20, 70 },
                                  { 70, 34 } };
-  uint32_t state = 11;
+  uint32_t         state = 11;
 
   for (size_t i = 0; i < sizeof size / sizeof *size; i++)
     for (int round = 0; round < 25; round++)

@@ -15,25 +15,25 @@
 
 #include <math.h>
 
-#define DEEP   10  /* an edge deep inside ink costs this much less than one at its rim */
+#define MOST_DISCOUNT   10  /* an edge deep inside ink costs this much less than one at its rim */
 #define MARGIN 64  /* of half the perimeter: the margin that a cropped page is taken to have had */
 
 void
-celd_costs_new (int width, int height, float threshold, CeldCosts *costs)
+celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs)
 {
   costs->width  = width;
   costs->height = height;
-  costs->white  = 2.0 * (width + height);
+  costs->paper_cost  = 2.0 * (width + height);
   costs->margin = 1 + (width + height) / MARGIN;
   for (int i = 0; i <= CELD_INK_STEPS; i++)
     {
       double g = fmax (0, ((double) i / CELD_INK_STEPS - (double) threshold) / (1 - (double) threshold));
 
-      costs->by_ink[i] = (int32_t) (CELD_COST_UNIT * (1 + costs->white * g * g * g));
+      costs->by_ink[i] = (int32_t) (CELD_COST_UNIT * (1 + costs->paper_cost * g * g * g));
     }
-  costs->deep[0] = 0;
-  for (int i = 1; i <= CELD_DEEPEST; i++)
-    costs->deep[i] = (int32_t) (DEEP * (1 - 1 / sqrt (i)));
+  costs->discount[0] = 0;
+  for (int i = 1; i <= CELD_MOST_TO_PAPER; i++)
+    costs->discount[i] = (int32_t) (MOST_DISCOUNT * (1 - 1 / sqrt (i)));
 }
 
 static int
@@ -43,19 +43,20 @@ ink_step (float ink)
 }
 
 int32_t
-celd_cost (const CeldCosts *costs, float ink, float other_ink, int32_t depth, int32_t other_depth, bool along_frame)
+celd_smoothness_cost (const CeldSmoothnessCosts *costs, float ink, float other_ink, int32_t to_paper,
+                      int32_t other_to_paper, bool along_frame)
 {
   int     i = ink_step (ink), j = ink_step (other_ink);
-  int32_t d = depth < other_depth ? depth : other_depth;
+  int32_t d = to_paper < other_to_paper ? to_paper : other_to_paper;
 
   i = i < j ? i : j;
   if (along_frame && 2 * i >= CELD_INK_STEPS)
     return costs->by_ink[i] * costs->margin;
-  return costs->by_ink[i] - (d < 1 ? 0 : costs->deep[d < CELD_DEEPEST ? d : CELD_DEEPEST]);
+  return costs->by_ink[i] - (d < 1 ? 0 : costs->discount[d < CELD_MOST_TO_PAPER ? d : CELD_MOST_TO_PAPER]);
 }
 
 CeldStatus
-celd_ink_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth)
+celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_paper)
 {
   size_t     w = (size_t) ink->width, n = w * (size_t) ink->height;
   uint8_t   *paper = celd_alloc (n, 1);
@@ -65,7 +66,7 @@ celd_ink_depth (const CeldPlane *ink, const CeldHost *host, int32_t *depth)
     return status;
   for (size_t p = 0; p < n; p++)
     paper[p] = celd_is_paper (CELD_AT (ink, p % w, p / w));
-  status = celd_distance (ink->width, ink->height, paper, host, depth);
+  status = celd_distance (ink->width, ink->height, paper, host, to_paper);
   celd_free (paper);
   return status;
 }

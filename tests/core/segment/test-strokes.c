@@ -4,15 +4,15 @@
  */
 #include "image/image.h"
 #include "random-sketch.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 
 static void
-check_share (const CeldSpread *spread, size_t i, CeldShare wanted)
+check_share (const CeldStrokes *strokes, size_t i, CeldStrokeOverlap wanted)
 {
-  const CeldShare *share = &spread->share[i];
+  const CeldStrokeOverlap *overlap = &strokes->overlap[i];
 
-  CHECK (share->part == wanted.part && share->label == wanted.label && share->stroke == wanted.stroke);
-  NEAR (share->pixels, wanted.pixels, 0);
+  CHECK (overlap->part == wanted.part && overlap->label == wanted.label && overlap->stroke == wanted.stroke);
+  NEAR (overlap->pixels, wanted.pixels, 0);
 }
 
 /* A runs through the contour and back, in runs that add up; paint on ink is no share.  B touches only by a corner. */
@@ -21,27 +21,27 @@ shares_of_strokes (void)
 {
   static const char *const paper[] = { "111#222", "111#222", "111#222", "111#222", NULL };
   static const char *const painted[] = { ".AAAAA.", ".....A.", ".AAAAAB", "B.....B", NULL };
-  CeldSpread spread;
-  Sketch     s;
+  CeldStrokes              strokes;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 2);
-  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
-  NEAR (spread.n, 4, 0);
-  if (spread.n == 4)
+  CHECK (celd_strokes_new (&s.task, s.basins.component, &strokes) == CELD_OK);
+  NEAR (strokes.n, 4, 0);
+  if (strokes.n == 4)
     {
-      check_share (&spread, 0, (CeldShare) { 1, 1, 0, 4, false });
-      check_share (&spread, 1, (CeldShare) { 1, 2, 2, 1, false });
-      check_share (&spread, 2, (CeldShare) { 2, 1, 0, 5, false });
-      check_share (&spread, 3, (CeldShare) { 2, 2, 1, 2, false });
+      check_share (&strokes, 0, (CeldStrokeOverlap) { 1, 1, 0, 4, false });
+      check_share (&strokes, 1, (CeldStrokeOverlap) { 1, 2, 2, 1, false });
+      check_share (&strokes, 2, (CeldStrokeOverlap) { 2, 1, 0, 5, false });
+      check_share (&strokes, 3, (CeldStrokeOverlap) { 2, 2, 1, 2, false });
     }
-  NEAR (spread.n_strokes, 3, 0);
-  if (spread.n_strokes == 3)
+  NEAR (strokes.n_strokes, 3, 0);
+  if (strokes.n_strokes == 3)
     {
-      NEAR (spread.total[0], 9, 0);
-      NEAR (spread.total[1], 2, 0);
-      NEAR (spread.total[2], 1, 0);
+      NEAR (strokes.total[0], 9, 0);
+      NEAR (strokes.total[1], 2, 0);
+      NEAR (strokes.total[2], 1, 0);
     }
-  celd_spread_clear (&spread);
+  celd_strokes_clear (&strokes);
   sketch_close (&s);
 }
 
@@ -49,14 +49,14 @@ static void
 pixels_that_touch_by_a_corner_are_one_stroke (void)
 {
   static const char *const paper[] = { "111", "111", NULL }, *const painted[] = { "A.A", ".A.", NULL };
-  CeldSpread spread;
-  Sketch     s;
+  CeldStrokes              strokes;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 1);
-  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
-  NEAR (spread.n, 1, 0);
-  NEAR (spread.n ? spread.share[0].pixels : 0, 3, 0);
-  celd_spread_clear (&spread);
+  CHECK (celd_strokes_new (&s.task, s.basins.component, &strokes) == CELD_OK);
+  NEAR (strokes.n, 1, 0);
+  NEAR (strokes.n ? strokes.overlap[0].pixels : 0, 3, 0);
+  celd_strokes_clear (&strokes);
   sketch_close (&s);
 }
 
@@ -64,23 +64,23 @@ pixels_that_touch_by_a_corner_are_one_stroke (void)
 static void
 runs_are_cut_where_basins_meet (void)
 {
-  static const char *const paper[] = { "11#2233#", "#0000#33", NULL };
-  static const char *const painted[] = { ".AAAAAAB", "BBBB..B.", NULL };
-  static const CeldDab     wanted[] = {
+  static const char     *const paper[] = { "11#2233#", "#0000#33", NULL };
+  static const char     *const painted[] = { ".AAAAAAB", "BBBB..B.", NULL };
+  static const CeldStrokePiece wanted[] = {
     { 0, 1, 3, 1, 0, 0, 1 }, { 0, 3, 5, 1, 1, 0, 2 }, { 0, 5, 7, 1, 2, 0, 2 }, { 0, 7, 8, 2, 2, 1, 0 },
     { 1, 0, 4, 2, 3, 2, 0 }, { 1, 6, 7, 2, 2, 1, 1 },
   };
-  CeldSpread spread;
-  Sketch     s;
+  CeldStrokes                  strokes;
+  Sketch                       s;
 
   sketch_open (&s, paper, painted, 2);
-  CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
-  NEAR (spread.n_dabs, 6, 0);
-  for (size_t i = 0; i < 6 && spread.n_dabs == 6; i++)
-    CHECK (!memcmp (&spread.dab[i], &wanted[i], sizeof *wanted));
-  NEAR (spread.n, 4, 0);
-  NEAR (spread.n_strokes == 3 ? spread.total[2] : 1, 0, 0);
-  celd_spread_clear (&spread);
+  CHECK (celd_strokes_new (&s.task, s.basins.component, &strokes) == CELD_OK);
+  NEAR (strokes.n_pieces, 6, 0);
+  for (size_t i = 0; i < 6 && strokes.n_pieces == 6; i++)
+    CHECK (!memcmp (&strokes.piece[i], &wanted[i], sizeof *wanted));
+  NEAR (strokes.n, 4, 0);
+  NEAR (strokes.n_strokes == 3 ? strokes.total[2] : 1, 0, 0);
+  celd_strokes_clear (&strokes);
   sketch_close (&s);
 }
 
@@ -88,40 +88,40 @@ runs_are_cut_where_basins_meet (void)
 
 /* Is pixel p a stain?  By the definition, pixel by pixel. */
 static bool
-slow_stain (const CeldLabels *painted, const CeldLabels *piece, const uint32_t stroke[W * H], int p)
+slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p)
 {
   double here = 0, elsewhere = 0, mine = 0, others = 0;
 
-  if (!painted->data[p] || !piece->data[p])
+  if (!painted->data[p] || !component->data[p])
     return false;
   for (int q = 0; q < W * H; q++)
-    if (painted->data[q] && piece->data[q] == piece->data[p])
+    if (painted->data[q] && component->data[q] == component->data[p])
       {
         here   += stroke[q] == stroke[p];
         mine   += painted->data[q] == painted->data[p];
         others += painted->data[q] != painted->data[p];
       }
     else
-      elsewhere += piece->data[q] && stroke[q] == stroke[p];
+      elsewhere += component->data[q] && stroke[q] == stroke[p];
   return here * mine < 0.5 * elsewhere * others;
 }
 
 /* With what other seeds on the same drawing left behind, dabs must be the same. */
 static void
-check_kept (Sketch *s, const CeldSpread *wanted, uint32_t *state)
+check_kept (Sketch *s, const CeldStrokes *wanted, uint32_t *state)
 {
-  CeldCanvas other = s->canvas;
-  CeldSpread kept = { 0 }, spread;
+  CeldSegmentTask other = s->task;
+  CeldStrokes     kept = { 0 }, strokes;
 
-  CHECK (celd_seed_rows_copy (&s->canvas.seeds, &other.seeds) == CELD_OK);
-  other.kept = s->canvas.kept = &kept;
+  CHECK (celd_seed_rows_copy (&s->task.seeds, &other.seeds) == CELD_OK);
+  other.kept = s->task.kept = &kept;
   for (int round = 0; round < 4; round++)
     {
-      CHECK (celd_spread_new (&s->canvas, s->basins.piece, &spread) == CELD_OK);
-      CHECK (spread.n_dabs == wanted->n_dabs && spread.n == wanted->n && spread.n_strokes == wanted->n_strokes);
-      CHECK (!memcmp (spread.dab, wanted->dab, wanted->n_dabs * sizeof *wanted->dab));
-      CHECK (!memcmp (spread.total, wanted->total, wanted->n_strokes * sizeof *wanted->total));
-      celd_spread_clear (&spread);
+      CHECK (celd_strokes_new (&s->task, s->basins.component, &strokes) == CELD_OK);
+      CHECK (strokes.n_pieces == wanted->n_pieces && strokes.n == wanted->n && strokes.n_strokes == wanted->n_strokes);
+      CHECK (!memcmp (strokes.piece, wanted->piece, wanted->n_pieces * sizeof *wanted->piece));
+      CHECK (!memcmp (strokes.total, wanted->total, wanted->n_strokes * sizeof *wanted->total));
+      celd_strokes_clear (&strokes);
       for (int k = 0; k < 8; k++)
         {
           int x = (int) check_random (state, W), end = x + (int) check_random (state, 9);
@@ -129,12 +129,12 @@ check_kept (Sketch *s, const CeldSpread *wanted, uint32_t *state)
           CHECK (celd_seed_rows_paint (&other.seeds, (int) check_random (state, H), x, end, check_random (state, 4))
                  == CELD_OK);
         }
-      CHECK (celd_spread_new (&other, NULL, &spread) == CELD_OK && spread.n == 0);
-      celd_spread_keep (&other, &spread);
-      CHECK (!spread.dab && kept.n_dabs);
+      CHECK (celd_strokes_new (&other, NULL, &strokes) == CELD_OK && strokes.n == 0);
+      celd_strokes_keep (&other, &strokes);
+      CHECK (!strokes.piece && kept.n_pieces);
     }
-  s->canvas.kept = NULL;
-  celd_spread_clear (&kept);
+  s->task.kept = NULL;
+  celd_strokes_clear (&kept);
   celd_seed_rows_clear (&other.seeds);
 }
 
@@ -148,8 +148,8 @@ dabs_shares_and_stains_are_those_of_the_pixels (void)
     {
       char        paper[H][W + 1] = { { 0 } }, painted[H][W + 1] = { { 0 } };
       const char *paper_rows[H + 1] = { NULL }, *painted_rows[H + 1] = { NULL };
-      CeldLabels  piece, paint;
-      CeldSpread  spread;
+      CeldLabels  component, paint;
+      CeldStrokes strokes;
       Sketch      s;
       uint32_t    n;
       size_t      pixels = 0, dabbed = 0, paper_pixels = 0;
@@ -161,55 +161,55 @@ dabs_shares_and_stains_are_those_of_the_pixels (void)
           paper_rows[y] = paper[y];
           painted_rows[y] = painted[y];
         }
-      piece = art_labels (paper_rows);
+      component = art_labels (paper_rows);
       paint = art_labels (painted_rows);
       n = flood (&paint, stroke);
       sketch_open (&s, paper_rows, painted_rows, 3);
-      CHECK (celd_spread_new (&s.canvas, s.basins.piece, &spread) == CELD_OK);
-      NEAR (spread.n_strokes, n, 0);
-      for (size_t i = 0; i < spread.n_dabs; i++)
+      CHECK (celd_strokes_new (&s.task, s.basins.component, &strokes) == CELD_OK);
+      NEAR (strokes.n_strokes, n, 0);
+      for (size_t i = 0; i < strokes.n_pieces; i++)
         {
-          const CeldDab *d = &spread.dab[i];
-          uint32_t       on_paper = 0;
+          const CeldStrokePiece *d = &strokes.piece[i];
+          uint32_t               on_paper = 0;
 
           for (int x = d->x; x < d->end; x++)
             {
               wrong += paint.data[d->y * W + x] != d->label || stroke[d->y * W + x] != d->stroke + 1;
               wrong += sketch_basin (paper[d->y], x, 4) != d->basin;
-              on_paper += piece.data[d->y * W + x] > 0;
+              on_paper += component.data[d->y * W + x] > 0;
             }
           wrong += on_paper != d->paper || d->x >= d->end;
           wrong += i && (d[-1].y > d->y || (d[-1].y == d->y && d[-1].end > d->x));
           dabbed += (size_t) (d->end - d->x);
         }
-      for (size_t i = 0; i < spread.n; i++)
+      for (size_t i = 0; i < strokes.n; i++)
         {
-          size_t share = 0;
+          size_t overlap = 0;
 
           for (int p = 0; p < W * H; p++)
-            share += piece.data[p] == spread.share[i].part && stroke[p] == spread.share[i].stroke + 1;
-          wrong += !share || share != spread.share[i].pixels;
-          pixels += share;
+            overlap += component.data[p] == strokes.overlap[i].part && stroke[p] == strokes.overlap[i].stroke + 1;
+          wrong += !overlap || overlap != strokes.overlap[i].pixels;
+          pixels += overlap;
         }
       for (int p = 0; p < W * H; p++)
         {
-          paper_pixels += paint.data[p] && piece.data[p];
+          paper_pixels += paint.data[p] && component.data[p];
           dabbed -= paint.data[p] > 0;
         }
       wrong += dabbed != 0 || pixels != paper_pixels;
-      check_kept (&s, &spread, &state);
-      celd_spread_clear (&spread);
-      CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
+      check_kept (&s, &strokes, &state);
+      celd_strokes_clear (&strokes);
+      CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
       for (int p = 0; p < W * H; p++)
         {
-          bool stain = slow_stain (&paint, &piece, stroke, p);
+          bool spill = slow_stain (&paint, &component, stroke, p);
 
-          wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != (stain ? 0 : paint.data[p]);
-          stains += stain;
+          wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != (spill ? 0 : paint.data[p]);
+          stains += spill;
         }
       NEAR (wrong, 0, 0);
       sketch_close (&s);
-      free (piece.data);
+      free (component.data);
       free (paint.data);
     }
   CHECK (stains > 500);
@@ -225,8 +225,8 @@ check_left (const char *const *paper, const char *const *painted, float hardness
 
   sketch_open (&s, paper, painted, 2);
   s.settings.hardness = hardness;
-  CHECK (celd_stains_remove (NULL, &s.canvas) == CELD_OK);
-  NEAR (seeds_differing (&s.canvas.seeds, left), 0, 0);
+  CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
+  NEAR (seeds_differing (&s.task.seeds, left), 0, 0);
   sketch_close (&s);
 }
 

@@ -4,7 +4,7 @@
  */
 #include "check.h"
 #include "segment/basins.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 /* Two basins side by side and one below, and a picture of labels over them. */
 static CeldBasin    three[] = { { 1, 0, 4, false, 8 }, { 6, 1, 9, false, 8 }, { 3, 3, 1, true, 16 } };
@@ -13,36 +13,36 @@ static size_t       rows[] = { 0, 2, 4, 5, 6 };
 
 static const CeldBasins basins = { .width = 8, .height = 4, .n = 3, .basin = three, .run = runs, .row = rows };
 
-typedef struct { CeldPainting painting; CeldLabels labels; } Picture;
+typedef struct { CeldLabelling labelling; CeldLabels labels; } Picture;
 
 static void
 picture_open (Picture *p)
 {
   *p = (Picture) { 0 };
   CHECK (celd_labels_new (8, 4, &p->labels) == CELD_OK);
-  CHECK (celd_painting_forget (&p->painting, &basins) == CELD_OK);
+  CHECK (celd_labelling_reset (&p->labelling, &basins) == CELD_OK);
 }
 
 static void
 picture_close (Picture *p)
 {
-  celd_painting_clear (&p->painting);
+  celd_labelling_clear (&p->labelling);
   celd_free (p->labels.data);
 }
 
 static void
 paint (Picture *p, uint32_t a, uint32_t b, uint32_t c, CeldPatch *patch, size_t n)
 {
-  uint32_t    *label = celd_alloc (3, sizeof *label);
-  CeldPatches  patches = { patch, n };
-  CeldPainting old;
+  uint32_t     *label = celd_alloc (3, sizeof *label);
+  CeldPatches   patches = { patch, n };
+  CeldLabelling old;
 
   label[0] = a, label[1] = b, label[2] = c;
-  p->painting.changed = (CeldRect) { 0 };
-  celd_painting_begin (&p->painting, &basins, label, &p->labels, &old);
-  CHECK (celd_painting_add (&p->painting, &patches, &p->labels) == CELD_OK);
-  CHECK (celd_painting_end (&p->painting, &basins, &old, &p->labels) == CELD_OK);
-  celd_painting_clear (&old);
+  p->labelling.changed = (CeldRect) { 0 };
+  celd_labelling_begin (&p->labelling, &basins, label, &p->labels, &old);
+  CHECK (celd_labelling_add (&p->labelling, &patches, &p->labels) == CELD_OK);
+  CHECK (celd_labelling_end (&p->labelling, &basins, &old, &p->labels) == CELD_OK);
+  celd_labelling_clear (&old);
 }
 
 static void
@@ -57,7 +57,7 @@ looks_like (const Picture *p, const char *const *art)
 static void
 changed_is (const Picture *p, int x, int y, int width, int height)
 {
-  const CeldRect *c = &p->painting.changed;
+  const CeldRect *c = &p->labelling.changed;
 
   CHECK (c->width == width && (!width || (c->x == x && c->y == y && c->height == height)));
 }
@@ -67,7 +67,7 @@ basins_change_by_themselves (void)
 {
   static const char *const first[] = { "11112222", "11112222", "33333333", "33333333", NULL };
   static const char *const second[] = { "11114444", "11114444", "33333333", "33333333", NULL };
-  Picture p;
+  Picture                  p;
 
   picture_open (&p);
   paint (&p, 1, 2, 3, NULL, 0);
@@ -86,8 +86,8 @@ patches_come_and_go (void)
 {
   static const char *const patched[] = { "11555222", "11112222", "33333333", "33333333", NULL };
   static const char *const moved[] = { "11112222", "11112222", "33663333", "33333333", NULL };
-  CeldPatch over[] = { { 0, 2, 5, 5 } }, below[] = { { 2, 2, 4, 6 } };
-  Picture   p;
+  CeldPatch                over[] = { { 0, 2, 5, 5 } }, below[] = { { 2, 2, 4, 6 } };
+  Picture                  p;
 
   picture_open (&p);
   paint (&p, 1, 2, 3, NULL, 0);
@@ -107,17 +107,17 @@ static void
 patches_are_tidied (void)
 {
   static const char *const art[] = { "17882222", "11112222", "33333333", "33333333", NULL };
-  CeldPatch patches[] = { { 3, 0, 8, 3 }, { 0, 1, 4, 7 }, { 0, 2, 4, 8 } };
-  Picture   p;
+  CeldPatch                patches[] = { { 3, 0, 8, 3 }, { 0, 1, 4, 7 }, { 0, 2, 4, 8 } };
+  Picture                  p;
 
   picture_open (&p);
   paint (&p, 1, 2, 3, patches, 3);
   looks_like (&p, art);
-  CHECK (p.painting.patches.n == 2);
-  CHECK (p.painting.patches.item[0].label == 7 && p.painting.patches.item[0].x == 1 &&
-         p.painting.patches.item[0].end == 2);
-  CHECK (p.painting.patches.item[1].label == 8 && p.painting.patches.item[1].x == 2 &&
-         p.painting.patches.item[1].end == 4);
+  CHECK (p.labelling.patches.n == 2);
+  CHECK (p.labelling.patches.item[0].label == 7 && p.labelling.patches.item[0].x == 1 &&
+         p.labelling.patches.item[0].end == 2);
+  CHECK (p.labelling.patches.item[1].label == 8 && p.labelling.patches.item[1].x == 2 &&
+         p.labelling.patches.item[1].end == 4);
   picture_close (&p);
 }
 
@@ -145,7 +145,7 @@ labels_are_measured (void)
 
   picture_open (&p);
   paint (&p, 1, 2, 3, patches, 2);
-  CHECK (celd_painting_measure (&p.painting, &basins, &p.labels, &palette) == CELD_OK);
+  CHECK (celd_labelling_measure (&p.labelling, &basins, &p.labels, &palette) == CELD_OK);
   CHECK (item[0].area == 5 && item[1].area == 6 && item[2].area == 16 && item[3].area == 5 && item[4].area == 0);
   CHECK (item[0].x == 1 && item[0].y == 0 && item[1].x == 6 && item[1].y == 1 && item[2].x == 3 && item[2].y == 3);
   CHECK (item[3].x == 4 && item[3].y == 0 && item[4].x == -1 && item[4].y == -1);
@@ -156,13 +156,13 @@ static void
 a_whole_picture_replaces (void)
 {
   static const char *const art[] = { "11112222", "11192222", "33333333", "33333333", NULL };
-  CeldLabels whole = art_labels (art);
-  Picture    p;
+  CeldLabels               whole = art_labels (art);
+  Picture                  p;
 
   picture_open (&p);
   paint (&p, 1, 2, 3, NULL, 0);
-  p.painting.changed = (CeldRect) { 0 };
-  CHECK (celd_painting_replace (&p.painting, &basins, &whole, &p.labels) == CELD_OK);
+  p.labelling.changed = (CeldRect) { 0 };
+  CHECK (celd_labelling_replace (&p.labelling, &basins, &whole, &p.labels) == CELD_OK);
   looks_like (&p, art);
   changed_is (&p, 3, 1, 1, 1);
   paint (&p, 1, 2, 3, NULL, 0);

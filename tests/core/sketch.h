@@ -1,16 +1,16 @@
-/* The canvas of a segmentation, written as text art, for the tests of its single steps.
+/* The task of a segmentation, written as text art, for the tests of its single steps.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef CANVAS_H
-#define CANVAS_H
+#ifndef SKETCH_H
+#define SKETCH_H
 
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 
-typedef struct { CeldPlane ink; CeldSettings settings; CeldBasins basins; CeldCanvas canvas; } Sketch;
+typedef struct { CeldPlane ink; CeldSettings settings; CeldBasins basins; CeldSegmentTask task; } Sketch;
 
 /* The basin of each pixel: of digit d it is d - 1, of '0' the last; ink goes with what stands left of it in its row, or
  * else with the first to the right, or else with basin 0. */
@@ -47,19 +47,19 @@ sketch_basins (const char *const *paper, const CeldPlane *ink, float threshold, 
     solid = 1;
   CHECK (celd_distance (w, h, inked, NULL, squared) == CELD_OK);
   *b = (CeldBasins) { .width = w, .height = h, .stroke = 1, .n = digits + solid,
-                      .n_blocks = digits + solid, .n_rooms = digits, .n_pieces = digits };
-  celd_costs_new (w, h, threshold, &b->costs);
+                      .n_merged = digits + solid, .n_enclosures = digits, .n_components = digits };
+  celd_smoothness_costs_new (w, h, threshold, &b->costs);
   b->basin = calloc (b->n, sizeof *b->basin);
-  b->block = calloc (b->n, sizeof *b->block);
-  b->room  = calloc (b->n, sizeof *b->room);
-  b->piece = calloc (b->n, sizeof *b->piece);
+  b->merged = calloc (b->n, sizeof *b->merged);
+  b->enclosure  = calloc (b->n, sizeof *b->enclosure);
+  b->component = calloc (b->n, sizeof *b->component);
   b->row   = calloc ((size_t) h + 1, sizeof *b->row);
   b->run   = calloc (n_pixels, sizeof *b->run);
   CHECK (celd_paper_new (ink, NULL, &b->paper) == CELD_OK);
   for (uint32_t k = 0; k < b->n; k++)
     {
-      b->block[k] = k + 1;
-      b->room[k]  = b->piece[k] = k < digits ? k + 1 : 0;
+      b->merged[k] = k + 1;
+      b->enclosure[k]  = b->component[k] = k < digits ? k + 1 : 0;
       b->basin[k] = (CeldBasin) { .squared = -1, .solid = k >= digits };
     }
   for (int y = 0; y < h; y++)
@@ -100,13 +100,13 @@ sketch_open (Sketch *s, const char *const *paper, const char *const *painted, si
   for (int p = 0; p < s->ink.width * s->ink.height; p++)
     s->ink.data[p] = s->ink.data[p] > 0;
   sketch_basins (paper, &s->ink, s->settings.ink_threshold, &s->basins);
-  s->canvas = (CeldCanvas) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
-  CHECK (celd_seed_rows_read (&seeds, &s->canvas.seeds) == CELD_OK);
+  s->task = (CeldSegmentTask) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
+  CHECK (celd_seed_rows_read (&seeds, &s->task.seeds) == CELD_OK);
   for (size_t k = 0; k < n; k++)
-    celd_canvas_add (&s->canvas, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
+    celd_task_add_label (&s->task, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
   for (int p = 0; p < seeds.width * seeds.height; p++)
     if (seeds.data[p])
-      s->canvas.palette.item[seeds.data[p] - 1].seeds++;
+      s->task.palette.item[seeds.data[p] - 1].seeds++;
   free (seeds.data);
 }
 
@@ -115,15 +115,15 @@ sketch_close (Sketch *s)
 {
   free (s->ink.data);
   free (s->basins.basin);
-  free (s->basins.block);
-  free (s->basins.room);
-  free (s->basins.piece);
+  free (s->basins.merged);
+  free (s->basins.enclosure);
+  free (s->basins.component);
   free (s->basins.row);
   free (s->basins.run);
   free (s->basins.paper);
-  celd_seed_rows_clear (&s->canvas.seeds);
-  celd_spread_clear (&s->canvas.painted);
-  celd_palette_clear (&s->canvas.palette);
+  celd_seed_rows_clear (&s->task.seeds);
+  celd_strokes_clear (&s->task.painted);
+  celd_palette_clear (&s->task.palette);
 }
 
 /* Pixels that are not as the art says. */

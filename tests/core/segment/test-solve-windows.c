@@ -6,21 +6,21 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 
 
 typedef struct
 {
-  CeldPlane    ink;
-  CeldSettings settings;
-  CeldBasins   basins;
-  CeldCanvas   canvas;
-  uint32_t    *label;           /* of each basin */
-  CeldPatches  patches;
-  CeldLabels   result;
+  CeldPlane       ink;
+  CeldSettings    settings;
+  CeldBasins      basins;
+  CeldSegmentTask task;
+  uint32_t       *label;        /* of each basin */
+  CeldPatches     patches;
+  CeldLabels      result;
 } Scene;
 
 /* ------------------------------------------------------------------ scenes */
@@ -29,11 +29,11 @@ typedef struct
 static void
 join_basins (const char *const *art, CeldBasins *basins)
 {
-  basins->border = calloc (basins->n * basins->n, sizeof *basins->border);
+  basins->boundary = calloc (basins->n * basins->n, sizeof *basins->boundary);
   for (uint32_t a = 0; a < basins->n; a++)
     for (uint32_t b = a + 1; b < basins->n; b++)
       {
-        CeldBorder border = { .a = a, .b = b };
+        CeldBasinBoundary boundary = { .a = a, .b = b };
 
         for (int y = 0; y < basins->height; y++)
           for (int x = 0; x < basins->width; x++)
@@ -42,10 +42,10 @@ join_basins (const char *const *art, CeldBasins *basins)
                 {
                   uint32_t p = (uint32_t) (art[y][x] - 'a'), q = (uint32_t) (art[y + south][x + !south] - 'a');
 
-                  border.passes += (p == a && q == b) || (p == b && q == a);
+                  boundary.opening += (p == a && q == b) || (p == b && q == a);
                 }
-        if (border.passes)
-          basins->border[basins->n_borders++] = border;
+        if (boundary.opening)
+          basins->boundary[basins->n_boundaries++] = boundary;
       }
 }
 
@@ -57,7 +57,7 @@ draw_basins (const char *const *art, float threshold, CeldBasins *basins)
   size_t n = 0;
 
   *basins = (CeldBasins) { .width = w, .height = h, .stroke = 1 };
-  celd_costs_new (w, h, threshold, &basins->costs);
+  celd_smoothness_costs_new (w, h, threshold, &basins->costs);
   basins->row = malloc (((size_t) h + 1) * sizeof *basins->row);
   basins->run = malloc ((size_t) w * (size_t) h * sizeof *basins->run);
   for (int y = 0; y < h; y++)
@@ -89,11 +89,11 @@ scene_open (Scene *s, CeldPlane ink, const CeldLabels *painted, const char *cons
   s->label = calloc (s->basins.n, sizeof *s->label);
   for (size_t k = 0; k < s->basins.n; k++)
     s->label[k] = (uint32_t) (labels[k] - 'A' + 1);
-  s->canvas = (CeldCanvas) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
-  celd_seed_rows_read (painted, &s->canvas.seeds);
+  s->task = (CeldSegmentTask) { .settings = &s->settings, .ink = &s->ink, .basins = &s->basins };
+  celd_seed_rows_read (painted, &s->task.seeds);
   for (size_t k = 0; k < n; k++)
-    celd_canvas_add (&s->canvas, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
-  celd_canvas_weigh (&s->canvas);
+    celd_task_add_label (&s->task, (CeldRegion) { .colour = { (uint8_t) (40 * k), 0, 200, 255 } }, &label);
+  celd_task_set_soft_cost (&s->task);
 }
 
 static void
@@ -102,10 +102,10 @@ scene_close (Scene *s)
   free (s->ink.data);
   free (s->basins.row);
   free (s->basins.run);
-  free (s->basins.border);
+  free (s->basins.boundary);
   free (s->label);
-  celd_seed_rows_clear (&s->canvas.seeds);
-  celd_palette_clear (&s->canvas.palette);
+  celd_seed_rows_clear (&s->task.seeds);
+  celd_palette_clear (&s->task.palette);
   celd_patches_clear (&s->patches);
   free (s->result.data);
 }
@@ -142,10 +142,10 @@ basin_labels (const Scene *s)
 static void
 solve (Scene *s)
 {
-  int    w = s->basins.width, twice = 0, same = 0;
-  bool  *seen = calloc ((size_t) w * (size_t) s->basins.height, 1);
+  int   w = s->basins.width, twice = 0, same = 0;
+  bool *seen = calloc ((size_t) w * (size_t) s->basins.height, 1);
 
-  CHECK (celd_windows_solve (&s->canvas, s->label, NULL, &s->patches) == CELD_OK);
+  CHECK (celd_windows_solve (&s->task, s->label, NULL, &s->patches) == CELD_OK);
   s->result = basin_labels (s);
   for (size_t i = 0; i < s->patches.n; i++)
     for (int x = s->patches.item[i].x; x < s->patches.item[i].end; x++)
@@ -168,13 +168,13 @@ disobeyed (const Scene *s, const CeldLabels *labels)
 {
   int n = 0;
 
-  for (int y = 0; y < s->canvas.seeds.height; y++)
-    for (size_t i = 0; i < s->canvas.seeds.row[y].n; i++)
+  for (int y = 0; y < s->task.seeds.height; y++)
+    for (size_t i = 0; i < s->task.seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &s->canvas.seeds.row[y].run[i];
+        const CeldSeedRun *run = &s->task.seeds.row[y].run[i];
 
         for (int x = run->x; x < run->end; x++)
-          n += celd_canvas_vote (&s->canvas, run->label) == CELD_HARD && CELD_AT (labels, x, y) != run->label;
+          n += celd_task_data_cost (&s->task, run->label) == CELD_HARD && CELD_AT (labels, x, y) != run->label;
       }
   return n;
 }
@@ -199,16 +199,16 @@ energy (const Scene *s, const CeldLabels *labels)
           bool frame = south ? x == 0 || x + 1 == w : y == 0 || y + 1 == h;
 
           if ((south ? y + 1 < h : x + 1 < w) && labels->data[p] != labels->data[q])
-            sum += celd_cost (&s->basins.costs, s->ink.data[p], s->ink.data[q], depth[p], depth[q], frame);
+            sum += celd_smoothness_cost (&s->basins.costs, s->ink.data[p], s->ink.data[q], depth[p], depth[q], frame);
         }
   for (int y = 0; y < h; y++)
-    for (size_t i = 0; i < s->canvas.seeds.row[y].n; i++)
+    for (size_t i = 0; i < s->task.seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &s->canvas.seeds.row[y].run[i];
+        const CeldSeedRun *run = &s->task.seeds.row[y].run[i];
 
         for (int x = run->x; x < run->end; x++)
-          if (CELD_AT (labels, x, y) != run->label && celd_canvas_vote (&s->canvas, run->label) != CELD_HARD)
-            sum += celd_canvas_vote (&s->canvas, run->label);
+          if (CELD_AT (labels, x, y) != run->label && celd_task_data_cost (&s->task, run->label) != CELD_HARD)
+            sum += celd_task_data_cost (&s->task, run->label);
       }
   free (paper);
   free (depth);
@@ -223,7 +223,7 @@ exact_energy (const Scene *s)
   int64_t    sum;
 
   celd_labels_new (s->ink.width, s->ink.height, &l);
-  CHECK (celd_exact_solve (&s->canvas, NULL, &l) == CELD_OK);
+  CHECK (celd_lazybrush_solve (&s->task, NULL, &l) == CELD_OK);
   sum = energy (s, &l);
   free (l.data);
   return sum;
@@ -241,7 +241,7 @@ is_like (const CeldLabels *labels, const char *const *art)
 
 /* ------------------------------------------------------------------ hard strokes */
 
-static const char *const room[] = {
+static const char *const enclosure[] = {
   "####################", "#..................#", "#..................#", "#..................#",
   "#..................#", "#..................#", "#..................#", "#..................#",
   "####################", NULL
@@ -260,9 +260,9 @@ two_hard_strokes_share_a_room (void)
     "....................", "....................", "..............BBB...", "..............BBB...",
     "....................", NULL
   };
-  Scene s;
+  Scene                    s;
 
-  art_scene (&s, room, one_basin, "A", painted, 2, 1);
+  art_scene (&s, enclosure, one_basin, "A", painted, 2, 1);
   solve (&s);
   CHECK (!disobeyed (&s, &s.result));
   CHECK (s.patches.n > 0);
@@ -294,7 +294,7 @@ hard_stroke_through_a_contour (void)
     "AAAAAAAAABBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB",
     "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", "AAAAAAABBBBBBBBBBBB", NULL
   };
-  Scene s;
+  Scene                    s;
 
   art_scene (&s, ink, basins, "AB", painted, 2, 1);
   solve (&s);
@@ -314,7 +314,7 @@ hard_strokes_on_ink_and_at_the_frame (void)
   static const char *const painted[] = {
     "BB........A.", "B...........", "....A.......", "....A.......", "..........B.", "..........BA", NULL
   };
-  Scene s;
+  Scene                    s;
 
   art_scene (&s, ink, basins, "AB", painted, 2, 1);
   solve (&s);
@@ -334,9 +334,9 @@ soft_minority_changes_nothing (void)
     "....................", "....................", "..............BBB...", "..............BBB...",
     "....................", NULL
   };
-  Scene s;
+  Scene                    s;
 
-  art_scene (&s, room, one_basin, "A", painted, 2, 0.05f);
+  art_scene (&s, enclosure, one_basin, "A", painted, 2, 0.05f);
   solve (&s);
   CHECK (s.patches.n == 0);
   scene_close (&s);
@@ -358,7 +358,7 @@ soft_stroke_in_a_dead_end (void)
     "................", "..AA............", "..AA............", "..AA.....BBBBB..", "..AA............",
     "................", "................", NULL
   };
-  Scene s;
+  Scene                    s;
 
   art_scene (&s, ink, basins, "A", painted, 2, 0.1f);
   solve (&s);
@@ -376,14 +376,14 @@ static void
 several_windows_at_once (void)
 {
   enum { ROOMS = 5, SIDE = 60, ALL = ROOMS * SIDE };
-  CeldPlane      ink = { ALL, ALL, ALL, malloc (ALL * ALL * sizeof (float)) };
+  CeldPlane       ink = { ALL, ALL, ALL, malloc (ALL * ALL * sizeof (float)) };
   static uint32_t seed[ALL * ALL];
-  CeldLabels     painted = { ALL, ALL, ALL, seed };
-  static char    art[ALL][ALL + 1];
-  const char    *rows[ALL + 1] = { NULL };
-  char           labels[ROOMS * ROOMS + 1];
-  Scene          s;
-  int            kept = 0, other = 0;
+  CeldLabels      painted = { ALL, ALL, ALL, seed };
+  static char     art[ALL][ALL + 1];
+  const char     *rows[ALL + 1] = { NULL };
+  char            labels[ROOMS * ROOMS + 1];
+  Scene           s;
+  int             kept = 0, other = 0;
 
   for (int y = 0; y < ALL; y++)
     {
@@ -496,7 +496,7 @@ overrule_all (Scene *s)
   for (size_t k = 0; k < s->basins.n; k++)
     s->label[k] = 2;
   for (int y = 0; y < h; y++)
-    celd_seed_rows_paint (&s->canvas.seeds, y, 0, y + 1 < h ? 1 : w, 1);
+    celd_seed_rows_paint (&s->task.seeds, y, 0, y + 1 < h ? 1 : w, 1);
   for (int x = 0; x < w; x++)
     CELD_AT (&s->ink, x, h - 1) = 1;
 }
@@ -557,11 +557,11 @@ cancel_leaves_the_patches (void)
     "....................", "....................", "..............BBB...", "..............BBB...",
     "....................", NULL
   };
-  CeldHost host = { check_refuse, NULL, NULL };
-  Scene   s;
+  CeldHost                 host = { check_refuse, NULL, NULL };
+  Scene                    s;
 
-  art_scene (&s, room, one_basin, "A", painted, 2, 1);
-  CHECK (celd_windows_solve (&s.canvas, s.label, &host, &s.patches) == CELD_CANCELLED);
+  art_scene (&s, enclosure, one_basin, "A", painted, 2, 1);
+  CHECK (celd_windows_solve (&s.task, s.label, &host, &s.patches) == CELD_CANCELLED);
   CHECK (s.patches.n == 0);
   scene_close (&s);
 }

@@ -11,7 +11,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -19,43 +19,43 @@
 
 typedef struct
 {
-  const CeldCanvas *canvas;
-  CeldSpread        spread;
-  uint32_t         *holder;     /* of block b: the only label with paint in it, 0, or SHARED */
-  uint32_t         *node;       /* of basin k */
-  size_t            n;          /* nodes */
-  uint32_t         *fixed;      /* of node k: its label, or 0 */
-  uint32_t         *label;      /* of node k: the answer */
-  uint32_t         *order;
-  CeldLink         *link;
-  CeldVote         *vote;
-  size_t            n_links, n_votes;
+  const CeldSegmentTask *task;
+  CeldStrokes            strokes;
+  uint32_t              *sole_label; /* of block b: the only label with paint in it, 0, or SHARED */
+  uint32_t              *node;       /* of basin k */
+  size_t                 n;          /* nodes */
+  uint32_t              *fixed;      /* of node k: its label, or 0 */
+  uint32_t              *label;      /* of node k: the answer */
+  uint32_t              *order;
+  CeldLink              *link;
+  CeldVote              *vote;
+  size_t                 n_links, n_votes;
 } Graph;
 
 static CeldStatus
-graph_new (const CeldCanvas *canvas, Graph *g)
+graph_new (const CeldSegmentTask *task, Graph *g)
 {
-  const CeldBasins *basins = canvas->basins;
+  const CeldBasins *basins = task->basins;
 
   *g = (Graph) {
-    .canvas = canvas,
-    .holder = celd_alloc0 (basins->n_blocks + 1, sizeof *g->holder),
+    .task = task,
+    .sole_label = celd_alloc0 (basins->n_merged + 1, sizeof *g->sole_label),
     .node   = celd_alloc (basins->n, sizeof *g->node),
     .fixed  = celd_alloc0 (basins->n, sizeof *g->fixed),
     .label  = celd_alloc (basins->n, sizeof *g->label),
-    .order  = celd_alloc (canvas->palette.n, sizeof *g->order),
-    .link   = celd_alloc (basins->n_borders, sizeof *g->link),
+    .order  = celd_alloc (task->palette.n, sizeof *g->order),
+    .link   = celd_alloc (basins->n_boundaries, sizeof *g->link),
   };
-  if (!g->holder || !g->node || !g->fixed || !g->label || !g->order || !g->link)
+  if (!g->sole_label || !g->node || !g->fixed || !g->label || !g->order || !g->link)
     return CELD_NO_MEMORY;
-  return celd_spread_new (canvas, NULL, &g->spread);
+  return celd_strokes_new (task, NULL, &g->strokes);
 }
 
 static void
 graph_clear (Graph *g)
 {
-  celd_spread_keep (g->canvas, &g->spread);
-  celd_free (g->holder);
+  celd_strokes_keep (g->task, &g->strokes);
+  celd_free (g->sole_label);
   celd_free (g->node);
   celd_free (g->fixed);
   celd_free (g->label);
@@ -69,45 +69,45 @@ graph_clear (Graph *g)
 /* Paint that says something of the basin it lies in: paint on the outer half of a contour says nothing of the region
  * behind. */
 static size_t
-telling_paint (const CeldBasins *basins, const CeldDab *dab)
+informative_pixels (const CeldBasins *basins, const CeldStrokePiece *piece)
 {
-  return basins->basin[dab->basin].solid ? (size_t) (dab->end - dab->x) : dab->paper;
+  return basins->basin[piece->basin].solid ? (size_t) (piece->end - piece->x) : piece->paper;
 }
 
 static void
-find_holders (Graph *g)
+find_sole_labels (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
+  const CeldBasins *basins = g->task->basins;
 
-  for (size_t i = 0; i < g->spread.n_dabs; i++)
+  for (size_t i = 0; i < g->strokes.n_pieces; i++)
     {
-      const CeldDab *dab = &g->spread.dab[i];
-      uint32_t      *holder = &g->holder[basins->block[dab->basin]];
+      const CeldStrokePiece *piece = &g->strokes.piece[i];
+      uint32_t              *sole_label = &g->sole_label[basins->merged[piece->basin]];
 
-      if (telling_paint (basins, dab))
-        *holder = !*holder || *holder == dab->label ? dab->label : SHARED;
+      if (informative_pixels (basins, piece))
+        *sole_label = !*sole_label || *sole_label == piece->label ? piece->label : SHARED;
     }
 }
 
 static CeldStatus
 make_nodes (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
-  uint32_t         *node = celd_alloc0 (basins->n_blocks + 1, sizeof *node); /* of a block, from 1 */
+  const CeldBasins *basins = g->task->basins;
+  uint32_t         *node = celd_alloc0 (basins->n_merged + 1, sizeof *node); /* of a block, from 1 */
 
   if (!node)
     return CELD_NO_MEMORY;
   for (size_t k = 0; k < basins->n; k++)
     {
-      uint32_t block = basins->block[k];
+      uint32_t merged = basins->merged[k];
 
-      if (g->holder[block] == SHARED)
+      if (g->sole_label[merged] == SHARED)
         g->node[k] = (uint32_t) g->n++;
       else
         {
-          if (!node[block])
-            node[block] = (uint32_t) ++g->n;
-          g->node[k] = node[block] - 1;
+          if (!node[merged])
+            node[merged] = (uint32_t) ++g->n;
+          g->node[k] = node[merged] - 1;
         }
     }
   celd_free (node);
@@ -118,30 +118,30 @@ make_nodes (Graph *g)
 
 /* The hard label with most telling paint on a node has it; windows.c sees to the others. */
 static CeldStatus
-fix_hard (Graph *g)
+fix_hard_labels (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
-  size_t           *most = celd_alloc0 (g->n, sizeof *most), *sum = celd_alloc0 (g->canvas->palette.n + 1, sizeof *sum);
+  const CeldBasins *basins = g->task->basins;
+  size_t           *most = celd_alloc0 (g->n, sizeof *most), *sum = celd_alloc0 (g->task->palette.n + 1, sizeof *sum);
   size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);
-  size_t           *dab = celd_alloc (g->spread.n_dabs, sizeof *dab);
-  CeldStatus        status = most && sum && first && dab ? CELD_OK : CELD_NO_MEMORY;
+  size_t           *piece = celd_alloc (g->strokes.n_pieces, sizeof *piece);
+  CeldStatus        status = most && sum && first && piece ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;
-  for (size_t i = 0; i < g->spread.n_dabs; i++)
-    first[g->node[g->spread.dab[i].basin] + 2]++;
+  for (size_t i = 0; i < g->strokes.n_pieces; i++)
+    first[g->node[g->strokes.piece[i].basin] + 2]++;
   for (size_t k = 2; k < g->n + 2; k++)
     first[k] += first[k - 1];
-  for (size_t i = 0; i < g->spread.n_dabs; i++)
-    dab[first[g->node[g->spread.dab[i].basin] + 1]++] = i;
+  for (size_t i = 0; i < g->strokes.n_pieces; i++)
+    piece[first[g->node[g->strokes.piece[i].basin] + 1]++] = i;
   for (size_t k = 0; k < g->n; k++)
     {
       for (size_t i = first[k]; i < first[k + 1]; i++)
         {
-          const CeldDab *d = &g->spread.dab[dab[i]];
+          const CeldStrokePiece *d = &g->strokes.piece[piece[i]];
 
-          if (celd_canvas_vote (g->canvas, d->label) == CELD_HARD)
-            sum[d->label] += telling_paint (basins, d);
+          if (celd_task_data_cost (g->task, d->label) == CELD_HARD)
+            sum[d->label] += informative_pixels (basins, d);
           if (sum[d->label] > most[k])
             {
               most[k]     = sum[d->label];
@@ -149,48 +149,48 @@ fix_hard (Graph *g)
             }
         }
       for (size_t i = first[k]; i < first[k + 1]; i++)
-        sum[g->spread.dab[dab[i]].label] = 0;
+        sum[g->strokes.piece[piece[i]].label] = 0;
     }
 
 done:
   celd_free (most);
   celd_free (sum);
   celd_free (first);
-  celd_free (dab);
+  celd_free (piece);
   return status;
 }
 
 /* With keep_necks: a block keeps the only label that has paint there. */
 static void
-fix_holders (Graph *g)
+fix_sole_labels (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
+  const CeldBasins *basins = g->task->basins;
 
   for (size_t k = 0; k < basins->n; k++)
     {
-      uint32_t holder = g->holder[basins->block[k]];
+      uint32_t sole_label = g->sole_label[basins->merged[k]];
 
-      if (holder && holder != SHARED && !g->fixed[g->node[k]])
-        g->fixed[g->node[k]] = holder;
+      if (sole_label && sole_label != SHARED && !g->fixed[g->node[k]])
+        g->fixed[g->node[k]] = sole_label;
     }
 }
 
 static CeldStatus
-gather_votes (Graph *g)
+gather_data_costs (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
+  const CeldBasins *basins = g->task->basins;
 
-  for (size_t i = 0; i < g->spread.n_dabs; i++)
+  for (size_t i = 0; i < g->strokes.n_pieces; i++)
     {
-      const CeldDab *dab = &g->spread.dab[i];
-      int32_t        vote = celd_canvas_vote (g->canvas, dab->label);
-      uint32_t       node = g->node[dab->basin];
-      int64_t        cost = (int64_t) vote * (int64_t) telling_paint (basins, dab);
-      CeldVote      *votes;
+      const CeldStrokePiece *piece = &g->strokes.piece[i];
+      int32_t                vote = celd_task_data_cost (g->task, piece->label);
+      uint32_t               node = g->node[piece->basin];
+      int64_t                cost = (int64_t) vote * (int64_t) informative_pixels (basins, piece);
+      CeldVote              *votes;
 
       if (vote == CELD_HARD || !cost)
         continue;
-      if (g->n_votes && g->vote[g->n_votes - 1].node == node && g->vote[g->n_votes - 1].label == dab->label)
+      if (g->n_votes && g->vote[g->n_votes - 1].node == node && g->vote[g->n_votes - 1].label == piece->label)
         {
           g->vote[g->n_votes - 1].cost += cost;
           continue;
@@ -199,7 +199,7 @@ gather_votes (Graph *g)
       if (!votes)
         return CELD_NO_MEMORY;
       g->vote = votes;
-      votes[g->n_votes++] = (CeldVote) { node, dab->label, cost };
+      votes[g->n_votes++] = (CeldVote) { node, piece->label, cost };
     }
   return CELD_OK;
 }
@@ -208,11 +208,11 @@ gather_votes (Graph *g)
 static CeldStatus
 gather_links (Graph *g)
 {
-  const CeldBasins *basins = g->canvas->basins;
+  const CeldBasins *basins = g->task->basins;
   size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's borders, as the lesser node */
-  size_t           *border = celd_alloc (basins->n_borders, sizeof *border);
+  size_t           *boundary = celd_alloc (basins->n_boundaries, sizeof *boundary);
   size_t           *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the present one */
-  CeldStatus        status = first && border && found ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus        status = first && boundary && found ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;
@@ -220,14 +220,14 @@ gather_links (Graph *g)
     found[k] = SIZE_MAX;
   for (int pass = 0; pass < 2; pass++)
     {
-      for (size_t i = 0; i < basins->n_borders; i++)
+      for (size_t i = 0; i < basins->n_boundaries; i++)
         {
-          uint32_t a = g->node[basins->border[i].a], b = g->node[basins->border[i].b];
+          uint32_t a = g->node[basins->boundary[i].a], b = g->node[basins->boundary[i].b];
 
           if (a == b)
             continue;
           if (pass)
-            border[first[(a < b ? a : b) + 1]++] = i;
+            boundary[first[(a < b ? a : b) + 1]++] = i;
           else
             first[(a < b ? a : b) + 2]++;
         }
@@ -240,8 +240,8 @@ gather_links (Graph *g)
 
       for (size_t i = first[k]; i < first[k + 1]; i++)
         {
-          const CeldBorder *b = &basins->border[border[i]];
-          uint32_t          other = g->node[b->a] == k ? g->node[b->b] : g->node[b->a];
+          const CeldBasinBoundary *b = &basins->boundary[boundary[i]];
+          uint32_t                 other = g->node[b->a] == k ? g->node[b->b] : g->node[b->a];
 
           if (found[other] == SIZE_MAX || found[other] < begin)
             {
@@ -254,7 +254,7 @@ gather_links (Graph *g)
 
 done:
   celd_free (first);
-  celd_free (border);
+  celd_free (boundary);
   celd_free (found);
   return status;
 }
@@ -262,35 +262,35 @@ done:
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
-celd_graph_solve (const CeldCanvas *canvas, const CeldHost *host, uint32_t *label)
+celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label)
 {
   Graph      g;
-  CeldStatus status = graph_new (canvas, &g);
+  CeldStatus status = graph_new (task, &g);
 
   if (status == CELD_OK)
     {
-      find_holders (&g);
+      find_sole_labels (&g);
       status = make_nodes (&g);
     }
   if (status == CELD_OK)
-    status = fix_hard (&g);
-  if (status == CELD_OK && canvas->settings->keep_necks)
-    fix_holders (&g);
+    status = fix_hard_labels (&g);
+  if (status == CELD_OK && task->settings->keep_necks)
+    fix_sole_labels (&g);
   if (status == CELD_OK)
-    status = gather_votes (&g);
+    status = gather_data_costs (&g);
   if (status == CELD_OK)
     status = gather_links (&g);
   if (status == CELD_OK)
-    status = celd_canvas_order (canvas, g.order);
+    status = celd_task_label_order (task, g.order);
   if (status == CELD_OK)
     {
       CeldPartition problem = {
-        g.n, g.link, g.n_links, g.vote, g.n_votes, g.fixed, g.order, canvas->palette.n
+        g.n, g.link, g.n_links, g.vote, g.n_votes, g.fixed, g.order, task->palette.n
       };
 
       status = celd_partition (&problem, host, g.label, NULL, NULL);
     }
-  for (size_t k = 0; k < canvas->basins->n && status == CELD_OK; k++)
+  for (size_t k = 0; k < task->basins->n && status == CELD_OK; k++)
     label[k] = g.label[g.node[k]];
   graph_clear (&g);
   return status;

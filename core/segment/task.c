@@ -8,13 +8,13 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "solve/maxflow.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define MOST_VOTE (1 << 28)
+#define MOST_COST (1 << 28)
 #define BRUSH     20.0          /* pixels; at this width votes are hardness K */
 
 #define HUES   360                   /* colours to choose from */
@@ -26,22 +26,22 @@
 /* ------------------------------------------------------------------ the record, and its labels */
 
 CeldStatus
-celd_canvas_add (CeldCanvas *canvas, CeldRegion region, uint32_t *label)
+celd_task_add_label (CeldSegmentTask *task, CeldRegion region, uint32_t *label)
 {
-  CeldRegion *item = celd_grow (canvas->palette.item, canvas->palette.n + 1, sizeof *item);
+  CeldRegion *item = celd_grow (task->palette.item, task->palette.n + 1, sizeof *item);
 
   if (!item)
     return CELD_NO_MEMORY;
-  canvas->palette.item = item;
-  item[canvas->palette.n++] = region;
-  *label = (uint32_t) canvas->palette.n;
+  task->palette.item = item;
+  item[task->palette.n++] = region;
+  *label = (uint32_t) task->palette.n;
   return CELD_OK;
 }
 
 CeldStatus
-celd_canvas_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldCanvas *canvas)
+celd_task_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldSegmentTask *task)
 {
-  CeldStatus status = celd_seed_rows_copy (seeds, &canvas->seeds);
+  CeldStatus status = celd_seed_rows_copy (seeds, &task->seeds);
 
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
     {
@@ -50,7 +50,7 @@ celd_canvas_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldCanv
 
       region.seeds      = 0;
       region.background = false;
-      status = celd_canvas_add (canvas, region, &label);
+      status = celd_task_add_label (task, region, &label);
     }
   for (int y = 0; y < seeds->height && status == CELD_OK; y++)
     for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
@@ -58,32 +58,32 @@ celd_canvas_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldCanv
         const CeldSeedRun *run = &seeds->row[y].run[i];
 
         if (run->label <= palette->n)
-          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
+          task->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
         else
-          status = celd_seed_rows_paint (&canvas->seeds, y, run->x, run->end, 0);
+          status = celd_seed_rows_paint (&task->seeds, y, run->x, run->end, 0);
       }
   return status;
 }
 
 void
-celd_canvas_clear (CeldCanvas *canvas)
+celd_task_clear (CeldSegmentTask *task)
 {
-  celd_seed_rows_clear (&canvas->seeds);
-  celd_spread_clear (&canvas->painted);
-  celd_palette_clear (&canvas->palette);
-  celd_free (canvas->reached);
+  celd_seed_rows_clear (&task->seeds);
+  celd_strokes_clear (&task->painted);
+  celd_palette_clear (&task->palette);
+  celd_free (task->seeded);
 }
 
 void
-celd_canvas_count_arrow_seeds (CeldCanvas *canvas)
+celd_task_count_arrow_seeds (CeldSegmentTask *task)
 {
-  for (int y = 0; y < canvas->seeds.height; y++)
-    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+  for (int y = 0; y < task->seeds.height; y++)
+    for (size_t i = 0; i < task->seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+        const CeldSeedRun *run = &task->seeds.row[y].run[i];
 
-        if (canvas->palette.item[run->label - 1].origin == CELD_FROM_ARROW)
-          canvas->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
+        if (task->palette.item[run->label - 1].origin == CELD_FROM_ARROW)
+          task->palette.item[run->label - 1].seeds += (size_t) (run->end - run->x);
       }
 }
 
@@ -127,22 +127,22 @@ new_colour (const CeldPalette *palette, uint8_t colour[4])
 }
 
 CeldStatus
-celd_hue_add (CeldCanvas *canvas, uint32_t *label)
+celd_task_add_arrow_label (CeldSegmentTask *task, uint32_t *label)
 {
   CeldRegion region = { .origin = CELD_FROM_ARROW, .hard = true };
 
-  new_colour (&canvas->palette, region.colour);
-  return celd_canvas_add (canvas, region, label);
+  new_colour (&task->palette, region.colour);
+  return celd_task_add_label (task, region, label);
 }
 
 /* ------------------------------------------------------------------ what seeds cost */
 
 int32_t
-celd_canvas_vote (const CeldCanvas *canvas, uint32_t label)
+celd_task_data_cost (const CeldSegmentTask *task, uint32_t label)
 {
-  bool all_hard = celd_canvas_obeys (canvas);
+  bool all_hard = celd_task_all_hard (task);
 
-  return all_hard || canvas->palette.item[label - 1].hard ? CELD_HARD : canvas->soft_vote;
+  return all_hard || task->palette.item[label - 1].hard ? CELD_HARD : task->soft_cost;
 }
 
 /* Pixels of row `below` that have another label in row `above`, and pixels where `above` has paint and `below` none. */
@@ -205,22 +205,22 @@ brush_width (const CeldSeedRows *seeds)
 }
 
 void
-celd_canvas_weigh (CeldCanvas *canvas)
+celd_task_set_soft_cost (CeldSegmentTask *task)
 {
-  double hardness = (double) canvas->settings->hardness;
-  double vote = CELD_COST_UNIT * canvas->basins->costs.white * hardness * BRUSH / brush_width (&canvas->seeds);
+  double hardness = (double) task->settings->hardness;
+  double cost = CELD_COST_UNIT * task->basins->costs.paper_cost * hardness * BRUSH / brush_width (&task->seeds);
 
-  canvas->soft_vote = (int32_t) fmax (1, fmin (vote, MOST_VOTE));
+  task->soft_cost = (int32_t) fmax (1, fmin (cost, MOST_COST));
 }
 
 /* ------------------------------------------------------------------ the order of labels */
 
-typedef struct { uint32_t label; size_t seeds; } Turn;
+typedef struct { uint32_t label; size_t seeds; } LabelPixels;
 
 static int
-compare_turns (const void *a, const void *b)
+compare_label_pixels (const void *a, const void *b)
 {
-  const Turn *p = a, *q = b;
+  const LabelPixels *p = a, *q = b;
 
   if (p->seeds != q->seeds)
     return p->seeds > q->seeds ? -1 : 1;
@@ -228,36 +228,36 @@ compare_turns (const void *a, const void *b)
 }
 
 CeldStatus
-celd_canvas_order (const CeldCanvas *canvas, uint32_t *order)
+celd_task_label_order (const CeldSegmentTask *task, uint32_t *order)
 {
-  Turn *turn = celd_alloc0 (canvas->palette.n, sizeof *turn);
+  LabelPixels *entry = celd_alloc0 (task->palette.n, sizeof *entry);
 
-  if (!turn)
+  if (!entry)
     return CELD_NO_MEMORY;
-  for (size_t k = 0; k < canvas->palette.n; k++)
-    turn[k].label = (uint32_t) k + 1;
-  for (int y = 0; y < canvas->seeds.height; y++)
-    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+  for (size_t k = 0; k < task->palette.n; k++)
+    entry[k].label = (uint32_t) k + 1;
+  for (int y = 0; y < task->seeds.height; y++)
+    for (size_t i = 0; i < task->seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
+        const CeldSeedRun *run = &task->seeds.row[y].run[i];
 
-        turn[run->label - 1].seeds += (size_t) (run->end - run->x);
+        entry[run->label - 1].seeds += (size_t) (run->end - run->x);
       }
-  qsort (turn, canvas->palette.n, sizeof *turn, compare_turns);
-  for (size_t k = 0; k < canvas->palette.n; k++)
-    order[k] = turn[k].label;
-  celd_free (turn);
+  qsort (entry, task->palette.n, sizeof *entry, compare_label_pixels);
+  for (size_t k = 0; k < task->palette.n; k++)
+    order[k] = entry[k].label;
+  celd_free (entry);
   return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ flat colourings */
 
 /* The paint of a label: its pixels, those on paper, and its runs. */
-typedef struct { size_t pixels, paper, runs; } Paint;
+typedef struct { size_t pixels, paper, runs; } PaintCounts;
 
 /* Where the pixels from x on that are all paper, or all ink, end. */
 static int
-end_of_ground (const float *ink, int x, int end)
+end_of_kind (const float *ink, int x, int end)
 {
   bool paper = celd_is_paper (ink[x]);
 
@@ -267,14 +267,14 @@ end_of_ground (const float *ink, int x, int end)
 }
 
 static void
-measure_paint (const CeldCanvas *canvas, Paint *paint)
+count_paint (const CeldSegmentTask *task, PaintCounts *counts)
 {
-  for (int y = 0; y < canvas->seeds.height; y++)
-    for (size_t i = 0; i < canvas->seeds.row[y].n; i++)
+  for (int y = 0; y < task->seeds.height; y++)
+    for (size_t i = 0; i < task->seeds.row[y].n; i++)
       {
-        const CeldSeedRun *run = &canvas->seeds.row[y].run[i];
-        const float       *ink = &CELD_AT (canvas->ink, 0, y);
-        Paint             *of = &paint[run->label];
+        const CeldSeedRun *run = &task->seeds.row[y].run[i];
+        const float       *ink = &CELD_AT (task->ink, 0, y);
+        PaintCounts       *of = &counts[run->label];
 
         of->pixels += (size_t) (run->end - run->x);
         of->runs++;
@@ -285,23 +285,23 @@ measure_paint (const CeldCanvas *canvas, Paint *paint)
 
 /* Hardly any of it is on paper, and it is wider than strokes are. */
 static bool
-is_dark_area (const Paint *paint, int stroke)
+is_dark_area (const PaintCounts *counts, int stroke)
 {
-  return 20 * paint->paper < paint->pixels && paint->pixels > 3 * (size_t) stroke * paint->runs;
+  return 20 * counts->paper < counts->pixels && counts->pixels > 3 * (size_t) stroke * counts->runs;
 }
 
 /* Adds to `kept` what counts of a run; runs come in reading order. */
 static CeldStatus
-keep_run (const CeldCanvas *canvas, const Paint *paint, int y, CeldSeedRun run, CeldSeedRows *kept)
+keep_run (const CeldSegmentTask *task, const PaintCounts *counts, int y, CeldSeedRun run, CeldSeedRows *kept)
 {
-  const float *ink = &CELD_AT (canvas->ink, 0, y);
+  const float *ink = &CELD_AT (task->ink, 0, y);
   CeldStatus   status = CELD_OK;
 
-  if (is_dark_area (&paint[run.label], canvas->basins->stroke))
+  if (is_dark_area (&counts[run.label], task->basins->stroke))
     return celd_seed_rows_paint (kept, y, run.x, run.end, run.label);
   for (int x = run.x, end; x < run.end && status == CELD_OK; x = end)
     {
-      end = end_of_ground (ink, x, run.end);
+      end = end_of_kind (ink, x, run.end);
       if (celd_is_paper (ink[x]))
         status = celd_seed_rows_paint (kept, y, x, end, run.label);
     }
@@ -310,25 +310,25 @@ keep_run (const CeldCanvas *canvas, const Paint *paint, int y, CeldSeedRun run, 
 
 /* On ink, paint says nothing, unless it is a whole dark area. */
 CeldStatus
-celd_canvas_keep_paper (CeldCanvas *canvas)
+celd_task_drop_ink_seeds (CeldSegmentTask *task)
 {
   CeldSeedRows kept = { 0 };
-  Paint       *paint = celd_alloc0 (canvas->palette.n + 1, sizeof *paint);
-  CeldStatus   status = paint ? celd_seed_rows_new (canvas->seeds.width, canvas->seeds.height, &kept) : CELD_NO_MEMORY;
+  PaintCounts *counts = celd_alloc0 (task->palette.n + 1, sizeof *counts);
+  CeldStatus   status = counts ? celd_seed_rows_new (task->seeds.width, task->seeds.height, &kept) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    measure_paint (canvas, paint);
+    count_paint (task, counts);
   for (int y = 0; y < kept.height && status == CELD_OK; y++)
-    for (size_t i = 0; i < canvas->seeds.row[y].n && status == CELD_OK; i++)
-      status = keep_run (canvas, paint, y, canvas->seeds.row[y].run[i], &kept);
+    for (size_t i = 0; i < task->seeds.row[y].n && status == CELD_OK; i++)
+      status = keep_run (task, counts, y, task->seeds.row[y].run[i], &kept);
   if (status == CELD_OK)
     {
-      CeldSeedRows all = canvas->seeds;
+      CeldSeedRows all = task->seeds;
 
-      canvas->seeds = kept;
+      task->seeds = kept;
       kept          = all;
     }
   celd_seed_rows_clear (&kept);
-  celd_free (paint);
+  celd_free (counts);
   return status;
 }

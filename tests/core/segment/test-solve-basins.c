@@ -5,15 +5,15 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 
 typedef struct
 {
-  CeldPlane    ink;
-  CeldSettings settings;
-  CeldBasins   basins;
-  CeldCanvas   canvas;
-  uint32_t    *label;
+  CeldPlane       ink;
+  CeldSettings    settings;
+  CeldBasins      basins;
+  CeldSegmentTask task;
+  uint32_t       *label;
 } Page;
 
 /* `painted`: 'A' is a seed of label 1 and so on, of n labels. */
@@ -25,15 +25,15 @@ page_open (Page *p, const char *const *drawing, const char *const *painted, size
 
   *p = (Page) { .ink = art_plane (drawing), .settings = celd_settings () };
   CHECK (celd_basins_new (&p->ink, p->settings.ink_threshold, NULL, &p->basins) == CELD_OK);
-  p->canvas = (CeldCanvas) { .settings = &p->settings, .ink = &p->ink, .basins = &p->basins };
-  CHECK (celd_seed_rows_read (&seeds, &p->canvas.seeds) == CELD_OK);
+  p->task = (CeldSegmentTask) { .settings = &p->settings, .ink = &p->ink, .basins = &p->basins };
+  CHECK (celd_seed_rows_read (&seeds, &p->task.seeds) == CELD_OK);
   for (size_t k = 0; k < n; k++)
     {
       CeldRegion region = { .colour = { (uint8_t) (40 * k), 0, 0, 255 } };
 
-      CHECK (celd_canvas_add (&p->canvas, region, &label) == CELD_OK);
+      CHECK (celd_task_add_label (&p->task, region, &label) == CELD_OK);
     }
-  celd_canvas_weigh (&p->canvas);
+  celd_task_set_soft_cost (&p->task);
   p->label = calloc (p->basins.n, sizeof *p->label);
   free (seeds.data);
 }
@@ -43,9 +43,9 @@ page_close (Page *p)
 {
   free (p->ink.data);
   free (p->label);
-  celd_spread_clear (&p->canvas.painted);
-  celd_seed_rows_clear (&p->canvas.seeds);
-  celd_palette_clear (&p->canvas.palette);
+  celd_strokes_clear (&p->task.painted);
+  celd_seed_rows_clear (&p->task.seeds);
+  celd_palette_clear (&p->task.palette);
   celd_basins_clear (&p->basins);
 }
 
@@ -58,9 +58,9 @@ label_at (const Page *p, int x, int y)
 static void
 solve (Page *p)
 {
-  CHECK (celd_graph_solve (&p->canvas, NULL, p->label) == CELD_OK);
+  CHECK (celd_basin_graph_solve (&p->task, NULL, p->label) == CELD_OK);
   for (size_t k = 0; k < p->basins.n; k++)
-    CHECK (p->label[k] >= 1 && p->label[k] <= p->canvas.palette.n);
+    CHECK (p->label[k] >= 1 && p->label[k] <= p->task.palette.n);
 }
 
 /* A room on the left, joined to a room on the right by a neck of two pixels; all else is outside. */
@@ -85,7 +85,7 @@ a_part_behind_a_neck_follows_its_room (void)
     ".....BBB......................",
     "..............................", "..............................", "..............................",
     "..............................", "..............................", NULL };
-  Page p;
+  Page                     p;
 
   page_open (&p, neck, painted, 2);
   solve (&p);
@@ -108,7 +108,7 @@ a_part_with_paint_of_its_own_keeps_it (void)
     "...AAAAAAAAAA.................",
     "...AAAAAAAAAA.................",
     "..............................", "..............................", NULL };
-  Page p;
+  Page                     p;
 
   page_open (&p, neck, painted, 2);
   solve (&p);
@@ -124,7 +124,7 @@ hard_labels_are_obeyed_and_the_greater_wins_a_basin (void)
 {
   static const char *const drawing[] = { "............", "............", "............", "............", NULL };
   static const char *const painted[] = { "............", ".AA....BBBB.", "............", "............", NULL };
-  Page p;
+  Page                     p;
 
   page_open (&p, drawing, painted, 2);
   p.settings.hardness = 1;
@@ -143,7 +143,7 @@ paint_on_a_line_does_not_count (void)
   static const char *const painted[] = {
     "........................", ".AAAAAAAAAAAAA..........", ".AAAAAAAAAAAAA..........", "..................BB....",
     "........................", NULL };
-  Page p;
+  Page                     p;
 
   page_open (&p, drawing, painted, 2);
   solve (&p);
@@ -190,7 +190,7 @@ closed_rooms_come_out_as_by_exact_cuts (void)
       CHECK (celd_labels_new (WIDTH, HEIGHT, &exact) == CELD_OK);
       p.settings.keep_necks = round & 1;
       solve (&p);
-      CHECK (celd_exact_solve (&p.canvas, NULL, &exact) == CELD_OK);
+      CHECK (celd_lazybrush_solve (&p.task, NULL, &exact) == CELD_OK);
       for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++)
           bad += drawing[y][x] == '.' && label_at (&p, x, y) != CELD_AT (&exact, x, y);

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment/basins.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -38,40 +38,40 @@ celd_patches_clear (CeldPatches *patches)
 /* ------------------------------------------------------------------ the record */
 
 void
-celd_painting_clear (CeldPainting *painting)
+celd_labelling_clear (CeldLabelling *labelling)
 {
-  celd_free (painting->label);
-  celd_patches_clear (&painting->patches);
-  *painting = (CeldPainting) { 0 };
+  celd_free (labelling->label);
+  celd_patches_clear (&labelling->patches);
+  *labelling = (CeldLabelling) { 0 };
 }
 
 CeldStatus
-celd_painting_forget (CeldPainting *painting, const CeldBasins *basins)
+celd_labelling_reset (CeldLabelling *labelling, const CeldBasins *basins)
 {
   uint32_t *label = celd_alloc0 (basins->n, sizeof *label);
 
   if (!label)
     return CELD_NO_MEMORY;
-  celd_free (painting->label);
-  celd_patches_clear (&painting->patches);
-  painting->label = label;
+  celd_free (labelling->label);
+  celd_patches_clear (&labelling->patches);
+  labelling->label = label;
   return CELD_OK;
 }
 
 void
-celd_painting_lose (CeldPainting *painting, const CeldBasins *basins)
+celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basins)
 {
-  memset (painting->label, 0, basins->n * sizeof *painting->label);
-  celd_patches_clear (&painting->patches);
-  painting->changed = (CeldRect) { 0, 0, basins->width, basins->height };
+  memset (labelling->label, 0, basins->n * sizeof *labelling->label);
+  celd_patches_clear (&labelling->patches);
+  labelling->changed = (CeldRect) { 0, 0, basins->width, basins->height };
 }
 
 /* ------------------------------------------------------------------ runs of pixels */
 
 static void
-note (CeldPainting *painting, int y, int left, int right)
+note (CeldLabelling *labelling, int y, int left, int right)
 {
-  CeldRect *rect = &painting->changed;
+  CeldRect *rect = &labelling->changed;
   int       top = y, bottom = y + 1;
 
   if (rect->width)
@@ -109,29 +109,29 @@ read_basins (const CeldBasins *basins, const uint32_t *label, int y, int x, int 
 /* ------------------------------------------------------------------ a new picture */
 
 static void
-paint_basins (CeldPainting *painting, const CeldBasins *basins, const uint32_t *old, CeldLabels *labels)
+paint_basins (CeldLabelling *labelling, const CeldBasins *basins, const uint32_t *old, CeldLabels *labels)
 {
   for (int y = 0; y < basins->height; y++)
     for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
       {
         int      x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
-        uint32_t label = painting->label[basins->run[i].basin];
+        uint32_t label = labelling->label[basins->run[i].basin];
 
         if (label == old[basins->run[i].basin])
           continue;
-        note (painting, y, x, end);
+        note (labelling, y, x, end);
         fill (&CELD_AT (labels, x, y), end - x, label);
       }
 }
 
 void
-celd_painting_begin (CeldPainting *painting, const CeldBasins *basins, uint32_t *label, CeldLabels *labels,
-                     CeldPainting *old)
+celd_labelling_begin (CeldLabelling *labelling, const CeldBasins *basins, uint32_t *label, CeldLabels *labels,
+                      CeldLabelling *old)
 {
-  *old = *painting;
-  painting->label   = label;
-  painting->patches = (CeldPatches) { 0 };
-  paint_basins (painting, basins, old->label, labels);
+  *old = *labelling;
+  labelling->label   = label;
+  labelling->patches = (CeldPatches) { 0 };
+  paint_basins (labelling, basins, old->label, labels);
   for (size_t i = 0; i < old->patches.n; i++)
     {
       const CeldPatch *patch = &old->patches.item[i];
@@ -141,7 +141,7 @@ celd_painting_begin (CeldPainting *painting, const CeldBasins *basins, uint32_t 
 }
 
 CeldStatus
-celd_painting_add (CeldPainting *painting, const CeldPatches *patches, CeldLabels *labels)
+celd_labelling_add (CeldLabelling *labelling, const CeldPatches *patches, CeldLabels *labels)
 {
   CeldStatus status = CELD_OK;
 
@@ -149,7 +149,7 @@ celd_painting_add (CeldPainting *painting, const CeldPatches *patches, CeldLabel
     {
       const CeldPatch *patch = &patches->item[i];
 
-      status = celd_patch_add (&painting->patches, *patch);
+      status = celd_patch_add (&labelling->patches, *patch);
       if (status == CELD_OK)
         fill (&CELD_AT (labels, patch->x, patch->y), patch->end - patch->x, patch->label);
     }
@@ -170,12 +170,12 @@ compare_patches (const void *a, const void *b)
 
 /* Adds what differs from the basins' labels in pixels x .. end - 1 of row y. */
 static CeldStatus
-patch_row (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, int y, int x, int end,
+patch_row (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, int y, int x, int end,
            uint32_t *row, CeldPatches *patches)
 {
   CeldStatus status = CELD_OK;
 
-  read_basins (basins, painting->label, y, x, end, row);
+  read_basins (basins, labelling->label, y, x, end, row);
   for (int i = x; i < end && status == CELD_OK; i++)
     {
       uint32_t label = CELD_AT (labels, i, y);
@@ -188,10 +188,10 @@ patch_row (const CeldPainting *painting, const CeldBasins *basins, const CeldLab
 
 /* What was painted over the basins' labels, in whatever order, as patches in reading order without a pixel twice. */
 static CeldStatus
-tidy_patches (CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, uint32_t *row)
+tidy_patches (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, uint32_t *row)
 {
-  CeldPatch  *item = painting->patches.item;
-  size_t      n = painting->patches.n;
+  CeldPatch  *item = labelling->patches.item;
+  size_t      n = labelling->patches.n;
   CeldPatches tidy = { 0 };
   CeldStatus  status = CELD_OK;
 
@@ -203,21 +203,21 @@ tidy_patches (CeldPainting *painting, const CeldBasins *basins, const CeldLabels
 
       for (j = i + 1; j < n && item[j].y == item[i].y && item[j].x <= end; j++)
         end = item[j].end > end ? item[j].end : end;
-      status = patch_row (painting, basins, labels, item[i].y, item[i].x, end, row, &tidy);
+      status = patch_row (labelling, basins, labels, item[i].y, item[i].x, end, row, &tidy);
     }
   if (status != CELD_OK)
     {
       celd_patches_clear (&tidy);
       return status;
     }
-  celd_patches_clear (&painting->patches);
-  painting->patches = tidy;
+  celd_patches_clear (&labelling->patches);
+  labelling->patches = tidy;
   return CELD_OK;
 }
 
 /* Notes where pixels under old patches have another label now. */
 static void
-compare_old (CeldPainting *painting, const CeldPatches *old, const CeldLabels *labels)
+compare_old (CeldLabelling *labelling, const CeldPatches *old, const CeldLabels *labels)
 {
   for (size_t i = 0; i < old->n; i++)
     {
@@ -228,20 +228,20 @@ compare_old (CeldPainting *painting, const CeldPatches *old, const CeldLabels *l
       while (end > x && CELD_AT (labels, end - 1, y) == old->item[i].label)
         end--;
       if (x < end)
-        note (painting, y, x, end);
+        note (labelling, y, x, end);
     }
 }
 
 /* Notes which pixels of patches had another label before, as basins or as old patches. */
 static void
-compare_new (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, uint32_t *row)
+compare_new (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old, uint32_t *row)
 {
   const CeldPatches *before = &old->patches;
   size_t             j = 0;
 
-  for (size_t i = 0; i < painting->patches.n; i++)
+  for (size_t i = 0; i < labelling->patches.n; i++)
     {
-      const CeldPatch *new = &painting->patches.item[i];
+      const CeldPatch *new = &labelling->patches.item[i];
       int              n = new->end - new->x, from = 0;
 
       read_basins (basins, old->label, new->y, new->x, new->end, row);
@@ -257,29 +257,30 @@ compare_new (CeldPainting *painting, const CeldBasins *basins, const CeldPaintin
       while (n > from && row[n - 1] == new->label)
         n--;
       if (from < n)
-        note (painting, new->y, new->x + from, new->x + n);
+        note (labelling, new->y, new->x + from, new->x + n);
     }
 }
 
 CeldStatus
-celd_painting_end (CeldPainting *painting, const CeldBasins *basins, const CeldPainting *old, const CeldLabels *labels)
+celd_labelling_end (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old,
+                    const CeldLabels *labels)
 {
   uint32_t  *row = celd_alloc ((size_t) basins->width, sizeof *row);
-  CeldStatus status = row ? tidy_patches (painting, basins, labels, row) : CELD_NO_MEMORY;
+  CeldStatus status = row ? tidy_patches (labelling, basins, labels, row) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
-      compare_old (painting, &old->patches, labels);
-      compare_new (painting, basins, old, row);
+      compare_old (labelling, &old->patches, labels);
+      compare_new (labelling, basins, old, row);
     }
   celd_free (row);
   return status;
 }
 
 CeldStatus
-celd_painting_replace (CeldPainting *painting, const CeldBasins *basins, const CeldLabels *from, CeldLabels *labels)
+celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *from, CeldLabels *labels)
 {
-  CeldStatus status = celd_painting_forget (painting, basins);
+  CeldStatus status = celd_labelling_reset (labelling, basins);
 
   for (int y = 0; y < labels->height && status == CELD_OK; y++)
     {
@@ -292,7 +293,7 @@ celd_painting_replace (CeldPainting *painting, const CeldBasins *basins, const C
         right--;
       if (left == right)
         continue;
-      note (painting, y, left, right);
+      note (labelling, y, left, right);
       memcpy (old + left, new + left, (size_t) (right - left) * sizeof *old);
     }
   return status;
@@ -341,7 +342,7 @@ place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
 
 /* Labels whose every maximum is under a patch: their first pixel. */
 static void
-place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette)
+place_rest (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette)
 {
   size_t missing = 0;
 
@@ -350,7 +351,7 @@ place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLa
   for (int y = 0; y < basins->height && missing; y++)
     for (size_t i = basins->row[y]; i < basins->row[y + 1] && missing; i++)
       {
-        uint32_t    label = painting->label[basins->run[i].basin];
+        uint32_t    label = labelling->label[basins->run[i].basin];
         CeldRegion *region = &palette->item[label - 1];
         int         x = basins->run[i].x, end = celd_basin_run_end (basins, i, y);
 
@@ -365,8 +366,8 @@ place_rest (const CeldPainting *painting, const CeldBasins *basins, const CeldLa
 }
 
 CeldStatus
-celd_painting_measure (const CeldPainting *painting, const CeldBasins *basins, const CeldLabels *labels,
-                       CeldPalette *palette)
+celd_labelling_measure (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels,
+                        CeldPalette *palette)
 {
   uint32_t  *row = celd_alloc ((size_t) basins->width, sizeof *row);
   Place     *place = celd_alloc0 (palette->n, sizeof *place);
@@ -380,19 +381,19 @@ celd_painting_measure (const CeldPainting *painting, const CeldBasins *basins, c
       palette->item[k].x = palette->item[k].y = -1;
     }
   for (size_t k = 0; k < basins->n; k++)
-    palette->item[painting->label[k] - 1].area += basins->basin[k].area;
-  for (size_t i = 0; i < painting->patches.n; i++)
+    palette->item[labelling->label[k] - 1].area += basins->basin[k].area;
+  for (size_t i = 0; i < labelling->patches.n; i++)
     {
-      const CeldPatch *patch = &painting->patches.item[i];
+      const CeldPatch *patch = &labelling->patches.item[i];
 
-      read_basins (basins, painting->label, patch->y, patch->x, patch->end, row);
+      read_basins (basins, labelling->label, patch->y, patch->x, patch->end, row);
       for (int k = 0; k < patch->end - patch->x; k++)
         palette->item[row[k] - 1].area--;
       palette->item[patch->label - 1].area += (size_t) (patch->end - patch->x);
     }
   place_basins (basins, labels, place, palette);
-  place_patches (&painting->patches, place, palette);
-  place_rest (painting, basins, labels, palette);
+  place_patches (&labelling->patches, place, palette);
+  place_rest (labelling, basins, labels, palette);
 
 done:
   celd_free (row);

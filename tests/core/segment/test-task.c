@@ -2,10 +2,10 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "canvas.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
+#include "sketch.h"
 #include "solve/maxflow.h"
 
 enum { W = 19, H = 13 };
@@ -77,11 +77,11 @@ check_weight (Sketch *s)
   CeldLabels seeds = { s->ink.width, s->ink.height, (size_t) s->ink.width, NULL };
 
   seeds.data = malloc ((size_t) (seeds.width * seeds.height) * sizeof *seeds.data);
-  celd_seed_rows_write (&s->canvas.seeds, &seeds);
-  s->basins.costs.white = 5e5; /* so that votes tell widths well apart */
+  celd_seed_rows_write (&s->task.seeds, &seeds);
+  s->basins.costs.paper_cost = 5e5; /* so that votes tell widths well apart */
   s->settings.hardness  = 1;
-  celd_canvas_weigh (&s->canvas);
-  NEAR (s->canvas.soft_vote, floor (CELD_COST_UNIT * 5e5 * 20 / slow_brush (&seeds)), 0);
+  celd_task_set_soft_cost (&s->task);
+  NEAR (s->task.soft_cost, floor (CELD_COST_UNIT * 5e5 * 20 / slow_brush (&seeds)), 0);
   free (seeds.data);
 }
 
@@ -90,8 +90,8 @@ paint_weighs_by_the_width_of_its_strokes (void)
 {
   static const char *const all[] = { "AAA", "AAA", NULL }, *const none[] = { "...", "...", NULL };
   static const char *const two[] = { "ABB", "A.B", NULL }, *const paper[] = { "111", "111", NULL };
-  uint32_t state = 3;
-  Sketch   s;
+  uint32_t                 state = 3;
+  Sketch                   s;
 
   for (int round = 0; round < 300; round++)
     {
@@ -115,24 +115,24 @@ static void
 votes_keep_their_bounds (void)
 {
   static const char *const paper[] = { "1111", "1111", NULL }, *const painted[] = { "A...", "BB..", NULL };
-  Sketch s;
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 2);
-  s.basins.costs.white = 1e12;
-  celd_canvas_weigh (&s.canvas);
-  NEAR (s.canvas.soft_vote, 1 << 28, 0);
-  s.basins.costs.white = 1e-12;
-  celd_canvas_weigh (&s.canvas);
-  NEAR (s.canvas.soft_vote, 1, 0);
-  NEAR (celd_canvas_vote (&s.canvas, 1), 1, 0);
-  s.canvas.palette.item[1].hard = true;
-  NEAR (celd_canvas_vote (&s.canvas, 1), 1, 0);
-  NEAR (celd_canvas_vote (&s.canvas, 2), CELD_HARD, 0);
+  s.basins.costs.paper_cost = 1e12;
+  celd_task_set_soft_cost (&s.task);
+  NEAR (s.task.soft_cost, 1 << 28, 0);
+  s.basins.costs.paper_cost = 1e-12;
+  celd_task_set_soft_cost (&s.task);
+  NEAR (s.task.soft_cost, 1, 0);
+  NEAR (celd_task_data_cost (&s.task, 1), 1, 0);
+  s.task.palette.item[1].hard = true;
+  NEAR (celd_task_data_cost (&s.task, 1), 1, 0);
+  NEAR (celd_task_data_cost (&s.task, 2), CELD_HARD, 0);
   s.settings.hardness = 1;
-  NEAR (celd_canvas_vote (&s.canvas, 1), CELD_HARD, 0);
+  NEAR (celd_task_data_cost (&s.task, 1), CELD_HARD, 0);
   s.settings.hardness = 0.05f;
   s.settings.flats    = true;
-  NEAR (celd_canvas_vote (&s.canvas, 1), CELD_HARD, 0);
+  NEAR (celd_task_data_cost (&s.task, 1), CELD_HARD, 0);
   sketch_close (&s);
 }
 
@@ -140,11 +140,11 @@ static void
 labels_come_by_falling_paint (void)
 {
   static const char *const paper[] = { "1111", "1111", NULL }, *const painted[] = { "ABBB", "C.DD", NULL };
-  uint32_t order[5] = { 0 };
-  Sketch   s;
+  uint32_t                 order[5] = { 0 };
+  Sketch                   s;
 
   sketch_open (&s, paper, painted, 5);
-  CHECK (celd_canvas_order (&s.canvas, order) == CELD_OK);
+  CHECK (celd_task_label_order (&s.task, order) == CELD_OK);
   CHECK (order[0] == 2 && order[1] == 4 && order[2] == 1 && order[3] == 3 && order[4] == 5);
   sketch_close (&s);
 }
@@ -158,8 +158,8 @@ check_kept (const char *const *paper, const char *const *painted, int stroke, co
 
   sketch_open (&s, paper, painted, 3);
   s.basins.stroke = stroke;
-  CHECK (celd_canvas_keep_paper (&s.canvas) == CELD_OK);
-  NEAR (seeds_differing (&s.canvas.seeds, kept), 0, 0);
+  CHECK (celd_task_drop_ink_seeds (&s.task) == CELD_OK);
+  NEAR (seeds_differing (&s.task.seeds, kept), 0, 0);
   sketch_close (&s);
 }
 
@@ -202,8 +202,8 @@ kept_paint_is_that_of_the_pixels (void)
       Sketch       s;
 
       open_random (&state, &s);
-      CHECK (celd_seed_rows_copy (&s.canvas.seeds, &before) == CELD_OK);
-      CHECK (celd_canvas_keep_paper (&s.canvas) == CELD_OK);
+      CHECK (celd_seed_rows_copy (&s.task.seeds, &before) == CELD_OK);
+      CHECK (celd_task_drop_ink_seeds (&s.task) == CELD_OK);
       for (int p = 0; p < W * H; p++)
         {
           uint32_t l = celd_seed_rows_at (&before, p % W, p / W);
@@ -217,7 +217,7 @@ kept_paint_is_that_of_the_pixels (void)
           uint32_t l = celd_seed_rows_at (&before, p % W, p / W);
           bool     stays = s.ink.data[p] > 0 || (20 * on_paper[l] < pixels[l] && pixels[l] > 3 * sides[l]);
 
-          wrong += celd_seed_rows_at (&s.canvas.seeds, p % W, p / W) != (stays ? l : 0);
+          wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != (stays ? l : 0);
         }
       NEAR (wrong, 0, 0);
       celd_seed_rows_clear (&before);

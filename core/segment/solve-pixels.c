@@ -14,7 +14,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "solve/laplace.h"
 #include "solve/maxflow.h"
 
@@ -26,14 +26,14 @@
 
 /* V_pq of all edges, as celd_multiway wants them. */
 static CeldStatus
-weigh_edges (const CeldCanvas *canvas, const CeldHost *host, int32_t *east, int32_t *south)
+weigh_edges (const CeldSegmentTask *task, const CeldHost *host, int32_t *east, int32_t *south)
 {
-  const CeldPlane *ink = canvas->ink;
-  const CeldCosts *costs = &canvas->basins->costs;
-  int              w = ink->width, h = ink->height;
-  int32_t         *depth = celd_alloc ((size_t) w * (size_t) h, sizeof *depth);
-  size_t           p = 0;
-  CeldStatus       status = depth ? celd_ink_depth (ink, host, depth) : CELD_NO_MEMORY;
+  const CeldPlane           *ink = task->ink;
+  const CeldSmoothnessCosts *costs = &task->basins->costs;
+  int                        w = ink->width, h = ink->height;
+  int32_t                   *to_paper = celd_alloc ((size_t) w * (size_t) h, sizeof *to_paper);
+  size_t                     p = 0;
+  CeldStatus                 status = to_paper ? celd_distance_to_paper (ink, host, to_paper) : CELD_NO_MEMORY;
 
   for (int y = 0; y < h && status == CELD_OK; y++)
     for (int x = 0; x < w; x++, p++)
@@ -42,46 +42,47 @@ weigh_edges (const CeldCanvas *canvas, const CeldHost *host, int32_t *east, int3
 
         east[p] = south[p] = 0;
         if (x + 1 < w)
-          east[p] = celd_cost (costs, here, CELD_AT (ink, x + 1, y), depth[p], depth[p + 1], y == 0 || y + 1 == h);
+          east[p] = celd_smoothness_cost (costs, here, CELD_AT (ink, x + 1, y), to_paper[p], to_paper[p + 1], y == 0 ||
+                                          y + 1 == h);
         if (y + 1 < h)
-          south[p] = celd_cost (costs, here, CELD_AT (ink, x, y + 1), depth[p], depth[p + (size_t) w],
-                                x == 0 || x + 1 == w);
+          south[p] = celd_smoothness_cost (costs, here, CELD_AT (ink, x, y + 1), to_paper[p], to_paper[p + (size_t) w],
+                                           x == 0 || x + 1 == w);
       }
-  celd_free (depth);
+  celd_free (to_paper);
   return status;
 }
 
 CeldStatus
-celd_exact_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
+celd_lazybrush_solve (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels)
 {
-  size_t     n = (size_t) labels->width * (size_t) labels->height, n_labels = canvas->palette.n;
-  int32_t   *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
-  int32_t   *vote = celd_alloc (n_labels, sizeof *vote);
-  uint32_t  *order = celd_alloc (n_labels, sizeof *order);
-  CeldLabels seeds = { 0 };
-  CeldHostPart   part[2];
-  CeldHost   weigh = celd_host_part (&part[0], host, 0, 0), cut = celd_host_part (&part[1], host, 0.1, 1);
-  CeldStatus status = east && south && vote && order ? CELD_OK : CELD_NO_MEMORY;
+  size_t       n = (size_t) labels->width * (size_t) labels->height, n_labels = task->palette.n;
+  int32_t     *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
+  int32_t     *cost = celd_alloc (n_labels, sizeof *cost);
+  uint32_t    *order = celd_alloc (n_labels, sizeof *order);
+  CeldLabels   seeds = { 0 };
+  CeldHostPart part[2];
+  CeldHost     weigh = celd_host_part (&part[0], host, 0, 0), cut = celd_host_part (&part[1], host, 0.1, 1);
+  CeldStatus   status = east && south && cost && order ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = celd_labels_new (labels->width, labels->height, &seeds);
   if (status == CELD_OK)
-    status = weigh_edges (canvas, &weigh, east, south);
+    status = weigh_edges (task, &weigh, east, south);
   if (status == CELD_OK)
-    status = celd_canvas_order (canvas, order);
+    status = celd_task_label_order (task, order);
   if (status == CELD_OK)
     {
-      CeldMultiway m = { labels->width, labels->height, east, south, seeds.data, vote, order, n_labels };
+      CeldMultiway m = { labels->width, labels->height, east, south, seeds.data, cost, order, n_labels };
 
-      celd_seed_rows_write (&canvas->seeds, &seeds);
+      celd_seed_rows_write (&task->seeds, &seeds);
       for (size_t k = 0; k < n_labels; k++)
-        vote[k] = celd_canvas_vote (canvas, (uint32_t) k + 1);
+        cost[k] = celd_task_data_cost (task, (uint32_t) k + 1);
       memset (labels->data, 0, n * sizeof *labels->data);
       status = celd_multiway (&m, &cut, labels->data);
     }
   celd_free (east);
   celd_free (south);
-  celd_free (vote);
+  celd_free (cost);
   celd_free (order);
   celd_free (seeds.data);
   return status;
@@ -114,21 +115,21 @@ walker_clear (Walker *w)
 
 /* Seeds as a plane, and which labels have any. */
 static CeldStatus
-read_seeds (const CeldCanvas *canvas, Walker *w)
+read_seeds (const CeldSegmentTask *task, Walker *w)
 {
-  int        width = canvas->ink->width, height = canvas->ink->height;
+  int        width = task->ink->width, height = task->ink->height;
   CeldLabels seeds = { 0 };
-  bool      *used = celd_alloc0 (canvas->palette.n + 1, sizeof *used);
+  bool      *used = celd_alloc0 (task->palette.n + 1, sizeof *used);
   CeldStatus status = celd_labels_new (width, height, &seeds);
 
   w->seed  = seeds.data;
-  w->label = celd_alloc (canvas->palette.n, sizeof *w->label);
+  w->label = celd_alloc (task->palette.n, sizeof *w->label);
   if (status == CELD_OK && used && w->label)
     {
-      celd_seed_rows_write (&canvas->seeds, &seeds);
+      celd_seed_rows_write (&task->seeds, &seeds);
       for (size_t p = 0; p < w->n; p++)
         used[w->seed[p]] = true;
-      for (uint32_t k = 1; k <= canvas->palette.n; k++)
+      for (uint32_t k = 1; k <= task->palette.n; k++)
         if (used[k])
           w->label[w->n_labels++] = k;
       if (!w->n_labels)
@@ -141,28 +142,28 @@ read_seeds (const CeldCanvas *canvas, Walker *w)
 }
 
 static CeldStatus
-walker_new (const CeldCanvas *canvas, const CeldHost *host, Walker *w)
+walker_new (const CeldSegmentTask *task, const CeldHost *host, Walker *w)
 {
-  const CeldSettings *settings = canvas->settings;
+  const CeldSettings *settings = task->settings;
   double              mean;
   CeldStatus          status;
 
-  *w        = (Walker) { .n = (size_t) canvas->ink->width * (size_t) canvas->ink->height };
+  *w        = (Walker) { .n = (size_t) task->ink->width * (size_t) task->ink->height };
   w->east  = celd_alloc (w->n, sizeof *w->east);
   w->south = celd_alloc (w->n, sizeof *w->south);
   w->lane  = celd_alloc (w->n, CELD_LANES * sizeof *w->lane);
   w->best  = celd_alloc0 (w->n, sizeof *w->best);
   w->sum   = celd_alloc0 (w->n, sizeof *w->sum);
-  status   = w->east && w->south && w->lane && w->best && w->sum ? read_seeds (canvas, w) : CELD_NO_MEMORY;
+  status   = w->east && w->south && w->lane && w->best && w->sum ? read_seeds (task, w) : CELD_NO_MEMORY;
   if (status == CELD_OK)
-    status = celd_affinities (canvas->ink, settings->contrast, settings->weight_floor, host, w->east, w->south, &mean);
+    status = celd_affinities (task->ink, settings->contrast, settings->weight_floor, host, w->east, w->south, &mean);
   if (status != CELD_OK)
     walker_clear (w);
   return status;
 }
 
 static CeldStatus
-set_up (const CeldCanvas *canvas, const Walker *w, const CeldHost *host, CeldLaplace **laplace)
+set_up (const CeldSegmentTask *task, const Walker *w, const CeldHost *host, CeldLaplace **laplace)
 {
   uint8_t   *fixed = celd_alloc (w->n, 1);
   CeldStatus status = CELD_NO_MEMORY;
@@ -170,7 +171,7 @@ set_up (const CeldCanvas *canvas, const Walker *w, const CeldHost *host, CeldLap
   for (size_t p = 0; fixed && p < w->n; p++)
     fixed[p] = w->seed[p] != 0;
   if (fixed)
-    status = celd_lap_setup (canvas->ink->width, canvas->ink->height, w->east, w->south, NULL, fixed, host, laplace);
+    status = celd_lap_setup (task->ink->width, task->ink->height, w->east, w->south, NULL, fixed, host, laplace);
   celd_free (fixed);
   return status;
 }
@@ -202,13 +203,13 @@ keep_best (Walker *w, size_t first, uint32_t *label)
 }
 
 CeldStatus
-celd_walker_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *labels)
+celd_random_walker_solve (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels)
 {
   Walker       w;
   CeldLaplace *laplace = NULL;
-  CeldHostPart     part;
+  CeldHostPart part;
   CeldHost     weighing = celd_host_part (&part, host, 0, 0.05);
-  CeldStatus   status = walker_new (canvas, &weighing, &w);
+  CeldStatus   status = walker_new (task, &weighing, &w);
 
   if (status != CELD_OK)
     return status;
@@ -216,14 +217,14 @@ celd_walker_solve (const CeldCanvas *canvas, const CeldHost *host, CeldLabels *l
     {
       CeldHost setting_up = celd_host_part (&part, host, 0.05, 0.15);
 
-      status = set_up (canvas, &w, &setting_up, &laplace);
+      status = set_up (task, &w, &setting_up, &laplace);
     }
   for (size_t p = 0; p < w.n; p++)
     labels->data[p] = w.label[0];
   for (size_t first = 1; first < w.n_labels && status == CELD_OK; first += CELD_LANES)
     {
-      double  share = 0.85 / (double) (w.n_labels - 1), from = 0.15 + share * (double) (first - 1);
-      double  to = from + share * CELD_LANES;
+      double   share = 0.85 / (double) (w.n_labels - 1), from = 0.15 + share * (double) (first - 1);
+      double   to = from + share * CELD_LANES;
       CeldHost solving = celd_host_part (&part, host, from, to < 1 ? to : 1);
 
       start_lanes (&w, first);

@@ -5,29 +5,29 @@
 #include "check.h"
 #include "depth/exact.h"
 #include "image/image.h"
-#include "segment/canvas.h"
+#include "segment/task.h"
 #include "solve/laplace.h"
 
 /* Labels of a picture in which capitals are seeds on paper and '#' is ink. */
 static CeldLabels
 walk (const char *const *rows, size_t n_labels)
 {
-  CeldPlane    ink = art_plane (rows);
-  CeldLabels   labels = art_labels (rows);
-  CeldSettings settings = celd_settings ();
-  CeldCanvas   canvas = { .settings = &settings, .ink = &ink,
+  CeldPlane       ink = art_plane (rows);
+  CeldLabels      labels = art_labels (rows);
+  CeldSettings    settings = celd_settings ();
+  CeldSegmentTask task = { .settings = &settings, .ink = &ink,
                           .palette = { calloc (n_labels, sizeof (CeldRegion)), n_labels } };
 
-  CHECK (celd_seed_rows_read (&labels, &canvas.seeds) == CELD_OK);
-  CHECK (celd_walker_solve (&canvas, NULL, &labels) == CELD_OK);
-  celd_seed_rows_clear (&canvas.seeds);
-  celd_palette_clear (&canvas.palette);
+  CHECK (celd_seed_rows_read (&labels, &task.seeds) == CELD_OK);
+  CHECK (celd_random_walker_solve (&task, NULL, &labels) == CELD_OK);
+  celd_seed_rows_clear (&task.seeds);
+  celd_palette_clear (&task.palette);
   free (ink.data);
   return labels;
 }
 
 static void
-the_border_is_half_way (void)
+the_boundary_is_half_way (void)
 {
   CeldLabels labels = walk ((const char *[]) { "A.......B", NULL }, 2);
 
@@ -77,13 +77,13 @@ the_likeliest_label_wins (void)
       CeldPlane       ink = { W, H, W, value };
       CeldLabels      seeds = { W, H, W, painted }, labels = { W, H, W, found };
       CeldSettings    settings = celd_settings ();
-      CeldCanvas      canvas = { .settings = &settings, .ink = &ink };
-      CeldHarmonicBases       bases = { .width = W, .height = H, .east = east, .south = south };
+      CeldSegmentTask   task = { .settings = &settings, .ink = &ink };
+      CeldHarmonicBases bases = { .width = W, .height = H, .east = east, .south = south };
       CeldSolve       solve;
       double          mean;
       uint32_t        n = 2 + check_random (&seed, MOST - 1);
 
-      canvas.palette = (CeldPalette) { calloc (n, sizeof (CeldRegion)), n };
+      task.palette = (CeldPalette) { calloc (n, sizeof (CeldRegion)), n };
       for (int i = 0; i < W * H; i++)
         {
           value[i]   = check_random (&seed, 5) ? 1 : (float) check_random (&seed, 10) / 10;
@@ -91,8 +91,8 @@ the_likeliest_label_wins (void)
         }
       for (uint32_t k = 0; k < n; k++)
         painted[k * (W * H / n) + check_random (&seed, W * H / n)] = k + 1;
-      CHECK (celd_seed_rows_read (&seeds, &canvas.seeds) == CELD_OK);
-      CHECK (celd_walker_solve (&canvas, NULL, &labels) == CELD_OK);
+      CHECK (celd_seed_rows_read (&seeds, &task.seeds) == CELD_OK);
+      CHECK (celd_random_walker_solve (&task, NULL, &labels) == CELD_OK);
       CHECK (celd_affinities (&ink, settings.contrast, settings.weight_floor, NULL, east, south, &mean) == CELD_OK);
       CHECK (celd_bases_make (&bases, painted, n, NULL, 0, 1e-6, NULL, &solve) == CELD_OK);
       for (size_t i = 0; i < W * H; i++)
@@ -111,8 +111,8 @@ the_likeliest_label_wins (void)
           CHECK (!painted[i] || found[i] == painted[i]);
         }
       celd_bases_clear (&bases);
-      celd_seed_rows_clear (&canvas.seeds);
-      celd_palette_clear (&canvas.palette);
+      celd_seed_rows_clear (&task.seeds);
+      celd_palette_clear (&task.palette);
     }
 }
 
@@ -130,10 +130,10 @@ the_step_offers_it (void)
     "....................",
     NULL
   };
-  CeldPlane    ink = art_plane (rows);
-  CeldLabels   labels = art_labels (rows);
-  CeldSettings settings = celd_settings ();
-  CeldPalette  palette = { calloc (1, sizeof (CeldRegion)), 1 };
+  CeldPlane         ink = art_plane (rows);
+  CeldLabels        labels = art_labels (rows);
+  CeldSettings      settings = celd_settings ();
+  CeldPalette       palette = { calloc (1, sizeof (CeldRegion)), 1 };
 
   palette.item[0].colour[3] = 255;
   settings.method = CELD_METHOD_WALKER;
@@ -148,7 +148,7 @@ the_step_offers_it (void)
 int
 main (void)
 {
-  RUN (the_border_is_half_way);
+  RUN (the_boundary_is_half_way);
   RUN (walkers_stay_within_contours);
   RUN (one_label_takes_all);
   RUN (the_likeliest_label_wins);

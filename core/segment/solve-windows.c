@@ -8,8 +8,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "segment/basins.h"
-#include "segment/canvas.h"
-#include "segment/painting.h"
+#include "segment/labelling.h"
+#include "segment/task.h"
 #include "segment/windows.h"
 #include "solve/partition.h"
 
@@ -21,33 +21,33 @@
 
 typedef struct
 {
-  const CeldCanvas *canvas;
-  const uint32_t   *label;      /* of each basin */
-  const CeldHost   *host;
-  uint32_t         *free;       /* of each basin: the last window, from 1, in which it is free */
-  uint32_t         *order;      /* all labels, as they are told apart */
-  uint32_t         *local;      /* of each label, from 1: its place among those of this window, 0 if it is not there */
-  uint32_t         *global;     /* the other way round, from 0 */
-  int64_t          *votes;      /* of each label, from 1: the sum of its votes in this window */
-  CeldPatches       patches;
-  size_t            hint;       /* of celd_basin_run_at */
-} Solver;
+  const CeldSegmentTask *task;
+  const uint32_t        *label;  /* of each basin */
+  const CeldHost        *host;
+  uint32_t              *free;   /* of each basin: the last window, from 1, in which it is free */
+  uint32_t              *order;  /* all labels, as they are told apart */
+  uint32_t              *local;  /* of each label, from 1: its place among those of this window, 0 if it is not there */
+  uint32_t              *global; /* the other way round, from 0 */
+  int64_t               *votes;  /* of each label, from 1: the sum of its votes in this window */
+  CeldPatches            patches;
+  size_t                 hint;   /* of celd_basin_run_at */
+} WindowSolver;
 
 /* ------------------------------------------------------------------ cutting a graph */
 
 /* Numbers the labels that matter to a graph from 1, in their order; returns how many there are.  A label that no node
  * has, and whose votes together pay for no edge of paper, gets no paper. */
 static size_t
-number_labels (Solver *s, const CeldWindowCells *cells)
+number_labels (WindowSolver *s, const CeldWindowGraph *graph)
 {
-  int64_t paper = s->canvas->basins->costs.by_ink[CELD_INK_STEPS];
-  size_t  n_labels = s->canvas->palette.n, n = 0;
+  int64_t paper = s->task->basins->costs.by_ink[CELD_INK_STEPS];
+  size_t  n_labels = s->task->palette.n, n = 0;
 
   memset (s->votes, 0, (n_labels + 1) * sizeof *s->votes);
-  for (size_t i = 0; i < cells->n_votes; i++)
-    s->votes[cells->vote[i].label] += cells->vote[i].cost;
-  for (size_t k = 0; k < cells->n; k++)
-    s->votes[cells->present[k]] = paper;
+  for (size_t i = 0; i < graph->n_votes; i++)
+    s->votes[graph->vote[i].label] += graph->vote[i].cost;
+  for (size_t k = 0; k < graph->n; k++)
+    s->votes[graph->present[k]] = paper;
   for (size_t i = 0; i < n_labels; i++)
     {
       uint32_t label = s->order[i];
@@ -63,19 +63,19 @@ number_labels (Solver *s, const CeldWindowCells *cells)
 
 /* Votes for the labels of this graph, by their local numbers; others are lost whatever happens. */
 static void
-number_votes (const Solver *s, CeldWindowCells *cells)
+number_votes (const WindowSolver *s, CeldWindowGraph *graph)
 {
   size_t n = 0;
 
-  for (size_t i = 0; i < cells->n_votes; i++)
+  for (size_t i = 0; i < graph->n_votes; i++)
     {
-      CeldVote vote = cells->vote[i];
+      CeldVote vote = graph->vote[i];
 
       vote.label = s->local[vote.label];
       if (vote.label)
-        cells->vote[n++] = vote;
+        graph->vote[n++] = vote;
     }
-  cells->n_votes = n;
+  graph->n_votes = n;
 }
 
 /* With two labels one cut is all there is to do. */
@@ -102,11 +102,11 @@ done:
 
 /* The labels of the graph's nodes: their present ones, unless others cost less.  *better: do they? */
 static CeldStatus
-cut (Solver *s, CeldWindowCells *cells, bool *better)
+cut (WindowSolver *s, CeldWindowGraph *graph, bool *better)
 {
-  size_t        n_labels = number_labels (s, cells);
-  uint32_t     *order = celd_alloc (n_labels, sizeof *order), *present = celd_alloc (cells->n, sizeof *present);
-  CeldHostPart      part;
+  size_t        n_labels = number_labels (s, graph);
+  uint32_t     *order = celd_alloc (n_labels, sizeof *order), *present = celd_alloc (graph->n, sizeof *present);
+  CeldHostPart  part;
   CeldHost      host = celd_host_part (&part, s->host, 0, 0);
   CeldPartition problem;
   CeldStatus    status = CELD_NO_MEMORY;
@@ -115,19 +115,19 @@ cut (Solver *s, CeldWindowCells *cells, bool *better)
     goto done;
   for (size_t k = 0; k < n_labels; k++)
     order[k] = (uint32_t) k + 1;
-  for (size_t k = 0; k < cells->n; k++)
-    present[k] = s->local[cells->present[k]];
-  number_votes (s, cells);
+  for (size_t k = 0; k < graph->n; k++)
+    present[k] = s->local[graph->present[k]];
+  number_votes (s, graph);
   problem = (CeldPartition) {
-    cells->n, cells->link, cells->n_links, cells->vote, cells->n_votes, NULL, order, n_labels
+    graph->n, graph->link, graph->n_links, graph->vote, graph->n_votes, NULL, order, n_labels
   };
-  status = n_labels == 2 ? cut_in_two (&problem, &host, cells->label)
-                         : celd_partition (&problem, &host, cells->label, NULL, NULL);
+  status = n_labels == 2 ? cut_in_two (&problem, &host, graph->label)
+                         : celd_partition (&problem, &host, graph->label, NULL, NULL);
   if (status != CELD_OK)
     goto done;
-  *better = celd_partition_energy (&problem, cells->label) < celd_partition_energy (&problem, present);
-  for (size_t k = 0; k < cells->n; k++)
-    cells->label[k] = *better ? s->global[cells->label[k] - 1] : cells->present[k];
+  *better = celd_partition_energy (&problem, graph->label) < celd_partition_energy (&problem, present);
+  for (size_t k = 0; k < graph->n; k++)
+    graph->label[k] = *better ? s->global[graph->label[k] - 1] : graph->present[k];
 
 done:
   celd_free (order);
@@ -139,16 +139,16 @@ done:
 
 /* Marks the nodes on both sides of a new border, where it runs across paper.  Returns whether there are any. */
 static bool
-mark_nodes (const CeldWindowCells *cells, uint8_t *crossed)
+mark_nodes (const CeldWindowGraph *graph, uint8_t *crossed)
 {
-  int64_t paper = cells->canvas->basins->costs.by_ink[CELD_INK_STEPS];
+  int64_t paper = graph->task->basins->costs.by_ink[CELD_INK_STEPS];
   bool    any = false;
 
-  for (size_t i = 0; i < cells->n_links; i++)
+  for (size_t i = 0; i < graph->n_links; i++)
     {
-      const CeldLink *link = &cells->link[i];
+      const CeldLink *link = &graph->link[i];
 
-      if (cells->label[link->a] == cells->label[link->b] || link->cost < paper)
+      if (graph->label[link->a] == graph->label[link->b] || link->cost < paper)
         continue;
       crossed[link->a] = crossed[link->b] = 1;
       any = true;
@@ -158,46 +158,46 @@ mark_nodes (const CeldWindowCells *cells, uint8_t *crossed)
 
 /* fine[block]: does it hold a marked node? */
 static void
-mark_blocks (const CeldWindowCells *cells, const uint8_t *crossed, uint8_t *fine)
+mark_blocks (const CeldWindowGraph *graph, const uint8_t *crossed, uint8_t *fine)
 {
-  size_t area = (size_t) 1 << 2 * cells->shift;
+  size_t area = (size_t) 1 << 2 * graph->shift;
 
-  for (size_t k = 0; k < (size_t) cells->columns * (size_t) cells->rows; k++)
+  for (size_t k = 0; k < (size_t) graph->columns * (size_t) graph->rows; k++)
     {
-      uint32_t        block = cells->block[k];
-      const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
+      uint32_t        block = graph->block[k];
+      const uint32_t *detail = graph->detail + (block & ~CELD_PART_MIXED) * area;
 
       fine[k] = 0;
-      if (block & CELD_CELL_FIXED || block == CELD_CELL_ABOVE)
+      if (block & CELD_PART_FIXED || block == CELD_PART_ABOVE)
         continue;
-      if (!(block & CELD_CELL_MIXED))
+      if (!(block & CELD_PART_MIXED))
         {
           fine[k] = crossed[block];
           continue;
         }
       for (size_t i = 0; i < area; i++)
-        fine[k] |= !(detail[i] & CELD_CELL_FIXED) && crossed[detail[i]];
+        fine[k] |= !(detail[i] & CELD_PART_FIXED) && crossed[detail[i]];
     }
 }
 
 /* Looks again at the blocks along new borders.  *finer is left empty where that is no better. */
 static CeldStatus
-refine (Solver *s, const CeldWindowCells *cells, CeldWindowCells *finer)
+refine (WindowSolver *s, const CeldWindowGraph *graph, CeldWindowGraph *finer)
 {
-  uint8_t   *crossed = celd_alloc0 (cells->n, 1);
-  uint8_t   *fine = celd_alloc ((size_t) cells->columns * (size_t) cells->rows, 1);
+  uint8_t   *crossed = celd_alloc0 (graph->n, 1);
+  uint8_t   *fine = celd_alloc ((size_t) graph->columns * (size_t) graph->rows, 1);
   bool       better = false;
   CeldStatus status = crossed && fine ? CELD_OK : CELD_NO_MEMORY;
 
-  if (status == CELD_OK && mark_nodes (cells, crossed))
+  if (status == CELD_OK && mark_nodes (graph, crossed))
     {
-      mark_blocks (cells, crossed, fine);
-      status = celd_cells_refine (cells, fine, finer);
+      mark_blocks (graph, crossed, fine);
+      status = celd_window_graph_refine (graph, fine, finer);
       if (status == CELD_OK)
         status = cut (s, finer, &better);
     }
   if (!better)
-    celd_cells_clear (finer);
+    celd_window_graph_clear (finer);
   celd_free (crossed);
   celd_free (fine);
   return status;
@@ -207,37 +207,37 @@ refine (Solver *s, const CeldWindowCells *cells, CeldWindowCells *finer)
 
 /* Could a pixel of the block have another label than its basin? */
 static bool
-is_changed (const CeldWindowCells *cells, size_t k)
+is_changed (const CeldWindowGraph *graph, size_t k)
 {
-  uint32_t        block = cells->block[k];
-  size_t          area = (size_t) 1 << 2 * cells->shift;
-  const uint32_t *detail = cells->detail + (block & ~CELD_CELL_MIXED) * area;
+  uint32_t        block = graph->block[k];
+  size_t          area = (size_t) 1 << 2 * graph->shift;
+  const uint32_t *detail = graph->detail + (block & ~CELD_PART_MIXED) * area;
 
-  if (block == CELD_CELL_ABOVE)
-    return cells->coarse && is_changed (cells->coarse, k);
-  if (block & CELD_CELL_FIXED)
+  if (block == CELD_PART_ABOVE)
+    return graph->coarse && is_changed (graph->coarse, k);
+  if (block & CELD_PART_FIXED)
     return false;
-  if (!(block & CELD_CELL_MIXED))
-    return cells->label[block] != cells->present[block];
-  if (cells->hard[k] || cells->coarse)
+  if (!(block & CELD_PART_MIXED))
+    return graph->label[block] != graph->present[block];
+  if (graph->hard[k] || graph->coarse)
     return true;
   for (size_t i = 0; i < area; i++)
-    if (!(detail[i] & CELD_CELL_FIXED) && cells->label[detail[i]] != cells->present[detail[i]])
+    if (!(detail[i] & CELD_PART_FIXED) && graph->label[detail[i]] != graph->present[detail[i]])
       return true;
   return false;
 }
 
 /* Pixels x .. end - 1 of row y whose label is not that of their basin. */
 static CeldStatus
-add_patch (Solver *s, const CeldWindowCells *cells, int y, int x, int end)
+add_patch (WindowSolver *s, const CeldWindowGraph *graph, int y, int x, int end)
 {
-  const CeldBasins *basins = s->canvas->basins;
+  const CeldBasins *basins = s->task->basins;
   size_t            i = celd_basin_run_at (basins, y, x, &s->hint);
   CeldStatus        status = CELD_OK;
 
   for (; x < end && status == CELD_OK; x++)
     {
-      uint32_t label = celd_cell_label (cells, celd_cell_at (cells, x, y));
+      uint32_t label = celd_window_part_label (graph, celd_window_part_at (graph, x, y));
 
       i += i + 1 < basins->row[y + 1] && basins->run[i + 1].x == x;
       if (label != s->label[basins->run[i].basin])
@@ -247,22 +247,22 @@ add_patch (Solver *s, const CeldWindowCells *cells, int y, int x, int end)
 }
 
 static CeldStatus
-add_patches (Solver *s, const CeldWindowCells *cells)
+add_patches (WindowSolver *s, const CeldWindowGraph *graph)
 {
-  const CeldWindow *window = &cells->window;
-  size_t            n = (size_t) cells->columns * (size_t) cells->rows;
+  const CeldWindow *window = &graph->window;
+  size_t            n = (size_t) graph->columns * (size_t) graph->rows;
   bool             *changed = celd_alloc (n, sizeof *changed);
   CeldStatus        status = changed ? CELD_OK : CELD_NO_MEMORY;
 
   for (size_t k = 0; k < n && status == CELD_OK; k++)
-    changed[k] = is_changed (cells, k);
+    changed[k] = is_changed (graph, k);
   for (int y = window->top; y <= window->bottom; y++)
-    for (int column = 0; column < cells->columns && status == CELD_OK; column++)
+    for (int column = 0; column < graph->columns && status == CELD_OK; column++)
       {
-        int x = window->left + (column << cells->shift), end = x + (1 << cells->shift);
+        int x = window->left + (column << graph->shift), end = x + (1 << graph->shift);
 
-        if (changed[(size_t) ((y - window->top) >> cells->shift) * (size_t) cells->columns + (size_t) column])
-          status = add_patch (s, cells, y, x, end <= window->right ? end : window->right + 1);
+        if (changed[(size_t) ((y - window->top) >> graph->shift) * (size_t) graph->columns + (size_t) column])
+          status = add_patch (s, graph, y, x, end <= window->right ? end : window->right + 1);
       }
   celd_free (changed);
   return status;
@@ -283,9 +283,9 @@ block_shift (const CeldWindow *window)
 
 /* Cuts the window to the pixels of its basins, and those round them. */
 static CeldWindow
-trim (const Solver *s, uint32_t id, const CeldWindow *window)
+trim (const WindowSolver *s, uint32_t id, const CeldWindow *window)
 {
-  const CeldBasins *basins = s->canvas->basins;
+  const CeldBasins *basins = s->task->basins;
   CeldWindow        inner = *window;
   size_t            hint = 0;
 
@@ -314,43 +314,43 @@ trim (const Solver *s, uint32_t id, const CeldWindow *window)
 }
 
 static CeldStatus
-solve_window (Solver *s, uint32_t id, const CeldWindow *place, const uint32_t *basin)
+solve_window (WindowSolver *s, uint32_t id, const CeldWindow *found, const uint32_t *basin)
 {
-  CeldWindowCells  cells = { .canvas = NULL }, finer = { .canvas = NULL };
-  CeldWindow window;
-  bool       better = false;
-  CeldStatus status;
+  CeldWindowGraph graph = { .task = NULL }, finer = { .task = NULL };
+  CeldWindow      window;
+  bool            better = false;
+  CeldStatus      status;
 
-  for (size_t k = 0; k < place->n; k++)
-    s->free[basin[place->first + k]] = id;
-  window = trim (s, id, place);
-  status = celd_cells_new (s->canvas, s->label, s->free, id, &window, block_shift (&window), &cells);
-  if (status == CELD_OK && cells.n)
-    status = cut (s, &cells, &better);
-  if (status == CELD_OK && better && cells.shift)
-    status = refine (s, &cells, &finer);
+  for (size_t k = 0; k < found->n; k++)
+    s->free[basin[found->first + k]] = id;
+  window = trim (s, id, found);
+  status = celd_window_graph_new (s->task, s->label, s->free, id, &window, block_shift (&window), &graph);
+  if (status == CELD_OK && graph.n)
+    status = cut (s, &graph, &better);
+  if (status == CELD_OK && better && graph.shift)
+    status = refine (s, &graph, &finer);
   if (status == CELD_OK)
-    status = add_patches (s, finer.block ? &finer : &cells);
-  celd_cells_clear (&finer);
-  celd_cells_clear (&cells);
+    status = add_patches (s, finer.block ? &finer : &graph);
+  celd_window_graph_clear (&finer);
+  celd_window_graph_clear (&graph);
   return status;
 }
 
 /* ------------------------------------------------------------------ the whole */
 
 static CeldStatus
-solve_windows (Solver *s, const CeldWindows *windows)
+solve_windows (WindowSolver *s, const CeldWindows *windows)
 {
-  size_t     n_labels = s->canvas->palette.n;
+  size_t     n_labels = s->task->palette.n;
   CeldStatus status = CELD_NO_MEMORY;
 
-  s->free   = celd_alloc0 (s->canvas->basins->n, sizeof *s->free);
+  s->free   = celd_alloc0 (s->task->basins->n, sizeof *s->free);
   s->order  = celd_alloc (n_labels, sizeof *s->order);
   s->local  = celd_alloc (n_labels + 1, sizeof *s->local);
   s->global = celd_alloc (n_labels, sizeof *s->global);
   s->votes  = celd_alloc (n_labels + 1, sizeof *s->votes);
   if (s->free && s->order && s->local && s->global && s->votes)
-    status = celd_canvas_order (s->canvas, s->order);
+    status = celd_task_label_order (s->task, s->order);
   for (size_t k = 0; k < windows->n && status == CELD_OK; k++)
     {
       status = solve_window (s, (uint32_t) k + 1, &windows->item[k], windows->basin);
@@ -366,12 +366,12 @@ solve_windows (Solver *s, const CeldWindows *windows)
 }
 
 CeldStatus
-celd_windows_solve (const CeldCanvas *canvas, const uint32_t *label, const CeldHost *host, CeldPatches *patches)
+celd_windows_solve (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host, CeldPatches *patches)
 {
-  CeldWindows windows = { 0 };
-  Solver      s = { .canvas = canvas, .label = label, .host = host };
-  size_t      before = patches->n;
-  CeldStatus  status = celd_windows_find (canvas, label, host, &windows);
+  CeldWindows  windows = { 0 };
+  WindowSolver s = { .task = task, .label = label, .host = host };
+  size_t       before = patches->n;
+  CeldStatus   status = celd_windows_find (task, label, host, &windows);
 
   if (status == CELD_OK && windows.n)
     status = solve_windows (&s, &windows);

@@ -1,0 +1,364 @@
+/* Where the strokes of an artist lie: how much of each falls on which part of the drawing, and what of it is a stain.
+ *
+ * Runs of seeds are cut where basins meet; that makes dabs, and their number is what all of this costs, whatever the
+ * size of the picture.  To look for basins and paper under a run takes longest, as it is somewhere else in memory for
+ * each; so what was found for the last answer is taken over.
+ *
+ * A soft stroke may run on through a contour.  The paint behind it says nothing about the region there, but it would
+ * outvote the cost of cutting that region at a narrow place.  So a stroke's share of a piece of paper is weighed by the
+ * odds that the stroke is meant for the piece: what the stroke leaves there to what it leaves elsewhere, times the
+ * paint of its colour there to that of others.  Below one half the share is a stain and does not count.  Where right
+ * paint outweighs foreign paint 3:1 this finds every stain of a stroke that keeps 2/5 of its paint out of the piece,
+ * and a colour alone in its piece, or a stroke within one piece, never is one.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/unions.h"
+#include "image/image.h"
+#include "segment/basins.h"
+#include "segment/task.h"
+
+#include <stdlib.h>
+
+#define LEAST_ODDS 0.5
+
+/* ------------------------------------------------------------------ connected strokes */
+
+/* Joins the runs of two rows, numbered from `first_above` and `first_below`, that touch, be it by a corner. */
+static void
+join_rows (const CeldSeedRow *above, uint32_t first_above, const CeldSeedRow *below, uint32_t first_below,
+           uint32_t *parent)
+{
+  size_t start = 0;
+
+  for (size_t j = 0; j < below->n; j++)
+    {
+      const CeldSeedRun *run = &below->run[j];
+
+      while (start < above->n && above->run[start].end < run->x)
+        start++;
+      for (size_t i = start; i < above->n && above->run[i].x <= run->end; i++)
+        if (above->run[i].label == run->label)
+          celd_join (parent, first_above + (uint32_t) i, first_below + (uint32_t) j);
+    }
+}
+
+/* stroke[k]: the connected stroke that the k-th run in reading order belongs to, from 0 in reading order too. */
+static CeldStatus
+find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
+{
+  size_t    n = 0, strokes = 0;
+  uint32_t *parent, above = 0, below = 0;
+
+  for (int y = 0; y < seeds->height; y++)
+    n += seeds->row[y].n;
+  *stroke = parent = celd_alloc (n, sizeof *parent);
+  if (!parent)
+    return CELD_NO_MEMORY;
+  celd_roots (parent, n);
+  for (int y = 1; y < seeds->height; y++)
+    {
+      above  = below;
+      below += (uint32_t) seeds->row[y - 1].n;
+      join_rows (&seeds->row[y - 1], above, &seeds->row[y], below, parent);
+    }
+  for (uint32_t k = 0; k < n; k++)
+    parent[k] = parent[k] == k ? (uint32_t) strokes++ : parent[parent[k]]; /* a parent has its number already */
+  *n_strokes = strokes;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ dabs */
+
+/* Dabs of the same drawing, gathered before: the next one in reading order that may be taken over. */
+typedef struct { const CeldStrokePiece *piece, *end; } KnownPieces;
+
+static const CeldStrokePiece *
+take_known_piece (KnownPieces *known, int y, int x, int end)
+{
+  while (known->piece < known->end && (known->piece->y < y || (known->piece->y == y && known->piece->x < x)))
+    known->piece++;
+  return known->piece < known->end && known->piece->y == y && known->piece->x == x && known->piece->end <= end
+         ? known->piece : NULL;
+}
+
+/* Adds what pixels x .. end - 1 are in one basin; a known dab may end before its basin does. */
+static CeldStatus
+add_piece (CeldStrokePiece piece, bool first, CeldStrokes *strokes)
+{
+  CeldStrokePiece *last = strokes->n_pieces ? &strokes->piece[strokes->n_pieces - 1] : NULL;
+
+  if (!first && last->basin == piece.basin)
+    {
+      last->end    = piece.end;
+      last->paper += piece.paper;
+      return CELD_OK;
+    }
+  last = celd_grow (strokes->piece, strokes->n_pieces + 1, sizeof *last);
+  if (!last)
+    return CELD_NO_MEMORY;
+  strokes->piece = last;
+  last[strokes->n_pieces++] = piece;
+  return CELD_OK;
+}
+
+static CeldStatus
+cut_run (const CeldBasins *basins, int y, CeldSeedRun run, uint32_t stroke, KnownPieces *known, CeldStrokes *strokes)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int x = run.x, end; x < run.end && status == CELD_OK; x = end)
+    {
+      const CeldStrokePiece *same = take_known_piece (known, y, x, run.end);
+      uint32_t               basin, paper;
+
+      if (same)
+        {
+          end   = same->end;
+          basin = same->basin;
+          paper = same->paper;
+        }
+      else
+        {
+          size_t k = celd_basin_run (basins, x, y);
+
+          end   = celd_basin_run_end (basins, k, y);
+          end   = end < run.end ? end : run.end;
+          basin = basins->run[k].basin;
+          paper = celd_paper_count (basins, y, x, end);
+        }
+      status = add_piece ((CeldStrokePiece) { y, x, end, run.label, basin, stroke, paper }, x == run.x, strokes);
+    }
+  return status;
+}
+
+static CeldStatus
+gather_pieces (const CeldSegmentTask *task, CeldStrokes *strokes)
+{
+  const CeldSeedRows *seeds = &task->seeds;
+  const CeldStrokes  *kept = task->kept;
+  KnownPieces         known = { NULL, NULL };
+  uint32_t           *stroke = NULL;
+  size_t              k = 0;
+  CeldStatus          status = find_strokes (seeds, &stroke, &strokes->n_strokes);
+
+  if (kept && kept->n_pieces)
+    known = (KnownPieces) { kept->piece, kept->piece + kept->n_pieces };
+  for (int y = 0; y < seeds->height && status == CELD_OK; y++)
+    for (size_t i = 0; i < seeds->row[y].n && status == CELD_OK; i++)
+      status = cut_run (task->basins, y, seeds->row[y].run[i], stroke[k++], &known, strokes);
+  celd_free (stroke);
+  return status;
+}
+
+/* ------------------------------------------------------------------ shares */
+
+static int
+compare_overlaps (const void *a, const void *b)
+{
+  const CeldStrokeOverlap *p = a, *q = b;
+
+  if (p->part != q->part)
+    return p->part < q->part ? -1 : 1;
+  if (p->label != q->label)
+    return p->label < q->label ? -1 : 1;
+  return p->stroke < q->stroke ? -1 : p->stroke > q->stroke;
+}
+
+/* sorted[from[k]] to sorted[from[k + 1] - 1]: the dabs with paper in part k, for k up to n_parts. */
+static void
+sort_pieces (const CeldStrokes *strokes, const uint32_t *part, uint32_t n_parts, size_t *from, size_t *sorted)
+{
+  for (size_t i = 0; i < strokes->n_pieces; i++)
+    from[part[strokes->piece[i].basin]] += strokes->piece[i].paper > 0;
+  for (uint32_t k = 1; k <= n_parts + 1; k++)
+    from[k] += from[k - 1];
+  for (size_t i = strokes->n_pieces; i-- > 0;)
+    if (strokes->piece[i].paper)
+      sorted[--from[part[strokes->piece[i].basin]]] = i;
+}
+
+/* Adds up the dabs of one part by stroke.  in_part[stroke] is all 0, before and after. */
+static CeldStatus
+add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldStrokes *strokes)
+{
+  size_t first = strokes->n;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      const CeldStrokePiece *piece = &strokes->piece[sorted[i]];
+
+      if (!in_part[piece->stroke])
+        {
+          CeldStrokeOverlap *overlap = celd_grow (strokes->overlap, strokes->n + 1, sizeof *overlap);
+
+          if (!overlap)
+            return CELD_NO_MEMORY;
+          strokes->overlap = overlap;
+          overlap[strokes->n++] = (CeldStrokeOverlap) { part, piece->label, piece->stroke, 0, false };
+        }
+      in_part[piece->stroke] += piece->paper;
+    }
+  for (size_t i = first; i < strokes->n; i++)
+    {
+      strokes->overlap[i].pixels = in_part[strokes->overlap[i].stroke];
+      in_part[strokes->overlap[i].stroke] = 0;
+    }
+  if (strokes->n > first + 1)
+    qsort (strokes->overlap + first, strokes->n - first, sizeof *strokes->overlap, compare_overlaps);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_strokes_overlap (const CeldBasins *basins, const uint32_t *part, CeldStrokes *strokes)
+{
+  uint32_t   n_parts = 0;
+  size_t    *sorted = celd_alloc (strokes->n_pieces, sizeof *sorted), *from = NULL, *in_part = NULL;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  for (size_t k = 0; k < basins->n; k++)
+    n_parts = part[k] > n_parts ? part[k] : n_parts;
+  from    = celd_alloc0 ((size_t) n_parts + 2, sizeof *from);
+  in_part = celd_alloc0 (strokes->n_strokes, sizeof *in_part);
+  strokes->n = 0;
+  if (sorted && from && in_part)
+    {
+      status = CELD_OK;
+      sort_pieces (strokes, part, n_parts, from, sorted);
+    }
+  for (uint32_t k = 1; k <= n_parts && status == CELD_OK; k++)
+    status = add_part (k, sorted + from[k], from[k + 1] - from[k], in_part, strokes);
+  celd_free (sorted);
+  celd_free (from);
+  celd_free (in_part);
+  return status;
+}
+
+void
+celd_strokes_clear (CeldStrokes *strokes)
+{
+  celd_free (strokes->piece);
+  celd_free (strokes->total);
+  celd_free (strokes->overlap);
+  *strokes = (CeldStrokes) { 0 };
+}
+
+CeldStatus
+celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes *strokes)
+{
+  CeldStrokes made = { 0 };
+  CeldStatus  status = gather_pieces (task, &made);
+
+  if (status == CELD_OK)
+    {
+      made.total = celd_alloc0 (made.n_strokes, sizeof *made.total);
+      status = made.total ? CELD_OK : CELD_NO_MEMORY;
+    }
+  if (status == CELD_OK && part)
+    status = celd_strokes_overlap (task->basins, part, &made);
+  if (status != CELD_OK)
+    {
+      celd_strokes_clear (&made);
+      return status;
+    }
+  for (size_t i = 0; i < made.n_pieces; i++)
+    made.total[made.piece[i].stroke] += made.piece[i].paper;
+  *strokes = made;
+  return CELD_OK;
+}
+
+void
+celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes)
+{
+  if (task->kept)
+    {
+      celd_strokes_clear (task->kept);
+      *task->kept = *strokes;
+      *strokes = (CeldStrokes) { 0 };
+    }
+  celd_strokes_clear (strokes);
+}
+
+/* ------------------------------------------------------------------ stains */
+
+/* Marks the stains among the shares of one piece: those from share[first] to share[last - 1]. */
+static void
+find_spills (CeldStrokes *strokes, size_t first, size_t last)
+{
+  double all = 0;
+
+  for (size_t i = first; i < last; i++)
+    all += (double) strokes->overlap[i].pixels;
+  for (size_t i = first, j; i < last; i = j)
+    {
+      double mine = 0;
+
+      for (j = i; j < last && strokes->overlap[j].label == strokes->overlap[i].label; j++)
+        mine += (double) strokes->overlap[j].pixels;
+      for (size_t k = i; k < j; k++)
+        {
+          double here = (double) strokes->overlap[k].pixels;
+          double elsewhere = (double) strokes->total[strokes->overlap[k].stroke] - here;
+
+          strokes->overlap[k].spill = here * mine < LEAST_ODDS * elsewhere * (all - mine);
+        }
+    }
+}
+
+static bool
+is_spill (const CeldStrokes *strokes, uint32_t component, const CeldStrokePiece *piece)
+{
+  CeldStrokeOverlap        key = { component, piece->label, piece->stroke, 0, false };
+  const CeldStrokeOverlap *overlap = bsearch (&key, strokes->overlap, strokes->n, sizeof key, compare_overlaps);
+
+  return overlap && overlap->spill;
+}
+
+CeldStatus
+celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece)
+{
+  const float *ink = &CELD_AT (task->ink, 0, piece->y);
+  CeldStatus   status = CELD_OK;
+
+  for (int x = piece->x, end; x < piece->end && status == CELD_OK; x = end)
+    {
+      bool paper = celd_is_paper (ink[x]);
+
+      for (end = x + 1; end < piece->end && celd_is_paper (ink[end]) == paper; end++)
+        ;
+      if (paper)
+        status = celd_seed_rows_paint (&task->seeds, piece->y, x, end, 0);
+    }
+  return status;
+}
+
+CeldStatus
+celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
+{
+  const uint32_t *component = task->bridged_component ? task->bridged_component : task->basins->component;
+  CeldStrokes    *strokes = &task->painted;
+  bool           *has_spill;
+  CeldStatus      status = celd_strokes_new (task, component, strokes);
+
+  if (status != CELD_OK || celd_task_all_hard (task))
+    return status;
+  for (size_t i = 0, j; i < strokes->n; i = j)
+    {
+      for (j = i; j < strokes->n && strokes->overlap[j].part == strokes->overlap[i].part; j++)
+        ;
+      find_spills (strokes, i, j);
+    }
+  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill); /* the pieces of most strokes need no look */
+  status  = has_spill ? CELD_OK : CELD_NO_MEMORY;
+  for (size_t i = 0; i < strokes->n && status == CELD_OK; i++)
+    has_spill[strokes->overlap[i].stroke] |= strokes->overlap[i].spill;
+  for (size_t i = 0; i < strokes->n_pieces && status == CELD_OK; i++)
+    if (has_spill[strokes->piece[i].stroke] &&
+        is_spill (strokes, component[strokes->piece[i].basin], &strokes->piece[i]))
+      {
+        task->spilled = true;
+        status = celd_stroke_piece_remove (task, &strokes->piece[i]);
+      }
+  celd_free (has_spill);
+  return status == CELD_OK ? celd_progress (host, 1) : status;
+}
