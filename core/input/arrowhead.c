@@ -8,8 +8,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/trail.h"
 
+#include "input/arrows.h"
 #include <math.h>
 
 #define EXTREMITIES  4   /* tail, tip and two barbs */
@@ -54,16 +54,16 @@ place (const View *view, double s, double v)
 
 /* How far the view reaches between two values of s.  `right` is negative sideways. */
 static Extent
-extent_between (const CeldTrail *trail, const View *view, double from, double to)
+extent_between (const CeldArrowStroke *stroke, const View *view, double from, double to)
 {
   Extent e = { .least_s = INFINITY, .most_s = -INFINITY, .left = -INFINITY, .right = INFINITY };
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+      CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
       double    s = forwards (view, p), v = sideways (view, p);
 
-      if (trail->distance[trail->pixel[i]] < view->from || s < from || s > to)
+      if (stroke->distance[stroke->pixel[i]] < view->from || s < from || s > to)
         continue;
       e.n++;
       e.least_s = fmin (e.least_s, s);
@@ -83,25 +83,25 @@ extent_between (const CeldTrail *trail, const View *view, double from, double to
 }
 
 static double
-breadth_at (const CeldTrail *trail, const View *view, double s)
+breadth_at (const CeldArrowStroke *stroke, const View *view, double s)
 {
-  Extent e = extent_between (trail, view, s - 0.75, s + 0.75);
+  Extent e = extent_between (stroke, view, s - 0.75, s + 0.75);
 
   return e.n ? e.left - e.right + 1 : 0;
 }
 
 /* The middle of the foremost pixels. */
 static CeldPoint
-foremost (const CeldTrail *trail, const View *view, double most_s)
+foremost (const CeldArrowStroke *stroke, const View *view, double most_s)
 {
   CeldPoint sum = { 0, 0 };
   double    n   = 0;
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+      CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
 
-      if (trail->distance[trail->pixel[i]] < view->from || forwards (view, p) < most_s - 0.5)
+      if (stroke->distance[stroke->pixel[i]] < view->from || forwards (view, p) < most_s - 0.5)
         continue;
       sum.x += p.x;
       sum.y += p.y;
@@ -113,24 +113,24 @@ foremost (const CeldTrail *trail, const View *view, double most_s)
 /* Width of the last piece before a distance, four widths long.  Pens start thin: where the shaft has just begun, its
  * whole first half says more. */
 static double
-width_before (const CeldTrail *trail, double w, double distance)
+width_before (const CeldArrowStroke *stroke, double w, double distance)
 {
-  double least = distance < 0.5 * celd_trail_length (trail) ? 0.9 : 0.75;
+  double least = distance < 0.5 * celd_stroke_length (stroke) ? 0.9 : 0.75;
 
-  return fmax (least * w, celd_trail_width (trail, fmax (0, distance - 4 * w), distance));
+  return fmax (least * w, celd_stroke_mean_width (stroke, fmax (0, distance - 4 * w), distance));
 }
 
 /* The distance at which the stroke gets wider than just before and stays so; its length if it does not. */
 static double
-shaft_end (const CeldTrail *trail, double w)
+shaft_end (const CeldArrowStroke *stroke, double w)
 {
-  double length = celd_trail_length (trail), run = fmax (w, 4), d = w;
+  double length = celd_stroke_length (stroke), run = fmax (w, 4), d = w;
 
   for (; d + run < length; d += 0.5)
     {
-      double wide = 1.3 * width_before (trail, w, d) + 0.8;
+      double wide = 1.3 * width_before (stroke, w, d) + 0.8;
 
-      if (celd_trail_width (trail, d, d + run) > wide && celd_trail_width (trail, d, d + 0.5 * run) > wide)
+      if (celd_stroke_mean_width (stroke, d, d + run) > wide && celd_stroke_mean_width (stroke, d, d + 0.5 * run) > wide)
         return d;
     }
   return length;
@@ -138,13 +138,13 @@ shaft_end (const CeldTrail *trail, double w)
 
 /* Is the stroke about equally wide all the way to the end of its shaft, without another head at its start? */
 static bool
-is_even (const CeldTrail *trail, double w, double end)
+is_even (const CeldArrowStroke *stroke, double w, double end)
 {
-  double a = celd_trail_width (trail, 0, end / 3), b = celd_trail_width (trail, end / 3, 2 * end / 3);
-  double c = celd_trail_width (trail, 2 * end / 3, end), run = fmax (w, 4);
+  double a = celd_stroke_mean_width (stroke, 0, end / 3), b = celd_stroke_mean_width (stroke, end / 3, 2 * end / 3);
+  double c = celd_stroke_mean_width (stroke, 2 * end / 3, end), run = fmax (w, 4);
 
   for (double d = 0; d < fmin (end - run, 8 * w); d += 0.5)
-    if (celd_trail_width (trail, d, d + run) > THICK_START * b + 0.8)
+    if (celd_stroke_mean_width (stroke, d, d + run) > THICK_START * b + 0.8)
       return false;
   return fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
 }
@@ -176,38 +176,38 @@ falls_back (const Extent *e, double w)
 
 /* Is the straight way painted, all but a fifth of it? */
 static bool
-is_line (const CeldTrail *trail, CeldPoint from, CeldPoint to)
+is_line (const CeldArrowStroke *stroke, CeldPoint from, CeldPoint to)
 {
   double dx = to.x - from.x, dy = to.y - from.y;
   int    n  = (int) hypot (dx, dy) + 1, painted = 0;
 
   for (int i = 0; i <= n; i++)
-    painted += celd_trail_painted (trail, (CeldPoint) { from.x + dx * i / n, from.y + dy * i / n });
+    painted += celd_stroke_painted (stroke, (CeldPoint) { from.x + dx * i / n, from.y + dy * i / n });
   return 5 * painted >= 4 * (n + 1);
 }
 
 /* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and
  * is nothing outside of the triangle?  That holds for open and for filled heads. */
 static bool
-is_arrowhead (const CeldTrail *trail, const View *view, const Extent *e, double w)
+is_arrowhead (const CeldArrowStroke *stroke, const View *view, const Extent *e, double w)
 {
   double    breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
   double    tip = e->most_s - fmin (0.6 * w, 0.3 * depth), slope = 0.5 * breadth / depth;
   CeldPoint foremost = place (view, tip, 0);
   size_t    outside = 0;
 
-  if (breadth_at (trail, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
-      breadth_at (trail, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
-      breadth_at (trail, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
+  if (breadth_at (stroke, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
+      breadth_at (stroke, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
+      breadth_at (stroke, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
     return false;
-  if (!is_line (trail, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
-      !is_line (trail, foremost, place (view, e->right_s, e->right + 0.4 * w)))
+  if (!is_line (stroke, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
+      !is_line (stroke, foremost, place (view, e->right_s, e->right + 0.4 * w)))
     return false;
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]);
+      CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]);
 
-      outside += trail->distance[trail->pixel[i]] >= view->from &&
+      outside += stroke->distance[stroke->pixel[i]] >= view->from &&
                  fabs (sideways (view, p)) > slope * (e->most_s - forwards (view, p)) + 0.7 * w + 1;
     }
   return 20 * outside < e->n;
@@ -229,36 +229,36 @@ is_dot (const Extent *e)
 /* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is
  * askew.  The answer is what the view shows then. */
 static Extent
-turn_to_tip (const CeldTrail *trail, View *view)
+turn_to_tip (const CeldArrowStroke *stroke, View *view)
 {
-  Extent e = extent_between (trail, view, -INFINITY, INFINITY);
+  Extent e = extent_between (stroke, view, -INFINITY, INFINITY);
 
   for (int i = 0; i < TURNS && e.left > 0 && e.right < 0; i++)
     {
-      CeldPoint tip = foremost (trail, view, e.most_s);
+      CeldPoint tip = foremost (stroke, view, e.most_s);
 
       view->origin = place (view, 0.5 * (e.left_s + e.right_s), 0.5 * (e.left + e.right));
       view->axis   = direction (view->origin, tip);
-      e = extent_between (trail, view, -INFINITY, INFINITY);
+      e = extent_between (stroke, view, -INFINITY, INFINITY);
     }
   return e;
 }
 
 static uint32_t
-nearest_pixel (const CeldTrail *trail, CeldPoint p)
+nearest_pixel (const CeldArrowStroke *stroke, CeldPoint p)
 {
-  uint32_t nearest = trail->pixel[0];
+  uint32_t nearest = stroke->pixel[0];
   double   least   = INFINITY;
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      CeldPoint q = celd_trail_point (trail, trail->pixel[i]);
+      CeldPoint q = celd_stroke_point (stroke, stroke->pixel[i]);
       double    d = hypot (p.x - q.x, p.y - q.y);
 
       if (d < least)
         {
           least   = d;
-          nearest = trail->pixel[i];
+          nearest = stroke->pixel[i];
         }
     }
   return nearest;
@@ -266,61 +266,61 @@ nearest_pixel (const CeldTrail *trail, CeldPoint p)
 
 /* The part beyond the shaft of width w, which ends at a distance: looked at along the shaft's last piece. */
 static View
-look_ahead (const CeldTrail *trail, double w, double end)
+look_ahead (const CeldArrowStroke *stroke, double w, double end)
 {
   double    back = fmin (fmax (2 * w, 6), 0.6 * end);
-  CeldPoint last = celd_trail_centre (trail, end - 0.4 * back, end - 0.15 * back);
+  CeldPoint last = celd_stroke_centroid (stroke, end - 0.4 * back, end - 0.15 * back);
 
-  return (View) { last, direction (celd_trail_centre (trail, end - back, end - 0.75 * back), last), end };
+  return (View) { last, direction (celd_stroke_centroid (stroke, end - back, end - 0.75 * back), last), end };
 }
 
 /* If the stroke followed from `tail` ends in a head, or a dot: its tail and its tip, or the dot's centre. */
 static bool
-read_from_tail (CeldTrail *trail, uint32_t tail, bool dot, CeldEnds *ends)
+read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds *ends)
 {
   View      view, shaft;
   Extent    e;
   double    length, w, end;
   CeldPoint tip, last;
 
-  celd_trail_follow (trail, &tail, 1);
-  length = celd_trail_length (trail);
+  celd_stroke_follow (stroke, &tail, 1);
+  length = celd_stroke_length (stroke);
   if (length < SHORTEST)
     return false;
-  w   = celd_trail_width (trail, 1, 0.5 * length);
-  end = shaft_end (trail, w);
-  if (end >= length || end < 1.5 * w || !is_even (trail, w, end))
+  w   = celd_stroke_mean_width (stroke, 1, 0.5 * length);
+  end = shaft_end (stroke, w);
+  if (end >= length || end < 1.5 * w || !is_even (stroke, w, end))
     return false;
-  w     = width_before (trail, w, end);
-  view  = look_ahead (trail, w, end);
+  w     = width_before (stroke, w, end);
+  view  = look_ahead (stroke, w, end);
   shaft = view;
-  e     = turn_to_tip (trail, &view);
+  e     = turn_to_tip (stroke, &view);
   if (!reaches_out (&view, &e, w, &shaft) || is_dot (&e) != dot ||
-      (!dot && (!falls_back (&e, w) || !is_arrowhead (trail, &view, &e, w))))
+      (!dot && (!falls_back (&e, w) || !is_arrowhead (stroke, &view, &e, w))))
     return false;
-  tip   = foremost (trail, &view, e.most_s);
-  *ends = (CeldEnds) { celd_trail_centre (trail, 0, fmax (1, w)), dot ? view.origin : tip };
+  tip   = foremost (stroke, &view, e.most_s);
+  *ends = (CeldArrowEnds) { celd_stroke_centroid (stroke, 0, fmax (1, w)), dot ? view.origin : tip };
 
   /* What is farthest from the tip is the tail, or else it was some place in the middle of the shaft. */
-  tail = nearest_pixel (trail, tip);
-  last = celd_trail_point (trail, celd_trail_follow (trail, &tail, 1));
+  tail = nearest_pixel (stroke, tip);
+  last = celd_stroke_point (stroke, celd_stroke_follow (stroke, &tail, 1));
   return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2;
 }
 
 bool
-celd_arrowhead (CeldTrail *trail, bool dot, CeldEnds *ends)
+celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends)
 {
   uint32_t extremity[EXTREMITIES];
   bool     found = false;
 
-  extremity[0] = celd_trail_follow (trail, trail->pixel, 1);
+  extremity[0] = celd_stroke_follow (stroke, stroke->pixel, 1);
   for (size_t i = 1; i < EXTREMITIES; i++)
-    extremity[i] = celd_trail_follow (trail, extremity, i);
+    extremity[i] = celd_stroke_follow (stroke, extremity, i);
   for (size_t i = 0; i < EXTREMITIES; i++)
     {
-      CeldEnds one;
+      CeldArrowEnds one;
 
-      if (!read_from_tail (trail, extremity[i], dot, &one))
+      if (!read_from_tail (stroke, extremity[i], dot, &one))
         continue;
       if (found && hypot (one.tip.x - ends->tip.x, one.tip.y - ends->tip.y) > 3)
         return false;

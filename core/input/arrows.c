@@ -1,105 +1,208 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
  * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
- * commonest colour) is one arrow; where strokes cross, they are told apart by colour (strand-colours.c), or followed
- * straight on (strands.c).  Its form decides, its colour only says whether registration may tear there (blue).
+ * commonest colour) is one arrow; where strokes cross, each is followed straight on (crossing-strokes.c).  Its form
+ * decides; its colour only says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)
- *   fade   opacity falls from the nearer end on (arrow-slope.c).  Such a stroke is read down to an alpha of
- *          FADED_OPACITY: its faint end is the farther end
- *   taper  the same with its width: the thick end is nearer
+ *   fade   opacity falls from the nearer end on (arrow-profile.c).  Such a stroke is read down to an alpha of
+ *          FADED_OPACITY, since its faint end is the farther end
+ *   taper  the thick end is nearer (arrow-profile.c)
  *
- * Strokes that do not say clearly, or whose arrowhead says the opposite, are reported, never guessed.  Costs a few
- * sweeps over the pixels of each stroke.
+ * Strokes that are unclear, or whose arrowhead contradicts their fade or taper, are reported and never guessed.  Cost: a
+ * few sweeps over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 #include "input/arrows.h"
-#include "input/trail.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+/* All chosen; opacities are 0 .. 255. */
 #define LEAST_OPACITY 128  /* of paint */
-#define THIN_OPACITY  48   /* the thin end of a taper covers its pixels in part; */
-#define FADED_OPACITY 16   /* a fading stroke reaches on to this */
+#define THIN_OPACITY  48   /* of a taper's paint: its thin end covers pixels only in part */
+#define FADED_OPACITY 16   /* of a fading stroke's paint */
+#define LEAST_STROKE  6    /* pixels; a smaller component is a speck and ignored */
+#define LEAST_HUE     195  /* degrees: the range of blue */
+#define LARGEST_HUE   265
+#define LEAST_CHROMA  0.25 /* of blue: its largest channel less its smallest, as a share of the largest */
 
-const uint8_t *
-celd_arrow_pixel (const CeldArrowLayer *layer, int x, int y)
+/* ------------------------------------------------------------------ one stroke */
+
+/* Is there an arrowhead nearer to the tail than to the tip? */
+static bool
+head_disagrees (CeldArrowStroke *stroke, const CeldArrowEnds *ends)
 {
-  int u = x - layer->left, v = y - layer->top;
+  CeldArrowEnds found;
 
-  if (layer->other.data && u >= 0 && v >= 0 && u < layer->other.width && v < layer->other.height)
-    return CELD_RGBA (&layer->other, u, v);
-  return CELD_RGBA (layer->paint, x, y);
+  return celd_arrowhead (stroke, false, &found) && hypot (found.tip.x - ends->tail.x, found.tip.y - ends->tail.y) <
+                                                  hypot (found.tip.x - ends->tip.x, found.tip.y - ends->tip.y);
 }
 
-int
-celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y)
+static bool
+read_stroke (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
 {
-  const uint8_t *c = celd_arrow_pixel (layer, x, y);
-  int            contrast = 0;
+  CeldArrowEnds found;
 
-  if (!layer->opaque)
-    return c[3];
-  for (int i = 0; i < 3; i++)
-    if (abs (c[i] - layer->paper[i]) > contrast)
-      contrast = abs (c[i] - layer->paper[i]);
-  return contrast;
+  if (style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER)
+    return celd_arrow_profile (stroke, layer, style, ends) && !head_disagrees (stroke, ends);
+  if (!celd_arrowhead (stroke, style == CELD_ARROW_DOT, &found))
+    return false;
+  *ends = style == CELD_ARROW_DOT ? (CeldArrowEnds) { found.tip, found.tail } : found;
+  return true;
 }
 
-/* The commonest colour of a layer without alpha, found by a vote on 5 bits a channel; else the layer has alpha. */
+/* Is the mean colour blue?  Such an arrow marks a crack. */
+static bool
+is_blue (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
+{
+  double red = 0, green = 0, blue = 0, most, least, hue;
+
+  for (size_t i = 0; i < stroke->n; i++)
+    {
+      int            x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+      const uint8_t *c = CELD_RGBA (layer->paint, x, y);
+      int            a = celd_arrow_opacity (layer, x, y);
+
+      red   += c[0] * a;
+      green += c[1] * a;
+      blue  += c[2] * a;
+    }
+  most  = fmax (blue, fmax (red, green));
+  least = fmin (blue, fmin (red, green));
+  if (blue < most || most - least < LEAST_CHROMA * most)
+    return false;
+  hue = 240 + 60 * (red - green) / (most - least);
+  return hue >= LEAST_HUE && hue <= LARGEST_HUE;
+}
+
 static CeldStatus
-look_at_layer (const CeldPaint *paint, CeldArrowLayer *layer)
+add_arrow (const CeldArrowEnds *ends, bool crack, CeldRelations *relations)
 {
-  uint32_t *votes = celd_alloc0 (1 << 15, sizeof *votes), best = 0;
-
-  if (!votes)
-    return CELD_NO_MEMORY;
-  *layer = (CeldArrowLayer) { .paint = paint, .opaque = true };
-  for (int y = 0; y < paint->height && layer->opaque; y++)
-    for (int x = 0; x < paint->width; x++)
-      {
-        const uint8_t *c   = CELD_RGBA (paint, x, y);
-        uint32_t       key = (uint32_t) ((c[0] >> 3) << 10 | (c[1] >> 3) << 5 | c[2] >> 3);
-
-        layer->opaque &= c[3] == 255;
-        if (++votes[key] > best)
-          {
-            best = votes[key];
-            for (int i = 0; i < 3; i++)
-              layer->paper[i] = c[i];
-          }
-      }
-  celd_free (votes);
-  return CELD_OK;
+  return celd_relation_add (relations, (CeldRelation) {
+    .nearer = { .x = ends->tail.x, .y = ends->tail.y }, .farther = { .x = ends->tip.x, .y = ends->tip.y },
+    .crack = crack, .weight = 1, .gap = 1, .source = CELD_SOURCE_ARROW,
+  });
 }
 
-/* What one pass over the strokes needs.  `strokes` are components: strokes that cross are one. */
+/* A problem at some pixel of a stroke. */
+static CeldProblem
+unclear_arrow (const CeldArrowStroke *stroke)
+{
+  uint32_t middle = stroke->pixel[stroke->n / 2];
+
+  return (CeldProblem) {
+    .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
+    .x = celd_stroke_x (stroke, middle), .y = celd_stroke_y (stroke, middle),
+  };
+}
+
+/* Appends the arrow that a stroke is; *clear becomes false if it is none.  Resets the distances of its pixels, as
+ * crossing strokes share some. */
+static CeldStatus
+read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+          bool *clear)
+{
+  CeldArrowEnds ends = { { 0, 0 }, { 0, 0 } };
+  CeldStatus    status = CELD_OK;
+
+  if (read_stroke (stroke, layer, style, &ends))
+    status = add_arrow (&ends, is_blue (stroke, layer), relations);
+  else
+    *clear = false;
+  for (size_t i = 0; i < stroke->n; i++)
+    stroke->distance[stroke->pixel[i]] = INFINITY;
+  return status;
+}
+
+/* ------------------------------------------------------------------ strokes that cross */
+
+/* Lets `stroke` be the one with index k. */
+static void
+select_stroke (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke)
+{
+  stroke->pixel = strokes->pixel + strokes->first[k];
+  stroke->n     = strokes->first[k + 1] - strokes->first[k];
+}
+
+/* Appends the arrows of all strokes; if one of them is no arrow none is appended and *clear becomes false, since what
+ * looks like a crossing may be part of another figure. */
+static CeldStatus
+read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, const CeldArrowLayer *layer,
+               CeldArrowStyle style, CeldRelations *relations, bool *clear)
+{
+  size_t     before = relations->n;
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < strokes->n && status == CELD_OK && *clear; k++)
+    {
+      select_stroke (strokes, k, stroke);
+      status = read_one (stroke, layer, style, relations, clear);
+    }
+  if (!*clear)
+    relations->n = before;
+  return status;
+}
+
+/* Appends the arrow of a component, those of the strokes that cross in it, or problems. */
+static CeldStatus
+read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+                CeldProblems *problems)
+{
+  CeldArrowStroke     whole = *stroke;
+  CeldCrossingStrokes strokes = { 0 };
+  bool                clear = true;
+  CeldStatus          status;
+
+  if (stroke->n < LEAST_STROKE)
+    return CELD_OK;
+  status = celd_crossing_strokes_find (stroke, &strokes);
+  if (status == CELD_OK && strokes.n)
+    status = read_crossing (stroke, &strokes, layer, style, relations, &clear);
+  if (status == CELD_OK && (!strokes.n || !clear))
+    {
+      *stroke = whole;
+      clear   = true;
+      status  = read_one (stroke, layer, style, relations, &clear);
+    }
+  if (status == CELD_OK && !clear && !strokes.n)
+    status = celd_problem_add (problems, unclear_arrow (stroke));
+  for (size_t k = 0; k < strokes.n && status == CELD_OK && !clear; k++)
+    {
+      select_stroke (&strokes, k, stroke);
+      if (stroke->n >= LEAST_STROKE)
+        status = celd_problem_add (problems, unclear_arrow (stroke));
+    }
+  celd_crossing_strokes_clear (&strokes);
+  return status;
+}
+
+/* ------------------------------------------------------------------ all components */
+
 typedef struct
 {
-  CeldLabels      strokes;   /* each pixel's stroke, from 1 */
-  CeldComponent  *component; /* of each stroke */
-  size_t          n;
-  uint32_t       *pixel;     /* stroke by stroke, in reading order, numbered as in a trail */
-  CeldTrail       trail;
-} Strokes;
+  CeldLabels       label;     /* each pixel's component, from 1 */
+  CeldComponent   *component;
+  size_t           n;
+  uint32_t        *pixel;     /* component by component, in reading order, numbered as in CeldArrowStroke */
+  CeldArrowStroke  stroke;
+} Components;
 
 static void
-strokes_end (Strokes *s)
+components_clear (Components *s)
 {
-  celd_free (s->strokes.data);
+  celd_free (s->label.data);
   celd_free (s->component);
   celd_free (s->pixel);
-  celd_free (s->trail.distance);
-  celd_free (s->trail.front);
-  celd_free (s->trail.kept);
+  celd_free (s->stroke.distance);
+  celd_free (s->stroke.sums);
+  celd_free (s->stroke.earlier);
 }
 
 static CeldStatus
-find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host, Strokes *s)
+find_components (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host, Components *s)
 {
   const CeldPaint *paint = layer->paint;
   int              least = layer->opaque ? CELD_PAPER_CONTRAST : style == CELD_ARROW_FADE ? FADED_OPACITY
@@ -112,18 +215,18 @@ find_strokes (const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost 
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
       CELD_AT (&mask, x, y) = celd_arrow_opacity (layer, x, y) >= least;
-  status = celd_labels_new (paint->width, paint->height, &s->strokes);
+  status = celd_labels_new (paint->width, paint->height, &s->label);
   if (status == CELD_OK)
-    status = celd_components (&mask, 0, true, host, &s->strokes, &s->component, &s->n);
+    status = celd_components (&mask, 0, true, host, &s->label, &s->component, &s->n);
   celd_free (mask.data);
   return status;
 }
 
-/* Sorts the pixels by stroke and makes room for trails. */
+/* Sorts the pixels by component, and makes room for following the largest one. */
 static CeldStatus
-gather_pixels (Strokes *s)
+gather_pixels (Components *s)
 {
-  size_t  all = 0, most = 0, width = (size_t) s->strokes.width, plane = (width + 2) * ((size_t) s->strokes.height + 2);
+  size_t  all = 0, most = 0, width = (size_t) s->label.width, plane = (width + 2) * ((size_t) s->label.height + 2);
   size_t *next = celd_alloc (s->n + 1, sizeof *next);
 
   for (size_t k = 0; next && k < s->n; k++)
@@ -134,22 +237,22 @@ gather_pixels (Strokes *s)
         most = s->component[k].area;
     }
   s->pixel = celd_alloc (all, sizeof *s->pixel);
-  s->trail = (CeldTrail) {
-    .width = s->strokes.width, .height = s->strokes.height,
-    .distance = celd_alloc (plane, sizeof (float)), .front = celd_alloc (most + most / 2 + 4, sizeof (CeldFront)),
-    .kept = celd_alloc (most, sizeof (float)),
+  s->stroke = (CeldArrowStroke) {
+    .width = s->label.width, .height = s->label.height,
+    .distance = celd_alloc (plane, sizeof (float)), .sums = celd_alloc (most + most / 2 + 4, sizeof (CeldStrokeSums)),
+    .earlier = celd_alloc (most, sizeof (float)),
   };
-  if (!next || !s->pixel || !s->trail.distance || !s->trail.front || !s->trail.kept)
+  if (!next || !s->pixel || !s->stroke.distance || !s->stroke.sums || !s->stroke.earlier)
     {
       celd_free (next);
       return CELD_NO_MEMORY;
     }
   for (size_t i = 0; i < plane; i++)
-    s->trail.distance[i] = INFINITY;
-  for (int y = 0; y < s->strokes.height; y++)
-    for (int x = 0; x < s->strokes.width; x++)
+    s->stroke.distance[i] = INFINITY;
+  for (int y = 0; y < s->label.height; y++)
+    for (int x = 0; x < s->label.width; x++)
       {
-        uint32_t k = CELD_AT (&s->strokes, x, y);
+        uint32_t k = CELD_AT (&s->label, x, y);
 
         if (k)
           s->pixel[next[k - 1]++] = (uint32_t) ((size_t) (y + 1) * (width + 2) + (size_t) x + 1);
@@ -159,7 +262,7 @@ gather_pixels (Strokes *s)
 }
 
 static CeldStatus
-read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host,
+read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host,
                  CeldRelations *relations, CeldProblems *problems)
 {
   CeldStatus status = CELD_OK;
@@ -169,10 +272,10 @@ read_components (Strokes *s, CeldArrowLayer *layer, CeldArrowStyle style, const 
     all += s->component[k].area;
   for (size_t k = 0; k < s->n && status == CELD_OK; k++)
     {
-      s->trail.pixel = s->pixel + done;
-      s->trail.n     = s->component[k].area;
-      done += s->trail.n;
-      status = celd_arrow_strokes_read (&s->trail, layer, style, relations, problems);
+      s->stroke.pixel = s->pixel + done;
+      s->stroke.n     = s->component[k].area;
+      done += s->stroke.n;
+      status = read_component (&s->stroke, layer, style, relations, problems);
       if (status == CELD_OK)
         status = celd_progress (host, (double) done / (double) all);
     }
@@ -183,23 +286,23 @@ CeldStatus
 celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost *host,
                   CeldRelations *relations, CeldProblems *problems)
 {
-  Strokes    strokes = { 0 };
+  Components     components = { 0 };
   CeldArrowLayer layer;
   CeldHostPart   first, rest;
-  CeldHost   finding = celd_host_part (&first, host, 0, 0.5), reading = celd_host_part (&rest, host, 0.5, 1);
-  size_t     n_relations = relations->n, n_problems = problems ? problems->n : 0;
-  CeldStatus status;
+  CeldHost       finding = celd_host_part (&first, host, 0, 0.5), reading = celd_host_part (&rest, host, 0.5, 1);
+  size_t         n_relations = relations->n, n_problems = problems ? problems->n : 0;
+  CeldStatus     status;
 
   if (!CELD_SAME_SIZE (arrows, arrows))
     return CELD_BAD_SIZE;
-  status = look_at_layer (arrows, &layer);
+  status = celd_arrow_layer_new (arrows, &layer);
   if (status == CELD_OK)
-    status = find_strokes (&layer, style, &finding, &strokes);
+    status = find_components (&layer, style, &finding, &components);
   if (status == CELD_OK)
-    status = gather_pixels (&strokes);
+    status = gather_pixels (&components);
   if (status == CELD_OK)
-    status = read_components (&strokes, &layer, style, &reading, relations, problems);
-  strokes_end (&strokes);
+    status = read_components (&components, &layer, style, &reading, relations, problems);
+  components_clear (&components);
   if (status != CELD_OK)
     {
       relations->n = n_relations;

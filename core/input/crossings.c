@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "input/arrows.h"
-#include "input/trail.h"
 
 #include <math.h>
 
@@ -20,19 +19,19 @@
 #define BEYOND      1.5  /* arms reach on to so many radii */
 
 /* A possible crossing, and how far its strokes are from straight. */
-typedef struct { CeldCrossing crossing; double bend; } Candidate;
+typedef struct { CeldStrokeCrossing crossing; double bend; } Candidate;
 
 /* Points of the circle of radius 1. */
 typedef struct { double x[SAMPLES], y[SAMPLES]; } Circle;
 
 static bool
-is_painted (const CeldCutting *c, double x, double y)
+is_painted (const CeldStrokeMask *c, double x, double y)
 {
   return x >= 0 && y >= 0 && x < c->width && y < c->height && c->painted[(size_t) y * (size_t) c->width + (size_t) x];
 }
 
 static bool
-is_way (const CeldCutting *c, CeldPoint from, double angle, double start, double end)
+is_way (const CeldStrokeMask *c, CeldPoint from, double angle, double start, double end)
 {
   for (double s = start; s <= end; s += 0.5)
     if (!is_painted (c, from.x + s * cos (angle), from.y + s * sin (angle)))
@@ -42,7 +41,7 @@ is_way (const CeldCutting *c, CeldPoint from, double angle, double start, double
 
 /* Does the arm go on beyond the circle, about straight? */
 static bool
-goes_on (const CeldCutting *c, CeldPoint centre, double angle, double radius)
+goes_on (const CeldStrokeMask *c, CeldPoint centre, double angle, double radius)
 {
   double    turn[] = { 0, 0.2, -0.2, 0.4, -0.4 };
   CeldPoint arm = { centre.x + radius * cos (angle), centre.y + radius * sin (angle) };
@@ -55,7 +54,7 @@ goes_on (const CeldCutting *c, CeldPoint centre, double angle, double radius)
 
 /* The middles and widths, in radians, of the four painted arcs of a circle; false if there are not four. */
 static bool
-find_arcs (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, double middle[ARMS],
+find_arcs (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, double middle[ARMS],
            double wide[ARMS])
 {
   int  step = radius < 6 ? 4 : radius < 12 ? 2 : 1, n = SAMPLES / step, first = 0, arcs = 0, start = 0;
@@ -92,17 +91,17 @@ bend_between (double a, double b)
 
 /* Is there a crossing of strokes on a circle? */
 static bool
-look_round (const CeldCutting *c, const Circle *circle, CeldPoint centre, double radius, Candidate *found)
+look_round (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, Candidate *found)
 {
   double        middle[ARMS], wide[ARMS];
-  CeldCrossing *x = &found->crossing;
+  CeldStrokeCrossing *x = &found->crossing;
 
   if (!find_arcs (c, circle, centre, radius, middle, wide))
     return false;
   found->bend = fmax (bend_between (middle[0], middle[2]), bend_between (middle[1], middle[3]));
   if (found->bend > MOST_BEND)
     return false;
-  *x = (CeldCrossing) { .centre = centre, .radius = radius };
+  *x = (CeldStrokeCrossing) { .centre = centre, .radius = radius };
   for (int i = 0; i < ARMS; i++)
     {
       x->arm[i]     = (CeldPoint) { centre.x + radius * cos (middle[i]), centre.y + radius * sin (middle[i]) };
@@ -118,7 +117,7 @@ look_round (const CeldCutting *c, const Circle *circle, CeldPoint centre, double
 
 /* Is a pixel about as far from the edge as any beside it? */
 static bool
-is_inmost (const CeldCutting *c, size_t p)
+is_inmost (const CeldStrokeMask *c, size_t p)
 {
   size_t w = (size_t) c->width, beside[] = { p - w - 1, p - w, p - w + 1, p - 1, p + 1, p + w - 1, p + w, p + w + 1 };
   int    deeper = 0;
@@ -129,7 +128,7 @@ is_inmost (const CeldCutting *c, size_t p)
 }
 
 static CeldStatus
-gather (const CeldCutting *c, Candidate **list, size_t *n)
+gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
 {
   static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
   Circle              circle;
@@ -166,11 +165,11 @@ gather (const CeldCutting *c, Candidate **list, size_t *n)
 }
 
 /* Takes the straightest candidate and drops those that overlap it. */
-static CeldCrossing
+static CeldStrokeCrossing
 take_best (Candidate *list, size_t *n)
 {
   size_t       best = 0, kept = 0;
-  CeldCrossing x;
+  CeldStrokeCrossing x;
 
   for (size_t i = 1; i < *n; i++)
     if (list[i].bend < list[best].bend)
@@ -178,7 +177,7 @@ take_best (Candidate *list, size_t *n)
   x = list[best].crossing;
   for (size_t i = 0; i < *n; i++)
     {
-      const CeldCrossing *other = &list[i].crossing;
+      const CeldStrokeCrossing *other = &list[i].crossing;
 
       if (hypot (other->centre.x - x.centre.x, other->centre.y - x.centre.y) > x.radius + other->radius)
         list[kept++] = list[i];
@@ -188,16 +187,16 @@ take_best (Candidate *list, size_t *n)
 }
 
 CeldStatus
-celd_crossings_find (const CeldCutting *cutting, CeldCrossing **list, size_t *n)
+celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCrossing **list, size_t *n)
 {
   Candidate    *candidates = NULL;
-  CeldCrossing *found = NULL;
+  CeldStrokeCrossing *found = NULL;
   size_t        left = 0, taken = 0;
-  CeldStatus    status = gather (cutting, &candidates, &left);
+  CeldStatus    status = gather (mask, &candidates, &left);
 
   while (left && status == CELD_OK)
     {
-      CeldCrossing *item = celd_grow (found, taken + 1, sizeof *item);
+      CeldStrokeCrossing *item = celd_grow (found, taken + 1, sizeof *item);
 
       if (!item)
         status = CELD_NO_MEMORY;

@@ -9,7 +9,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "input/arrows.h"
-#include "input/trail.h"
 
 #include <math.h>
 
@@ -29,18 +28,18 @@
 
 /* Mean opacity of a stroke between two distances, strong pixels first: soft edges say little. */
 static double
-strength (const CeldTrail *trail, const CeldArrowLayer *layer, double from, double to)
+strength (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
 {
   double sum = 0, weights = 0;
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      uint32_t p = trail->pixel[i];
+      uint32_t p = stroke->pixel[i];
       double   a;
 
-      if (trail->distance[p] < from || trail->distance[p] > to)
+      if (stroke->distance[p] < from || stroke->distance[p] > to)
         continue;
-      a = celd_arrow_opacity (layer, celd_trail_x (trail, p), celd_trail_y (trail, p));
+      a = celd_arrow_opacity (layer, celd_stroke_x (stroke, p), celd_stroke_y (stroke, p));
       sum     += a * a;
       weights += a;
     }
@@ -49,15 +48,15 @@ strength (const CeldTrail *trail, const CeldArrowLayer *layer, double from, doub
 
 /* Opacity or width of pieces of the way, equally long, without the outermost pixels: ends are round. */
 static void
-measure (const CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n, double *value)
+measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n, double *value)
 {
-  double piece = (celd_trail_length (trail) - 2 * margin) / n;
+  double piece = (celd_stroke_length (stroke) - 2 * margin) / n;
 
   for (int i = 0; i < n; i++)
     {
       double from = margin + i * piece, to = from + piece;
 
-      value[i] = style == CELD_ARROW_FADE ? strength (trail, layer, from, to) : celd_trail_width (trail, from, to);
+      value[i] = style == CELD_ARROW_FADE ? strength (stroke, layer, from, to) : celd_stroke_mean_width (stroke, from, to);
     }
 }
 
@@ -66,18 +65,18 @@ typedef struct { double red, green, blue, opacity; } Colour;
 /* Of a stroke between two distances: its mean, strong pixels first; in a layer without alpha, the difference from the
  * paper. */
 static Colour
-colour_between (const CeldTrail *trail, const CeldArrowLayer *layer, double from, double to)
+colour_between (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
 {
   Colour c = { 0, 0, 0, 0 };
   double weights = 0;
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      int            x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
-      const uint8_t *p = celd_arrow_pixel (layer, x, y);
+      int            x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+      const uint8_t *p = CELD_RGBA (layer->paint, x, y);
       double         a = celd_arrow_opacity (layer, x, y);
 
-      if (trail->distance[trail->pixel[i]] < from || trail->distance[trail->pixel[i]] > to)
+      if (stroke->distance[stroke->pixel[i]] < from || stroke->distance[stroke->pixel[i]] > to)
         continue;
       c.red     += a * (p[0] - layer->paper[0]);
       c.green   += a * (p[1] - layer->paper[1]);
@@ -103,15 +102,15 @@ same_colour (const CeldArrowLayer *layer, Colour a, Colour b)
 /* Are two pieces of the way, strong enough to tell, at one end of another colour than two at the other end?  A single
  * one may lie where another stroke crosses. */
 static bool
-changes_colour (const CeldTrail *trail, const CeldArrowLayer *layer)
+changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
 {
-  double piece = celd_trail_length (trail) / MOST_PIECES;
+  double piece = celd_stroke_length (stroke) / MOST_PIECES;
   Colour colour[MOST_PIECES];
   int    n = 0;
 
   for (int i = 0; i < MOST_PIECES; i++)
     {
-      colour[n] = colour_between (trail, layer, i * piece, (i + 1) * piece);
+      colour[n] = colour_between (stroke, layer, i * piece, (i + 1) * piece);
       n += colour[n].opacity >= TELLING;
     }
   return n >= 4 && !same_colour (layer, colour[0], colour[n - 1]) && !same_colour (layer, colour[0], colour[n - 2]) &&
@@ -120,30 +119,30 @@ changes_colour (const CeldTrail *trail, const CeldArrowLayer *layer)
 
 /* Does more of a stroke than its ends lie on the picture's edge? */
 static bool
-runs_along_frame (const CeldTrail *trail, double widest)
+runs_along_frame (const CeldArrowStroke *stroke, double widest)
 {
   size_t n = 0;
 
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      int x = celd_trail_x (trail, trail->pixel[i]), y = celd_trail_y (trail, trail->pixel[i]);
+      int x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
 
-      n += x == 0 || y == 0 || x == trail->width - 1 || y == trail->height - 1;
+      n += x == 0 || y == 0 || x == stroke->width - 1 || y == stroke->height - 1;
     }
   return (double) n > 2 * widest + 4;
 }
 
 /* The cosine of the turn that the way takes at a distance, seen over a stroke width or two. */
 static double
-turn_at (const CeldTrail *trail, double distance, double widest)
+turn_at (const CeldArrowStroke *stroke, double distance, double widest)
 {
   double    far = fmax (8, 2 * widest), near = far / 2;
-  CeldPoint a = celd_trail_centre (trail, distance - far, distance - near);
-  CeldPoint b = celd_trail_centre (trail, distance - 1, distance + 1);
-  CeldPoint c = celd_trail_centre (trail, distance + near, distance + far);
+  CeldPoint a = celd_stroke_centroid (stroke, distance - far, distance - near);
+  CeldPoint b = celd_stroke_centroid (stroke, distance - 1, distance + 1);
+  CeldPoint c = celd_stroke_centroid (stroke, distance + near, distance + far);
   double    length = hypot (b.x - a.x, b.y - a.y) * hypot (c.x - b.x, c.y - b.y);
 
-  if (distance < far || distance + far > celd_trail_length (trail))
+  if (distance < far || distance + far > celd_stroke_length (stroke))
     return 1;
   return length > 0 ? ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / length : 1;
 }
@@ -172,9 +171,9 @@ largest_rise (const double *value, int n, bool back, int *from)
 
 /* Does the value fall about steadily, all the more where the way turns: there one stroke may end at another? */
 static bool
-falls (const CeldTrail *trail, const double *value, int n, bool back, double margin, double widest)
+falls (const CeldArrowStroke *stroke, const double *value, int n, bool back, double margin, double widest)
 {
-  double most = value[0], least = value[0], piece = (celd_trail_length (trail) - 2 * margin) / n, rise, allowed;
+  double most = value[0], least = value[0], piece = (celd_stroke_length (stroke) - 2 * margin) / n, rise, allowed;
   int    from;
 
   for (int i = 1; i < n; i++)
@@ -187,73 +186,73 @@ falls (const CeldTrail *trail, const double *value, int n, bool back, double mar
   allowed = MOST_RISE * (most - least) + NOISE * most;
   rise    = largest_rise (value, n, back, &from);
   for (int side = -1; side <= 1 && rise > LEAST_RISE * allowed; side++)
-    if (turn_at (trail, margin + (from + 0.5 + 0.5 * side) * piece, widest) < CORNER)
+    if (turn_at (stroke, margin + (from + 0.5 + 0.5 * side) * piece, widest) < CORNER)
       return false;
   return rise <= allowed;
 }
 
 static bool
-has_sharp_corner (const CeldTrail *trail, double widest)
+has_sharp_corner (const CeldArrowStroke *stroke, double widest)
 {
-  for (double d = 0; d < celd_trail_length (trail); d += 2)
-    if (turn_at (trail, d, widest) < SHARP_CORNER)
+  for (double d = 0; d < celd_stroke_length (stroke); d += 2)
+    if (turn_at (stroke, d, widest) < SHARP_CORNER)
       return true;
   return false;
 }
 
-/* Is all paint on the way between the two ends?  The trail is followed from `start` when it returns. */
+/* Is all paint on the way between the two ends?  The stroke is followed from `start` when it returns. */
 static bool
-is_single (CeldTrail *trail, uint32_t start, uint32_t last, double widest)
+is_single (CeldArrowStroke *stroke, uint32_t start, uint32_t last, double widest)
 {
-  double length = celd_trail_length (trail);
+  double length = celd_stroke_length (stroke);
   size_t off = 0;
 
-  for (size_t i = 0; i < trail->n; i++)
-    trail->kept[i] = trail->distance[trail->pixel[i]];
-  celd_trail_follow (trail, &last, 1);
-  for (size_t i = 0; i < trail->n; i++)
-    off += trail->kept[i] + trail->distance[trail->pixel[i]] > length + 2 * widest + 4;
-  celd_trail_follow (trail, &start, 1);
-  for (size_t i = 0; i < trail->n; i++)
+  for (size_t i = 0; i < stroke->n; i++)
+    stroke->earlier[i] = stroke->distance[stroke->pixel[i]];
+  celd_stroke_follow (stroke, &last, 1);
+  for (size_t i = 0; i < stroke->n; i++)
+    off += stroke->earlier[i] + stroke->distance[stroke->pixel[i]] > length + 2 * widest + 4;
+  celd_stroke_follow (stroke, &start, 1);
+  for (size_t i = 0; i < stroke->n; i++)
     {
-      double    d = trail->distance[trail->pixel[i]];
-      CeldPoint p = celd_trail_point (trail, trail->pixel[i]), c = celd_trail_centre (trail, d - 1, d + 1);
+      double    d = stroke->distance[stroke->pixel[i]];
+      CeldPoint p = celd_stroke_point (stroke, stroke->pixel[i]), c = celd_stroke_centroid (stroke, d - 1, d + 1);
 
       off += hypot (p.x - c.x, p.y - c.y) > 0.8 * widest + 2;
     }
-  return 50 * off < trail->n;
+  return 50 * off < stroke->n;
 }
 
 bool
-celd_arrow_slope (CeldTrail *trail, const CeldArrowLayer *layer, CeldArrowStyle style, CeldEnds *ends)
+celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldArrowEnds *ends)
 {
-  uint32_t  start = celd_trail_follow (trail, trail->pixel, 1), last = celd_trail_follow (trail, &start, 1);
-  double    length = celd_trail_length (trail), value[MOST_PIECES], widths[MOST_PIECES] = { 0 }, third[3];
+  uint32_t  start = celd_stroke_follow (stroke, stroke->pixel, 1), last = celd_stroke_follow (stroke, &start, 1);
+  double    length = celd_stroke_length (stroke), value[MOST_PIECES], widths[MOST_PIECES] = { 0 }, third[3];
   double    most, least, w, margin;
   int       n = (int) fmax (4, fmin (MOST_PIECES, length / 4));
   CeldPoint first, end;
 
   if (length < SHORTEST)
     return false;
-  measure (trail, layer, CELD_ARROW_TAPER, 0, n, widths);
+  measure (stroke, layer, CELD_ARROW_TAPER, 0, n, widths);
   for (int i = 0; i < n; i++)
     widths[0] = fmax (widths[0], widths[i]);
-  if (length < 1.5 * widths[0] || !is_single (trail, start, last, widths[0]) || changes_colour (trail, layer) ||
-      has_sharp_corner (trail, widths[0]) ||
-      (style == CELD_ARROW_TAPER && runs_along_frame (trail, widths[0])))
+  if (length < 1.5 * widths[0] || !is_single (stroke, start, last, widths[0]) || changes_colour (stroke, layer) ||
+      has_sharp_corner (stroke, widths[0]) ||
+      (style == CELD_ARROW_TAPER && runs_along_frame (stroke, widths[0])))
     return false;
   margin = fmin (0.3 * widths[0], length / 8);
-  measure (trail, layer, style, 0, 3, third);
-  measure (trail, layer, style, margin, n, value);
+  measure (stroke, layer, style, 0, 3, third);
+  measure (stroke, layer, style, margin, n, value);
   most  = fmax (third[0], third[2]);
   least = fmin (third[0], third[2]);
   if (most - least < LEAST_SIGNAL * most || third[1] < least - SLACK * most || third[1] > most + SLACK * most)
     return false;
-  if (!falls (trail, value, n, third[0] < third[2], margin, widths[0]))
+  if (!falls (stroke, value, n, third[0] < third[2], margin, widths[0]))
     return false;
-  w     = fmax (1, fmin (celd_trail_width (trail, 0, length), length / 3));
-  first = celd_trail_centre (trail, 0, w);
-  end   = celd_trail_centre (trail, length - w, length);
-  *ends = third[0] > third[2] ? (CeldEnds) { first, end } : (CeldEnds) { end, first };
+  w     = fmax (1, fmin (celd_stroke_mean_width (stroke, 0, length), length / 3));
+  first = celd_stroke_centroid (stroke, 0, w);
+  end   = celd_stroke_centroid (stroke, length - w, length);
+  *ends = third[0] > third[2] ? (CeldArrowEnds) { first, end } : (CeldArrowEnds) { end, first };
   return true;
 }

@@ -1,17 +1,17 @@
-/* Trails: distances along a bent stroke, its fronts, and where it is painted.
+/* Geodesic distances along a bent stroke, its mean width and centroid, and where it is painted.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "input/trail.h"
+#include "input/arrows.h"
 
 
 /* A stroke of the '#' in `rows`; ends with free of its three arrays. */
-static CeldTrail
-trail_of (const char *const *rows, uint32_t **pixels)
+static CeldArrowStroke
+stroke_of (const char *const *rows, uint32_t **pixels)
 {
   int       w = art_width (rows), h = art_height (rows);
-  CeldTrail t = { .width = w, .height = h };
+  CeldArrowStroke t = { .width = w, .height = h };
   size_t    plane = (size_t) (w + 2) * (size_t) (h + 2);
 
   *pixels    = malloc (plane * sizeof **pixels);
@@ -23,20 +23,20 @@ trail_of (const char *const *rows, uint32_t **pixels)
       if (rows[y][x] == '#')
         (*pixels)[t.n++] = (uint32_t) ((y + 1) * (w + 2) + x + 1);
   t.pixel = *pixels;
-  t.front = malloc ((3 * t.n / 2 + 4) * sizeof *t.front);
+  t.sums = malloc ((3 * t.n / 2 + 4) * sizeof *t.sums);
   return t;
 }
 
 static void
-forget (CeldTrail *t, uint32_t *pixels)
+forget (CeldArrowStroke *t, uint32_t *pixels)
 {
   free (t->distance);
-  free (t->front);
+  free (t->sums);
   free (pixels);
 }
 
 static double
-distance_at (const CeldTrail *t, int x, int y)
+distance_at (const CeldArrowStroke *t, int x, int y)
 {
   return t->distance[(y + 1) * (t->width + 2) + x + 1];
 }
@@ -53,15 +53,15 @@ distances_follow_the_stroke (void)
     NULL
   };
   uint32_t *pixels;
-  CeldTrail t = trail_of (rows, &pixels);
-  uint32_t  end = celd_trail_follow (&t, t.pixel, 1);
+  CeldArrowStroke t = stroke_of (rows, &pixels);
+  uint32_t  end = celd_stroke_follow (&t, t.pixel, 1);
 
-  CHECK (celd_trail_x (&t, t.pixel[0]) == 0 && celd_trail_y (&t, t.pixel[0]) == 0);
+  CHECK (celd_stroke_x (&t, t.pixel[0]) == 0 && celd_stroke_y (&t, t.pixel[0]) == 0);
   NEAR (distance_at (&t, 5, 0), 5, 1e-5);
   NEAR (distance_at (&t, 5, 1), 4 + sqrt (2), 1e-5);          /* the corner is cut */
   NEAR (distance_at (&t, 0, 2), 8 + 2 * sqrt (2), 1e-5);
   NEAR (distance_at (&t, 5, 4), 11 + 4 * sqrt (2), 1e-5);
-  CHECK (celd_trail_x (&t, end) == 5 && celd_trail_y (&t, end) == 4);
+  CHECK (celd_stroke_x (&t, end) == 5 && celd_stroke_y (&t, end) == 4);
   CHECK (isinf (distance_at (&t, 0, 1)));
   forget (&t, pixels);
 }
@@ -71,13 +71,13 @@ several_starts (void)
 {
   static const char *const rows[] = { "#########", NULL };
   uint32_t *pixels, start[2];
-  CeldTrail t = trail_of (rows, &pixels);
+  CeldArrowStroke t = stroke_of (rows, &pixels);
   uint32_t  end;
 
   start[0] = t.pixel[0];
   start[1] = t.pixel[8];
-  end      = celd_trail_follow (&t, start, 2);
-  CHECK (celd_trail_x (&t, end) == 4);
+  end      = celd_stroke_follow (&t, start, 2);
+  CHECK (celd_stroke_x (&t, end) == 4);
   NEAR (distance_at (&t, 6, 0), 2, 0);
   forget (&t, pixels);
 }
@@ -94,18 +94,18 @@ widths_and_centres (void)
     NULL
   };
   uint32_t *pixels;
-  CeldTrail t = trail_of (rows, &pixels);
+  CeldArrowStroke t = stroke_of (rows, &pixels);
   uint32_t  start = t.pixel[9]; /* the left end of row 2 */
 
-  CHECK (celd_trail_x (&t, start) == 0 && celd_trail_y (&t, start) == 2);
-  celd_trail_follow (&t, &start, 1);
-  NEAR (celd_trail_length (&t), 19, 0); /* the farthest pixel is at 16 + 2 sqrt 2 */
-  NEAR (celd_trail_width (&t, 2, 8), 2, 1e-9);
-  NEAR (celd_trail_width (&t, 12, 18), 4, 1e-9);
-  NEAR (celd_trail_centre (&t, 2, 8).x, 5, 1e-9); /* columns 2 to 7 */
-  NEAR (celd_trail_centre (&t, 2, 8).y, 3, 1e-9);
-  NEAR (celd_trail_centre (&t, 100, 200).x, (2 * 9 * 14.5 + 2 * 19 * 9.5) / 56, 1e-9); /* beyond the end: of all pixels */
-  NEAR (celd_trail_centre (&t, 100, 200).y, 3, 1e-9);
+  CHECK (celd_stroke_x (&t, start) == 0 && celd_stroke_y (&t, start) == 2);
+  celd_stroke_follow (&t, &start, 1);
+  NEAR (celd_stroke_length (&t), 19, 0); /* the farthest pixel is at 16 + 2 sqrt 2 */
+  NEAR (celd_stroke_mean_width (&t, 2, 8), 2, 1e-9);
+  NEAR (celd_stroke_mean_width (&t, 12, 18), 4, 1e-9);
+  NEAR (celd_stroke_centroid (&t, 2, 8).x, 5, 1e-9); /* columns 2 to 7 */
+  NEAR (celd_stroke_centroid (&t, 2, 8).y, 3, 1e-9);
+  NEAR (celd_stroke_centroid (&t, 100, 200).x, (2 * 9 * 14.5 + 2 * 19 * 9.5) / 56, 1e-9); /* beyond the end: of all pixels */
+  NEAR (celd_stroke_centroid (&t, 100, 200).y, 3, 1e-9);
   forget (&t, pixels);
 }
 
@@ -114,14 +114,14 @@ painted (void)
 {
   static const char *const rows[] = { ".....", "..#..", ".....", NULL };
   uint32_t *pixels;
-  CeldTrail t = trail_of (rows, &pixels);
+  CeldArrowStroke t = stroke_of (rows, &pixels);
 
-  celd_trail_follow (&t, t.pixel, 1);
-  CHECK (celd_trail_painted (&t, celd_trail_point (&t, t.pixel[0])));
-  CHECK (celd_trail_painted (&t, (CeldPoint) { 1.5, 1.5 }) && celd_trail_painted (&t, (CeldPoint) { 2.5, 2.9 }));
-  CHECK (!celd_trail_painted (&t, (CeldPoint) { 1.5, 0.5 }));
-  CHECK (!celd_trail_painted (&t, (CeldPoint) { -3, 1 }) && !celd_trail_painted (&t, (CeldPoint) { 2, 3 }));
-  CHECK (!celd_trail_painted (&t, (CeldPoint) { NAN, 1 }));
+  celd_stroke_follow (&t, t.pixel, 1);
+  CHECK (celd_stroke_painted (&t, celd_stroke_point (&t, t.pixel[0])));
+  CHECK (celd_stroke_painted (&t, (CeldPoint) { 1.5, 1.5 }) && celd_stroke_painted (&t, (CeldPoint) { 2.5, 2.9 }));
+  CHECK (!celd_stroke_painted (&t, (CeldPoint) { 1.5, 0.5 }));
+  CHECK (!celd_stroke_painted (&t, (CeldPoint) { -3, 1 }) && !celd_stroke_painted (&t, (CeldPoint) { 2, 3 }));
+  CHECK (!celd_stroke_painted (&t, (CeldPoint) { NAN, 1 }));
   forget (&t, pixels);
 }
 
