@@ -4,10 +4,11 @@
  * Eurographics 2010 ("the paper").  C11 and libm, no global state, no printing, no threads of its own.
  *
  * What to read first:
- *   celdepth/session.h  the whole route, kept between edits
- *   celdepth/steps.h    the steps, in the order of the route
- *   celdepth/records.h  what travels between them
- *   celdepth/values.h   answers, progress, pictures, settings
+ *   celdepth/session.h   the whole route, kept between edits
+ *   celdepth/steps.h     the steps, in the order of the route
+ *   celdepth/records.h   what travels between them
+ *   celdepth/settings.h  what can be chosen
+ *   celdepth/values.h    answers, progress, pictures
  *
  * Values that every function keeps:
  *   pixels    x to the right, y down; pixel (x,y) covers [x,x+1) x [y,y+1); sizes 1 .. CELD_MAX_SIDE

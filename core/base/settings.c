@@ -1,218 +1,85 @@
-/* Default settings and their ranges, and the texts for artists.
+/* Defaults and checks of the settings, and their values as numbers, all by the table of settings-table.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/base.h"
+#include "celdepth/settings.h"
 
-#include <ctype.h>
-#include <stdio.h>
+double
+celd_setting_get (const CeldSettingInfo *info, const CeldSettings *settings)
+{
+  const void    *member = (const char *) settings + info->offset;
+  const uint8_t *colour = member;
+
+  switch (info->type)
+    {
+    case CELD_SETTING_NUMBER:  return (double) *(const float *) member;
+    case CELD_SETTING_INTEGER:
+    case CELD_SETTING_CHOICE:  return *(const int *) member; /* enumerations are as large as int */
+    case CELD_SETTING_SWITCH:  return *(const bool *) member;
+    case CELD_SETTING_COLOUR:  return colour[0] * 65536 + colour[1] * 256 + colour[2];
+    case CELD_SETTING_TEXT:    break;
+    }
+  return 0;
+}
+
+void
+celd_setting_set (const CeldSettingInfo *info, double value, CeldSettings *settings)
+{
+  void    *member = (char *) settings + info->offset;
+  uint8_t *colour = member;
+
+  switch (info->type)
+    {
+    case CELD_SETTING_NUMBER:
+      *(float *) member = (float) value;
+      break;
+    case CELD_SETTING_INTEGER:
+    case CELD_SETTING_CHOICE:
+      *(int *) member = (int) value;
+      break;
+    case CELD_SETTING_SWITCH:
+      *(bool *) member = value != 0;
+      break;
+    case CELD_SETTING_COLOUR:
+      for (int c = 0; c < 3; c++)
+        colour[c] = (uint8_t) ((uint32_t) value >> (16 - 8 * c));
+      break;
+    case CELD_SETTING_TEXT:
+      break;
+    }
+}
+
+/* Numbers are compared as floats: 0.99f is above 0.99. */
+bool
+celd_setting_allows (const CeldSettingInfo *info, double value)
+{
+  if (info->type == CELD_SETTING_NUMBER)
+    return (float) value >= (float) info->least && (float) value <= (float) info->most;
+  return value >= info->least && value <= info->most;
+}
 
 CeldSettings
 celd_settings (void)
 {
-  return (CeldSettings) {
-    .ink_threshold   = 0.25f,
-    .close_gaps      = true,
-    .keep_necks      = true,
-    .hardness        = 0.05f,
-    .near_level      = 1,
-    .hold_rest       = true,
-    .tolerance       = 1e-4f,
-    .contrast        = 1,
-    .weight_floor    = 1e-6f,
-    .bulge           = 1,
-    .light_azimuth   = 135,
-    .light_elevation = 45,
-    .light_x         = 0.3f,
-    .light_y         = 0.2f,
-    .light_height    = 0.3f,
-    .ambient         = 0.25f,
-    .toon_steps      = 3,
-    .shininess       = 30,
-    .rim_power       = 3,
-    .shadow_size     = 0.012f,
-    .shadow_strength = 0.6f,
-    .disparity       = 0.02f,
-    .stereo          = CELD_STEREO_SIDE_BY_SIDE,
-    .convergence     = 0.5f,
-    .relief_depth    = 0.1f,
-    .mesh_size       = 100,
-    .mesh_plate      = 2,
-    .mesh_error      = 0.5f,
-    .most_vertices   = 1e6f,
-  };
-}
+  CeldSettings           settings = { 0 };
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
 
-/* False for NaN too. */
-static bool
-within (float value, float least, float most)
-{
-  return value >= least && value <= most;
+  for (size_t i = 0; i < n; i++)
+    celd_setting_set (&info[i], info[i].usual, &settings);
+  return settings;
 }
 
 CeldStatus
-celd_settings_check (const CeldSettings *s)
+celd_settings_check (const CeldSettings *settings)
 {
-  bool good = (unsigned) s->ink <= CELD_INK_ALPHA && (unsigned) s->method <= CELD_METHOD_WALKER &&
-              (unsigned) s->background <= CELD_BACKGROUND_COLOUR && (unsigned) s->seeds <= CELD_SEEDS_SCRIBBLES &&
-              (unsigned) s->same_colour <= CELD_SAME_COLOUR_SEPARATE &&
-              (unsigned) s->suggest <= CELD_SUGGEST_ALL && (unsigned) s->on_cycle <= CELD_ON_CYCLE_SPLIT &&
-              (unsigned) s->arrow_style <= CELD_ARROW_TAPER && (unsigned) s->encoding <= CELD_ENCODING_FIXED &&
-              (unsigned) s->anchors <= CELD_ANCHORS_CORE &&
-              (unsigned) s->expansion <= CELD_EXPANSION_THICKNESS && within (s->ink_threshold, 0, 0.99f) &&
-              within (s->hardness, 0.01f, 1) && within (s->near_level, -1e6f, 1e6f) &&
-              within (s->far_level, -1e6f, 1e6f) &&
-              (s->encoding != CELD_ENCODING_FIXED || s->near_level > s->far_level) &&
-              s->tolerance > 0 && within (s->tolerance, 0, 0.1f) && within (s->contrast, 0.01f, 100) &&
-              within (s->weight_floor, 1e-6f, 1) && within (s->bulge, 0, 4) &&
-              within (s->bevel, 0, 0.5f) && within (s->quilt, 0, 1) &&
-              (unsigned) s->light_model <= CELD_MODEL_MATCAP && (unsigned) s->light <= CELD_LIGHT_POINT &&
-              within (s->light_azimuth, -360, 360) && within (s->light_elevation, -90, 90) &&
-              within (s->light_x, -10, 10) && within (s->light_y, -10, 10) && within (s->light_height, 0.001f, 10) &&
-              within (s->ambient, 0, 1) && s->toon_steps >= 2 && s->toon_steps <= 5 &&
-              within (s->specular, 0, 1) && within (s->shininess, 1, 1000) && within (s->rim_light, 0, 1) &&
-              within (s->rim_power, 0.1f, 20) && (unsigned) s->enhance <= CELD_ENHANCE_CONTRAST &&
-              within (s->shadow_size, 0.0005f, 0.2f) && within (s->shadow_strength, 0, 1) &&
-              within (s->shadow_offset, 0, 0.2f) && within (s->shadow_range, 0, 1) &&
-              within (s->disparity, 0, 0.2f) && within (s->convergence, 0, 1) &&
-              (unsigned) s->stereo <= CELD_STEREO_DUBOIS && within (s->screen_width, 0, 1e6f) &&
-              (unsigned) s->path <= CELD_PATH_TURNTABLE &&
-              (unsigned) s->relief_from <= CELD_RELIEF_NORMALS && within (s->relief_depth, 0, 1) &&
-              (unsigned) s->mesh <= CELD_MESH_SOLID && within (s->mesh_size, 1, 10000) &&
-              within (s->mesh_plate, 0.1f, 1000) && within (s->mesh_error, 0.01f, 100) &&
-              within (s->most_vertices, 1000, 16e6f);
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
 
-  return good ? CELD_OK : CELD_BAD_VALUE;
-}
-
-const char *
-celd_status_text (CeldStatus status)
-{
-  switch (status)
-    {
-    case CELD_OK:               return "Done.";
-    case CELD_CANCELLED:        return "Cancelled.";
-    case CELD_NO_MEMORY:        return "Not enough memory for a picture of this size.";
-    case CELD_BAD_SIZE:         return "The layers must have the size of the drawing, 1 to 20000 pixels a side.";
-    case CELD_BAD_VALUE:        return "A setting is outside its range, or the near level is not above the far level.";
-    case CELD_BAD_RELATION:     return "The relations cannot be read.";
-    case CELD_NOTHING_TO_GO_BY: return "There is nothing to go by: scribble over the parts of the drawing, or draw an "
-                                       "arrow from a nearer to a farther part.";
-    }
-  return "Unknown status.";
-}
-
-/* " #rrggbb" of a label, " the background", or nothing if it is not known. */
-static const char *
-label_name (const CeldPalette *palette, uint32_t label, char name[24])
-{
-  name[0] = 0;
-  if (palette && label >= 1 && label <= palette->n)
-    {
-      const uint8_t *c = palette->item[label - 1].colour;
-
-      if (c[3])
-        snprintf (name, 24, " #%02x%02x%02x", c[0], c[1], c[2]);
-      else
-        snprintf (name, 24, " the background");
-    }
-  return name;
-}
-
-/* "the relation in line 3, column 7" or "the arrow from (x, y) to (x, y)". */
-static void
-relation_name (const CeldRelations *relations, size_t index, char *name, size_t size)
-{
-  const CeldRelation *r = relations && index < relations->n ? &relations->item[index] : NULL;
-
-  if (r && r->source == CELD_SOURCE_TEXT && r->id)
-    snprintf (name, size, "relation %u", (unsigned) r->id);
-  else if (r && r->source == CELD_SOURCE_PATH)
-    snprintf (name, size, "the arrow in line %d, column %d of the path", r->line, r->column);
-  else if (r && r->source == CELD_SOURCE_TEXT)
-    snprintf (name, size, "the relation in line %d, column %d", r->line, r->column);
-  else if (r)
-    snprintf (name, size, "the arrow from (%.0f, %.0f) to (%.0f, %.0f)", r->nearer.x, r->nearer.y, r->farther.x,
-              r->farther.y);
-  else
-    snprintf (name, size, "a relation");
-}
-
-void
-celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations,
-                   char *text, size_t size)
-{
-  char label[24], other[24], relation[96];
-
-  label_name (palette, p->label, label);
-  label_name (palette, p->other, other);
-  relation_name (relations, p->relation, relation, sizeof relation);
-  relation[0] = (char) toupper ((unsigned char) relation[0]);
-  switch (p->kind)
-    {
-    case CELD_PROBLEM_STROKE_OVERRULED:
-      snprintf (text, size, "The stroke%s at (%d, %d) was overruled: most of it went to%s. Paint more of it there, "
-                "close the contour between the two, or use hard strokes.",
-                label, p->x, p->y, other[0] ? other : " another colour");
-      break;
-    case CELD_PROBLEM_REGION_UNREACHED:
-      snprintf (text, size, "No stroke reaches the closed region at (%d, %d); it was given to%s. Put a stroke "
-                "into it if that is wrong.",
-                p->x, p->y, label[0] ? label : " a neighbour");
-      break;
-    case CELD_PROBLEM_COLOUR_LOST:
-      snprintf (text, size, "The colour%s, painted at (%d, %d), has no region left. Paint more of it, or use "
-                "hard strokes.",
-                label, p->x, p->y);
-      break;
-    case CELD_PROBLEM_ARROW_UNCLEAR:
-      snprintf (text, size, "The arrow at (%d, %d) does not say which end is nearer, so it was left out. Draw it "
-                "again with a clearer head, or check the arrow style.",
-                p->x, p->y);
-      break;
-    case CELD_PROBLEM_OUTSIDE:
-      snprintf (text, size, "%s names a point outside the drawing, so it was left out.", relation);
-      break;
-    case CELD_PROBLEM_UNKNOWN_COLOUR:
-      snprintf (text, size, "%s names a colour that no region has, so it was left out. Use the colour of a "
-                "scribble.",
-                relation);
-      break;
-    case CELD_PROBLEM_SAME_REGION:
-      snprintf (text, size, "%s has both ends in the region%s, so it was left out. Scribble another colour at "
-                "one of its ends.",
-                relation, label);
-      break;
-    case CELD_PROBLEM_CONTRADICTION:
-      snprintf (text, size, "%s contradicts the others, so it was left out. Turn it round, or delete another one "
-                "of the circle.",
-                relation);
-      break;
-    case CELD_PROBLEM_NOT_CONVERGED:
-      snprintf (text, size, "Smooth depth is less exact than asked for. Allow a larger tolerance if this does "
-                "not matter.");
-      break;
-    case CELD_PROBLEM_REGION_SPLIT:
-      snprintf (text, size, "Relations go round in a circle, so the region%s was split: its part at (%d, %d) has a "
-                "level of its own, and the sheet bends. Delete a relation of the circle if that is wrong.",
-                label, p->x, p->y);
-      break;
-    }
-}
-
-void
-celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size)
-{
-  char   relation[96];
-  size_t used = (size_t) snprintf (text, size, "It goes round in a circle with ");
-
-  for (size_t i = 1; i < cycle->n && used < size; i++)
-    {
-      relation_name (relations, cycle->item[i], relation, sizeof relation);
-      used += (size_t) snprintf (text + used, size - used, "%s%s", relation, i + 1 < cycle->n ? ", " : ".");
-    }
-  if (cycle->label && used < size)
-    snprintf (text + used, size - used, " That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
-              "same-colour=separate gives each its own.", cycle->colour[0], cycle->colour[1], cycle->colour[2],
-              cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
+  for (size_t i = 0; i < n; i++)
+    if (!celd_setting_allows (&info[i], celd_setting_get (&info[i], settings)))
+      return CELD_BAD_VALUE;
+  if (settings->encoding == CELD_ENCODING_FIXED && settings->near_level <= settings->far_level)
+    return CELD_BAD_VALUE;
+  return CELD_OK;
 }

@@ -7,7 +7,7 @@
 #ifndef CELDEPTH_RECORDS_H
 #define CELDEPTH_RECORDS_H
 
-#include "celdepth/values.h"
+#include "celdepth/settings.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -49,80 +49,39 @@ same_relations (const CeldRelations *a, const CeldRelations *b)
   return a->n == b->n;
 }
 
-/* Do normals, and does the light on them? */
-static bool
-shape_differs (const CeldSettings *a, const CeldSettings *b)
+/* The stages that read what differs: by the table, and where it depends on what a setting was or is. */
+static unsigned
+stages_of_changes (const CeldSettings *a, const CeldSettings *b)
 {
-  return a->bulge != b->bulge || a->bevel != b->bevel || a->quilt != b->quilt || a->frame_outline != b->frame_outline;
-}
+  unsigned               stages = 0;
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
 
-static bool
-light_differs (const CeldSettings *a, const CeldSettings *b)
-{
-  return a->light_model != b->light_model || a->light != b->light || a->light_azimuth != b->light_azimuth ||
-         a->light_elevation != b->light_elevation || a->light_x != b->light_x || a->light_y != b->light_y ||
-         a->light_height != b->light_height || a->ambient != b->ambient || a->toon_steps != b->toon_steps ||
-         a->specular != b->specular || a->shininess != b->shininess || a->rim_light != b->rim_light ||
-         a->rim_power != b->rim_power;
+  for (size_t i = 0; i < n; i++)
+    if (celd_setting_get (&info[i], a) != celd_setting_get (&info[i], b))
+      stages |= info[i].stages;
+  if ((a->on_cycle == CELD_ON_CYCLE_SPLIT) != (b->on_cycle == CELD_ON_CYCLE_SPLIT))
+    stages |= 1u << STAGE_LABELS;
+  if (b->method == CELD_METHOD_WALKER && stages & 1u << STAGE_WEIGHTS)
+    stages |= 1u << STAGE_LABELS;
+  return stages;
 }
 
 /* Each stage that reads a setting forgets its result; what is made from it goes with it. */
 CeldStatus
 celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
 {
-  const CeldSettings *a = &session->settings, *b = settings;
-  bool                threshold = a->ink_threshold != b->ink_threshold, tolerance = a->tolerance != b->tolerance;
-  bool                split = (a->on_cycle == CELD_ON_CYCLE_SPLIT) != (b->on_cycle == CELD_ON_CYCLE_SPLIT);
-  bool                encoding = a->encoding != b->encoding || a->near_level != b->near_level ||
-                                 a->far_level != b->far_level;
-  CeldStatus          status = celd_settings_check (settings);
+  CeldStatus status = celd_settings_check (settings);
+  unsigned   stages;
 
   if (status != CELD_OK)
     return status;
-  if (a->arrow_style != b->arrow_style)
-    celd_session_forget (session, STAGE_RELATIONS);
-  if (a->ink != b->ink)
-    celd_session_forget (session, STAGE_INK);
-  if (a->flats != b->flats)
-    celd_session_forget (session, STAGE_SCRIBBLES);
-  if (a->method != b->method || a->close_gaps != b->close_gaps || a->keep_necks != b->keep_necks ||
-      a->hardness != b->hardness || a->background != b->background ||
-      memcmp (a->background_colour, b->background_colour, 3) || a->seeds != b->seeds ||
-      a->same_colour != b->same_colour || threshold || split)
-    celd_session_forget (session, STAGE_LABELS);
-  if (a->suggest != b->suggest || a->on_cycle != b->on_cycle)
-    celd_session_forget (session, STAGE_ORDER);
-  if (a->expansion != b->expansion)
-    {
-      celd_session_forget (session, STAGE_OWNERSHIP);
-      celd_session_forget_ownership (session);
-    }
-  if (encoding)
-    {
-      celd_session_forget (session, STAGE_FLAT);
-      celd_session_forget (session, STAGE_LEVELS);
-      celd_session_forget (session, STAGE_PREVIEW);
-    }
-  if (a->anchors != b->anchors || a->hold_rest != b->hold_rest || tolerance || threshold)
-    {
-      celd_session_forget (session, STAGE_PREVIEW);
-      celd_session_forget (session, STAGE_DEPTH);
-    }
-  if (a->contrast != b->contrast || a->weight_floor != b->weight_floor)
-    {
-      celd_session_forget (session, STAGE_WEIGHTS);
-      if (b->method == CELD_METHOD_WALKER)
-        celd_session_forget (session, STAGE_LABELS);
-    }
-  if (a->background != b->background || memcmp (a->background_colour, b->background_colour, 3) ||
-      a->same_colour != b->same_colour)
-    celd_session_forget (session, STAGE_NODES);
-  if (encoding || tolerance || a->on_cycle != b->on_cycle)
-    celd_session_forget (session, STAGE_EXACT);
-  if (threshold || shape_differs (a, b))
-    celd_session_forget (session, STAGE_NORMALS);
-  if (light_differs (a, b))
-    celd_session_forget (session, STAGE_SHADING);
+  stages = stages_of_changes (&session->settings, settings);
+  for (int stage = 0; stage < N_STAGES; stage++)
+    if (stages & 1u << stage)
+      celd_session_forget (session, (CeldStage) stage);
+  if (stages & 1u << STAGE_OWNERSHIP)
+    celd_session_forget_ownership (session);
   session->settings = *settings;
   return CELD_OK;
 }

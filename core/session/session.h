@@ -19,35 +19,13 @@
 #ifndef CELD_SESSION_H
 #define CELD_SESSION_H
 
+#include "base/stages.h"
 #include "depth/depth.h"
 #include "depth/exact.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "ownership/ownership.h"
 #include "segment/segment.h"
-
-/* What can be made, each from earlier ones only. */
-typedef enum
-{
-  STAGE_RELATIONS, /* the text's, the path's, the layer's and the single ones, in one list */
-  STAGE_INK,       /* for segmentation and for depth */
-  STAGE_SCRIBBLES, /* the layer's seeds */
-  STAGE_SEEDS,     /* the same under the single strokes */
-  STAGE_LABELS,
-  STAGE_SUGGESTIONS,
-  STAGE_ORDER,
-  STAGE_FLAT,
-  STAGE_OWNERSHIP, /* whose the ink is */
-  STAGE_LEVELS,
-  STAGE_PREVIEW,   /* of depth */
-  STAGE_DEPTH,
-  STAGE_NORMALS,
-  STAGE_SHADING,
-  STAGE_WEIGHTS,   /* of the exact program */
-  STAGE_NODES,     /* the scribbles as it has them */
-  STAGE_EXACT,
-  N_STAGES
-} CeldStage;
 
 /* Pixels x .. end - 1 of row y, relative to the stroke's position. */
 typedef struct { int y, x, end; } CeldStrokeSpan;

@@ -1,4 +1,4 @@
-/* Defaults are legal, every range is kept, and every text for artists says what and where.
+/* Defaults are legal, every range is kept, and the table of settings is whole.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -80,59 +80,115 @@ fixed_levels_need_a_span (void)
   CHECK (celd_settings_check (&s) == CELD_OK);
 }
 
+/* ------------------------------------------------------------------ the table */
+
 static void
-every_status_has_a_text (void)
+rows_are_complete (void)
 {
-  for (int status = CELD_OK; status <= CELD_NOTHING_TO_GO_BY; status++)
-    for (int other = CELD_OK; other < status; other++)
-      CHECK (strcmp (celd_status_text ((CeldStatus) status), celd_status_text ((CeldStatus) other)));
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
+
+  CHECK (n > 0 && info[0].theme);
+  for (size_t i = 0; i < n; i++)
+    {
+      const CeldSettingInfo *row = &info[i];
+
+      CHECK (celd_setting_find (row->name) == row); /* so no name is there twice */
+      CHECK (row->label && *row->label && row->help && *row->help);
+      CHECK (row->help[strlen (row->help) - 1] != '.');
+      CHECK (celd_setting_allows (row, row->usual));
+      CHECK (row->least < row->most && !celd_setting_allows (row, NAN));
+      if (row->type == CELD_SETTING_NUMBER || row->type == CELD_SETTING_INTEGER)
+        {
+          CHECK (row->least <= row->shown.least && row->shown.most <= row->most);
+          CHECK (row->shown.least < row->shown.most && row->shown.step > 0 && row->shown.page >= row->shown.step);
+        }
+      if (row->type == CELD_SETTING_CHOICE)
+        for (size_t k = 0; k < row->choices; k++)
+          CHECK (row->choice[k].nick && *row->choice[k].nick && row->choice[k].label && *row->choice[k].label);
+    }
+  CHECK (!celd_setting_find ("no-such-setting"));
+}
+
+/* "light {point}" names a setting and one of its choices. */
+static void
+conditions_name_choices (void)
+{
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
+
+  for (size_t i = 0; i < n; i++)
+    {
+      char                   name[32], nick[32];
+      const CeldSettingInfo *other;
+      bool                   found = false;
+
+      if (!info[i].when)
+        continue;
+      CHECK (sscanf (info[i].when, "%31s {%31[^}]}", name, nick) == 2);
+      other = celd_setting_find (name);
+      CHECK (other && other->type == CELD_SETTING_CHOICE);
+      for (size_t k = 0; other && k < other->choices; k++)
+        found = found || !strcmp (other->choice[k].nick, nick);
+      CHECK (found);
+    }
+}
+
+static size_t
+size_of (const CeldSettingInfo *row)
+{
+  return row->type == CELD_SETTING_SWITCH ? sizeof (bool) : row->type == CELD_SETTING_COLOUR ? 3 : sizeof (int);
+}
+
+/* Whatever a row does not cover is less than a number: padding. */
+static void
+every_member_has_a_row (void)
+{
+  uint8_t                covered[sizeof (CeldSettings)] = { 0 };
+  size_t                 n, gap = 0;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
+
+  for (size_t i = 0; i < n; i++)
+    for (size_t byte = 0; byte < size_of (&info[i]); byte++)
+      CHECK (!covered[info[i].offset + byte]++);
+  for (size_t byte = 0; byte < sizeof covered; byte++)
+    {
+      gap = covered[byte] ? 0 : gap + 1;
+      CHECK (gap < sizeof (int));
+    }
 }
 
 static void
-problems_say_what_and_where (void)
+values_come_back_as_they_were_set (void)
 {
-  CeldRegion    region[2] = { { .colour = { 255, 0, 16, 255 } }, { .colour = { 0 } } };
-  CeldPalette   palette = { region, 2 };
-  CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
-  CeldRelations relations = { &relation, 1 };
-  CeldProblem   overruled = { CELD_PROBLEM_STROKE_OVERRULED, 12, 34, 1, 2, CELD_NO_INDEX };
-  CeldProblem   outside = { CELD_PROBLEM_OUTSIDE, -1, -1, 0, 0, 0 };
-  char          text[400], small[8] = "xxxxxxx";
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
 
-  celd_problem_text (&overruled, &palette, &relations, text, sizeof text);
-  CHECK (strstr (text, "#ff0010") && strstr (text, "(12, 34)") && strstr (text, "the background"));
-  celd_problem_text (&overruled, NULL, NULL, text, sizeof text); /* without names it still says where */
-  CHECK (!strchr (text, '#') && strstr (text, "(12, 34)"));
-  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
-  CHECK (strstr (text, "line 3, column 9"));
-  celd_problem_text (&outside, &palette, &relations, small, sizeof small);
-  CHECK (strlen (small) == sizeof small - 1); /* cut, and ended */
-  relation.source = CELD_SOURCE_ARROW;
-  relation.nearer.x = 5;
-  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
-  CHECK (strstr (text, "The arrow from (5, 0)"));
+  for (size_t i = 0; i < n; i++)
+    {
+      CeldSettings s = celd_settings (), usual = s;
+
+      for (int end = 0; end < 2; end++)
+        {
+          double value = end ? info[i].most : info[i].least;
+
+          celd_setting_set (&info[i], value, &s);
+          NEAR (celd_setting_get (&info[i], &s), value, 1e-6 * fabs (value));
+        }
+      for (size_t k = 0; k < n; k++)
+        CHECK (k == i || celd_setting_get (&info[k], &s) == celd_setting_get (&info[k], &usual));
+    }
 }
 
+/* What artists are told in README.md and the manual. */
 static void
-partners_of_a_contradiction (void)
+known_defaults (void)
 {
-  CeldRelation  relation[3] = {
-    { .line = 1, .column = 1 }, { .id = 8 }, { .source = CELD_SOURCE_ARROW, .farther = { .y = 7 } }
-  };
-  CeldRelations relations = { relation, 3 };
-  size_t        item[] = { 1, 0, 2 };
-  CeldCycle     cycle = { .item = item, .n = 3 };
-  char          text[300], small[40];
+  CeldSettings s = celd_settings ();
 
-  celd_cycle_text (&cycle, &relations, text, sizeof text);
-  CHECK (strstr (text, "line 1, column 1, the arrow from (0, 0) to (0, 7)."));
-  CHECK (!strstr (text, "relation 8")); /* it is the one that the sentence before is about */
-  celd_cycle_text (&cycle, &relations, small, sizeof small);
-  CHECK (strlen (small) == sizeof small - 1);
-  cycle.label = 2;
-  cycle.x[0]  = 17;
-  celd_cycle_text (&cycle, &relations, text, sizeof text);
-  CHECK (strstr (text, "#000000") && strstr (text, "(17, 0)") && strstr (text, "same-colour=separate"));
+  CHECK (s.stereo == CELD_STEREO_DUBOIS && s.close_gaps && s.keep_necks && s.hold_rest && !s.flats && !s.complete);
+  CHECK (s.background_colour[0] == 255 && s.background_colour[1] == 255 && s.background_colour[2] == 255);
+  CHECK (s.toon_steps == 3 && s.near_level == 1 && s.far_level == 0);
 }
 
 int
@@ -142,8 +198,10 @@ main (void)
   RUN (ranges_are_kept);
   RUN (toon_has_two_to_five_steps);
   RUN (fixed_levels_need_a_span);
-  RUN (every_status_has_a_text);
-  RUN (problems_say_what_and_where);
-  RUN (partners_of_a_contradiction);
+  RUN (rows_are_complete);
+  RUN (conditions_name_choices);
+  RUN (every_member_has_a_row);
+  RUN (values_come_back_as_they_were_set);
+  RUN (known_defaults);
   return DONE;
 }

@@ -297,7 +297,7 @@ background_is_added (void)
   CHECK (c.palette.n == 2 && !c.palette.item[0].background && !c.palette.item[1].background);
   case_clear (&c);
   settings.background = CELD_BACKGROUND_COLOUR;
-  settings.background_colour[0] = 255;
+  settings.background_colour[0] = 255, settings.background_colour[1] = settings.background_colour[2] = 0;
   c = segment (two_rooms, inside_only, 2, settings);
   CHECK (c.palette.n == 3 && c.palette.item[2].background);
   CHECK (c.palette.item[2].colour[0] == 255 && c.palette.item[2].colour[3] == 255);

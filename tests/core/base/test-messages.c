@@ -1,0 +1,69 @@
+/* Statuses, problems and contradictions as sentences.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+
+static void
+every_status_has_a_text (void)
+{
+  for (int status = CELD_OK; status <= CELD_NOTHING_TO_GO_BY; status++)
+    for (int other = CELD_OK; other < status; other++)
+      CHECK (strcmp (celd_status_text ((CeldStatus) status), celd_status_text ((CeldStatus) other)));
+}
+
+static void
+problems_say_what_and_where (void)
+{
+  CeldRegion    region[2] = { { .colour = { 255, 0, 16, 255 } }, { .colour = { 0 } } };
+  CeldPalette   palette = { region, 2 };
+  CeldRelation  relation = { .source = CELD_SOURCE_TEXT, .line = 3, .column = 9 };
+  CeldRelations relations = { &relation, 1 };
+  CeldProblem   overruled = { CELD_PROBLEM_STROKE_OVERRULED, 12, 34, 1, 2, CELD_NO_INDEX };
+  CeldProblem   outside = { CELD_PROBLEM_OUTSIDE, -1, -1, 0, 0, 0 };
+  char          text[400], small[8] = "xxxxxxx";
+
+  celd_problem_text (&overruled, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "#ff0010") && strstr (text, "(12, 34)") && strstr (text, "the background"));
+  celd_problem_text (&overruled, NULL, NULL, text, sizeof text); /* without names it still says where */
+  CHECK (!strchr (text, '#') && strstr (text, "(12, 34)"));
+  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "line 3, column 9"));
+  celd_problem_text (&outside, &palette, &relations, small, sizeof small);
+  CHECK (strlen (small) == sizeof small - 1); /* cut, and ended */
+  relation.source = CELD_SOURCE_ARROW;
+  relation.nearer.x = 5;
+  celd_problem_text (&outside, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "The arrow from (5, 0)"));
+}
+
+static void
+partners_of_a_contradiction (void)
+{
+  CeldRelation  relation[3] = {
+    { .line = 1, .column = 1 }, { .id = 8 }, { .source = CELD_SOURCE_ARROW, .farther = { .y = 7 } }
+  };
+  CeldRelations relations = { relation, 3 };
+  size_t        item[] = { 1, 0, 2 };
+  CeldCycle     cycle = { .item = item, .n = 3 };
+  char          text[300], small[40];
+
+  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  CHECK (strstr (text, "line 1, column 1, the arrow from (0, 0) to (0, 7)."));
+  CHECK (!strstr (text, "relation 8")); /* it is the one that the sentence before is about */
+  celd_cycle_text (&cycle, &relations, small, sizeof small);
+  CHECK (strlen (small) == sizeof small - 1);
+  cycle.label = 2;
+  cycle.x[0]  = 17;
+  celd_cycle_text (&cycle, &relations, text, sizeof text);
+  CHECK (strstr (text, "#000000") && strstr (text, "(17, 0)") && strstr (text, "same-colour=separate"));
+}
+
+int
+main (void)
+{
+  RUN (every_status_has_a_text);
+  RUN (problems_say_what_and_where);
+  RUN (partners_of_a_contradiction);
+  return DONE;
+}
