@@ -4,36 +4,35 @@
  */
 #include "properties.h"
 
-#ifdef GEGL_PROPERTIES
-
-property_enum (result, "Result", CeldExpandResult, celd_expand_result, CELD_EXPAND_LEVELS)
-    description ("The levels; or the drawing cut up, one layer of it, in linear light; or the owner of each pixel, in "
-                 "the colour of its region (without regions, its level as a grey), as opaque as it covers the pixel")
-
-property_int (layer, "Layer", 0)
-    description ("Which layer, 0 is the farthest; there is nothing in layers beyond the nearest. Each over the one "
-                 "before, they are the drawing again")
-    value_range (0, G_MAXINT)
-    ui_range (0, 50)
-    ui_meta ("visible", "result {layer}")
-
-property_boolean (complete, "Complete", FALSE)
-    description ("Layers have what nearer ones hide, too")
-    ui_meta ("visible", "result {layer}")
-
-property_enum (method, "Method", CeldExpansion, celd_expansion, CELD_EXPANSION_OUTLINES)
-    description (CELD_EXPANSION_WORDS)
-
-CELD_PROPERTY_INK
-
-#else
-
-#define GEGL_OP_NAME     celdepth_depth_expand
-#define GEGL_OP_C_SOURCE celdepth-depth-expand.c
-#define GEGL_OP_BUNDLE
-
-#include <gegl-op.h>
 #include <string.h>
+
+static const CeldSettingChoice results[] = {
+  [CELD_EXPAND_LEVELS] = { "levels", "Levels: with contours given to their owners" },
+  [CELD_EXPAND_LAYER]  = { "layer", "Layer: one layer of the drawing cut up" },
+  [CELD_EXPAND_MATTE]  = { "matte", "Matte: owner and coverage" },
+};
+
+static const CeldSettingInfo result_row = {
+  .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldExpandResult, results),
+  .help = "The levels, one layer of the drawing cut up (in linear light), or the owner of each pixel. The owner is "
+          "shown in the colour of its region (without regions, its level as a grey), and as opaque as it covers the pixel"
+};
+
+static const CeldSettingInfo layer_row = {
+  .name = "layer", .label = "Layer", .type = CELD_SETTING_INTEGER, .offset = offsetof (CeldOwnValues, layer),
+  .least = 0, .most = G_MAXINT, .shown = { 0, 50, 1, 5 }, .when = "result {layer}",
+  .help = "Which layer, starting with 0 for the farthest; layers beyond the nearest are empty. Each layer over the one "
+          "before, they are the drawing again"
+};
+
+static const CeldProperty properties[] = {
+  { .own = &result_row },
+  { .own = &layer_row },
+  { .name = "complete", .when = "result {layer}" },
+  { .name = "expansion", .as = "method", .label = "Method" },
+  { .name = "ink" },
+  { 0 }
+};
 
 static const CeldPad pads[] = {
   { "input", "Levels", "The depth levels of the regions, from Depth Order", TRUE },
@@ -46,7 +45,7 @@ static const CeldPad pads[] = {
 static void
 prepare (GeglOperation *operation)
 {
-  bool levels = GEGL_PROPERTIES (operation)->result == CELD_EXPAND_LEVELS;
+  gboolean levels = celd_operation_own (operation)->result == CELD_EXPAND_LEVELS;
 
   gegl_operation_set_format (operation, "output", babl_format (levels ? "Y float" : "RGBA float"));
 }
@@ -136,14 +135,15 @@ write_layer (CeldOp *op, const CeldLayers *layers, size_t number)
 static gboolean
 render_layer (CeldOp *op, const Inputs *in)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldColours     art;
-  CeldLayers     *layers = NULL;
-  gboolean        good = celd_op_read_colours (op, "aux", &art) &&
-                         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, or_null (&in->regions),
-                                                                 or_null (&in->corrections), &art, o->method,
-                                                                 CELD_STORE_FLOAT, o->complete, &op->host, &layers)) &&
-                         write_layer (op, layers, (size_t) o->layer);
+  const CeldSettings *s = &op->settings;
+  CeldColours         art;
+  CeldLayers         *layers = NULL;
+  gboolean            good = celd_op_read_colours (op, "aux", &art) &&
+                             celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, or_null (&in->regions),
+                                                                     or_null (&in->corrections), &art, s->expansion,
+                                                                     CELD_STORE_FLOAT, s->complete, &op->host,
+                                                                     &layers)) &&
+                             write_layer (op, layers, (size_t) op->own.layer);
 
   celd_layers_free (layers);
   return good;
@@ -172,14 +172,13 @@ colour_owners (CeldOp *op, const CeldLabels *owner, const CeldPlane *level, Celd
 static gboolean
 render_matte (CeldOp *op, Inputs *in)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldLabels     *owner = in->regions.data ? &in->regions : NULL;
-  CeldPlane       share;
-  CeldColours     matte;
+  CeldLabels *owner = in->regions.data ? &in->regions : NULL;
+  CeldPlane   share;
+  CeldColours matte;
 
   if (!celd_op_new_plane (op, &share) || !celd_op_new_colours (op, &matte) ||
-      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, or_null (&in->corrections), o->method,
-                                              &op->host, &in->levels, owner, &share)) ||
+      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, or_null (&in->corrections),
+                                              op->settings.expansion, &op->host, &in->levels, owner, &share)) ||
       !colour_owners (op, owner, &in->levels, &matte))
     return FALSE;
   for (gsize p = 0; p < (gsize) share.width * (gsize) share.height; p++)
@@ -192,23 +191,21 @@ render_matte (CeldOp *op, Inputs *in)
 static gboolean
 render_levels (CeldOp *op, Inputs *in)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-
   return celd_op_try (op, celd_expand_levels (&in->ink, &in->levels, or_null (&in->regions),
-                                              or_null (&in->corrections), o->method, &op->host, &in->levels)) &&
+                                              or_null (&in->corrections), op->settings.expansion, &op->host,
+                                              &in->levels)) &&
          celd_op_write (op, in->levels.data);
 }
 
 static gboolean
 render (CeldOp *op)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  Inputs          in = { 0 };
+  Inputs in = { 0 };
 
-  if (!celd_op_read_ink (op, "aux", o->ink, &in.ink) || !celd_op_read_plane (op, "input", &in.levels) ||
+  if (!celd_op_read_ink (op, "aux", &in.ink) || !celd_op_read_plane (op, "input", &in.levels) ||
       !read_regions (op, &in.regions) || !read_corrections (op, &in.regions, &in.corrections))
     return FALSE;
-  switch (o->result)
+  switch ((CeldExpandResult) op->own.result)
     {
     case CELD_EXPAND_LAYER:
       return render_layer (op, &in);
@@ -220,25 +217,15 @@ render (CeldOp *op)
   return render_levels (op, &in);
 }
 
-static void
-gegl_op_class_init (GeglOpClass *klass)
-{
-  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
-
-  klass->parent_class.pads   = pads;
-  klass->parent_class.render = render;
-  operation_class->prepare   = prepare;
-
-  gegl_operation_class_set_keys (operation_class,
-    "name",            "celdepth:depth-expand",
-    "title",           "Depth Expand",
-    "categories",      "artistic",
-    "description",     "Gives each contour to the region in front, which drew it, so that levels change at the "
-                       "outer edge of the ink",
-    "reference",       CELD_REFERENCE,
-    "gimp:menu-path",  CELD_MENU,
-    "gimp:menu-label", "Depth Expand...",
-    NULL);
-}
-
-#endif
+const CeldOperationInfo celd_depth_expand_operation = {
+  .name        = "celdepth:depth-expand",
+  .title       = "Depth Expand",
+  .categories  = "artistic",
+  .description = "Gives each contour to the region in front, which drew it, so that levels change at the outer edge of "
+                 "the ink",
+  .reference   = CELD_REFERENCE,
+  .pads        = pads,
+  .properties  = properties,
+  .prepare     = prepare,
+  .render      = render,
+};

@@ -4,25 +4,12 @@
  */
 #include "properties.h"
 
-#ifdef GEGL_PROPERTIES
-
-CELD_PROPERTY_RELATIONS
-CELD_PROPERTY_ARROW_PATH
-CELD_PROPERTY_ARROW_STYLE
-CELD_PROPERTY_ON_CYCLE
-CELD_PROPERTY_SUGGEST
-CELD_PROPERTY_SAME_COLOUR
-CELD_PROPERTY_BACKGROUND
-CELD_PROPERTY_ENCODING
-CELD_PROPERTY_INK
-
-#else
-
-#define GEGL_OP_NAME     celdepth_depth_order
-#define GEGL_OP_C_SOURCE celdepth-depth-order.c
-#define GEGL_OP_BUNDLE
-
-#include <gegl-op.h>
+static const CeldProperty properties[] = {
+  { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" },
+  { .name = "suggest" }, { .name = "same-colour" }, { .name = "background" }, { .name = "background-colour" },
+  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "ink" },
+  { 0 }
+};
 
 static const CeldPad pads[] = {
   { "input", "Labels", "The regions as flat colours, made by Lazybrush Segment or painted", TRUE },
@@ -34,35 +21,12 @@ static const CeldPad pads[] = {
   { NULL, NULL, NULL, FALSE }
 };
 
-static void
-prepare (GeglOperation *operation)
-{
-  gegl_operation_set_format (operation, "output", babl_format ("Y float"));
-}
-
-static CeldSettings
-settings (GeglProperties *o)
-{
-  CeldSettings s = celd_settings ();
-
-  s.ink         = o->ink;
-  s.arrow_style = o->arrow_style;
-  s.on_cycle    = o->on_cycle;
-  s.same_colour = o->same_colour;
-  s.suggest     = o->suggest;
-  s.background  = o->background;
-  s.encoding    = o->encoding;
-  s.near_level  = (float) o->near_level;
-  s.far_level   = (float) o->far_level;
-  celd_op_get_colour (o->background_colour, s.background_colour);
-  return s;
-}
-
 /* The colours of the input as labels of op->palette. */
 static gboolean
-read_labels (CeldOp *op, const CeldSettings *s, const CeldPlane *ink, CeldLabels *labels)
+read_labels (CeldOp *op, const CeldPlane *ink, CeldLabels *labels)
 {
-  CeldPaint colours;
+  const CeldSettings *s = &op->settings;
+  CeldPaint           colours;
 
   return celd_op_read_paint (op, "input", &colours) &&
          celd_op_new_labels (op, labels) &&
@@ -85,11 +49,12 @@ find_suggestions (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink, Ce
 
 /* With `suggest` that joins the relations. */
 static gboolean
-add_suggestions (CeldOp *op, const CeldSettings *s, const CeldLabels *labels, const CeldPlane *ink)
+add_suggestions (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
 {
-  CeldRelations suggested = { 0 };
-  gboolean      good = s->suggest == CELD_SUGGEST_OFF ||
-                       (find_suggestions (op, labels, ink, &suggested) &&
+  const CeldSettings *s = &op->settings;
+  CeldRelations       suggested = { 0 };
+  gboolean            good = s->suggest == CELD_SUGGEST_OFF ||
+                             (find_suggestions (op, labels, ink, &suggested) &&
                         celd_op_try (op, celd_suggestions_join (labels, &op->palette, &op->relations, &suggested,
                                                                 s, ink, &op->quiet, &op->relations)));
 
@@ -98,56 +63,45 @@ add_suggestions (CeldOp *op, const CeldSettings *s, const CeldLabels *labels, co
 }
 
 static gboolean
-write_levels (CeldOp *op, const CeldSettings *s, const CeldLabels *labels)
+write_levels (CeldOp *op, const CeldLabels *labels)
 {
   CeldPlane levels;
 
   if (!celd_op_new_plane (op, &levels))
     return FALSE;
   for (size_t i = 0; i < (size_t) labels->width * (size_t) labels->height; i++)
-    levels.data[i] = celd_order_value (&op->order, op->order.level[labels->data[i] - 1], s);
+    levels.data[i] = celd_order_value (&op->order, op->order.level[labels->data[i] - 1], &op->settings);
   return celd_op_write (op, levels.data);
 }
 
 static gboolean
 render (CeldOp *op)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldSettings    s = settings (o);
-  gboolean        drawn = celd_op_has (op, "aux2");
-  CeldPlane       ink;
-  CeldLabels      labels;
+  const CeldSettings *s = &op->settings;
+  gboolean            drawn = celd_op_has (op, "aux2");
+  CeldPlane           ink;
+  CeldLabels          labels;
 
-  return celd_op_try (op, celd_settings_check (&s)) &&
-         (!drawn || celd_op_read_ink (op, "aux2", o->ink, &ink)) &&
-         read_labels (op, &s, drawn ? &ink : NULL, &labels) &&
-         celd_op_read_relations (op, o->relations, o->arrow_path, "aux", o->arrow_style) &&
-         add_suggestions (op, &s, &labels, drawn ? &ink : NULL) &&
-         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, &s, &op->host,
+  return celd_op_try (op, celd_settings_check (s)) &&
+         (!drawn || celd_op_read_ink (op, "aux2", &ink)) &&
+         read_labels (op, drawn ? &ink : NULL, &labels) &&
+         celd_op_read_relations (op, "aux") &&
+         add_suggestions (op, &labels, drawn ? &ink : NULL) &&
+         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, s, &op->host,
                                       &op->order, &op->problems)) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
-         write_levels (op, &s, &labels);
+         write_levels (op, &labels);
 }
 
-static void
-gegl_op_class_init (GeglOpClass *klass)
-{
-  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
-
-  klass->parent_class.pads   = pads;
-  klass->parent_class.render = render;
-  operation_class->prepare   = prepare;
-
-  gegl_operation_class_set_keys (operation_class,
-    "name",            "celdepth:depth-order",
-    "title",           "Depth Order",
-    "categories",      "artistic",
-    "description",     "Gives each region a depth level, from arrows and relations that say which is in front of "
-                       "which",
-    "reference",       CELD_REFERENCE,
-    "gimp:menu-path",  CELD_MENU,
-    "gimp:menu-label", "Depth Order...",
-    NULL);
-}
-
-#endif
+const CeldOperationInfo celd_depth_order_operation = {
+  .name        = "celdepth:depth-order",
+  .title       = "Depth Order",
+  .categories  = "artistic",
+  .description = "Gives each region a depth level, from arrows and relations that say which is in front of "
+                 "which",
+  .reference   = CELD_REFERENCE,
+  .pads        = pads,
+  .properties  = properties,
+  .format      = "Y float",
+  .render      = render,
+};

@@ -4,29 +4,25 @@
  */
 #include "properties.h"
 
-#ifdef GEGL_PROPERTIES
+static const CeldSettingChoice results[] = {
+  [CELD_SEGMENT_LABELS]   = { "labels", "Labels: the regions as flat colours" },
+  [CELD_SEGMENT_CLOSURES] = { "closures", "Closures: the gaps that were closed, as red contours" },
+  [CELD_SEGMENT_PROBLEMS] = { "problems", "Problems: marks on the drawing where something needs attention" },
+};
 
-property_enum (result, "Result", CeldSegmentResult, celd_segment_result, CELD_SEGMENT_LABELS)
-    description ("The regions, or what the artist may want to see of how they came about")
+static const CeldSettingInfo result_row = {
+  .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldSegmentResult, results),
+  .help = "The regions, or a layer that shows how they came about"
+};
 
-CELD_PROPERTY_INK
-CELD_PROPERTY_INK_THRESHOLD
-CELD_PROPERTY_METHOD
-CELD_PROPERTY_HARDNESS
-CELD_PROPERTY_FLATS
-CELD_PROPERTY_BACKGROUND
-CELD_PROPERTY_SEEDS
-CELD_PROPERTY_RELATIONS
-CELD_PROPERTY_ARROW_PATH
-CELD_PROPERTY_ARROW_STYLE
-
-#else
-
-#define GEGL_OP_NAME     celdepth_lazybrush_segment
-#define GEGL_OP_C_SOURCE celdepth-lazybrush-segment.c
-#define GEGL_OP_BUNDLE
-
-#include <gegl-op.h>
+static const CeldProperty properties[] = {
+  { .own = &result_row },
+  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" }, { .name = "close-gaps" },
+  { .name = "keep-necks" }, { .name = "hardness" }, { .name = "flats" }, { .name = "background" },
+  { .name = "background-colour" }, { .name = "seeds" }, { .name = "relations" }, { .name = "arrow-path" },
+  { .name = "arrow-style" },
+  { 0 }
+};
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
@@ -34,31 +30,6 @@ static const CeldPad pads[] = {
   { "aux2", "Arrows", "Arrows from nearer to farther parts; their ends make regions where no scribble is", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
-
-static void
-prepare (GeglOperation *operation)
-{
-  gegl_operation_set_format (operation, "output", babl_format ("R'G'B'A u8"));
-}
-
-static CeldSettings
-settings (GeglProperties *o)
-{
-  CeldSettings s = celd_settings ();
-
-  s.ink           = o->ink;
-  s.ink_threshold = (float) o->ink_threshold;
-  s.method        = o->method;
-  s.close_gaps    = o->close_gaps;
-  s.keep_necks    = o->keep_necks;
-  s.hardness      = (float) o->hardness;
-  s.flats         = o->flats;
-  s.background    = o->background;
-  s.seeds         = o->seeds;
-  s.arrow_style   = o->arrow_style;
-  celd_op_get_colour (o->background_colour, s.background_colour);
-  return s;
-}
 
 /* A layer for the artist: over the drawing it shows what was closed, and it can be given back as virtual contours. */
 static gboolean
@@ -83,7 +54,7 @@ write_problems (CeldOp *op)
 static gboolean
 write_result (CeldOp *op)
 {
-  switch (GEGL_PROPERTIES (op->operation)->result)
+  switch ((CeldSegmentResult) op->own.result)
     {
     case CELD_SEGMENT_LABELS:   return celd_op_write_labels (op);
     case CELD_SEGMENT_CLOSURES: return write_closures (op);
@@ -95,33 +66,20 @@ write_result (CeldOp *op)
 static gboolean
 render (CeldOp *op)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldSettings    s = settings (o);
-
-  return celd_op_set_session (op, &s, o->relations, o->arrow_path) &&
+  return celd_op_set_session (op) &&
          write_result (op) &&
          celd_op_tell_session (op, NULL);
 }
 
-static void
-gegl_op_class_init (GeglOpClass *klass)
-{
-  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
-
-  klass->parent_class.pads   = pads;
-  klass->parent_class.render = render;
-  operation_class->prepare   = prepare;
-
-  gegl_operation_class_set_keys (operation_class,
-    "name",            "celdepth:lazybrush-segment",
-    "title",           "Lazybrush Segment",
-    "categories",      "artistic",
-    "description",     "Finds the parts of a line drawing from a few sloppy strokes; each part gets the colour of "
-                       "its stroke",
-    "reference",       CELD_REFERENCE,
-    "gimp:menu-path",  CELD_MENU,
-    "gimp:menu-label", "Lazybrush Segment...",
-    NULL);
-}
-
-#endif
+const CeldOperationInfo celd_lazybrush_segment_operation = {
+  .name        = "celdepth:lazybrush-segment",
+  .title       = "Lazybrush Segment",
+  .categories  = "artistic",
+  .description = "Finds the parts of a line drawing from a few sloppy strokes; each part gets the colour of "
+                 "its stroke",
+  .reference   = CELD_REFERENCE,
+  .pads        = pads,
+  .properties  = properties,
+  .format      = "R'G'B'A u8",
+  .render      = render,
+};

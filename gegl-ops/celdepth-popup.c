@@ -4,52 +4,41 @@
  */
 #include "properties.h"
 
-#ifdef GEGL_PROPERTIES
+static const CeldSettingChoice results[] = {
+  [CELD_POPUP_LABELS]      = { "labels", "Labels: the regions as flat colours" },
+  [CELD_POPUP_ORDER]       = { "order", "Order: the level of each region" },
+  [CELD_POPUP_LEVELS]      = { "levels", "Levels: with contours given to their owners" },
+  [CELD_POPUP_DEPTH]       = { "depth", "Depth: smooth" },
+  [CELD_POPUP_NORMALS]     = { "normals", "Normals" },
+  [CELD_POPUP_SHADING]     = { "shading", "Shading" },
+  [CELD_POPUP_PROBLEMS]    = { "problems", "Problems: marks on the drawing where something needs attention" },
+  [CELD_POPUP_SUGGESTIONS] = { "suggestions", "Suggestions: which part seems to be in front, as arrows" },
+};
 
-property_enum (result, "Result", CeldPopupResult, celd_popup_result, CELD_POPUP_DEPTH)
-    description ("How far to go; nearer is lighter in order, levels and depth, which are linear")
+static const CeldSettingInfo result_row = {
+  .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldPopupResult, results), .usual = CELD_POPUP_DEPTH,
+  .help = "How far to go. In order, levels and depth, which are linear, nearer is lighter"
+};
 
-CELD_PROPERTY_INK
-CELD_PROPERTY_INK_THRESHOLD
-CELD_PROPERTY_METHOD
-CELD_PROPERTY_HARDNESS
-CELD_PROPERTY_FLATS
-CELD_PROPERTY_BACKGROUND
-CELD_PROPERTY_SEEDS
-CELD_PROPERTY_SAME_COLOUR
-CELD_PROPERTY_RELATIONS
-CELD_PROPERTY_ARROW_PATH
-CELD_PROPERTY_ARROW_STYLE
-CELD_PROPERTY_ON_CYCLE
-CELD_PROPERTY_SUGGEST
-CELD_PROPERTY_ENCODING
-CELD_PROPERTY_EXPANSION
-
-property_enum (anchors, "Anchors", CeldAnchors, celd_anchors, CELD_ANCHORS_SCRIBBLES)
-    description ("Which pixels keep their level in smooth depth")
-    ui_meta ("visible", "result {depth}")
-
-CELD_PROPERTY_HOLD_REST
-CELD_PROPERTY_TOLERANCE
-CELD_PROPERTY_BULGE
-CELD_PROPERTY_LIGHT
-CELD_PROPERTY_DIRECTX
-
-#else
-
-#define GEGL_OP_NAME     celdepth_popup
-#define GEGL_OP_C_SOURCE celdepth-popup.c
-#define GEGL_OP_BUNDLE
-
-#include <gegl-op.h>
+static const CeldProperty properties[] = {
+  { .own = &result_row },
+  { .name = "ink" }, { .name = "ink-threshold" }, { .name = "method" }, { .name = "close-gaps" },
+  { .name = "keep-necks" }, { .name = "hardness" }, { .name = "flats" }, { .name = "background" },
+  { .name = "background-colour" }, { .name = "seeds" }, { .name = "same-colour" }, { .name = "relations" },
+  { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" }, { .name = "suggest" },
+  { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "expansion" },
+  { .name = "anchors", .when = "result {depth}" },
+  { .name = "hold-rest" }, { .name = "tolerance" }, { .name = "bulge" }, { .name = "light-azimuth" },
+  { .name = "light-elevation" }, { .name = "ambient" }, { .name = "directx" },
+  { 0 }
+};
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
   { "aux", "Scribbles", "A stroke of another colour over each part", FALSE },
   { "aux2", "Arrows", "Arrows from nearer to farther parts", FALSE },
   { "aux3", "Virtual contours", "Red: a border for regions and depth; blue: a border for regions, across which "
-                                "depth stays "
-                                "smooth; green: ink that is no border", FALSE },
+                                "depth stays smooth; green: ink that is no border", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -62,40 +51,7 @@ prepare (GeglOperation *operation)
     [CELD_POPUP_PROBLEMS] = "R'G'B'A u8", [CELD_POPUP_SUGGESTIONS] = "R'G'B'A u8",
   };
 
-  gegl_operation_set_format (operation, "output", babl_format (formats[GEGL_PROPERTIES (operation)->result]));
-}
-
-static CeldSettings
-settings (GeglProperties *o)
-{
-  CeldSettings s = celd_settings ();
-
-  s.ink             = o->ink;
-  s.ink_threshold   = (float) o->ink_threshold;
-  s.method          = o->method;
-  s.close_gaps      = o->close_gaps;
-  s.keep_necks      = o->keep_necks;
-  s.hardness        = (float) o->hardness;
-  s.flats           = o->flats;
-  s.background      = o->background;
-  s.seeds           = o->seeds;
-  s.same_colour     = o->same_colour;
-  s.arrow_style     = o->arrow_style;
-  s.on_cycle        = o->on_cycle;
-  s.suggest         = o->suggest;
-  s.encoding        = o->encoding;
-  s.expansion       = o->expansion;
-  s.near_level      = (float) o->near_level;
-  s.far_level       = (float) o->far_level;
-  s.anchors         = o->anchors;
-  s.hold_rest       = o->hold_rest;
-  s.tolerance       = (float) o->tolerance;
-  s.bulge           = (float) o->bulge;
-  s.light_azimuth   = (float) o->light_azimuth;
-  s.light_elevation = (float) o->light_elevation;
-  s.ambient         = (float) o->ambient;
-  celd_op_get_colour (o->background_colour, s.background_colour);
-  return s;
+  gegl_operation_set_format (operation, "output", babl_format (formats[celd_operation_own (operation)->result]));
 }
 
 static gboolean
@@ -113,7 +69,7 @@ write_normals (CeldOp *op)
   CeldVectors normals;
 
   return celd_op_try (op, celd_session_normals (op->operation->session, &op->host, &normals, NULL)) &&
-         celd_op_write_normals (op, &normals, GEGL_PROPERTIES (op->operation)->directx);
+         celd_op_write_normals (op, &normals);
 }
 
 /* Those of the order too, where contradictions are found. */
@@ -139,7 +95,7 @@ write_suggestions (CeldOp *op)
 static gboolean
 write_result (CeldOp *op)
 {
-  switch (GEGL_PROPERTIES (op->operation)->result)
+  switch ((CeldPopupResult) op->own.result)
     {
     case CELD_POPUP_LABELS:   return celd_op_write_labels (op);
     case CELD_POPUP_ORDER:    return write_plane (op, celd_session_flat);
@@ -156,40 +112,29 @@ write_result (CeldOp *op)
 static gboolean
 render (CeldOp *op)
 {
-  GeglProperties  *o = GEGL_PROPERTIES (op->operation);
-  CeldSettings     s = settings (o);
+  int              result = op->own.result;
   const CeldOrder *order = NULL;
 
-  if (!celd_op_set_session (op, &s, o->relations, o->arrow_path) ||
+  if (!celd_op_set_session (op) ||
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
       !write_result (op))
     return FALSE;
   /* In other cases the order has been made already. */
-  if (o->result != CELD_POPUP_LABELS && o->result != CELD_POPUP_SUGGESTIONS &&
+  if (result != CELD_POPUP_LABELS && result != CELD_POPUP_SUGGESTIONS &&
       !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
   return celd_op_tell_session (op, order);
 }
 
-static void
-gegl_op_class_init (GeglOpClass *klass)
-{
-  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
-
-  klass->parent_class.pads   = pads;
-  klass->parent_class.render = render;
-  operation_class->prepare   = prepare;
-
-  gegl_operation_class_set_keys (operation_class,
-    "name",            "celdepth:popup",
-    "title",           "Pop-up",
-    "categories",      "artistic",
-    "description",     "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther "
-                       "ones, in one step",
-    "reference",       CELD_REFERENCE,
-    "gimp:menu-path",  CELD_MENU,
-    "gimp:menu-label", "Pop-up...",
-    NULL);
-}
-
-#endif
+const CeldOperationInfo celd_popup_operation = {
+  .name        = "celdepth:popup",
+  .title       = "Pop-up",
+  .categories  = "artistic",
+  .description = "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther "
+                 "ones, in one step",
+  .reference   = CELD_REFERENCE,
+  .pads        = pads,
+  .properties  = properties,
+  .prepare     = prepare,
+  .render      = render,
+};

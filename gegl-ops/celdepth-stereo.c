@@ -4,21 +4,11 @@
  */
 #include "properties.h"
 
-#ifdef GEGL_PROPERTIES
-
-CELD_PROPERTY_DISPARITY
-
-CELD_PROPERTY_EXPANSION
-
-CELD_PROPERTY_INK
-
-#else
-
-#define GEGL_OP_NAME     celdepth_stereo
-#define GEGL_OP_C_SOURCE celdepth-stereo.c
-#define GEGL_OP_BUNDLE
-
-#include <gegl-op.h>
+static const CeldProperty properties[] = {
+  { .name = "stereo" }, { .name = "disparity" }, { .name = "convergence" }, { .name = "floating-window" },
+  { .name = "screen-width" }, { .name = "expansion" }, { .name = "ink" },
+  { 0 }
+};
 
 static const CeldPad pads[] = {
   { "input", "Art", "The picture that is to be seen", TRUE },
@@ -29,28 +19,20 @@ static const CeldPad pads[] = {
   { NULL, NULL, NULL, FALSE }
 };
 
-static void
-prepare (GeglOperation *operation)
-{
-  gegl_operation_set_format (operation, "output", babl_format ("RGBA float"));
-}
-
 /* ------------------------------------------------------------------ the size of both views */
 
 static GeglRectangle
 joined_size (GeglOperation *operation, GeglRectangle input)
 {
   if (!gegl_rectangle_is_infinite_plane (&input))
-    celd_stereo_size (GEGL_PROPERTIES (operation)->stereo, &input.width, &input.height);
+    celd_stereo_size (celd_operation_settings (operation)->stereo, &input.width, &input.height);
   return input;
 }
 
 static GeglRectangle
 get_bounding_box (GeglOperation *operation)
 {
-  const GeglRectangle *input = gegl_operation_source_get_bounding_box (operation, "input");
-
-  return joined_size (operation, input ? *input : (GeglRectangle) { 0, 0, 0, 0 });
+  return joined_size (operation, celd_operation_input (operation));
 }
 
 /* All of it, whatever the host asks for; of an endless picture no more than that. */
@@ -68,42 +50,38 @@ get_invalidated_by_change (GeglOperation *operation, const gchar *pad, const Geg
   return get_cached_region (operation, changed);
 }
 
+static void
+adjust (GeglOperationClass *klass)
+{
+  klass->get_bounding_box          = get_bounding_box;
+  klass->get_cached_region         = get_cached_region;
+  klass->get_invalidated_by_change = get_invalidated_by_change;
+}
+
 /* ------------------------------------------------------------------ views */
 
-static CeldSettings
-settings (GeglProperties *o)
-{
-  CeldSettings s = celd_settings ();
-
-  s.stereo          = o->stereo;
-  s.disparity       = (float) o->disparity;
-  s.convergence     = (float) o->convergence;
-  s.floating_window = o->floating_window;
-  s.screen_width    = (float) o->screen_width;
-  return s;
-}
-
 static gboolean
-make_scene (CeldOp *op, const CeldSettings *s, const CeldColours *art, const CeldPlane *depth, CeldScene **scene)
+make_scene (CeldOp *op, const CeldColours *art, const CeldPlane *depth, CeldScene **scene)
 {
-  GeglProperties *o = GEGL_PROPERTIES (op->operation);
-  CeldPlane       ink, levels;
+  CeldPlane ink, levels;
 
-  if (!celd_op_read_ink (op, celd_op_has (op, "aux3") ? "aux3" : "input", o->ink, &ink))
+  if (!celd_op_read_ink (op, celd_op_has (op, "aux3") ? "aux3" : "input", &ink))
     return FALSE;
   if (!celd_op_has (op, "aux2"))
-    return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, s, &op->host, scene));
+    return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, &op->settings, &op->host, scene));
   return celd_op_read_plane (op, "aux2", &levels) &&
-         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, o->expansion, &op->host, scene));
+         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, op->settings.expansion, &op->host,
+                                                scene));
 }
 
 static gboolean
-make_views (CeldOp *op, const CeldSettings *s, CeldPlane *depth, CeldColours view[2])
+make_views (CeldOp *op, CeldPlane *depth, CeldColours view[2])
 {
-  CeldColours art;
-  CeldScene  *scene = NULL;
-  gboolean    good = celd_op_read_colours (op, "input", &art) && celd_op_read_plane (op, "aux", depth) &&
-                     make_scene (op, s, &art, depth, &scene);
+  const CeldSettings *s = &op->settings;
+  CeldColours         art;
+  CeldScene          *scene = NULL;
+  gboolean            good = celd_op_read_colours (op, "input", &art) && celd_op_read_plane (op, "aux", depth) &&
+                             make_scene (op, &art, depth, &scene);
 
   for (int i = 0; i < 2; i++)
     good = good && celd_op_new_colours (op, &view[i]) &&
@@ -113,14 +91,14 @@ make_views (CeldOp *op, const CeldSettings *s, CeldPlane *depth, CeldColours vie
 }
 
 static gboolean
-write_joined (CeldOp *op, const CeldSettings *s, const CeldColours view[2])
+write_joined (CeldOp *op, const CeldColours view[2])
 {
   GeglRectangle whole = joined_size (GEGL_OPERATION (op->operation), op->picture);
   gsize         n = (gsize) whole.width * (gsize) whole.height;
   CeldColours   joined = { whole.width, whole.height, (gsize) whole.width, celd_op_alloc (op, 4 * n * sizeof (float)) };
   GeglBuffer   *output;
 
-  if (!joined.data || !celd_op_try (op, celd_stereo_join (&view[0], &view[1], s->stereo, &joined)))
+  if (!joined.data || !celd_op_try (op, celd_stereo_join (&view[0], &view[1], op->settings.stereo, &joined)))
     return FALSE;
   output = gegl_operation_context_get_target (op->context, "output");
   gegl_buffer_set (output, &whole, 0, babl_format ("RGBA float"), joined.data, GEGL_AUTO_ROWSTRIDE);
@@ -128,10 +106,11 @@ write_joined (CeldOp *op, const CeldSettings *s, const CeldColours view[2])
 }
 
 static gboolean
-tell_comfort (CeldOp *op, const CeldSettings *s, const CeldPlane *depth)
+tell_comfort (CeldOp *op, const CeldPlane *depth)
 {
-  CeldComfort comfort;
-  char        text[800];
+  const CeldSettings *s = &op->settings;
+  CeldComfort         comfort;
+  char                text[800];
 
   if (!celd_op_try (op, celd_stereo_comfort (depth, s, &comfort)))
     return FALSE;
@@ -142,37 +121,24 @@ tell_comfort (CeldOp *op, const CeldSettings *s, const CeldPlane *depth)
 static gboolean
 render (CeldOp *op)
 {
-  CeldSettings s = settings (GEGL_PROPERTIES (op->operation));
-  CeldPlane    depth;
-  CeldColours  view[2];
+  CeldPlane   depth;
+  CeldColours view[2];
 
-  return make_views (op, &s, &depth, view) &&
-         write_joined (op, &s, view) &&
-         tell_comfort (op, &s, &depth);
+  return make_views (op, &depth, view) &&
+         write_joined (op, view) &&
+         tell_comfort (op, &depth);
 }
 
-static void
-gegl_op_class_init (GeglOpClass *klass)
-{
-  GeglOperationClass *operation_class = GEGL_OPERATION_CLASS (klass);
-
-  klass->parent_class.pads   = pads;
-  klass->parent_class.render = render;
-  operation_class->prepare                   = prepare;
-  operation_class->get_bounding_box          = get_bounding_box;
-  operation_class->get_cached_region         = get_cached_region;
-  operation_class->get_invalidated_by_change = get_invalidated_by_change;
-
-  gegl_operation_class_set_keys (operation_class,
-    "name",            "celdepth:stereo",
-    "title",           "Stereo",
-    "categories",      "artistic",
-    "description",     "Shows a picture with depth to two eyes, each from its own side",
-    "reference",       CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. "
-                       "ICASSP 2001.",
-    "gimp:menu-path",  CELD_MENU,
-    "gimp:menu-label", "Stereo...",
-    NULL);
-}
-
-#endif
+const CeldOperationInfo celd_stereo_operation = {
+  .name        = "celdepth:stereo",
+  .title       = "Stereo",
+  .categories  = "artistic",
+  .description = "Shows a picture with depth to two eyes, each from its own side",
+  .reference   = CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. "
+                 "ICASSP 2001.",
+  .pads        = pads,
+  .properties  = properties,
+  .format      = "RGBA float",
+  .adjust      = adjust,
+  .render      = render,
+};

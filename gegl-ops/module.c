@@ -4,21 +4,17 @@
  */
 #include "op.h"
 
-#define OPERATIONS(_) \
-  _ (celdepth_virtual_contours) \
-  _ (celdepth_lazybrush_segment) \
-  _ (celdepth_depth_order) \
-  _ (celdepth_depth_expand) \
-  _ (celdepth_depth_smooth) \
-  _ (celdepth_depth_exact) \
-  _ (celdepth_lumo_shade) \
-  _ (celdepth_depth_enhance) \
-  _ (celdepth_relief) \
-  _ (celdepth_stereo) \
-  _ (celdepth_popup)
+extern const CeldOperationInfo celd_virtual_contours_operation, celd_lazybrush_segment_operation,
+  celd_depth_order_operation, celd_depth_expand_operation, celd_depth_smooth_operation, celd_depth_exact_operation,
+  celd_lumo_shade_operation, celd_depth_enhance_operation, celd_relief_operation, celd_stereo_operation,
+  celd_popup_operation;
 
-#define DECLARE(name) void gegl_op_ ## name ## _register_type (GTypeModule *module);
-OPERATIONS (DECLARE)
+static const CeldOperationInfo *const operations[] = {
+  &celd_virtual_contours_operation, &celd_lazybrush_segment_operation, &celd_depth_order_operation,
+  &celd_depth_expand_operation,     &celd_depth_smooth_operation,      &celd_depth_exact_operation,
+  &celd_lumo_shade_operation,       &celd_depth_enhance_operation,     &celd_relief_operation,
+  &celd_stereo_operation,           &celd_popup_operation,
+};
 
 G_MODULE_EXPORT const GeglModuleInfo *gegl_module_query (GTypeModule *module);
 G_MODULE_EXPORT gboolean gegl_module_register (GTypeModule *module);
@@ -34,8 +30,6 @@ gegl_module_query (GTypeModule *module)
 gboolean
 gegl_module_register (GTypeModule *module)
 {
-  celd_operation_register (module);
-#define REGISTER(name) gegl_op_ ## name ## _register_type (module);
-  OPERATIONS (REGISTER)
+  celd_operations_register (module, operations, G_N_ELEMENTS (operations));
   return TRUE;
 }

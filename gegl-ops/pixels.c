@@ -142,13 +142,13 @@ celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 }
 
 gboolean
-celd_op_read_ink (CeldOp *op, const char *pad, CeldInkMode mode, CeldPlane *ink)
+celd_op_read_ink (CeldOp *op, const char *pad, CeldPlane *ink)
 {
   CeldDrawing drawing;
 
   return celd_op_read_drawing (op, pad, &drawing) &&
          celd_op_new_plane (op, ink) &&
-         celd_op_try (op, celd_ink (&drawing, mode, &op->quiet, ink));
+         celd_op_try (op, celd_ink (&drawing, op->settings.ink, &op->quiet, ink));
 }
 
 gboolean
@@ -164,7 +164,7 @@ celd_op_read_sample (CeldOp *op, const char *pad, CeldColours *colours)
 }
 
 gboolean
-celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *settings, CeldLabels *seeds)
+celd_op_read_scribbles (CeldOp *op, const char *pad, CeldLabels *seeds)
 {
   CeldPaint paint;
 
@@ -173,27 +173,23 @@ celd_op_read_scribbles (CeldOp *op, const char *pad, const CeldSettings *setting
   memset (seeds->data, 0, count (op) * sizeof (uint32_t));
   return !celd_op_has (op, pad) ||
          (celd_op_read_paint (op, pad, &paint) &&
-          celd_op_try (op, celd_scribbles_read (&paint, settings, &op->quiet, seeds, &op->palette)));
+          celd_op_try (op, celd_scribbles_read (&paint, &op->settings, &op->quiet, seeds, &op->palette)));
 }
 
 gboolean
-celd_op_read_relations (CeldOp *op, const char *text, const char *path, const char *pad, CeldArrowStyle style)
+celd_op_read_relations (CeldOp *op, const char *pad)
 {
-  CeldTextError error = { 0 };
-  CeldPaint     paint;
+  const char    *text = op->own.relations ? op->own.relations : "";
+  const char    *path = op->own.arrow_path ? op->own.arrow_path : "";
+  CeldArrowStyle style = op->settings.arrow_style;
+  CeldTextError  error = { 0 };
+  CeldPaint      paint;
 
-  return celd_op_try_text (op, celd_relations_parse (text ? text : "", &op->relations, &error), &error) &&
-         celd_op_try_path (op, celd_arrow_path_parse (path ? path : "", &op->relations, &error), &error) &&
+  return celd_op_try_text (op, celd_relations_parse (text, &op->relations, &error), &error) &&
+         celd_op_try_path (op, celd_arrow_path_parse (path, &op->relations, &error), &error) &&
          (!celd_op_has (op, pad) ||
           (celd_op_read_paint (op, pad, &paint) &&
            celd_op_try (op, celd_arrows_read (&paint, style, &op->quiet, &op->relations, &op->problems))));
-}
-
-void
-celd_op_get_colour (GeglColor *colour, uint8_t rgb[3])
-{
-  if (colour)
-    gegl_color_get_pixel (colour, babl_format ("R'G'B' u8"), rgb);
 }
 
 /* ------------------------------------------------------------------ writing */
@@ -237,10 +233,10 @@ celd_op_write_paint (CeldOp *op, const CeldLabels *labels, const CeldPalette *pa
 }
 
 gboolean
-celd_op_write_normals (CeldOp *op, const CeldVectors *normals, gboolean directx)
+celd_op_write_normals (CeldOp *op, const CeldVectors *normals)
 {
   CeldVectors stored;
-  float       up = directx ? -0.5f : 0.5f;
+  float       up = op->own.directx ? -0.5f : 0.5f;
 
   if (!celd_op_new_vectors (op, &stored))
     return FALSE;

@@ -29,20 +29,20 @@ celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *
 }
 
 gboolean
-celd_op_set_session (CeldOp *op, const CeldSettings *settings, const char *relations, const char *path)
+celd_op_set_session (CeldOp *op)
 {
   CeldSession  *session = get_session (op);
   CeldTextError error = { 0 };
   CeldDrawing   drawing;
 
   return session &&
-         celd_op_try (op, celd_session_set_settings (session, settings)) &&
+         celd_op_try (op, celd_session_set_settings (session, &op->settings)) &&
          celd_op_read_drawing (op, "input", &drawing) &&
          celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
          celd_op_set_layer (op, "aux", celd_session_set_scribbles) &&
          celd_op_set_layer (op, "aux2", celd_session_set_arrows) &&
-         celd_op_try_text (op, celd_session_set_relations (session, relations, &error), &error) &&
-         celd_op_try_path (op, celd_session_set_arrow_path (session, path, &error), &error);
+         celd_op_try_text (op, celd_session_set_relations (session, op->own.relations, &error), &error) &&
+         celd_op_try_path (op, celd_session_set_arrow_path (session, op->own.arrow_path, &error), &error);
 }
 
 gboolean

@@ -5,9 +5,9 @@
 #include "celdepth/settings.h"
 
 double
-celd_setting_get (const CeldSettingInfo *info, const CeldSettings *settings)
+celd_setting_get (const CeldSettingInfo *info, const void *record)
 {
-  const void    *member = (const char *) settings + info->offset;
+  const void    *member = (const char *) record + info->offset;
   const uint8_t *colour = member;
 
   switch (info->type)
@@ -23,9 +23,9 @@ celd_setting_get (const CeldSettingInfo *info, const CeldSettings *settings)
 }
 
 void
-celd_setting_set (const CeldSettingInfo *info, double value, CeldSettings *settings)
+celd_setting_set (const CeldSettingInfo *info, double value, void *record)
 {
-  void    *member = (char *) settings + info->offset;
+  void    *member = (char *) record + info->offset;
   uint8_t *colour = member;
 
   switch (info->type)

@@ -160,9 +160,10 @@ CELD_API const CeldSettingInfo *celd_setting_infos (size_t *n);
 /* The row of a name such as "ink-threshold"; NULL: there is none. */
 CELD_API const CeldSettingInfo *celd_setting_find (const char *name);
 
-/* The value as a number: false 0, true 1; of choices the enumeration's; of colours 0xRRGGBB. */
-CELD_API double celd_setting_get (const CeldSettingInfo *info, const CeldSettings *settings);
-CELD_API void   celd_setting_set (const CeldSettingInfo *info, double value, CeldSettings *settings);
+/* The value as a number: false 0, true 1; of choices the enumeration's; of colours 0xRRGGBB.  `record` is a
+ * CeldSettings, or what the offsets of a host's own rows are of. */
+CELD_API double celd_setting_get (const CeldSettingInfo *info, const void *record);
+CELD_API void   celd_setting_set (const CeldSettingInfo *info, double value, void *record);
 /* Is this value of the setting within its range?  NaN is not. */
 CELD_API bool   celd_setting_allows (const CeldSettingInfo *info, double value);
 

@@ -1,0 +1,110 @@
+/* What the artist is told: one message a call, gathered while the operation works.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op-parts.h"
+
+#define MOST_PROBLEMS 8 /* in one message; chosen */
+
+void
+celd_op_add (CeldOp *op, const char *text)
+{
+  if (op->message->len)
+    g_string_append_c (op->message, '\n');
+  g_string_append (op->message, text);
+}
+
+gboolean
+celd_op_fail (CeldOp *op, const char *format, ...)
+{
+  va_list arguments;
+  char   *text;
+
+  va_start (arguments, format);
+  text = g_strdup_vprintf (format, arguments);
+  va_end (arguments);
+  celd_op_add (op, text);
+  g_free (text);
+  return FALSE;
+}
+
+/* While the artist is still choosing layers, that there is nothing to go by is no news. */
+gboolean
+celd_op_try (CeldOp *op, CeldStatus status)
+{
+  if (status == CELD_NOTHING_TO_GO_BY && op->choosing)
+    return FALSE;
+  return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
+}
+
+/* Says where a text cannot be read, and what it may look like. */
+static gboolean
+try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char *what, const char *example)
+{
+  if (status != CELD_BAD_RELATION)
+    return celd_op_try (op, status);
+  return celd_op_fail (op, "The %s cannot be read: line %d, column %d has %s, where %s was expected. An example of %s",
+                       what, error->line, error->column, error->found, error->expected, example);
+}
+
+gboolean
+celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  return try_text (op, status, error, "relations", "a relation is: 120,80 > 300,95");
+}
+
+gboolean
+celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  return try_text (op, status, error, "arrow path", "an arrow is: M 120,80 L 300,95");
+}
+
+gboolean
+celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
+              const CeldOrder *order)
+{
+  for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
+    {
+      const CeldProblem *problem = &problems->item[i];
+      char               text[400];
+
+      celd_problem_text (problem, palette, relations, text, sizeof text);
+      celd_op_add (op, text);
+      if (problem->kind == CELD_PROBLEM_CONTRADICTION && order && problem->other < order->n_cycles)
+        {
+          celd_cycle_text (&order->cycle[problem->other], relations, text, sizeof text);
+          g_string_append_printf (op->message, " %s", text);
+        }
+    }
+  if (problems && problems->n > MOST_PROBLEMS)
+    g_string_append_printf (op->message, "\nThere are %zu more remarks.", problems->n - MOST_PROBLEMS);
+  return TRUE;
+}
+
+gboolean
+celd_op_remark (CeldOp *op, const char *text)
+{
+  celd_op_add (op, text);
+  return TRUE;
+}
+
+gboolean
+celd_op_tell_solve (CeldOp *op, const CeldSolve *solve)
+{
+  CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };
+  CeldProblems problems = { &problem, 1 };
+
+  return solve->converged || celd_op_tell (op, &problems, NULL, NULL, NULL);
+}
+
+void
+celd_op_speak (CeldOp *op)
+{
+  CeldOperation *self = op->operation;
+  const char    *text = op->message->len ? op->message->str : NULL;
+
+  if (text && g_strcmp0 (text, self->said))
+    g_message ("%s: %s", gegl_operation_class_get_key (GEGL_OPERATION_GET_CLASS (self), "title"), text);
+  g_free (self->said);
+  self->said = g_strdup (text);
+}

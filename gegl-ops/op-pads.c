@@ -1,0 +1,119 @@
+/* The pads of an operation: how hosts see them, and whether what comes in is as it must be.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "op-parts.h"
+
+static void
+create_pad (GeglOperation *operation, const char *name, const char *label, const char *description, GParamFlags access,
+            GeglPadType type)
+{
+  GParamFlags flags = (GParamFlags) ((guint) access | (guint) type);
+  GParamSpec *pad = g_param_spec_object (name, label, description, GEGL_TYPE_BUFFER, flags);
+
+  gegl_operation_create_pad (operation, pad);
+  g_param_spec_sink (pad);
+}
+
+/* In the order in which GIMP shows them (GEGL's own list has the newest first). */
+void
+celd_operation_attach (GeglOperation *operation)
+{
+  for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (operation)->info->pads; pad->name; pad++)
+    create_pad (operation, pad->name, pad->label, pad->description, G_PARAM_READWRITE, GEGL_PARAM_PAD_INPUT);
+  create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE, GEGL_PARAM_PAD_OUTPUT);
+}
+
+/* A layer picker in which nothing is chosen yet: GIMP connects a source without a buffer. */
+static gboolean
+is_open_picker (CeldOp *op, const char *pad)
+{
+  GeglNode   *producer = gegl_node_get_producer (GEGL_OPERATION (op->operation)->node, pad, NULL);
+  GeglBuffer *buffer = NULL;
+
+  if (!producer || g_strcmp0 (gegl_node_get_operation (producer), "gegl:buffer-source"))
+    return FALSE;
+  gegl_node_get (producer, "buffer", &buffer, NULL);
+  if (!buffer)
+    return TRUE;
+  g_object_unref (buffer);
+  return FALSE;
+}
+
+gboolean
+celd_op_has (CeldOp *op, const char *pad)
+{
+  return gegl_operation_context_get_object (op->context, pad) != NULL && !is_open_picker (op, pad);
+}
+
+/* A layer of another size is taken as it lies, but the artist should know: GIMP loses the offsets of layers. */
+static void
+tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
+{
+  const GeglRectangle *p = &op->picture;
+  char                 text[300];
+
+  if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
+    return;
+  g_snprintf (text, sizeof text,
+              "'%s' has %d x %d pixels at %d, %d, the picture %d x %d at %d, %d: what sticks out is cut off, the rest "
+              "counts as empty. If it looks shifted, give the layer the picture's size.",
+              pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+  celd_op_add (op, text);
+}
+
+/* A picture that is no layer. */
+static gboolean
+check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
+{
+  if (gegl_rectangle_is_infinite_plane (r) || r->width > CELD_MAX_SIDE || r->height > CELD_MAX_SIDE)
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is too large. Scale it down, or crop it.", pad->label,
+                         pad->name);
+  return TRUE;
+}
+
+/* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
+static gboolean
+check_pad (CeldOp *op, const CeldPad *pad)
+{
+  const GeglRectangle *p = &op->picture;
+  const GeglRectangle *r = gegl_operation_source_get_bounding_box (GEGL_OPERATION (op->operation), pad->name);
+
+  if (is_open_picker (op, pad->name))
+    {
+      op->choosing = TRUE;
+      return pad->required != TRUE;
+    }
+  if (!r)
+    return pad->required != TRUE ||
+           celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);
+  if (!r->width || !r->height)
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or see whether its "
+                             "file can be read.",
+                         pad->label, pad->name);
+  if (pad->required == CELD_PAD_SAMPLE)
+    return check_sample (op, pad, r);
+  if (!gegl_rectangle_intersect (NULL, r, p))
+    return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
+                         "Move it over the picture, or give it the picture's size.",
+                         pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
+  tell_size (op, pad, r);
+  return TRUE;
+}
+
+gboolean
+celd_op_check_pads (CeldOp *op)
+{
+  const GeglRectangle *p = &op->picture;
+
+  if (gegl_rectangle_is_infinite_plane (p))
+    return celd_op_fail (op, "The input has no size. Crop it first.");
+  if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
+    return celd_op_fail (op, "The picture is %d x %d pixels large; at most %d a side can be worked on. Scale it "
+                             "down first.",
+                         p->width, p->height, CELD_MAX_SIDE);
+  for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads; pad->name; pad++)
+    if (!check_pad (op, pad))
+      return FALSE;
+  return TRUE;
+}
