@@ -12,8 +12,8 @@ static const CeldSettingChoice results[] = {
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldEnhanceResult, results),
-  .help = "The art with its shadows, only the shadows as a black layer to put over it, or a grey picture in which depth is "
-          "easy to see"
+  .help = "The art with its shadows, only the shadows as a black layer to put over it, or a grey picture in which depth "
+          "is easy to see"
 };
 
 static const CeldProperty properties[] = {

@@ -15,7 +15,7 @@ static const CeldSettingChoice results[] = {
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldExpandResult, results),
   .help = "The levels, one layer of the drawing cut up (in linear light), or the owner of each pixel. The owner is "
-          "shown in the colour of its region (without regions, its level as a grey), and as opaque as it covers the pixel"
+          "shown in the colour of its region (without regions, its level as a grey), and as opaque as it covers a pixel"
 };
 
 static const CeldSettingInfo layer_row = {

@@ -1,15 +1,15 @@
 /* What the files of the celdepth command share.
  *
- *   cli.c       which sub-command              layers.c    a drawing and its layers from one file or several
- *   options.c   the options of a sub-command   pictures.c  pictures in and out, colours through babl
- *   popup.c     popup and segment              npy.c       numpy files
- *   exact.c     exact                          report.c    --report
- *   enhance.c   enhance                        stereo.c    stereo
- *   stack.c     layers                         wiggle.c    wiggle
- *   scene.c     what these two share           shade.c     shade
- *   steps.c     order, expand, smooth, relief  counts.c    options that are whole numbers
- *   messages.c  sentences on stderr
- *   run.c       progress, cancel, timings      threads.c   the cores of the machine
+ * Each sub-command is a file of its name: popup, segment, order, expand, smooth, shade, enhance, stereo, wiggle,
+ * relief, exact, layers.  What they share:
+ *
+ *   cli.c       which sub-command              pictures.c  pictures in and out, colours through babl
+ *   options*.c  the options of a sub-command   npy.c       numpy files
+ *   input.c     a drawing and its layers       report.c    --report
+ *   session.c   the same for a session         messages.c  sentences on stderr
+ *   route.c     popup and segment              run.c       progress, cancel, timings
+ *   step.c      order, expand, smooth, relief  threads.c   the cores of the machine
+ *   scene.c     stereo and wiggle
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -48,6 +48,7 @@ typedef struct
   int          views, columns, frames, fps, size;
   bool         quiet, directx, background_colour; /* was a background colour given? */
   CeldSettings settings;
+  GPtrArray   *offered;    /* of options-settings.c: the options that are settings */
 } CliOptions;
 
 typedef struct
@@ -56,19 +57,17 @@ typedef struct
   CliSteps    step;
   const char *input;       /* what its argument is called */
   const char *summary, *examples;
+  const char *settings;    /* by name, with spaces between; "option=name" offers one under another name, "+name" one
+                            * that is switched on by its option alone */
+  const char *output;      /* the option of the usual output */
+  void      (*begin) (CliOptions *options);  /* defaults of its own; NULL: none */
+  bool      (*check) (CliOptions *options);  /* what must hold beside ranges, or says what does not; NULL: nothing */
   int       (*run) (const CliOptions *options);
 } CliCommand;
 
 /* CLI_DONE, or the exit code of the mistake, which was said.  `options` must be cleared in every case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
-
-/* ------------------------------------------------------------------ counts.c */
-
-/* GOptionEntry for each whole number of a command; their data are the CliOptions. */
-void cli_counts_append   (const CliCommand *command, GArray *entries);
-/* Those that were not given. */
-void cli_counts_complete (CliOptions *options);
 
 /* ------------------------------------------------------------------ messages.c */
 
@@ -148,7 +147,7 @@ bool cli_npy_read (const char *path, CeldPlane *plane);
 /* width x height x depth floats; depth 0: a plane without a third axis. */
 bool cli_npy_write (const char *path, int width, int height, int depth, size_t row, const float *data);
 
-/* ------------------------------------------------------------------ layers.c */
+/* ------------------------------------------------------------------ input.c */
 
 typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS = 8,
                CLI_CORRECTIONS = 16 } CliRoles;
@@ -207,15 +206,35 @@ bool cli_write_text (const char *path, const char *text);
 /* One relation a line. */
 bool cli_write_relations (const char *path, const CeldRelations *relations);
 
-/* ------------------------------------------------------------------ popup.c */
+/* ------------------------------------------------------------------ session.c, route.c */
 
 /* Hands the input of the options over to the session, by way of the layers. */
 bool cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers);
 
-/* ------------------------------------------------------------------ shade.c */
+/* Makes what the options ask for, up to the labels or as far as it goes; the exit code. */
+int cli_run_route (const CliOptions *options, const char *command, bool whole_route);
 
-/* Options that say more than what is within their range; says which one is wrong. */
-bool cli_shade_check (CliOptions *options);
+/* ------------------------------------------------------------------ step.c */
+
+/* Levels and the ink of their drawing. */
+typedef struct
+{
+  CeldPlane levels, ink;
+  CliLayers layers;
+  CliRun    run;
+} CliStep;
+
+/* To be ended whatever it returns. */
+bool cli_step_begin (const CliOptions *options, CliStep *step);
+/* The exit code. */
+int  cli_step_end   (CliStep *step, bool good);
+
+/* Ink of the drawing for one purpose, with virtual contours; free data with g_free. */
+bool  cli_make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink);
+/* The near end of levels whose encoding is not known: 1, or the largest rank. */
+float cli_nearest_level (const CeldPlane *levels);
+
+/* ------------------------------------------------------------------ shade.c */
 
 #define CLI_MAPS 3
 /* The file of a map for --maps: "hero_n.png" for "hero.png", then _o and _s; free with g_free. */
@@ -246,17 +265,8 @@ int  cli_scene_tell  (const CliOptions *options, const char *command, const CliS
 
 /* ------------------------------------------------------------------ the sub-commands */
 
-int cli_popup   (const CliOptions *options);
-int cli_segment (const CliOptions *options);
-int cli_order   (const CliOptions *options);
-int cli_expand  (const CliOptions *options);
-int cli_smooth  (const CliOptions *options);
-int cli_shade   (const CliOptions *options);
-int cli_exact   (const CliOptions *options);
-int cli_enhance (const CliOptions *options);
-int cli_stereo  (const CliOptions *options);
-int cli_wiggle  (const CliOptions *options);
-int cli_layers  (const CliOptions *options);
-int cli_relief  (const CliOptions *options);
+extern const CliCommand cli_popup_command, cli_segment_command, cli_order_command, cli_expand_command,
+  cli_smooth_command, cli_shade_command, cli_enhance_command, cli_stereo_command, cli_wiggle_command,
+  cli_relief_command, cli_exact_command, cli_layers_command;
 
 #endif

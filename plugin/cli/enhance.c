@@ -36,8 +36,8 @@ write_results (const CliOptions *options, const CeldPlane *levels, const CeldPla
   return good;
 }
 
-int
-cli_enhance (const CliOptions *options)
+static int
+run_enhance (const CliOptions *options)
 {
   CeldPlane   levels = { 0 }, change = { 0 };
   CeldColours art = { 0 };
@@ -61,3 +61,23 @@ cli_enhance (const CliOptions *options)
   cli_run_end (&run);
   return good ? CLI_DONE : CLI_FAILED;
 }
+
+static bool
+check (CliOptions *options)
+{
+  return !options->enhanced || options->art || cli_error ("--enhanced needs --art.");
+}
+
+const CliCommand cli_enhance_command = {
+  .name     = "enhance",
+  .step     = CLI_ENHANCE,
+  .input    = "LEVELS",
+  .summary  = "Sets parts off against what is behind them, by soft shadows.",
+  .examples = "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
+              "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"
+              "  celdepth enhance levels.npy --view view.png",
+  .settings = "enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range",
+  .output   = "enhanced",
+  .check    = check,
+  .run      = run_enhance,
+};

@@ -47,8 +47,8 @@ tell (CeldSession *session, const CliOptions *options, const CliRun *run, const 
   });
 }
 
-int
-cli_exact (const CliOptions *options)
+static int
+run_exact (const CliOptions *options)
 {
   CeldSession *session = celd_session_new ();
   CliLayers    layers = { 0 };
@@ -74,3 +74,17 @@ cli_exact (const CliOptions *options)
   celd_session_free (session);
   return code;
 }
+
+const CliCommand cli_exact_command = {
+  .name     = "exact",
+  .step     = CLI_EXACT,
+  .input    = "DRAWING|LAYERED",
+  .summary  = "The smoothest depth that keeps every relation exactly, by the paper's quadratic program.",
+  .examples = "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
+              "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
+              "      --encoding rank --report report.json",
+  .settings = "ink +flats background background-colour same-colour arrow-style on-cycle encoding near-level far-level "
+              "tolerance contrast weight-floor",
+  .output   = "depth",
+  .run      = run_exact,
+};

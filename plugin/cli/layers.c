@@ -1,194 +1,188 @@
-/* A drawing with its layers: each from a file of its own, or all from the layers of one PSD, EXR or TIFF by name.
+/* celdepth layers: the drawing cut into one layer a region.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
 
+#include <babl/babl.h>
 #include <string.h>
 
-static const struct { CliRoles role; const char *name; } roles[] = {
-  { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
-  { CLI_CORRECTIONS, "corrections" },
+/* ------------------------------------------------------------------ names */
+
+static bool
+same_colour (const CeldPalette *palette, size_t a, size_t b)
+{
+  return !memcmp (palette->item[a].colour, palette->item[b].colour, sizeof palette->item[a].colour);
+}
+
+/* The label's colour; with its number, too, where several labels have that colour. */
+static char *
+name_of (const CeldPalette *palette, uint32_t label)
+{
+  const uint8_t *c = palette->item[label - 1].colour;
+  size_t         alike = 0;
+
+  if (!c[3])
+    return g_strdup ("background");
+  for (size_t i = 0; i < palette->n; i++)
+    alike += same_colour (palette, i, label - 1);
+  return alike > 1 ? g_strdup_printf ("#%02x%02x%02x label %u", c[0], c[1], c[2], label)
+                   : g_strdup_printf ("#%02x%02x%02x", c[0], c[1], c[2]);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+typedef struct
+{
+  const CeldLayers *layers;
+  CliRun           *run;
+  const Babl       *fish;      /* from what the layers are composited in to what they are stored in; NULL: the same */
+} Painter;
+
+static bool
+paint (void *host, size_t layer, float *rgba)
+{
+  const Painter *painter = host;
+
+  const CeldRect *box = &celd_layers_item (painter->layers, layer)->box;
+
+  celd_layers_paint (painter->layers, layer, rgba);
+  for (int y = 0; painter->fish && y < box->height; y++)
+    {
+      float *row = rgba + 4 * (size_t) y * (size_t) box->width;
+
+      babl_process (painter->fish, row, row, box->width);
+    }
+  return painter->run->host.progress (painter->run->host.data,
+                                      (double) layer / (double) celd_layers_count (painter->layers));
+}
+
+static bool
+write_layers (const char *path, const CeldLayers *layers, const CeldPalette *palette, bool encode, CeldColours *art,
+              CliRun *run)
+{
+  size_t       n = celd_layers_count (layers);
+  CeldIoLayer *item = g_new (CeldIoLayer, n);
+  char       **name = g_new0 (char *, n + 1);
+  Painter      painter = { layers, run, NULL };
+  CeldIoStack  stack = { art->width, art->height, item, n, art->data, paint, &painter };
+  CeldIoError  error;
+  bool         good;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      name[i] = name_of (palette, celd_layers_item (layers, i)->label);
+      item[i] = (CeldIoLayer) { name[i], celd_layers_item (layers, i)->box };
+    }
+  cli_run_stage (run, "writing");
+  if (encode)
+    {
+      painter.fish = babl_fish (babl_format ("RGBA float"), babl_format ("R'G'B'A float"));
+      for (int y = 0; y < art->height; y++)
+        babl_process (painter.fish, art->data + 4 * (size_t) y * art->stride,
+                      art->data + 4 * (size_t) y * art->stride, art->width);
+    }
+  good = celd_io_write_layers (path, &stack, &error);
+  cli_run_stage (run, NULL);
+  if (!good)
+    good = error.text[0] ? cli_error ("%s", error.text) : cli_check (CELD_CANCELLED);
+  g_strfreev (name);
+  g_free (item);
+  return good;
+}
+
+/* ------------------------------------------------------------------ the command */
+
+static bool
+make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run, const CeldOrder **order,
+      CeldLayers **layers)
+{
+  CeldLabels labels;
+  CeldStatus status;
+
+  cli_run_stage (run, "labels");
+  status = celd_session_labels (session, &run->host, &labels, NULL);
+  cli_run_stage (run, "order");
+  if (status == CELD_OK)
+    status = celd_session_order (session, &run->host, order);
+  cli_run_stage (run, "layers");
+  if (status == CELD_OK)
+    status = celd_session_layers (session, art, store, &run->host, layers);
+  return cli_run_finish (run, status);
+}
+
+static int
+tell (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldOrder *order,
+      const CeldColours *art, const CeldLayers *layers)
+{
+  return cli_tell (options, &(CliReport) {
+    .command   = "layers",
+    .width     = art->width,
+    .height    = art->height,
+    .palette   = celd_session_palette (session),
+    .relations = celd_session_relations (session),
+    .order     = order,
+    .problems  = celd_session_problems (session),
+    .layers    = layers,
+    .settings  = &options->settings,
+    .timings   = run->timings,
+  });
+}
+
+static int
+run_layers (const CliOptions *options)
+{
+  CeldSession     *session = celd_session_new ();
+  CliLayers        input = { 0 };
+  CeldColours      art = { 0 };
+  CeldLayers      *layers = NULL;
+  const CeldOrder *order = NULL;
+  bool             exr = celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS;
+  bool             linear = exr || (options->light && !strcmp (options->light, "linear"));
+  CeldStore        store = exr ? CELD_STORE_FLOAT : linear ? CELD_STORE_8_BIT_SRGB : CELD_STORE_8_BIT;
+  CliRun           run;
+  int              code = CLI_FAILED;
+  bool             good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) &&
+                          cli_session_load (session, options, &input) &&
+                          cli_art_read (options->input, options->colours, linear, &input, &art);
+
+  cli_layers_clear (&input);
+  cli_run_begin (&run, options->quiet);
+  good = good && make (session, &art, store, &run, &order, &layers) &&
+         write_layers (options->output, layers, celd_session_palette (session), linear && !exr, &art, &run);
+  if (good)
+    code = tell (session, options, &run, order, &art, layers);
+  cli_run_end (&run);
+  celd_layers_free (layers);
+  celd_session_free (session);
+  g_free (art.data);
+  return code;
+}
+
+static bool
+check (CliOptions *options)
+{
+  const char *light = options->light;
+
+  if (light && strcmp (light, "encoded") && strcmp (light, "linear"))
+    return cli_error ("--light cannot be '%s'; it takes encoded|linear.", light);
+  if (light && !strcmp (light, "encoded") && options->output &&
+      celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS)
+    return cli_error ("--light encoded is not for .exr, whose colours are linear light.");
+  return true;
+}
+
+const CliCommand cli_layers_command = {
+  .name     = "layers",
+  .step     = CLI_LAYERS,
+  .input    = "DRAWING|LAYERED",
+  .summary  = "Cuts a drawing into one layer a region, each with its own ink, in order.",
+  .examples = "  celdepth layers bee.png --scribbles strokes.png --arrows arrows.png --output bee.ora\n"
+              "  celdepth layers bee.png --scribbles strokes.png --relations '120,80 > 300,90' --complete yes \\\n"
+              "      --colours painted.png --output bee.exr --report report.json\n"
+              "  celdepth layers page.psd --output layers      (a folder of PNG files)",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion complete",
+  .output   = "depth",
+  .check    = check,
+  .run      = run_layers,
 };
-
-/* ------------------------------------------------------------------ one file */
-
-static CeldIoFile *
-open_file (const char *path)
-{
-  CeldIoError error;
-  CeldIoFile *file = celd_io_open (path, &error);
-
-  if (!file)
-    cli_say ("%s", error.text);
-  return file;
-}
-
-static bool
-check_sides (int width, int height, const char *path, const CliLayers *layers)
-{
-  return (layers->width == width && layers->height == height) ||
-         cli_error ("\"%s\" has %d x %d pixels, but %d x %d are needed; give all layers the size of the drawing.",
-                    path, width, height, layers->width, layers->height);
-}
-
-static bool
-check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
-{
-  if (!layers->width)
-    {
-      layers->width = celd_io_width (file);
-      layers->height = celd_io_height (file);
-    }
-  return check_sides (celd_io_width (file), celd_io_height (file), path, layers);
-}
-
-/* Where a file has layers, but not the drawing, that is a mistake; without layers its picture is the drawing. */
-static size_t
-find_drawing (const CeldIoFile *file, const char *path)
-{
-  size_t   part = celd_io_find (file, "drawing");
-  bool     layered = false;
-  GString *names;
-
-  for (size_t i = 0; i < G_N_ELEMENTS (roles); i++)
-    layered = layered || celd_io_find (file, roles[i].name) != CELD_NO_INDEX;
-  if (part != CELD_NO_INDEX || !layered)
-    return part == CELD_NO_INDEX ? 0 : part;
-  names = g_string_new (NULL);
-  for (size_t i = 0; i < celd_io_parts (file); i++)
-    if (celd_io_part (file, i)->name[0])
-      g_string_append_printf (names, "%s\"%s\"", names->len ? ", " : "", celd_io_part (file, i)->name);
-  cli_say ("\"%s\" has no layer named \"drawing\". Its layers are %s.", path, names->str);
-  g_string_free (names, TRUE);
-  return CELD_NO_INDEX;
-}
-
-bool
-cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint)
-{
-  CeldIoFile *file = open_file (path);
-  size_t      part = file ? celd_io_find (file, role) : 0;
-  bool        good = file && check_size (file, path, layers) &&
-                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
-
-  celd_io_close (file);
-  return good;
-}
-
-bool
-cli_hint_read (const char *path, const CliLayers *layers, CeldPlane *depth)
-{
-  return cli_read_levels (path, depth) && check_sides (depth->width, depth->height, path, layers);
-}
-
-bool
-cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art)
-{
-  CeldIoFile *file = open_file (path ? path : input);
-  size_t      part = !file ? 0 : path ? celd_io_find (file, "colours") : find_drawing (file, input);
-  bool        good = file && check_size (file, path ? path : input, layers) &&
-                     cli_read_part (file, part == CELD_NO_INDEX ? 0 : part, linear, art);
-
-  celd_io_close (file);
-  return good;
-}
-
-/* ------------------------------------------------------------------ all layers */
-
-static CeldPaint *
-paint_of (CliLayers *layers, CliRoles role)
-{
-  return role == CLI_SCRIBBLES ? &layers->scribbles : role == CLI_ARROWS ? &layers->arrows
-       : role == CLI_CONTOURS ? &layers->contours : &layers->corrections;
-}
-
-static const char *
-path_of (const CliOptions *options, CliRoles role)
-{
-  return role == CLI_SCRIBBLES ? options->scribbles : role == CLI_ARROWS ? options->arrows
-       : role == CLI_CONTOURS ? options->contours : options->corrections;
-}
-
-/* The drawing, and what else the same file holds and no option gives. */
-static bool
-read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLayers *layers)
-{
-  CeldIoFile *file = open_file (path);
-  size_t      part = file ? find_drawing (file, path) : CELD_NO_INDEX;
-  bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) &&
-                     cli_read_drawing (file, part, &layers->drawing);
-
-  for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
-    if (wanted & roles[i].role && !path_of (options, roles[i].role))
-      {
-        part = celd_io_find (file, roles[i].name);
-        good = part == CELD_NO_INDEX || cli_read_paint (file, part, paint_of (layers, roles[i].role));
-      }
-  celd_io_close (file);
-  return good;
-}
-
-bool
-cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers)
-{
-  bool good = !input || read_input (input, options, wanted, layers);
-
-  for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
-    if (wanted & roles[i].role && path_of (options, roles[i].role))
-      good = cli_layer_read (path_of (options, roles[i].role), roles[i].name, layers, paint_of (layers, roles[i].role));
-  return good;
-}
-
-void
-cli_layers_clear (CliLayers *layers)
-{
-  g_free (layers->drawing.luma.data);
-  g_free (layers->drawing.alpha.data);
-  g_free (layers->scribbles.data);
-  g_free (layers->arrows.data);
-  g_free (layers->contours.data);
-  g_free (layers->corrections.data);
-  *layers = (CliLayers) { 0 };
-}
-
-/* ------------------------------------------------------------------ relations */
-
-char *
-cli_relations_text (const CliOptions *options)
-{
-  char   *text = NULL;
-  gsize   length = 0;
-  GError *error = NULL;
-
-  if (!options->relations_file)
-    return g_strdup (options->relations ? options->relations : "");
-  if (!g_file_get_contents (options->relations_file, &text, &length, &error))
-    {
-      cli_say ("Cannot read \"%s\": %s", options->relations_file, error->message);
-      g_error_free (error);
-      return NULL;
-    }
-  if (strlen (text) < length)
-    {
-      cli_say ("Cannot read \"%s\": it is no text.", options->relations_file);
-      g_free (text);
-      return NULL;
-    }
-  return text;
-}
-
-const char *
-cli_relations_name (const CliOptions *options)
-{
-  return options->relations_file ? options->relations_file : "Relations";
-}
-
-bool
-cli_check_text (CeldStatus status, const char *name, const CeldTextError *error)
-{
-  if (status != CELD_BAD_RELATION)
-    return cli_check (status);
-  return cli_error ("%s, line %d, column %d: expected %s, found %s.", name, error->line, error->column,
-                    error->expected, error->found);
-}

@@ -78,7 +78,7 @@ static const FileOption files[] = {
   { "maps", CLI_SHADE, 0, TEXT, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
   { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
-    "how many transparent pixels round a sprite its maps fill; 4" },
+    "how many transparent pixels around a sprite its maps fill (default: 4)" },
   { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
   { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
   { "joined", CLI_STEREO, 0, JOINED, MEMBER (stereo), "OUT",
@@ -91,7 +91,7 @@ static const FileOption files[] = {
   { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
     "what is cut, or laid over the mesh, instead of the drawing" },
   { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
-    "what the layers are composited in: encoded colours (Krita), linear light (GIMP 3); encoded, but for .exr" },
+    "what the layers are composited in: encoded colours (Krita) or linear light (GIMP 3); encoded unless for .exr" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
     "write layers: .ora (OpenRaster), .exr (a part each), or a folder of PNG files" },
   { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT", "write heights, in pixels; .png from least to largest" },
@@ -162,14 +162,8 @@ cli_files_check (const CliCommand *command, CliOptions *options)
             return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
         }
     }
-  if (options->enhanced && !options->art)
-    return cli_error ("--enhanced needs --art.");
-  return outputs || options->maps || cli_error ("Nothing to write: name at least one output, such as --%s.",
-                               command->step == CLI_SHADE ? "shading"
-                               : command->step == CLI_ENHANCE ? "enhanced"
-                               : command->step == CLI_STEREO ? "joined"
-                               : command->step == CLI_RELIEF ? "mesh"
-                               : command->step == CLI_SEGMENT ? "labels" : "depth");
+  return outputs || options->maps ||
+         cli_error ("Nothing to write: name at least one output, such as --%s.", command->output);
 }
 
 bool

@@ -1,4 +1,5 @@
-/* The options of each sub-command: files (options-files.c), settings (options-settings.c), whole numbers (counts.c).
+/* The options of each sub-command: files (options-files.c), settings (options-settings.c), whole numbers
+ * (options-counts.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,8 +7,6 @@
 
 #include <stdio.h>
 #include <string.h>
-
-#define WIGGLE_DISPARITY 0.05f /* for one eye, which needs more to see it */
 
 /* GOption's part. */
 static bool
@@ -23,7 +22,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   bool            good;
 
   cli_files_append (command, options, entries);
-  cli_settings_append (command, entries);
+  cli_settings_append (command, options, entries);
   cli_counts_append (command, entries);
   if (command->step == CLI_SHADE)
     g_array_append_val (entries, ((GOptionEntry) {
@@ -55,26 +54,21 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
     return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
   options->input = g_strdup (argv[1]);
   cli_counts_complete (options);
-  if (options->light && cli_find_word ("encoded|linear", options->light) < 0)
-    return cli_error ("--light cannot be '%s'; it takes encoded|linear.", options->light);
-  if (options->light && !strcmp (options->light, "encoded") && options->output &&
-      celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS)
-    return cli_error ("--light encoded is not for .exr, whose colours are linear light.");
   if (options->relations && options->relations_file)
     return cli_error ("Give --relations or --relations-file, not both.");
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
     return cli_error ("--near-level must be above --far-level.");
-  return (command->step != CLI_SHADE || cli_shade_check (options)) && cli_files_check (command, options);
+  return (!command->check || command->check (options)) && cli_files_check (command, options);
 }
 
 int
 cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
   *options = (CliOptions) { .step = command->step, .settings = celd_settings () };
-  if (command->step == CLI_WIGGLE)
-    options->settings.disparity = WIGGLE_DISPARITY;
+  if (command->begin)
+    command->begin (options);
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
     return cli_files_check_places (options) ? CLI_DONE : CLI_FAILED;
   fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);
@@ -85,5 +79,6 @@ void
 cli_options_clear (CliOptions *options)
 {
   cli_files_clear (options);
+  cli_settings_clear (options);
   g_free (options->input);
 }

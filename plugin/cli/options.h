@@ -24,11 +24,23 @@ bool cli_files_check (const CliCommand *command, CliOptions *options);
 bool cli_files_check_places (CliOptions *options);
 void cli_files_clear (CliOptions *options);
 
+/* The settings of sub-commands that make regions of a drawing, and of those that look at them from the side. */
+#define CLI_SETTINGS_OF_LABELS \
+  "ink ink-threshold method close-gaps keep-necks hardness +flats background background-colour seeds same-colour " \
+  "arrow-style"
+#define CLI_SETTINGS_OF_SCENES " on-cycle suggest expansion anchors hold-rest"
+
 /* ------------------------------------------------------------------ options-settings.c */
 
 /* GOptionEntry for each setting of a command; their data are the CliOptions. */
-void cli_settings_append (const CliCommand *command, GArray *entries);
-/* The place of a word in "a|b|c"; -1 if it is not there. */
-int  cli_find_word (const char *words, const char *word);
+void cli_settings_append (const CliCommand *command, CliOptions *options, GArray *entries);
+void cli_settings_clear (CliOptions *options);
+
+/* ------------------------------------------------------------------ options-counts.c */
+
+/* GOptionEntry for each whole number of a command; their data are the CliOptions. */
+void cli_counts_append   (const CliCommand *command, GArray *entries);
+/* Those that were not given. */
+void cli_counts_complete (CliOptions *options);
 
 #endif

@@ -1,178 +1,26 @@
-/* The whole route, and segmentation alone: what a session makes of a drawing, its layers and relations.
+/* celdepth popup: the whole route, from a drawing to its shading.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
-
-/* Views of what the session made; data NULL where it was not asked for. */
-typedef struct
-{
-  CeldLabels           labels;
-  const CeldClosures  *closures;
-  const CeldRelations *suggestions;
-  const CeldOrder     *order;
-  CeldPlane            flat, levels, depth, shading;
-  CeldVectors          normals;
-} Results;
-
-static bool
-load_hint (CeldSession *session, const CliOptions *options, const CliLayers *layers)
-{
-  CeldPlane hint = { 0 };
-  bool      good = cli_hint_read (options->depth_hint, layers, &hint) &&
-                   cli_check (celd_session_set_depth_hint (session, &hint));
-
-  g_free (hint.data);
-  return good;
-}
-
-bool
-cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers)
-{
-  char         *text = cli_relations_text (options);
-  CeldTextError error;
-  bool          good = text &&
-                       cli_check_text (celd_session_set_relations (session, text, &error),
-                                       cli_relations_name (options), &error) &&
-                       cli_check_text (celd_session_set_arrow_path (session, options->arrow_path, &error),
-                                       "Arrow path", &error) &&
-                       cli_layers_read (options->input, options,
-                                        CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS, layers) &&
-                       cli_check (celd_session_set_settings (session, &options->settings)) &&
-                       cli_check (celd_session_set_drawing (session, &layers->drawing));
-
-  if (good && layers->scribbles.data)
-    good = cli_check (celd_session_set_scribbles (session, &layers->scribbles));
-  if (good && layers->arrows.data)
-    good = cli_check (celd_session_set_arrows (session, &layers->arrows));
-  if (good && layers->contours.data)
-    good = cli_check (celd_session_set_contours (session, &layers->contours));
-  if (good && options->depth_hint)
-    good = load_hint (session, options, layers);
-  if (good && layers->corrections.data)
-    good = cli_check (celd_session_set_corrections (session, &layers->corrections));
-  g_free (text);
-  return good;
-}
-
-/* Stage by stage, so that each has its time and its bar; the session makes what a stage needs in any case. */
-static CeldStatus
-make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun *run, Results *results)
-{
-  CeldPlane  ink;
-  CeldStatus status;
-
-  cli_run_stage (run, "ink");
-  status = celd_session_ink (session, &run->host, &ink, NULL);
-  cli_run_stage (run, "labels");
-  if (status == CELD_OK)
-    status = celd_session_labels (session, &run->host, &results->labels, NULL);
-  if (status == CELD_OK)
-    status = celd_session_closures (session, &run->host, &results->closures);
-  if (status == CELD_OK && (options->suggestions || options->suggested_arrows || options->settings.suggest))
-    status = celd_session_suggestions (session, &run->host, &results->suggestions);
-  if (status != CELD_OK || !whole_route)
-    return status;
-  cli_run_stage (run, "order");
-  status = celd_session_order (session, &run->host, &results->order);
-  if (status == CELD_OK && options->order)
-    status = celd_session_flat (session, &run->host, &results->flat, NULL);
-  if (options->levels || options->depth || options->normals || options->shading)
-    cli_run_stage (run, "levels");
-  if (status == CELD_OK && options->levels)
-    status = celd_session_levels (session, &run->host, &results->levels, NULL);
-  if (options->depth)
-    cli_run_stage (run, "depth");
-  if (status == CELD_OK && options->depth)
-    status = celd_session_depth (session, &run->host, &results->depth, NULL);
-  if (options->normals || options->shading)
-    cli_run_stage (run, "normals");
-  if (status == CELD_OK && options->normals)
-    status = celd_session_normals (session, &run->host, &results->normals, NULL);
-  if (status == CELD_OK && options->shading)
-    status = celd_session_shading (session, &run->host, &results->shading, NULL);
-  return status;
-}
-
-/* Paints a layer of the drawing's size, and writes it. */
-static bool
-write_layer (CeldSession *session, const char *path, const Results *results,
-             CeldStatus (*make_layer) (CeldSession *session, const CeldHost *host, CeldPaint *paint))
-{
-  int       w = results->labels.width, h = results->labels.height;
-  CeldPaint paint = { w, h, (size_t) w, g_try_new (uint8_t, 4 * (gsize) w * (gsize) h) };
-  bool      good = cli_check (paint.data ? make_layer (session, NULL, &paint) : CELD_NO_MEMORY) &&
-                   cli_write_layer (path, &paint);
-
-  g_free (paint.data);
-  return good;
-}
-
-static bool
-write_results (CeldSession *session, const CliOptions *options, const Results *results)
-{
-  bool  ranks = options->settings.encoding == CELD_ENCODING_RANK && results->order && results->order->levels > 1;
-  float nearest = ranks ? celd_order_value (results->order, results->order->levels - 1, &options->settings) : 1;
-
-  return (!options->labels  || cli_write_labels (options->labels, &results->labels, celd_session_palette (session))) &&
-         (!options->closures ||
-          write_layer (session, options->closures, results, celd_session_paint_closures)) &&
-         (!options->suggestions || cli_write_relations (options->suggestions, results->suggestions)) &&
-         (!options->suggested_arrows ||
-          write_layer (session, options->suggested_arrows, results, celd_session_paint_suggestions)) &&
-         (!options->order   || cli_write_depth (options->order, &results->flat, nearest)) &&
-         (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
-         (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
-         (!options->normals || cli_write_normals (options->normals, &results->normals)) &&
-         (!options->shading || cli_write_shading (options->shading, &results->shading));
-}
+#include "options.h"
 
 static int
-tell (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
+run_popup (const CliOptions *options)
 {
-  return cli_tell (options, &(CliReport) {
-    .command   = command,
-    .width     = results->labels.width,
-    .height    = results->labels.height,
-    .palette   = celd_session_palette (session),
-    .relations = celd_session_relations (session),
-    .suggestions = results->suggestions,
-    .order     = results->order,
-    .problems  = celd_session_problems (session),
-    .closures  = results->closures,
-    .settings  = &options->settings,
-    .timings   = run->timings,
-  });
+  return cli_run_route (options, "popup", true);
 }
 
-static int
-run_route (const CliOptions *options, const char *command, bool whole_route)
-{
-  CeldSession *session = celd_session_new ();
-  CliLayers    layers = { 0 };
-  Results      results = { 0 };
-  CliRun       run;
-  int          code = CLI_FAILED;
-  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
-
-  cli_layers_clear (&layers);
-  cli_run_begin (&run, options->quiet);
-  if (good && cli_run_finish (&run, make (session, options, whole_route, &run, &results)) &&
-      write_results (session, options, &results))
-    code = tell (session, command, options, &run, &results);
-  cli_run_end (&run);
-  celd_session_free (session);
-  return code;
-}
-
-int
-cli_popup (const CliOptions *options)
-{
-  return run_route (options, "popup", true);
-}
-
-int
-cli_segment (const CliOptions *options)
-{
-  return run_route (options, "segment", false);
-}
+const CliCommand cli_popup_command = {
+  .name     = "popup",
+  .step     = CLI_POPUP,
+  .input    = "DRAWING|LAYERED",
+  .summary  = "The whole route: regions, order, depth, normals and shading of a drawing.",
+  .examples = "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
+              "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
+              "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"
+              "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
+              "tolerance bulge light-azimuth light-elevation ambient",
+  .output   = "depth",
+  .run      = run_popup,
+};

@@ -232,9 +232,7 @@ add_closure (JsonBuilder *json, const CeldClosure *closure)
 static void
 add_segmentation (JsonBuilder *json, const CliReport *report)
 {
-  static const char *methods[] = { "basins", "exact", "walker" };
-
-  add_text (json, "method", methods[report->settings->method]);
+  add_text (json, "method", celd_setting_find ("method")->choice[report->settings->method].nick);
   begin_list (json, "closures");
   for (size_t i = 0; i < report->closures->n; i++)
     add_closure (json, &report->closures->item[i]);

@@ -43,8 +43,8 @@ read_number (const char **text, int least, int most, int *number)
   return read >= least && read <= most;
 }
 
-bool
-cli_shade_check (CliOptions *options)
+static bool
+check (CliOptions *options)
 {
   const char *grid = options->grid, *padding = options->padding_text;
 
@@ -328,8 +328,8 @@ write_all (const CliOptions *options, Shade *s)
          (!options->maps || write_maps (options, s));
 }
 
-int
-cli_shade (const CliOptions *options)
+static int
+run_shade (const CliOptions *options)
 {
   Shade  s = { 0 };
   CliRun run;
@@ -342,3 +342,21 @@ cli_shade (const CliOptions *options)
   cli_run_end (&run);
   return good ? CLI_DONE : CLI_FAILED;
 }
+
+const CliCommand cli_shade_command = {
+  .name     = "shade",
+  .step     = CLI_SHADE,
+  .input    = "LEVELS",
+  .summary  = "Bends normals at the contours of expanded levels, and shades them.",
+  .examples = "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
+              "      --light-azimuth 45\n"
+              "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png \\\n"
+              "      --light-model toon --specular 0.4 --rim-light 0.3\n"
+              "  celdepth shade levels.npy --drawing walk.png --maps walk.png --grid 8x1",
+  .settings = "ink ink-threshold bulge bevel quilt frame-outline light-model toon-steps light light-azimuth "
+              "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size "
+              "shadow-strength",
+  .output   = "shading",
+  .check    = check,
+  .run      = run_shade,
+};

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
 
 #include <string.h>
 
@@ -133,8 +133,8 @@ say_comfort (const CliScene *s)
     cli_say ("%s", line);
 }
 
-int
-cli_stereo (const CliOptions *options)
+static int
+run_stereo (const CliOptions *options)
 {
   CliScene s;
   CliRun   run;
@@ -154,3 +154,19 @@ cli_stereo (const CliOptions *options)
   cli_run_end (&run);
   return code;
 }
+
+const CliCommand cli_stereo_command = {
+  .name     = "stereo",
+  .step     = CLI_STEREO,
+  .input    = "DRAWING|LAYERED",
+  .summary  = "The drawing as two eyes see it, from its layers and their depth.",
+  .examples = "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
+              "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png \\\n"
+              "      --right right.png --disparity 0.03\n"
+              "  celdepth stereo page.psd --joined page.mpo\n"
+              "  celdepth stereo page.psd --views 45 --columns 5 --quilt page_qs5x9a0.75.png",
+  .settings = CLI_SETTINGS_OF_LABELS CLI_SETTINGS_OF_SCENES
+              " stereo disparity convergence floating-window screen-width",
+  .output   = "joined",
+  .run      = run_stereo,
+};

@@ -2,7 +2,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
+
+#define DISPARITY 0.05f /* of the width, for one eye, which needs more to see depth; chosen */
 
 static CeldCamera
 camera (const CliScene *s, int frame)
@@ -10,8 +12,8 @@ camera (const CliScene *s, int frame)
   return celd_camera_on_path (s->settings->path, frame, s->frames);
 }
 
-int
-cli_wiggle (const CliOptions *options)
+static int
+run_wiggle (const CliOptions *options)
 {
   CliScene s;
   CliRun   run;
@@ -28,3 +30,22 @@ cli_wiggle (const CliOptions *options)
   cli_run_end (&run);
   return code;
 }
+
+static void
+begin (CliOptions *options)
+{
+  options->settings.disparity = DISPARITY;
+}
+
+const CliCommand cli_wiggle_command = {
+  .name     = "wiggle",
+  .step     = CLI_WIGGLE,
+  .input    = "DRAWING|LAYERED",
+  .summary  = "The camera moves before the drawing: depth at a glance, as GIF or PNG files.",
+  .examples = "  celdepth wiggle bee.png --scribbles strokes.png --arrows arrows.png --output bee.gif\n"
+              "  celdepth wiggle page.psd --path circle --frames 48 --output frames      (a folder of PNG files)",
+  .settings = CLI_SETTINGS_OF_LABELS CLI_SETTINGS_OF_SCENES " path disparity convergence",
+  .output   = "depth",
+  .begin    = begin,
+  .run      = run_wiggle,
+};

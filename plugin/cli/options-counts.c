@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -20,14 +20,14 @@ typedef struct
 
 static const CountOption counts[] = {
   { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
-    "how many there are from the left eye to the right one; 8" },
+    "how many views there are from the left eye to the right one (default: 8)" },
   { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
-    "tiles of a quilt beside each other; as many as rows" },
+    "tiles in a row of a quilt (default: as many as rows)" },
   { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
-    "pictures of one round; 24" },
+    "pictures in one round (default: 24)" },
   { "size", CLI_STEREO | CLI_WIGGLE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
-    "the longer side of a .gif: larger ones are reduced; 640" },
-  { "fps", CLI_STEREO | CLI_WIGGLE, MEMBER (fps), 1, 50, 12, "1-50", "pictures a second of a .gif; 12" },
+    "the longer side of a .gif: larger ones are reduced (default: 640)" },
+  { "fps", CLI_STEREO | CLI_WIGGLE, MEMBER (fps), 1, 50, 12, "1-50", "pictures per second of a .gif (default: 12)" },
 };
 
 static int *

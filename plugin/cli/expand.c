@@ -1,0 +1,51 @@
+/* celdepth expand: contours given to the regions that drew them.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+/* Flat colours, as segment writes them. */
+static bool
+read_regions (const char *path, CliLayers *layers, CeldLabels *regions)
+{
+  CeldPaint   paint = { 0 };
+  CeldPalette palette = { 0 };
+  bool        good = cli_layer_read (path, "labels", layers, &paint) &&
+                     cli_labels_new (paint.width, paint.height, regions) &&
+                     cli_check (celd_labels_read (&paint, regions, &palette));
+
+  g_free (paint.data);
+  celd_palette_clear (&palette);
+  return good;
+}
+
+static int
+run_expand (const CliOptions *options)
+{
+  CliStep       step;
+  CeldLabels regions = { 0 };
+  bool       good = cli_step_begin (options, &step) &&
+                    (!options->regions || read_regions (options->regions, &step.layers, &regions));
+
+  if (good)
+    {
+      cli_run_stage (&step.run, "levels");
+      good = cli_run_finish (&step.run, celd_expand_levels (&step.ink, &step.levels, regions.data ? &regions : NULL,
+                                                            NULL, options->settings.expansion, &step.run.host,
+                                                            &step.levels)) &&
+             cli_write_depth (options->levels, &step.levels, cli_nearest_level (&step.levels));
+    }
+  g_free (regions.data);
+  return cli_step_end (&step, good);
+}
+
+const CliCommand cli_expand_command = {
+  .name     = "expand",
+  .step     = CLI_EXPAND,
+  .input    = "LEVELS",
+  .summary  = "Gives each contour to the region that drew it.",
+  .examples = "  celdepth expand flat-levels.npy --drawing bee.png --regions flat.png --levels levels.npy",
+  .settings = "ink method=expansion",
+  .output   = "depth",
+  .run      = run_expand,
+};

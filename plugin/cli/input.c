@@ -1,0 +1,194 @@
+/* A drawing with its layers: each from a file of its own, or all from the layers of one PSD, EXR or TIFF by name.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <string.h>
+
+static const struct { CliRoles role; const char *name; } roles[] = {
+  { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
+  { CLI_CORRECTIONS, "corrections" },
+};
+
+/* ------------------------------------------------------------------ one file */
+
+static CeldIoFile *
+open_file (const char *path)
+{
+  CeldIoError error;
+  CeldIoFile *file = celd_io_open (path, &error);
+
+  if (!file)
+    cli_say ("%s", error.text);
+  return file;
+}
+
+static bool
+check_sides (int width, int height, const char *path, const CliLayers *layers)
+{
+  return (layers->width == width && layers->height == height) ||
+         cli_error ("\"%s\" has %d x %d pixels, but %d x %d are needed; give all layers the size of the drawing.",
+                    path, width, height, layers->width, layers->height);
+}
+
+static bool
+check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
+{
+  if (!layers->width)
+    {
+      layers->width = celd_io_width (file);
+      layers->height = celd_io_height (file);
+    }
+  return check_sides (celd_io_width (file), celd_io_height (file), path, layers);
+}
+
+/* Where a file has layers, but not the drawing, that is a mistake; without layers its picture is the drawing. */
+static size_t
+find_drawing (const CeldIoFile *file, const char *path)
+{
+  size_t   part = celd_io_find (file, "drawing");
+  bool     layered = false;
+  GString *names;
+
+  for (size_t i = 0; i < G_N_ELEMENTS (roles); i++)
+    layered = layered || celd_io_find (file, roles[i].name) != CELD_NO_INDEX;
+  if (part != CELD_NO_INDEX || !layered)
+    return part == CELD_NO_INDEX ? 0 : part;
+  names = g_string_new (NULL);
+  for (size_t i = 0; i < celd_io_parts (file); i++)
+    if (celd_io_part (file, i)->name[0])
+      g_string_append_printf (names, "%s\"%s\"", names->len ? ", " : "", celd_io_part (file, i)->name);
+  cli_say ("\"%s\" has no layer named \"drawing\". Its layers are %s.", path, names->str);
+  g_string_free (names, TRUE);
+  return CELD_NO_INDEX;
+}
+
+bool
+cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint)
+{
+  CeldIoFile *file = open_file (path);
+  size_t      part = file ? celd_io_find (file, role) : 0;
+  bool        good = file && check_size (file, path, layers) &&
+                     cli_read_paint (file, part == CELD_NO_INDEX ? 0 : part, paint);
+
+  celd_io_close (file);
+  return good;
+}
+
+bool
+cli_hint_read (const char *path, const CliLayers *layers, CeldPlane *depth)
+{
+  return cli_read_levels (path, depth) && check_sides (depth->width, depth->height, path, layers);
+}
+
+bool
+cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art)
+{
+  CeldIoFile *file = open_file (path ? path : input);
+  size_t      part = !file ? 0 : path ? celd_io_find (file, "colours") : find_drawing (file, input);
+  bool        good = file && check_size (file, path ? path : input, layers) &&
+                     cli_read_part (file, part == CELD_NO_INDEX ? 0 : part, linear, art);
+
+  celd_io_close (file);
+  return good;
+}
+
+/* ------------------------------------------------------------------ all layers */
+
+static CeldPaint *
+paint_of (CliLayers *layers, CliRoles role)
+{
+  return role == CLI_SCRIBBLES ? &layers->scribbles : role == CLI_ARROWS ? &layers->arrows
+       : role == CLI_CONTOURS ? &layers->contours : &layers->corrections;
+}
+
+static const char *
+path_of (const CliOptions *options, CliRoles role)
+{
+  return role == CLI_SCRIBBLES ? options->scribbles : role == CLI_ARROWS ? options->arrows
+       : role == CLI_CONTOURS ? options->contours : options->corrections;
+}
+
+/* The drawing, and what else the same file holds and no option gives. */
+static bool
+read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLayers *layers)
+{
+  CeldIoFile *file = open_file (path);
+  size_t      part = file ? find_drawing (file, path) : CELD_NO_INDEX;
+  bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) &&
+                     cli_read_drawing (file, part, &layers->drawing);
+
+  for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
+    if (wanted & roles[i].role && !path_of (options, roles[i].role))
+      {
+        part = celd_io_find (file, roles[i].name);
+        good = part == CELD_NO_INDEX || cli_read_paint (file, part, paint_of (layers, roles[i].role));
+      }
+  celd_io_close (file);
+  return good;
+}
+
+bool
+cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers)
+{
+  bool good = !input || read_input (input, options, wanted, layers);
+
+  for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
+    if (wanted & roles[i].role && path_of (options, roles[i].role))
+      good = cli_layer_read (path_of (options, roles[i].role), roles[i].name, layers, paint_of (layers, roles[i].role));
+  return good;
+}
+
+void
+cli_layers_clear (CliLayers *layers)
+{
+  g_free (layers->drawing.luma.data);
+  g_free (layers->drawing.alpha.data);
+  g_free (layers->scribbles.data);
+  g_free (layers->arrows.data);
+  g_free (layers->contours.data);
+  g_free (layers->corrections.data);
+  *layers = (CliLayers) { 0 };
+}
+
+/* ------------------------------------------------------------------ relations */
+
+char *
+cli_relations_text (const CliOptions *options)
+{
+  char   *text = NULL;
+  gsize   length = 0;
+  GError *error = NULL;
+
+  if (!options->relations_file)
+    return g_strdup (options->relations ? options->relations : "");
+  if (!g_file_get_contents (options->relations_file, &text, &length, &error))
+    {
+      cli_say ("Cannot read \"%s\": %s", options->relations_file, error->message);
+      g_error_free (error);
+      return NULL;
+    }
+  if (strlen (text) < length)
+    {
+      cli_say ("Cannot read \"%s\": it is no text.", options->relations_file);
+      g_free (text);
+      return NULL;
+    }
+  return text;
+}
+
+const char *
+cli_relations_name (const CliOptions *options)
+{
+  return options->relations_file ? options->relations_file : "Relations";
+}
+
+bool
+cli_check_text (CeldStatus status, const char *name, const CeldTextError *error)
+{
+  if (status != CELD_BAD_RELATION)
+    return cli_check (status);
+  return cli_error ("%s, line %d, column %d: expected %s, found %s.", name, error->line, error->column,
+                    error->expected, error->found);
+}

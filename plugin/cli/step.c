@@ -1,0 +1,55 @@
+/* What the sub-commands share that make one step: the ink of a drawing, and levels with it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+bool
+cli_make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink)
+{
+  CeldDrawing *drawing = &layers->drawing;
+  CeldInkMode  mode = options->settings.ink;
+  CeldStatus   status = CELD_OK;
+
+  if (!cli_plane_new (drawing->luma.width, drawing->luma.height, ink))
+    return false;
+  cli_run_stage (run, "ink");
+  if (layers->contours.data)
+    status = celd_contours_bake (drawing, &layers->contours, purpose, mode, &run->host, drawing);
+  if (status == CELD_OK)
+    status = celd_ink (drawing, mode, &run->host, ink);
+  return cli_run_finish (run, status);
+}
+
+float
+cli_nearest_level (const CeldPlane *levels)
+{
+  float nearest = 1;
+
+  for (size_t i = 0; i < (size_t) levels->width * (size_t) levels->height; i++)
+    nearest = MAX (nearest, levels->data[i]);
+  return nearest;
+}
+
+bool
+cli_step_begin (const CliOptions *options, CliStep *step)
+{
+  *step = (CliStep) { 0 };
+  cli_run_begin (&step->run, options->quiet);
+  if (!cli_read_levels (options->input, &step->levels))
+    return false;
+  step->layers.width  = step->levels.width;
+  step->layers.height = step->levels.height;
+  return cli_layers_read (options->drawing, options, CLI_CONTOURS, &step->layers) &&
+         cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink);
+}
+
+int
+cli_step_end (CliStep *step, bool good)
+{
+  g_free (step->levels.data);
+  g_free (step->ink.data);
+  cli_layers_clear (&step->layers);
+  cli_run_end (&step->run);
+  return good ? CLI_DONE : CLI_FAILED;
+}
