@@ -2,7 +2,7 @@
  *
  * A pixel that is one region's goes to its layer as it is.  A pixel that two regions share goes to both: the front one
  * gets the share that it covers as alpha, and the colours of both are told apart so that the front over the back gives
- * the pixel again (layer-colours.c).  In 8 bits the back one is found for the front one as it was
+ * the pixel again (layer-unmixing.c).  In 8 bits the back one is found for the front one as it was
  * rounded, so that the composite is right to one step.
  *
  * Hidden parts are found afterwards, and only where something nearer is opaque: they cannot be seen.
@@ -11,6 +11,7 @@
  */
 #include "image/image.h"
 #include "layers/layers.h"
+#include "ownership/expansion.h"
 
 #include <stdlib.h>
 
@@ -308,5 +309,59 @@ done:
     celd_layers_free (layers);
   else
     *result = layers;
+  return status;
+}
+
+/* The first label, if no other has as much of the frame; else 0. */
+static CeldStatus
+find_background (const CeldOwnLevels *made, uint32_t *background)
+{
+  const CeldLabels *label = &made->own.owner;
+  size_t           *count = celd_alloc0 (made->n, sizeof *count);
+  bool              most = true;
+
+  if (!count)
+    return CELD_NO_MEMORY;
+  for (int x = 0; x < label->width; x++)
+    {
+      count[CELD_AT (label, x, 0) - 1]++;
+      count[CELD_AT (label, x, label->height - 1) - 1]++;
+    }
+  for (int y = 0; y < label->height; y++)
+    {
+      count[CELD_AT (label, 0, y) - 1]++;
+      count[CELD_AT (label, label->width - 1, y) - 1]++;
+    }
+  for (size_t k = 1; k < made->n; k++)
+    most = most && count[k] < count[0];
+  celd_free (count);
+  *background = most;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
+                     bool complete, const CeldHost *host, CeldLayers **layers)
+{
+  uint32_t   background = 0;
+  CeldStatus status = find_background (made, &background);
+
+  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, host,
+                                            layers);
+}
+
+CeldStatus
+celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                       const CeldLabels *corrections, const CeldColours *art, CeldExpansion method, CeldStore store,
+                       bool complete, const CeldHost *host, CeldLayers **layers)
+{
+  CeldOwnLevels made;
+  CeldHostPart      part[2];
+  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus    status = celd_own_levels_new (ink, levels, regions, corrections, method, &first, &made);
+
+  if (!status)
+    status = celd_own_levels_cut (&made, ink, art, store, complete, &second, layers);
+  celd_own_levels_clear (&made);
   return status;
 }

@@ -1,13 +1,13 @@
 /* The inside of CeldLayers: a drawing cut into one layer a region.
  *
  *   layers.c          which pixel is in which layer, and the layers as pictures
- *   layer-levels.c    layers from a picture of levels
- *   layer-store.c     the numbers that layers can be stored in
- *   layer-colours.c   the colours of two layers that share a pixel
+ *   layers.c    layers from a picture of levels
+ *   layer-unmixing.c     the numbers that layers can be stored in
+ *   layer-unmixing.c   the colours of two layers that share a pixel
  *   layer-outline.c   the outline of a layer, and where nearer layers hide it
  *   layer-curves.c    how an outline runs on where it is hidden
- *   layer-cover.c     how much of each pixel lies inside an outline
- *   layer-hidden.c    the hidden parts of a layer, their colours and their line
+ *   layer-coverage.c     how much of each pixel lies inside an outline
+ *   layer-completion.c    the hidden parts of a layer, their colours and their line
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -44,7 +44,7 @@ struct CeldLayers
   size_t     *n_hidden;
 };
 
-/* ------------------------------------------------------------------ layer-store.c */
+/* ------------------------------------------------------------------ layer-unmixing.c */
 
 void celd_store_prepare (CeldLayers *layers);
 
@@ -52,7 +52,7 @@ void celd_store_prepare (CeldLayers *layers);
 float celd_store_alpha  (const CeldLayers *layers, float alpha);
 float celd_store_colour (const CeldLayers *layers, float value);
 
-/* ------------------------------------------------------------------ layer-colours.c */
+/* ------------------------------------------------------------------ layer-unmixing.c */
 
 /* Fills in the colours of the blends.  `ink` is that of the drawing. */
 CeldStatus celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host);
@@ -110,7 +110,7 @@ void celd_curve_at (const CeldCurve *curve, double t, double *x, double *y);
 /* Steps that are at most about a pixel long. */
 int celd_curve_steps (const CeldCurve *curve);
 
-/* ------------------------------------------------------------------ layer-cover.c */
+/* ------------------------------------------------------------------ layer-coverage.c */
 
 /* A picture that collects directed edges: of what is on their right the share of each pixel. */
 typedef struct { CeldRect box; float *sum; } CeldCover;
@@ -120,7 +120,7 @@ void celd_cover_edge (CeldCover *cover, double x, double y, double to_x, double 
 /* Once all edges are in: sum[] is the share, one tight plane of the box. */
 void celd_cover_finish (CeldCover *cover);
 
-/* ------------------------------------------------------------------ layer-hidden.c */
+/* ------------------------------------------------------------------ layer-completion.c */
 
 /* Finds the hidden part of a layer. */
 CeldStatus celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,

@@ -1,9 +1,9 @@
 /* Whose each pixel is.
  *
  *   ownership.c         from the beginning
- *   ownership-edges.c   antialiased edges
- *   ownership-kept.c    kept between edits
- *   ownership-tiles.c   where an edit touches it
+ *   ownership.c   antialiased edges
+ *   ownership-cache.c    kept between edits
+ *   ownership-changes.c   where an edit touches it
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,10 +11,9 @@
 #define CELD_OWNERSHIP_H
 
 #include "base/tiles.h"
-#include "ownership/ink-edges.h"
-#include "ownership/pens.h"
+#include "ownership/contours.h"
 
-/* ------------------------------------------------------------------ ownership-edges.c */
+/* ------------------------------------------------------------------ ownership.c */
 
 /* In: in `owner` the label whose the larger part of each pixel is.  Out: the record, with the two labels of each pixel
  * at the edge of ink and how much of it is whose. */
@@ -27,7 +26,7 @@ CeldRect celd_share_again (const CeldPlane *ink, const CeldLabels *larger, const
 /* For a rectangle where nothing but the levels is new. */
 CeldRect celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect, CeldOwnership *ownership);
 
-/* ------------------------------------------------------------------ ownership-kept.c: CELD_EXPANSION_OUTLINES */
+/* ------------------------------------------------------------------ ownership-cache.c: CELD_EXPANSION_OUTLINES */
 
 /* What owners were made from.  What depends on the drawing alone is made once. */
 typedef struct
@@ -59,7 +58,7 @@ CeldStatus celd_owners_renew (const CeldOwnersInput *input, CeldRect new_labels,
                               CeldOwnersKept *kept, CeldOwnership *ownership, CeldRect *changed);
 void       celd_owners_clear (CeldOwnersKept *kept);    /* accepts a zeroed record */
 
-/* ------------------------------------------------------------------ ownership-tiles.c */
+/* ------------------------------------------------------------------ ownership-changes.c */
 
 #define CELD_TILE_CLAIM 1 /* ink is to be claimed anew */
 #define CELD_TILE_SHARE 2 /* owners may be other ones */

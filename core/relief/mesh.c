@@ -78,20 +78,6 @@ mark_points (CeldMaking *m, const CeldHost *host, size_t *n)
   return status;
 }
 
-uint32_t
-celd_mesh_vertex (CeldMaking *m, double x, double y, double z)
-{
-  double w = m->relief->width, h = m->relief->height;
-  float *place = m->mesh.place + 3 * m->mesh.vertices, *art = m->mesh.art + 2 * m->mesh.vertices;
-
-  place[0] = (float) (m->scale * (x - w / 2));
-  place[1] = (float) (m->scale * (h / 2 - y));
-  place[2] = (float) (m->scale * z);
-  art[0]   = (float) (x / w);
-  art[1]   = (float) (y / h);
-  return (uint32_t) m->mesh.vertices++;
-}
-
 /* A vertex for each point that is used. */
 static void
 make_vertices (CeldMaking *m)
@@ -110,21 +96,6 @@ make_vertices (CeldMaking *m)
 }
 
 /* ------------------------------------------------------------------ triangles */
-
-CeldStatus
-celd_mesh_triangle (CeldMaking *m, uint32_t a, uint32_t b, uint32_t c)
-{
-  uint32_t *corner = celd_grow (m->mesh.corner, m->mesh.triangles + 1, 3 * sizeof *corner);
-
-  if (!corner)
-    return CELD_NO_MEMORY;
-  m->mesh.corner = corner;
-  corner += 3 * m->mesh.triangles++;
-  corner[0] = a;
-  corner[1] = b;
-  corner[2] = c;
-  return CELD_OK;
-}
 
 /* A pixel, parted along the diagonal that falls less. */
 static CeldStatus
@@ -188,53 +159,6 @@ fill_square (CeldMaking *m, int x, int y, int side)
       last_y = to_y;
     }
   return status;
-}
-
-/* ------------------------------------------------------------------ normals */
-
-static void
-cross (const float *a, const float *b, const float *c, double normal[3])
-{
-  double u[3], v[3];
-
-  for (int k = 0; k < 3; k++)
-    {
-      u[k] = (double) b[k] - (double) a[k];
-      v[k] = (double) c[k] - (double) a[k];
-    }
-  for (int k = 0; k < 3; k++)
-    normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-}
-
-/* Of each vertex the mean of the surface's triangles, by their areas.  Walls do not count, for the surface would look
- * bent at every border; the bottom looks down. */
-static void
-find_normals (CeldReliefMesh *mesh)
-{
-  for (size_t i = 0; i < mesh->triangles; i++)
-    {
-      const uint32_t *v = mesh->corner + 3 * i;
-      double          normal[3];
-
-      cross (mesh->place + 3 * v[0], mesh->place + 3 * v[1], mesh->place + 3 * v[2], normal);
-      for (int k = 0; k < 3 && normal[2] > 0; k++)
-        for (int j = 0; j < 3; j++)
-          mesh->normal[3 * v[k] + (uint32_t) j] += (float) normal[j];
-    }
-  for (size_t i = 0; i < mesh->vertices; i++)
-    {
-      float *n = mesh->normal + 3 * i;
-      double x = (double) n[0], y = (double) n[1], z = (double) n[2], length = sqrt (x * x + y * y + z * z);
-
-      if (!(length > 0))
-        {
-          z      = -1;
-          length = 1;
-        }
-      n[0] = (float) (x / length);
-      n[1] = (float) (y / length);
-      n[2] = (float) (z / length);
-    }
 }
 
 /* ------------------------------------------------------------------ */
@@ -312,7 +236,7 @@ make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, Ce
     }
   status = for_squares (m, &filling, fill_square);
   if (status == CELD_OK)
-    find_normals (&m->mesh);
+    celd_mesh_normals (&m->mesh);
   return status;
 }
 

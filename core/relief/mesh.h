@@ -1,9 +1,9 @@
 /* What the files of the mesh share.
  *
- *   relief-corners.c   the corners of pixels, several where the surface is cut
- *   relief-blocks.c    squares that are flat enough for a few triangles
- *   relief-body.c      what makes a body of the surface
- *   relief-mesh.c           the step
+ *   mesh-points.c   the corners of pixels, several where the surface is cut
+ *   mesh-simplification.c    squares that are flat enough for a few triangles
+ *   mesh-builder.c   vertices, triangles and walls are added; normals
+ *   mesh.c           the step
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,7 +12,7 @@
 
 #include "base/base.h"
 
-/* ------------------------------------------------------------------ relief-corners.c */
+/* ------------------------------------------------------------------ mesh-points.c */
 
 /* The four pixels round a corner, clockwise. */
 enum { CELD_NORTH_WEST, CELD_NORTH_EAST, CELD_SOUTH_EAST, CELD_SOUTH_WEST };
@@ -46,7 +46,7 @@ celd_corner_point (const CeldCorners *corners, int x, int y, int direction)
   return corners->first[c] + (uint32_t) (corners->piece[c] >> 2 * direction & 3);
 }
 
-/* ------------------------------------------------------------------ relief-blocks.c */
+/* ------------------------------------------------------------------ mesh-simplification.c */
 
 #define CELD_BLOCK_SIZES 10 /* up to 512 pixels a side */
 
@@ -64,7 +64,7 @@ void       celd_blocks_clear (CeldBlocks *blocks);            /* also what was m
 /* Is the square of 2^k pixels in column x and row y of such squares drawn? */
 bool       celd_block_drawn (const CeldBlocks *blocks, int k, int x, int y);
 
-/* ------------------------------------------------------------------ relief-mesh.c */
+/* ------------------------------------------------------------------ mesh-builder.c */
 
 /* A mesh in the making. */
 typedef struct
@@ -85,10 +85,11 @@ CeldStatus celd_mesh_triangle (CeldMaking *making, uint32_t a, uint32_t b, uint3
 /* At the corner (x,y) of the picture; there is room for it. */
 uint32_t   celd_mesh_vertex (CeldMaking *making, double x, double y, double z);
 
-/* ------------------------------------------------------------------ relief-body.c */
-
 /* The wall of a body below the edge of a square of the surface from corner (x,y) to (end_x,end_y), counter-clockwise
  * round the square: where the surface is cut, or at the frame, there with a piece of the bottom. */
 CeldStatus celd_mesh_wall (CeldMaking *making, int x, int y, int end_x, int end_y);
+
+/* Sets the normals of all vertices. */
+void celd_mesh_normals (CeldReliefMesh *mesh);
 
 #endif

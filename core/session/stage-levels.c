@@ -1,7 +1,7 @@
 /* Levels in a session: those of the regions, whose the ink is, and the levels that come of it.
  *
  * Most strokes and relations only say what is so already: then labels, ink and ranks are as they were, and so is
- * whose the ink is.  Otherwise, with outlines, only what an edit touches is looked at again (ownership-kept.c).
+ * whose the ink is.  Otherwise, with outlines, only what an edit touches is looked at again (ownership-cache.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

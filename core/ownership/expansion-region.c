@@ -17,7 +17,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/expand.h"
+#include "ownership/expansion.h"
 #include "solve/laplace.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Depth expansion (section 3.3): ink goes to the region that drew it.
  *
  * Regions are taken front to back, all paper of a rank at once, so that ink between equal ranks stays at that rank.
- * Each takes its share of the ink that is still free (expand-region.c) and is then removed.  The last one has no
+ * Each takes its share of the ink that is still free (expansion-region.c) and is then removed.  The last one has no
  * farther region to share with; what is left when its turn comes goes to the nearest region, pixel by pixel.
  *
  * Contour is ink below one half: an antialiased pixel goes where the larger part of it is.  A patch of a rank that is
@@ -11,7 +11,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/expand.h"
+#include "ownership/expansion.h"
 
 #include <stdlib.h>
 

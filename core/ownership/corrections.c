@@ -8,8 +8,7 @@
  */
 #include "base/tiles.h"
 #include "image/image.h"
-#include "ownership/ink-edges.h"
-#include "ownership/pens.h"
+#include "ownership/contours.h"
 
 #include <math.h>
 

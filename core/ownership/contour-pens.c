@@ -1,13 +1,12 @@
 /* Which pen drew the ink: each shape of a cartoon is outlined with a pen of its own, over whatever lies behind it.
  *
- * Of two regions with ink between them the nearer one drew it.  Where the ink is thicker than its pen (pen-widths.c)
+ * Of two regions with ink between them the nearer one drew it.  Where the ink is thicker than its pen (pen-width.c)
  * other lines are in it, too.  Then the line next to the paper is the one that lay there where it could be told, as
  * long as the edge runs on without a corner; and if nobody can tell, the nearer region's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "ownership/ink-edges.h"
-#include "ownership/pens.h"
+#include "ownership/contours.h"
 
 #include <math.h>
 

@@ -204,3 +204,44 @@ celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldHost *ho
   celd_parallel_for (host, (int) ((layers->n_blends + PORTION - 1) / PORTION), find_portion, &work);
   return celd_progress (host, 1);
 }
+
+static float
+decode (double encoded)
+{
+  return (float) (encoded <= 0.04045 ? encoded / 12.92 : pow ((encoded + 0.055) / 1.055, 2.4));
+}
+
+void
+celd_store_prepare (CeldLayers *layers)
+{
+  for (int k = 0; k < 256; k++)
+    {
+      layers->shade[k] = decode (k / 255.0);
+      layers->limit[k] = decode ((k + 0.5) / 255);
+    }
+}
+
+float
+celd_store_alpha (const CeldLayers *layers, float alpha)
+{
+  return layers->store == CELD_STORE_FLOAT ? alpha : (float) (int) (alpha * 255 + 0.5f) / 255;
+}
+
+float
+celd_store_colour (const CeldLayers *layers, float value)
+{
+  int least = 0, most = 255;
+
+  if (layers->store != CELD_STORE_8_BIT_SRGB)
+    return celd_store_alpha (layers, value);
+  while (least < most)
+    {
+      int middle = (least + most) / 2;
+
+      if (value < layers->limit[middle])
+        most = middle;
+      else
+        least = middle + 1;
+    }
+  return layers->shade[least];
+}

@@ -8,7 +8,42 @@
  */
 #include "relief/mesh.h"
 
+#include <math.h>
+
 #define MOST_POINTS 6 /* of a chain: all of a corner, and the bottom */
+
+/* ------------------------------------------------------------------ vertices and triangles */
+
+uint32_t
+celd_mesh_vertex (CeldMaking *m, double x, double y, double z)
+{
+  double w = m->relief->width, h = m->relief->height;
+  float *place = m->mesh.place + 3 * m->mesh.vertices, *art = m->mesh.art + 2 * m->mesh.vertices;
+
+  place[0] = (float) (m->scale * (x - w / 2));
+  place[1] = (float) (m->scale * (h / 2 - y));
+  place[2] = (float) (m->scale * z);
+  art[0]   = (float) (x / w);
+  art[1]   = (float) (y / h);
+  return (uint32_t) m->mesh.vertices++;
+}
+
+CeldStatus
+celd_mesh_triangle (CeldMaking *m, uint32_t a, uint32_t b, uint32_t c)
+{
+  uint32_t *corner = celd_grow (m->mesh.corner, m->mesh.triangles + 1, 3 * sizeof *corner);
+
+  if (!corner)
+    return CELD_NO_MEMORY;
+  m->mesh.corner = corner;
+  corner += 3 * m->mesh.triangles++;
+  corner[0] = a;
+  corner[1] = b;
+  corner[2] = c;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ walls */
 
 /* The edge of a square, counter-clockwise round it, y down: which way it goes, and at its ends, in which directions the
  * pixels inside and outside lie. */
@@ -121,8 +156,6 @@ find_chain_down (CeldMaking *m, int x, int y, int inside, Chain *chain)
   add_link (chain, m->under[corner] - 1, (float) m->bottom);
 }
 
-/* ------------------------------------------------------------------ walls */
-
 /* The wall between two chains, which both begin at the surface; seen from outside `start` is on the right. */
 static CeldStatus
 fill_wall (CeldMaking *m, const Chain *start, const Chain *end)
@@ -164,4 +197,51 @@ celd_mesh_wall (CeldMaking *m, int x, int y, int end_x, int end_y)
   find_chain (m, x, y, edge.inside, edge.outside, &start);
   find_chain (m, end_x, end_y, edge.end_inside, edge.end_outside, &end);
   return fill_wall (m, &start, &end);
+}
+
+/* ------------------------------------------------------------------ normals */
+
+static void
+cross (const float *a, const float *b, const float *c, double normal[3])
+{
+  double u[3], v[3];
+
+  for (int k = 0; k < 3; k++)
+    {
+      u[k] = (double) b[k] - (double) a[k];
+      v[k] = (double) c[k] - (double) a[k];
+    }
+  for (int k = 0; k < 3; k++)
+    normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+}
+
+/* Of each vertex the mean of the surface's triangles, by their areas.  Walls do not count, for the surface would look
+ * bent at every border; the bottom looks down. */
+void
+celd_mesh_normals (CeldReliefMesh *mesh)
+{
+  for (size_t i = 0; i < mesh->triangles; i++)
+    {
+      const uint32_t *v = mesh->corner + 3 * i;
+      double          normal[3];
+
+      cross (mesh->place + 3 * v[0], mesh->place + 3 * v[1], mesh->place + 3 * v[2], normal);
+      for (int k = 0; k < 3 && normal[2] > 0; k++)
+        for (int j = 0; j < 3; j++)
+          mesh->normal[3 * v[k] + (uint32_t) j] += (float) normal[j];
+    }
+  for (size_t i = 0; i < mesh->vertices; i++)
+    {
+      float *n = mesh->normal + 3 * i;
+      double x = (double) n[0], y = (double) n[1], z = (double) n[2], length = sqrt (x * x + y * y + z * z);
+
+      if (!(length > 0))
+        {
+          z      = -1;
+          length = 1;
+        }
+      n[0] = (float) (x / length);
+      n[1] = (float) (y / length);
+      n[2] = (float) (z / length);
+    }
 }

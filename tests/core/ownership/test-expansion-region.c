@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/expand.h"
+#include "ownership/expansion.h"
 #include "sketch.h"
 
 /* Digits are levels, '#' is free ink. */

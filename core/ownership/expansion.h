@@ -1,4 +1,4 @@
-/* What expand.c (the whole picture), expand-region.c (one region) and the steps from pictures of levels share.
+/* What expand.c (the whole picture), expansion-region.c (one region) and the steps from pictures of levels share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -39,7 +39,7 @@ CeldStatus celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, c
                                 const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                 CeldOwnLevels *made);
 void       celd_own_levels_clear (CeldOwnLevels *made);
-/* layer-levels.c: the art cut by that. */
+/* layers.c: the art cut by that. */
 CeldStatus celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
                                 bool complete, const CeldHost *host, CeldLayers **layers);
 

@@ -8,9 +8,8 @@
  */
 #include "base/tiles.h"
 #include "image/image.h"
-#include "ownership/ink-edges.h"
+#include "ownership/contours.h"
 #include "ownership/ownership.h"
-#include "ownership/pens.h"
 
 #include <math.h>
 

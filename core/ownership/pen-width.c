@@ -6,8 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "ownership/ink-edges.h"
-#include "ownership/pens.h"
+#include "ownership/contours.h"
 
 #include <math.h>
 

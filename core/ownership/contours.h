@@ -1,18 +1,61 @@
 /* Which region's pen drew the ink behind each place on its edges, how wide that pen is, and what it covers.
  *
- *   pens.c         owners of the ink next to the edges
- *   pen-widths.c   how wide each pen is
+ *   contour-pens.c         owners of the ink next to the edges
+ *   pen-width.c   how wide each pen is
  *   pen-lines.c    where lines run on below others, and the tips of corners
- *   pen-claims.c   ink goes to the pens, edge by edge
- *   pen-rest.c     and what no pen explains
- *   pen-corrections.c  what the artist gives to whom
+ *   claims.c   ink goes to the pens, edge by edge
+ *   claim-remainder.c     and what no pen explains
+ *   corrections.c  what the artist gives to whom
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef CELD_PENS_H
-#define CELD_PENS_H
+#ifndef CELD_CONTOURS_H
+#define CELD_CONTOURS_H
 
-#include "ownership/ink-edges.h"
+#include "base/base.h"
+
+/* ------------------------------------------------------------------ contour-edges.c */
+
+/* A place on an edge, as exact as the antialiasing. */
+typedef struct
+{
+  float   x, y;
+  float   nx, ny;               /* unit normal, into the ink */
+  float   through;              /* to the other side of the ink along the normal; INFINITY if that is not found */
+  float   step;                 /* to the next place of the loop */
+  int32_t paper, across;        /* pixels of paper, y * width + x: here, and at the other side; -1 = off the picture */
+  bool    corner;               /* the edge turns sharply here */
+  bool    askew;                /* or so close by that the normal does not tell how thick the ink is */
+} CeldEdgePoint;
+
+/* A closed edge: points first .. first + n - 1, paper on the right hand of who follows it. */
+typedef struct { size_t first, n; } CeldEdgeLoop;
+
+typedef struct
+{
+  int            width, height, stroke; /* stroke: how thick lines are, see celd_stroke_width */
+  CeldEdgePoint *point;
+  size_t         n_points;
+  CeldEdgeLoop  *loop;
+  size_t         n_loops;
+} CeldInkEdges;
+
+CeldStatus celd_ink_edges_new (const CeldPlane *ink, const CeldHost *host, CeldInkEdges *edges);
+void       celd_ink_edges_clear (CeldInkEdges *edges);  /* accepts a zeroed record */
+
+/* Pixels between two places. */
+float celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b);
+
+/* The pixel that a place lies in. */
+static inline int
+celd_round_down (float value)
+{
+  int down = (int) value;
+
+  return down - ((float) down > value);
+}
+
+/* ------------------------------------------------------------------ contour-contour-pens.c */
 
 /* What a place on an edge means for a labelling. */
 typedef struct
@@ -48,13 +91,13 @@ celd_pen_front (const CeldPens *pens, const CeldPen *pen)
   return pens->level[pen->near - 1] > pens->level[pen->far - 1] ? pen->near : pen->far;
 }
 
-/* ------------------------------------------------------------------ pen-widths.c */
+/* ------------------------------------------------------------------ pen-width.c */
 
 /* Fills in how wide the labels' pens are, and then widths along a loop. */
 CeldStatus celd_pens_measure (CeldPens *pens);
 void       celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens);
 
-/* ------------------------------------------------------------------ pen-claims.c */
+/* ------------------------------------------------------------------ claims.c */
 
 /* A place, and the unit vector along which ink is claimed from there. */
 typedef struct { float x, y, nx, ny; } CeldRay;
@@ -96,7 +139,7 @@ void celd_claim_make (const CeldClaims *claims, const CeldClaim *claim);
 CeldStatus celd_pens_claim (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
                             const CeldHost *host, CeldLabels *owner, CeldPlane *over);
 
-/* ------------------------------------------------------------------ pen-rest.c */
+/* ------------------------------------------------------------------ claim-remainder.c */
 
 /* Which labels are ink throughout: of label k at k - 1. */
 CeldStatus celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid);
@@ -132,7 +175,7 @@ celd_claim_place (const CeldClaim *line, float along)
   return at;
 }
 
-/* ------------------------------------------------------------------ pen-corrections.c */
+/* ------------------------------------------------------------------ corrections.c */
 
 /* What corrections took, in this order, from whom. */
 typedef struct { CeldOwned *item; size_t n; } CeldGiven;

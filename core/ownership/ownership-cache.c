@@ -1,16 +1,15 @@
 /* Whose the ink is, kept between edits: only what an edit touches is claimed again, and the result is what it would be
  * from the beginning, bit by bit.
  *
- * That is so because claims come to the same in whichever order they are made (pen-claims.c): a tile of the picture is
+ * That is so because claims come to the same in whichever order they are made (claims.c): a tile of the picture is
  * forgotten and claimed again by all that reach it, which changes nothing beside it.  Ink that nobody claims is given
  * away in connected pieces, each from what is beside it alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/tiles.h"
-#include "ownership/ink-edges.h"
+#include "ownership/contours.h"
 #include "ownership/ownership.h"
-#include "ownership/pens.h"
 
 #include <math.h>
 
