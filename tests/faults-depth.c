@@ -161,14 +161,14 @@ owners_step (const CeldHost *host, Results *r)
   CeldPlane       ink = plane_of (&ink_pixels);
   CeldLabels      labels = labels_of (&label_pixels), all = { 0 };
   uint32_t        level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
-  CeldOwnersInput input = { &ink, &labels, NULL, level, 8 };
-  CeldOwnersKept  kept = { 0 };
+  CeldOwnershipInput input = { &ink, &labels, NULL, level, 8 };
+  CeldOwnershipCache  kept = { 0 };
   CeldOwnership   own = { 0 };
   CeldRect        changed;
   CeldStatus      status = celd_ownership_new (W, H, &own);
 
   if (status == CELD_OK)
-    status = celd_owners_make (&input, &first, &kept, &own);
+    status = celd_ownership_cache_make (&input, &first, &kept, &own);
   if (status == CELD_OK)
     status = celd_labels_new (W, H, &all);
   for (int p = 0; status == CELD_OK && p < W * H; p++)
@@ -176,11 +176,11 @@ owners_step (const CeldHost *host, Results *r)
   level[0] = 9;
   input.labels = input.corrections = &all;
   if (status == CELD_OK)
-    status = celd_owners_renew (&input, (CeldRect) { 0, 0, W, H }, &second, &kept, &own, &changed);
+    status = celd_ownership_cache_update (&input, (CeldRect) { 0, 0, W, H }, &second, &kept, &own, &changed);
   if (status == CELD_OK)
     memcpy (r->pixels->labels, own.owner.data, W * H * sizeof (uint32_t));
   celd_free (all.data);
-  celd_owners_clear (&kept);
+  celd_ownership_cache_clear (&kept);
   celd_ownership_clear (&own);
   return status;
 }

@@ -21,7 +21,7 @@ CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* not 
 CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* cleared */
 CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
 
-CeldStatus celd_ownership_new (int width, int height, CeldOwnership *own); /* labels cleared, shares not */
+CeldStatus celd_ownership_new (int width, int height, CeldOwnership *own); /* labels cleared, coverage not */
 void       celd_ownership_clear (CeldOwnership *own);                     /* also what was made by half */
 
 CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem); /* problems NULL: nothing to do */

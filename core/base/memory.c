@@ -79,7 +79,7 @@ celd_ownership_new (int width, int height, CeldOwnership *own)
   if (status == CELD_OK)
     status = celd_labels_new (width, height, &made.under);
   if (status == CELD_OK)
-    status = celd_plane_new (width, height, &made.share);
+    status = celd_plane_new (width, height, &made.coverage);
   if (status == CELD_OK)
     *own = made;
   else
@@ -92,7 +92,7 @@ celd_ownership_clear (CeldOwnership *own)
 {
   celd_free (own->owner.data);
   celd_free (own->under.data);
-  celd_free (own->share.data);
+  celd_free (own->coverage.data);
   *own = (CeldOwnership) { 0 };
 }
 

@@ -173,7 +173,7 @@ typedef struct
   CeldLabels owner;             /* the label whose area or ink the pixel is; where it has parts of two labels, as at an
                                  * antialiased edge, the nearer one (of equal levels either) */
   CeldLabels under;             /* the other one, which is seen beside the owner; = owner where there is but one */
-  CeldPlane  share;             /* how much of the pixel the owner covers, above 0; 1 where there is but one.
+  CeldPlane  coverage;          /* how much of the pixel the owner covers, above 0; 1 where there is but one.
                                  * Ink in the pixel is the owner's or, where that has none, under's. */
 } CeldOwnership;
 

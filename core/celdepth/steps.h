@@ -137,7 +137,7 @@ CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *l
  * much of the pixel it covers, above 0 (CeldOwnership).  `level` may alias `levels`, `region` may alias `regions`. */
 CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                           const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                          CeldPlane *level, CeldLabels *region, CeldPlane *share);
+                                          CeldPlane *level, CeldLabels *region, CeldPlane *coverage);
 
 /* Depth expansion by the thickness of contours (section 3.3).  `ranks` may have any values, larger = nearer; `expanded`
  * holds the same values and may alias `ranks`. */

@@ -11,11 +11,11 @@
 
 #include <math.h>
 
-#define LEAST_LINE 0.7         /* pixels: less is no line */
-#define PAPER      0.97f       /* ink above this is surely none */
-#define FLAT       (2.5f / 255)
-#define TOLERANCE  4e-3        /* of the range of colours */
-#define MARGIN     4           /* strokes round the hidden part, from which its colours come */
+#define MIN_LINE_WIDTH 0.7         /* pixels: less is no line */
+#define PAPER_INK      0.97f       /* ink above this is surely none */
+#define FLAT_TOLERANCE       (2.5f / 255)
+#define INPAINT_TOLERANCE  4e-3        /* of the range of colours */
+#define MARGIN_STROKES     4           /* strokes round the hidden part, from which its colours come */
 
 /* One layer at work; planes are those of the box. */
 typedef struct
@@ -23,17 +23,17 @@ typedef struct
   CeldLayers      *layers;
   size_t           layer;
   const CeldPlane *ink;
-  CeldCurve       *curve;
+  CeldGapCurve       *curve;
   size_t           n_curves;
   CeldRect         box;
-  float           *share;      /* of each pixel, inside the outline; 0 where it is not hidden */
+  float           *coverage;      /* of each pixel, inside the outline; 0 where it is not hidden */
   float           *line;       /* and of the line */
   float           *line_place; /* and on which curve at which t, as curve + t */
   size_t           n_hidden;
-} Part;
+} Completion;
 
 static size_t
-index_of (const Part *part, int x, int y)
+index_of (const Completion *part, int x, int y)
 {
   return (size_t) (y - part->box.y) * (size_t) part->box.width + (size_t) (x - part->box.x);
 }
@@ -53,7 +53,7 @@ clip (const CeldLayers *layers, CeldRect box, int margin)
 
 /* Round what is seen and round the curves, whose polygons hold them. */
 static CeldRect
-whole_box (const Part *part)
+whole_box (const Completion *part)
 {
   CeldRect box = part->layers->seen[part->layer];
 
@@ -65,21 +65,21 @@ whole_box (const Part *part)
 }
 
 static void
-cover_outline (const CeldOutline *outline, CeldCover *cover)
+cover_outline (const CeldOutline *outline, CeldCoverage *sum)
 {
   for (size_t l = 0; l < outline->n_loops; l++)
     for (size_t i = outline->loop[l]; i < outline->loop[l + 1]; i++)
       if (!outline->crack[i].hidden)
         {
-          const CeldCrack *from = &outline->crack[i];
-          const CeldCrack *to = &outline->crack[i + 1 < outline->loop[l + 1] ? i + 1 : outline->loop[l]];
+          const CeldCrackEdge *from = &outline->crack[i];
+          const CeldCrackEdge *to = &outline->crack[i + 1 < outline->loop[l + 1] ? i + 1 : outline->loop[l]];
 
-          celd_cover_edge (cover, from->x, from->y, to->x, to->y);
+          celd_coverage_edge (sum, from->x, from->y, to->x, to->y);
         }
 }
 
 static void
-cover_curves (const Part *part, CeldCover *cover)
+cover_curves (const Completion *part, CeldCoverage *sum)
 {
   for (size_t i = 0; i < part->n_curves; i++)
     {
@@ -89,54 +89,54 @@ cover_curves (const Part *part, CeldCover *cover)
       for (int k = 1; k <= steps; k++, x = to_x, y = to_y)
         {
           celd_curve_at (&part->curve[i], (double) k / steps, &to_x, &to_y);
-          celd_cover_edge (cover, x, y, to_x, to_y);
+          celd_coverage_edge (sum, x, y, to_x, to_y);
         }
     }
 }
 
 /* Leaves the share of hidden pixels alone, and counts them. */
 static void
-keep_hidden (Part *part)
+keep_hidden (Completion *part)
 {
   for (int y = part->box.y; y < part->box.y + part->box.height; y++)
     for (int x = part->box.x; x < part->box.x + part->box.width; x++)
       {
-        float *share = &part->share[index_of (part, x, y)];
+        float *coverage = &part->coverage[index_of (part, x, y)];
 
-        if (*share > 0 && celd_layer_sight (part->layers, part->layer, x, y) != CELD_SIGHT_HIDDEN)
-          *share = 0;
-        part->n_hidden += *share > 0;
+        if (*coverage > 0 && celd_layer_visibility (part->layers, part->layer, x, y) != CELD_LAYER_OCCLUDED)
+          *coverage = 0;
+        part->n_hidden += *coverage > 0;
       }
 }
 
 static CeldStatus
-find_shape (const CeldOutline *outline, Part *part)
+cover_shape (const CeldOutline *outline, Completion *part)
 {
-  CeldCover  cover;
-  CeldStatus status = celd_cover_new (part->box, &cover);
+  CeldCoverage  sum;
+  CeldStatus status = celd_coverage_new (part->box, &sum);
 
   if (status)
     return status;
-  cover_outline (outline, &cover);
-  cover_curves (part, &cover);
-  celd_cover_finish (&cover);
-  part->share = cover.sum;
+  cover_outline (outline, &sum);
+  cover_curves (part, &sum);
+  celd_coverage_finish (&sum);
+  part->coverage = sum.sum;
   keep_hidden (part);
   return CELD_OK;
 }
 
 static CeldStatus
-find_everything (Part *part)
+cover_everything (Completion *part)
 {
   size_t pixels;
 
   part->box   = clip (part->layers, (CeldRect) { 0, 0, part->layers->width, part->layers->height }, 0);
   pixels      = (size_t) part->box.width * (size_t) part->box.height;
-  part->share = celd_alloc (pixels, sizeof *part->share);
-  if (!part->share)
+  part->coverage = celd_alloc (pixels, sizeof *part->coverage);
+  if (!part->coverage)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < pixels; i++)
-    part->share[i] = 1;
+    part->coverage[i] = 1;
   keep_hidden (part);
   return CELD_OK;
 }
@@ -145,10 +145,10 @@ find_everything (Part *part)
 
 /* Where the one end is in a corner between lines and has none to measure, the other one's counts. */
 static void
-even_line (CeldCurve *curve)
+copy_missing_line (CeldGapCurve *curve)
 {
   for (int i = 0; i < 2; i++)
-    if (curve->width[i] < LEAST_LINE)
+    if (curve->width[i] < MIN_LINE_WIDTH)
       {
         curve->width[i] = curve->width[1 - i];
         memcpy (curve->colour[i], curve->colour[1 - i], sizeof curve->colour[i]);
@@ -156,38 +156,38 @@ even_line (CeldCurve *curve)
 }
 
 static double
-line_at (const CeldCurve *curve, double t)
+line_width_at (const CeldGapCurve *curve, double t)
 {
   return curve->width[0] + t * (curve->width[1] - curve->width[0]);
 }
 
 /* Draws what is nearer to the place at t than the line is wide. */
 static void
-draw_dot (const Part *part, size_t curve, double t)
+draw_dot (const Completion *part, size_t curve, double t)
 {
-  double x, y, width = line_at (&part->curve[curve], t);
-  int    reach = (int) ceil (width + 0.5);
+  double x, y, width = line_width_at (&part->curve[curve], t);
+  int    radius = (int) ceil (width + 0.5);
 
   celd_curve_at (&part->curve[curve], t, &x, &y);
-  for (int py = (int) floor (y) - reach; py <= (int) floor (y) + reach; py++)
-    for (int px = (int) floor (x) - reach; px <= (int) floor (x) + reach; px++)
+  for (int py = (int) floor (y) - radius; py <= (int) floor (y) + radius; py++)
+    for (int px = (int) floor (x) - radius; px <= (int) floor (x) + radius; px++)
       if (px >= part->box.x && px < part->box.x + part->box.width && py >= part->box.y &&
           py < part->box.y + part->box.height)
         {
           size_t p = index_of (part, px, py);
           double dx = px + 0.5 - x, dy = py + 0.5 - y;
-          float  share = (float) fmin (fmax (width + 0.5 - sqrt (dx * dx + dy * dy), 0), 1);
+          float  coverage = (float) fmin (fmax (width + 0.5 - sqrt (dx * dx + dy * dy), 0), 1);
 
-          if (part->share[p] > 0 && share > part->line[p])
+          if (part->coverage[p] > 0 && coverage > part->line[p])
             {
-              part->line[p]       = share;
+              part->line[p]       = coverage;
               part->line_place[p] = (float) ((double) curve + fmin (t, 0.999));
             }
         }
 }
 
 static CeldStatus
-draw_lines (Part *part)
+draw_lines (Completion *part)
 {
   size_t pixels = (size_t) part->box.width * (size_t) part->box.height;
 
@@ -199,8 +199,8 @@ draw_lines (Part *part)
     {
       int steps = celd_curve_steps (&part->curve[i]);
 
-      even_line (&part->curve[i]);
-      if (part->curve[i].width[0] >= LEAST_LINE)
+      copy_missing_line (&part->curve[i]);
+      if (part->curve[i].width[0] >= MIN_LINE_WIDTH)
         for (int k = 0; k <= 2 * steps; k++)
           draw_dot (part, i, (double) k / (2 * steps));
     }
@@ -216,33 +216,33 @@ typedef struct
   uint8_t *kind;               /* of each pixel */
   float   *value;              /* CELD_LANES a pixel: premultiplied colours and alpha, and nothing */
   size_t   n_known;
-} Fill;
+} Inpainting;
 
 enum { FILL_NONE, FILL_KNOWN, FILL_FREE };
 
 static CeldRect
-hidden_box (const Part *part)
+hidden_box (const Completion *part)
 {
   CeldRect box = { 0 };
 
   for (int y = part->box.y; y < part->box.y + part->box.height; y++)
     for (int x = part->box.x; x < part->box.x + part->box.width; x++)
-      if (part->share[index_of (part, x, y)] > 0)
+      if (part->coverage[index_of (part, x, y)] > 0)
         box = celd_rect_union (box, (CeldRect) { x, y, 1, 1 });
   return box;
 }
 
 static bool
-is_hidden (const Part *part, int x, int y)
+is_hidden (const Completion *part, int x, int y)
 {
   return x >= part->box.x && x < part->box.x + part->box.width && y >= part->box.y &&
-         y < part->box.y + part->box.height && part->share[index_of (part, x, y)] > 0;
+         y < part->box.y + part->box.height && part->coverage[index_of (part, x, y)] > 0;
 }
 
 /* Known is the paper that is the layer's alone, with ink_too its ink as well; its other pixels and hidden ones are to
  * be found. */
 static void
-sort_pixels (const Part *part, bool ink_too, Fill *fill)
+sort_pixels (const Completion *part, bool ink_too, Inpainting *fill)
 {
   const CeldLayers *layers = part->layers;
   size_t            p = 0;
@@ -256,9 +256,9 @@ sort_pixels (const Part *part, bool ink_too, Fill *fill)
         bool         own = layers->place[at] == part->layer;
 
         fill->kind[p] = is_hidden (part, x, y) ? FILL_FREE : FILL_NONE;
-        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < PAPER)))
+        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < PAPER_INK)))
           fill->kind[p] = FILL_KNOWN;
-        else if (celd_layer_sight (layers, part->layer, x, y) == CELD_SIGHT_SEEN)
+        else if (celd_layer_visibility (layers, part->layer, x, y) == CELD_LAYER_VISIBLE)
           fill->kind[p] = FILL_FREE;
         if (fill->kind[p] != FILL_KNOWN)
           continue;
@@ -270,7 +270,7 @@ sort_pixels (const Part *part, bool ink_too, Fill *fill)
 
 /* Free pixels start with the mean of the known ones.  Do nearly all known ones have it? */
 static bool
-start_flat (Fill *fill)
+fill_with_mean (Inpainting *fill)
 {
   size_t pixels = (size_t) fill->box.width * (size_t) fill->box.height, others = 0;
 
@@ -286,14 +286,14 @@ start_flat (Fill *fill)
         if (fill->kind[p] != FILL_KNOWN)
           fill->value[p * CELD_LANES + c] = mean;
         else
-          others += fabsf (fill->value[p * CELD_LANES + c] - mean) > FLAT;
+          others += fabsf (fill->value[p * CELD_LANES + c] - mean) > FLAT_TOLERANCE;
     }
   return others <= fill->n_known / 100;
 }
 
 /* Laplace's equation on the free pixels; what lies beside both kinds is a wall. */
 static CeldStatus
-diffuse (const CeldHost *host, Fill *fill)
+solve_laplace (const CeldHost *host, Inpainting *fill)
 {
   size_t       w = (size_t) fill->box.width, pixels = w * (size_t) fill->box.height;
   float       *east = celd_alloc0 (pixels, sizeof *east), *south = celd_alloc0 (pixels, sizeof *south);
@@ -312,7 +312,7 @@ diffuse (const CeldHost *host, Fill *fill)
   if (!status)
     status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, host, &laplace);
   if (!status)
-    status = celd_lap_solve_lanes (laplace, NULL, fill->value, TOLERANCE, 0, host, NULL);
+    status = celd_lap_solve_lanes (laplace, NULL, fill->value, INPAINT_TOLERANCE, 0, host, NULL);
   celd_lap_free (laplace);
   celd_free (east);
   celd_free (south);
@@ -321,12 +321,12 @@ diffuse (const CeldHost *host, Fill *fill)
 }
 
 static CeldStatus
-find_fill (const Part *part, int stroke, const CeldHost *host, Fill *fill)
+inpaint (const Completion *part, int stroke, const CeldHost *host, Inpainting *fill)
 {
   CeldRect hidden = hidden_box (part);
   size_t   pixels;
 
-  fill->box = clip (part->layers, hidden, MARGIN * stroke + 4);
+  fill->box = clip (part->layers, hidden, MARGIN_STROKES * stroke + 4);
   pixels = (size_t) fill->box.width * (size_t) fill->box.height;
   fill->kind = celd_alloc (pixels, 1);
   fill->value = celd_alloc0 (pixels, CELD_LANES * sizeof *fill->value);
@@ -337,14 +337,14 @@ find_fill (const Part *part, int stroke, const CeldHost *host, Fill *fill)
     sort_pixels (part, true, fill);
   if (!fill->n_known)
     return CELD_OK; /* nothing of it is the layer's alone: it stays as it is */
-  return start_flat (fill) ? CELD_OK : diffuse (host, fill);
+  return fill_with_mean (fill) ? CELD_OK : solve_laplace (host, fill);
 }
 
 /* ------------------------------------------------------------------ together */
 
 /* The line over the fill, as a straight colour. */
 static void
-hidden_colour (const Part *part, const Fill *fill, int x, int y, float colour[4])
+hidden_colour (const Completion *part, const Inpainting *fill, int x, int y, float colour[4])
 {
   size_t       p = index_of (part, x, y);
   size_t       at = (size_t) (y - fill->box.y) * (size_t) fill->box.width + (size_t) (x - fill->box.x);
@@ -355,31 +355,31 @@ hidden_colour (const Part *part, const Fill *fill, int x, int y, float colour[4]
     colour[c] = alpha > 0 ? fminf (fmaxf (value[c] / alpha, 0), 1) : 0;
   if (line > 0)
     {
-      const CeldCurve *curve = &part->curve[(size_t) part->line_place[p]];
+      const CeldGapCurve *curve = &part->curve[(size_t) part->line_place[p]];
       float            t = part->line_place[p] - floorf (part->line_place[p]);
 
       for (int c = 0; c < 3; c++)
         colour[c] += line * (curve->colour[0][c] + t * (curve->colour[1][c] - curve->colour[0][c]) - colour[c]);
       alpha = alpha + line * (1 - alpha);
     }
-  colour[3] = fminf (fmaxf (alpha * part->share[p], 0), 1);
+  colour[3] = fminf (fmaxf (alpha * part->coverage[p], 0), 1);
   for (int c = 0; c < 4; c++)
-    colour[c] = c < 3 ? celd_store_colour (part->layers, colour[c]) : celd_store_alpha (part->layers, colour[c]);
+    colour[c] = c < 3 ? celd_quantize_colour (part->layers, colour[c]) : celd_quantize_alpha (part->layers, colour[c]);
 }
 
 static CeldStatus
-keep_pixels (const Part *part, const Fill *fill)
+keep_pixels (const Completion *part, const Inpainting *fill)
 {
-  CeldHidden *hidden = celd_alloc (part->n_hidden, sizeof *hidden);
+  CeldHiddenPixel *hidden = celd_alloc (part->n_hidden, sizeof *hidden);
   size_t      n = 0;
 
   if (!hidden)
     return CELD_NO_MEMORY;
   for (int y = part->box.y; y < part->box.y + part->box.height; y++)
     for (int x = part->box.x; x < part->box.x + part->box.width; x++)
-      if (part->share[index_of (part, x, y)] > 0)
+      if (part->coverage[index_of (part, x, y)] > 0)
         {
-          CeldHidden pixel = { x, y, { 0 } };
+          CeldHiddenPixel pixel = { x, y, { 0 } };
 
           hidden_colour (part, fill, x, y, pixel.colour);
           if (pixel.colour[3] > 0)
@@ -394,8 +394,8 @@ CeldStatus
 celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
                      const CeldHost *host)
 {
-  Part        part = { .layers = layers, .layer = layer, .ink = ink };
-  Fill        fill = { 0 };
+  Completion        part = { .layers = layers, .layer = layer, .ink = ink };
+  Inpainting        fill = { 0 };
   CeldOutline outline = { 0 };
   CeldStatus  status = everything ? CELD_OK : celd_layer_outline (layers, layer, ink, stroke, &outline);
 
@@ -405,19 +405,19 @@ celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const Ce
   part.curve    = celd_alloc (part.n_curves, sizeof *part.curve);
   status        = part.curve ? CELD_OK : CELD_NO_MEMORY;
   if (!status && everything)
-    status = find_everything (&part);
+    status = cover_everything (&part);
   else if (!status)
     {
       celd_layer_curves (layers, layer, &outline, part.curve);
       part.box = whole_box (&part);
-      status = find_shape (&outline, &part);
+      status = cover_shape (&outline, &part);
     }
   if (!status && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
-      (status = find_fill (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
+      (status = inpaint (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
     status = keep_pixels (&part, &fill);
   celd_outline_clear (&outline);
   celd_free (part.curve);
-  celd_free (part.share);
+  celd_free (part.coverage);
   celd_free (part.line);
   celd_free (part.line_place);
   celd_free (fill.kind);

@@ -10,23 +10,23 @@
 #include <math.h>
 
 CeldStatus
-celd_cover_new (CeldRect box, CeldCover *cover)
+celd_coverage_new (CeldRect box, CeldCoverage *coverage)
 {
   /* One more a row for what lies beyond its end. */
-  *cover = (CeldCover) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height, sizeof *cover->sum) };
-  return cover->sum ? CELD_OK : CELD_NO_MEMORY;
+  *coverage = (CeldCoverage) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height, sizeof *coverage->sum) };
+  return coverage->sum ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* A piece within one row and one column, of height h, whose middle is at x. */
 static void
-add_piece (CeldCover *cover, int row, double x, double h)
+add_piece (CeldCoverage *coverage, int row, double x, double h)
 {
-  float *sum    = cover->sum + (size_t) row * (size_t) (cover->box.width + 1);
+  float *sum    = coverage->sum + (size_t) row * (size_t) (coverage->box.width + 1);
   int    column = (int) floor (x);
 
   if (column < 0)
     sum[0] -= (float) h;
-  else if (column < cover->box.width)
+  else if (column < coverage->box.width)
     {
       double left = x - column;
 
@@ -37,50 +37,50 @@ add_piece (CeldCover *cover, int row, double x, double h)
 
 /* A piece within one row, cut where columns meet. */
 static void
-add_row (CeldCover *cover, int row, double x, double y, double to_x, double to_y)
+add_row (CeldCoverage *coverage, int row, double x, double y, double to_x, double to_y)
 {
   while (y != to_y)
     {
-      double border = to_x > x ? floor (x) + 1 : ceil (x) - 1, next_y = to_y, next_x = to_x;
+      double next_column = to_x > x ? floor (x) + 1 : ceil (x) - 1, next_y = to_y, next_x = to_x;
 
-      if (to_x > x ? border < to_x : to_x < x && border > to_x)
+      if (to_x > x ? next_column < to_x : to_x < x && next_column > to_x)
         {
-          next_x = border;
-          next_y = y + (to_y - y) * (border - x) / (to_x - x);
+          next_x = next_column;
+          next_y = y + (to_y - y) * (next_column - x) / (to_x - x);
         }
-      add_piece (cover, row, (x + next_x) / 2, next_y - y);
+      add_piece (coverage, row, (x + next_x) / 2, next_y - y);
       x = next_x;
       y = next_y;
     }
 }
 
 void
-celd_cover_edge (CeldCover *cover, double x, double y, double to_x, double to_y)
+celd_coverage_edge (CeldCoverage *coverage, double x, double y, double to_x, double to_y)
 {
   double slope = to_y != y ? (to_x - x) / (to_y - y) : 0;
-  double first = fmin (y, to_y) - cover->box.y, last = fmax (y, to_y) - cover->box.y;
+  double first = fmin (y, to_y) - coverage->box.y, last = fmax (y, to_y) - coverage->box.y;
 
-  for (int row = (int) fmax (floor (first), 0); row < cover->box.height && row < last; row++)
+  for (int row = (int) fmax (floor (first), 0); row < coverage->box.height && row < last; row++)
     {
       double top = fmax (first, row), bottom = fmin (last, row + 1);
       double a = y < to_y ? top : bottom, b = y < to_y ? bottom : top; /* in the edge's direction */
 
-      add_row (cover, row, x + slope * (a + cover->box.y - y) - cover->box.x, a,
-               x + slope * (b + cover->box.y - y) - cover->box.x, b);
+      add_row (coverage, row, x + slope * (a + coverage->box.y - y) - coverage->box.x, a,
+               x + slope * (b + coverage->box.y - y) - coverage->box.x, b);
     }
 }
 
 void
-celd_cover_finish (CeldCover *cover)
+celd_coverage_finish (CeldCoverage *coverage)
 {
-  const float *from = cover->sum;
-  float       *to = cover->sum;
+  const float *from = coverage->sum;
+  float       *to = coverage->sum;
 
-  for (int y = 0; y < cover->box.height; y++, from++)
+  for (int y = 0; y < coverage->box.height; y++, from++)
     {
       double winding = 0;
 
-      for (int x = 0; x < cover->box.width; x++)
+      for (int x = 0; x < coverage->box.width; x++)
         {
           winding += (double) *from++;
           *to++ = (float) fmin (fmax (winding, 0), 1);

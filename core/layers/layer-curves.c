@@ -19,15 +19,15 @@
 #include <math.h>
 
 #define PI 3.14159265358979323846
-#define SHARPEST   (2 * PI / 3)  /* turn at one end; beyond, the directions are not believed */
-#define MOST_SWING (PI / 6)      /* to both sides: an inflection that is taken for an error of measurement */
-#define STRAIGHT   (PI / 4)      /* at either end of a curve between two gaps */
-#define FARTHEST   5             /* such a curve's length in lengths of the longer gap */
+#define MAX_END_TURN   (2 * PI / 3)  /* turn at one end; beyond, the directions are not believed */
+#define MAX_INFLECTION (PI / 6)      /* to both sides: an inflection that is taken for an error of measurement */
+#define MAX_EXCHANGE_TURN   (PI / 4)      /* at either end of a curve between two gaps */
+#define MAX_EXCHANGE_LENGTH   5             /* such a curve's length in lengths of the longer gap */
 #define SAMPLES    64
 #define TENSIONS   8
 
 void
-celd_curve_at (const CeldCurve *curve, double t, double *x, double *y)
+celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y)
 {
   double s = 1 - t, b[4] = { s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t };
 
@@ -40,7 +40,7 @@ celd_curve_at (const CeldCurve *curve, double t, double *x, double *y)
 }
 
 int
-celd_curve_steps (const CeldCurve *curve)
+celd_curve_steps (const CeldGapCurve *curve)
 {
   double length = 0;
 
@@ -60,7 +60,7 @@ turn (double ax, double ay, double bx, double by)
 
 /* Turns from the direction at the one end to the chord, and from there to that at the other; false without a chord. */
 static bool
-measure_turns (const CeldHiddenEnd *in, const CeldHiddenEnd *out, double *first, double *second)
+measure_turns (const CeldGapEnd *in, const CeldGapEnd *out, double *first, double *second)
 {
   double dx = out->x - in->x, dy = out->y - in->y;
 
@@ -72,14 +72,14 @@ measure_turns (const CeldHiddenEnd *in, const CeldHiddenEnd *out, double *first,
 static bool
 are_relatable (double first, double second)
 {
-  if (fabs (first) > SHARPEST || fabs (second) > SHARPEST)
+  if (fabs (first) > MAX_END_TURN || fabs (second) > MAX_END_TURN)
     return false;
-  return first * second >= 0 || (fabs (first) < MOST_SWING && fabs (second) < MOST_SWING);
+  return first * second >= 0 || (fabs (first) < MAX_INFLECTION && fabs (second) < MAX_INFLECTION);
 }
 
 /* Mirrors an end's direction at the perpendicular bisector of the chord (dx,dy) of length d. */
 static void
-mirror (const CeldHiddenEnd *end, double dx, double dy, double d, CeldHiddenEnd *other)
+mirror (const CeldGapEnd *end, double dx, double dy, double d, CeldGapEnd *other)
 {
   double along = (end->tx * dx + end->ty * dy) / d, across = (dx * end->ty - dy * end->tx) / d;
 
@@ -88,15 +88,15 @@ mirror (const CeldHiddenEnd *end, double dx, double dy, double d, CeldHiddenEnd 
 }
 
 /* With handles of `tension` times the usual length. */
-static CeldCurve
-join (const CeldHiddenEnd *in, const CeldHiddenEnd *out, double tension)
+static CeldGapCurve
+join_ends (const CeldGapEnd *in, const CeldGapEnd *out, double tension)
 {
   double    dx = out->x - in->x, dy = out->y - in->y, d = hypot (dx, dy), first = 0, second = 0, mean, handle;
-  CeldHiddenEnd   a = *in, b = *out;
-  CeldCurve curve = { .width = { in->width, out->width } };
+  CeldGapEnd   a = *in, b = *out;
+  CeldGapCurve curve = { .width = { in->width, out->width } };
 
-  if (d > 0 && in->sure != out->sure)
-    mirror (in->sure ? in : out, dx, dy, d, in->sure ? &b : &a);
+  if (d > 0 && in->reliable != out->reliable)
+    mirror (in->reliable ? in : out, dx, dy, d, in->reliable ? &b : &a);
   if (measure_turns (&a, &b, &first, &second) && !are_relatable (first, second))
     {
       a.tx = b.tx = dx / d;
@@ -122,7 +122,7 @@ join (const CeldHiddenEnd *in, const CeldHiddenEnd *out, double tension)
 
 /* Does the curve lie where the layer is seen, or may be?  Its ends may stick out by the roundings of antialiasing. */
 static bool
-is_possible (const CeldLayers *layers, size_t layer, const CeldCurve *curve)
+is_possible (const CeldLayers *layers, size_t layer, const CeldGapCurve *curve)
 {
   int outside = 0;
 
@@ -131,44 +131,44 @@ is_possible (const CeldLayers *layers, size_t layer, const CeldCurve *curve)
       double x, y;
 
       celd_curve_at (curve, (double) i / SAMPLES, &x, &y);
-      outside += celd_layer_sight (layers, layer, (int) floor (x), (int) floor (y)) == CELD_SIGHT_NONE;
+      outside += celd_layer_visibility (layers, layer, (int) floor (x), (int) floor (y)) == CELD_LAYER_ABSENT;
     }
   return outside <= SAMPLES / 16;
 }
 
 static double
-chord (const CeldGap *gap)
+chord (const CeldOutlineGap *gap)
 {
   return hypot (gap->out.x - gap->in.x, gap->out.y - gap->in.y);
 }
 
 /* What it costs to join the ends, by the turns; infinite if another gap's end is out of the question. */
 static double
-turning_cost (const CeldHiddenEnd *in, const CeldHiddenEnd *out, double longest)
+turning_cost (const CeldGapEnd *in, const CeldGapEnd *out, double longest)
 {
   double first, second, length = hypot (out->x - in->x, out->y - in->y);
 
   if (!measure_turns (in, out, &first, &second))
     return INFINITY;
-  if (longest >= 0 && (length > FARTHEST * longest || fabs (first) > STRAIGHT || fabs (second) > STRAIGHT))
+  if (longest >= 0 && (length > MAX_EXCHANGE_LENGTH * longest || fabs (first) > MAX_EXCHANGE_TURN || fabs (second) > MAX_EXCHANGE_TURN))
     return INFINITY;
   return first * first + second * second;
 }
 
 /* Exchanges the partners of two gaps if both run on straighter. */
 static bool
-change_partners (const CeldLayers *layers, size_t layer, CeldGap *one, CeldGap *other)
+exchange_ends (const CeldLayers *layers, size_t layer, CeldOutlineGap *one, CeldOutlineGap *other)
 {
   double    longest = fmax (chord (one), chord (other));
   double    now = turning_cost (&one->in, &one->out, -1) + turning_cost (&other->in, &other->out, -1);
   double    then = turning_cost (&one->in, &other->out, longest) + turning_cost (&other->in, &one->out, longest);
-  CeldCurve curve[2];
-  CeldHiddenEnd   out;
+  CeldGapCurve curve[2];
+  CeldGapEnd   out;
 
   if (!(then < now / 2))
     return false;
-  curve[0] = join (&one->in, &other->out, 1);
-  curve[1] = join (&other->in, &one->out, 1);
+  curve[0] = join_ends (&one->in, &other->out, 1);
+  curve[1] = join_ends (&other->in, &one->out, 1);
   if (!is_possible (layers, layer, &curve[0]) || !is_possible (layers, layer, &curve[1]))
     return false;
   out        = one->out;
@@ -178,16 +178,16 @@ change_partners (const CeldLayers *layers, size_t layer, CeldGap *one, CeldGap *
 }
 
 void
-celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *outline, CeldCurve *curve)
+celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *outline, CeldGapCurve *curve)
 {
   /* An exchange halves the cost of two gaps at least, so that a gap changes a few times at most. */
   for (size_t i = 0; i < outline->n_gaps; i++)
     for (size_t k = i + 1; k < outline->n_gaps; k++)
-      change_partners (layers, layer, &outline->gap[i], &outline->gap[k]);
+      exchange_ends (layers, layer, &outline->gap[i], &outline->gap[k]);
   for (size_t i = 0; i < outline->n_gaps; i++)
     for (int tension = TENSIONS; tension >= 0; tension--)
       {
-        curve[i] = join (&outline->gap[i].in, &outline->gap[i].out, (double) tension / TENSIONS);
+        curve[i] = join_ends (&outline->gap[i].in, &outline->gap[i].out, (double) tension / TENSIONS);
         if (is_possible (layers, layer, &curve[i]))
           break;
       }

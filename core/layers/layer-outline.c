@@ -12,31 +12,31 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define LEAST_HIDDEN 3         /* cracks: a shorter piece of outline is a rounding of antialiasing */
-#define LEAST_SEEN   4         /* and so is this, or a piece no longer than a stroke is wide: a corner between lines */
-#define LEAST_LONG   3         /* strokes: of a shorter piece the direction is not believed */
-#define WIDTHS       9         /* at so many places the line is measured */
-#define THICKEST     64        /* pixels */
+#define MIN_HIDDEN 3         /* cracks: a shorter piece of outline is a rounding of antialiasing */
+#define MIN_VISIBLE   4         /* and so is this, or a piece no longer than a stroke is wide: a corner between lines */
+#define MIN_RELIABLE_STROKES   3         /* strokes: of a shorter piece the direction is not believed */
+#define WIDTH_SAMPLES       9         /* at so many places the line is measured */
+#define MAX_LINE_WIDTH     64        /* pixels */
 
-CeldSight
-celd_layer_sight (const CeldLayers *layers, size_t layer, int x, int y)
+CeldVisibility
+celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y)
 {
   size_t           p = (size_t) y * (size_t) layers->width + (size_t) x, place;
   const CeldBlend *blend;
 
   if (x < 0 || y < 0 || x >= layers->width || y >= layers->height)
-    return CELD_SIGHT_NONE;
+    return CELD_LAYER_ABSENT;
   place = layers->place[p];
   if (place == layer)
-    return CELD_SIGHT_SEEN;
+    return CELD_LAYER_VISIBLE;
   if (place < layers->n)
-    return layers->item[place].level > layers->item[layer].level && layers->art[4 * p + 3] >= 1 ? CELD_SIGHT_HIDDEN
-                                                                                                 : CELD_SIGHT_NONE;
+    return layers->item[place].level > layers->item[layer].level && layers->art[4 * p + 3] >= 1 ? CELD_LAYER_OCCLUDED
+                                                                                                 : CELD_LAYER_ABSENT;
   blend = &layers->blend[place - layers->n];
-  if (blend->layer[1] == layer || (blend->layer[0] == layer && blend->share >= 0.5f))
-    return CELD_SIGHT_SEEN;
+  if (blend->layer[1] == layer || (blend->layer[0] == layer && blend->coverage >= 0.5f))
+    return CELD_LAYER_VISIBLE;
   return layers->item[blend->layer[1]].level > layers->item[layer].level && blend->colour[1][3] >= 1
-           ? CELD_SIGHT_HIDDEN : CELD_SIGHT_NONE;
+           ? CELD_LAYER_OCCLUDED : CELD_LAYER_ABSENT;
 }
 
 /* ------------------------------------------------------------------ tracing */
@@ -57,9 +57,9 @@ typedef struct
 } Tracing;
 
 static bool
-is_seen (const Tracing *t, int x, int y)
+is_visible (const Tracing *t, int x, int y)
 {
-  return celd_layer_sight (t->layers, t->layer, x, y) == CELD_SIGHT_SEEN;
+  return celd_layer_visibility (t->layers, t->layer, x, y) == CELD_LAYER_VISIBLE;
 }
 
 static uint8_t *
@@ -77,20 +77,20 @@ trace_loop (Tracing *t, int x, int y)
 
   do
     {
-      CeldCrack *grown = celd_grow (o->crack, o->n + 1, sizeof *grown);
-      CeldSight  beyond = celd_layer_sight (t->layers, t->layer, x + left_x[d], y + left_y[d]);
+      CeldCrackEdge *grown = celd_grow (o->crack, o->n + 1, sizeof *grown);
+      CeldVisibility  beyond = celd_layer_visibility (t->layers, t->layer, x + left_x[d], y + left_y[d]);
 
       if (!grown)
         return CELD_NO_MEMORY;
       o->crack = grown;
-      o->crack[o->n++] = (CeldCrack) { x, y, beyond == CELD_SIGHT_HIDDEN };
+      o->crack[o->n++] = (CeldCrackEdge) { x, y, beyond == CELD_LAYER_OCCLUDED };
       if (d == 0)
         *upper_side (t, x, y) = 1;
       x += step_x[d];
       y += step_y[d];
-      if (!is_seen (t, x + right_x[d], y + right_y[d]))
+      if (!is_visible (t, x + right_x[d], y + right_y[d]))
         d = (d + 1) % 4;
-      else if (is_seen (t, x + left_x[d], y + left_y[d]))
+      else if (is_visible (t, x + left_x[d], y + left_y[d]))
         d = (d + 3) % 4;
     }
   while (x != from_x || y != from_y || d != 0);
@@ -121,7 +121,7 @@ trace_all (Tracing *t)
   t->outline->loop[0] = 0;
   for (int y = t->box.y; y < t->box.y + t->box.height && !status; y++)
     for (int x = t->box.x; x < t->box.x + t->box.width && !status; x++)
-      if (is_seen (t, x, y) && !is_seen (t, x, y - 1) && !*upper_side (t, x, y))
+      if (is_visible (t, x, y) && !is_visible (t, x, y - 1) && !*upper_side (t, x, y))
         {
           status = trace_loop (t, x, y);
           if (!status)
@@ -132,9 +132,9 @@ trace_all (Tracing *t)
 
 /* ------------------------------------------------------------------ pieces of a loop */
 
-typedef struct { CeldCrack *crack; size_t n; } Loop;
+typedef struct { CeldCrackEdge *crack; size_t n; } Loop;
 
-static CeldCrack *
+static CeldCrackEdge *
 crack_at (const Loop *loop, size_t i)
 {
   return &loop->crack[i % loop->n];
@@ -162,7 +162,7 @@ piece_length (const Loop *loop, size_t from)
 
 /* Pieces of that kind which are too short become like their neighbours. */
 static void
-drop_short (const Loop *loop, bool hidden, size_t least)
+merge_short_pieces (const Loop *loop, bool hidden, size_t least)
 {
   size_t start = find_change (loop);
 
@@ -183,7 +183,7 @@ loop_area (const Loop *loop)
 
   for (size_t i = 0; i < loop->n; i++)
     {
-      const CeldCrack *a = crack_at (loop, i), *b = crack_at (loop, i + 1);
+      const CeldCrackEdge *a = crack_at (loop, i), *b = crack_at (loop, i + 1);
 
       area += (int64_t) a->x * b->y - (int64_t) b->x * a->y;
     }
@@ -193,17 +193,17 @@ loop_area (const Loop *loop)
 /* ------------------------------------------------------------------ what an outline is like where it is hidden */
 
 /* s steps away from the junction at crack i, backwards (way -1) or forwards. */
-static const CeldCrack *
-walk (const Loop *loop, size_t i, int way, size_t s)
+static const CeldCrackEdge *
+walk (const Loop *loop, size_t i, int direction, size_t s)
 {
-  return crack_at (loop, way < 0 ? i + loop->n - s % loop->n : i + s);
+  return crack_at (loop, direction < 0 ? i + loop->n - s % loop->n : i + s);
 }
 
 /* A place on an outline whose steps are smoothed, and how far along it is. */
 typedef struct { double x, y, s; } Point;
 
 static void
-list_points (const Loop *loop, size_t i, int way, size_t from, size_t to, Point *point)
+list_points (const Loop *loop, size_t i, int direction, size_t from, size_t to, Point *point)
 {
   for (size_t k = from; k <= to; k++)
     {
@@ -212,7 +212,7 @@ list_points (const Loop *loop, size_t i, int way, size_t from, size_t to, Point 
       *p = (Point) { 0 };
       for (size_t w = 0; w < 5; w++)
         {
-          const CeldCrack *crack = walk (loop, i, way, k + w > 2 ? k + w - 2 : 0);
+          const CeldCrackEdge *crack = walk (loop, i, direction, k + w > 2 ? k + w - 2 : 0);
 
           p->x += crack->x / 5.0;
           p->y += crack->y / 5.0;
@@ -226,7 +226,7 @@ list_points (const Loop *loop, size_t i, int way, size_t from, size_t to, Point 
 static double
 slope_at_junction (const Point *point, size_t n, size_t value)
 {
-  double centre = 0, s2 = 0, s3 = 0, s4 = 0, v0 = 0, v1 = 0, v2 = 0, bend, curve;
+  double centre = 0, s2 = 0, s3 = 0, s4 = 0, v0 = 0, v1 = 0, v2 = 0, determinant, curve;
 
   for (size_t k = 0; k < n; k++)
     centre += point[k].s / (double) n;
@@ -243,10 +243,10 @@ slope_at_junction (const Point *point, size_t n, size_t value)
     }
   if (!(s2 > 0))
     return 0;
-  bend = s4 - s2 * s2 / (double) n - s3 * s3 / s2;
-  if (n < 8 || !(bend > 1e-9 * s4))
+  determinant = s4 - s2 * s2 / (double) n - s3 * s3 / s2;
+  if (n < 8 || !(determinant > 1e-9 * s4))
     return v1 / s2;
-  curve = (v2 - s2 * v0 / (double) n - s3 * v1 / s2) / bend;
+  curve = (v2 - s2 * v0 / (double) n - s3 * v1 / s2) / determinant;
   return (v1 - curve * s3) / s2 - 2 * curve * centre;
 }
 
@@ -258,12 +258,12 @@ line_width (const CeldLayers *layers, size_t layer, const CeldPlane *ink, double
   double width = 0;
   float  least = 2;
 
-  for (double s = 0.25; s < THICKEST; s += 0.5)
+  for (double s = 0.25; s < MAX_LINE_WIDTH; s += 0.5)
     {
       int   px = (int) floor (x + nx * s), py = (int) floor (y + ny * s);
       float value;
 
-      if (celd_layer_sight (layers, layer, px, py) != CELD_SIGHT_SEEN)
+      if (celd_layer_visibility (layers, layer, px, py) != CELD_LAYER_VISIBLE)
         break;
       value = CELD_AT (ink, px, py);
       if (celd_is_paper (value) && s > 1.5)
@@ -289,51 +289,51 @@ compare_widths (const void *a, const void *b)
 
 /* The median of the widths from s = from to `to`, and the colour where it was measured in the middle. */
 static void
-measure_line (const CeldLayers *layers, size_t layer, const CeldPlane *ink, const Loop *loop, size_t i, int way,
-              size_t from, size_t to, CeldHiddenEnd *end)
+measure_line (const CeldLayers *layers, size_t layer, const CeldPlane *ink, const Loop *loop, size_t i, int direction,
+              size_t from, size_t to, CeldGapEnd *end)
 {
-  double width[WIDTHS];
+  double width[WIDTH_SAMPLES];
   float  colour[4] = { 0 };
 
   memset (end->colour, 0, sizeof end->colour);
-  for (size_t k = 0; k < WIDTHS; k++)
+  for (size_t k = 0; k < WIDTH_SAMPLES; k++)
     {
-      size_t           s = from + (to - from) * k / (WIDTHS - 1);
-      const CeldCrack *here = walk (loop, i, way, s), *back = walk (loop, i, way, s > 3 ? s - 3 : 0);
-      const CeldCrack *on = walk (loop, i, way, s + 3);
-      double           dx = way * (on->x - back->x), dy = way * (on->y - back->y), length = hypot (dx, dy);
+      size_t           s = from + (to - from) * k / (WIDTH_SAMPLES - 1);
+      const CeldCrackEdge *here = walk (loop, i, direction, s), *back = walk (loop, i, direction, s > 3 ? s - 3 : 0);
+      const CeldCrackEdge *on = walk (loop, i, direction, s + 3);
+      double           dx = direction * (on->x - back->x), dy = direction * (on->y - back->y), length = hypot (dx, dy);
 
       width[k] = length > 0 ? line_width (layers, layer, ink, here->x, here->y, -dy / length, dx / length, colour) : 0;
-      if (k == WIDTHS / 2 && width[k] > 0)
+      if (k == WIDTH_SAMPLES / 2 && width[k] > 0)
         memcpy (end->colour, colour, sizeof colour);
     }
-  qsort (width, WIDTHS, sizeof *width, compare_widths);
-  end->width = end->colour[3] > 0 ? width[WIDTHS / 2] : 0;
+  qsort (width, WIDTH_SAMPLES, sizeof *width, compare_widths);
+  end->width = end->colour[3] > 0 ? width[WIDTH_SAMPLES / 2] : 0;
 }
 
 /* The end at the first corner of crack i; the seen piece lies `way` of it and has `length` cracks. */
 static CeldStatus
 describe_end (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t i,
-              int way, size_t length, CeldHiddenEnd *end)
+              int direction, size_t length, CeldGapEnd *end)
 {
-  size_t  reach = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke + 1, to;
+  size_t  length_limit = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke + 1, to;
   Point  *point;
   double  tx, ty, norm;
 
-  to   = from + reach < length ? from + reach : length;
+  to   = from + length_limit < length ? from + length_limit : length;
   from = from < to / 2 ? from : to / 2;
   point = celd_alloc (to - from + 1, sizeof *point);
   if (!point)
     return CELD_NO_MEMORY;
-  list_points (loop, i, way, from, to, point);
-  tx = way * slope_at_junction (point, to - from + 1, offsetof (Point, x));
-  ty = way * slope_at_junction (point, to - from + 1, offsetof (Point, y));
+  list_points (loop, i, direction, from, to, point);
+  tx = direction * slope_at_junction (point, to - from + 1, offsetof (Point, x));
+  ty = direction * slope_at_junction (point, to - from + 1, offsetof (Point, y));
   celd_free (point);
   norm = hypot (tx, ty);
-  *end = (CeldHiddenEnd) { .x = crack_at (loop, i)->x, .y = crack_at (loop, i)->y,
+  *end = (CeldGapEnd) { .x = crack_at (loop, i)->x, .y = crack_at (loop, i)->y,
                      .tx = norm > 0 ? tx / norm : 0, .ty = norm > 0 ? ty / norm : 0,
-                     .sure = norm > 0 && length > LEAST_LONG * (size_t) stroke };
-  measure_line (layers, layer, ink, loop, i, way, from, to, end);
+                     .reliable = norm > 0 && length > MIN_RELIABLE_STROKES * (size_t) stroke };
+  measure_line (layers, layer, ink, loop, i, direction, from, to, end);
   return CELD_OK;
 }
 
@@ -343,7 +343,7 @@ static CeldStatus
 add_gap (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t from,
          size_t length, CeldOutline *outline)
 {
-  CeldGap   *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
+  CeldOutlineGap   *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
   size_t     before = 1, after;
   CeldStatus status;
 
@@ -378,8 +378,8 @@ find_gaps (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int str
       Loop   loop = { outline->crack + outline->loop[l], outline->loop[l + 1] - outline->loop[l] };
       size_t start;
 
-      drop_short (&loop, true, LEAST_HIDDEN);
-      drop_short (&loop, false, (size_t) (stroke > LEAST_SEEN ? stroke : LEAST_SEEN));
+      merge_short_pieces (&loop, true, MIN_HIDDEN);
+      merge_short_pieces (&loop, false, (size_t) (stroke > MIN_VISIBLE ? stroke : MIN_VISIBLE));
       start = find_change (&loop);
       if (start == loop.n)
         set_hidden (&loop, loop.crack->hidden && loop_area (&loop) < 0);

@@ -17,11 +17,11 @@
 
 #include <math.h>
 
-#define NEAR_REACH 2
-#define FAR_REACH  5
-#define STIFFNESS  100.f /* how much rather the one with ink changes than the other */
-#define CONTRAST   0.2f  /* a distance of colours that tells shares */
-#define CORRECTION 0.3f  /* of a share, at most */
+#define NEAR_RADIUS 2
+#define FAR_RADIUS  5
+#define INK_MOBILITY  100.f /* how much rather the one with ink changes than the other */
+#define MIN_CONTRAST   0.2f  /* a distance of colours that tells shares */
+#define MAX_CORRECTION 0.3f  /* of a share, at most */
 
 /* ------------------------------------------------------------------ what is around */
 
@@ -31,7 +31,7 @@ typedef struct
   float ink[4], paper[4];      /* means, the first three premultiplied; weighed towards ink, and towards paper */
   float ink_weight, paper_weight;
   bool  inked;                 /* is one of them more ink than paper? */
-} Around;
+} Neighbours;
 
 static void
 add_colour (const float *art, float weight, float *sum, float *total)
@@ -43,14 +43,14 @@ add_colour (const float *art, float weight, float *sum, float *total)
 }
 
 static void
-look_around (const CeldLayers *layers, const CeldPlane *ink, const CeldBlend *blend, uint32_t layer, int reach,
-             Around *around)
+sample_neighbours (const CeldLayers *layers, const CeldPlane *ink, const CeldBlend *blend, uint32_t layer, int radius,
+             Neighbours *neighbours)
 {
-  int left = blend->x > reach ? blend->x - reach : 0, top = blend->y > reach ? blend->y - reach : 0;
-  int right = blend->x + reach < layers->width ? blend->x + reach : layers->width - 1;
-  int bottom = blend->y + reach < layers->height ? blend->y + reach : layers->height - 1;
+  int left = blend->x > radius ? blend->x - radius : 0, top = blend->y > radius ? blend->y - radius : 0;
+  int right = blend->x + radius < layers->width ? blend->x + radius : layers->width - 1;
+  int bottom = blend->y + radius < layers->height ? blend->y + radius : layers->height - 1;
 
-  *around = (Around) { 0 };
+  *neighbours = (Neighbours) { 0 };
   for (int y = top; y <= bottom; y++)
     for (int x = left; x <= right; x++)
       {
@@ -64,9 +64,9 @@ look_around (const CeldLayers *layers, const CeldPlane *ink, const CeldBlend *bl
             i     = i > 0 ? i < 1 ? i : 1 : 0;
             paper = i * i * i * i + 1e-6f;
             dark  = (1 - i) * (1 - i) * (1 - i) * (1 - i) + 1e-6f;
-            add_colour (layers->art + 4 * p, near * dark, around->ink, &around->ink_weight);
-            add_colour (layers->art + 4 * p, near * paper, around->paper, &around->paper_weight);
-            around->inked = around->inked || !celd_is_paper (CELD_AT (ink, x, y));
+            add_colour (layers->art + 4 * p, near * dark, neighbours->ink, &neighbours->ink_weight);
+            add_colour (layers->art + 4 * p, near * paper, neighbours->paper, &neighbours->paper_weight);
+            neighbours->inked = neighbours->inked || !celd_is_paper (CELD_AT (ink, x, y));
           }
       }
 }
@@ -93,7 +93,7 @@ clamp (float value)
 
 /* Moves the share of an opaque pixel towards the one that mixes both colours to the pixel's. */
 static void
-correct_share (const float *pixel, CeldBlend *blend)
+correct_coverage (const float *pixel, CeldBlend *blend)
 {
   const float *front = blend->colour[0], *back = blend->colour[1];
   float        along = 0, square = 0, correction;
@@ -103,10 +103,10 @@ correct_share (const float *pixel, CeldBlend *blend)
       along  += (pixel[c] - back[c]) * (front[c] - back[c]);
       square += (front[c] - back[c]) * (front[c] - back[c]);
     }
-  if (square < CONTRAST * CONTRAST || pixel[3] < 1 || front[3] < 0.999f || back[3] < 0.999f)
+  if (square < MIN_CONTRAST * MIN_CONTRAST || pixel[3] < 1 || front[3] < 0.999f || back[3] < 0.999f)
     return;
-  correction   = clamp (along / square) - blend->share;
-  blend->share = clamp (blend->share + fminf (fmaxf (correction, -CORRECTION), CORRECTION));
+  correction   = clamp (along / square) - blend->coverage;
+  blend->coverage = clamp (blend->coverage + fminf (fmaxf (correction, -MAX_CORRECTION), MAX_CORRECTION));
 }
 
 /* The alpha of both, so that a = front + (1 - front) back.  Where the back one is not opaque and the front one has the
@@ -114,15 +114,15 @@ correct_share (const float *pixel, CeldBlend *blend)
 static void
 split_alpha (const CeldLayers *layers, float a, bool back_inked, CeldBlend *blend)
 {
-  float front = blend->share * blend->colour[0][3], back = blend->colour[1][3];
+  float front = blend->coverage * blend->colour[0][3], back = blend->colour[1][3];
 
   if (!back_inked && back < 1)
     front = clamp ((a - back) / (1 - back));
-  front = front < blend->share ? front : blend->share;
-  front = celd_store_alpha (layers, front < a ? front : a);
+  front = front < blend->coverage ? front : blend->coverage;
+  front = celd_quantize_alpha (layers, front < a ? front : a);
   front = front < a ? front : a;
   if (front < 1)
-    back = celd_store_alpha (layers, clamp ((a - front) / (1 - front)));
+    back = celd_quantize_alpha (layers, clamp ((a - front) / (1 - front)));
   blend->colour[0][3] = front;
   blend->colour[1][3] = back;
 }
@@ -132,46 +132,46 @@ static void
 split_channel (const CeldLayers *layers, int c, float wanted, const float of[2], int inked, CeldBlend *blend)
 {
   float *front = &blend->colour[0][c], *back = &blend->colour[1][c];
-  float  ease[2] = { inked == 0 ? STIFFNESS : 1, inked == 1 ? STIFFNESS : 1 };
-  float  miss = wanted - of[0] * *front - of[1] * *back;
-  float  sum = ease[0] * of[0] * of[0] + ease[1] * of[1] * of[1];
+  float  mobility[2] = { inked == 0 ? INK_MOBILITY : 1, inked == 1 ? INK_MOBILITY : 1 };
+  float  residual = wanted - of[0] * *front - of[1] * *back;
+  float  sum = mobility[0] * of[0] * of[0] + mobility[1] * of[1] * of[1];
 
   if (sum > 0)
     {
-      *front = clamp (*front + miss * ease[0] * of[0] / sum);
-      *back  = clamp (*back + miss * ease[1] * of[1] / sum);
+      *front = clamp (*front + residual * mobility[0] * of[0] / sum);
+      *back  = clamp (*back + residual * mobility[1] * of[1] / sum);
     }
-  miss = wanted - of[0] * *front - of[1] * *back;
-  if (fabsf (miss) > 1e-6f && of[1] > 0)
-    *back = clamp (*back + miss / of[1]);
-  miss = wanted - of[0] * *front - of[1] * *back;
-  if (fabsf (miss) > 1e-6f && of[0] > 0)
-    *front = clamp (*front + miss / of[0]);
-  *front = celd_store_colour (layers, *front);
-  *back  = celd_store_colour (layers, *back);
+  residual = wanted - of[0] * *front - of[1] * *back;
+  if (fabsf (residual) > 1e-6f && of[1] > 0)
+    *back = clamp (*back + residual / of[1]);
+  residual = wanted - of[0] * *front - of[1] * *back;
+  if (fabsf (residual) > 1e-6f && of[0] > 0)
+    *front = clamp (*front + residual / of[0]);
+  *front = celd_quantize_colour (layers, *front);
+  *back  = celd_quantize_colour (layers, *back);
 }
 
 static void
-find_colours (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
+unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
 {
   const float *pixel = layers->art + 4 * ((size_t) blend->y * (size_t) layers->width + (size_t) blend->x);
-  Around       around[2];
+  Neighbours       neighbours[2];
   int          inked;
   float        of[2];
 
   for (int side = 0; side < 2; side++)
     {
-      look_around (layers, ink, blend, blend->layer[side], NEAR_REACH, &around[side]);
-      if (!(around[side].paper_weight > 0))
-        look_around (layers, ink, blend, blend->layer[side], FAR_REACH, &around[side]);
+      sample_neighbours (layers, ink, blend, blend->layer[side], NEAR_RADIUS, &neighbours[side]);
+      if (!(neighbours[side].paper_weight > 0))
+        sample_neighbours (layers, ink, blend, blend->layer[side], FAR_RADIUS, &neighbours[side]);
     }
-  inked = around[1].inked && !around[0].inked;
+  inked = neighbours[1].inked && !neighbours[0].inked;
   for (int side = 0; side < 2; side++)
     if (side == inked)
-      mean_colour (around[side].ink, around[side].ink_weight, pixel, blend->colour[side]);
+      mean_colour (neighbours[side].ink, neighbours[side].ink_weight, pixel, blend->colour[side]);
     else
-      mean_colour (around[side].paper, around[side].paper_weight, pixel, blend->colour[side]);
-  correct_share (pixel, blend);
+      mean_colour (neighbours[side].paper, neighbours[side].paper_weight, pixel, blend->colour[side]);
+  correct_coverage (pixel, blend);
   split_alpha (layers, pixel[3], inked == 1, blend);
   of[0] = blend->colour[0][3];
   of[1] = (1 - of[0]) * blend->colour[1][3];
@@ -181,27 +181,27 @@ find_colours (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
 
 /* ------------------------------------------------------------------ all of them */
 
-#define PORTION 4096
+#define CHUNK 4096
 
 typedef struct { CeldLayers *layers; const CeldPlane *ink; } Work;
 
 static void
-find_portion (void *data, int i)
+unmix_chunk (void *data, int i)
 {
   const Work *work = data;
-  size_t      end = ((size_t) i + 1) * PORTION;
+  size_t      end = ((size_t) i + 1) * CHUNK;
 
   end = end < work->layers->n_blends ? end : work->layers->n_blends;
-  for (size_t b = (size_t) i * PORTION; b < end; b++)
-    find_colours (work->layers, work->ink, &work->layers->blend[b]);
+  for (size_t b = (size_t) i * CHUNK; b < end; b++)
+    unmix (work->layers, work->ink, &work->layers->blend[b]);
 }
 
 CeldStatus
-celd_layer_colours (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host)
+celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host)
 {
   Work work = { layers, ink };
 
-  celd_parallel_for (host, (int) ((layers->n_blends + PORTION - 1) / PORTION), find_portion, &work);
+  celd_parallel_for (host, (int) ((layers->n_blends + CHUNK - 1) / CHUNK), unmix_chunk, &work);
   return celd_progress (host, 1);
 }
 
@@ -212,36 +212,36 @@ decode (double encoded)
 }
 
 void
-celd_store_prepare (CeldLayers *layers)
+celd_quantizer_prepare (CeldLayers *layers)
 {
   for (int k = 0; k < 256; k++)
     {
-      layers->shade[k] = decode (k / 255.0);
-      layers->limit[k] = decode ((k + 0.5) / 255);
+      layers->code_value[k] = decode (k / 255.0);
+      layers->code_limit[k] = decode ((k + 0.5) / 255);
     }
 }
 
 float
-celd_store_alpha (const CeldLayers *layers, float alpha)
+celd_quantize_alpha (const CeldLayers *layers, float alpha)
 {
   return layers->store == CELD_STORE_FLOAT ? alpha : (float) (int) (alpha * 255 + 0.5f) / 255;
 }
 
 float
-celd_store_colour (const CeldLayers *layers, float value)
+celd_quantize_colour (const CeldLayers *layers, float value)
 {
   int least = 0, most = 255;
 
   if (layers->store != CELD_STORE_8_BIT_SRGB)
-    return celd_store_alpha (layers, value);
+    return celd_quantize_alpha (layers, value);
   while (least < most)
     {
       int middle = (least + most) / 2;
 
-      if (value < layers->limit[middle])
+      if (value < layers->code_limit[middle])
         most = middle;
       else
         least = middle + 1;
     }
-  return layers->shade[least];
+  return layers->code_value[least];
 }

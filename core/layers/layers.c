@@ -28,7 +28,7 @@ compare_layers (const void *a, const void *b)
 }
 
 static void
-grow_box (CeldRect *box, int x, int y)
+extend_box (CeldRect *box, int x, int y)
 {
   *box = celd_rect_union (*box, (CeldRect) { x, y, 1, 1 });
 }
@@ -70,7 +70,7 @@ list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, uint32_t
 static bool
 is_shared (const CeldOwnership *own, int x, int y)
 {
-  return CELD_AT (&own->owner, x, y) != CELD_AT (&own->under, x, y) && CELD_AT (&own->share, x, y) < 1;
+  return CELD_AT (&own->owner, x, y) != CELD_AT (&own->under, x, y) && CELD_AT (&own->coverage, x, y) < 1;
 }
 
 /* Of equal levels the owner may be either; in front is the later layer in any case. */
@@ -78,11 +78,11 @@ static CeldBlend
 make_blend (const CeldOwnership *own, const uint32_t *of_label, int x, int y)
 {
   uint32_t owner = of_label[CELD_AT (&own->owner, x, y) - 1], under = of_label[CELD_AT (&own->under, x, y) - 1];
-  float    share = CELD_AT (&own->share, x, y);
+  float    coverage = CELD_AT (&own->coverage, x, y);
 
-  share = share > 0 ? share : 0; /* NaN is none */
-  return owner > under ? (CeldBlend) { .x = x, .y = y, .layer = { owner, under }, .share = share }
-                       : (CeldBlend) { .x = x, .y = y, .layer = { under, owner }, .share = 1 - share };
+  coverage = coverage > 0 ? coverage : 0; /* NaN is none */
+  return owner > under ? (CeldBlend) { .x = x, .y = y, .layer = { owner, under }, .coverage = coverage }
+                       : (CeldBlend) { .x = x, .y = y, .layer = { under, owner }, .coverage = 1 - coverage };
 }
 
 static CeldStatus
@@ -123,7 +123,7 @@ copy_art (const CeldColours *art, CeldLayers *layers)
         float value = art->data[4 * (size_t) y * art->stride + (size_t) i];
 
         value = value > 0 ? value < 1 ? value : 1 : 0; /* NaN is 0 */
-        *to++ = i % 4 < 3 ? celd_store_colour (layers, value) : celd_store_alpha (layers, value);
+        *to++ = i % 4 < 3 ? celd_quantize_colour (layers, value) : celd_quantize_alpha (layers, value);
       }
 }
 
@@ -139,18 +139,18 @@ find_boxes (CeldLayers *layers)
         size_t place = layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
 
         if (place < layers->n)
-          grow_box (&layers->seen[place], x, y);
+          extend_box (&layers->seen[place], x, y);
         if (place < layers->n && art[3] > 0)
-          grow_box (&layers->item[place].box, x, y);
+          extend_box (&layers->item[place].box, x, y);
       }
   for (size_t i = 0; i < layers->n_blends; i++)
     for (int side = 0; side < 2; side++)
       {
         const CeldBlend *blend = &layers->blend[i];
 
-        grow_box (&layers->seen[blend->layer[side]], blend->x, blend->y);
+        extend_box (&layers->seen[blend->layer[side]], blend->x, blend->y);
         if (blend->colour[side][3] > 0)
-          grow_box (&layers->item[blend->layer[side]].box, blend->x, blend->y);
+          extend_box (&layers->item[blend->layer[side]].box, blend->x, blend->y);
       }
 }
 
@@ -172,7 +172,7 @@ complete_layers (const CeldPlane *ink, uint32_t background, const CeldHost *host
       if (!status)
         status = celd_progress (&turn, 1);
       for (size_t i = 0; i < layers->n_hidden[k] && !status; i++)
-        grow_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
+        extend_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
     }
   return status;
 }
@@ -264,7 +264,7 @@ celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba)
       }
   for (size_t i = 0; i < layers->n_hidden[layer]; i++)
     {
-      const CeldHidden *hidden = &layers->hidden[layer][i];
+      const CeldHiddenPixel *hidden = &layers->hidden[layer][i];
 
       if (is_inside (box, hidden->x, hidden->y))
         memcpy (pixel_of (box, rgba, hidden->x, hidden->y), hidden->colour, sizeof hidden->colour);
@@ -283,7 +283,7 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
   CeldHost    second = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus  status;
 
-  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->share) ||
+  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->coverage) ||
       !CELD_SAME_SIZE (ink, art))
     return CELD_BAD_SIZE;
   if (!n)
@@ -295,11 +295,11 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
   if (status)
     goto done;
   layers->store = store;
-  celd_store_prepare (layers);
+  celd_quantizer_prepare (layers);
   copy_art (art, layers);
   if ((status = list_layers (own, level, n, of_label, layers)) == CELD_OK &&
       (status = place_pixels (own, of_label, layers)) == CELD_OK &&
-      (status = celd_layer_colours (layers, ink, &first)) == CELD_OK)
+      (status = celd_layers_unmix (layers, ink, &first)) == CELD_OK)
     find_boxes (layers);
   if (!status && complete)
     status = complete_layers (ink, background, &second, layers);
@@ -314,7 +314,7 @@ done:
 
 /* The first label, if no other has as much of the frame; else 0. */
 static CeldStatus
-find_background (const CeldOwnLevels *made, uint32_t *background)
+find_background (const CeldLevelOwnership *made, uint32_t *background)
 {
   const CeldLabels *label = &made->own.owner;
   size_t           *count = celd_alloc0 (made->n, sizeof *count);
@@ -340,7 +340,7 @@ find_background (const CeldOwnLevels *made, uint32_t *background)
 }
 
 CeldStatus
-celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
+celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
                      bool complete, const CeldHost *host, CeldLayers **layers)
 {
   uint32_t   background = 0;
@@ -355,13 +355,13 @@ celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
                        const CeldLabels *corrections, const CeldColours *art, CeldExpansion method, CeldStore store,
                        bool complete, const CeldHost *host, CeldLayers **layers)
 {
-  CeldOwnLevels made;
+  CeldLevelOwnership made;
   CeldHostPart      part[2];
   CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldStatus    status = celd_own_levels_new (ink, levels, regions, corrections, method, &first, &made);
+  CeldStatus    status = celd_level_ownership_new (ink, levels, regions, corrections, method, &first, &made);
 
   if (!status)
-    status = celd_own_levels_cut (&made, ink, art, store, complete, &second, layers);
-  celd_own_levels_clear (&made);
+    status = celd_level_layers_cut (&made, ink, art, store, complete, &second, layers);
+  celd_level_ownership_clear (&made);
   return status;
 }

@@ -12,16 +12,16 @@
 
 #include <math.h>
 
-#define SOLID   10 /* a label is ink throughout if less than a tenth of it is paper */
-#define CORNERS 4  /* squares of a line's thickness that may lie about the corners of paper */
+#define MIN_INK_RATIO   10 /* a label is ink throughout if less than a tenth of it is paper */
+#define CORNER_SQUARES 4  /* squares of a line's thickness that may lie about the corners of paper */
 
 /* ------------------------------------------------------------------ to begin with */
 
 /* How many pixels each label has, of these of paper, and places on edges of its paper; of label k at k - 1. */
-typedef struct { size_t *all, *paper, *places; } Counts;
+typedef struct { size_t *all, *paper, *edge_points; } Counts;
 
 static void
-count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *count)
+count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *counts)
 {
   for (int y = 0; y < ink->height; y++)
     for (int x = 0, end; x < ink->width; x = end)
@@ -32,42 +32,42 @@ count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *count)
 
         for (end = x; end < ink->width && label[end] == label[x]; end++)
           bright += celd_is_paper (value[end]);
-        count->all[label[x] - 1]   += (size_t) (end - x);
-        count->paper[label[x] - 1] += bright;
+        counts->all[label[x] - 1]   += (size_t) (end - x);
+        counts->paper[label[x] - 1] += bright;
       }
 }
 
 /* Where lines are thick, a gusset of paper between them has many times as much ink, too, but not more than lies along
  * its edges and about its corners. */
 static bool
-is_solid (size_t all, size_t paper, size_t places, size_t stroke)
+is_solid (size_t all, size_t paper, size_t edge_points, size_t stroke)
 {
-  return SOLID * paper < all && all - paper > stroke * places + CORNERS * stroke * stroke * (places > 0);
+  return MIN_INK_RATIO * paper < all && all - paper > stroke * edge_points + CORNER_SQUARES * stroke * stroke * (edge_points > 0);
 }
 
 CeldStatus
-celd_solid_find (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid)
+celd_solid_labels_find (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, bool *solid)
 {
   size_t     n = pens->n, stroke = (size_t) pens->edges->stroke;
-  Counts     count = { celd_alloc0 (n, sizeof *count.all), celd_alloc0 (n, sizeof *count.paper),
-                       celd_alloc0 (n, sizeof *count.places) };
-  CeldStatus status = count.all && count.paper && count.places ? CELD_OK : CELD_NO_MEMORY;
+  Counts     counts = { celd_alloc0 (n, sizeof *counts.all), celd_alloc0 (n, sizeof *counts.paper),
+                       celd_alloc0 (n, sizeof *counts.edge_points) };
+  CeldStatus status = counts.all && counts.paper && counts.edge_points ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    count_pixels (ink, labels, &count);
+    count_pixels (ink, labels, &counts);
   for (size_t i = 0; status == CELD_OK && i < pens->edges->n_points; i++)
     if (pens->pen[i].near)
-      count.places[pens->pen[i].near - 1]++;
+      counts.edge_points[pens->pen[i].near - 1]++;
   for (size_t k = 0; status == CELD_OK && k < n; k++)
-    solid[k] = is_solid (count.all[k], count.paper[k], count.places[k], stroke);
-  celd_free (count.all);
-  celd_free (count.paper);
-  celd_free (count.places);
+    solid[k] = is_solid (counts.all[k], counts.paper[k], counts.edge_points[k], stroke);
+  celd_free (counts.all);
+  celd_free (counts.paper);
+  celd_free (counts.edge_points);
   return status;
 }
 
 void
-celd_claims_begin (const CeldClaims *c, const CeldLabels *labels, const bool *solid, CeldRect rect)
+celd_claims_reset (const CeldClaimMap *c, const CeldLabels *labels, const bool *solid, CeldRect rect)
 {
   for (int y = rect.y; y < rect.y + rect.height; y++)
     for (int x = rect.x; x < rect.x + rect.width; x++)
@@ -75,7 +75,7 @@ celd_claims_begin (const CeldClaims *c, const CeldLabels *labels, const bool *so
         uint32_t label = CELD_AT (labels, x, y);
         bool     settled = celd_is_paper (CELD_AT (c->ink, x, y)) || solid[label - 1];
 
-        CELD_AT (c->over, x, y)  = settled ? -INFINITY : INFINITY;
+        CELD_AT (c->excess, x, y)  = settled ? -INFINITY : INFINITY;
         CELD_AT (c->owner, x, y) = settled ? label : 0;
       }
 }
@@ -104,7 +104,7 @@ celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2])
 
 /* The first neighbour that has an owner; 0: none has. */
 static uint32_t
-owner_beside (const CeldClaims *c, int32_t pixel)
+owner_beside (const CeldClaimMap *c, int32_t pixel)
 {
   int near[4][2], n = celd_pixel_neighbours (c->ink, pixel, near);
 
@@ -112,7 +112,7 @@ owner_beside (const CeldClaims *c, int32_t pixel)
     {
       uint32_t owner = CELD_AT (c->owner, near[k][0], near[k][1]);
 
-      if (owner && owner != CELD_WAITING)
+      if (owner && owner != CELD_OWNER_PENDING)
         return owner;
     }
   return 0;
@@ -120,13 +120,13 @@ owner_beside (const CeldClaims *c, int32_t pixel)
 
 /* Those beside an owner first; how many they are. */
 static size_t
-part_rest (const CeldClaims *c, CeldOwned *rest, size_t n)
+owners_first (const CeldClaimMap *c, CeldPixelOwner *rest, size_t n)
 {
   size_t first = 0;
 
   for (size_t i = 0; i < n; i++)
     {
-      CeldOwned here = { rest[i].pixel, owner_beside (c, rest[i].pixel) };
+      CeldPixelOwner here = { rest[i].pixel, owner_beside (c, rest[i].pixel) };
 
       if (here.owner)
         {
@@ -138,9 +138,9 @@ part_rest (const CeldClaims *c, CeldOwned *rest, size_t n)
 }
 
 void
-celd_claims_settle (const CeldClaims *c, CeldOwned *rest, size_t n)
+celd_claims_spread (const CeldClaimMap *c, CeldPixelOwner *rest, size_t n)
 {
-  size_t from = 0, end = part_rest (c, rest, n);
+  size_t from = 0, end = owners_first (c, rest, n);
 
   while (from < end)
     {
@@ -155,7 +155,7 @@ celd_claims_settle (const CeldClaims *c, CeldOwned *rest, size_t n)
           for (int j = 0; j < k; j++)
             if (!CELD_AT (c->owner, near[j][0], near[j][1]))
               {
-                CELD_AT (c->owner, near[j][0], near[j][1]) = CELD_WAITING;
+                CELD_AT (c->owner, near[j][0], near[j][1]) = CELD_OWNER_PENDING;
                 rest[next++].pixel = (int32_t) (near[j][1] * c->ink->width + near[j][0]);
               }
         }
@@ -167,10 +167,10 @@ celd_claims_settle (const CeldClaims *c, CeldOwned *rest, size_t n)
 }
 
 CeldStatus
-celd_claims_end (const CeldClaims *c)
+celd_claims_finish (const CeldClaimMap *c)
 {
   size_t    n = 0, room = 0;
-  CeldOwned *rest;
+  CeldPixelOwner *rest;
 
   for (int y = 0; y < c->ink->height; y++)
     for (int x = 0; x < c->ink->width; x++)
@@ -182,7 +182,7 @@ celd_claims_end (const CeldClaims *c)
     for (int x = 0; x < c->ink->width; x++)
       if (!CELD_AT (c->owner, x, y))
         rest[n++].pixel = (int32_t) (y * c->ink->width + x);
-  celd_claims_settle (c, rest, n);
+  celd_claims_spread (c, rest, n);
   celd_free (rest);
   return CELD_OK;
 }

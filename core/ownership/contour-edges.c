@@ -11,40 +11,40 @@
 
 #include <math.h>
 
-#define INK     1    /* bits of a pixel of the chart */
-#define SEEN    2    /* the edge above it has been followed */
-#define SMOOTH  3    /* places to either side that the normal is taken over */
-#define FARTHEST 512 /* pixels: ink is no contour where it is thicker */
-#define CORNER  0.82f /* cosine of the turn that an edge makes at a corner */
-#define REACH   4    /* places to either side that a turn is measured over */
-#define SKEW    3    /* places beside a corner whose normals go askew */
+#define IS_INK     1    /* bits of a pixel of the chart */
+#define FOLLOWED    2    /* the edge above it has been followed */
+#define NORMAL_RADIUS  3    /* places to either side that the normal is taken over */
+#define MAX_THICKNESS 512 /* pixels: ink is no contour where it is thicker */
+#define CORNER_COSINE  0.82f /* cosine of the turn that an edge makes at a corner */
+#define TURN_RADIUS   4    /* places to either side that a turn is measured over */
+#define SKEW_RADIUS    3    /* places beside a corner whose normals go askew */
 
 /* The picture with a margin of one pixel. */
 typedef struct
 {
   const CeldPlane *ink;
-  uint8_t         *chart;
+  uint8_t         *flags;
   int              stride;
-  CeldInkEdges    *edges;
+  CeldContourEdges    *edges;
 } Tracer;
 
 static uint8_t *
-chart_at (const Tracer *t, int x, int y)
+flags_at (const Tracer *t, int x, int y)
 {
-  return t->chart + (size_t) (y + 1) * (size_t) t->stride + (x + 1);
+  return t->flags + (size_t) (y + 1) * (size_t) t->stride + (x + 1);
 }
 
 static CeldStatus
-read_chart (Tracer *t)
+read_flags (Tracer *t)
 {
   const CeldPlane *ink = t->ink;
 
   t->stride = ink->width + 2;
-  t->chart  = celd_alloc0 ((size_t) ink->height + 2, (size_t) t->stride);
-  for (int y = 0; t->chart && y < ink->height; y++)
+  t->flags  = celd_alloc0 ((size_t) ink->height + 2, (size_t) t->stride);
+  for (int y = 0; t->flags && y < ink->height; y++)
     for (int x = 0; x < ink->width; x++)
-      *chart_at (t, x, y) = celd_is_paper (CELD_AT (ink, x, y)) ? 0 : INK;
-  return t->chart ? CELD_OK : CELD_NO_MEMORY;
+      *flags_at (t, x, y) = celd_is_paper (CELD_AT (ink, x, y)) ? 0 : IS_INK;
+  return t->flags ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* ------------------------------------------------------------------ following */
@@ -63,18 +63,18 @@ inside (const CeldPlane *ink, int x, int y)
 
 /* The place between the paper at (x,y) and the ink at (u,v). */
 static CeldEdgePoint
-place (const CeldPlane *ink, int x, int y, int u, int v)
+subpixel_point (const CeldPlane *ink, int x, int y, int u, int v)
 {
   bool   known = inside (ink, x, y);
   double bright = known ? fmin ((double) CELD_AT (ink, x, y), 1) : 1, dark = (double) CELD_AT (ink, u, v);
   double along = bright == bright && known ? (bright - 0.5) / (bright - dark) : 0.5;
 
   return (CeldEdgePoint) { .x = (float) (x + 0.5 + along * (u - x)), .y = (float) (y + 0.5 + along * (v - y)),
-                           .through = INFINITY, .paper = known ? y * ink->width + x : -1, .across = -1 };
+                           .thickness = INFINITY, .paper = known ? y * ink->width + x : -1, .across = -1 };
 }
 
 static CeldStatus
-add_point (CeldInkEdges *e, CeldEdgePoint point)
+add_point (CeldContourEdges *e, CeldEdgePoint point)
 {
   CeldEdgePoint *grown = celd_grow (e->point, e->n_points + 1, sizeof *grown);
 
@@ -89,7 +89,7 @@ add_point (CeldInkEdges *e, CeldEdgePoint point)
 static CeldStatus
 follow (Tracer *t, int x, int y)
 {
-  CeldInkEdges *e = t->edges;
+  CeldContourEdges *e = t->edges;
   CeldEdgeLoop  loop = { .first = e->n_points }, *loops;
   int           at_x = x, at_y = y, heading = 0;
 
@@ -97,15 +97,15 @@ follow (Tracer *t, int x, int y)
     {
       int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
 
-      if (add_point (e, place (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
+      if (add_point (e, subpixel_point (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
         return CELD_NO_MEMORY;
       if (heading == 0)
-        *chart_at (t, in_x, in_y) |= SEEN;
+        *flags_at (t, in_x, in_y) |= FOLLOWED;
       at_x += step_x[heading];
       at_y += step_y[heading];
-      if (*chart_at (t, at_x + right_x[heading], at_y + right_y[heading]) & INK)
+      if (*flags_at (t, at_x + right_x[heading], at_y + right_y[heading]) & IS_INK)
         heading = (heading + 1) & 3;
-      else if (!(*chart_at (t, at_x + left_x[heading], at_y + left_y[heading]) & INK))
+      else if (!(*flags_at (t, at_x + left_x[heading], at_y + left_y[heading]) & IS_INK))
         heading = (heading + 3) & 3;
     }
   while (at_x != x || at_y != y || heading != 0);
@@ -125,10 +125,10 @@ follow_all (Tracer *t, const CeldHost *host)
 
   for (int y = 0; y <= t->ink->height && status == CELD_OK; y++)
     {
-      const uint8_t *row = chart_at (t, 0, y), *above = row - t->stride;
+      const uint8_t *row = flags_at (t, 0, y), *above = row - t->stride;
 
       for (int x = 0; x < t->ink->width && status == CELD_OK; x++)
-        if (!row[x] && above[x] & INK)
+        if (!row[x] && above[x] & IS_INK)
           status = follow (t, x, y);
       if (status == CELD_OK && (y & 255) == 255)
         status = celd_progress (host, 0.5 * y / t->ink->height);
@@ -146,12 +146,12 @@ celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
 
 /* Does the edge turn sharply at place i? */
 static bool
-turns (const CeldEdgePoint *point, size_t n, size_t i)
+is_corner (const CeldEdgePoint *point, size_t n, size_t i)
 {
-  const CeldEdgePoint *a = &point[(i + n - REACH % n) % n], *p = &point[i], *b = &point[(i + REACH) % n];
+  const CeldEdgePoint *a = &point[(i + n - TURN_RADIUS % n) % n], *p = &point[i], *b = &point[(i + TURN_RADIUS) % n];
   float                before = celd_edge_distance (a, p), after = celd_edge_distance (p, b);
 
-  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER * before * after;
+  return (p->x - a->x) * (b->x - p->x) + (p->y - a->y) * (b->y - p->y) < CORNER_COSINE * before * after;
 }
 
 static void
@@ -160,11 +160,11 @@ find_corners (CeldEdgePoint *point, size_t n)
   for (size_t i = 0; i < n; i++)
     point[i].step = celd_edge_distance (&point[i], &point[(i + 1) % n]);
   for (size_t i = 0; i < n; i++)
-    if (turns (point, n, i))
+    if (is_corner (point, n, i))
       {
         point[i].corner = true;
-        for (size_t k = 0; k <= SKEW; k++)
-          point[(i + k) % n].askew = point[(i + n - k % n) % n].askew = true;
+        for (size_t k = 0; k <= SKEW_RADIUS; k++)
+          point[(i + k) % n].skewed = point[(i + n - k % n) % n].skewed = true;
       }
 }
 
@@ -175,7 +175,7 @@ find_normals (CeldEdgePoint *point, size_t n)
 {
   for (size_t i = 0; i < n; i++)
     {
-      const CeldEdgePoint *a = &point[(i + n - SMOOTH % n) % n], *b = &point[(i + SMOOTH) % n];
+      const CeldEdgePoint *a = &point[(i + n - NORMAL_RADIUS % n) % n], *b = &point[(i + NORMAL_RADIUS) % n];
       float                x = b->x - a->x, y = b->y - a->y, length = hypotf (x, y);
 
       if (!(length > 0))
@@ -225,61 +225,61 @@ find_crossing (const CeldPlane *ink, const CeldEdgePoint *p, float from, float t
 }
 
 static void
-look_through (const Tracer *t, CeldEdgePoint *p)
+measure_thickness (const Tracer *t, CeldEdgePoint *p)
 {
-  for (float s = 1; s < FARTHEST; s++)
+  for (float s = 1; s < MAX_THICKNESS; s++)
     {
-      int x = celd_round_down (p->x + s * p->nx), y = celd_round_down (p->y + s * p->ny);
+      int x = celd_floor (p->x + s * p->nx), y = celd_floor (p->y + s * p->ny);
 
       if (!inside (t->ink, x, y))
         return;
-      if (!(*chart_at (t, x, y) & INK))
+      if (!(*flags_at (t, x, y) & IS_INK))
         {
           p->across  = y * t->ink->width + x;
-          p->through = fmaxf (find_crossing (t->ink, p, s - 1, s + 0.5f), 0.5f);
+          p->thickness = fmaxf (find_crossing (t->ink, p, s - 1, s + 0.5f), 0.5f);
           return;
         }
     }
 }
 
 static CeldStatus
-look_through_all (const Tracer *t, const CeldHost *host)
+measure_all (const Tracer *t, const CeldHost *host)
 {
-  CeldInkEdges *e = t->edges;
+  CeldContourEdges *e = t->edges;
 
   for (size_t k = 0; k < e->n_loops; k++)
     {
       find_corners (&e->point[e->loop[k].first], e->loop[k].n);
       find_normals (&e->point[e->loop[k].first], e->loop[k].n);
       for (size_t i = 0; i < e->loop[k].n; i++)
-        look_through (t, &e->point[e->loop[k].first + i]);
+        measure_thickness (t, &e->point[e->loop[k].first + i]);
     }
   return celd_progress (host, 1);
 }
 
 CeldStatus
-celd_ink_edges_new (const CeldPlane *ink, const CeldHost *host, CeldInkEdges *edges)
+celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges)
 {
-  CeldInkEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
+  CeldContourEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
   Tracer       t = { .ink = ink, .edges = &made };
-  CeldStatus   status = read_chart (&t);
+  CeldStatus   status = read_flags (&t);
 
   if (status == CELD_OK)
     status = follow_all (&t, host);
   if (status == CELD_OK)
-    status = look_through_all (&t, host);
-  celd_free (t.chart);
+    status = measure_all (&t, host);
+  celd_free (t.flags);
   if (status == CELD_OK)
     *edges = made;
   else
-    celd_ink_edges_clear (&made);
+    celd_contour_edges_clear (&made);
   return status;
 }
 
 void
-celd_ink_edges_clear (CeldInkEdges *edges)
+celd_contour_edges_clear (CeldContourEdges *edges)
 {
   celd_free (edges->point);
   celd_free (edges->loop);
-  *edges = (CeldInkEdges) { 0 };
+  *edges = (CeldContourEdges) { 0 };
 }

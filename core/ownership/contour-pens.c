@@ -10,10 +10,10 @@
 
 #include <math.h>
 
-#define PURE     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
-#define ROUNDING 0.5f    /* pixels */
-#define MANY     12      /* labels beside one edge; of more it is not known whether they are in the same order */
-#define TIP      6.f     /* pen widths that a line's sides run on to the tip where they meet */
+#define PLAIN_THICKNESS     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
+#define THICKNESS_TOLERANCE 0.5f    /* pixels */
+#define MAX_ORDERED     12      /* labels beside one edge; of more it is not known whether they are in the same order */
+#define TIP_WIDTHS      6.f     /* pen widths that a line's sides run on to the tip where they meet */
 
 static uint32_t
 label_at (const CeldLabels *labels, int32_t pixel)
@@ -23,7 +23,7 @@ label_at (const CeldLabels *labels, int32_t pixel)
 
 /* Only where labels have changed; whole rows will do. */
 static void
-read_labels (const CeldLabels *labels, CeldRect changed, CeldPens *pens)
+read_labels (const CeldLabels *labels, CeldRect changed, CeldContourPens *pens)
 {
   int32_t first = (int32_t) (changed.y * labels->width), end = first + (int32_t) (changed.height * labels->width);
 
@@ -42,28 +42,28 @@ read_labels (const CeldLabels *labels, CeldRect changed, CeldPens *pens)
 
 /* Whose ink is next to the place, as far as the place itself tells; 0 if other lines are in it. */
 static uint32_t
-plain_owner (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
+local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
 {
   uint32_t front = celd_pen_front (pens, pen);
 
   if (!pen->near || pen->near == pen->far)
     return 0;
   if (front)
-    return p->through <= PURE * pen->width + ROUNDING ? front : 0;
-  return pen->far && p->through > 2 * pen->width + ROUNDING ? 0 : pen->near; /* a tie, or ink that leaves the picture */
+    return p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
+  return pen->far && p->thickness > 2 * pen->width + THICKNESS_TOLERANCE ? 0 : pen->near; /* a tie, or ink that leaves the picture */
 }
 
 /* May a place take the owner of another so far away along the edge?  A line inside a region is its own, but for the
  * tip where both sides of a nearer region's outline meet. */
 static bool
-may_take (const CeldPen *pen, const CeldPen *from, float way)
+accepts_owner (const CeldEdgePen *pen, const CeldEdgePen *from, float distance)
 {
-  return pen->near != pen->far || way < TIP * from->width;
+  return pen->near != pen->far || distance < TIP_WIDTHS * from->width;
 }
 
 /* May it have a line between its front's and the paper, that comes round a corner? */
 static bool
-may_lie_between (const CeldPens *pens, const CeldPen *pen, uint32_t label)
+accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePen *pen, uint32_t label)
 {
   uint32_t front = celd_pen_front (pens, pen);
 
@@ -74,23 +74,23 @@ may_lie_between (const CeldPens *pens, const CeldPen *pen, uint32_t label)
 /* Places that cannot tell take the owner from the nearest one along the edge that can: up to a corner, or also round
  * corners. */
 static void
-pass_on (const CeldEdgeLoop *loop, CeldPens *pens, bool round, float *way)
+propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, float *distance)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldPen             *pen = &pens->pen[loop->first];
+  CeldEdgePen             *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
-  for (int back = 0; back < 2; back++)
+  for (int backwards = 0; backwards < 2; backwards++)
     for (size_t i = 1; i < 2 * n; i++)
       {
-        size_t a = (back ? 2 * n - i : i - 1) % n, b = (back ? 2 * n - i - 1 : i) % n;
-        float  there = way[a] + point[back ? b : a].step;
+        size_t a = (backwards ? 2 * n - i : i - 1) % n, b = (backwards ? 2 * n - i - 1 : i) % n;
+        float  total = distance[a] + point[backwards ? b : a].step;
 
-        if (pen[a].owner && there < way[b] &&
-            (round ? may_lie_between (pens, &pen[b], pen[a].owner)
-                   : !point[a].corner && may_take (&pen[b], &pen[a], there)))
+        if (pen[a].owner && total < distance[b] &&
+            (round ? accepts_owner_round_corner (pens, &pen[b], pen[a].owner)
+                   : !point[a].corner && accepts_owner (&pen[b], &pen[a], total)))
           {
-            way[b]       = there;
+            distance[b]       = total;
             pen[b].owner = pen[a].owner;
             pen[b].width = pen[a].width;
           }
@@ -98,25 +98,25 @@ pass_on (const CeldEdgeLoop *loop, CeldPens *pens, bool round, float *way)
 }
 
 static void
-find_loop_owners (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
+find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distance)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldPen             *pen = &pens->pen[loop->first];
+  CeldEdgePen             *pen = &pens->pen[loop->first];
   size_t               unknown = 0;
 
   for (size_t i = 0; i < loop->n; i++)
     {
-      pen[i].owner = plain_owner (pens, &point[i], &pen[i]);
-      way[i]       = pen[i].owner ? 0 : INFINITY;
+      pen[i].owner = local_owner (pens, &point[i], &pen[i]);
+      distance[i]       = pen[i].owner ? 0 : INFINITY;
     }
-  pass_on (loop, pens, false, way);
+  propagate_owners (loop, pens, false, distance);
   for (size_t i = 0; i < loop->n; i++)
     {
       unknown += !pen[i].owner;
-      way[i]   = pen[i].owner ? 0 : INFINITY;
+      distance[i]   = pen[i].owner ? 0 : INFINITY;
     }
   if (unknown)
-    pass_on (loop, pens, true, way);
+    propagate_owners (loop, pens, true, distance);
   for (size_t i = 0; i < loop->n; i++)
     if (!pen[i].owner)
       pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
@@ -126,34 +126,34 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldPens *pens, float *way)
 
 /* Which pens may have other widths than before. */
 static bool *
-compare_labels (const CeldPens *old, const CeldPens *new)
+find_changed_widths (const CeldContourPens *old, const CeldContourPens *new)
 {
   bool *changed = celd_alloc (new->n + 1, sizeof *changed);
 
   for (size_t k = 1; changed && k <= new->n; k++)
-    changed[k] = k > old->n || new->usual[k - 1] != old->usual[k - 1] || new->most[k - 1] != old->most[k - 1];
+    changed[k] = k > old->n || new->typical_width[k - 1] != old->typical_width[k - 1] || new->max_width[k - 1] != old->max_width[k - 1];
   if (changed)
     changed[0] = false;
   return changed;
 }
 
 static int
-compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
+compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
 {
   return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
 }
 
 /* Some labels that are in the same order as before. */
-typedef struct { uint32_t label[MANY]; size_t n; } Ordered;
+typedef struct { uint32_t label[MAX_ORDERED]; size_t n; } Ordered;
 
 /* One more; false if it has changed places with another, or if there are too many. */
 static bool
-add_label (uint32_t label, const CeldPens *old, const CeldPens *new, Ordered *ordered)
+add_label (uint32_t label, const CeldContourPens *old, const CeldContourPens *new, Ordered *ordered)
 {
   for (size_t k = 0; k < ordered->n; k++)
     if (ordered->label[k] == label)
       return true;
-  if (ordered->n == MANY || label > old->n)
+  if (ordered->n == MAX_ORDERED || label > old->n)
     return false;
   for (size_t k = 0; k < ordered->n; k++)
     if (compare_levels (old, label, ordered->label[k]) != compare_levels (new, label, ordered->label[k]))
@@ -164,13 +164,13 @@ add_label (uint32_t label, const CeldPens *old, const CeldPens *new, Ordered *or
 
 /* Are all labels of a loop, any of which may own ink anywhere on it, in the order they had before? */
 static bool
-same_order (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new)
+same_order (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new)
 {
   Ordered ordered = { .n = 0 };
 
   for (size_t i = loop->first; i < loop->first + loop->n; i++)
     {
-      const CeldPen *pen = &new->pen[i];
+      const CeldEdgePen *pen = &new->pen[i];
 
       if ((pen->near && !add_label (pen->near, old, new, &ordered)) ||
           (pen->far && !add_label (pen->far, old, new, &ordered)))
@@ -181,11 +181,11 @@ same_order (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new)
 
 /* Do all places of a loop say what they said before? */
 static bool
-same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, const bool *changed)
+same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new, const bool *changed)
 {
   for (size_t i = loop->first; i < loop->first + loop->n; i++)
     {
-      const CeldPen *a = &old->pen[i], *b = &new->pen[i];
+      const CeldEdgePen *a = &old->pen[i], *b = &new->pen[i];
 
       if (a->near != b->near || a->far != b->far || changed[b->near] || changed[celd_pen_front (new, b)])
         return false;
@@ -195,11 +195,11 @@ same_loop (const CeldEdgeLoop *loop, const CeldPens *old, const CeldPens *new, c
 
 /* Widths and owners; a loop that is as it was keeps them. */
 static CeldStatus
-find_owners (const CeldPens *old, CeldPens *pens)
+update_owners (const CeldContourPens *old, CeldContourPens *pens)
 {
-  bool      *changed = compare_labels (old, pens);
-  float     *way = celd_alloc (pens->edges->n_points + 1, sizeof *way);
-  CeldStatus status = changed && way ? CELD_OK : CELD_NO_MEMORY;
+  bool      *changed = find_changed_widths (old, pens);
+  float     *distance = celd_alloc (pens->edges->n_points + 1, sizeof *distance);
+  CeldStatus status = changed && distance ? CELD_OK : CELD_NO_MEMORY;
 
   for (size_t k = 0; status == CELD_OK && k < pens->edges->n_loops; k++)
     {
@@ -209,27 +209,27 @@ find_owners (const CeldPens *old, CeldPens *pens)
         memcpy (pens->pen + loop->first, old->pen + loop->first, loop->n * sizeof *pens->pen);
       else
         {
-          celd_pens_follow (loop, pens);
-          find_loop_owners (loop, pens, way);
+          celd_pen_widths_smooth (loop, pens);
+          find_loop_owners (loop, pens, distance);
         }
     }
   celd_free (changed);
-  celd_free (way);
+  celd_free (distance);
   return status;
 }
 
 CeldStatus
-celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level, size_t n,
-                 CeldPens *pens)
+celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level, size_t n,
+                 CeldContourPens *pens)
 {
-  const CeldInkEdges *edges = old->edges;
-  CeldPens            made = { .edges = edges, .level = level, .n = n };
+  const CeldContourEdges *edges = old->edges;
+  CeldContourPens            made = { .edges = edges, .level = level, .n = n };
   CeldStatus          status;
 
   made.pen   = celd_alloc0 (edges->n_points + 1, sizeof *made.pen);
-  made.usual = celd_alloc0 (n, sizeof *made.usual);
-  made.most  = celd_alloc0 (n, sizeof *made.most);
-  status     = made.pen && made.usual && made.most ? CELD_OK : CELD_NO_MEMORY;
+  made.typical_width = celd_alloc0 (n, sizeof *made.typical_width);
+  made.max_width  = celd_alloc0 (n, sizeof *made.max_width);
+  status     = made.pen && made.typical_width && made.max_width ? CELD_OK : CELD_NO_MEMORY;
   for (size_t i = 0; old->pen && i < edges->n_points && status == CELD_OK; i++)
     {
       made.pen[i].near = old->pen[i].near;
@@ -238,30 +238,30 @@ celd_pens_renew (const CeldPens *old, const CeldLabels *labels, CeldRect changed
   if (status == CELD_OK)
     {
       read_labels (labels, changed, &made);
-      status = celd_pens_measure (&made);
+      status = celd_pen_widths_measure (&made);
     }
   if (status == CELD_OK)
-    status = find_owners (old, &made);
+    status = update_owners (old, &made);
   if (status == CELD_OK)
     *pens = made;
   else
-    celd_pens_clear (&made);
+    celd_contour_pens_clear (&made);
   return status;
 }
 
 CeldStatus
-celd_pens_new (const CeldInkEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldPens *pens)
+celd_contour_pens_new (const CeldContourEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldContourPens *pens)
 {
-  CeldPens none = { .edges = edges };
+  CeldContourPens none = { .edges = edges };
 
-  return celd_pens_renew (&none, labels, (CeldRect) { 0, 0, labels->width, labels->height }, level, n, pens);
+  return celd_contour_pens_update (&none, labels, (CeldRect) { 0, 0, labels->width, labels->height }, level, n, pens);
 }
 
 void
-celd_pens_clear (CeldPens *pens)
+celd_contour_pens_clear (CeldContourPens *pens)
 {
   celd_free (pens->pen);
-  celd_free (pens->usual);
-  celd_free (pens->most);
-  *pens = (CeldPens) { 0 };
+  celd_free (pens->typical_width);
+  celd_free (pens->max_width);
+  *pens = (CeldContourPens) { 0 };
 }

@@ -22,15 +22,15 @@
 
 #include <math.h>
 
-#define LEAST_GAP       16    /* pixels; gaps of less than this, or than 2 w^2, are filled */
-#define OPPOSITE        (-0.9) /* cosine; the two nearest points are opposite if their angle's is not larger */
-#define THICKNESS_ERROR 0.01  /* of the propagated thickness, as a share of its range */
-#define TIE             0.02  /* pixels; D1 this close to t is not below it, whatever the rounding */
+#define MIN_GAP       16    /* pixels; gaps of less than this, or than 2 w^2, are filled */
+#define OPPOSITE_COSINE        (-0.9) /* cosine; the two nearest points are opposite if their angle's is not larger */
+#define THICKNESS_TOLERANCE 0.01  /* of the propagated thickness, as a share of its range */
+#define TIE_DISTANCE             0.02  /* pixels; D1 this close to t is not below it, whatever the rounding */
 
 /* A part of the sheet; tight planes.  Masks are 0 or 1. */
 typedef struct
 {
-  CeldSheet *sheet;
+  CeldExpansionState *state;
   uint32_t   k;             /* the level being expanded */
   int        left, top, width, height;
   size_t     pixels;
@@ -50,9 +50,9 @@ typedef struct
 
 /* The first pixel of row y of the window on the sheet. */
 static inline uint32_t *
-sheet_row (const Window *w, int y)
+state_row (const Window *w, int y)
 {
-  return w->sheet->level + (size_t) (w->top + y) * (size_t) w->sheet->width + (size_t) w->left;
+  return w->state->level + (size_t) (w->top + y) * (size_t) w->state->width + (size_t) w->left;
 }
 
 /* ------------------------------------------------------------------ the window */
@@ -61,14 +61,14 @@ sheet_row (const Window *w, int y)
 static void
 place_window (Window *w, int margin)
 {
-  const CeldSheet *sheet = w->sheet;
-  CeldRect         box = sheet->box[w->k - 1];
+  const CeldExpansionState *state = w->state;
+  CeldRect         box = state->box[w->k - 1];
   int              right = box.x + box.width + margin, bottom = box.y + box.height + margin;
 
   w->left = box.x > margin ? box.x - margin : 0;
   w->top = box.y > margin ? box.y - margin : 0;
-  w->width = (right < sheet->width ? right : sheet->width) - w->left;
-  w->height = (bottom < sheet->height ? bottom : sheet->height) - w->top;
+  w->width = (right < state->width ? right : state->width) - w->left;
+  w->height = (bottom < state->height ? bottom : state->height) - w->top;
   w->pixels = (size_t) w->width * (size_t) w->height;
 }
 
@@ -76,17 +76,17 @@ place_window (Window *w, int margin)
 static int
 thickest_ink (const Window *w)
 {
-  const CeldSheet *sheet = w->sheet;
+  const CeldExpansionState *state = w->state;
   int32_t          deepest = 0;
 
   for (int y = 0; y < w->height; y++)
     {
-      const uint32_t *level = sheet_row (w, y);
-      const int32_t  *depth = sheet->depth_in_ink + (level - sheet->level);
+      const uint32_t *level = state_row (w, y);
+      const int32_t  *distance = state->distance_in_ink + (level - state->level);
 
       for (int x = 0; x < w->width; x++)
-        if (!level[x] && depth[x] > deepest)
-          deepest = depth[x];
+        if (!level[x] && distance[x] > deepest)
+          deepest = distance[x];
     }
   return deepest ? (int) (2 * sqrt (deepest)) + 1 : 0;
 }
@@ -156,7 +156,7 @@ read_window (Window *w)
 {
   for (int y = 0; y < w->height; y++)
     {
-      const uint32_t *level = sheet_row (w, y);
+      const uint32_t *level = state_row (w, y);
       size_t          p = (size_t) y * (size_t) w->width;
 
       for (int x = 0; x < w->width; x++, p++)
@@ -172,7 +172,7 @@ read_window (Window *w)
 
 /* Marks in `reached` the open pixels that are connected to the region. */
 static void
-spread (const Window *w, uint8_t *reached)
+flood (const Window *w, uint8_t *reached)
 {
   size_t n = 0;
 
@@ -226,7 +226,7 @@ between_opposites (const Window *w, int x, int y, size_t p)
   double x1 = w->near1[p] % w->width - x, y1 = w->near1[p] / w->width - y;
   double x2 = w->near2[p] % w->width - x, y2 = w->near2[p] / w->width - y;
 
-  return x1 * x2 + y1 * y2 <= OPPOSITE * sqrt ((double) w->d1[p] * (double) w->d2[p]);
+  return x1 * x2 + y1 * y2 <= OPPOSITE_COSINE * sqrt ((double) w->d1[p] * (double) w->d2[p]);
 }
 
 /* The axis, and t = D1 + D2 on it. */
@@ -286,7 +286,7 @@ propagate_thickness (Window *w, const CeldHost *host)
   celd_lap_pin (w->width, w->height, w->axis, 1, w->t, w->east, w->south, w->diagonal, w->b);
   status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, NULL, &set_up, &laplace);
   if (!status)
-    status = celd_lap_solve (laplace, 1, w->b, w->t, THICKNESS_ERROR, &solve, NULL);
+    status = celd_lap_solve (laplace, 1, w->b, w->t, THICKNESS_TOLERANCE, &solve, NULL);
   celd_lap_free (laplace);
   return status;
 }
@@ -297,8 +297,8 @@ static void
 take_contour (Window *w)
 {
   for (size_t p = 0; p < w->pixels; p++)
-    w->open[p] = w->contour[p] && sqrt (w->d1[p]) < w->t[p] - TIE;
-  spread (w, w->taken);
+    w->open[p] = w->contour[p] && sqrt (w->d1[p]) < w->t[p] - TIE_DISTANCE;
+  flood (w, w->taken);
 }
 
 /* Does pixel (x,y) of the window touch a farther region, or the rest of the sheet, of which nothing is known here? */
@@ -307,8 +307,8 @@ touches_others (const Window *w, int x, int y)
 {
   size_t p = (size_t) y * (size_t) w->width + (size_t) x;
 
-  if ((x == 0 && w->left > 0) || (x + 1 == w->width && w->left + w->width < w->sheet->width) ||
-      (y == 0 && w->top > 0) || (y + 1 == w->height && w->top + w->height < w->sheet->height))
+  if ((x == 0 && w->left > 0) || (x + 1 == w->width && w->left + w->width < w->state->width) ||
+      (y == 0 && w->top > 0) || (y + 1 == w->height && w->top + w->height < w->state->height))
     return true;
   return (x > 0 && w->farther[p - 1]) || (x + 1 < w->width && w->farther[p + 1]) ||
          (y > 0 && w->farther[p - (size_t) w->width]) || (y + 1 < w->height && w->farther[p + (size_t) w->width]);
@@ -320,7 +320,7 @@ fill_gaps (Window *w, const CeldHost *host)
 {
   CeldLabels     gaps = { 0 };
   CeldComponent *list = NULL;
-  double         stroke = w->mean - 1, limit = fmax (LEAST_GAP, 2 * stroke * stroke);
+  double         stroke = w->mean - 1, limit = fmax (MIN_GAP, 2 * stroke * stroke);
   size_t         n = 0, p = 0;
   CeldStatus     status = celd_labels_new (w->width, w->height, &gaps);
 
@@ -351,19 +351,19 @@ write_window (const Window *w)
   for (int y = 0; y < w->height; y++)
     for (int x = 0; x < w->width; x++)
       if (*taken++)
-        sheet_row (w, y)[x] = w->k;
+        state_row (w, y)[x] = w->k;
 }
 
 CeldStatus
-celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldHost *host)
+celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host)
 {
-  Window     w = { .sheet = sheet, .k = k };
+  Window     w = { .state = state, .k = k };
   CeldHostPart   part[4];
   CeldHost   first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
   CeldHost   third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
   CeldStatus status;
 
-  if (!sheet->box[k - 1].width || !find_window (&w))
+  if (!state->box[k - 1].width || !find_window (&w))
     return celd_progress (host, 1);
   status = open_window (&w);
   if (status)
@@ -374,7 +374,7 @@ celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldHost *host)
     status = celd_nearest (w.width, w.height, w.farther, &second, w.d2, w.near2);
   if (status)
     goto done;
-  spread (&w, w.contour);
+  flood (&w, w.contour);
   find_axis (&w);
   trim_contour (&w);
   status = propagate_thickness (&w, &third);

@@ -15,7 +15,7 @@
 
 #include <stdlib.h>
 
-#define LEAST_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
+#define MIN_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
 
 int
 celd_compare_ranks (const void *a, const void *b)
@@ -57,9 +57,9 @@ celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
 
 /* Ranks become levels. */
 static void
-number_pixels (const CeldLabels *ranks, CeldSheet *sheet)
+number_pixels (const CeldLabels *ranks, CeldExpansionState *state)
 {
-  uint32_t *level = sheet->level;
+  uint32_t *level = state->level;
 
   for (int y = 0; y < ranks->height; y++)
     for (int x = 0; x < ranks->width; x++, level++)
@@ -70,35 +70,35 @@ number_pixels (const CeldLabels *ranks, CeldSheet *sheet)
           *level = level[-1];
         else
           {
-            const uint32_t *found = bsearch (rank, sheet->rank, sheet->n, sizeof *rank, celd_compare_ranks);
+            const uint32_t *found = bsearch (rank, state->rank, state->n, sizeof *rank, celd_compare_ranks);
 
-            *level = (uint32_t) (found - sheet->rank) + 1;
+            *level = (uint32_t) (found - state->rank) + 1;
           }
       }
 }
 
 /* Frees the ink of all patches that have paper, and of those that are too small to be meant. */
 static CeldStatus
-free_ink (const CeldPlane *ink, const CeldHost *host, CeldSheet *sheet)
+free_ink (const CeldPlane *ink, const CeldHost *host, CeldExpansionState *state)
 {
-  CeldLabels     level = { sheet->width, sheet->height, (size_t) sheet->width, sheet->level }, patch = { 0 };
+  CeldLabels     level = { state->width, state->height, (size_t) state->width, state->level }, patch = { 0 };
   CeldComponent *list = NULL;
   size_t         n = 0, p;
-  CeldStatus     status = celd_labels_new (sheet->width, sheet->height, &patch);
+  CeldStatus     status = celd_labels_new (state->width, state->height, &patch);
 
   if (!status)
     status = celd_components (&level, 0, false, host, &patch, &list, &n);
   if (status)
     goto done;
   for (p = 0; p < n; p++)
-    if (list[p].area < LEAST_PATCH)
+    if (list[p].area < MIN_PATCH)
       list[p].label = 0; /* its ink is free */
-  for (int y = 0; y < sheet->height; y++)
-    for (int x = 0; x < sheet->width; x++)
+  for (int y = 0; y < state->height; y++)
+    for (int x = 0; x < state->width; x++)
       if (celd_is_paper (CELD_AT (ink, x, y)))
         list[CELD_AT (&patch, x, y) - 1].label = 0;
-  for (int y = 0; y < sheet->height; y++)
-    for (int x = 0; x < sheet->width; x++)
+  for (int y = 0; y < state->height; y++)
+    for (int x = 0; x < state->width; x++)
       if (!celd_is_paper (CELD_AT (ink, x, y)) && !list[CELD_AT (&patch, x, y) - 1].label)
         CELD_AT (&level, x, y) = 0;
 done:
@@ -109,22 +109,22 @@ done:
 
 /* How deep ink lies, and the box of each level. */
 static CeldStatus
-measure_sheet (const CeldHost *host, CeldSheet *sheet)
+measure_state (const CeldHost *host, CeldExpansionState *state)
 {
-  uint8_t   *settled = celd_alloc (sheet->pixels, 1);
+  uint8_t   *settled = celd_alloc (state->pixels, 1);
   CeldStatus status = settled ? CELD_OK : CELD_NO_MEMORY;
   size_t     p;
 
-  for (p = 0; p < sheet->pixels && !status; p++)
-    settled[p] = sheet->level[p] != 0;
+  for (p = 0; p < state->pixels && !status; p++)
+    settled[p] = state->level[p] != 0;
   if (!status)
-    status = celd_distance (sheet->width, sheet->height, settled, host, sheet->depth_in_ink);
+    status = celd_distance (state->width, state->height, settled, host, state->distance_in_ink);
   celd_free (settled);
-  for (p = 0; p < sheet->pixels && !status; p++)
-    if (sheet->level[p])
+  for (p = 0; p < state->pixels && !status; p++)
+    if (state->level[p])
       {
-        int       x = (int) (p % (size_t) sheet->width), y = (int) (p / (size_t) sheet->width);
-        CeldRect *box = &sheet->box[sheet->level[p] - 1];
+        int       x = (int) (p % (size_t) state->width), y = (int) (p / (size_t) state->width);
+        CeldRect *box = &state->box[state->level[p] - 1];
         int       left = box->width && box->x < x ? box->x : x;
         int       right = box->width && box->x + box->width > x ? box->x + box->width : x + 1;
         int       top = box->width ? box->y : y;
@@ -136,55 +136,55 @@ measure_sheet (const CeldHost *host, CeldSheet *sheet)
 
 /* Front to back; the last level gets what is left. */
 static CeldStatus
-expand_regions (const CeldHost *host, CeldSheet *sheet)
+expand_regions (const CeldHost *host, CeldExpansionState *state)
 {
   CeldStatus status = CELD_OK;
 
-  for (size_t k = sheet->n; k > 1 && !status; k--)
+  for (size_t k = state->n; k > 1 && !status; k--)
     {
       CeldHostPart part;
-      CeldHost turn = celd_host_part (&part, host, (double) (sheet->n - k) / (double) sheet->n,
-                                     (double) (sheet->n - k + 1) / (double) sheet->n);
+      CeldHost turn = celd_host_part (&part, host, (double) (state->n - k) / (double) state->n,
+                                     (double) (state->n - k + 1) / (double) state->n);
 
-      status = celd_expand_region (sheet, (uint32_t) k, &turn);
+      status = celd_expand_region (state, (uint32_t) k, &turn);
     }
   return status;
 }
 
 /* Free ink goes to the nearest pixel that is not free; without any it stays free. */
 static CeldStatus
-settle_rest (const CeldHost *host, CeldSheet *sheet)
+assign_rest (const CeldHost *host, CeldExpansionState *state)
 {
-  uint8_t   *settled = celd_alloc (sheet->pixels, 1);
-  int32_t   *nearest = celd_alloc (sheet->pixels, sizeof *nearest);
+  uint8_t   *settled = celd_alloc (state->pixels, 1);
+  int32_t   *nearest = celd_alloc (state->pixels, sizeof *nearest);
   CeldStatus status = settled && nearest ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t p = 0; p < sheet->pixels && !status; p++)
-    settled[p] = sheet->level[p] != 0;
+  for (size_t p = 0; p < state->pixels && !status; p++)
+    settled[p] = state->level[p] != 0;
   if (!status)
-    status = celd_nearest (sheet->width, sheet->height, settled, host, sheet->depth_in_ink, nearest);
-  for (size_t p = 0; p < sheet->pixels && !status; p++)
+    status = celd_nearest (state->width, state->height, settled, host, state->distance_in_ink, nearest);
+  for (size_t p = 0; p < state->pixels && !status; p++)
     if (!settled[p] && nearest[p] >= 0)
-      sheet->level[p] = sheet->level[nearest[p]];
+      state->level[p] = state->level[nearest[p]];
   celd_free (settled);
   celd_free (nearest);
   return status;
 }
 
 static void
-write_ranks (const CeldSheet *sheet, const CeldLabels *ranks, CeldLabels *expanded)
+write_ranks (const CeldExpansionState *state, const CeldLabels *ranks, CeldLabels *expanded)
 {
-  const uint32_t *level = sheet->level;
+  const uint32_t *level = state->level;
 
-  for (int y = 0; y < sheet->height; y++)
-    for (int x = 0; x < sheet->width; x++, level++)
-      CELD_AT (expanded, x, y) = *level ? sheet->rank[*level - 1] : CELD_AT (ranks, x, y);
+  for (int y = 0; y < state->height; y++)
+    for (int x = 0; x < state->width; x++, level++)
+      CELD_AT (expanded, x, y) = *level ? state->rank[*level - 1] : CELD_AT (ranks, x, y);
 }
 
 CeldStatus
 celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host, CeldLabels *expanded)
 {
-  CeldSheet  sheet = { 0 };
+  CeldExpansionState  state = { 0 };
   CeldHostPart   part[4];
   CeldHost   first = celd_host_part (&part[0], host, 0, 0.05), second = celd_host_part (&part[1], host, 0.05, 0.1);
   CeldHost   third = celd_host_part (&part[2], host, 0.1, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
@@ -192,29 +192,29 @@ celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host
 
   if (!CELD_SAME_SIZE (ink, ranks) || !CELD_SAME_SIZE (ranks, expanded))
     return CELD_BAD_SIZE;
-  sheet.width = ranks->width;
-  sheet.height = ranks->height;
-  sheet.pixels = (size_t) ranks->width * (size_t) ranks->height;
-  sheet.level = celd_alloc (sheet.pixels, sizeof *sheet.level);
-  sheet.depth_in_ink = celd_alloc (sheet.pixels, sizeof *sheet.depth_in_ink);
-  status = sheet.level && sheet.depth_in_ink ? celd_list_ranks (ranks, &sheet.rank, &sheet.n) : CELD_NO_MEMORY;
+  state.width = ranks->width;
+  state.height = ranks->height;
+  state.pixels = (size_t) ranks->width * (size_t) ranks->height;
+  state.level = celd_alloc (state.pixels, sizeof *state.level);
+  state.distance_in_ink = celd_alloc (state.pixels, sizeof *state.distance_in_ink);
+  status = state.level && state.distance_in_ink ? celd_list_ranks (ranks, &state.rank, &state.n) : CELD_NO_MEMORY;
   if (status)
     goto done;
-  sheet.box = celd_alloc0 (sheet.n, sizeof *sheet.box);
-  status = sheet.box ? CELD_OK : CELD_NO_MEMORY;
+  state.box = celd_alloc0 (state.n, sizeof *state.box);
+  status = state.box ? CELD_OK : CELD_NO_MEMORY;
   if (status)
     goto done;
-  number_pixels (ranks, &sheet);
-  if ((status = free_ink (ink, &first, &sheet)) == CELD_OK &&
-      (status = measure_sheet (&second, &sheet)) == CELD_OK &&
-      (status = expand_regions (&third, &sheet)) == CELD_OK)
-    status = settle_rest (&fourth, &sheet);
+  number_pixels (ranks, &state);
+  if ((status = free_ink (ink, &first, &state)) == CELD_OK &&
+      (status = measure_state (&second, &state)) == CELD_OK &&
+      (status = expand_regions (&third, &state)) == CELD_OK)
+    status = assign_rest (&fourth, &state);
   if (!status)
-    write_ranks (&sheet, ranks, expanded);
+    write_ranks (&state, ranks, expanded);
 done:
-  celd_free (sheet.level);
-  celd_free (sheet.depth_in_ink);
-  celd_free (sheet.rank);
-  celd_free (sheet.box);
+  celd_free (state.level);
+  celd_free (state.distance_in_ink);
+  celd_free (state.rank);
+  celd_free (state.box);
   return status;
 }

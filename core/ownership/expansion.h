@@ -13,11 +13,11 @@ typedef struct
   int       width, height;
   size_t    pixels;
   uint32_t *level;          /* 1 .. n from back to front; 0 for ink that nobody has taken yet */
-  int32_t  *depth_in_ink;   /* squared distance to the nearest pixel that was not free at the beginning */
+  int32_t  *distance_in_ink;   /* squared distance to the nearest pixel that was not free at the beginning */
   uint32_t *rank;           /* level k stands for rank[k-1] */
   CeldRect *box;            /* of the pixels of level k at the beginning: box[k-1]; width 0 if there are none */
   size_t    n;
-} CeldSheet;
+} CeldExpansionState;
 
 /* The distinct ranks of a picture in rising order; end with celd_free. */
 CeldStatus celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n);
@@ -32,18 +32,18 @@ typedef struct
   uint32_t     *order, *region;
   float        *level;
   size_t        n;
-} CeldOwnLevels;
+} CeldLevelOwnership;
 
 /* See celd_expand_levels.  To be cleared whatever it returns. */
-CeldStatus celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                 const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                CeldOwnLevels *made);
-void       celd_own_levels_clear (CeldOwnLevels *made);
+                                CeldLevelOwnership *made);
+void       celd_level_ownership_clear (CeldLevelOwnership *made);
 /* layers.c: the art cut by that. */
-CeldStatus celd_own_levels_cut (const CeldOwnLevels *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
+CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
                                 bool complete, const CeldHost *host, CeldLayers **layers);
 
 /* Gives free ink to the foremost level that has not had its turn, k. */
-CeldStatus celd_expand_region (CeldSheet *sheet, uint32_t k, const CeldHost *host);
+CeldStatus celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host);
 
 #endif

@@ -13,18 +13,18 @@
 
 #include <math.h>
 
-#define BOTH   (CELD_TILE_CLAIM | CELD_TILE_SHARE)
-#define NARROW 0.9f     /* cosine between the sides of a band that hardly opens */
-#define BULGE  0.03f    /* of its length that it may then stick out between them */
+#define CLAIM_AND_COVERAGE   (CELD_TILE_CLAIM | CELD_TILE_COVERAGE)
+#define NARROW_COSINE 0.9f     /* cosine between the sides of a band that hardly opens */
+#define NARROW_MARGIN  0.03f    /* of its length that it may then stick out between them */
 
 static float
-least (float a, float b)
+min (float a, float b)
 {
   return a < b ? a : b;
 }
 
 static float
-greatest (float a, float b)
+max (float a, float b)
 {
   return a > b ? a : b;
 }
@@ -35,22 +35,22 @@ span_of (const CeldTiles *tiles, const CeldRay *a, const CeldRay *b, float lengt
 {
   float ax = a->x + length * a->nx, ay = a->y + length * a->ny, bx = b->x + length * b->nx, by = b->y + length * b->ny;
 
-  return celd_tile_span (tiles, least (least (a->x, b->x), least (ax, bx)) - margin,
-                         least (least (a->y, b->y), least (ay, by)) - margin,
-                         greatest (greatest (a->x, b->x), greatest (ax, bx)) + margin,
-                         greatest (greatest (a->y, b->y), greatest (ay, by)) + margin);
+  return celd_tile_span (tiles, min (min (a->x, b->x), min (ax, bx)) - margin,
+                         min (min (a->y, b->y), min (ay, by)) - margin,
+                         max (max (a->x, b->x), max (ax, bx)) + margin,
+                         max (max (a->y, b->y), max (ay, by)) + margin);
 }
 
 /* Long lines are taken piece by piece, so that slanting ones do not mark a large square. */
 static int
-line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line, CeldTileSpan span[CELD_SPANS])
+line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line, CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
 {
-  float reach = celd_claim_reach (ink, line), piece = greatest (CELD_TILE, reach / (CELD_SPANS - 1)), from = 0;
+  float length = celd_claim_line_length (ink, line), piece = max (CELD_TILE, length / (CELD_MAX_CLAIM_SPANS - 1)), from = 0;
   int   n = 0;
 
-  for (; from < reach && n < CELD_SPANS; from += piece)
+  for (; from < length && n < CELD_MAX_CLAIM_SPANS; from += piece)
     {
-      CeldRay a = celd_claim_place (line, from), b = celd_claim_place (line, least (from + piece, reach));
+      CeldRay a = celd_claim_line_at (line, from), b = celd_claim_line_at (line, min (from + piece, length));
 
       span[n++] = span_of (tiles, &a, &b, line->width, 1);
     }
@@ -58,15 +58,15 @@ line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line,
 }
 
 int
-celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldTileSpan span[CELD_SPANS])
+celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
 {
   const CeldRay *a = &claim->from, *b = &claim->to;
-  bool           narrow = a->nx * b->nx + a->ny * b->ny > NARROW;
+  bool           narrow = a->nx * b->nx + a->ny * b->ny > NARROW_COSINE;
 
   if (claim->shape == CELD_CLAIM_LINE)
     return line_tiles (ink, tiles, claim, span);
   if (claim->shape == CELD_CLAIM_BAND)
-    span[0] = span_of (tiles, a, b, claim->length, 1 + (narrow ? BULGE : 1) * claim->length);
+    span[0] = span_of (tiles, a, b, claim->length, 1 + (narrow ? NARROW_MARGIN : 1) * claim->length);
   else
     span[0] = span_of (tiles, a, a, 0, claim->width + 1);
   return 1;
@@ -75,24 +75,24 @@ celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim 
 /* ------------------------------------------------------------------ pixels that labels settle */
 
 static void
-compare_pixels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect rect, const bool *solid,
+compare_pixels (const CeldOwnershipCache *kept, const CeldOwnershipInput *in, CeldRect rect, const bool *solid,
                 CeldTiles *tiles)
 {
   for (int y = rect.y; y < rect.y + rect.height; y++)
     for (int x = rect.x; x < rect.x + rect.width; x++)
       {
         uint32_t label = CELD_AT (in->labels, x, y);
-        bool     was_settled = CELD_AT (&kept->over, x, y) == -INFINITY;
+        bool     was_settled = CELD_AT (&kept->excess, x, y) == -INFINITY;
         bool     settled = celd_is_paper (CELD_AT (in->ink, x, y)) || solid[label - 1];
 
         if (settled != was_settled || (settled && CELD_AT (&kept->owner, x, y) != label))
-          *celd_tile_of (tiles, x, y) |= BOTH;
+          *celd_tile_of (tiles, x, y) |= CLAIM_AND_COVERAGE;
       }
 }
 
 /* Everywhere if a label has become solid or ceased to be. */
 static CeldRect
-changed_labels (const CeldOwnersKept *kept, const CeldOwnersInput *in, CeldRect new_labels, const bool *solid)
+changed_labels (const CeldOwnershipCache *kept, const CeldOwnershipInput *in, CeldRect new_labels, const bool *solid)
 {
   for (size_t k = 0; k < in->n; k++)
     if (solid[k] != (k < kept->pens.n && kept->solid[k]))
@@ -107,16 +107,16 @@ mark_claims (const CeldPlane *ink, const CeldClaim *claim, size_t n, CeldTiles *
 {
   for (size_t i = 0; i < n; i++)
     {
-      CeldTileSpan span[CELD_SPANS];
+      CeldTileSpan span[CELD_MAX_CLAIM_SPANS];
       int          m = celd_claim_tiles (ink, tiles, &claim[i], span);
 
       for (int j = 0; j < m; j++)
-        celd_tiles_mark (tiles, span[j], BOTH);
+        celd_tiles_mark (tiles, span[j], CLAIM_AND_COVERAGE);
     }
 }
 
 static void
-compare_claims (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+compare_claims (const CeldPlane *ink, const CeldContourPens *old, const CeldContourPens *new, CeldTiles *tiles)
 {
   for (size_t k = 0; k < new->edges->n_loops; k++)
     {
@@ -126,8 +126,8 @@ compare_claims (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, 
         continue;
       for (size_t i = 0; i < loop->n; i++)
         {
-          CeldClaim before[CELD_CLAIMS], after[CELD_CLAIMS];
-          size_t    n = celd_pen_claims (old, loop, i, before), m = celd_pen_claims (new, loop, i, after);
+          CeldClaim before[CELD_MAX_CLAIMS], after[CELD_MAX_CLAIMS];
+          size_t    n = celd_claims_at_point (old, loop, i, before), m = celd_claims_at_point (new, loop, i, after);
 
           if (n == m && !memcmp (before, after, n * sizeof *after))
             continue;
@@ -142,10 +142,10 @@ compare_claims (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, 
 /* Labels that claim ink of a tile. */
 typedef struct { uint32_t label[7], n; } Claimants;
 
-#define MANY 7 /* more of them are not told apart */
+#define MAX_CLAIMANTS 7 /* more of them are not told apart */
 
 static int
-compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
+compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
 {
   return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
 }
@@ -153,10 +153,10 @@ compare_levels (const CeldPens *pens, uint32_t a, uint32_t b)
 static void
 add_claimant (uint32_t label, Claimants *c)
 {
-  for (uint32_t i = 0; i < c->n && i < MANY; i++)
+  for (uint32_t i = 0; i < c->n && i < MAX_CLAIMANTS; i++)
     if (c->label[i] == label)
       return;
-  if (c->n < MANY)
+  if (c->n < MAX_CLAIMANTS)
     c->label[c->n] = label;
   c->n++;
 }
@@ -164,7 +164,7 @@ add_claimant (uint32_t label, Claimants *c)
 static void
 list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, Claimants *list)
 {
-  CeldTileSpan span[CELD_SPANS];
+  CeldTileSpan span[CELD_MAX_CLAIM_SPANS];
   int          n = celd_claim_tiles (ink, tiles, claim, span);
 
   for (int i = 0; i < n; i++)
@@ -174,13 +174,13 @@ list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim
 }
 
 static void
-list_claimants (const CeldPlane *ink, const CeldPens *pens, const CeldTiles *tiles, Claimants *list)
+list_claimants (const CeldPlane *ink, const CeldContourPens *pens, const CeldTiles *tiles, Claimants *list)
 {
   for (size_t k = 0; k < pens->edges->n_loops; k++)
     for (size_t i = 0; i < pens->edges->loop[k].n; i++)
       {
-        CeldClaim claim[CELD_CLAIMS];
-        size_t    n = celd_pen_claims (pens, &pens->edges->loop[k], i, claim);
+        CeldClaim claim[CELD_MAX_CLAIMS];
+        size_t    n = celd_claims_at_point (pens, &pens->edges->loop[k], i, claim);
 
         for (size_t j = 0; j < n; j++)
           list_claim (ink, tiles, &claim[j], list);
@@ -189,9 +189,9 @@ list_claimants (const CeldPlane *ink, const CeldPens *pens, const CeldTiles *til
 
 /* Has any of these passed another?  New labels have. */
 static bool
-have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
+order_changed (const Claimants *c, const CeldContourPens *old, const CeldContourPens *new)
 {
-  if (c->n > MANY)
+  if (c->n > MAX_CLAIMANTS)
     return true;
   for (uint32_t i = 0; i < c->n; i++)
     for (uint32_t j = 0; j < i; j++)
@@ -202,7 +202,7 @@ have_moved (const Claimants *c, const CeldPens *old, const CeldPens *new)
 }
 
 static CeldStatus
-compare_depths (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, CeldTiles *tiles)
+compare_orders (const CeldPlane *ink, const CeldContourPens *old, const CeldContourPens *new, CeldTiles *tiles)
 {
   size_t     n = (size_t) tiles->across * (size_t) tiles->down;
   Claimants *list;
@@ -214,17 +214,17 @@ compare_depths (const CeldPlane *ink, const CeldPens *old, const CeldPens *new, 
     return CELD_NO_MEMORY;
   list_claimants (ink, new, tiles, list);
   for (size_t i = 0; i < n; i++)
-    if (have_moved (&list[i], old, new))
-      tiles->at[i] |= BOTH;
+    if (order_changed (&list[i], old, new))
+      tiles->at[i] |= CLAIM_AND_COVERAGE;
   celd_free (list);
   return CELD_OK;
 }
 
 CeldStatus
-celd_owners_compare (const CeldOwnersKept *kept, const CeldOwnersInput *input, CeldRect new_labels,
-                     const CeldPens *pens, const bool *solid, CeldTiles *tiles)
+celd_ownership_mark_changes (const CeldOwnershipCache *kept, const CeldOwnershipInput *input, CeldRect new_labels,
+                     const CeldContourPens *pens, const bool *solid, CeldTiles *tiles)
 {
   compare_pixels (kept, input, changed_labels (kept, input, new_labels, solid), solid, tiles);
   compare_claims (input->ink, &kept->pens, pens, tiles);
-  return compare_depths (input->ink, &kept->pens, pens, tiles);
+  return compare_orders (input->ink, &kept->pens, pens, tiles);
 }

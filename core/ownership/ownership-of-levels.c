@@ -21,10 +21,10 @@ clean_level (float level)
 static uint32_t
 rank_of_level (float level)
 {
-  float    number = clean_level (level);
+  float    number_values = clean_level (level);
   uint32_t bits;
 
-  memcpy (&bits, &number, sizeof bits);
+  memcpy (&bits, &number_values, sizeof bits);
   return bits & UINT32_C (0x80000000) ? ~bits : bits | UINT32_C (0x80000000);
 }
 
@@ -32,7 +32,7 @@ rank_of_level (float level)
 
 /* Replaces values by their places, from 1, among the distinct ones in rising order, of which there are *n. */
 static CeldStatus
-number (CeldLabels *values, size_t *n)
+number_values (CeldLabels *values, size_t *n)
 {
   size_t     pixels = (size_t) values->width * (size_t) values->height;
   uint32_t  *list = NULL, last = 0;
@@ -58,24 +58,24 @@ number (CeldLabels *values, size_t *n)
 
 /* Parts the levels, numbers of which are in `label`, by regions. */
 static CeldStatus
-part_levels (const CeldLabels *regions, CeldLabels *label, CeldLabels *scratch, size_t *n)
+split_levels_by_region (const CeldLabels *regions, CeldLabels *label, CeldLabels *scratch, size_t *n)
 {
   size_t     pixels = (size_t) label->width * (size_t) label->height, n_regions = 0;
   CeldStatus status;
 
   for (int y = 0; y < label->height; y++)
     memcpy (&CELD_AT (scratch, 0, y), &CELD_AT (regions, 0, y), (size_t) label->width * sizeof (uint32_t));
-  status = number (scratch, &n_regions);
+  status = number_values (scratch, &n_regions);
   if (!status && *n > UINT32_MAX / n_regions)
     status = CELD_NO_MEMORY;
   for (size_t p = 0; p < pixels && !status; p++)
     label->data[p] = (uint32_t) ((label->data[p] - 1) * n_regions) + scratch->data[p];
-  return status ? status : number (label, n);
+  return status ? status : number_values (label, n);
 }
 
 /* What the labels stand for. */
 static CeldStatus
-describe_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels *made)
+describe_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwnership *made)
 {
   const CeldLabels *label = &made->own.owner;
 
@@ -98,7 +98,7 @@ describe_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLeve
 }
 
 static CeldStatus
-number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels *made)
+number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwnership *made)
 {
   CeldLabels *label = &made->own.owner;
   CeldStatus  status;
@@ -106,9 +106,9 @@ number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels
   for (int y = 0; y < levels->height; y++)
     for (int x = 0; x < levels->width; x++)
       CELD_AT (label, x, y) = rank_of_level (CELD_AT (levels, x, y));
-  status = number (label, &made->n);
+  status = number_values (label, &made->n);
   if (!status && regions)
-    status = part_levels (regions, label, &made->own.under, &made->n);
+    status = split_levels_by_region (regions, label, &made->own.under, &made->n);
   return status ? status : describe_labels (levels, regions, made);
 }
 
@@ -116,7 +116,7 @@ number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldOwnLevels
 
 /* The label with most pixels of those of the region; 0: there is none. */
 static uint32_t
-find_region (const CeldOwnLevels *made, const size_t *area, uint32_t region)
+find_region (const CeldLevelOwnership *made, const size_t *area, uint32_t region)
 {
   uint32_t found = 0;
 
@@ -128,7 +128,7 @@ find_region (const CeldOwnLevels *made, const size_t *area, uint32_t region)
 
 /* Strokes that name regions name labels. */
 static CeldStatus
-number_corrections (const CeldOwnLevels *made, const CeldLabels *corrections, CeldLabels *numbered)
+number_corrections (const CeldLevelOwnership *made, const CeldLabels *corrections, CeldLabels *numbered)
 {
   const CeldLabels *label = &made->own.owner;
   size_t           *area = celd_alloc0 (made->n, sizeof *area);
@@ -152,13 +152,13 @@ number_corrections (const CeldOwnLevels *made, const CeldLabels *corrections, Ce
 /* ------------------------------------------------------------------ both together */
 
 CeldStatus
-celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnLevels *made)
+celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldLevelOwnership *made)
 {
   CeldLabels numbered = { 0 };
   CeldStatus status;
 
-  *made = (CeldOwnLevels) { 0 };
+  *made = (CeldLevelOwnership) { 0 };
   if (!CELD_SAME_SIZE (ink, levels) || (regions && !CELD_SAME_SIZE (ink, regions)) ||
       (corrections && !CELD_SAME_SIZE (ink, corrections)))
     return CELD_BAD_SIZE;
@@ -177,7 +177,7 @@ celd_own_levels_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLa
 }
 
 void
-celd_own_levels_clear (CeldOwnLevels *made)
+celd_level_ownership_clear (CeldLevelOwnership *made)
 {
   celd_ownership_clear (&made->own);
   celd_free (made->order);
@@ -187,14 +187,14 @@ celd_own_levels_clear (CeldOwnLevels *made)
 
 /* The level of the label that has more of each pixel. */
 static void
-write_levels (const CeldOwnLevels *made, CeldPlane *expanded)
+write_levels (const CeldLevelOwnership *made, CeldPlane *expanded)
 {
   const CeldOwnership *own = &made->own;
 
   for (int y = 0; y < expanded->height; y++)
     for (int x = 0; x < expanded->width; x++)
       {
-        const CeldLabels *label = CELD_AT (&own->share, x, y) >= 0.5f ? &own->owner : &own->under;
+        const CeldLabels *label = CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under;
 
         CELD_AT (expanded, x, y) = made->level[CELD_AT (label, x, y) - 1];
       }
@@ -204,40 +204,40 @@ CeldStatus
 celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *expanded)
 {
-  CeldOwnLevels made;
+  CeldLevelOwnership made;
   CeldStatus    status;
 
   if (!CELD_SAME_SIZE (levels, expanded))
     return CELD_BAD_SIZE;
-  status = celd_own_levels_new (ink, levels, regions, corrections, method, host, &made);
+  status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
   if (!status)
     write_levels (&made, expanded);
-  celd_own_levels_clear (&made);
+  celd_level_ownership_clear (&made);
   return status;
 }
 
 CeldStatus
 celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                       const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *level,
-                      CeldLabels *region, CeldPlane *share)
+                      CeldLabels *region, CeldPlane *coverage)
 {
-  CeldOwnLevels made;
+  CeldLevelOwnership made;
   CeldStatus    status;
 
-  if (!CELD_SAME_SIZE (levels, level) || !CELD_SAME_SIZE (levels, share) ||
+  if (!CELD_SAME_SIZE (levels, level) || !CELD_SAME_SIZE (levels, coverage) ||
       (region && !CELD_SAME_SIZE (levels, region)))
     return CELD_BAD_SIZE;
-  status = celd_own_levels_new (ink, levels, regions, corrections, method, host, &made);
+  status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
   for (int y = 0; y < levels->height && !status; y++)
     for (int x = 0; x < levels->width; x++)
       {
         uint32_t owner = CELD_AT (&made.own.owner, x, y);
 
-        CELD_AT (share, x, y) = CELD_AT (&made.own.share, x, y);
+        CELD_AT (coverage, x, y) = CELD_AT (&made.own.coverage, x, y);
         CELD_AT (level, x, y) = made.level[owner - 1];
         if (region)
           CELD_AT (region, x, y) = made.region[owner - 1];
       }
-  celd_own_levels_clear (&made);
+  celd_level_ownership_clear (&made);
   return status;
 }

@@ -78,14 +78,14 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
 /* ------------------------------------------------------------------ by outlines */
 
 static CeldStatus
-own_by_outlines (const CeldPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldHost *host,
+own_by_outlines (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, const CeldHost *host,
                  CeldOwnership *own)
 {
   bool      *solid = celd_alloc (pens->n, sizeof *solid);
-  CeldStatus status = solid ? celd_solid_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
+  CeldStatus status = solid ? celd_solid_labels_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
 
   if (!status)
-    status = celd_pens_claim (pens, ink, labels, solid, host, &own->owner, &own->share);
+    status = celd_claims_assign (pens, ink, labels, solid, host, &own->owner, &own->coverage);
   celd_free (solid);
   return status;
 }
@@ -95,28 +95,28 @@ static CeldStatus
 own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n, const CeldLabels *corrections,
          CeldExpansion method, const CeldHost *host, CeldOwnership *own)
 {
-  CeldInkEdges edges = { 0 };
-  CeldPens     pens = { 0 };
-  CeldGiven    given = { 0 };
-  CeldHostPart     part[2];
-  CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
+  CeldContourEdges edges = { 0 };
+  CeldContourPens     pens = { 0 };
+  CeldReassigned    reassigned = { 0 };
+  CeldHostPart     fraction[2];
+  CeldHost     first = celd_host_part (&fraction[0], host, 0, 0.5), second = celd_host_part (&fraction[1], host, 0.5, 1);
   CeldStatus   status = CELD_OK;
 
   if (method == CELD_EXPANSION_OUTLINES || corrections)
     {
-      status = celd_ink_edges_new (ink, &first, &edges);
+      status = celd_contour_edges_new (ink, &first, &edges);
       if (!status)
-        status = celd_pens_new (&edges, labels, level, n, &pens);
+        status = celd_contour_pens_new (&edges, labels, level, n, &pens);
     }
   if (!status && method == CELD_EXPANSION_OUTLINES)
     status = own_by_outlines (&pens, ink, labels, &second, own);
   else if (!status)
     status = own_by_thickness (ink, labels, level, &second, &own->owner);
   if (!status && corrections)
-    status = celd_pens_correct (&pens, ink, corrections, &own->owner, &given);
-  celd_given_clear (&given);
-  celd_pens_clear (&pens);
-  celd_ink_edges_clear (&edges);
+    status = celd_corrections_apply (&pens, ink, corrections, &own->owner, &reassigned);
+  celd_reassigned_clear (&reassigned);
+  celd_contour_pens_clear (&pens);
+  celd_contour_edges_clear (&edges);
   return status;
 }
 
@@ -126,7 +126,7 @@ check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabel
        const CeldOwnership *own)
 {
   if (!CELD_SAME_SIZE (ink, labels) || !CELD_SAME_SIZE (labels, &own->owner) || !CELD_SAME_SIZE (labels, &own->under) ||
-      !CELD_SAME_SIZE (labels, &own->share) || (corrections && !CELD_SAME_SIZE (labels, corrections)))
+      !CELD_SAME_SIZE (labels, &own->coverage) || (corrections && !CELD_SAME_SIZE (labels, corrections)))
     return CELD_BAD_SIZE;
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
@@ -145,13 +145,13 @@ celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level,
   if (!status)
     status = own_ink (ink, labels, level, n, corrections, method, host, ownership);
   if (!status)
-    celd_share_edges (ink, level, ownership);
+    celd_ownership_coverage (ink, level, ownership);
   return status;
 }
 
 /* The label of the brightest pixel within one pixel of (x,y), or of the darkest; ties: the first in reading order. */
 static uint32_t
-look_around (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
+extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
 {
   uint32_t found = CELD_AT (owner, x, y);
   float    best = CELD_AT (ink, x, y);
@@ -168,33 +168,33 @@ look_around (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool b
 
 /* The label of the larger part as owner, that of the other as under. */
 static void
-share_row (const CeldPlane *ink, int y, CeldOwnership *own)
+cover_row (const CeldPlane *ink, int y, CeldOwnership *own)
 {
   const float    *value = &CELD_AT (ink, 0, y);
   const uint32_t *owner = &CELD_AT (&own->owner, 0, y);
   uint32_t       *under = &CELD_AT (&own->under, 0, y);
-  float          *share = &CELD_AT (&own->share, 0, y);
+  float          *coverage = &CELD_AT (&own->coverage, 0, y);
 
   memcpy (under, owner, (size_t) ink->width * sizeof *under);
   for (int x = 0; x < ink->width; x++)
     {
-      float part = celd_is_paper (value[x]) ? value[x] : 1 - value[x];
+      float fraction = celd_is_paper (value[x]) ? value[x] : 1 - value[x];
 
-      share[x] = 1;
-      if (!(part < 1))
+      coverage[x] = 1;
+      if (!(fraction < 1))
         continue;
-      under[x] = look_around (ink, &own->owner, x, y, !celd_is_paper (value[x]));
+      under[x] = extreme_label (ink, &own->owner, x, y, !celd_is_paper (value[x]));
       if (under[x] != owner[x])
-        share[x] = part;
+        coverage[x] = fraction;
     }
 }
 
 /* The nearer label as owner. */
 static void
-sort_row (const uint32_t *level, int y, CeldOwnership *own)
+order_row (const uint32_t *level, int y, CeldOwnership *own)
 {
   uint32_t *owner = &CELD_AT (&own->owner, 0, y), *under = &CELD_AT (&own->under, 0, y);
-  float    *share = &CELD_AT (&own->share, 0, y);
+  float    *coverage = &CELD_AT (&own->coverage, 0, y);
 
   for (int x = 0; x < own->owner.width; x++)
     if (owner[x] != under[x] && level[under[x] - 1] > level[owner[x] - 1])
@@ -203,72 +203,72 @@ sort_row (const uint32_t *level, int y, CeldOwnership *own)
 
         owner[x] = under[x];
         under[x] = larger;
-        share[x] = 1 - share[x];
+        coverage[x] = 1 - coverage[x];
       }
 }
 
 void
-celd_share_edges (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
+celd_ownership_coverage (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
 {
   for (int y = 0; y < ink->height; y++)
     {
-      share_row (ink, y, own);
+      cover_row (ink, y, own);
       if (y > 0)
-        sort_row (level, y - 1, own); /* a row looks around in the next one */
+        order_row (level, y - 1, own); /* a row looks around in the next one */
     }
-  sort_row (level, ink->height - 1, own);
+  order_row (level, ink->height - 1, own);
 }
 
 /* ------------------------------------------------------------------ a part of the picture, again */
 
 /* A pixel's part of the record. */
-typedef struct { uint32_t owner, under; float share; } Share;
+typedef struct { uint32_t owner, under; float coverage; } Mixture;
 
-static Share
-share_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
+static Mixture
+mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
 {
-  float value = CELD_AT (ink, x, y), part = celd_is_paper (value) ? value : 1 - value;
-  Share s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
+  float value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
+  Mixture s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
 
-  if (part < 1)
-    s.under = look_around (ink, larger, x, y, !celd_is_paper (value));
+  if (fraction < 1)
+    s.under = extreme_label (ink, larger, x, y, !celd_is_paper (value));
   if (s.under != s.owner)
-    s.share = part;
+    s.coverage = fraction;
   return s;
 }
 
 /* Puts it into the record, the nearer label as owner.  Is that something new? */
 static bool
-put_share (Share s, const uint32_t *level, int x, int y, CeldOwnership *own)
+put_mixture (Mixture s, const uint32_t *level, int x, int y, CeldOwnership *own)
 {
   uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
-  float    *share = &CELD_AT (&own->share, x, y);
+  float    *coverage = &CELD_AT (&own->coverage, x, y);
   bool      new;
 
   if (s.owner != s.under && level[s.under - 1] > level[s.owner - 1])
-    s = (Share) { s.under, s.owner, 1 - s.share };
-  new    = *owner != s.owner || *under != s.under || *share != s.share;
+    s = (Mixture) { s.under, s.owner, 1 - s.coverage };
+  new    = *owner != s.owner || *under != s.under || *coverage != s.coverage;
   *owner = s.owner;
   *under = s.under;
-  *share = s.share;
+  *coverage = s.coverage;
   return new;
 }
 
 CeldRect
-celd_share_again (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
+celd_ownership_coverage_update (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
                   CeldOwnership *own)
 {
   CeldRect changed = { 0 };
 
   for (int y = rect.y; y < rect.y + rect.height; y++)
     for (int x = rect.x; x < rect.x + rect.width; x++)
-      if (put_share (share_at (ink, larger, x, y), level, x, y, own))
+      if (put_mixture (mixture_at (ink, larger, x, y), level, x, y, own))
         changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
   return changed;
 }
 
 CeldRect
-celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect, CeldOwnership *own)
+celd_ownership_reorder (const CeldLabels *larger, const uint32_t *level, CeldRect rect, CeldOwnership *own)
 {
   CeldRect changed = { 0 };
 
@@ -286,7 +286,7 @@ celd_sort_again (const CeldLabels *larger, const uint32_t *level, CeldRect rect,
           continue;
         *owner = *under;
         *under = first;
-        CELD_AT (&own->share, x, y) = 1 - CELD_AT (&own->share, x, y);
+        CELD_AT (&own->coverage, x, y) = 1 - CELD_AT (&own->coverage, x, y);
         changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
       }
   return changed;

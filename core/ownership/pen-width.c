@@ -10,19 +10,19 @@
 
 #include <math.h>
 
-#define USUAL    0.35    /* share of a pen's places that are thinner than its usual width */
-#define THIN     0.125   /* and of those that tell how much it varies */
-#define SPREAD   3.f     /* a pen may be thicker in places by so much of what it is thinner in others */
-#define GRAIN    16.f    /* parts of a pixel */
-#define STEADY   1.04f   /* and by so much in any case; */
-#define SWELL    1.25f   /* but by no more than this */
-#define SLOPE    0.05f   /* how fast its width changes along the line */
-#define SAMPLES  4       /* places to either side that a width is the median of */
-#define ALONG    2.5f    /* pen widths that a line may be thick */
+#define TYPICAL_QUANTILE    0.35    /* share of a pen's places that are thinner than its usual width */
+#define THIN_QUANTILE     0.125   /* and of those that tell how much it varies */
+#define SPREAD_FACTOR   3.f     /* a pen may be thicker in places by so much of what it is thinner in others */
+#define SUBPIXELS    16.f    /* parts of a pixel */
+#define MIN_SWELL   1.04f   /* and by so much in any case; */
+#define MAX_SWELL    1.25f   /* but by no more than this */
+#define MAX_SLOPE    0.05f   /* how fast its width changes along the line */
+#define MEDIAN_RADIUS  4       /* places to either side that a width is the median of */
+#define MAX_LINE_THICKNESS    2.5f    /* pen widths that a line may be thick */
 
 /* What would stand at place k if the widths were sorted; orders them around it [Hoare 1961]. */
 static float
-find_place (float *width, size_t n, size_t k)
+select_quantile (float *width, size_t n, size_t k)
 {
   size_t from = 0, end = n;
 
@@ -60,23 +60,23 @@ find_place (float *width, size_t n, size_t k)
 
 /* Rounded to what edges are found to, so that an edit far off does not change every width by a hair. */
 static float
-rounded_place (float *width, size_t n, double share)
+quantile (float *width, size_t n, double fraction)
 {
-  return roundf (GRAIN * find_place (width, n, (size_t) (share * (double) n))) / GRAIN;
+  return roundf (SUBPIXELS * select_quantile (width, n, (size_t) (fraction * (double) n))) / SUBPIXELS;
 }
 
 static void
-sum_up (float *width, size_t n, float *usual, float *most)
+set_pen_widths (float *width, size_t n, float *typical, float *max)
 {
-  float thin = rounded_place (width, n, THIN);
+  float thin = quantile (width, n, THIN_QUANTILE);
 
-  *usual = rounded_place (width, n, USUAL);
-  *most  = fminf (SPREAD * (*usual - thin) + STEADY * *usual, SWELL * *usual);
+  *typical = quantile (width, n, TYPICAL_QUANTILE);
+  *max  = fminf (SPREAD_FACTOR * (*typical - thin) + MIN_SWELL * *typical, MAX_SWELL * *typical);
 }
 
 /* Lists the widths by label. */
 CeldStatus
-celd_pens_measure (CeldPens *pens)
+celd_pen_widths_measure (CeldContourPens *pens)
 {
   size_t     points = pens->edges->n_points;
   size_t    *from = celd_alloc0 (pens->n + 2, sizeof *from);
@@ -90,14 +90,14 @@ celd_pens_measure (CeldPens *pens)
       for (size_t k = 1; k <= pens->n + 1; k++)
         from[k] += from[k - 1];
       for (size_t i = points; i-- > 0;)
-        width[--from[celd_pen_front (pens, &pens->pen[i])]] = pens->edges->point[i].through;
+        width[--from[celd_pen_front (pens, &pens->pen[i])]] = pens->edges->point[i].thickness;
     }
   for (size_t k = 1; k <= pens->n && status == CELD_OK; k++)
     {
       size_t n = from[k + 1] - from[k];
 
       if (n)
-        sum_up (width + from[k], n, &pens->usual[k - 1], &pens->most[k - 1]);
+        set_pen_widths (width + from[k], n, &pens->typical_width[k - 1], &pens->max_width[k - 1]);
     }
   celd_free (from);
   celd_free (width);
@@ -108,23 +108,23 @@ celd_pens_measure (CeldPens *pens)
 
 /* The median of some places round place i, about a pen's width to either side, that have the same front. */
 static float
-smooth_thickness (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i)
+smooth_thickness (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  const CeldPen       *pen = &pens->pen[loop->first];
+  const CeldEdgePen       *pen = &pens->pen[loop->first];
   uint32_t             front = celd_pen_front (pens, &pen[i]);
-  float                found[2 * SAMPLES + 1];
-  size_t               stride = 1 + (size_t) (pens->usual[front - 1] / SAMPLES), n = 0;
-  size_t               at = (i + loop->n - SAMPLES * stride % loop->n) % loop->n;
+  float                found[2 * MEDIAN_RADIUS + 1];
+  size_t               stride = 1 + (size_t) (pens->typical_width[front - 1] / MEDIAN_RADIUS), n = 0;
+  size_t               at = (i + loop->n - MEDIAN_RADIUS * stride % loop->n) % loop->n;
 
-  for (int k = -SAMPLES; k <= SAMPLES; k++, at = (at + stride) % loop->n)
-    if (!point[at].askew && celd_pen_front (pens, &pen[at]) == front)
+  for (int k = -MEDIAN_RADIUS; k <= MEDIAN_RADIUS; k++, at = (at + stride) % loop->n)
+    if (!point[at].skewed && celd_pen_front (pens, &pen[at]) == front)
       {
-        size_t place = n++;
+        size_t slot = n++;
 
-        for (; place > 0 && found[place - 1] > point[at].through; place--)
-          found[place] = found[place - 1];
-        found[place] = point[at].through;
+        for (; slot > 0 && found[slot - 1] > point[at].thickness; slot--)
+          found[slot] = found[slot - 1];
+        found[slot] = point[at].thickness;
       }
   return n ? found[n / 2] : INFINITY;
 }
@@ -132,32 +132,32 @@ smooth_thickness (const CeldPens *pens, const CeldEdgeLoop *loop, size_t i)
 /* Of a line inside a region, or between regions of one level, each side has half; but the normal must not go along
  * another line. */
 static float
-shared_width (const CeldPens *pens, const CeldEdgePoint *p, const CeldPen *pen)
+shared_width (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
 {
-  float usual = pens->usual[pen->near - 1];
+  float typical = pens->typical_width[pen->near - 1];
 
-  return pen->far && !(usual > 0 && p->through > ALONG * usual) ? p->through / 2 : usual;
+  return pen->far && !(typical > 0 && p->thickness > MAX_LINE_THICKNESS * typical) ? p->thickness / 2 : typical;
 }
 
 /* No steeper than a pen, from place a to b. */
 static void
-limit_slope (const CeldPens *pens, float step, size_t a, size_t b, CeldPen *pen)
+limit_slope (const CeldContourPens *pens, float step, size_t a, size_t b, CeldEdgePen *pen)
 {
   uint32_t front = celd_pen_front (pens, &pen[a]);
 
   if (front && front == celd_pen_front (pens, &pen[b]))
     {
-      float most = pen[a].width + SLOPE * step;
+      float most = pen[a].width + MAX_SLOPE * step;
 
       pen[b].width = most < pen[b].width ? most : pen[b].width;
     }
 }
 
 void
-celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens)
+celd_pen_widths_smooth (const CeldEdgeLoop *loop, CeldContourPens *pens)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldPen             *pen = &pens->pen[loop->first];
+  CeldEdgePen             *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
   for (size_t i = 0; i < n; i++)
@@ -165,7 +165,7 @@ celd_pens_follow (const CeldEdgeLoop *loop, CeldPens *pens)
       uint32_t front = celd_pen_front (pens, &pen[i]);
 
       if (front)
-        pen[i].width = fminf (smooth_thickness (pens, loop, i), pens->most[front - 1]);
+        pen[i].width = fminf (smooth_thickness (pens, loop, i), pens->max_width[front - 1]);
       else
         pen[i].width = pen[i].near ? shared_width (pens, &point[i], &pen[i]) : 0;
     }

@@ -15,9 +15,9 @@
 
 #include <math.h>
 
-#define COUPLING   2.f /* of a pixel with its outline: 1 / distance */
-#define LEAST_NZ   0.1f /* of the sum of two */
-#define ROUGH      1e-5 /* of the largest f: heights are roots, and small parts count as much as large ones */
+#define OUTLINE_WEIGHT   2.f /* of a pixel with its outline: 1 / distance */
+#define MIN_NZ   0.1f /* of the sum of two */
+#define INFLATION_TOLERANCE      1e-5 /* of the largest f: heights are roots, and small parts count as much as large ones */
 
 /* A system on its way. */
 typedef struct
@@ -25,20 +25,20 @@ typedef struct
   const CeldSurface *surface;
   const CeldVectors *normals;   /* NULL: inflation */
   float             *diagonal, *b;
-} Round;
+} Inflation;
 
 /* Slope between two points with these normals, to the right or down.  On a circle, the line through two of its points
  * is at right angles to the sum of their normals. */
 static float
 slope_of (const float *p, const float *q, bool right)
 {
-  float nz = fmaxf (p[2] + q[2], LEAST_NZ);
+  float nz = fmaxf (p[2] + q[2], MIN_NZ);
 
   return right ? -(p[0] + q[0]) / nz : (p[1] + q[1]) / nz;
 }
 
 static const float *
-normal_at (const Round *r, size_t i)
+normal_at (const Inflation *r, size_t i)
 {
   size_t w = (size_t) r->normals->width;
 
@@ -49,11 +49,11 @@ normal_at (const Round *r, size_t i)
 static void
 hold_outline (void *data, size_t near, size_t far, bool right)
 {
-  Round *r = data;
+  Inflation *r = data;
 
   if (r->surface->flat[near])
     return;
-  r->diagonal[near] += COUPLING;
+  r->diagonal[near] += OUTLINE_WEIGHT;
   if (r->normals)
     {
       const float *n = normal_at (r, near);
@@ -61,13 +61,13 @@ hold_outline (void *data, size_t near, size_t far, bool right)
 
       for (int k = 0; k < 2 && flat > 0; k++)
         end[k] = n[k] / flat;
-      r->b[near] += COUPLING * 0.5f * slope_of (n, end, right) * (near < far ? -1.f : 1.f);
+      r->b[near] += OUTLINE_WEIGHT * 0.5f * slope_of (n, end, right) * (near < far ? -1.f : 1.f);
     }
 }
 
 /* What the neighbours p and q should differ by goes to both equations. */
 static void
-want_rise (Round *r, size_t p, size_t q, bool right)
+add_slope (Inflation *r, size_t p, size_t q, bool right)
 {
   float rise = slope_of (normal_at (r, p), normal_at (r, q), right);
 
@@ -76,7 +76,7 @@ want_rise (Round *r, size_t p, size_t q, bool right)
 }
 
 static void
-want_slopes (Round *r)
+add_slopes (Inflation *r)
 {
   const CeldSurface *s = r->surface;
   size_t             w = (size_t) s->width, n = w * (size_t) s->height;
@@ -84,15 +84,15 @@ want_slopes (Round *r)
   for (size_t p = 0; p < n; p++)
     {
       if (s->east[p] > 0)
-        want_rise (r, p, p + 1, true);
+        add_slope (r, p, p + 1, true);
       if (s->south[p] > 0)
-        want_rise (r, p, p + w, false);
+        add_slope (r, p, p + w, false);
     }
 }
 
 /* Solves for the height, or f. */
 static CeldStatus
-solve (Round *r, double tolerance, const CeldHost *host, float *x)
+solve (Inflation *r, double tolerance, const CeldHost *host, float *x)
 {
   const CeldSurface *s = r->surface;
   size_t             n = (size_t) s->width * (size_t) s->height;
@@ -108,7 +108,7 @@ solve (Round *r, double tolerance, const CeldHost *host, float *x)
     goto done;
   celd_surface_cuts (s, hold_outline, r);
   if (r->normals)
-    want_slopes (r);
+    add_slopes (r);
   for (size_t p = 0; p < n; p++)
     {
       if (!r->normals)
@@ -127,11 +127,11 @@ done:
 }
 
 CeldStatus
-celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height)
+celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height)
 {
-  Round      r = { .surface = surface };
+  Inflation      r = { .surface = surface };
   size_t     n = (size_t) surface->width * (size_t) surface->height;
-  CeldStatus status = solve (&r, fmin (tolerance, ROUGH), host, height);
+  CeldStatus status = solve (&r, fmin (tolerance, INFLATION_TOLERANCE), host, height);
 
   for (size_t p = 0; p < n; p++)
     height[p] = sqrtf (fmaxf (height[p], 0));
@@ -139,10 +139,10 @@ celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldHost
 }
 
 CeldStatus
-celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldHost *host,
+celd_relief_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldHost *host,
                       float *height)
 {
-  Round r = { .surface = surface, .normals = normals };
+  Inflation r = { .surface = surface, .normals = normals };
 
   return solve (&r, tolerance, host, height);
 }

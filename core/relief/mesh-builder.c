@@ -10,12 +10,12 @@
 
 #include <math.h>
 
-#define MOST_POINTS 6 /* of a chain: all of a corner, and the bottom */
+#define MAX_CHAIN 6 /* of a chain: all of a corner, and the bottom */
 
 /* ------------------------------------------------------------------ vertices and triangles */
 
 uint32_t
-celd_mesh_vertex (CeldMaking *m, double x, double y, double z)
+celd_mesh_add_vertex (CeldMeshBuilder *m, double x, double y, double z)
 {
   double w = m->relief->width, h = m->relief->height;
   float *place = m->mesh.place + 3 * m->mesh.vertices, *art = m->mesh.art + 2 * m->mesh.vertices;
@@ -29,7 +29,7 @@ celd_mesh_vertex (CeldMaking *m, double x, double y, double z)
 }
 
 CeldStatus
-celd_mesh_triangle (CeldMaking *m, uint32_t a, uint32_t b, uint32_t c)
+celd_mesh_add_triangle (CeldMeshBuilder *m, uint32_t a, uint32_t b, uint32_t c)
 {
   uint32_t *corner = celd_grow (m->mesh.corner, m->mesh.triangles + 1, 3 * sizeof *corner);
 
@@ -50,7 +50,7 @@ celd_mesh_triangle (CeldMaking *m, uint32_t a, uint32_t b, uint32_t c)
 typedef struct { int inside, end_inside, outside, end_outside; } Edge;
 
 /* Vertices from the upper end of a wall to its lower end, or the other way. */
-typedef struct { uint32_t vertex[MOST_POINTS]; float z[MOST_POINTS]; int n; } Chain;
+typedef struct { uint32_t vertex[MAX_CHAIN]; float z[MAX_CHAIN]; int n; } Chain;
 
 static const Edge edges[4] = {
   { CELD_SOUTH_EAST, CELD_NORTH_EAST, CELD_SOUTH_WEST, CELD_NORTH_WEST }, /* down */
@@ -71,7 +71,7 @@ direction_of (int x, int y, int end_x, int end_y)
 
 /* Is the edge at the frame, with the picture to its left? */
 static bool
-is_frame (const CeldCorners *c, int x, int y, int direction)
+is_frame (const CeldMeshPoints *c, int x, int y, int direction)
 {
   switch (direction)
     {
@@ -96,7 +96,7 @@ is_cut (const CeldRelief *r, int x, int y, int direction)
 /* ------------------------------------------------------------------ chains */
 
 static void
-add_link (Chain *chain, uint32_t vertex, float z)
+add_to_chain (Chain *chain, uint32_t vertex, float z)
 {
   chain->vertex[chain->n] = vertex;
   chain->z[chain->n++]    = z;
@@ -105,15 +105,15 @@ add_link (Chain *chain, uint32_t vertex, float z)
 /* The point of the surface at the corner (x,y) with all other points of it below or above it, up to `end_z`, in the
  * order of their way there. */
 static void
-begin_chain (const CeldMaking *m, int x, int y, int direction, float end_z, Chain *chain)
+begin_chain (const CeldMeshBuilder *m, int x, int y, int direction, float end_z, Chain *chain)
 {
-  const CeldCorners *c = m->corners;
-  size_t             corner = celd_corner_at (c, x, y);
-  uint32_t           point = celd_corner_point (c, x, y, direction);
+  const CeldMeshPoints *c = m->points;
+  size_t             corner = celd_mesh_corner_at (c, x, y);
+  uint32_t           point = celd_mesh_point_at (c, x, y, direction);
   bool               falling = end_z < c->z[point];
 
   chain->n = 0;
-  add_link (chain, m->vertex[point] - 1, c->z[point]);
+  add_to_chain (chain, m->vertex[point] - 1, c->z[point]);
   for (;;)
     {
       uint32_t next = UINT32_MAX;
@@ -128,37 +128,37 @@ begin_chain (const CeldMaking *m, int x, int y, int direction, float end_z, Chai
         }
       if (next == UINT32_MAX)
         return;
-      add_link (chain, m->vertex[next] - 1, c->z[next]);
+      add_to_chain (chain, m->vertex[next] - 1, c->z[next]);
     }
 }
 
 /* From the surface to the surface on the other side of a cut. */
 static void
-find_chain (const CeldMaking *m, int x, int y, int inside, int outside, Chain *chain)
+find_chain (const CeldMeshBuilder *m, int x, int y, int inside, int outside, Chain *chain)
 {
-  const CeldCorners *c = m->corners;
-  uint32_t           from = celd_corner_point (c, x, y, inside), to = celd_corner_point (c, x, y, outside);
+  const CeldMeshPoints *c = m->points;
+  uint32_t           from = celd_mesh_point_at (c, x, y, inside), to = celd_mesh_point_at (c, x, y, outside);
 
   begin_chain (m, x, y, inside, c->z[to], chain);
   if (from != to)
-    add_link (chain, m->vertex[to] - 1, c->z[to]);
+    add_to_chain (chain, m->vertex[to] - 1, c->z[to]);
 }
 
 /* From the surface to the bottom. */
 static void
-find_chain_down (CeldMaking *m, int x, int y, int inside, Chain *chain)
+find_chain_down (CeldMeshBuilder *m, int x, int y, int inside, Chain *chain)
 {
-  size_t corner = celd_corner_at (m->corners, x, y);
+  size_t corner = celd_mesh_corner_at (m->points, x, y);
 
   begin_chain (m, x, y, inside, (float) m->bottom, chain);
-  if (!m->under[corner])
-    m->under[corner] = celd_mesh_vertex (m, x, y, m->bottom) + 1;
-  add_link (chain, m->under[corner] - 1, (float) m->bottom);
+  if (!m->bottom_vertex[corner])
+    m->bottom_vertex[corner] = celd_mesh_add_vertex (m, x, y, m->bottom) + 1;
+  add_to_chain (chain, m->bottom_vertex[corner] - 1, (float) m->bottom);
 }
 
 /* The wall between two chains, which both begin at the surface; seen from outside `start` is on the right. */
 static CeldStatus
-fill_wall (CeldMaking *m, const Chain *start, const Chain *end)
+fill_wall (CeldMeshBuilder *m, const Chain *start, const Chain *end)
 {
   int        i = 0, j = 0;
   CeldStatus status = CELD_OK;
@@ -166,31 +166,31 @@ fill_wall (CeldMaking *m, const Chain *start, const Chain *end)
   while ((i + 1 < start->n || j + 1 < end->n) && status == CELD_OK)
     if (i + 1 < start->n && (j + 1 == end->n || i <= j))
       {
-        status = celd_mesh_triangle (m, end->vertex[j], start->vertex[i], start->vertex[i + 1]);
+        status = celd_mesh_add_triangle (m, end->vertex[j], start->vertex[i], start->vertex[i + 1]);
         i++;
       }
     else
       {
-        status = celd_mesh_triangle (m, end->vertex[j], start->vertex[i], end->vertex[j + 1]);
+        status = celd_mesh_add_triangle (m, end->vertex[j], start->vertex[i], end->vertex[j + 1]);
         j++;
       }
   return status;
 }
 
 CeldStatus
-celd_mesh_wall (CeldMaking *m, int x, int y, int end_x, int end_y)
+celd_mesh_add_wall (CeldMeshBuilder *m, int x, int y, int end_x, int end_y)
 {
   int        direction = direction_of (x, y, end_x, end_y);
   Edge       edge = edges[direction];
   Chain      start, end;
   CeldStatus status;
 
-  if (is_frame (m->corners, x, y, direction))
+  if (is_frame (m->points, x, y, direction))
     {
       find_chain_down (m, x, y, edge.inside, &start);
       find_chain_down (m, end_x, end_y, edge.end_inside, &end);
       status = fill_wall (m, &start, &end);
-      return status ? status : celd_mesh_triangle (m, m->middle, end.vertex[end.n - 1], start.vertex[start.n - 1]);
+      return status ? status : celd_mesh_add_triangle (m, m->bottom_centre, end.vertex[end.n - 1], start.vertex[start.n - 1]);
     }
   if (!is_cut (m->relief, x, y, direction))
     return CELD_OK;

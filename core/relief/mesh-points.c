@@ -15,15 +15,15 @@ typedef struct
   ptrdiff_t pixel[4];
   bool      joined[4];          /* each with the next one, clockwise */
   bool      nearer[4];          /* where they are not: is it in front of the next one? */
-  int       piece[4];           /* of each pixel */
-  int       pieces;
+  int       part[4];           /* of each pixel */
+  int       parts;
   float     z[4];               /* of each piece */
 } Corner;
 
 /* ------------------------------------------------------------------ pieces */
 
 static void
-look_round (const CeldRelief *r, int x, int y, Corner *c)
+read_neighbours (const CeldRelief *r, int x, int y, Corner *c)
 {
   static const int dx[4] = { -1, 0, 0, -1 }, dy[4] = { -1, -1, 0, 0 };
   /* Which of the two pixels has the edge, and which edge that is. */
@@ -51,39 +51,39 @@ look_round (const CeldRelief *r, int x, int y, Corner *c)
 
 /* Numbers what hangs together, clockwise. */
 static void
-find_pieces (Corner *c)
+find_parts (Corner *c)
 {
   int place[4] = { -1, -1, -1, -1 };
 
   for (int k = 0; k < 4; k++)
-    c->piece[k] = k;
+    c->part[k] = k;
   for (int k = 0; k < 4; k++)
     if (c->joined[k])
-      for (int i = 0, from = c->piece[(k + 1) % 4]; i < 4; i++)
-        if (c->piece[i] == from)
-          c->piece[i] = c->piece[k];
-  c->pieces = 0;
+      for (int i = 0, from = c->part[(k + 1) % 4]; i < 4; i++)
+        if (c->part[i] == from)
+          c->part[i] = c->part[k];
+  c->parts = 0;
   for (int k = 0; k < 4; k++)
     if (c->pixel[k] >= 0)
       {
-        if (place[c->piece[k]] < 0)
-          place[c->piece[k]] = c->pieces++;
-        c->piece[k] = place[c->piece[k]];
+        if (place[c->part[k]] < 0)
+          place[c->part[k]] = c->parts++;
+        c->part[k] = place[c->part[k]];
       }
     else
-      c->piece[k] = 0;
+      c->part[k] = 0;
 }
 
 /* Is the piece in front of another one here? */
 static bool
-ends_here (const Corner *c, int piece)
+ends_here (const Corner *c, int part)
 {
   for (int k = 0; k < 4; k++)
     {
       int next = (k + 1) % 4;
 
-      if (c->pixel[k] >= 0 && c->pixel[next] >= 0 && c->piece[k] != c->piece[next] &&
-          c->piece[c->nearer[k] ? k : next] == piece)
+      if (c->pixel[k] >= 0 && c->pixel[next] >= 0 && c->part[k] != c->part[next] &&
+          c->part[c->nearer[k] ? k : next] == part)
         return true;
     }
   return false;
@@ -92,19 +92,19 @@ ends_here (const Corner *c, int piece)
 static void
 find_heights (const CeldRelief *r, Corner *c)
 {
-  for (int piece = 0; piece < c->pieces; piece++)
+  for (int part = 0; part < c->parts; part++)
     {
-      const float *z = ends_here (c, piece) ? r->outline : r->z;
+      const float *z = ends_here (c, part) ? r->outline : r->z;
       double       sum = 0;
       int          n = 0;
 
       for (int k = 0; k < 4; k++)
-        if (c->pixel[k] >= 0 && c->piece[k] == piece)
+        if (c->pixel[k] >= 0 && c->part[k] == part)
           {
             sum += (double) z[c->pixel[k]];
             n++;
           }
-      c->z[piece] = (float) (sum / n);
+      c->z[part] = (float) (sum / n);
     }
 }
 
@@ -124,11 +124,11 @@ lift (float *z, int a)
 
 /* Pieces of the same height become one. */
 static void
-merge_pieces (Corner *c)
+merge_parts (Corner *c)
 {
   int place[4], n = 0;
 
-  for (int i = 0; i < c->pieces; i++)
+  for (int i = 0; i < c->parts; i++)
     {
       int same = 0;
 
@@ -139,8 +139,8 @@ merge_pieces (Corner *c)
       n += same == n;
     }
   for (int k = 0; k < 4; k++)
-    c->piece[k] = place[c->piece[k]];
-  c->pieces = n;
+    c->part[k] = place[c->part[k]];
+  c->parts = n;
 }
 
 /* ------------------------------------------------------------------ */
@@ -155,38 +155,38 @@ is_cracked (const Corner *c)
 }
 
 static CeldStatus
-add_corner (CeldCorners *corners, size_t place, const Corner *c)
+add_corner (CeldMeshPoints *points, size_t place, const Corner *c)
 {
-  uint8_t piece = 0;
+  uint8_t part = 0;
   float  *z;
 
-  corners->first[place]   = (uint32_t) corners->n;
-  corners->cracked[place] = is_cracked (c);
+  points->first[place]   = (uint32_t) points->n;
+  points->cracked[place] = is_cracked (c);
   for (int k = 0; k < 4; k++)
-    piece = (uint8_t) (piece | c->piece[k] << 2 * k);
-  corners->piece[place] = piece;
-  for (int i = 0; i < c->pieces; i++)
+    part = (uint8_t) (part | c->part[k] << 2 * k);
+  points->part[place] = part;
+  for (int i = 0; i < c->parts; i++)
     {
-      z = celd_grow (corners->z, corners->n + 1, sizeof *z);
+      z = celd_grow (points->z, points->n + 1, sizeof *z);
       if (!z)
         return CELD_NO_MEMORY;
-      z[corners->n++] = c->z[i];
-      corners->z      = z;
+      z[points->n++] = c->z[i];
+      points->z      = z;
     }
   return CELD_OK;
 }
 
 CeldStatus
-celd_corners_new (const CeldRelief *r, const CeldHost *host, CeldCorners *corners)
+celd_mesh_points_new (const CeldRelief *r, const CeldHost *host, CeldMeshPoints *points)
 {
   size_t     n = ((size_t) r->width + 1) * ((size_t) r->height + 1), place = 0;
   CeldStatus status = CELD_OK;
 
-  *corners         = (CeldCorners) { .width = r->width, .height = r->height };
-  corners->first   = celd_alloc (n + 1, sizeof *corners->first);
-  corners->piece   = celd_alloc (n, 1);
-  corners->cracked = celd_alloc (n, 1);
-  if (!corners->first || !corners->piece || !corners->cracked)
+  *points         = (CeldMeshPoints) { .width = r->width, .height = r->height };
+  points->first   = celd_alloc (n + 1, sizeof *points->first);
+  points->part   = celd_alloc (n, 1);
+  points->cracked = celd_alloc (n, 1);
+  if (!points->first || !points->part || !points->cracked)
     return CELD_NO_MEMORY;
   for (int y = 0; y <= r->height && status == CELD_OK; y++)
     {
@@ -196,28 +196,28 @@ celd_corners_new (const CeldRelief *r, const CeldHost *host, CeldCorners *corner
         {
           Corner c;
 
-          look_round (r, x, y, &c);
-          find_pieces (&c);
+          read_neighbours (r, x, y, &c);
+          find_parts (&c);
           find_heights (r, &c);
-          if (c.pieces == 4)
+          if (c.parts == 4)
             {
               lift (c.z, 0);
               lift (c.z, 1);
             }
-          merge_pieces (&c);
-          status = add_corner (corners, place, &c);
+          merge_parts (&c);
+          status = add_corner (points, place, &c);
         }
     }
-  corners->first[n] = (uint32_t) corners->n;
+  points->first[n] = (uint32_t) points->n;
   return status;
 }
 
 void
-celd_corners_clear (CeldCorners *corners)
+celd_mesh_points_clear (CeldMeshPoints *points)
 {
-  celd_free (corners->first);
-  celd_free (corners->piece);
-  celd_free (corners->cracked);
-  celd_free (corners->z);
-  *corners = (CeldCorners) { .width = 0 };
+  celd_free (points->first);
+  celd_free (points->part);
+  celd_free (points->cracked);
+  celd_free (points->z);
+  *points = (CeldMeshPoints) { .width = 0 };
 }

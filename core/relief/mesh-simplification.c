@@ -9,16 +9,16 @@
 
 #include <math.h>
 
-typedef struct { const CeldCorners *corners; const CeldRelief *relief; double error; } Surface;
+typedef struct { const CeldMeshPoints *points; const CeldRelief *relief; double error; } Surface;
 
 /* Height of the surface at the corner (x,y), which may lie at the border of the square that ends at end_x, end_y. */
 static double
-height_at (const CeldCorners *c, int x, int y, int end_x, int end_y)
+height_at (const CeldMeshPoints *c, int x, int y, int end_x, int end_y)
 {
   int direction = x < end_x ? (y < end_y ? CELD_SOUTH_EAST : CELD_NORTH_EAST)
                             : (y < end_y ? CELD_SOUTH_WEST : CELD_NORTH_WEST);
 
-  return (double) c->z[celd_corner_point (c, x, y, direction)];
+  return (double) c->z[celd_mesh_point_at (c, x, y, direction)];
 }
 
 /* Does the surface go on across the lines that part the square into four? */
@@ -39,10 +39,10 @@ static bool
 is_flat (const Surface *s, int x, int y, int side)
 {
   int    end_x = x + side, end_y = y + side;
-  double half = 0.5 * side, middle = height_at (s->corners, x + side / 2, y + side / 2, end_x, end_y);
-  double z[2][2] = { { height_at (s->corners, x, y, end_x, end_y), height_at (s->corners, end_x, y, end_x, end_y) },
-                     { height_at (s->corners, x, end_y, end_x, end_y),
-                       height_at (s->corners, end_x, end_y, end_x, end_y) } };
+  double half = 0.5 * side, middle = height_at (s->points, x + side / 2, y + side / 2, end_x, end_y);
+  double z[2][2] = { { height_at (s->points, x, y, end_x, end_y), height_at (s->points, end_x, y, end_x, end_y) },
+                     { height_at (s->points, x, end_y, end_x, end_y),
+                       height_at (s->points, end_x, end_y, end_x, end_y) } };
 
   for (int j = 0; j <= side; j++)
     for (int i = 0; i <= side; i++)
@@ -55,21 +55,21 @@ is_flat (const Surface *s, int x, int y, int side)
           a = z[0][u > 0], b = z[1][u > 0], along = v;
         along = out > 0 ? 0.5 + 0.5 * along / (out * half) : 0;
         if (fabs ((1 - out) * middle + out * (a + along * (b - a))
-                  - height_at (s->corners, x + i, y + j, end_x, end_y)) > s->error)
+                  - height_at (s->points, x + i, y + j, end_x, end_y)) > s->error)
           return false;
       }
   return true;
 }
 
 static bool
-is_whole (const CeldBlocks *b, int k, int x, int y)
+is_whole (const CeldQuadtree *b, int k, int x, int y)
 {
   return k == 0 || b->whole[k][(size_t) y * (size_t) (b->width >> k) + (size_t) x];
 }
 
 /* All squares of 2^k pixels. */
 static CeldStatus
-join_squares (const Surface *s, int k, const CeldHost *host, CeldBlocks *b)
+join_squares (const Surface *s, int k, const CeldHost *host, CeldQuadtree *b)
 {
   int w = b->width >> k, h = b->height >> k;
 
@@ -78,7 +78,7 @@ join_squares (const Surface *s, int k, const CeldHost *host, CeldBlocks *b)
     return CELD_NO_MEMORY;
   for (int y = 0; y < h; y++)
     {
-      if (celd_progress (host, (k - 1 + (double) y / h) / CELD_BLOCK_SIZES) != CELD_OK)
+      if (celd_progress (host, (k - 1 + (double) y / h) / CELD_QUADTREE_SIZES) != CELD_OK)
         return CELD_CANCELLED;
       for (int x = 0; x < w; x++)
         b->whole[k][(size_t) y * (size_t) w + (size_t) x] =
@@ -90,33 +90,33 @@ join_squares (const Surface *s, int k, const CeldHost *host, CeldBlocks *b)
 }
 
 CeldStatus
-celd_blocks_new (const CeldCorners *corners, const CeldRelief *relief, double error, const CeldHost *host,
-                 CeldBlocks *blocks)
+celd_quadtree_new (const CeldMeshPoints *points, const CeldRelief *relief, double error, const CeldHost *host,
+                 CeldQuadtree *quadtree)
 {
-  Surface    s = { corners, relief, error };
+  Surface    s = { points, relief, error };
   CeldStatus status = CELD_OK;
 
-  *blocks = (CeldBlocks) { .width = relief->width, .height = relief->height };
-  for (int k = 1; k < CELD_BLOCK_SIZES && status == CELD_OK; k++)
-    status = join_squares (&s, k, host, blocks);
+  *quadtree = (CeldQuadtree) { .width = relief->width, .height = relief->height };
+  for (int k = 1; k < CELD_QUADTREE_SIZES && status == CELD_OK; k++)
+    status = join_squares (&s, k, host, quadtree);
   return status;
 }
 
 bool
-celd_block_drawn (const CeldBlocks *b, int k, int x, int y)
+celd_quadtree_is_leaf (const CeldQuadtree *b, int k, int x, int y)
 {
   if (!is_whole (b, k, x, y))
     return false;
   k++;
   x /= 2;
   y /= 2;
-  return k == CELD_BLOCK_SIZES || x >= b->width >> k || y >= b->height >> k || !is_whole (b, k, x, y);
+  return k == CELD_QUADTREE_SIZES || x >= b->width >> k || y >= b->height >> k || !is_whole (b, k, x, y);
 }
 
 void
-celd_blocks_clear (CeldBlocks *blocks)
+celd_quadtree_clear (CeldQuadtree *quadtree)
 {
-  for (int k = 1; k < CELD_BLOCK_SIZES; k++)
-    celd_free (blocks->whole[k]);
-  *blocks = (CeldBlocks) { .width = 0 };
+  for (int k = 1; k < CELD_QUADTREE_SIZES; k++)
+    celd_free (quadtree->whole[k]);
+  *quadtree = (CeldQuadtree) { .width = 0 };
 }

@@ -10,20 +10,20 @@
 
 #include <math.h>
 
-#define COARSER 1.5 /* factor of the error while there are too many vertices */
-#define COARSEST 1e4 /* times the error asked for */
+#define ERROR_GROWTH 1.5 /* factor of the error while there are too many vertices */
+#define MAX_ERROR_RATIO 1e4 /* times the error asked for */
 
 /* ------------------------------------------------------------------ vertices */
 
 static void
-use_point (CeldMaking *m, int x, int y, int direction)
+use_point (CeldMeshBuilder *m, int x, int y, int direction)
 {
-  m->vertex[celd_corner_point (m->corners, x, y, direction)] = 1;
+  m->vertex[celd_mesh_point_at (m->points, x, y, direction)] = 1;
 }
 
 /* The corners of a square, and its middle. */
 static void
-use_square (CeldMaking *m, int x, int y, int side)
+use_square (CeldMeshBuilder *m, int x, int y, int side)
 {
   use_point (m, x, y, CELD_SOUTH_EAST);
   use_point (m, x + side, y, CELD_SOUTH_WEST);
@@ -35,25 +35,25 @@ use_square (CeldMaking *m, int x, int y, int side)
 
 /* Does `body` for each square that is drawn. */
 static CeldStatus
-for_squares (CeldMaking *m, const CeldHost *host, CeldStatus (*body) (CeldMaking *m, int x, int y, int side))
+for_squares (CeldMeshBuilder *m, const CeldHost *host, CeldStatus (*body) (CeldMeshBuilder *m, int x, int y, int side))
 {
   int        w = m->relief->width, h = m->relief->height;
   CeldStatus status = CELD_OK;
 
-  for (int k = 0; k < CELD_BLOCK_SIZES; k++)
+  for (int k = 0; k < CELD_QUADTREE_SIZES; k++)
     for (int y = 0; y < h >> k && status == CELD_OK; y++)
       {
         if (y % 32 == 0)
-          status = celd_progress (host, (k + (double) y / h) / CELD_BLOCK_SIZES);
+          status = celd_progress (host, (k + (double) y / h) / CELD_QUADTREE_SIZES);
         for (int x = 0; x < w >> k && status == CELD_OK; x++)
-          if (celd_block_drawn (m->blocks, k, x, y))
+          if (celd_quadtree_is_leaf (m->quadtree, k, x, y))
             status = body (m, x << k, y << k, 1 << k);
       }
   return status;
 }
 
 static CeldStatus
-mark_square (CeldMaking *m, int x, int y, int side)
+mark_square (CeldMeshBuilder *m, int x, int y, int side)
 {
   use_square (m, x, y, side);
   return CELD_OK;
@@ -61,15 +61,15 @@ mark_square (CeldMaking *m, int x, int y, int side)
 
 /* Marks the points that are used, and counts them. */
 static CeldStatus
-mark_points (CeldMaking *m, const CeldHost *host, size_t *n)
+mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
 {
-  const CeldCorners *c = m->corners;
-  size_t             corners = ((size_t) c->width + 1) * ((size_t) c->height + 1);
+  const CeldMeshPoints *c = m->points;
+  size_t             points = ((size_t) c->width + 1) * ((size_t) c->height + 1);
   CeldStatus         status;
 
   memset (m->vertex, 0, c->n * sizeof *m->vertex);
   status = for_squares (m, host, mark_square);
-  for (size_t i = 0; i < corners; i++)
+  for (size_t i = 0; i < points; i++)
     for (uint32_t p = c->first[i]; p < c->first[i + 1] && c->cracked[i]; p++)
       m->vertex[p] = 1;
   *n = 0;
@@ -80,18 +80,18 @@ mark_points (CeldMaking *m, const CeldHost *host, size_t *n)
 
 /* A vertex for each point that is used. */
 static void
-make_vertices (CeldMaking *m)
+make_vertices (CeldMeshBuilder *m)
 {
-  const CeldCorners *c = m->corners;
+  const CeldMeshPoints *c = m->points;
 
   for (int y = 0; y <= c->height; y++)
     for (int x = 0; x <= c->width; x++)
       {
-        size_t corner = celd_corner_at (c, x, y);
+        size_t corner = celd_mesh_corner_at (c, x, y);
 
         for (uint32_t p = c->first[corner]; p < c->first[corner + 1]; p++)
           if (m->vertex[p])
-            m->vertex[p] = celd_mesh_vertex (m, x, y, (double) c->z[p]) + 1;
+            m->vertex[p] = celd_mesh_add_vertex (m, x, y, (double) c->z[p]) + 1;
       }
 }
 
@@ -99,28 +99,28 @@ make_vertices (CeldMaking *m)
 
 /* A pixel, parted along the diagonal that falls less. */
 static CeldStatus
-fill_pixel (CeldMaking *m, int x, int y)
+fill_pixel (CeldMeshBuilder *m, int x, int y)
 {
-  const CeldCorners *c = m->corners;
-  uint32_t           point[4] = { celd_corner_point (c, x, y, CELD_SOUTH_EAST),
-                                  celd_corner_point (c, x, y + 1, CELD_NORTH_EAST),
-                                  celd_corner_point (c, x + 1, y + 1, CELD_NORTH_WEST),
-                                  celd_corner_point (c, x + 1, y, CELD_SOUTH_WEST) };
+  const CeldMeshPoints *c = m->points;
+  uint32_t           point[4] = { celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST),
+                                  celd_mesh_point_at (c, x, y + 1, CELD_NORTH_EAST),
+                                  celd_mesh_point_at (c, x + 1, y + 1, CELD_NORTH_WEST),
+                                  celd_mesh_point_at (c, x + 1, y, CELD_SOUTH_WEST) };
   uint32_t           v[4];
   bool               falls = fabsf (c->z[point[0]] - c->z[point[2]]) <= fabsf (c->z[point[1]] - c->z[point[3]]);
   CeldStatus         status;
 
   for (int k = 0; k < 4; k++)
     v[k] = m->vertex[point[k]] - 1;
-  status = falls ? celd_mesh_triangle (m, v[0], v[1], v[2]) : celd_mesh_triangle (m, v[0], v[1], v[3]);
+  status = falls ? celd_mesh_add_triangle (m, v[0], v[1], v[2]) : celd_mesh_add_triangle (m, v[0], v[1], v[3]);
   if (status == CELD_OK)
-    status = falls ? celd_mesh_triangle (m, v[0], v[2], v[3]) : celd_mesh_triangle (m, v[1], v[2], v[3]);
+    status = falls ? celd_mesh_add_triangle (m, v[0], v[2], v[3]) : celd_mesh_add_triangle (m, v[1], v[2], v[3]);
   return status;
 }
 
 /* The border of a square from its corner (x,y) on, counter-clockwise; `step` counts its corners of pixels. */
 static void
-walk (int x, int y, int side, int step, int *to_x, int *to_y, int *direction)
+walk_outline (int x, int y, int side, int step, int *to_x, int *to_y, int *direction)
 {
   static const int inside[4] = { CELD_SOUTH_EAST, CELD_NORTH_EAST, CELD_NORTH_WEST, CELD_SOUTH_WEST };
   int              leg = step / side % 4, along = step % side;
@@ -132,28 +132,28 @@ walk (int x, int y, int side, int step, int *to_x, int *to_y, int *direction)
 
 /* A square as a fan round its middle, or a pixel, with its walls. */
 static CeldStatus
-fill_square (CeldMaking *m, int x, int y, int side)
+fill_square (CeldMeshBuilder *m, int x, int y, int side)
 {
-  const CeldCorners *c = m->corners;
-  uint32_t           first = m->vertex[celd_corner_point (c, x, y, CELD_SOUTH_EAST)], last = first, middle = 0;
+  const CeldMeshPoints *c = m->points;
+  uint32_t           first = m->vertex[celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST)], last = first, middle = 0;
   int                last_x = x, last_y = y;
   CeldStatus         status = side > 1 ? CELD_OK : fill_pixel (m, x, y);
 
   if (side > 1)
-    middle = m->vertex[celd_corner_point (c, x + side / 2, y + side / 2, CELD_SOUTH_EAST)];
+    middle = m->vertex[celd_mesh_point_at (c, x + side / 2, y + side / 2, CELD_SOUTH_EAST)];
   for (int step = 1; step <= 4 * side && status == CELD_OK; step++)
     {
       int      to_x, to_y, direction;
       uint32_t next;
 
-      walk (x, y, side, step, &to_x, &to_y, &direction);
-      next = m->vertex[celd_corner_point (c, to_x, to_y, direction)];
+      walk_outline (x, y, side, step, &to_x, &to_y, &direction);
+      next = m->vertex[celd_mesh_point_at (c, to_x, to_y, direction)];
       if (!next)
         continue;
       if (side > 1)
-        status = celd_mesh_triangle (m, middle - 1, last - 1, next - 1);
+        status = celd_mesh_add_triangle (m, middle - 1, last - 1, next - 1);
       if (status == CELD_OK && m->solid)
-        status = celd_mesh_wall (m, last_x, last_y, to_x, to_y);
+        status = celd_mesh_add_wall (m, last_x, last_y, to_x, to_y);
       last   = next;
       last_x = to_x;
       last_y = to_y;
@@ -165,7 +165,7 @@ fill_square (CeldMaking *m, int x, int y, int side)
 
 /* Squares of the least error with which there are not too many vertices. */
 static CeldStatus
-choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, CeldBlocks *blocks, size_t *n)
+choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree, size_t *n)
 {
   double     error = (double) settings->mesh_error;
   CeldHostPart   part[2];
@@ -174,15 +174,15 @@ choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldHost *hos
 
   for (;;)
     {
-      status = celd_blocks_new (m->corners, m->relief, error / 2, blocks->width ? &others : &first, blocks);
+      status = celd_quadtree_new (m->points, m->relief, error / 2, quadtree->width ? &others : &first, quadtree);
       if (status == CELD_OK)
         status = mark_points (m, &others, n);
       if (status != CELD_OK || (double) *n <= (double) settings->most_vertices)
         break;
-      if (error > COARSEST * (double) settings->mesh_error)
+      if (error > MAX_ERROR_RATIO * (double) settings->mesh_error)
         return CELD_BAD_VALUE;
-      error *= COARSER;
-      celd_blocks_clear (blocks);
+      error *= ERROR_GROWTH;
+      celd_quadtree_clear (quadtree);
     }
   m->mesh.error = error;
   return status;
@@ -190,13 +190,13 @@ choose_squares (CeldMaking *m, const CeldSettings *settings, const CeldHost *hos
 
 /* Room for all vertices, those of the bottom too. */
 static CeldStatus
-mesh_new (CeldMaking *m, size_t n)
+mesh_new (CeldMeshBuilder *m, size_t n)
 {
   if (m->solid)
     {
       n += 2 * ((size_t) m->relief->width + (size_t) m->relief->height) + 1;
-      m->under = celd_alloc0 (((size_t) m->relief->width + 1) * ((size_t) m->relief->height + 1), sizeof *m->under);
-      if (!m->under)
+      m->bottom_vertex = celd_alloc0 (((size_t) m->relief->width + 1) * ((size_t) m->relief->height + 1), sizeof *m->bottom_vertex);
+      if (!m->bottom_vertex)
         return CELD_NO_MEMORY;
     }
   m->mesh.place  = celd_alloc (n, 3 * sizeof *m->mesh.place);
@@ -207,7 +207,7 @@ mesh_new (CeldMaking *m, size_t n)
 
 /* Below everything by the thickness of the plate. */
 static double
-find_bottom (const CeldCorners *c, double thickness)
+find_bottom (const CeldMeshPoints *c, double thickness)
 {
   double least = 0;
 
@@ -217,12 +217,12 @@ find_bottom (const CeldCorners *c, double thickness)
 }
 
 static CeldStatus
-make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, CeldBlocks *blocks)
+make_mesh (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree)
 {
   size_t     n = 0;
   CeldHostPart   part[2];
   CeldHost   choosing = celd_host_part (&part[0], host, 0, 0.7), filling = celd_host_part (&part[1], host, 0.7, 1);
-  CeldStatus status = choose_squares (m, settings, &choosing, blocks, &n);
+  CeldStatus status = choose_squares (m, settings, &choosing, quadtree, &n);
 
   if (status == CELD_OK)
     status = mesh_new (m, n);
@@ -231,8 +231,8 @@ make_mesh (CeldMaking *m, const CeldSettings *settings, const CeldHost *host, Ce
   make_vertices (m);
   if (m->solid)
     {
-      m->bottom = find_bottom (m->corners, (double) settings->mesh_plate / m->scale);
-      m->middle = celd_mesh_vertex (m, 0.5 * m->relief->width, 0.5 * m->relief->height, m->bottom);
+      m->bottom = find_bottom (m->points, (double) settings->mesh_plate / m->scale);
+      m->bottom_centre = celd_mesh_add_vertex (m, 0.5 * m->relief->width, 0.5 * m->relief->height, m->bottom);
     }
   status = for_squares (m, &filling, fill_square);
   if (status == CELD_OK)
@@ -248,19 +248,19 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
 
-  CeldCorners corners = { .width = 0 };
-  CeldBlocks  blocks = { .width = 0 };
+  CeldMeshPoints points = { .width = 0 };
+  CeldQuadtree  quadtree = { .width = 0 };
   CeldHostPart    part[2];
-  CeldHost    cornering = celd_host_part (&part[0], host, 0, 0.2), making = celd_host_part (&part[1], host, 0.2, 1);
-  CeldMaking  m = { .relief = relief, .corners = &corners, .blocks = &blocks,
+  CeldHost    pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
+  CeldMeshBuilder  m = { .relief = relief, .points = &points, .quadtree = &quadtree,
                         .solid = settings->mesh == CELD_MESH_SOLID };
-  CeldStatus  status = celd_corners_new (relief, &cornering, &corners);
+  CeldStatus  status = celd_mesh_points_new (relief, &pointing, &points);
 
   m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);
   if (status == CELD_OK)
     {
-      m.vertex = celd_alloc (corners.n, sizeof *m.vertex);
-      status   = m.vertex ? make_mesh (&m, settings, &making, &blocks) : CELD_NO_MEMORY;
+      m.vertex = celd_alloc (points.n, sizeof *m.vertex);
+      status   = m.vertex ? make_mesh (&m, settings, &builder, &quadtree) : CELD_NO_MEMORY;
     }
   if (status == CELD_OK)
     {
@@ -269,10 +269,10 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
     }
   else
     celd_relief_mesh_clear (&m.mesh);
-  celd_corners_clear (&corners);
-  celd_blocks_clear (&blocks);
+  celd_mesh_points_clear (&points);
+  celd_quadtree_clear (&quadtree);
   celd_free (m.vertex);
-  celd_free (m.under);
+  celd_free (m.bottom_vertex);
   return status;
 }
 

@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-#define BLOCKS 96 /* along the diagonal */
-#define LEAST  4  /* pixels of a block's side */
+#define TILES_ON_DIAGONAL 96 /* along the diagonal */
+#define MIN_TILE_SIDE  4  /* pixels of a block's side */
 
 static int
 end_of (int from, int side, int size)
@@ -104,9 +104,9 @@ measure_tiles (const CeldSurface *s, CeldReliefTiles *tiles)
 
 /* One more edge between two tiles; it may belong to the pair before. */
 static CeldStatus
-add_edge (CeldTilePair **list, size_t *n, uint32_t a, uint32_t b)
+add_edge (CeldReliefTilePair **list, size_t *n, uint32_t a, uint32_t b)
 {
-  CeldTilePair *pair;
+  CeldReliefTilePair *pair;
 
   if (*n && (*list)[*n - 1].a == a && (*list)[*n - 1].b == b)
     {
@@ -116,7 +116,7 @@ add_edge (CeldTilePair **list, size_t *n, uint32_t a, uint32_t b)
   pair = celd_grow (*list, *n + 1, sizeof *pair);
   if (!pair)
     return CELD_NO_MEMORY;
-  pair[(*n)++] = (CeldTilePair) { .a = a, .b = b, .edges = 1 };
+  pair[(*n)++] = (CeldReliefTilePair) { .a = a, .b = b, .edges = 1 };
   *list        = pair;
   return CELD_OK;
 }
@@ -148,10 +148,10 @@ link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldRelief
 CeldStatus
 celd_relief_tiles_new (const CeldSurface *s, CeldReliefTiles *tiles)
 {
-  double     side = hypot (s->width, s->height) / BLOCKS;
+  double     side = hypot (s->width, s->height) / TILES_ON_DIAGONAL;
   CeldStatus status;
 
-  *tiles      = (CeldReliefTiles) { .side = side > LEAST ? (int) side : LEAST };
+  *tiles      = (CeldReliefTiles) { .side = side > MIN_TILE_SIDE ? (int) side : MIN_TILE_SIDE };
   tiles->tile = celd_alloc ((size_t) s->width * (size_t) s->height, sizeof *tiles->tile);
   if (!tiles->tile)
     return CELD_NO_MEMORY;
@@ -175,16 +175,16 @@ celd_relief_tiles_clear (CeldReliefTiles *tiles)
   *tiles = (CeldReliefTiles) { .side = 0 };
 }
 
-#define STIFF       4.0   /* of a cut for each of its edges; the surface has 1 a pixel */
-#define MOST_STEPS  40
-#define MOST_ROUNDS 60    /* of conjugate gradients, in a step */
-#define INNER       0.05  /* of the residual, to which a step is solved */
-#define DONE        3e-4  /* of the first gradient */
+#define CUT_STIFFNESS       4.0   /* of a cut for each of its edges; the surface has 1 a pixel */
+#define MAX_NEWTON_STEPS  40
+#define MAX_CG_ITERATIONS 60    /* of conjugate gradients, in a step */
+#define CG_TOLERANCE       0.05  /* of the residual, to which a step is solved */
+#define GRADIENT_TOLERANCE        3e-4  /* of the first gradient */
 
 typedef struct
 {
   const CeldReliefTiles    *tiles;
-  const CeldTilePair *cut;
+  const CeldReliefTilePair *cut;
   size_t              cuts;
   double              hold;     /* of a pixel at its place, unless it shall stay flat */
   uint8_t            *active;   /* of each cut */
@@ -192,9 +192,9 @@ typedef struct
 } Shift;
 
 static double
-lack (const Shift *s, const double *u, size_t i)
+violation (const Shift *s, const double *u, size_t i)
 {
-  return (double) s->cut[i].least - (u[s->cut[i].a] - u[s->cut[i].b]);
+  return (double) s->cut[i].minimum - (u[s->cut[i].a] - u[s->cut[i].b]);
 }
 
 /* How strongly a tile is held at its place. */
@@ -216,7 +216,7 @@ dot (const double *a, const double *b, size_t n)
 
 /* to = A v, of links and places; with `with_cuts` also of the active cuts. */
 static void
-apply (const Shift *s, const double *v, bool with_cuts, double *to)
+multiply (const Shift *s, const double *v, bool with_cuts, double *to)
 {
   const CeldReliefTiles *c = s->tiles;
 
@@ -232,7 +232,7 @@ apply (const Shift *s, const double *v, bool with_cuts, double *to)
   for (size_t i = 0; i < s->cuts && with_cuts; i++)
     if (s->active[i])
       {
-        double flow = STIFF * (double) s->cut[i].edges * (v[s->cut[i].a] - v[s->cut[i].b]);
+        double flow = CUT_STIFFNESS * (double) s->cut[i].edges * (v[s->cut[i].a] - v[s->cut[i].b]);
 
         to[s->cut[i].a] += flow;
         to[s->cut[i].b] -= flow;
@@ -241,11 +241,11 @@ apply (const Shift *s, const double *v, bool with_cuts, double *to)
 
 /* The gradient at u, the cuts that are active there, and the diagonal with them. */
 static void
-look (Shift *s)
+evaluate (Shift *s)
 {
   const CeldReliefTiles *c = s->tiles;
 
-  apply (s, s->u, false, s->gradient);
+  multiply (s, s->u, false, s->gradient);
   for (uint32_t k = 0; k < c->n; k++)
     s->diagonal[k] = hold_of (s, k);
   for (size_t i = 0; i < c->links; i++)
@@ -255,13 +255,13 @@ look (Shift *s)
     }
   for (size_t i = 0; i < s->cuts; i++)
     {
-      double lacking = lack (s, s->u, i), stiff = STIFF * (double) s->cut[i].edges;
+      double violated = violation (s, s->u, i), stiff = CUT_STIFFNESS * (double) s->cut[i].edges;
 
-      s->active[i] = lacking > 0;
-      if (lacking <= 0)
+      s->active[i] = violated > 0;
+      if (violated <= 0)
         continue;
-      s->gradient[s->cut[i].a] -= stiff * lacking;
-      s->gradient[s->cut[i].b] += stiff * lacking;
+      s->gradient[s->cut[i].a] -= stiff * violated;
+      s->gradient[s->cut[i].b] += stiff * violated;
       s->diagonal[s->cut[i].a] += stiff;
       s->diagonal[s->cut[i].b] += stiff;
     }
@@ -269,7 +269,7 @@ look (Shift *s)
 
 /* The step that takes the gradient away, about. */
 static void
-find_step (Shift *s)
+newton_step (Shift *s)
 {
   size_t n = s->tiles->n;
   double left = 0, first;
@@ -282,11 +282,11 @@ find_step (Shift *s)
       left      += s->r[k] * s->p[k];
     }
   first = left;
-  for (int round = 0; round < MOST_ROUNDS && left > INNER * INNER * first; round++)
+  for (int round = 0; round < MAX_CG_ITERATIONS && left > CG_TOLERANCE * CG_TOLERANCE * first; round++)
     {
       double alpha, next = 0;
 
-      apply (s, s->p, true, s->q);
+      multiply (s, s->p, true, s->q);
       alpha = left / dot (s->p, s->q, n);
       for (size_t k = 0; k < n; k++)
         {
@@ -302,32 +302,32 @@ find_step (Shift *s)
 
 /* How the sum changes at u + t step along the step; rising in t. */
 static double
-change_at (const Shift *s, double t, double slope, double bend)
+derivative_at (const Shift *s, double t, double slope, double curvature)
 {
-  double sum = slope + t * bend;
+  double sum = slope + t * curvature;
 
   for (size_t i = 0; i < s->cuts; i++)
     {
-      double away = s->step[s->cut[i].a] - s->step[s->cut[i].b], lacking = lack (s, s->u, i) - t * away;
+      double away = s->step[s->cut[i].a] - s->step[s->cut[i].b], violated = violation (s, s->u, i) - t * away;
 
-      if (lacking > 0)
-        sum -= STIFF * (double) s->cut[i].edges * lacking * away;
+      if (violated > 0)
+        sum -= CUT_STIFFNESS * (double) s->cut[i].edges * violated * away;
     }
   return sum;
 }
 
 /* How far to go: where the sum is least. */
 static double
-find_length (Shift *s)
+line_search (Shift *s)
 {
   size_t n = s->tiles->n;
-  double low = 0, high = 1, slope, bend;
+  double low = 0, high = 1, slope, curvature;
 
-  apply (s, s->u, false, s->q);
+  multiply (s, s->u, false, s->q);
   slope = dot (s->q, s->step, n);
-  apply (s, s->step, false, s->q);
-  bend = dot (s->q, s->step, n);
-  while (high < 64 && change_at (s, high, slope, bend) < 0)
+  multiply (s, s->step, false, s->q);
+  curvature = dot (s->q, s->step, n);
+  while (high < 64 && derivative_at (s, high, slope, curvature) < 0)
     {
       low   = high;
       high *= 2;
@@ -336,7 +336,7 @@ find_length (Shift *s)
     {
       double middle = (low + high) / 2;
 
-      if (change_at (s, middle, slope, bend) < 0)
+      if (derivative_at (s, middle, slope, curvature) < 0)
         low = middle;
       else
         high = middle;
@@ -345,24 +345,24 @@ find_length (Shift *s)
 }
 
 static CeldStatus
-descend (Shift *s, const CeldHost *host)
+minimize (Shift *s, const CeldHost *host)
 {
   size_t n = s->tiles->n;
   double first = 0;
 
-  for (int i = 0; i < MOST_STEPS; i++)
+  for (int i = 0; i < MAX_NEWTON_STEPS; i++)
     {
       double size, length;
 
-      if (celd_progress (host, (double) i / MOST_STEPS) != CELD_OK)
+      if (celd_progress (host, (double) i / MAX_NEWTON_STEPS) != CELD_OK)
         return CELD_CANCELLED;
-      look (s);
+      evaluate (s);
       size  = sqrt (dot (s->gradient, s->gradient, n));
       first = i ? first : size;
-      if (size <= DONE * first)
+      if (size <= GRADIENT_TOLERANCE * first)
         break;
-      find_step (s);
-      length = find_length (s);
+      newton_step (s);
+      length = line_search (s);
       if (length <= 0)
         break;
       for (size_t k = 0; k < n; k++)
@@ -372,12 +372,12 @@ descend (Shift *s, const CeldHost *host)
 }
 
 CeldStatus
-celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach, const CeldHost *host,
+celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts, double range, const CeldHost *host,
                   double *shift)
 {
   size_t     n = tiles->n;
   double    *space = celd_alloc0 (n, 6 * sizeof *space);
-  Shift      s = { .tiles = tiles, .cut = cut, .cuts = cuts, .hold = 1 / (reach * reach), .u = shift };
+  Shift      s = { .tiles = tiles, .cut = cut, .cuts = cuts, .hold = 1 / (range * range), .u = shift };
   CeldStatus status = CELD_NO_MEMORY;
 
   s.active = celd_alloc0 (cuts, 1);
@@ -387,7 +387,7 @@ celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t 
   s.p = space + 3 * n, s.q = space + 4 * n, s.diagonal = space + 5 * n;
   for (size_t k = 0; k < n; k++)
     shift[k] = 0;
-  status = descend (&s, host);
+  status = minimize (&s, host);
 
 done:
   celd_free (space);

@@ -16,11 +16,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define REACH  0.5   /* of a shift, as a share of the diagonal */
-#define SPREAD 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
-#define PASSES 3
-#define SLACK  0.25f /* pixels that a nearer side may be behind, after smoothing */
-#define MOST_TURNS 6
+#define SHIFT_RANGE  0.5   /* of a shift, as a share of the diagonal */
+#define SMOOTHING_SIDES 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
+#define SMOOTHING_PASSES 3
+#define ORDER_TOLERANCE  0.25f /* pixels that a nearer side may be behind, after smoothing */
+#define MAX_ITERATIONS 6
 
 typedef struct
 {
@@ -28,10 +28,10 @@ typedef struct
   const float       *z, *depth;
   double             step;
   CeldReliefTiles          tiles;
-  CeldTilePair      *cut;       /* in order of a and b once they are merged */
+  CeldReliefTilePair      *cut;       /* in order of a and b once they are merged */
   size_t             cuts;
   const float       *shift;
-  bool               kept;
+  bool               holds;
   CeldStatus         status;
 } Order;
 
@@ -43,7 +43,7 @@ add_cut (void *data, size_t near, size_t far, bool right)
   Order        *o = data;
   double        ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
   uint32_t      a = o->tiles.tile[near], b = o->tiles.tile[far];
-  CeldTilePair *cut;
+  CeldReliefTilePair *cut;
 
   (void) right;
   if (a == b || o->status != CELD_OK)
@@ -54,15 +54,15 @@ add_cut (void *data, size_t near, size_t far, bool right)
       o->status = CELD_NO_MEMORY;
       return;
     }
-  cut[o->cuts++] = (CeldTilePair) { .a = a, .b = b, .edges = 1,
-                                      .least = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
+  cut[o->cuts++] = (CeldReliefTilePair) { .a = a, .b = b, .edges = 1,
+                                      .minimum = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
   o->cut         = cut;
 }
 
 static int
 compare_cuts (const void *first, const void *second)
 {
-  const CeldTilePair *p = first, *q = second;
+  const CeldReliefTilePair *p = first, *q = second;
 
   if (p->a != q->a)
     return p->a < q->a ? -1 : 1;
@@ -81,7 +81,7 @@ merge_cuts (Order *o)
     if (n && !compare_cuts (&o->cut[n - 1], &o->cut[i]))
       {
         o->cut[n - 1].edges += 1;
-        o->cut[n - 1].least = fmaxf (o->cut[n - 1].least, o->cut[i].least);
+        o->cut[n - 1].minimum = fmaxf (o->cut[n - 1].minimum, o->cut[i].minimum);
       }
     else
       o->cut[n++] = o->cut[i];
@@ -118,8 +118,8 @@ find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
   for (uint32_t k = 0; k < c->n; k++)
     {
       Slope *s = &slope[k];
-      double least = 0.01 * (s->xx + s->yy) + 1e-9; /* tiles in a row tell nothing of the slope across */
-      double xx = s->xx + least, yy = s->yy + least, by = xx * yy - s->xy * s->xy, x = s->xu;
+      double minimum = 0.01 * (s->xx + s->yy) + 1e-9; /* tiles in a row tell nothing of the slope across */
+      double xx = s->xx + minimum, yy = s->yy + minimum, by = xx * yy - s->xy * s->xy, x = s->xu;
 
       s->xu = (yy * x - s->xy * s->yu) / by;
       s->yu = (xx * s->yu - s->xy * x) / by;
@@ -128,7 +128,7 @@ find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
 
 /* What tiles shift by, each with its slope. */
 static void
-spread_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_tile, const Slope *slope, float *shift)
+interpolate_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_tile, const Slope *slope, float *shift)
 {
   size_t n = (size_t) s->width * (size_t) s->height, w = (size_t) s->width;
 
@@ -143,20 +143,20 @@ spread_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_t
 
 /* A row there and back: each pixel takes a share of the one before, unless the surface is cut between them. */
 static void
-smooth_row (const float *east, int n, float share, float *v)
+smooth_row (const float *east, int n, float weight_of_last, float *v)
 {
   for (int x = 1; x < n; x++)
-    v[x] += share * east[x - 1] * (v[x - 1] - v[x]);
+    v[x] += weight_of_last * east[x - 1] * (v[x - 1] - v[x]);
   for (int x = n - 2; x >= 0; x--)
-    v[x] += share * east[x] * (v[x + 1] - v[x]);
+    v[x] += weight_of_last * east[x] * (v[x + 1] - v[x]);
 }
 
 /* The same from row to row. */
 CELD_CLONES static void
-mix_rows (const float *restrict from, const float *restrict weight, int n, float share, float *restrict v)
+mix_rows (const float *restrict from, const float *restrict weight, int n, float weight_of_last, float *restrict v)
 {
   for (int x = 0; x < n; x++)
-    v[x] += share * weight[x] * (from[x] - v[x]);
+    v[x] += weight_of_last * weight[x] * (from[x] - v[x]);
 }
 
 /* A Gaussian over the surface, about: recursive filters along rows and columns, each time with half the width, that do
@@ -167,35 +167,35 @@ smooth_shift (const CeldSurface *s, double deviation, float *shift)
   size_t w = (size_t) s->width;
   float *end = shift + w * (size_t) s->height;
 
-  for (int i = 0; i < PASSES; i++)
+  for (int i = 0; i < SMOOTHING_PASSES; i++)
     {
-      double width = deviation * sqrt (3 / (pow (4, PASSES) - 1)) * pow (2, PASSES - 1 - i);
-      float  share = (float) exp (-sqrt (2) / width);
+      double width = deviation * sqrt (3 / (pow (4, SMOOTHING_PASSES) - 1)) * pow (2, SMOOTHING_PASSES - 1 - i);
+      float  weight_of_last = (float) exp (-sqrt (2) / width);
 
       for (int y = 0; y < s->height; y++)
-        smooth_row (s->east + (size_t) y * w, s->width, share, shift + (size_t) y * w);
+        smooth_row (s->east + (size_t) y * w, s->width, weight_of_last, shift + (size_t) y * w);
       for (float *v = shift; v + w < end; v += w)
-        mix_rows (v, s->south + (v - shift), s->width, share, v + w);
+        mix_rows (v, s->south + (v - shift), s->width, weight_of_last, v + w);
       for (float *v = end - w; v > shift; v -= w)
-        mix_rows (v, s->south + (v - shift) - w, s->width, share, v - w);
+        mix_rows (v, s->south + (v - shift) - w, s->width, weight_of_last, v - w);
     }
 }
 
 /* Shifts of tiles, and from them those of pixels. */
 static CeldStatus
-find_shift (const Order *o, double reach, const CeldHost *host, float *shift)
+find_shift (const Order *o, double range, const CeldHost *host, float *shift)
 {
   size_t     n = o->tiles.n;
   double    *of_tile = celd_alloc (n, sizeof *of_tile);
   Slope     *slope = celd_alloc0 (n, sizeof *slope);
-  CeldStatus status = of_tile && slope ? celd_shift_tiles (&o->tiles, o->cut, o->cuts, reach, host, of_tile)
+  CeldStatus status = of_tile && slope ? celd_relief_shift_tiles (&o->tiles, o->cut, o->cuts, range, host, of_tile)
                                        : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
       find_slopes (&o->tiles, of_tile, slope);
-      spread_shift (o->surface, &o->tiles, of_tile, slope, shift);
-      smooth_shift (o->surface, SPREAD * o->tiles.side, shift);
+      interpolate_shift (o->surface, &o->tiles, of_tile, slope, shift);
+      smooth_shift (o->surface, SMOOTHING_SIDES * o->tiles.side, shift);
     }
   celd_free (of_tile);
   celd_free (slope);
@@ -205,58 +205,58 @@ find_shift (const Order *o, double reach, const CeldHost *host, float *shift)
 /* ------------------------------------------------------------------ */
 
 static bool
-is_kept (const Order *o)
+order_holds (const Order *o)
 {
   for (size_t i = 0; i < o->cuts; i++)
-    if (o->cut[i].least > 0)
+    if (o->cut[i].minimum > 0)
       return false;
   return true;
 }
 
 /* What smoothing has put out of order is asked for on top. */
 static void
-ask_for_more (void *data, size_t near, size_t far, bool right)
+raise_minimum (void *data, size_t near, size_t far, bool right)
 {
   Order       *o = data;
   float        behind = o->z[far] + o->shift[far] - (o->z[near] + o->shift[near]);
-  CeldTilePair pair = { .a = o->tiles.tile[near], .b = o->tiles.tile[far] }, *found;
+  CeldReliefTilePair pair = { .a = o->tiles.tile[near], .b = o->tiles.tile[far] }, *found;
 
   (void) right;
-  if (behind <= SLACK || pair.a == pair.b)
+  if (behind <= ORDER_TOLERANCE || pair.a == pair.b)
     return;
   found        = bsearch (&pair, o->cut, o->cuts, sizeof pair, compare_cuts);
-  found->more  = fmaxf (found->more, behind);
-  o->kept      = false;
+  found->increase  = fmaxf (found->increase, behind);
+  o->holds      = false;
 }
 
 /* Shifts until the order is kept. */
 static CeldStatus
 keep_cuts (Order *o, const CeldHost *host, float *shift)
 {
-  double     reach = REACH * hypot (o->surface->width, o->surface->height);
+  double     range = SHIFT_RANGE * hypot (o->surface->width, o->surface->height);
   CeldStatus status = CELD_OK;
 
-  o->kept  = is_kept (o);
+  o->holds  = order_holds (o);
   o->shift = shift;
-  for (int i = 0; i < MOST_TURNS && !o->kept && status == CELD_OK; i++)
+  for (int i = 0; i < MAX_ITERATIONS && !o->holds && status == CELD_OK; i++)
     {
       CeldHostPart part;
-      CeldHost turn = celd_host_part (&part, host, (double) i / MOST_TURNS, (double) (i + 1) / MOST_TURNS);
+      CeldHost turn = celd_host_part (&part, host, (double) i / MAX_ITERATIONS, (double) (i + 1) / MAX_ITERATIONS);
 
-      status  = find_shift (o, reach, &turn, shift);
-      o->kept = true;
-      celd_surface_cuts (o->surface, ask_for_more, o);
+      status  = find_shift (o, range, &turn, shift);
+      o->holds = true;
+      celd_surface_cuts (o->surface, raise_minimum, o);
       for (size_t k = 0; k < o->cuts; k++)
         {
-          o->cut[k].least += o->cut[k].more;
-          o->cut[k].more = 0;
+          o->cut[k].minimum += o->cut[k].increase;
+          o->cut[k].increase = 0;
         }
     }
   return status;
 }
 
 CeldStatus
-celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldHost *host,
+celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldHost *host,
                  float *shift)
 {
   Order o = { .surface = surface, .z = z, .depth = depth, .step = step };

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#define STEP 0.5 /* share of the difference of depth that is at least left at a cut */
+#define MIN_STEP 0.5 /* share of the difference of depth that is at least left at a cut */
 
 typedef struct { float *z, *depth, *shift; CeldVectors normals; } Planes;
 
@@ -53,9 +53,9 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
     {
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
       status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
-      return status ? status : celd_round_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
+      return status ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
     }
-  status = celd_round_inflate (surface, (double) settings->tolerance, host, p->z);
+  status = celd_relief_inflate (surface, (double) settings->tolerance, host, p->z);
   for (size_t i = 0; i < n; i++)
     p->z[i] *= settings->bulge;
   return status;
@@ -90,7 +90,7 @@ make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *
     }
   celd_surface_cuts (surface, mark_cut, relief);
   if (status == CELD_OK)
-    status = celd_keep_order (surface, relief->z, p->depth, STEP * scale, &ordering, p->shift);
+    status = celd_relief_keep_order (surface, relief->z, p->depth, MIN_STEP * scale, &ordering, p->shift);
   for (size_t i = 0; i < n; i++)
     {
       relief->outline[i] += p->shift[i];

@@ -37,16 +37,16 @@ void celd_surface_cuts (const CeldSurface *surface, CeldCutBody body, void *data
 /* ------------------------------------------------------------------ relief-round.c */
 
 /* Height above the outline, in pixels, for bulge 1; `b` and `diagonal` are cleared workspace. */
-CeldStatus celd_round_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height);
+CeldStatus celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height);
 /* The same from normals, which already have their bulge. */
-CeldStatus celd_round_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
+CeldStatus celd_relief_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
                                  const CeldHost *host, float *height);
 
 /* ------------------------------------------------------------------ relief-tiles.c */
 
 /* Two tiles, with how many edges of pixels between them; across a cut, a in front of b, by how much the shift of a has
  * to be larger than that of b, and how much more that will have to be. */
-typedef struct { uint32_t a, b; float edges, least, more; } CeldTilePair;
+typedef struct { uint32_t a, b; float edges, minimum, increase; } CeldReliefTilePair;
 
 typedef struct
 {
@@ -56,7 +56,7 @@ typedef struct
   float        *area;           /* of each tile, in pixels, */
   float        *flat;           /* and how many of them stay flat */
   float        *x, *y;          /* its middle */
-  CeldTilePair *link;           /* where the surface goes on; a pair may come several times */
+  CeldReliefTilePair *link;           /* where the surface goes on; a pair may come several times */
   size_t        links;
 } CeldReliefTiles;
 
@@ -66,14 +66,14 @@ void       celd_relief_tiles_clear (CeldReliefTiles *tiles);               /* al
 /* ------------------------------------------------------------------ relief-shift.c */
 
 /* Shifts of the tiles, the smallest and smoothest that keep the cuts, as relief-order.c has it. */
-CeldStatus celd_shift_tiles (const CeldReliefTiles *tiles, const CeldTilePair *cut, size_t cuts, double reach,
+CeldStatus celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts, double range,
                              const CeldHost *host, double *shift);
 
 /* ------------------------------------------------------------------ relief-order.c */
 
 /* Moves and bends the surface z as little as possible, so that at each cut the nearer side lies at least as far before
  * the other as `step` says: step x the difference of depth, which is at least 0.  `shift` is what is added to z. */
-CeldStatus celd_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
+CeldStatus celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
                             const CeldHost *host, float *shift);
 
 #endif

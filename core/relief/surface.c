@@ -74,7 +74,7 @@ regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
 
 /* Weights as 1 where they are not 0. */
 static void
-round_up (float *weight, size_t n)
+binarize (float *weight, size_t n)
 {
   for (size_t p = 0; p < n; p++)
     weight[p] = weight[p] > 0 ? 1.f : 0.f;
@@ -82,7 +82,7 @@ round_up (float *weight, size_t n)
 
 /* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
 static bool
-is_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int x, int y, bool down)
+is_cut_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int x, int y, bool down)
 {
   const uint32_t *region = &CELD_AT (&r->region, x, y);
 
@@ -92,7 +92,7 @@ is_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int x, i
 
 /* Ends are told by the cuts as they were. */
 static CeldStatus
-join_ends (CeldSurface *s, Regions *r, const CeldHost *host)
+heal_cut_ends (CeldSurface *s, Regions *r, const CeldHost *host)
 {
   CeldPixelLinks joined;
   CeldStatus status = celd_pixel_links_new (s->width, s->height, s->east, s->south, &joined);
@@ -103,9 +103,9 @@ join_ends (CeldSurface *s, Regions *r, const CeldHost *host)
       status = y % 64 ? CELD_OK : celd_progress (host, (double) y / s->height);
       for (int x = 0; x < s->width && status == CELD_OK; x++, p++)
         {
-          if (x + 1 < s->width && s->east[p] == 0 && is_end (s, &joined, r, x, y, false))
+          if (x + 1 < s->width && s->east[p] == 0 && is_cut_end (s, &joined, r, x, y, false))
             s->east[p] = 1;
-          if (y + 1 < s->height && s->south[p] == 0 && is_end (s, &joined, r, x, y, true))
+          if (y + 1 < s->height && s->south[p] == 0 && is_cut_end (s, &joined, r, x, y, true))
             s->south[p] = 1;
         }
     }
@@ -131,7 +131,7 @@ celd_surface_cuts (const CeldSurface *s, CeldCutBody body, void *data)
 }
 
 static void
-look_at_cut (void *data, size_t near, size_t far, bool right)
+mark_sides (void *data, size_t near, size_t far, bool right)
 {
   const Regions *r = data;
 
@@ -149,7 +149,7 @@ find_flat (CeldSurface *s, Regions *r)
 
   if (!bordered)
     return CELD_NO_MEMORY;
-  celd_surface_cuts (s, look_at_cut, r);
+  celd_surface_cuts (s, mark_sides, r);
   for (uint32_t k = 1; k <= r->n; k++)
     if (r->front[k] || r->behind[k])
       bordered[celd_root (r->parent, k)] = 1;
@@ -182,12 +182,12 @@ celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold
     return CELD_NO_MEMORY;
   celd_depth_levels (levels, s->level);
   status = celd_depth_weights (ink, s->level, threshold, &weighing, s->east, s->south);
-  round_up (s->east, n);
-  round_up (s->south, n);
+  binarize (s->east, n);
+  binarize (s->south, n);
   if (status == CELD_OK)
     status = regions_new (s, &finding, &r);
   if (status == CELD_OK)
-    status = join_ends (s, &r, &joining);
+    status = heal_cut_ends (s, &r, &joining);
   if (status == CELD_OK)
     status = find_flat (s, &r);
   regions_clear (&r);

@@ -73,7 +73,7 @@ struct CeldSession
   uint32_t      *owned_level;                  /* order level of each label when the ownership was made; NULL: the
                                                 * ownership has to be made from scratch */
   size_t         n_owned;
-  CeldOwnersKept owners;                       /* its intermediate results; valid while owned_level is not NULL */
+  CeldOwnershipCache owners;                       /* its intermediate results; valid while owned_level is not NULL */
   CeldRect       new_labels;                   /* where labels may have changed since the ownership was made */
   bool           new_corrections;              /* whether corrections have */
   float         *value;                        /* encoded level of each label in `levels`; NULL: make all levels anew */

@@ -68,7 +68,7 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
   int                  w = new->owner.width, h = new->owner.height;
   CeldRect             owner = celd_changed_rect (old->owner.data, new->owner.data, w, h, sizeof (uint32_t));
   CeldRect             under = celd_changed_rect (old->under.data, new->under.data, w, h, sizeof (uint32_t));
-  CeldRect             share = celd_changed_rect (old->share.data, new->share.data, w, h, sizeof (float));
+  CeldRect             share = celd_changed_rect (old->coverage.data, new->coverage.data, w, h, sizeof (float));
 
   celd_session_add_change (s, STAGE_OWNERSHIP, celd_rect_union (celd_rect_union (owner, under), share));
   celd_session_forget_values (s);
@@ -79,13 +79,13 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
 
 /* From the beginning. */
 static CeldStatus
-make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
+make_anew (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
 {
   CeldOwnership own = { 0 };
   CeldStatus    status = celd_ownership_new (input->ink->width, input->ink->height, &own);
 
   if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
-    status = celd_owners_make (input, host, &s->owners, &own);
+    status = celd_ownership_cache_make (input, host, &s->owners, &own);
   else if (status == CELD_OK)
     status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
                        host, &own);
@@ -96,10 +96,10 @@ make_anew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
 }
 
 static CeldStatus
-renew (CeldSession *s, const CeldOwnersInput *input, const CeldHost *host)
+renew (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
 {
   CeldRect   changed;
-  CeldStatus status = celd_owners_renew (input, s->new_labels, host, &s->owners, &s->ownership, &changed);
+  CeldStatus status = celd_ownership_cache_update (input, s->new_labels, host, &s->owners, &s->ownership, &changed);
 
   if (status == CELD_OK)
     {
@@ -125,7 +125,7 @@ CeldStatus
 celd_make_ownership (CeldSession *s, const CeldHost *host)
 {
   CeldLabels      corrections = { 0 };
-  CeldOwnersInput input = { celd_session_split_ink (s), celd_session_current_labels (s), NULL, s->order.level,
+  CeldOwnershipInput input = { celd_session_split_ink (s), celd_session_current_labels (s), NULL, s->order.level,
                             s->order.n };
   uint32_t       *rank;
   CeldStatus      status;
@@ -157,7 +157,7 @@ celd_make_ownership (CeldSession *s, const CeldHost *host)
 static float
 level_at (const CeldOwnership *own, const float *value, int x, int y)
 {
-  return value[CELD_AT (CELD_AT (&own->share, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
+  return value[CELD_AT (CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
 }
 
 static CeldStatus

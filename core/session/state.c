@@ -56,7 +56,7 @@ celd_session_forget_ownership (CeldSession *session)
 {
   celd_free (session->owned_level);
   session->owned_level = NULL;
-  celd_owners_clear (&session->owners);
+  celd_ownership_cache_clear (&session->owners);
 }
 
 void

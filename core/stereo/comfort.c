@@ -10,7 +10,7 @@
 #include <stdio.h>
 
 #define PI           3.14159265358979
-#define TURNED       20.0 /* degrees, either way, on a turntable */
+#define TURNTABLE_ANGLE       20.0 /* degrees, either way, on a turntable */
 #define CIRCLE_RATIO 0.6  /* a circle is flatter than wide: eyes lie side by side */
 
 /* ------------------------------------------------------------------ cameras */
@@ -25,7 +25,7 @@ CeldCamera
 celd_camera_on_path (CeldPath path, int frame, int frames)
 {
   double angle = frames > 0 ? 2 * PI * (frame % frames) / frames : 0;
-  double side = sin (TURNED * PI / 180), turn = sin (angle) * TURNED * PI / 180;
+  double side = sin (TURNTABLE_ANGLE * PI / 180), turn = sin (angle) * TURNTABLE_ANGLE * PI / 180;
 
   switch (path)
     {

@@ -13,21 +13,21 @@
 #include <math.h>
 
 /* Red, green and blue of the glasses' picture from R, G, B of the left and of the right view. */
-typedef struct { float left[3][3], right[3][3]; } Glasses;
+typedef struct { float left[3][3], right[3][3]; } Anaglyph;
 
 #define GREY { 0.2126f, 0.7152f, 0.0722f } /* luminance of linear sRGB */
 #define NONE { 0, 0, 0 }
 
-static const Glasses grey = { { GREY, NONE, NONE }, { NONE, GREY, GREY } };
-static const Glasses colour = { { { 1, 0, 0 }, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
-static const Glasses half_colour = { { GREY, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
-static const Glasses dubois = {
+static const Anaglyph grey = { { GREY, NONE, NONE }, { NONE, GREY, GREY } };
+static const Anaglyph colour = { { { 1, 0, 0 }, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
+static const Anaglyph half_colour = { { GREY, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
+static const Anaglyph dubois = {
   { { 0.437f, 0.449f, 0.164f }, { -0.062f, -0.062f, -0.024f }, { -0.048f, -0.050f, -0.017f } },
   { { -0.011f, -0.032f, -0.007f }, { 0.377f, 0.761f, 0.009f }, { -0.026f, -0.093f, 1.234f } },
 };
 
-static const Glasses *
-glasses_of (CeldStereo format)
+static const Anaglyph *
+anaglyph_of (CeldStereo format)
 {
   switch (format)
     {
@@ -41,7 +41,7 @@ glasses_of (CeldStereo format)
 
 /* What one view does not cover adds nothing. */
 static void
-see (const Glasses *g, const float *left, const float *right, float *to)
+mix_anaglyph (const Anaglyph *g, const float *left, const float *right, float *to)
 {
   float alpha = fmaxf (left[3], right[3]);
   float one = alpha > 0 ? left[3] / alpha : 0, other = alpha > 0 ? right[3] / alpha : 0;
@@ -115,7 +115,7 @@ join_pixel (const CeldColours *left, const CeldColours *right, CeldStereo format
       memcpy (to, CELD_RGBA (format == CELD_STEREO_LEFT ? left : right, x, y), 4 * sizeof *to);
       break;
     default:
-      see (glasses_of (format), CELD_RGBA (left, x, y), CELD_RGBA (right, x, y), to);
+      mix_anaglyph (anaglyph_of (format), CELD_RGBA (left, x, y), CELD_RGBA (right, x, y), to);
     }
 }
 

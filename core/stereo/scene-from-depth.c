@@ -12,56 +12,56 @@
  */
 #include "stereo/scene.h"
 
-#define STRETCH     0.25  /* pixels: a larger step is a cut */
-#define MOST_STEPS  256   /* of depth that are told apart */
-#define SOFT_EDGE   6     /* pixels of an antialiased edge in a row, at most */
-#define LOOK_FOR    24    /* pixels: paper next to a cut */
-#define ENOUGH      4     /* pixels of paper */
-#define OVERLAP     2     /* pixels that a filling lies under what it goes on from */
-#define WHITE       0.98f /* ink above this is paper */
-#define PALE        0.8f  /* and so it is above this, where it rises by less than a step: paper need not be clean */
-#define STEP        0.02f
+#define MAX_STRETCH     0.25  /* pixels: a larger step is a cut */
+#define MAX_GROUPS  256   /* of depth that are told apart */
+#define MAX_SOFT_EDGE   6     /* pixels of an antialiased edge in a row, at most */
+#define PAPER_SEARCH    24    /* pixels: paper next to a cut */
+#define PAPER_SAMPLES      4     /* pixels of paper */
+#define FILL_OVERLAP     2     /* pixels that a filling lies under what it goes on from */
+#define PAPER_INK       0.98f /* ink above this is paper */
+#define GREY_PAPER_INK        0.8f  /* and so it is above this, where it rises by less than a step: paper need not be clean */
+#define MAX_PAPER_STEP        0.02f
 
 typedef struct
 {
   const CeldColours *art;
   const CeldPlane   *ink;
   CeldScene         *scene;
-  float             *near;     /* of a row */
+  float             *depths;     /* of a row */
   float              cut;      /* a step of depth */
   double             shift;    /* pixels that a unit of depth moves at most */
   double             steps;    /* groups in a unit of depth */
   size_t            *spans, *pixels; /* of each part, while they are counted; then NULL */
   int                y;
-} Maker;
+} SceneBuilder;
 
 /* ------------------------------------------------------------------ a row */
 
 static bool
-is_cut (const Maker *m, int x, int other)
+is_cut (const SceneBuilder *m, int x, int other)
 {
-  return fabsf (m->near[x] - m->near[other]) > m->cut;
+  return fabsf (m->depths[x] - m->depths[other]) > m->cut;
 }
 
 /* How many pixels beyond x, the last of the nearer piece, show its ink's soft edge. */
 static int
-soft_edge (const Maker *m, int x, int way)
+soft_edge (const SceneBuilder *m, int x, int direction)
 {
   float last = CELD_AT (m->ink, x, m->y);
 
   if (!(last < 0.5f))
     return 0;
-  for (int k = 1; k <= SOFT_EDGE; k++)
+  for (int k = 1; k <= MAX_SOFT_EDGE; k++)
     {
-      int   at = x + k * way;
+      int   at = x + k * direction;
       float ink;
 
-      if (at < 0 || at >= m->scene->width || (k > 1 && is_cut (m, at, at - way)))
+      if (at < 0 || at >= m->scene->width || (k > 1 && is_cut (m, at, at - direction)))
         return 0; /* all there is of the farther piece */
       ink = CELD_AT (m->ink, at, m->y);
       if (ink < last)
         return 0; /* a line of its own */
-      if (ink > WHITE || (ink > PALE && ink - last < STEP))
+      if (ink > PAPER_INK || (ink > GREY_PAPER_INK && ink - last < MAX_PAPER_STEP))
         return k - 1;
       last = ink;
     }
@@ -69,7 +69,7 @@ soft_edge (const Maker *m, int x, int way)
 }
 
 static void
-premultiplied (const Maker *m, int x, float colour[4])
+premultiplied (const SceneBuilder *m, int x, float colour[4])
 {
   const float *rgba = CELD_RGBA (m->art, x, m->y);
 
@@ -81,26 +81,26 @@ premultiplied (const Maker *m, int x, float colour[4])
 /* The paper of a piece, from x on; where that is nothing but a line, of what lies beyond it, if that is no nearer
  * than `most`.  False: there is none; the lightest pixel. */
 static bool
-look_for_paper (const Maker *m, int x, int way, float most, float colour[4])
+average_paper (const SceneBuilder *m, int x, int direction, float most, float colour[4])
 {
   float lightest = -1, sum[4] = { 0 }, one[4];
   int   n = 0;
 
-  for (int k = 0; k < LOOK_FOR && n < ENOUGH; k++)
+  for (int k = 0; k < PAPER_SEARCH && n < PAPER_SAMPLES; k++)
     {
-      int   at = x + k * way;
+      int   at = x + k * direction;
       float ink;
 
-      if (at < 0 || at >= m->scene->width || m->near[at] > most || (n && is_cut (m, at, at - way)))
+      if (at < 0 || at >= m->scene->width || m->depths[at] > most || (n && is_cut (m, at, at - direction)))
         break;
       ink = CELD_AT (m->ink, at, m->y);
       premultiplied (m, at, one);
       if (ink > lightest)
         memcpy (colour, one, sizeof one);
       lightest = fmaxf (lightest, ink);
-      for (int c = 0; c < 4 && ink > PALE; c++)
+      for (int c = 0; c < 4 && ink > GREY_PAPER_INK; c++)
         sum[c] += one[c];
-      n += ink > PALE;
+      n += ink > GREY_PAPER_INK;
     }
   for (int c = 0; c < 4 && n; c++)
     colour[c] = sum[c] / (float) n;
@@ -108,74 +108,74 @@ look_for_paper (const Maker *m, int x, int way, float most, float colour[4])
 }
 
 static void
-paper_of (const Maker *m, int x, int way, float colour[4])
+paper_of (const SceneBuilder *m, int x, int direction, float colour[4])
 {
-  if (!look_for_paper (m, x, way, m->near[x] + m->cut, colour))
-    look_for_paper (m, x, way, FLT_MAX, colour);
+  if (!average_paper (m, x, direction, m->depths[x] + m->cut, colour))
+    average_paper (m, x, direction, FLT_MAX, colour);
 }
 
 /* ------------------------------------------------------------------ pieces */
 
 /* Counts a piece, or adds it: NULL while they are counted. */
 static CeldSceneSpan *
-take (Maker *m, int x, int n, double depth, bool filling)
+add_span (SceneBuilder *m, int x, int n, double depth, bool filling)
 {
   double above = fmin (fmax (depth, m->scene->least), m->scene->most) - m->scene->least;
   size_t group = 2 * (size_t) (above * m->steps) + !filling;
 
   if (!m->spans)
-    return celd_spans_add (&m->scene->part[group], x, m->y, n, (uint32_t) group);
+    return celd_scene_spans_add (&m->scene->part[group], x, m->y, n, (uint32_t) group);
   m->spans[group]++;
   m->pixels[group] += (size_t) n;
   return NULL;
 }
 
 static double
-mean_depth (const Maker *m, int first, int end)
+mean_depth (const SceneBuilder *m, int first, int end)
 {
   double sum = 0;
 
   for (int x = first; x < end; x++)
-    sum += (double) m->near[x];
+    sum += (double) m->depths[x];
   return sum / (end - first);
 }
 
 /* What comes into sight at the end x of the farther piece, whose other pixels lie in `way`, of which the first `soft`
  * show the soft edge of what is nearer. */
 static void
-fill (Maker *m, int x, int way, int soft, int length, double group_depth)
+fill_behind (SceneBuilder *m, int x, int direction, int soft, int length, double group_depth)
 {
-  float     depth = m->near[x], paper[4] = { 0 };
+  float     depth = m->depths[x], paper[4] = { 0 };
   int       most = (int) (m->shift * (m->scene->most - (double) depth)) + 3, hidden = 0;
-  int       shown = soft + OVERLAP < length ? soft + OVERLAP : length;
+  int       shown = soft + FILL_OVERLAP < length ? soft + FILL_OVERLAP : length;
   int       first, n;
   CeldSceneSpan *s;
 
-  while (hidden < most && x - (hidden + 1) * way >= 0 && x - (hidden + 1) * way < m->scene->width &&
-         m->near[x - (hidden + 1) * way] > depth + m->cut / 2)
+  while (hidden < most && x - (hidden + 1) * direction >= 0 && x - (hidden + 1) * direction < m->scene->width &&
+         m->depths[x - (hidden + 1) * direction] > depth + m->cut / 2)
     hidden++;
   n     = hidden + shown;
-  first = way > 0 ? x - hidden : x - shown + 1;
-  s     = take (m, first, n, group_depth, true);
+  first = direction > 0 ? x - hidden : x - shown + 1;
+  s     = add_span (m, first, n, group_depth, true);
   if (!s)
     return;
-  paper_of (m, soft + 1 < length ? x + (soft + 1) * way : x, way, paper); /* the next pixel may not be clean */
+  paper_of (m, soft + 1 < length ? x + (soft + 1) * direction : x, direction, paper); /* the next pixel may not be clean */
   for (int k = 0; k < n; k++)
     {
-      int inside = (first + k - x) * way; /* pixels into the piece */
+      int inside = (first + k - x) * direction; /* pixels into the piece */
 
       if (inside >= soft)
         premultiplied (m, first + k, s->colour + 4 * k);
       else
         memcpy (s->colour + 4 * k, paper, sizeof paper);
-      s->near[k] = inside > 0 ? m->near[first + k] : depth;
+      s->depths[k] = inside > 0 ? m->depths[first + k] : depth;
     }
-  celd_span_close (s, m->scene->width);
+  celd_scene_span_pad (s, m->scene->width);
 }
 
 /* Ink over the paper of the piece beyond, so that both together are the art. */
 static void
-soft_pixel (const Maker *m, int x, const float paper[4], float colour[4])
+soft_pixel (const SceneBuilder *m, int x, const float paper[4], float colour[4])
 {
   float alpha = 1 - CELD_AT (m->ink, x, m->y);
 
@@ -187,9 +187,9 @@ soft_pixel (const Maker *m, int x, const float paper[4], float colour[4])
 
 /* The art from `first` to before `end`, and at both ends so many soft pixels of ink beyond. */
 static void
-lay_piece (Maker *m, int first, int end, const int soft[2], double group_depth)
+add_visible_span (SceneBuilder *m, int first, int end, const int soft[2], double group_depth)
 {
-  CeldSceneSpan *s = take (m, first - soft[0], end - first + soft[0] + soft[1], group_depth, false);
+  CeldSceneSpan *s = add_span (m, first - soft[0], end - first + soft[0] + soft[1], group_depth, false);
   float     paper[2][4] = { { 0 } };
 
   if (!s)
@@ -206,19 +206,19 @@ lay_piece (Maker *m, int first, int end, const int soft[2], double group_depth)
         soft_pixel (m, x, paper[x >= end], s->colour + 4 * k);
       else
         premultiplied (m, x, s->colour + 4 * k);
-      s->near[k] = m->near[x < first ? first : x < end ? x : end - 1];
+      s->depths[k] = m->depths[x < first ? first : x < end ? x : end - 1];
     }
-  celd_span_close (s, m->scene->width);
+  celd_scene_span_pad (s, m->scene->width);
 }
 
 /* The piece from `first` to before `end`: nearer than its neighbours it has soft ends, farther it goes on below. */
 static void
-make_piece (Maker *m, int first, int end)
+make_segment (SceneBuilder *m, int first, int end)
 {
   int    soft[2] = { 0, 0 }, lost[2] = { 0, 0 };
   double depth = mean_depth (m, first, end);
-  bool   below[2] = { first > 0 && m->near[first - 1] > m->near[first],
-                      end < m->scene->width && m->near[end] > m->near[end - 1] };
+  bool   below[2] = { first > 0 && m->depths[first - 1] > m->depths[first],
+                      end < m->scene->width && m->depths[end] > m->depths[end - 1] };
 
   if (below[0])
     lost[0] = soft_edge (m, first - 1, 1);
@@ -229,15 +229,15 @@ make_piece (Maker *m, int first, int end)
   else if (end < m->scene->width)
     soft[1] = soft_edge (m, end - 1, 1);
   if (below[0])
-    fill (m, first, 1, lost[0], end - first, depth);
+    fill_behind (m, first, 1, lost[0], end - first, depth);
   if (below[1])
-    fill (m, end - 1, -1, lost[1], end - first, depth);
+    fill_behind (m, end - 1, -1, lost[1], end - first, depth);
   if (first + lost[0] < end - lost[1])
-    lay_piece (m, first + lost[0], end - lost[1], soft, depth);
+    add_visible_span (m, first + lost[0], end - lost[1], soft, depth);
 }
 
 static void
-make_row (Maker *m, const CeldPlane *depth, int y)
+make_row (SceneBuilder *m, const CeldPlane *depth, int y)
 {
   int first = 0;
 
@@ -246,12 +246,12 @@ make_row (Maker *m, const CeldPlane *depth, int y)
     {
       float value = CELD_AT (depth, x, y);
 
-      m->near[x] = fabsf (value) <= FLT_MAX ? celd_scene_depth (value) : (float) m->scene->least;
+      m->depths[x] = fabsf (value) <= FLT_MAX ? celd_scene_depth (value) : (float) m->scene->least;
     }
   for (int x = 1; x <= depth->width; x++)
     if (x == depth->width || is_cut (m, x, x - 1))
       {
-        make_piece (m, first, x);
+        make_segment (m, first, x);
         first = x;
       }
 }
@@ -259,7 +259,7 @@ make_row (Maker *m, const CeldPlane *depth, int y)
 /* ------------------------------------------------------------------ */
 
 static CeldStatus
-make_rows (Maker *m, const CeldPlane *depth, const CeldHost *host, double from)
+make_rows (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host, double from)
 {
   CeldStatus status = CELD_OK;
 
@@ -274,13 +274,13 @@ make_rows (Maker *m, const CeldPlane *depth, const CeldHost *host, double from)
 
 /* Counts all pieces, makes room, and makes them. */
 static CeldStatus
-make_scene (Maker *m, const CeldPlane *depth, const CeldHost *host)
+make_scene (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host)
 {
   size_t     groups = m->scene->n_parts;
   CeldStatus status = make_rows (m, depth, host, 0);
 
   for (size_t k = 0; k < groups && !status; k++)
-    status = celd_spans_new (m->spans[k], m->pixels[k], &m->scene->part[k]);
+    status = celd_scene_spans_new (m->spans[k], m->pixels[k], &m->scene->part[k]);
   celd_free (m->spans);
   m->spans = NULL;
   return status ? status : make_rows (m, depth, host, 0.5);
@@ -290,7 +290,7 @@ CeldStatus
 celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
                      const CeldSettings *settings, const CeldHost *host, CeldScene **result)
 {
-  Maker      m = { .art = art, .ink = ink };
+  SceneBuilder      m = { .art = art, .ink = ink };
   double     least, most, steps;
   CeldStatus status;
 
@@ -300,23 +300,23 @@ celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPla
     return CELD_BAD_VALUE;
   celd_depth_range (depth, &least, &most);
   m.shift = (double) settings->disparity * depth->width / 2;
-  m.cut   = (float) fmin (STRETCH / fmax (m.shift, 1e-9), 1e6);
-  steps   = fmin (fmax (2 * (most - least) / (double) m.cut, 1), MOST_STEPS);
+  m.cut   = (float) fmin (MAX_STRETCH / fmax (m.shift, 1e-9), 1e6);
+  steps   = fmin (fmax (2 * (most - least) / (double) m.cut, 1), MAX_GROUPS);
   m.steps = most > least ? steps / (most - least) : 0;
   status  = celd_scene_new (depth->width, depth->height, 2 * ((size_t) steps + 1), &m.scene);
   if (!status)
     {
       m.scene->least = least;
       m.scene->most  = most;
-      m.scene->alone = true;
-      m.near   = celd_alloc ((size_t) depth->width, sizeof *m.near);
+      m.scene->separate = true;
+      m.depths   = celd_alloc ((size_t) depth->width, sizeof *m.depths);
       m.spans  = celd_alloc0 (m.scene->n_parts, sizeof *m.spans);
       m.pixels = celd_alloc0 (m.scene->n_parts, sizeof *m.pixels);
-      status = m.near && m.spans && m.pixels ? make_scene (&m, depth, host) : CELD_NO_MEMORY;
+      status = m.depths && m.spans && m.pixels ? make_scene (&m, depth, host) : CELD_NO_MEMORY;
     }
   if (!status)
     status = celd_scene_sort (m.scene);
-  celd_free (m.near);
+  celd_free (m.depths);
   celd_free (m.spans);
   celd_free (m.pixels);
   if (status)

@@ -12,15 +12,15 @@
  */
 #include "stereo/scene.h"
 
-#define BAND 32 /* rows of one job */
+#define BAND_ROWS 32 /* rows of one job */
 
 /* How places change. */
-typedef struct { double squeeze, middle, shift, screen; } Move;
+typedef struct { double squeeze, middle, shift, screen; } Projection;
 
 typedef struct
 {
   const CeldScene *scene;
-  Move             move;
+  Projection             move;
   CeldColours     *view;       /* straight alpha */
   char            *scratch;    /* of each band */
 } View;
@@ -33,22 +33,22 @@ typedef struct
   int            *at;
   float          *colour;      /* of the row so far, premultiplied */
   int             width, first, end; /* pixels that the group may have reached */
-} Line;
+} Scanline;
 
 /* What a line takes, rounded up so that several may lie one behind the other. */
 static size_t
-line_bytes (int width)
+scanline_bytes (int width)
 {
   size_t pixel = 2 * sizeof (float) + sizeof (CeldSceneSpan *) + sizeof (int) + 4 * sizeof (float);
 
   return ((size_t) width * pixel + sizeof (CeldSceneSpan *) - 1) / sizeof (CeldSceneSpan *) * sizeof (CeldSceneSpan *);
 }
 
-static Line
-line_in (char *scratch, int width)
+static Scanline
+scanline_in (char *scratch, int width)
 {
   size_t w = (size_t) width;
-  Line   line = { .width = width };
+  Scanline   line = { .width = width };
 
   line.span    = (const CeldSceneSpan **) (void *) scratch;
   line.nearest = (float *) (void *) (scratch + w * sizeof *line.span);
@@ -72,46 +72,46 @@ pixel_from (double place, int width)
 
 /* The new place of the middle of pixel i of a piece. */
 static inline double
-place_of (const Move *m, const CeldSceneSpan *s, int i)
+place_of (const Projection *m, const CeldSceneSpan *s, int i)
 {
-  return m->middle + m->squeeze * (s->x + i + 0.5 - m->middle) - m->shift * ((double) s->near[i] - m->screen);
+  return m->middle + m->squeeze * (s->x + i + 0.5 - m->middle) - m->shift * ((double) s->depths[i] - m->screen);
 }
 
 static inline void
-put (Line *line, const CeldSceneSpan *s, int i, int k, float t, float near)
+put_sample (Scanline *line, const CeldSceneSpan *s, int i, int k, float t, float depths)
 {
-  if (line->span[k] && near < line->nearest[k])
+  if (line->span[k] && depths < line->nearest[k])
     return;
   line->span[k]    = s;
-  line->nearest[k] = near;
+  line->nearest[k] = depths;
   line->at[k]      = i;
   line->t[k]       = t;
 }
 
 /* Beyond the frame a piece goes on as it is there. */
 static void
-put_beyond (Line *line, const CeldSceneSpan *s, int i, int first, int end)
+put_beyond (Scanline *line, const CeldSceneSpan *s, int i, int first, int end)
 {
   for (int k = first; k < end; k++)
-    put (line, s, i, k, 0, s->near[i]);
+    put_sample (line, s, i, k, 0, s->depths[i]);
 }
 
 /* The pixels from k to before `end` lie between the places of the pixels i and i + 1. */
 static inline void
-put_between (Line *line, const CeldSceneSpan *s, int i, int k, int end, double place, double next)
+put_between (Scanline *line, const CeldSceneSpan *s, int i, int k, int end, double place, double next)
 {
-  float scale = 1 / (float) (next - place), rise = s->near[i + 1] - s->near[i];
+  float scale = 1 / (float) (next - place), rise = s->depths[i + 1] - s->depths[i];
 
   for (; k < end; k++)
     {
       float t = (float) (k + 0.5 - place) * scale;
 
-      put (line, s, i, k, t, s->near[i] + t * rise);
+      put_sample (line, s, i, k, t, s->depths[i] + t * rise);
     }
 }
 
 CELD_CLONES static void
-move_piece (const Move *m, const CeldSceneSpan *s, Line *line)
+project_span (const Projection *m, const CeldSceneSpan *s, Scanline *line)
 {
   bool   at_left = s->x == 0, at_right = s->x + s->n == line->width;
   int    i = at_left ? 0 : -1, last = at_right ? s->n - 1 : s->n;
@@ -165,7 +165,7 @@ blend (const float *a, float t, float colour[4])
 
 /* The colours of a group over those so far; makes the line ready for the next group. */
 CELD_CLONES static void
-lay_group (Line *line)
+composite_group (Scanline *line)
 {
   for (int k = line->first; k < line->end; k++)
     {
@@ -192,7 +192,7 @@ lay_group (Line *line)
 /* ------------------------------------------------------------------ rows */
 
 static void
-draw_row (const View *v, int y, Line *line)
+draw_row (const View *v, int y, Scanline *line)
 {
   const CeldScene *scene = v->scene;
   size_t           end = scene->row[y + 1];
@@ -202,15 +202,15 @@ draw_row (const View *v, int y, Line *line)
     {
       const CeldSceneSpan *s = &scene->span[i];
 
-      move_piece (&v->move, s, line);
-      if (scene->alone || i + 1 == end || s[1].group != s->group)
-        lay_group (line);
+      project_span (&v->move, s, line);
+      if (scene->separate || i + 1 == end || s[1].group != s->group)
+        composite_group (line);
     }
 }
 
 /* With straight alpha. */
 static void
-deliver (const float *from, int n, float *to)
+unpremultiply (const float *from, int n, float *to)
 {
   for (int x = 0; x < n; x++, from += 4, to += 4)
     {
@@ -224,23 +224,23 @@ static void
 draw_band (void *data, int band)
 {
   const View *v = data;
-  int         width = v->scene->width, end = (band + 1) * BAND;
-  Line        line = line_in (v->scratch + (size_t) band * line_bytes (width), width);
+  int         width = v->scene->width, end = (band + 1) * BAND_ROWS;
+  Scanline        line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
 
   memset (line.span, 0, (size_t) width * sizeof *line.span);
   line.first = width;
-  for (int y = band * BAND; y < end && y < v->scene->height; y++)
+  for (int y = band * BAND_ROWS; y < end && y < v->scene->height; y++)
     {
       draw_row (v, y, &line);
-      deliver (line.colour, width, CELD_RGBA (v->view, 0, y));
+      unpremultiply (line.colour, width, CELD_RGBA (v->view, 0, y));
     }
 }
 
 static CeldStatus
-draw (const CeldScene *scene, Move move, const CeldHost *host, CeldColours *view)
+draw (const CeldScene *scene, Projection move, const CeldHost *host, CeldColours *view)
 {
-  int  bands = (scene->height + BAND - 1) / BAND;
-  View v = { scene, move, view, celd_alloc ((size_t) bands, line_bytes (scene->width)) };
+  int  bands = (scene->height + BAND_ROWS - 1) / BAND_ROWS;
+  View v = { scene, move, view, celd_alloc ((size_t) bands, scanline_bytes (scene->width)) };
 
   if (!v.scratch)
     return CELD_NO_MEMORY;
@@ -252,11 +252,11 @@ draw (const CeldScene *scene, Move move, const CeldHost *host, CeldColours *view
 /* ------------------------------------------------------------------ columns */
 
 /* A part of the scene after its rows moved, with rows and columns exchanged: colours, premultiplied, and depth. */
-typedef struct { const View *view; const CeldSpans *part; float *colour, *near; } Turn;
+typedef struct { const View *view; const CeldSceneSpans *part; float *colour, *depths; } Transposition;
 
 /* Colours and depth of one row of a part, which is in the line, to a column of the turned picture. */
 static void
-turn_row (const Turn *t, int y, Line *line)
+transpose_row (const Transposition *t, int y, Scanline *line)
 {
   size_t height = (size_t) t->view->scene->height;
 
@@ -268,7 +268,7 @@ turn_row (const Turn *t, int y, Line *line)
       if (!s)
         continue;
       blend (s->colour + 4 * line->at[k], line->t[k], t->colour + 4 * to);
-      t->near[to]   = line->nearest[k];
+      t->depths[to]   = line->nearest[k];
       line->span[k] = NULL;
     }
   line->first = line->width;
@@ -277,22 +277,22 @@ turn_row (const Turn *t, int y, Line *line)
 
 /* Moves group `group` of the scene, and makes a part of the turned scene of it. */
 static CeldStatus
-turn_group (Turn *t, uint32_t group, Line *line, const CeldHost *host, CeldSpans *to)
+transpose_group (Transposition *t, uint32_t group, Scanline *line, const CeldHost *host, CeldSceneSpans *to)
 {
   const CeldScene *scene = t->view->scene;
   size_t           n = (size_t) scene->width * (size_t) scene->height;
 
   memset (t->colour, 0, 4 * n * sizeof *t->colour);
   for (size_t i = 0; i < n; i++)
-    t->near[i] = 0;
+    t->depths[i] = 0;
   for (int y = 0; y < scene->height; y++)
     {
       for (size_t i = scene->row[y]; i < scene->row[y + 1]; i++)
         if (scene->span[i].group == group)
-          move_piece (&t->view->move, &scene->span[i], line);
-      turn_row (t, y, line);
+          project_span (&t->view->move, &scene->span[i], line);
+      transpose_row (t, y, line);
     }
-  return celd_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour, t->near,
+  return celd_scene_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour, t->depths,
                                 group, host, to);
 }
 
@@ -307,54 +307,54 @@ count_groups (const CeldScene *scene)
 }
 
 static CeldStatus
-turn_scene (const CeldScene *scene, Move move, const CeldHost *host, CeldScene **turned)
+transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, CeldScene **transposed)
 {
   size_t     n = (size_t) scene->width * (size_t) scene->height;
   uint32_t   groups = count_groups (scene);
-  char      *scratch = celd_alloc (1, line_bytes (scene->width));
+  char      *scratch = celd_alloc (1, scanline_bytes (scene->width));
   View       v = { scene, move, NULL, scratch };
-  Turn       t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
-  CeldStatus status = celd_scene_new (scene->height, scene->width, groups, turned);
+  Transposition       t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
+  CeldStatus status = celd_scene_new (scene->height, scene->width, groups, transposed);
 
-  if (!scratch || !t.colour || !t.near)
+  if (!scratch || !t.colour || !t.depths)
     status = CELD_NO_MEMORY;
   if (!status)
     {
-      Line line = line_in (scratch, scene->width);
+      Scanline line = scanline_in (scratch, scene->width);
 
       memset (line.span, 0, (size_t) line.width * sizeof *line.span);
       line.first = line.width;
       for (uint32_t k = 0; k < groups && !status; k++)
         {
-          status = turn_group (&t, k, &line, host, &(*turned)->part[k]);
+          status = transpose_group (&t, k, &line, host, &(*transposed)->part[k]);
           if (!status)
             status = celd_progress (host, 0.8 * (k + 1) / groups);
         }
     }
   if (!status)
-    status = celd_scene_sort (*turned);
+    status = celd_scene_sort (*transposed);
   celd_free (scratch);
   celd_free (t.colour);
-  celd_free (t.near);
+  celd_free (t.depths);
   return status;
 }
 
 /* Rows, and then columns. */
 static CeldStatus
-draw_both_ways (const CeldScene *scene, Move across, Move along, const CeldHost *host, CeldColours *view)
+draw_two_axes (const CeldScene *scene, Projection across, Projection along, const CeldHost *host, CeldColours *view)
 {
   CeldColours tall = { scene->height, scene->width, (size_t) scene->height, NULL };
-  CeldScene  *turned = NULL;
-  CeldStatus  status = turn_scene (scene, across, host, &turned);
+  CeldScene  *transposed = NULL;
+  CeldStatus  status = transpose_scene (scene, across, host, &transposed);
 
   if (!status)
     tall.data = celd_alloc ((size_t) scene->width * (size_t) scene->height, 4 * sizeof *tall.data);
   if (!status)
-    status = tall.data ? draw (turned, along, host, &tall) : CELD_NO_MEMORY;
+    status = tall.data ? draw (transposed, along, host, &tall) : CELD_NO_MEMORY;
   for (int y = 0; y < view->height && !status; y++)
     for (int x = 0; x < view->width; x++)
       memcpy (CELD_RGBA (view, x, y), CELD_RGBA (&tall, y, x), 4 * sizeof *view->data);
-  celd_scene_free (turned);
+  celd_scene_free (transposed);
   celd_free (tall.data);
   return status;
 }
@@ -366,7 +366,7 @@ celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *
                  CeldColours *view)
 {
   double     half, screen;
-  Move       across, along;
+  Projection       across, along;
   CeldStatus status;
 
   if (!view->data || view->width != scene->width || view->height != scene->height)
@@ -376,8 +376,8 @@ celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *
     return CELD_BAD_VALUE;
   half   = (double) settings->disparity * scene->width / 2;
   screen = scene->least + (double) settings->convergence * (scene->most - scene->least);
-  across = (Move) { camera.squeeze, scene->width / 2.0, camera.x * half, screen };
-  along  = (Move) { 1, scene->height / 2.0, camera.y * half, screen };
-  status = camera.y != 0 ? draw_both_ways (scene, across, along, host, view) : draw (scene, across, host, view);
+  across = (Projection) { camera.squeeze, scene->width / 2.0, camera.x * half, screen };
+  along  = (Projection) { 1, scene->height / 2.0, camera.y * half, screen };
+  status = camera.y != 0 ? draw_two_axes (scene, across, along, host, view) : draw (scene, across, host, view);
   return status ? status : celd_progress (host, 1);
 }

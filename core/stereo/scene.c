@@ -9,7 +9,7 @@
 #include "ownership/expansion.h"
 #include "stereo/scene.h"
 
-#define BAND 32 /* rows of one job */
+#define BAND_ROWS 32 /* rows of one job */
 
 void
 celd_depth_range (const CeldPlane *depth, double *least, double *most)
@@ -33,31 +33,31 @@ celd_depth_range (const CeldPlane *depth, double *least, double *most)
 /* ------------------------------------------------------------------ pieces */
 
 CeldStatus
-celd_spans_new (size_t n, size_t pixels, CeldSpans *spans)
+celd_scene_spans_new (size_t n, size_t pixels, CeldSceneSpans *spans)
 {
   size_t all = pixels + 2 * CELD_SPAN_END * n;
 
-  *spans = (CeldSpans) {
+  *spans = (CeldSceneSpans) {
     .span   = celd_alloc (n, sizeof *spans->span),
     .colour = celd_alloc (all, 4 * sizeof *spans->colour),
-    .near   = celd_alloc (all, sizeof *spans->near),
+    .depths   = celd_alloc (all, sizeof *spans->depths),
   };
-  return spans->span && spans->colour && spans->near ? CELD_OK : CELD_NO_MEMORY;
+  return spans->span && spans->colour && spans->depths ? CELD_OK : CELD_NO_MEMORY;
 }
 
 CeldSceneSpan *
-celd_spans_add (CeldSpans *spans, int x, int y, int n, uint32_t group)
+celd_scene_spans_add (CeldSceneSpans *spans, int x, int y, int n, uint32_t group)
 {
   CeldSceneSpan *span = &spans->span[spans->n++];
   size_t    first = spans->pixels + CELD_SPAN_END;
 
-  *span = (CeldSceneSpan) { x, y, n, group, spans->colour + 4 * first, spans->near + first };
+  *span = (CeldSceneSpan) { x, y, n, group, spans->colour + 4 * first, spans->depths + first };
   spans->pixels += (size_t) n + 2 * CELD_SPAN_END;
   return span;
 }
 
 void
-celd_span_close (CeldSceneSpan *span, int width)
+celd_scene_span_pad (CeldSceneSpan *span, int width)
 {
   for (int k = 1; k <= CELD_SPAN_END; k++)
     {
@@ -69,8 +69,8 @@ celd_span_close (CeldSceneSpan *span, int width)
         memcpy (before, span->colour, 4 * sizeof *before);
       if (span->x + span->n == width)
         memcpy (behind, span->colour + 4 * (span->n - 1), 4 * sizeof *behind);
-      span->near[-k]              = span->near[0];
-      span->near[span->n + k - 1] = span->near[span->n - 1];
+      span->depths[-k]              = span->depths[0];
+      span->depths[span->n + k - 1] = span->depths[span->n - 1];
     }
 }
 
@@ -87,8 +87,8 @@ next_run (const float *rgba, int n, int x, int *first)
 }
 
 CeldStatus
-celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *near, uint32_t group,
-                       const CeldHost *host, CeldSpans *spans)
+celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const float *depths, uint32_t group,
+                       const CeldHost *host, CeldSceneSpans *spans)
 {
   size_t     w = (size_t) box.width, n = 0, pixels = 0;
   CeldStatus status;
@@ -99,18 +99,18 @@ celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *
         n++;
         pixels += (size_t) (x - first);
       }
-  status = celd_spans_new (n, pixels, spans);
+  status = celd_scene_spans_new (n, pixels, spans);
   for (int y = 0, first; y < box.height && !status; y++)
     {
       const float *row = rgba + 4 * (size_t) y * w;
 
       for (int x = 0; (x = next_run (row, box.width, x, &first)) > first;)
         {
-          CeldSceneSpan *span = celd_spans_add (spans, box.x + first, box.y + y, x - first, group);
+          CeldSceneSpan *span = celd_scene_spans_add (spans, box.x + first, box.y + y, x - first, group);
 
           memcpy (span->colour, row + 4 * first, 4 * (size_t) span->n * sizeof *row);
-          memcpy (span->near, near + (size_t) y * w + first, (size_t) span->n * sizeof *near);
-          celd_span_close (span, width);
+          memcpy (span->depths, depths + (size_t) y * w + first, (size_t) span->n * sizeof *depths);
+          celd_scene_span_pad (span, width);
         }
       if (y % 256 == 255)
         status = celd_progress (host, 0);
@@ -145,7 +145,7 @@ celd_scene_free (CeldScene *scene)
     {
       celd_free (scene->part[k].span);
       celd_free (scene->part[k].colour);
-      celd_free (scene->part[k].near);
+      celd_free (scene->part[k].depths);
     }
   celd_free (scene->part);
   celd_free (scene->span);
@@ -187,7 +187,7 @@ typedef struct
   const CeldOwnership *own;
   const CeldPlane     *depth;
   CeldLayer            layer;
-  float               *art, *near; /* of the layer's box; the art premultiplied */
+  float               *art, *depths; /* of the layer's box; the art premultiplied */
   bool                *known;      /* of each row: has it depth of its own? */
 } Part;
 
@@ -195,7 +195,7 @@ typedef struct
 static bool
 is_own (const Part *p, int x, int y)
 {
-  const CeldLabels *larger = CELD_AT (&p->own->share, x, y) < 0.5f ? &p->own->under : &p->own->owner;
+  const CeldLabels *larger = CELD_AT (&p->own->coverage, x, y) < 0.5f ? &p->own->under : &p->own->owner;
 
   return CELD_AT (larger, x, y) == p->layer.label;
 }
@@ -205,20 +205,20 @@ static bool
 fill_row (const Part *p, int y)
 {
   CeldRect box = p->layer.box;
-  float   *near = p->near + (size_t) y * (size_t) box.width;
+  float   *depths = p->depths + (size_t) y * (size_t) box.width;
   int      last = -1;
 
   for (int x = 0; x < box.width; x++)
     {
       if (!is_own (p, box.x + x, box.y + y))
         continue;
-      near[x] = celd_scene_depth (CELD_AT (p->depth, box.x + x, box.y + y));
+      depths[x] = celd_scene_depth (CELD_AT (p->depth, box.x + x, box.y + y));
       for (int k = last + 1; k < x; k++)
-        near[k] = last < 0 ? near[x] : near[last] + (near[x] - near[last]) * (float) (k - last) / (float) (x - last);
+        depths[k] = last < 0 ? depths[x] : depths[last] + (depths[x] - depths[last]) * (float) (k - last) / (float) (x - last);
       last = x;
     }
   for (int k = last + 1; k < box.width && last >= 0; k++)
-    near[k] = near[last];
+    depths[k] = depths[last];
   return last >= 0;
 }
 
@@ -226,9 +226,9 @@ static void
 prepare_band (void *data, int band)
 {
   Part *p = data;
-  int   w = p->layer.box.width, end = (band + 1) * BAND < p->layer.box.height ? (band + 1) * BAND : p->layer.box.height;
+  int   w = p->layer.box.width, end = (band + 1) * BAND_ROWS < p->layer.box.height ? (band + 1) * BAND_ROWS : p->layer.box.height;
 
-  for (int y = band * BAND; y < end; y++)
+  for (int y = band * BAND_ROWS; y < end; y++)
     {
       float *art = p->art + 4 * (size_t) y * (size_t) w;
 
@@ -250,13 +250,13 @@ fill_rows (const Part *p)
     {
       if (p->known[y])
         for (int k = last < 0 ? 0 : y; k < y; k++)
-          memcpy (p->near + (size_t) k * w, p->near + (size_t) y * w, w * sizeof *p->near);
+          memcpy (p->depths + (size_t) k * w, p->depths + (size_t) y * w, w * sizeof *p->depths);
       else if (last >= 0)
-        memcpy (p->near + (size_t) y * w, p->near + (size_t) last * w, w * sizeof *p->near);
+        memcpy (p->depths + (size_t) y * w, p->depths + (size_t) last * w, w * sizeof *p->depths);
       last = p->known[y] ? y : last;
     }
   for (size_t i = 0; last < 0 && i < w * (size_t) p->layer.box.height; i++)
-    p->near[i] = 0;
+    p->depths[i] = 0;
 }
 
 static CeldStatus
@@ -268,17 +268,17 @@ add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldHost *host
 
   p->layer = *celd_layers_item (layers, layer);
   p->art   = celd_alloc (n, 4 * sizeof *p->art);
-  p->near  = celd_alloc (n, sizeof *p->near);
+  p->depths  = celd_alloc (n, sizeof *p->depths);
   p->known = celd_alloc ((size_t) box.height, sizeof *p->known);
-  if (p->art && p->near && p->known)
+  if (p->art && p->depths && p->known)
     {
       celd_layers_paint (layers, layer, p->art);
-      celd_parallel_for (host, (box.height + BAND - 1) / BAND, prepare_band, p);
+      celd_parallel_for (host, (box.height + BAND_ROWS - 1) / BAND_ROWS, prepare_band, p);
       fill_rows (p);
-      status = celd_spans_of_picture (box, scene->width, p->art, p->near, (uint32_t) layer, host, &scene->part[layer]);
+      status = celd_scene_spans_of_picture (box, scene->width, p->art, p->depths, (uint32_t) layer, host, &scene->part[layer]);
     }
   celd_free (p->art);
-  celd_free (p->near);
+  celd_free (p->depths);
   celd_free (p->known);
   return status;
 }
@@ -294,7 +294,7 @@ celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, 
 
   if (layers->width != depth->width || layers->height != depth->height ||
       !CELD_SAME_SIZE (depth, &ownership->owner) || !CELD_SAME_SIZE (depth, &ownership->under) ||
-      !CELD_SAME_SIZE (depth, &ownership->share))
+      !CELD_SAME_SIZE (depth, &ownership->coverage))
     return CELD_BAD_SIZE;
   status = celd_scene_new (depth->width, depth->height, n, &scene);
   for (size_t k = 0; k < n && !status; k++)
@@ -322,18 +322,18 @@ CeldStatus
 celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldColours *art,
                       CeldExpansion method, const CeldHost *host, CeldScene **scene)
 {
-  CeldOwnLevels made;
+  CeldLevelOwnership made;
   CeldLayers   *layers = NULL;
   CeldHostPart      part[3];
   CeldHost      first = celd_host_part (&part[0], host, 0, 0.3), second = celd_host_part (&part[1], host, 0.3, 0.9);
   CeldHost      third = celd_host_part (&part[2], host, 0.9, 1);
-  CeldStatus    status = celd_own_levels_new (ink, levels, NULL, NULL, method, &first, &made);
+  CeldStatus    status = celd_level_ownership_new (ink, levels, NULL, NULL, method, &first, &made);
 
   if (!status)
-    status = celd_own_levels_cut (&made, ink, art, CELD_STORE_FLOAT, true, &second, &layers);
+    status = celd_level_layers_cut (&made, ink, art, CELD_STORE_FLOAT, true, &second, &layers);
   if (!status)
     status = celd_scene_of_layers (layers, &made.own, depth, &third, scene);
   celd_layers_free (layers);
-  celd_own_levels_clear (&made);
+  celd_level_ownership_clear (&made);
   return status;
 }

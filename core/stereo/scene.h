@@ -23,23 +23,23 @@ typedef struct
 {
   int      x, y, n;
   uint32_t group;              /* within one the nearest counts; each is laid over those before it */
-  float   *colour, *near;
+  float   *colour, *depths;
 } CeldSceneSpan;
 
 /* The memory of some pieces. */
 typedef struct
 {
   CeldSceneSpan *span;
-  float    *colour, *near;
+  float    *colour, *depths;
   size_t    n, pixels;         /* that are in it; `pixels` with what is beyond ends */
-} CeldSpans;
+} CeldSceneSpans;
 
 struct CeldScene
 {
   int        width, height;
-  bool       alone;            /* pieces of a group are laid one by one, as different surfaces */
+  bool       separate;            /* pieces of a group are laid one by one, as different surfaces */
   double     least, most;      /* depth that there is */
-  CeldSpans *part;
+  CeldSceneSpans *part;
   size_t     n_parts;
   CeldSceneSpan  *span;             /* of all parts, by rows; within a row in the order of the parts */
   size_t    *row;              /* the first of each row, and one behind the last */
@@ -60,14 +60,14 @@ void celd_depth_range (const CeldPlane *depth, double *least, double *most);
 CeldStatus celd_scene_new (int width, int height, size_t parts, CeldScene **scene);
 
 /* Room for n pieces of so many pixels in all. */
-CeldStatus celd_spans_new (size_t n, size_t pixels, CeldSpans *spans);
+CeldStatus celd_scene_spans_new (size_t n, size_t pixels, CeldSceneSpans *spans);
 /* The next piece, whose n pixels the caller fills; then it is closed. */
-CeldSceneSpan *celd_spans_add (CeldSpans *spans, int x, int y, int n, uint32_t group);
-void      celd_span_close (CeldSceneSpan *span, int width);
+CeldSceneSpan *celd_scene_spans_add (CeldSceneSpans *spans, int x, int y, int n, uint32_t group);
+void      celd_scene_span_pad (CeldSceneSpan *span, int width);
 
 /* All that is not transparent in a picture: `rgba` premultiplied and `near` as large as the box. */
-CeldStatus celd_spans_of_picture (CeldRect box, int width, const float *rgba, const float *near, uint32_t group,
-                                  const CeldHost *host, CeldSpans *spans);
+CeldStatus celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const float *depths, uint32_t group,
+                                  const CeldHost *host, CeldSceneSpans *spans);
 
 /* Once all parts are there. */
 CeldStatus celd_scene_sort (CeldScene *scene);

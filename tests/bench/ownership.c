@@ -118,7 +118,7 @@ compare_with_whole (const Page *page, const CeldLabels *corrections)
   must (celd_ownership_new (labels.width, labels.height, &whole));
   must (celd_own (&page->ink, &labels, order->level, order->n, corrections, page->settings.expansion, NULL, &whole));
   if (memcmp (own.owner.data, whole.owner.data, size) || memcmp (own.under.data, whole.under.data, size) ||
-      memcmp (own.share.data, whole.share.data, size))
+      memcmp (own.coverage.data, whole.coverage.data, size))
     {
       fprintf (stderr, "after an edit the session has other owners than from the beginning\n");
       exit (1);

@@ -138,7 +138,7 @@ blobs_score (const Blobs *b, const CeldOwnership *own)
     for (int x = 0; x < b->ink.width; x++)
       if (CELD_AT (&b->ink, x, y) < 0.5f)
         {
-          bool more = CELD_AT (&own->share, x, y) >= 0.5f;
+          bool more = CELD_AT (&own->coverage, x, y) >= 0.5f;
 
           ink++;
           right += CELD_AT (more ? &own->owner : &own->under, x, y) == CELD_AT (&b->owner, x, y);

@@ -29,11 +29,11 @@ layer_scene (int width, int height)
   CHECK (celd_plane_new (width, height, &s.ink) == CELD_OK);
   CHECK (celd_labels_new (width, height, &s.own.owner) == CELD_OK);
   CHECK (celd_labels_new (width, height, &s.own.under) == CELD_OK);
-  CHECK (celd_plane_new (width, height, &s.own.share) == CELD_OK);
+  CHECK (celd_plane_new (width, height, &s.own.coverage) == CELD_OK);
   s.art = (CeldColours) { width, height, (size_t) width, malloc (4 * n * sizeof (float)) };
   for (size_t p = 0; p < n; p++)
     {
-      s.ink.data[p] = s.own.share.data[p] = 1;
+      s.ink.data[p] = s.own.coverage.data[p] = 1;
       s.own.owner.data[p] = s.own.under.data[p] = 1;
       for (int c = 0; c < 4; c++)
         s.art.data[4 * p + (size_t) c] = 1;
@@ -49,7 +49,7 @@ layer_scene_close (LayerScene *s)
   free (s->ink.data);
   free (s->own.owner.data);
   free (s->own.under.data);
-  free (s->own.share.data);
+  free (s->own.coverage.data);
   free (s->art.data);
 }
 
@@ -79,7 +79,7 @@ layer_scene_paint (LayerScene *s, uint32_t label, const float colour[3], LayerSh
         CELD_AT (&s->ink, x, y) = (float) ((1 - share) * (double) CELD_AT (&s->ink, x, y) + share * (1 - ink));
         CELD_AT (&s->own.under, x, y) = share < 1 ? CELD_AT (&s->own.owner, x, y) : label;
         CELD_AT (&s->own.owner, x, y) = label;
-        CELD_AT (&s->own.share, x, y) = (float) share;
+        CELD_AT (&s->own.coverage, x, y) = (float) share;
       }
 }
 

@@ -51,7 +51,7 @@ own_the_page (const CeldLabels *strokes, CeldOwnership *own)
 
   own->owner = (CeldLabels) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
   own->under = (CeldLabels) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (uint32_t)) };
-  own->share = (CeldPlane) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (float)) };
+  own->coverage = (CeldPlane) { WIDTH, HEIGHT, WIDTH, malloc (PIXELS * sizeof (float)) };
   CHECK (celd_order (&labels, &palette, &relations, &ink, NULL, NULL, &order, NULL) == CELD_OK);
   CHECK (celd_own (&ink, &labels, order.level, order.n, strokes, CELD_EXPANSION_OUTLINES, NULL, own) == CELD_OK);
   celd_order_clear (&order);
@@ -62,7 +62,7 @@ drop_ownership (CeldOwnership *own)
 {
   free (own->owner.data);
   free (own->under.data);
-  free (own->share.data);
+  free (own->coverage.data);
 }
 
 /* The owners' colours, as opaque as they cover the pixel. */
@@ -75,7 +75,7 @@ matte_of (const CeldOwnership *own)
   CHECK (celd_labels_paint (&own->owner, &palette, &paint) == CELD_OK);
   babl_process (babl_fish (babl_format ("R'G'B'A u8"), babl_format ("RGBA float")), paint.data, matte, PIXELS);
   for (int i = 0; i < PIXELS; i++)
-    matte[4 * i + 3] = own->share.data[i];
+    matte[4 * i + 3] = own->coverage.data[i];
   free (paint.data);
   return matte;
 }
@@ -89,7 +89,7 @@ levels_of (const CeldOwnership *own, bool of_owner)
   for (int i = 0; i < PIXELS; i++)
     level[labels.data[i]] = flat.data[i];
   for (int i = 0; i < PIXELS; i++)
-    owned[i] = level[(of_owner || own->share.data[i] >= 0.5f ? own->owner : own->under).data[i]];
+    owned[i] = level[(of_owner || own->coverage.data[i] >= 0.5f ? own->owner : own->under).data[i]];
   return owned;
 }
 
@@ -113,8 +113,8 @@ matte_is_owner_and_share (void)
       result[4 * i] -= level[i];
       result[4 * i + 1] -= level[i];
       result[4 * i + 2] -= level[i];
-      result[4 * i + 3] -= own.share.data[i];
-      soft += own.share.data[i] < 1;
+      result[4 * i + 3] -= own.coverage.data[i];
+      soft += own.coverage.data[i] < 1;
     }
   NEAR (range (result, 4 * PIXELS), 0, 1e-5);
   CHECK (soft > 100); /* the outlines are antialiased */

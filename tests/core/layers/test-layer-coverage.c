@@ -7,20 +7,20 @@
 
 #define SIDE 24
 
-static CeldCover
+static CeldCoverage
 cover_of (int n, const double (*corner)[2])
 {
-  CeldCover cover;
+  CeldCoverage cover;
 
-  CHECK (celd_cover_new ((CeldRect) { -2, 3, SIDE, SIDE }, &cover) == CELD_OK);
+  CHECK (celd_coverage_new ((CeldRect) { -2, 3, SIDE, SIDE }, &cover) == CELD_OK);
   for (int i = 0; i < n; i++)
-    celd_cover_edge (&cover, corner[i][0], corner[i][1], corner[(i + 1) % n][0], corner[(i + 1) % n][1]);
-  celd_cover_finish (&cover);
+    celd_coverage_edge (&cover, corner[i][0], corner[i][1], corner[(i + 1) % n][0], corner[(i + 1) % n][1]);
+  celd_coverage_finish (&cover);
   return cover;
 }
 
 static double
-at (const CeldCover *cover, int x, int y)
+at (const CeldCoverage *cover, int x, int y)
 {
   return (double) cover->sum[(y - cover->box.y) * SIDE + x - cover->box.x];
 }
@@ -29,7 +29,7 @@ static void
 a_box_covers_its_pixels (void)
 {
   const double corner[4][2] = { { 1.5, 5 }, { 6, 5 }, { 6, 8.25 }, { 1.5, 8.25 } };
-  CeldCover    cover = cover_of (4, corner);
+  CeldCoverage    cover = cover_of (4, corner);
 
   for (int y = 3; y < 3 + SIDE; y++)
     for (int x = -2; x < -2 + SIDE; x++)
@@ -42,7 +42,7 @@ static void
 a_triangle_halves_the_pixels_of_its_slope (void)
 {
   const double corner[3][2] = { { 0, 4 }, { 10, 14 }, { 0, 14 } };
-  CeldCover    cover = cover_of (3, corner);
+  CeldCoverage    cover = cover_of (3, corner);
 
   for (int i = 0; i < 10; i++)
     {
@@ -57,7 +57,7 @@ static void
 what_is_outside_the_picture_is_cut_off (void)
 {
   const double corner[4][2] = { { -50, -50 }, { 10, -50 }, { 10, 90 }, { -50, 90 } };
-  CeldCover    cover = cover_of (4, corner);
+  CeldCoverage    cover = cover_of (4, corner);
 
   for (int y = 3; y < 3 + SIDE; y++)
     for (int x = -2; x < -2 + SIDE; x++)
@@ -68,20 +68,20 @@ what_is_outside_the_picture_is_cut_off (void)
 static void
 holes_are_empty_and_overlaps_count_once (void)
 {
-  CeldCover cover;
+  CeldCoverage cover;
   double    box[3][3] = { { 0, 20, 1 }, { 5, 9, -1 }, { 12, 25, 1 } }; /* from, to, the way round */
 
-  CHECK (celd_cover_new ((CeldRect) { 0, 0, 30, 30 }, &cover) == CELD_OK);
+  CHECK (celd_coverage_new ((CeldRect) { 0, 0, 30, 30 }, &cover) == CELD_OK);
   for (int i = 0; i < 3; i++)
     {
       double a = box[i][0], b = box[i][1], c = box[i][2] > 0 ? b : a, d = box[i][2] > 0 ? a : b;
 
-      celd_cover_edge (&cover, a, a, c, d);
-      celd_cover_edge (&cover, c, d, b, b);
-      celd_cover_edge (&cover, b, b, d, c);
-      celd_cover_edge (&cover, d, c, a, a);
+      celd_coverage_edge (&cover, a, a, c, d);
+      celd_coverage_edge (&cover, c, d, b, b);
+      celd_coverage_edge (&cover, b, b, d, c);
+      celd_coverage_edge (&cover, d, c, a, a);
     }
-  celd_cover_finish (&cover);
+  celd_coverage_finish (&cover);
   NEAR (cover.sum[30 * 2 + 2], 1, 1e-6);
   NEAR (cover.sum[30 * 6 + 6], 0, 1e-6);
   NEAR (cover.sum[30 * 15 + 15], 1, 1e-6);
@@ -99,7 +99,7 @@ areas_add_up (void)
   for (int round = 0; round < 100; round++)
     {
       double    corner[12][2], area = 0, sum = 0;
-      CeldCover cover;
+      CeldCoverage cover;
 
       for (int i = 0; i < 12; i++)
         {

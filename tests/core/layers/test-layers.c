@@ -65,7 +65,7 @@ an_edge_is_told_apart (void)
 
           CELD_AT (&s.own.owner, x, 0) = x < 3 ? 1 : 2;
           CELD_AT (&s.own.under, x, 0) = x <= 3 ? 1 : 2;
-          CELD_AT (&s.own.share, x, 0) = x == 3 ? 0.4f : 1;
+          CELD_AT (&s.own.coverage, x, 0) = x == 3 ? 0.4f : 1;
           CELD_AT (&s.ink, x, 0) = (float) (1 - cover * ink);
           for (int c = 0; c < 3; c++)
             art_at (&s, x, 0)[c] = (float) ((1 - cover) * (double) blue[c] + cover * (1 - ink) * (double) red[c]);
@@ -101,7 +101,7 @@ transparent_paper_stays_transparent (void)
     {
       CELD_AT (&s.own.owner, x, 0) = x < 1 ? 1 : 2;
       CELD_AT (&s.own.under, x, 0) = x < 2 ? 1 : 2;
-      CELD_AT (&s.own.share, x, 0) = x == 1 ? 0.4f : 1;
+      CELD_AT (&s.own.coverage, x, 0) = x == 1 ? 0.4f : 1;
       CELD_AT (&s.ink, x, 0) = 1 - alpha[x];
       memcpy (art_at (&s, x, 0), (float[]) { 0.2f, 0, 0, alpha[x] }, 4 * sizeof (float));
     }
@@ -134,7 +134,7 @@ thin_ink_stays_ink (void)
       {
         CELD_AT (&s.own.owner, x, y) = 2;
         CELD_AT (&s.own.under, x, y) = x == 4 ? 1 : 2;
-        CELD_AT (&s.own.share, x, y) = x == 4 ? 0.5f : 1;
+        CELD_AT (&s.own.coverage, x, y) = x == 4 ? 0.5f : 1;
         CELD_AT (&s.ink, x, y) = x == 4 ? 0.5f : 1;
         for (int c = 0; c < 3; c++)
           art_at (&s, x, y)[c] = x == 4 ? 0.5f : 1;
@@ -169,7 +169,7 @@ random_scene (uint32_t *state, size_t *n)
 
       s.own.owner.data[p] = again ? s.own.owner.data[p - 1] : 1 + check_random (state, (uint32_t) *n);
       s.own.under.data[p] = check_random (state, 2) ? s.own.owner.data[p] : 1 + check_random (state, (uint32_t) *n);
-      s.own.share.data[p] = s.own.under.data[p] == s.own.owner.data[p] ? 1 : (float) check_random (state, 1001) / 1000;
+      s.own.coverage.data[p] = s.own.under.data[p] == s.own.owner.data[p] ? 1 : (float) check_random (state, 1001) / 1000;
       s.ink.data[p]       = (float) check_random (state, 5) / 4;
       for (int c = 0; c < 4; c++)
         s.art.data[4 * p + c] = c == 3 && opaque ? 1 : (float) check_random (state, 256) / 255;

@@ -7,13 +7,13 @@
 #include "sketch.h"
 
 /* Digits are levels, '#' is free ink. */
-static CeldSheet
+static CeldExpansionState
 sheet_open (const CeldLabels *levels)
 {
   int       w = levels->width, h = levels->height;
   size_t    n = (size_t) w * (size_t) h;
   uint8_t  *known = malloc (n);
-  CeldSheet s = { w, h, n, levels->data, malloc (n * sizeof (int32_t)), NULL, calloc (9, sizeof (CeldRect)), 9 };
+  CeldExpansionState s = { w, h, n, levels->data, malloc (n * sizeof (int32_t)), NULL, calloc (9, sizeof (CeldRect)), 9 };
 
   for (size_t p = 0; p < n; p++)
     {
@@ -40,7 +40,7 @@ static void
 expand (const char *const *sheet, uint32_t k, const char *const *wanted)
 {
   CeldLabels levels = art_labels (sheet);
-  CeldSheet  s = sheet_open (&levels);
+  CeldExpansionState  s = sheet_open (&levels);
 
   CHECK (celd_expand_region (&s, k, NULL) == CELD_OK);
   NEAR (differing (&levels, wanted), 0, 0);
@@ -108,7 +108,7 @@ a_small_gap_is_filled (void)
     "111111111111111111111111111111", NULL
   };
   CeldLabels levels = art_labels (sheet);
-  CeldSheet  s = sheet_open (&levels);
+  CeldExpansionState  s = sheet_open (&levels);
   int        free_pixels = 0;
 
   CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
@@ -149,7 +149,7 @@ only_the_region_s_surroundings_matter (void)
       CELD_AT (&large, AT + x, AT + y) = CELD_AT (&small, x, y);
   for (int i = 0; i < 2; i++)
     {
-      CeldSheet s = sheet_open (i ? &large : &small);
+      CeldExpansionState s = sheet_open (i ? &large : &small);
 
       CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
       free (s.depth_in_ink);
@@ -173,7 +173,7 @@ a_cancelled_region_takes_nothing (void)
 {
   static const char *const sheet[] = { "222####111", "222####111", NULL };
   CeldLabels levels = art_labels (sheet);
-  CeldSheet  s = sheet_open (&levels);
+  CeldExpansionState  s = sheet_open (&levels);
   CeldHost   host = { .progress = check_refuse };
 
   CHECK (celd_expand_region (&s, 2, &host) == CELD_CANCELLED);

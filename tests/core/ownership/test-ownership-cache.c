@@ -150,10 +150,10 @@ change_number (uint32_t *seed, Page *page)
   return whole;
 }
 
-static CeldOwnersInput
+static CeldOwnershipInput
 input_of (const Page *page)
 {
-  return (CeldOwnersInput) { &page->blobs.ink, &page->blobs.labels, page->corrected ? &page->corrections : NULL,
+  return (CeldOwnershipInput) { &page->blobs.ink, &page->blobs.labels, page->corrected ? &page->corrections : NULL,
                              page->level, page->n };
 }
 
@@ -161,14 +161,14 @@ static bool
 same_pixel (const CeldOwnership *a, const CeldOwnership *b, int p)
 {
   return a->owner.data[p] == b->owner.data[p] && a->under.data[p] == b->under.data[p] &&
-         a->share.data[p] == b->share.data[p];
+         a->coverage.data[p] == b->coverage.data[p];
 }
 
 /* The record is what celd_own says, and differs from the old one in `changed` alone, up to its borders. */
 static void
 check_record (const Page *page, const CeldOwnership *own, const CeldOwnership *old, CeldRect changed)
 {
-  CeldOwnersInput in = input_of (page);
+  CeldOwnershipInput in = input_of (page);
   CeldOwnership   whole;
   CeldRect        seen = { 0 };
   int             wrong = 0;
@@ -200,14 +200,14 @@ static void
 edit_page (uint32_t seed)
 {
   Page            page;
-  CeldOwnersKept  kept = { 0 };
+  CeldOwnershipCache  kept = { 0 };
   CeldOwnership   own, old;
-  CeldOwnersInput in;
+  CeldOwnershipInput in;
 
   page_new (&seed, &page);
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &own) == CELD_OK && celd_ownership_new (WIDTH, HEIGHT, &old) == CELD_OK);
   in = input_of (&page);
-  CHECK (celd_owners_make (&in, NULL, &kept, &own) == CELD_OK);
+  CHECK (celd_ownership_cache_make (&in, NULL, &kept, &own) == CELD_OK);
   for (int i = 0; i < EDITS && !check_bad; i++)
     {
       CeldRect new_labels = { 0 }, changed;
@@ -223,10 +223,10 @@ edit_page (uint32_t seed)
         case 6: case 7: new_labels = change_black (&seed, &page); break;
         }
       in = input_of (&page);
-      CHECK (celd_owners_renew (&in, new_labels, NULL, &kept, &own, &changed) == CELD_OK);
+      CHECK (celd_ownership_cache_update (&in, new_labels, NULL, &kept, &own, &changed) == CELD_OK);
       check_record (&page, &own, &old, changed);
     }
-  celd_owners_clear (&kept);
+  celd_ownership_cache_clear (&kept);
   celd_ownership_clear (&own);
   celd_ownership_clear (&old);
   page_free (&page);
@@ -314,7 +314,7 @@ sessions_come_to_the_same (void)
         {
           CHECK (!memcmp (a.owner.data, b.owner.data, W * H * sizeof (uint32_t)));
           CHECK (!memcmp (a.under.data, b.under.data, W * H * sizeof (uint32_t)));
-          CHECK (!memcmp (a.share.data, b.share.data, W * H * sizeof (float)));
+          CHECK (!memcmp (a.coverage.data, b.coverage.data, W * H * sizeof (float)));
         }
       if (status == CELD_OK && pick (&r, 3))
         compare_levels (edited, fresh, old);
@@ -339,22 +339,22 @@ cancelled_edits_do_no_harm (void)
   uint32_t        seed = 5;
   Page            page;
   CeldHost        host = { .progress = refuse };
-  CeldOwnersKept  kept = { 0 };
+  CeldOwnershipCache  kept = { 0 };
   CeldOwnership   own, old;
-  CeldOwnersInput in;
+  CeldOwnershipInput in;
   CeldRect        changed;
 
   page_new (&seed, &page);
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &own) == CELD_OK && celd_ownership_new (WIDTH, HEIGHT, &old) == CELD_OK);
   in = input_of (&page);
-  CHECK (celd_owners_make (&in, NULL, &kept, &own) == CELD_OK);
+  CHECK (celd_ownership_cache_make (&in, NULL, &kept, &own) == CELD_OK);
   copy_record (&own, &old);
   page.level[1] = 9;
-  CHECK (celd_owners_renew (&in, (CeldRect) { 0 }, &host, &kept, &own, &changed) == CELD_CANCELLED);
+  CHECK (celd_ownership_cache_update (&in, (CeldRect) { 0 }, &host, &kept, &own, &changed) == CELD_CANCELLED);
   CHECK (!kept.level && !memcmp (own.owner.data, old.owner.data, WIDTH * HEIGHT * sizeof (uint32_t)));
-  CHECK (celd_owners_make (&in, &host, &kept, &own) == CELD_CANCELLED && !kept.level);
+  CHECK (celd_ownership_cache_make (&in, &host, &kept, &own) == CELD_CANCELLED && !kept.level);
   CHECK (!memcmp (own.owner.data, old.owner.data, WIDTH * HEIGHT * sizeof (uint32_t)));
-  celd_owners_clear (&kept);
+  celd_ownership_cache_clear (&kept);
   celd_ownership_clear (&own);
   celd_ownership_clear (&old);
   page_free (&page);

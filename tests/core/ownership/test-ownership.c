@@ -81,7 +81,7 @@ expect (const char *const *rows, const char *const *wanted, CeldExpansion method
   CHECK (celd_own (&ink, &labels, level, 26, NULL, method, NULL, &own) == CELD_OK);
   CHECK (!memcmp (own.owner.data, owners.data, (size_t) (ink.width * ink.height) * sizeof (uint32_t)));
   for (int p = 0; p < ink.width * ink.height; p++)
-    CHECK (own.under.data[p] == own.owner.data[p] && own.share.data[p] == 1);
+    CHECK (own.under.data[p] == own.owner.data[p] && own.coverage.data[p] == 1);
   celd_ownership_clear (&own);
   free (ink.data);
   free (labels.data);
@@ -153,11 +153,11 @@ edges_are_shared (void)
         CELD_AT (&labels, x, y) = x < 6 ? 1 : 2;
       }
   CHECK (celd_own (&ink, &labels, level, 2, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
-  CHECK (CELD_AT (&own.owner, 3, 4) == 1 && CELD_AT (&own.share, 3, 4) == 1);
+  CHECK (CELD_AT (&own.owner, 3, 4) == 1 && CELD_AT (&own.coverage, 3, 4) == 1);
   CHECK (CELD_AT (&own.owner, 4, 4) == 2 && CELD_AT (&own.under, 4, 4) == 1);
-  NEAR (CELD_AT (&own.share, 4, 4), 0.25, 1e-6);
-  CHECK (CELD_AT (&own.owner, 5, 4) == 2 && CELD_AT (&own.share, 5, 4) == 1);
-  CHECK (CELD_AT (&own.owner, 7, 4) == 2 && CELD_AT (&own.under, 7, 4) == 2 && CELD_AT (&own.share, 7, 4) == 1);
+  NEAR (CELD_AT (&own.coverage, 4, 4), 0.25, 1e-6);
+  CHECK (CELD_AT (&own.owner, 5, 4) == 2 && CELD_AT (&own.coverage, 5, 4) == 1);
+  CHECK (CELD_AT (&own.owner, 7, 4) == 2 && CELD_AT (&own.under, 7, 4) == 2 && CELD_AT (&own.coverage, 7, 4) == 1);
   celd_ownership_clear (&own);
   celd_free (ink.data);
   celd_free (labels.data);
@@ -258,10 +258,10 @@ paper_stays (void)
       CHECK (celd_own (&ink, &labels, level, 4, NULL, (CeldExpansion) (seed % 2), NULL, &own) == CELD_OK);
       for (int p = 0; p < w * h; p++)
         {
-          uint32_t more = own.share.data[p] >= 0.5f ? own.owner.data[p] : own.under.data[p];
+          uint32_t more = own.coverage.data[p] >= 0.5f ? own.owner.data[p] : own.under.data[p];
 
           CHECK (own.owner.data[p] >= 1 && own.owner.data[p] <= 4 && own.under.data[p] >= 1 && own.under.data[p] <= 4);
-          CHECK (own.share.data[p] > 0 && own.share.data[p] <= 1);
+          CHECK (own.coverage.data[p] > 0 && own.coverage.data[p] <= 1);
           CHECK (level[own.owner.data[p] - 1] >= level[own.under.data[p] - 1]);
           CHECK (ink.data[p] <= 0.5f || more == labels.data[p]);
         }
@@ -288,7 +288,7 @@ bad_input_does_no_harm (void)
   for (int p = 0; p < 20; p++)
     labels.data[p] = 1;
   CHECK (celd_own (&ink, &labels, level, 1, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
-  CHECK (own.owner.data[7] == 1 && own.under.data[7] == 1 && own.share.data[7] == 1); /* ink alone */
+  CHECK (own.owner.data[7] == 1 && own.under.data[7] == 1 && own.coverage.data[7] == 1); /* ink alone */
   celd_ownership_clear (&own);
   celd_free (ink.data);
   celd_free (labels.data);
