@@ -30,7 +30,7 @@ sheet_open (const CeldLabels *levels)
       box->width += x < box->x ? box->x - x : 0;
       box->x = x < box->x ? x : box->x;
     }
-  CHECK (celd_distance (w, h, known, NULL, s.depth_in_ink) == CELD_OK);
+  CHECK (celd_distance (w, h, known, NULL, s.distance_in_ink) == CELD_OK);
   free (known);
   return s;
 }
@@ -45,7 +45,7 @@ expand (const char *const *sheet, uint32_t k, const char *const *wanted)
   CHECK (celd_expand_region (&s, k, NULL) == CELD_OK);
   NEAR (differing (&levels, wanted), 0, 0);
   free (levels.data);
-  free (s.depth_in_ink);
+  free (s.distance_in_ink);
   free (s.box);
 }
 
@@ -117,7 +117,7 @@ a_small_gap_is_filled (void)
       free_pixels += CELD_AT (&levels, x, y) != 2;
   NEAR (free_pixels, 0, 0);
   free (levels.data);
-  free (s.depth_in_ink);
+  free (s.distance_in_ink);
   free (s.box);
 }
 
@@ -152,7 +152,7 @@ only_the_region_s_surroundings_matter (void)
       CeldExpansionState s = sheet_open (i ? &large : &small);
 
       CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
-      free (s.depth_in_ink);
+      free (s.distance_in_ink);
       free (s.box);
     }
   for (int y = 0; y < small.height; y++)
@@ -179,7 +179,7 @@ a_cancelled_region_takes_nothing (void)
   CHECK (celd_expand_region (&s, 2, &host) == CELD_CANCELLED);
   NEAR (differing (&levels, sheet), 0, 0);
   free (levels.data);
-  free (s.depth_in_ink);
+  free (s.distance_in_ink);
   free (s.box);
 }
 

@@ -192,7 +192,7 @@ copy_record (const CeldOwnership *from, CeldOwnership *to)
 {
   memcpy (to->owner.data, from->owner.data, WIDTH * HEIGHT * sizeof (uint32_t));
   memcpy (to->under.data, from->under.data, WIDTH * HEIGHT * sizeof (uint32_t));
-  memcpy (to->share.data, from->share.data, WIDTH * HEIGHT * sizeof (float));
+  memcpy (to->coverage.data, from->coverage.data, WIDTH * HEIGHT * sizeof (float));
 }
 
 /* One page after another edit. */
