@@ -1,9 +1,9 @@
-/* Ink that no pen explains: what is settled before anybody claims it, and what is left when all have.
+/* Pixels without claims: those that are settled before any claim, and those that are left after all claims.
  *
- * Paper is its label's, and so is all of a label that is hardly anything but ink, like a black shoe with a scribble of
- * its own.  What is beyond all claims, like areas filled with black, goes to the nearest pixel that has an owner, from
- * neighbour to neighbour; of several the first in reading order, ring by ring, so that it does not matter in which
- * order pixels are listed.
+ * Paper belongs to its label, and so do all pixels of a label that is almost wholly ink, like a black shoe with a
+ * scribble of its own.  Ink beyond all claims, like areas filled with black, goes to the nearest pixel that has an
+ * owner, by breadth-first search over 4-neighbours; ties go to the first neighbour in reading order, so that the order
+ * of the list has no influence.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,12 +12,12 @@
 
 #include <math.h>
 
-#define MIN_INK_RATIO   10 /* a label is ink throughout if less than a tenth of it is paper */
-#define CORNER_SQUARES 4  /* squares of a line's thickness that may lie about the corners of paper */
+#define MIN_INK_RATIO  10 /* a label is solid if less than 1/10 of its pixels are paper; chosen */
+#define CORNER_SQUARES 4  /* squared line widths of ink that a label may have about the corners of its paper; chosen */
 
-/* ------------------------------------------------------------------ to begin with */
+/* ------------------------------------------------------------------ before claims */
 
-/* How many pixels each label has, of these of paper, and places on edges of its paper; of label k at k - 1. */
+/* Numbers of pixels, of pixels of paper, and of edge points at its paper, of label k at k - 1. */
 typedef struct { size_t *all, *paper, *edge_points; } Counts;
 
 static void
@@ -37,12 +37,13 @@ count_pixels (const CeldPlane *ink, const CeldLabels *labels, Counts *counts)
       }
 }
 
-/* Where lines are thick, a gusset of paper between them has many times as much ink, too, but not more than lies along
- * its edges and about its corners. */
+/* Between thick lines a small piece of paper has far more ink than paper, too, but not more than fits along its
+ * edges and about its corners. */
 static bool
 is_solid (size_t all, size_t paper, size_t edge_points, size_t stroke)
 {
-  return MIN_INK_RATIO * paper < all && all - paper > stroke * edge_points + CORNER_SQUARES * stroke * stroke * (edge_points > 0);
+  return MIN_INK_RATIO * paper < all && all - paper > stroke * edge_points + CORNER_SQUARES * stroke * stroke
+    * (edge_points > 0);
 }
 
 CeldStatus
@@ -80,9 +81,8 @@ celd_claims_reset (const CeldClaimMap *c, const CeldLabels *labels, const bool *
       }
 }
 
-/* ------------------------------------------------------------------ in the end */
+/* ------------------------------------------------------------------ after claims */
 
-/* The up to four neighbours of a pixel. */
 int
 celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2])
 {
@@ -102,7 +102,7 @@ celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2])
   return n;
 }
 
-/* The first neighbour that has an owner; 0: none has. */
+/* The owner of the first neighbour that has one; 0 if none has. */
 static uint32_t
 owner_beside (const CeldClaimMap *c, int32_t pixel)
 {
@@ -118,7 +118,7 @@ owner_beside (const CeldClaimMap *c, int32_t pixel)
   return 0;
 }
 
-/* Those beside an owner first; how many they are. */
+/* Moves the pixels beside an owner to the front of the list, with that owner; returns their number. */
 static size_t
 owners_first (const CeldClaimMap *c, CeldPixelOwner *rest, size_t n)
 {
@@ -169,7 +169,7 @@ celd_claims_spread (const CeldClaimMap *c, CeldPixelOwner *rest, size_t n)
 CeldStatus
 celd_claims_finish (const CeldClaimMap *c)
 {
-  size_t    n = 0, room = 0;
+  size_t          n = 0, room = 0;
   CeldPixelOwner *rest;
 
   for (int y = 0; y < c->ink->height; y++)

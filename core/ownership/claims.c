@@ -1,7 +1,12 @@
-/* Ink goes to the pens: each edge claims the ink that its pen covers from there, and the nearest region's claim wins.
+/* Assignment of ink to pens: each point of an edge claims the pixels that its pen covers; the nearest region's claim
+ * wins.
  *
- * A claim is a band along the edge, as wide as the pen.  Ink that no pen covers goes to the pen that misses it by
- * least; what is beyond all is in claim-remainder.c.
+ * A claim is a band along the edge, as wide as the pen.  A pixel that no pen covers goes to the pen that is nearest to
+ * it; pixels beyond the reach of all claims are left to claim-remainder.c.
+ *
+ * Lines also continue straight where their edge ends.  Where an edge passes to another owner, its line runs on below
+ * that one as long as there is ink; this claim is tentative and yields to all others.  At a convex corner of an outline
+ * both sides are extended to the point where their centre lines meet, where the pen leaves a round tip.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,15 +16,21 @@
 #include <limits.h>
 #include <math.h>
 
-#define RAY_STEP   0.5f     /* pixels between the places of a ray */
-#define MAX_RAY_DISTANCE  0.7f     /* and between rays at most */
-#define MAX_BAND_WIDTHS 3        /* pen widths that a band may reach: where a line turns sharply, its tip is so far away */
-#define TENTATIVE_EXCESS  1e-3f    /* by how much a guess misses what it covers: less than any pen that does miss it */
-#define RAY_CHUNK   32      /* places of a ray at a time */
+#define RAY_STEP           0.5f  /* pixels between the samples of a ray; chosen: no pixel is missed */
+#define MAX_RAY_DISTANCE   0.7f  /* pixels between neighbouring rays, at most; chosen: less than a pixel's diagonal */
+#define MAX_BAND_WIDTHS    3     /* pen widths; longest band: the tip of a sharp turn is about so far away; chosen */
+#define TENTATIVE_EXCESS   1e-3f /* pixels; excess of a tentative claim inside its pen: below that of any pen that
+                                  * misses the pixel */
+#define RAY_CHUNK          32    /* samples of a ray computed at a time, for vectorisation */
+#define TANGENT_WIDTHS     2.f   /* pen widths; length over which a line's direction is measured; chosen */
+#define MIN_TANGENT        2.f   /* pixels; shorter pieces have no reliable direction; chosen */
+#define MAX_ROUNDED_POINTS 12    /* points; a rounded corner is at most so long; chosen */
+#define MAX_LINE_WIDTHS    8.f   /* pen widths; longest continuation of a line; chosen */
+#define MIN_CORNER_SINE    0.3f  /* sine of the least turn of a corner with a tip; chosen */
 
-/* The pixel at (x,y), with so much of the pen left round it.  Whose claim is best does not depend on their order: of
- * those that cover the pixel the nearest region's, as of those that guess so, else that which misses it by least.
- * Without branches, since nobody can foretell them. */
+/* Claims the pixel (x,y), `excess` pixels beyond the pen.  The best claim is independent of the order: of claims
+ * that cover the pixel, and of tentative ones that do, the one of the nearest region; otherwise the one with the
+ * least excess.  Branch-free, because outcomes are unpredictable. */
 static inline void
 claim_pixel (const CeldClaimMap *c, const CeldClaim *claim, uint32_t rank, int x, int y, float excess)
 {
@@ -34,7 +45,8 @@ claim_pixel (const CeldClaimMap *c, const CeldClaim *claim, uint32_t rank, int x
   if (*best == -INFINITY)
     return;
   other  = c->pens->level[*owner - (*owner > 0)];
-  contested  = (((excess <= 0) & (*best <= 0)) | ((excess == TENTATIVE_EXCESS) & (*best == TENTATIVE_EXCESS))) & (*owner > 0) & (rank != other);
+  contested  = (((excess <= 0) & (*best <= 0)) | ((excess == TENTATIVE_EXCESS) & (*best == TENTATIVE_EXCESS)))
+               & (*owner > 0) & (rank != other);
   wins   = contested ? rank > other : (excess < *best) | ((excess == *best) & (claim->label < *owner));
   *owner = wins ? claim->label : *owner;
   *best  = wins ? excess : *best;
@@ -42,8 +54,8 @@ claim_pixel (const CeldClaimMap *c, const CeldClaim *claim, uint32_t rank, int x
 
 /* ------------------------------------------------------------------ rays */
 
-/* Places of a ray, from number k on. */
-typedef struct { int x[RAY_CHUNK + 1], y[RAY_CHUNK + 1]; float contested[RAY_CHUNK]; } RayPixels;
+/* Pixels and depths below the edge of consecutive samples of a ray. */
+typedef struct { int x[RAY_CHUNK + 1], y[RAY_CHUNK + 1]; float depth[RAY_CHUNK]; } RayPixels;
 
 static CELD_CLONES void
 follow_claim_ray (const CeldRay *from, int k, int n, RayPixels *at)
@@ -54,17 +66,17 @@ follow_claim_ray (const CeldRay *from, int k, int n, RayPixels *at)
 
       at->x[i]     = celd_floor (x);
       at->y[i]     = celd_floor (y);
-      at->contested[i] = ((float) at->x[i] + 0.5f - from->x) * from->nx + ((float) at->y[i] + 0.5f - from->y) * from->ny;
+      at->depth[i] = ((float) at->x[i] + 0.5f - from->x) * from->nx + ((float) at->y[i] + 0.5f - from->y) * from->ny;
     }
 }
 
-/* Two or three places lie in a pixel, to which they say the same: the last of them does it. */
+/* Several samples lie in one pixel and give the same claim: only the last of them makes it. */
 static void
 claim_ray (const CeldClaimMap *c, const CeldClaim *claim, const CeldRay *from, float length)
 {
-  uint32_t rank = c->pens->level[claim->label - 1];
-  int      n = length > RAY_STEP / 2 ? (int) ceilf ((length - RAY_STEP / 2) / RAY_STEP) : 0;
-  RayPixels   at;
+  uint32_t  rank = c->pens->level[claim->label - 1];
+  int       n = length > RAY_STEP / 2 ? (int) ceilf ((length - RAY_STEP / 2) / RAY_STEP) : 0;
+  RayPixels at;
 
   for (int k = 0; k < n; k += RAY_CHUNK)
     {
@@ -80,7 +92,7 @@ claim_ray (const CeldClaimMap *c, const CeldClaim *claim, const CeldRay *from, f
       for (int j = 0; j < pixels; j++)
         {
           int   i = pixel[j];
-          float excess = at.contested[i] - claim->width;
+          float excess = at.depth[i] - claim->width;
 
           if (claim->tentative)
             excess = excess <= 0 ? TENTATIVE_EXCESS : excess + 1;
@@ -91,7 +103,7 @@ claim_ray (const CeldClaimMap *c, const CeldClaim *claim, const CeldRay *from, f
 
 /* ------------------------------------------------------------------ shapes */
 
-/* From one place to the next. */
+/* The band between one point and the next. */
 static void
 claim_band (const CeldClaimMap *c, const CeldClaim *claim)
 {
@@ -106,7 +118,7 @@ claim_band (const CeldClaimMap *c, const CeldClaim *claim)
       float   norm = hypotf (nx, ny);
       CeldRay p = { a->x + t * (b->x - a->x), a->y + t * (b->y - a->y), nx / norm, ny / norm };
 
-      if (norm > 0.1f) /* not between opposite normals */
+      if (norm > 0.1f) /* skips rays between opposite normals */
         claim_ray (c, claim, &p, length);
     }
 }
@@ -171,81 +183,20 @@ celd_claim_apply (const CeldClaimMap *c, const CeldClaim *claim)
     }
 }
 
-/* ------------------------------------------------------------------ what a place claims */
-
-/* How far a band goes from a place. */
-static float
-band_length (const CeldEdgePoint *p, const CeldEdgePen *pen)
-{
-  return fminf (p->thickness + 0.5f, MAX_BAND_WIDTHS * pen->width + 2);
-}
-
-static CeldRay
-ray_from (const CeldEdgePoint *p)
-{
-  return (CeldRay) { p->x, p->y, p->nx, p->ny };
-}
-
-size_t
-celd_claims_at_point (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim claim[CELD_MAX_CLAIMS])
-{
-  const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  const CeldEdgePen       *pen = &pens->pen[loop->first];
-  size_t               next = i + 1 < loop->n ? i + 1 : 0, n = 0;
-
-  if (pen[i].owner && pen[i].owner == pen[next].owner)
-    claim[n++] = (CeldClaim) {
-      CELD_CLAIM_BAND, pen[i].owner, ray_from (&point[i]), ray_from (&point[next]),
-      (pen[i].width + pen[next].width) / 2,
-      fmaxf (band_length (&point[i], &pen[i]), band_length (&point[next], &pen[next])), 1, 0
-    };
-  return n + celd_line_claims (pens, loop, i, claim + n);
-}
-
-CeldStatus
-celd_claims_assign (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
-                 const CeldHost *host, CeldLabels *owner, CeldPlane *excess)
-{
-  const CeldContourEdges *edges = pens->edges;
-  CeldClaimMap          c = { pens, ink, owner, excess };
-  CeldStatus          status = CELD_OK;
-
-  celd_claims_reset (&c, labels, solid, (CeldRect) { 0, 0, ink->width, ink->height });
-  for (size_t k = 0; k < edges->n_loops && status == CELD_OK; k++)
-    {
-      for (size_t i = 0; i < edges->loop[k].n; i++)
-        {
-          CeldClaim claim[CELD_MAX_CLAIMS];
-          size_t    n = celd_claims_at_point (pens, &edges->loop[k], i, claim);
-
-          for (size_t j = 0; j < n; j++)
-            celd_claim_apply (&c, &claim[j]);
-        }
-      status = celd_progress (host, (double) (edges->loop[k].first + edges->loop[k].n) / (double) edges->n_points);
-    }
-  return status == CELD_OK ? celd_claims_finish (&c) : status;
-}
-
-#define TANGENT_WIDTHS 2.f   /* pen widths that the direction of a line is taken over */
-#define MIN_TANGENT   2.f   /* pixels; shorter pieces have no direction */
-#define MAX_ROUNDED_POINTS 12    /* places that a corner may be rounded over */
-#define MAX_LINE_WIDTHS 8.f   /* pen widths that a line runs on at most */
-#define MIN_CORNER_SINE  0.3f  /* sine of the turn at a corner that has a tip */
-
-/* Along the loop (1) or against it (-1). */
+/* The next point along the loop (1) or against it (-1). */
 static size_t
 next_point (const CeldEdgeLoop *loop, size_t i, int direction)
 {
   return direction > 0 ? (i + 1) % loop->n : (i + loop->n - 1) % loop->n;
 }
 
-/* The straight line on which the places up to place i lie, coming that way: place i, and the normal.  False if there
- * are too few of one owner. */
+/* Fits a straight line to the points that lead to point i in `direction`: point i and the normal.  False if too few
+ * of them have the same owner. */
 static bool
 find_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, int direction, CeldRay *line)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first], *p = &point[i], *q = p;
-  const CeldEdgePen       *pen = &pens->pen[loop->first];
+  const CeldEdgePen   *pen = &pens->pen[loop->first];
   float                along = 0, x, y, norm;
   size_t               k = i;
 
@@ -276,15 +227,15 @@ line_claim (uint32_t label, const CeldRay *from, int direction, float width, flo
 
 /* ------------------------------------------------------------------ tips */
 
-/* The corner between the places before and after it.  Its tip is where the middles of both sides meet:
- * in + half n + s t = out + half n' - u t', with the tangents t and t' along the loop. */
+/* The tip of the corner between the points before and after it, where the centre lines of both sides meet:
+ *   in + half n + s t = out + half n' - u t', with the tangents t and t' along the loop. */
 static size_t
 claim_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before, size_t after, CeldClaim *claim)
 {
   const CeldEdgePen *pen = &pens->pen[loop->first];
-  uint32_t       owner = pen[before].owner;
-  float          width = (pen[before].width + pen[after].width) / 2, half = width / 2, cross, x, y, s, u;
-  CeldRay        in, out, tip;
+  uint32_t           owner = pen[before].owner;
+  float              width = (pen[before].width + pen[after].width) / 2, half = width / 2, cross, x, y, s, u;
+  CeldRay            in, out, tip;
 
   if (!owner || owner != pen[after].owner || !find_line (pens, loop, before, 1, &in) ||
       !find_line (pens, loop, after, -1, &out))
@@ -307,7 +258,7 @@ claim_tip (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t before,
   return 3;
 }
 
-/* Corners are several places long: the first one has the tip. */
+/* A corner consists of several points; the first one makes the claims. */
 static size_t
 claim_corner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim)
 {
@@ -321,22 +272,22 @@ claim_corner (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, C
   return claim_tip (pens, loop, next_point (loop, i, -1), next_point (loop, last, 1), claim);
 }
 
-/* ------------------------------------------------------------------ lines that run on */
+/* ------------------------------------------------------------------ continuation of lines */
 
-/* Lines inside a region end where they end. */
+/* Lines inside a region do not continue. */
 static bool
 is_outline (const CeldEdgePen *pen)
 {
   return pen->owner && (pen->near != pen->far || pen->owner != pen->near);
 }
 
-/* From place i on, the last one of its owner that way. */
+/* The continuation of the line that ends at point i, the last one of its owner in `direction`. */
 static size_t
 extend_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, int direction, CeldClaim *claim)
 {
   const CeldEdgePen *pen = &pens->pen[loop->first];
-  uint32_t       owner = pen[i].owner;
-  CeldRay        line;
+  uint32_t           owner = pen[i].owner;
+  CeldRay            line;
 
   if (!is_outline (&pen[i]))
     return 0;
@@ -348,14 +299,69 @@ extend_line (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, in
   return 1;
 }
 
-size_t
-celd_line_claims (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim)
+static size_t
+claim_lines (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim *claim)
 {
   const CeldEdgePen *pen = &pens->pen[loop->first];
-  size_t         next = next_point (loop, i, 1), n = claim_corner (pens, loop, i, claim);
+  size_t             next = next_point (loop, i, 1), n = claim_corner (pens, loop, i, claim);
 
   if (pen[i].owner == pen[next].owner)
     return n;
   n += extend_line (pens, loop, i, 1, claim + n);
   return n + extend_line (pens, loop, next, -1, claim + n);
+}
+
+/* ------------------------------------------------------------------ claims of a point */
+
+/* How far the band of a point goes behind the edge. */
+static float
+band_length (const CeldEdgePoint *p, const CeldEdgePen *pen)
+{
+  return fminf (p->thickness + 0.5f, MAX_BAND_WIDTHS * pen->width + 2);
+}
+
+static CeldRay
+ray_from (const CeldEdgePoint *p)
+{
+  return (CeldRay) { p->x, p->y, p->nx, p->ny };
+}
+
+size_t
+celd_claims_at_point (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, CeldClaim claim[CELD_MAX_CLAIMS])
+{
+  const CeldEdgePoint *point = &pens->edges->point[loop->first];
+  const CeldEdgePen   *pen = &pens->pen[loop->first];
+  size_t               next = i + 1 < loop->n ? i + 1 : 0, n = 0;
+
+  if (pen[i].owner && pen[i].owner == pen[next].owner)
+    claim[n++] = (CeldClaim) {
+      CELD_CLAIM_BAND, pen[i].owner, ray_from (&point[i]), ray_from (&point[next]),
+      (pen[i].width + pen[next].width) / 2,
+      fmaxf (band_length (&point[i], &pen[i]), band_length (&point[next], &pen[next])), 1, 0
+    };
+  return n + claim_lines (pens, loop, i, claim + n);
+}
+
+CeldStatus
+celd_claims_assign (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
+                 const CeldHost *host, CeldLabels *owner, CeldPlane *excess)
+{
+  const CeldContourEdges *edges = pens->edges;
+  CeldClaimMap            c = { pens, ink, owner, excess };
+  CeldStatus              status = CELD_OK;
+
+  celd_claims_reset (&c, labels, solid, (CeldRect) { 0, 0, ink->width, ink->height });
+  for (size_t k = 0; k < edges->n_loops && status == CELD_OK; k++)
+    {
+      for (size_t i = 0; i < edges->loop[k].n; i++)
+        {
+          CeldClaim claim[CELD_MAX_CLAIMS];
+          size_t    n = celd_claims_at_point (pens, &edges->loop[k], i, claim);
+
+          for (size_t j = 0; j < n; j++)
+            celd_claim_apply (&c, &claim[j]);
+        }
+      status = celd_progress (host, (double) (edges->loop[k].first + edges->loop[k].n) / (double) edges->n_points);
+    }
+  return status == CELD_OK ? celd_claims_finish (&c) : status;
 }

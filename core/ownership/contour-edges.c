@@ -1,8 +1,9 @@
-/* The edges of ink are followed between pixels, ink on the left hand, diagonal ink connected, the world round the
- * picture paper; each place is moved to where the ink is one half.
+/* Tracing of contour edges: follows the crack edges between paper and ink, with ink on the left; ink is connected by 8
+ * neighbours, and outside the picture is paper.  Each point is moved to where ink crosses one half.
  *
- * What lies behind the ink is looked for along the normal, which is taken over a few places so that the steps of
- * pixels do not show.  Cost: one pass over the picture, and the length of the edges times the thickness of the ink.
+ * The thickness of the ink is measured along the normal, which is averaged over some points, so that the steps of
+ * pixels have no influence.  Cost: one pass over the picture, and the length of the edges times the thickness of the
+ * ink.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,21 +12,21 @@
 
 #include <math.h>
 
-#define IS_INK     1    /* bits of a pixel of the chart */
-#define FOLLOWED    2    /* the edge above it has been followed */
-#define NORMAL_RADIUS  3    /* places to either side that the normal is taken over */
-#define MAX_THICKNESS 512 /* pixels: ink is no contour where it is thicker */
-#define CORNER_COSINE  0.82f /* cosine of the turn that an edge makes at a corner */
-#define TURN_RADIUS   4    /* places to either side that a turn is measured over */
-#define SKEW_RADIUS    3    /* places beside a corner whose normals go askew */
+#define IS_INK        1     /* bits of a pixel's flags */
+#define FOLLOWED      2     /* the edge above the pixel has been followed */
+#define NORMAL_RADIUS 3     /* points to either side over which the normal is measured; chosen */
+#define MAX_THICKNESS 512   /* pixels; thicker ink is no contour; chosen */
+#define CORNER_COSINE 0.82f /* cosine of the least turn at a corner; chosen */
+#define TURN_RADIUS   4     /* points to either side over which the turn is measured; chosen */
+#define SKEW_RADIUS   3     /* points beside a corner whose normals are unreliable; chosen */
 
-/* The picture with a margin of one pixel. */
+/* The flags have a margin of one pixel. */
 typedef struct
 {
-  const CeldPlane *ink;
-  uint8_t         *flags;
-  int              stride;
-  CeldContourEdges    *edges;
+  const CeldPlane  *ink;
+  uint8_t          *flags;
+  int               stride;
+  CeldContourEdges *edges;
 } Tracer;
 
 static uint8_t *
@@ -47,10 +48,10 @@ read_flags (Tracer *t)
   return t->flags ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* ------------------------------------------------------------------ following */
+/* ------------------------------------------------------------------ tracing */
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner, the pixels ahead on the left and on the
- * right. */
+/* Headings: 0 right, 1 down, 2 left, 3 up.  Offsets of the next corner, and of the pixels ahead on the left and on
+ * the right. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
@@ -61,7 +62,7 @@ inside (const CeldPlane *ink, int x, int y)
   return x >= 0 && y >= 0 && x < ink->width && y < ink->height;
 }
 
-/* The place between the paper at (x,y) and the ink at (u,v). */
+/* The point between the paper at (x,y) and the ink at (u,v) where ink is one half, by linear interpolation. */
 static CeldEdgePoint
 subpixel_point (const CeldPlane *ink, int x, int y, int u, int v)
 {
@@ -85,13 +86,13 @@ add_point (CeldContourEdges *e, CeldEdgePoint point)
   return CELD_OK;
 }
 
-/* Follows the edge above the paper at (x,y). */
+/* Follows the loop that includes the edge above the paper at (x,y). */
 static CeldStatus
 follow (Tracer *t, int x, int y)
 {
   CeldContourEdges *e = t->edges;
-  CeldEdgeLoop  loop = { .first = e->n_points }, *loops;
-  int           at_x = x, at_y = y, heading = 0;
+  CeldEdgeLoop      loop = { .first = e->n_points }, *loops;
+  int               at_x = x, at_y = y, heading = 0;
 
   do
     {
@@ -144,7 +145,7 @@ celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b)
   return hypotf (a->x - b->x, a->y - b->y);
 }
 
-/* Does the edge turn sharply at place i? */
+/* Does the edge turn sharply at point i? */
 static bool
 is_corner (const CeldEdgePoint *point, size_t n, size_t i)
 {
@@ -168,7 +169,7 @@ find_corners (CeldEdgePoint *point, size_t n)
       }
 }
 
-/* ------------------------------------------------------------------ what lies behind the ink */
+/* ------------------------------------------------------------------ normals and thickness */
 
 static void
 find_normals (CeldEdgePoint *point, size_t n)
@@ -196,7 +197,7 @@ clamp (float value, int last)
   return value < 0 ? 0 : value > (float) last ? (float) last : value;
 }
 
-/* The ink at a place, between the centres of pixels. */
+/* Ink at a point, bilinear. */
 static float
 ink_at (const CeldPlane *ink, float x, float y)
 {
@@ -208,7 +209,7 @@ ink_at (const CeldPlane *ink, float x, float y)
   return above * (1 - b) + (CELD_AT (ink, left, below) * (1 - a) + CELD_AT (ink, right, below) * a) * b;
 }
 
-/* Where between `from` and `to` along the normal ink becomes paper. */
+/* The distance between `from` and `to` along the normal at which ink becomes paper, by bisection. */
 static float
 find_crossing (const CeldPlane *ink, const CeldEdgePoint *p, float from, float to)
 {
@@ -261,8 +262,8 @@ CeldStatus
 celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges)
 {
   CeldContourEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
-  Tracer       t = { .ink = ink, .edges = &made };
-  CeldStatus   status = read_flags (&t);
+  Tracer           t = { .ink = ink, .edges = &made };
+  CeldStatus       status = read_flags (&t);
 
   if (status == CELD_OK)
     status = follow_all (&t, host);

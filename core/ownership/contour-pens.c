@@ -1,8 +1,9 @@
-/* Which pen drew the ink: each shape of a cartoon is outlined with a pen of its own, over whatever lies behind it.
+/* Owners of contours: each region of a cartoon is outlined with a pen of its own, drawn over whatever lies behind it.
  *
- * Of two regions with ink between them the nearer one drew it.  Where the ink is thicker than its pen (pen-width.c)
- * other lines are in it, too.  Then the line next to the paper is the one that lay there where it could be told, as
- * long as the edge runs on without a corner; and if nobody can tell, the nearer region's.
+ * Of two regions with ink between them, the nearer one drew it.  Ink that is thicker than this region's pen
+ * (pen-width.c) contains other lines, too.  Then the line next to the paper has the owner of the nearest point along
+ * the edge whose owner is certain, up to a corner; or, round the corner, an owner between both labels in depth; else
+ * the nearer label.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,10 +11,10 @@
 
 #include <math.h>
 
-#define PLAIN_THICKNESS     1.04f   /* ink that is thicker than the pen by so much has other lines in it */
-#define THICKNESS_TOLERANCE 0.5f    /* pixels */
-#define MAX_ORDERED     12      /* labels beside one edge; of more it is not known whether they are in the same order */
-#define TIP_WIDTHS      6.f     /* pen widths that a line's sides run on to the tip where they meet */
+#define PLAIN_THICKNESS     1.04f /* ratio to the pen's width above which ink contains other lines; chosen */
+#define THICKNESS_TOLERANCE 0.5f  /* pixels by which thickness may be off; chosen */
+#define MAX_ORDERED         12    /* labels at one loop; with more of them its order counts as changed */
+#define TIP_WIDTHS          6.f   /* pen widths that the two sides of an outline run on to their common tip; chosen */
 
 static uint32_t
 label_at (const CeldLabels *labels, int32_t pixel)
@@ -21,7 +22,7 @@ label_at (const CeldLabels *labels, int32_t pixel)
   return pixel < 0 ? 0 : CELD_AT (labels, pixel % labels->width, pixel / labels->width);
 }
 
-/* Only where labels have changed; whole rows will do. */
+/* Reads labels within the changed rows only. */
 static void
 read_labels (const CeldLabels *labels, CeldRect changed, CeldContourPens *pens)
 {
@@ -40,7 +41,7 @@ read_labels (const CeldLabels *labels, CeldRect changed, CeldContourPens *pens)
 
 /* ------------------------------------------------------------------ owners */
 
-/* Whose ink is next to the place, as far as the place itself tells; 0 if other lines are in it. */
+/* The owner of a point as far as its own thickness shows; 0 if the ink contains other lines. */
 static uint32_t
 local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
 {
@@ -50,18 +51,19 @@ local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdge
     return 0;
   if (front)
     return p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
-  return pen->far && p->thickness > 2 * pen->width + THICKNESS_TOLERANCE ? 0 : pen->near; /* a tie, or ink that leaves the picture */
+  return pen->far && p->thickness > 2 * pen->width + THICKNESS_TOLERANCE ? 0 : pen->near; /* equal levels, or ink
+                                                                                           * that leaves the picture */
 }
 
-/* May a place take the owner of another so far away along the edge?  A line inside a region is its own, but for the
- * tip where both sides of a nearer region's outline meet. */
+/* May a point take the owner of another one at that distance along the edge?  A line inside a region belongs to the
+ * region, except near the tip where both sides of a nearer region's outline meet. */
 static bool
 accepts_owner (const CeldEdgePen *pen, const CeldEdgePen *from, float distance)
 {
   return pen->near != pen->far || distance < TIP_WIDTHS * from->width;
 }
 
-/* May it have a line between its front's and the paper, that comes round a corner? */
+/* May a point behind a corner take that label: does it lie between the paper and the front label in depth? */
 static bool
 accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePen *pen, uint32_t label)
 {
@@ -71,13 +73,13 @@ accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePen *pen,
          pens->level[label - 1] > pens->level[pen->near - 1];
 }
 
-/* Places that cannot tell take the owner from the nearest one along the edge that can: up to a corner, or also round
- * corners. */
+/* Points without an owner take that of the nearest point along the edge that has one: up to a corner, or with
+ * `round` also round corners.  `distance` has the distance to that point, 0 or INFINITY at the beginning. */
 static void
 propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, float *distance)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldEdgePen             *pen = &pens->pen[loop->first];
+  CeldEdgePen         *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
   for (int backwards = 0; backwards < 2; backwards++)
@@ -101,7 +103,7 @@ static void
 find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distance)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldEdgePen             *pen = &pens->pen[loop->first];
+  CeldEdgePen         *pen = &pens->pen[loop->first];
   size_t               unknown = 0;
 
   for (size_t i = 0; i < loop->n; i++)
@@ -122,16 +124,17 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distan
       pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
 }
 
-/* ------------------------------------------------------------------ all of it */
+/* ------------------------------------------------------------------ updates */
 
-/* Which pens may have other widths than before. */
+/* Marks labels whose pens have changed their width; to be freed. */
 static bool *
 find_changed_widths (const CeldContourPens *old, const CeldContourPens *new)
 {
   bool *changed = celd_alloc (new->n + 1, sizeof *changed);
 
   for (size_t k = 1; changed && k <= new->n; k++)
-    changed[k] = k > old->n || new->typical_width[k - 1] != old->typical_width[k - 1] || new->max_width[k - 1] != old->max_width[k - 1];
+    changed[k] = k > old->n || new->typical_width[k - 1] != old->typical_width[k - 1]
+                 || new->max_width[k - 1] != old->max_width[k - 1];
   if (changed)
     changed[0] = false;
   return changed;
@@ -143,10 +146,10 @@ compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
   return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
 }
 
-/* Some labels that are in the same order as before. */
+/* Labels that are in the same order as before. */
 typedef struct { uint32_t label[MAX_ORDERED]; size_t n; } Ordered;
 
-/* One more; false if it has changed places with another, or if there are too many. */
+/* Adds a label; false if it has changed its order with another one, or if there are too many. */
 static bool
 add_label (uint32_t label, const CeldContourPens *old, const CeldContourPens *new, Ordered *ordered)
 {
@@ -162,7 +165,7 @@ add_label (uint32_t label, const CeldContourPens *old, const CeldContourPens *ne
   return true;
 }
 
-/* Are all labels of a loop, any of which may own ink anywhere on it, in the order they had before? */
+/* Do all labels of a loop, each of which may own ink anywhere on it, have the same order as before? */
 static bool
 same_order (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new)
 {
@@ -179,7 +182,7 @@ same_order (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldCont
   return true;
 }
 
-/* Do all places of a loop say what they said before? */
+/* Are labels, widths and order the same as before at all points of a loop? */
 static bool
 same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new, const bool *changed)
 {
@@ -193,7 +196,7 @@ same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldConto
   return same_order (loop, old, new);
 }
 
-/* Widths and owners; a loop that is as it was keeps them. */
+/* Computes widths and owners of loops that have changed, and copies the others. */
 static CeldStatus
 update_owners (const CeldContourPens *old, CeldContourPens *pens)
 {
@@ -219,12 +222,13 @@ update_owners (const CeldContourPens *old, CeldContourPens *pens)
 }
 
 CeldStatus
-celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level, size_t n,
+celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level,
+                          size_t n,
                  CeldContourPens *pens)
 {
   const CeldContourEdges *edges = old->edges;
-  CeldContourPens            made = { .edges = edges, .level = level, .n = n };
-  CeldStatus          status;
+  CeldContourPens         made = { .edges = edges, .level = level, .n = n };
+  CeldStatus              status;
 
   made.pen   = celd_alloc0 (edges->n_points + 1, sizeof *made.pen);
   made.typical_width = celd_alloc0 (n, sizeof *made.typical_width);
@@ -250,7 +254,8 @@ celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, 
 }
 
 CeldStatus
-celd_contour_pens_new (const CeldContourEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n, CeldContourPens *pens)
+celd_contour_pens_new (const CeldContourEdges *edges, const CeldLabels *labels, const uint32_t *level, size_t n,
+                       CeldContourPens *pens)
 {
   CeldContourPens none = { .edges = edges };
 

@@ -1,8 +1,8 @@
-/* What the artist corrects: a stroke in a region's colour over ink gives that ink, the whole piece of line, to the
+/* Corrections by the artist: a stroke in a region's colour over ink gives that ink, and the whole piece of line, to the
  * region.
  *
- * A piece of line lies beside the edges that see the stroke through the ink, on as far as they run without a corner.
- * Only ink of the owner below the stroke changes hands, so that lines which cross the piece stay whose they are.
+ * A piece of line extends along the edges that see the stroke through the ink, up to corners.  Only ink with the same
+ * owner as below the stroke is reassigned, so that lines which cross the piece keep their owners.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,26 +12,26 @@
 
 #include <math.h>
 
-#define RAY_STEP  0.5f  /* pixels between the places of a ray */
-#define MAX_LINE_WIDTHS 3     /* pen widths that a piece of line may be thick */
+#define RAY_STEP        0.5f /* pixels between the samples of a ray; chosen */
+#define MAX_LINE_WIDTHS 3    /* pen widths; a piece of line is at most so thick; chosen */
 
-typedef struct { uint32_t from, to; } Reassignment; /* ink of label `from` goes to `to`; 0: none */
+typedef struct { uint32_t from, to; } Reassignment; /* ink of label `from` is given to `to`; 0: none */
 
 typedef struct
 {
-  const CeldContourPens   *pens;
-  const CeldPlane  *ink;
-  const CeldLabels *corrections;
-  CeldLabels       *owner;
-  Reassignment             *change;        /* of each place */
-  CeldTiles         strokes;     /* not 0 where there are any */
+  const CeldContourPens *pens;
+  const CeldPlane       *ink;
+  const CeldLabels      *corrections;
+  CeldLabels            *owner;
+  Reassignment          *change;           /* of each point */
+  CeldTiles              strokes; /* not 0 for tiles with strokes */
   CeldReassigned        *reassigned;
 } Corrector;
 
 static CeldStatus
 reassign (const Corrector *h, int x, int y, uint32_t to)
 {
-  uint32_t  *owner = &CELD_AT (h->owner, x, y);
+  uint32_t       *owner = &CELD_AT (h->owner, x, y);
   CeldPixelOwner *item;
 
   if (*owner == to)
@@ -45,7 +45,7 @@ reassign (const Corrector *h, int x, int y, uint32_t to)
   return CELD_OK;
 }
 
-/* Where the strokes are. */
+/* Marks the tiles with strokes. */
 static CeldStatus
 find_strokes (Corrector *h)
 {
@@ -67,7 +67,7 @@ find_strokes (Corrector *h)
   return status;
 }
 
-/* The pixel so far behind an edge.  Is it ink? */
+/* The pixel at distance s behind an edge; true if it is ink. */
 static bool
 ink_behind (const Corrector *h, const CeldEdgePoint *p, float s, int *x, int *y)
 {
@@ -82,7 +82,7 @@ search_depth (const Corrector *h, size_t i)
   return fminf (h->pens->edges->point[i].thickness, MAX_LINE_WIDTHS * h->pens->pen[i].width + 2);
 }
 
-/* What the place sees of a stroke. */
+/* The reassignment by the first stroke that a point sees through the ink. */
 static Reassignment
 find_change (const Corrector *h, size_t i)
 {
@@ -102,12 +102,12 @@ find_change (const Corrector *h, size_t i)
   return (Reassignment) { 0, 0 };
 }
 
-/* Places without a gift take that of their neighbour, up to a corner. */
+/* Points without a reassignment take that of their neighbour, up to a corner. */
 static void
 propagate_changes (const Corrector *h, const CeldEdgeLoop *loop)
 {
   const CeldEdgePoint *point = &h->pens->edges->point[loop->first];
-  Reassignment                *change = &h->change[loop->first];
+  Reassignment        *change = &h->change[loop->first];
   size_t               n = loop->n, seen = 0;
 
   for (size_t i = 0; i < n; i++)
@@ -139,7 +139,7 @@ reassign_behind (const Corrector *h, size_t i)
   return status;
 }
 
-/* The ink below the strokes themselves, within a tile. */
+/* Reassigns the ink under the strokes within a tile. */
 static CeldStatus
 reassign_below (const Corrector *h, CeldRect tile)
 {
@@ -155,11 +155,12 @@ reassign_below (const Corrector *h, CeldRect tile)
 }
 
 CeldStatus
-celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections, CeldLabels *owner,
+celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
+                        CeldLabels *owner,
                    CeldReassigned *reassigned)
 {
   size_t     n = pens->edges->n_points;
-  Corrector       h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.change), { 0 }, reassigned };
+  Corrector  h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.change), { 0 }, reassigned };
   CeldStatus status = h.change ? find_strokes (&h) : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < n && !status; i++)

@@ -1,18 +1,19 @@
 /* Depth expansion (section 3.3) of one region: the ink that it drew, by the local thickness of the contour.
  *
- * D1 is the distance from the region's paper, D2 that from the paper of all farther regions.  The medial axis of the
- * contour lies where D1 - D2 changes sign; its thickness t is D1 + D2 there (the paper's 2 D1, but for pixels whose
- * centres lie beside the axis), and Laplace's equation carries t to the other contour pixels; nothing flows into
- * paper.  The region takes the contour pixels with D1 < t that are connected to it, and the small gaps this leaves.
+ * D1 is the distance from the region's paper, D2 the distance from the paper of all farther regions.  The medial axis
+ * of the contour lies where D1 - D2 changes sign; the thickness t there is D1 + D2 (the paper has 2 D1, which differs
+ * for pixels whose centres lie beside the axis).  Laplace's equation, with insulated boundaries, propagates t to the
+ * other contour pixels.  The region takes the contour pixels with D1 < t that are connected to it, and the small gaps
+ * that remain.
  *
- * Where the paper is silent: only contour connected to the region counts.  An axis pixel tells the thickness only if
- * the two nearest points lie opposite each other; where another contour branches off they do not, and t would be
- * too large there.  A piece of contour without an axis has
- * no farther region at its other side (a detail of the region); it counts as thick as the contour is anywhere, and is
- * taken whole if there is no axis at all.  A gap is filled if it touches no farther region.
+ * Beyond the paper: only contour connected to the region counts.  An axis pixel has a thickness only if its two nearest
+ * points lie opposite each other; where another contour branches off they do not, and t would be too large.  A
+ * connected component of contour without an axis has no farther region on its other side (a detail of the region); its
+ * thickness is the largest of the axis, and without any axis it is taken as a whole.  A gap is filled if it touches no
+ * farther region.
  *
- * All of it happens in a window round the region that is no wider than the contours there are thick, so that a region
- * costs time in proportion to its bounding box.
+ * All of this happens in a window round the region whose margin is the thickness of the contours there, so that the
+ * cost is proportional to the region's bounding box.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -22,33 +23,35 @@
 
 #include <math.h>
 
-#define MIN_GAP       16    /* pixels; gaps of less than this, or than 2 w^2, are filled */
-#define OPPOSITE_COSINE        (-0.9) /* cosine; the two nearest points are opposite if their angle's is not larger */
-#define THICKNESS_TOLERANCE 0.01  /* of the propagated thickness, as a share of its range */
-#define TIE_DISTANCE             0.02  /* pixels; D1 this close to t is not below it, whatever the rounding */
+#define MIN_GAP             16     /* pixels; gaps smaller than this, or than 2 w^2 for line width w, are filled;
+                                    * chosen */
+#define OPPOSITE_COSINE     (-0.9) /* cosine; two directions with a larger one are not opposite; chosen */
+#define THICKNESS_TOLERANCE 0.01   /* of the propagated thickness, relative to its range; chosen */
+#define TIE_DISTANCE        0.02   /* pixels; D1 has to be below t by this much, so that rounding has no influence;
+                                    * chosen */
 
-/* A part of the sheet; tight planes.  Masks are 0 or 1. */
+/* A part of the picture; planes without padding, masks are 0 or 1. */
 typedef struct
 {
   CeldExpansionState *state;
-  uint32_t   k;             /* the level being expanded */
-  int        left, top, width, height;
-  size_t     pixels;
-  uint8_t   *front;         /* the region's paper */
-  uint8_t   *farther;       /* the paper of all farther regions */
-  uint8_t   *open;          /* where the next spread may go */
-  uint8_t   *contour;       /* free ink connected to the region */
-  uint8_t   *axis;          /* its medial axis */
-  uint8_t   *taken;         /* what the region takes of it */
-  int32_t   *d1, *d2;       /* D1, D2, squared */
-  int32_t   *near1, *near2; /* the nearest pixels, which D1 and D2 lead to */
-  float     *t;             /* thickness of the contour */
-  float     *east, *south, *diagonal, *b; /* Laplace's equation for t */
-  int32_t   *stack;
-  double     mean, most;    /* thickness along the axis; infinite if there is none */
+  uint32_t            k;    /* the level being expanded */
+  int                 left, top, width, height;
+  size_t              pixels;
+  uint8_t            *front; /* the region's paper */
+  uint8_t            *farther; /* the paper of all farther regions */
+  uint8_t            *open; /* where the next flood fill may go */
+  uint8_t            *contour; /* free ink connected to the region */
+  uint8_t            *axis; /* its medial axis */
+  uint8_t            *taken; /* what the region takes of the contour */
+  int32_t            *d1, *d2; /* D1 and D2, squared */
+  int32_t            *near1, *near2; /* the nearest pixels, at distance D1 and D2 */
+  float              *t;    /* thickness t of the contour */
+  float              *east, *south, *diagonal, *b; /* Laplace's equation for t */
+  int32_t            *stack;
+  double              mean, most; /* of t on the axis; infinite without an axis */
 } Window;
 
-/* The first pixel of row y of the window on the sheet. */
+/* The first pixel of row y of the window in the picture. */
 static inline uint32_t *
 state_row (const Window *w, int y)
 {
@@ -57,13 +60,13 @@ state_row (const Window *w, int y)
 
 /* ------------------------------------------------------------------ the window */
 
-/* The region's box with `margin` pixels round it, as far as the sheet goes. */
+/* Sets the window to the region's box with `margin` pixels round it, clipped to the picture. */
 static void
 place_window (Window *w, int margin)
 {
   const CeldExpansionState *state = w->state;
-  CeldRect         box = state->box[w->k - 1];
-  int              right = box.x + box.width + margin, bottom = box.y + box.height + margin;
+  CeldRect                  box = state->box[w->k - 1];
+  int                       right = box.x + box.width + margin, bottom = box.y + box.height + margin;
 
   w->left = box.x > margin ? box.x - margin : 0;
   w->top = box.y > margin ? box.y - margin : 0;
@@ -72,12 +75,12 @@ place_window (Window *w, int margin)
   w->pixels = (size_t) w->width * (size_t) w->height;
 }
 
-/* Upper limit of the thickness of the free ink in the window; 0 if there is none. */
+/* Upper bound of the thickness of free ink in the window; 0 if there is none. */
 static int
 thickest_ink (const Window *w)
 {
   const CeldExpansionState *state = w->state;
-  int32_t          deepest = 0;
+  int32_t                   deepest = 0;
 
   for (int y = 0; y < w->height; y++)
     {
@@ -91,7 +94,7 @@ thickest_ink (const Window *w)
   return deepest ? (int) (2 * sqrt (deepest)) + 1 : 0;
 }
 
-/* A margin that is as wide as the ink within it is thick.  False if there is no ink. */
+/* Finds a margin that is as wide as the ink within it is thick.  False if there is no ink. */
 static bool
 find_window (Window *w)
 {
@@ -150,7 +153,7 @@ close_window (Window *w)
   celd_free (w->stack);
 }
 
-/* Who is where: the region, farther regions, free ink; nearer regions have had their turn and are nobody. */
+/* Sets the masks; nearer regions, which are expanded already, are in none of them. */
 static void
 read_window (Window *w)
 {
@@ -170,7 +173,7 @@ read_window (Window *w)
 
 /* ------------------------------------------------------------------ the contour and its thickness */
 
-/* Marks in `reached` the open pixels that are connected to the region. */
+/* Flood fill from the region: marks the open pixels that are connected to it in `reached`. */
 static void
 flood (const Window *w, uint8_t *reached)
 {
@@ -201,7 +204,7 @@ side (const Window *w, size_t p)
   return (w->d1[p] > w->d2[p]) - (w->d1[p] < w->d2[p]);
 }
 
-/* Is D1 - D2 zero at the contour pixel p, or does it change sign between p and a pixel round it? */
+/* Is D1 - D2 zero at the contour pixel p, or does it change sign between p and one of its 8 neighbours? */
 static bool
 on_axis (const Window *w, int x, int y, size_t p)
 {
@@ -219,7 +222,7 @@ on_axis (const Window *w, int x, int y, size_t p)
   return false;
 }
 
-/* Do the nearest points of the region and of the farther ones lie at opposite sides of (x,y)? */
+/* Do the nearest points of the region and of farther regions lie on opposite sides of (x,y)? */
 static bool
 between_opposites (const Window *w, int x, int y, size_t p)
 {
@@ -229,7 +232,7 @@ between_opposites (const Window *w, int x, int y, size_t p)
   return x1 * x2 + y1 * y2 <= OPPOSITE_COSINE * sqrt ((double) w->d1[p] * (double) w->d2[p]);
 }
 
-/* The axis, and t = D1 + D2 on it. */
+/* Finds the axis, and t = D1 + D2 on it. */
 static void
 find_axis (Window *w)
 {
@@ -252,7 +255,7 @@ find_axis (Window *w)
   w->most = n ? w->most : INFINITY;
 }
 
-/* Contour farther from the region than the contour is thick anywhere cannot be taken and need not be solved for. */
+/* Removes contour that is farther from the region than any contour is thick, since it cannot be taken. */
 static void
 trim_contour (Window *w)
 {
@@ -263,12 +266,12 @@ trim_contour (Window *w)
       w->contour[p] = 0;
 }
 
-/* Laplace's equation for t over the contour.  Pieces without an axis keep what t starts from. */
+/* Solves Laplace's equation for t over the contour.  Components without an axis keep the initial value. */
 static CeldStatus
 propagate_thickness (Window *w, const CeldHost *host)
 {
   CeldLaplace *laplace = NULL;
-  CeldHostPart     part[2];
+  CeldHostPart part[2];
   CeldHost     set_up = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus   status;
 
@@ -301,7 +304,8 @@ take_contour (Window *w)
   flood (w, w->taken);
 }
 
-/* Does pixel (x,y) of the window touch a farther region, or the rest of the sheet, of which nothing is known here? */
+/* Does pixel (x,y) touch a farther region, or the border of the window inside the picture, beyond which anything may
+ * be? */
 static bool
 touches_others (const Window *w, int x, int y)
 {
@@ -314,7 +318,7 @@ touches_others (const Window *w, int x, int y)
          (y > 0 && w->farther[p - (size_t) w->width]) || (y + 1 < w->height && w->farther[p + (size_t) w->width]);
 }
 
-/* Takes the small pieces of contour that are left over and touch no farther region. */
+/* Takes the small remaining components of contour that touch no farther region. */
 static CeldStatus
 fill_gaps (Window *w, const CeldHost *host)
 {
@@ -357,11 +361,11 @@ write_window (const Window *w)
 CeldStatus
 celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host)
 {
-  Window     w = { .state = state, .k = k };
-  CeldHostPart   part[4];
-  CeldHost   first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
-  CeldHost   third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
-  CeldStatus status;
+  Window       w = { .state = state, .k = k };
+  CeldHostPart part[4];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
+  CeldHost     third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
+  CeldStatus   status;
 
   if (!state->box[k - 1].width || !find_window (&w))
     return celd_progress (host, 1);

@@ -1,12 +1,12 @@
-/* Depth expansion (section 3.3): ink goes to the region that drew it.
+/* Depth expansion (section 3.3): ink is assigned to the region that drew it.
  *
- * Regions are taken front to back, all paper of a rank at once, so that ink between equal ranks stays at that rank.
- * Each takes its share of the ink that is still free (expansion-region.c) and is then removed.  The last one has no
- * farther region to share with; what is left when its turn comes goes to the nearest region, pixel by pixel.
+ * Ranks are expanded from front to back, all paper of a rank at once, so that ink between equal ranks stays at that
+ * rank.  Each takes its part of the free ink (expansion-region.c) and is then excluded.  The last rank has no farther
+ * one to share ink with: what is left goes to the nearest region, pixel by pixel.
  *
- * Contour is ink below one half: an antialiased pixel goes where the larger part of it is.  A patch of a rank that is
- * ink throughout, like a black shoe with a scribble of its own, keeps its pixels as if they were paper.  Paper never
- * changes.  Ranks in one picture of one rank, of ink alone or of paper alone come out as they went in.
+ * Contour is ink below one half, so that an antialiased pixel goes with its larger part.  A connected component of a
+ * rank that is wholly ink, like a black shoe with a scribble of its own, is treated as paper.  Paper never changes.  A
+ * picture of one rank, of ink alone or of paper alone is returned unchanged.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,7 @@
 
 #include <stdlib.h>
 
-#define MIN_PATCH 16 /* pixels; smaller patches of ink are nobody's whatever their rank */
+#define MIN_PATCH 16 /* pixels; smaller components of ink are free whatever their rank; chosen */
 
 int
 celd_compare_ranks (const void *a, const void *b)
@@ -25,7 +25,7 @@ celd_compare_ranks (const void *a, const void *b)
   return (p > q) - (p < q);
 }
 
-/* First one of each run in a row, then sorted and thinned. */
+/* Collects the first rank of each run in a row, then sorts and removes duplicates. */
 CeldStatus
 celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
 {
@@ -55,7 +55,7 @@ celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
   return CELD_OK;
 }
 
-/* Ranks become levels. */
+/* Replaces ranks by levels. */
 static void
 number_pixels (const CeldLabels *ranks, CeldExpansionState *state)
 {
@@ -77,7 +77,7 @@ number_pixels (const CeldLabels *ranks, CeldExpansionState *state)
       }
 }
 
-/* Frees the ink of all patches that have paper, and of those that are too small to be meant. */
+/* Frees the ink of all components that have paper, and of those that are too small. */
 static CeldStatus
 free_ink (const CeldPlane *ink, const CeldHost *host, CeldExpansionState *state)
 {
@@ -107,7 +107,7 @@ done:
   return status;
 }
 
-/* How deep ink lies, and the box of each level. */
+/* Computes distance_in_ink, and the box of each level. */
 static CeldStatus
 measure_state (const CeldHost *host, CeldExpansionState *state)
 {
@@ -134,7 +134,7 @@ measure_state (const CeldHost *host, CeldExpansionState *state)
   return status;
 }
 
-/* Front to back; the last level gets what is left. */
+/* Front to back; assign_rest handles the last level. */
 static CeldStatus
 expand_regions (const CeldHost *host, CeldExpansionState *state)
 {
@@ -151,7 +151,7 @@ expand_regions (const CeldHost *host, CeldExpansionState *state)
   return status;
 }
 
-/* Free ink goes to the nearest pixel that is not free; without any it stays free. */
+/* Assigns free ink to the nearest pixel that is not free; without any such pixel it stays free. */
 static CeldStatus
 assign_rest (const CeldHost *host, CeldExpansionState *state)
 {

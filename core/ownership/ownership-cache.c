@@ -1,9 +1,9 @@
-/* Whose the ink is, kept between edits: only what an edit touches is claimed again, and the result is what it would be
- * from the beginning, bit by bit.
+/* Contour ownership, kept between edits: only tiles that an edit affects are claimed again, and the result equals that
+ * of a computation from scratch bit for bit.
  *
- * That is so because claims come to the same in whichever order they are made (claims.c): a tile of the picture is
- * forgotten and claimed again by all that reach it, which changes nothing beside it.  Ink that nobody claims is given
- * away in connected pieces, each from what is beside it alone.
+ * This works because the result of claims is independent of their order (claims.c): a tile is reset and claimed again
+ * by all claims that touch it, without any effect on other tiles.  Unclaimed ink is assigned again by connected
+ * components, each of which depends on the pixels beside it alone.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -27,7 +27,7 @@ touches (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim)
   return false;
 }
 
-/* Claims again all that may reach a marked tile. */
+/* Resets the marked tiles and repeats all claims that touch one. */
 static void
 claim_again (const CeldClaimMap *c, const CeldOwnershipInput *in, const bool *solid, const CeldTiles *tiles)
 {
@@ -49,15 +49,15 @@ claim_again (const CeldClaimMap *c, const CeldOwnershipInput *in, const bool *so
       }
 }
 
-/* ------------------------------------------------------------------ ink that nobody claims */
+/* ------------------------------------------------------------------ unclaimed ink */
 
 typedef struct { const CeldClaimMap *claims; CeldTiles *tiles; CeldPixelOwner *item; size_t n; } Unclaimed;
 
-/* Takes the pixel into the list if nobody has claimed it and it is not there yet. */
+/* Queues the pixel if it is unclaimed and not in the queue yet. */
 static CeldStatus
 add_unclaimed (Unclaimed *unclaimed, int x, int y)
 {
-  uint32_t  *owner = &CELD_AT (unclaimed->claims->owner, x, y);
+  uint32_t       *owner = &CELD_AT (unclaimed->claims->owner, x, y);
   CeldPixelOwner *item;
 
   if (CELD_AT (unclaimed->claims->excess, x, y) != INFINITY || *owner == CELD_OWNER_PENDING)
@@ -72,7 +72,7 @@ add_unclaimed (Unclaimed *unclaimed, int x, int y)
   return CELD_OK;
 }
 
-/* All of every piece that lies in marked tiles, or next to them. */
+/* Queues all connected components of unclaimed ink that have a pixel in a marked tile or next to one. */
 static CeldStatus
 find_unclaimed (Unclaimed *unclaimed)
 {
@@ -103,7 +103,7 @@ find_unclaimed (Unclaimed *unclaimed)
 static CeldStatus
 spread_again (const CeldClaimMap *c, CeldTiles *tiles)
 {
-  Unclaimed       unclaimed = { c, tiles, NULL, 0 };
+  Unclaimed  unclaimed = { c, tiles, NULL, 0 };
   CeldStatus status = find_unclaimed (&unclaimed);
 
   for (size_t i = 0; i < unclaimed.n; i++)
@@ -158,7 +158,7 @@ clip_rect (CeldRect r, int width, int height)
   return (CeldRect) { r.x, r.y, right - r.x, bottom - r.y };
 }
 
-/* Owners that have changed are seen in the next pixels, too. */
+/* A changed owner affects the neighbouring pixels, too. */
 static CeldRect
 update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool sort, const CeldTiles *tiles,
               CeldOwnership *own)
@@ -173,16 +173,17 @@ update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, boo
                                                                                    r.height + 2 }, w, h);
 
         if (*celd_tile_of (tiles, r.x, r.y))
-          changed = celd_rect_union (changed, celd_ownership_coverage_update (in->ink, &kept->owner, in->level, round, own));
+          changed = celd_rect_union (changed, celd_ownership_coverage_update (in->ink, &kept->owner, in->level, round,
+                                                                              own));
         else if (sort && *celd_tile_of (&kept->antialiased, r.x, r.y))
           changed = celd_rect_union (changed, celd_ownership_reorder (&kept->owner, in->level, r, own));
       }
   return changed;
 }
 
-/* ------------------------------------------------------------------ from the beginning */
+/* ------------------------------------------------------------------ from scratch */
 
-/* What is new about the labels takes the place of the old: pens, whose level is owned, and solid labels. */
+/* Moves new pens, whose level is owned, and solid labels into the cache. */
 static void
 replace_pens (CeldOwnershipCache *kept, CeldContourPens *pens, bool **solid)
 {
@@ -196,9 +197,10 @@ replace_pens (CeldOwnershipCache *kept, CeldContourPens *pens, bool **solid)
   *solid = NULL;
 }
 
-/* Pens and solid labels; to be cleared with the level whatever is returned. */
+/* Computes pens and solid labels; after a failure both are cleared. */
 static CeldStatus
-measure_pens (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, CeldRect new_labels, CeldContourPens *pens, bool **solid)
+measure_pens (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, CeldRect new_labels, CeldContourPens *pens,
+              bool **solid)
 {
   uint32_t  *level = celd_alloc (in->n, sizeof *level);
   CeldStatus status;
@@ -221,7 +223,7 @@ measure_pens (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, Celd
   return status;
 }
 
-/* Where pixels have shares. */
+/* Finds the tiles with antialiased pixels. */
 static CeldStatus
 find_antialiased (const CeldPlane *ink, CeldTiles *antialiased)
 {
@@ -235,14 +237,15 @@ find_antialiased (const CeldPlane *ink, CeldTiles *antialiased)
 }
 
 CeldStatus
-celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host, CeldOwnershipCache *kept, CeldOwnership *ownership)
+celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host, CeldOwnershipCache *kept,
+                           CeldOwnership *ownership)
 {
-  int        w = input->ink->width, h = input->ink->height;
-  CeldHostPart   part[2];
-  CeldHost   first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
-  CeldContourPens   pens = { 0 };
-  bool      *solid = NULL;
-  CeldStatus status;
+  int             w = input->ink->width, h = input->ink->height;
+  CeldHostPart    part[2];
+  CeldHost        first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
+  CeldContourPens pens = { 0 };
+  bool           *solid = NULL;
+  CeldStatus      status;
 
   celd_ownership_cache_clear (kept);
   kept->pens.edges = &kept->edges;
@@ -258,7 +261,8 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   if (!status)
     status = celd_plane_new (w, h, &kept->excess);
   if (!status)
-    status = celd_claims_assign (&kept->pens, input->ink, input->labels, kept->solid, &second, &kept->owner, &kept->excess);
+    status = celd_claims_assign (&kept->pens, input->ink, input->labels, kept->solid, &second, &kept->owner,
+                                 &kept->excess);
   if (!status && input->corrections)
     status = celd_corrections_apply (&kept->pens, input->ink, input->corrections, &kept->owner, &kept->reassigned);
   if (!status)
@@ -272,17 +276,17 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   return status;
 }
 
-/* ------------------------------------------------------------------ from where it was */
+/* ------------------------------------------------------------------ updates */
 
-/* Owners for new labels or levels; corrections are taken back. */
+/* Updates owners after a change of labels or levels; corrections have to be reverted before. */
 static CeldStatus
 update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost *host, CeldOwnershipCache *kept,
               CeldTiles *tiles)
 {
-  CeldContourPens   pens = { 0 };
-  CeldClaimMap claims = { &kept->pens, in->ink, &kept->owner, &kept->excess };
-  bool      *solid = NULL;
-  CeldStatus status = measure_pens (in, kept, new_labels, &pens, &solid);
+  CeldContourPens pens = { 0 };
+  CeldClaimMap    claims = { &kept->pens, in->ink, &kept->owner, &kept->excess };
+  bool           *solid = NULL;
+  CeldStatus      status = measure_pens (in, kept, new_labels, &pens, &solid);
 
   if (!status)
     status = celd_ownership_mark_changes (kept, in, new_labels, &pens, solid, tiles);
@@ -301,7 +305,8 @@ update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost
 }
 
 CeldStatus
-celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_labels, const CeldHost *host, CeldOwnershipCache *kept,
+celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_labels, const CeldHost *host,
+                             CeldOwnershipCache *kept,
                    CeldOwnership *ownership, CeldRect *changed)
 {
   bool       same = kept->pens.n == input->n && !memcmp (kept->level, input->level, input->n * sizeof *input->level);

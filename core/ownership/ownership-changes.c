@@ -1,8 +1,8 @@
-/* Where an edit touches whose the ink is: only there it is claimed again.
+/* The tiles in which an edit may change contour ownership.
  *
- * Pens are measured everywhere, which is soon done, and compared: what a place of an edge claims now, but did not
- * before, or the other way round, is marked.  So is where labels settle pixels without claims, and where claims meet of
- * two labels that have changed places in depth.
+ * Pens are measured everywhere, which is cheap, and compared: tiles are marked that a claim touches which is new or
+ * does not exist any more, in which labels settle other pixels without claims than before, and in which labels have
+ * claims that have changed their order in depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,9 +13,9 @@
 
 #include <math.h>
 
-#define CLAIM_AND_COVERAGE   (CELD_TILE_CLAIM | CELD_TILE_COVERAGE)
-#define NARROW_COSINE 0.9f     /* cosine between the sides of a band that hardly opens */
-#define NARROW_MARGIN  0.03f    /* of its length that it may then stick out between them */
+#define CLAIM_AND_COVERAGE (CELD_TILE_CLAIM | CELD_TILE_COVERAGE)
+#define NARROW_COSINE      0.9f  /* cosine between the sides of a band that hardly widens; chosen */
+#define NARROW_MARGIN      0.03f /* relative to its length, how far such a band may extend beyond its sides; chosen */
 
 static float
 min (float a, float b)
@@ -29,7 +29,7 @@ max (float a, float b)
   return a > b ? a : b;
 }
 
-/* Round two rays of this length. */
+/* The tiles round two rays of this length. */
 static CeldTileSpan
 span_of (const CeldTiles *tiles, const CeldRay *a, const CeldRay *b, float length, float margin)
 {
@@ -41,11 +41,13 @@ span_of (const CeldTiles *tiles, const CeldRay *a, const CeldRay *b, float lengt
                          max (max (a->y, b->y), max (ay, by)) + margin);
 }
 
-/* Long lines are taken piece by piece, so that slanting ones do not mark a large square. */
+/* Splits long lines, so that a slanting line does not mark a large square. */
 static int
-line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line, CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
+line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line,
+            CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
 {
-  float length = celd_claim_line_length (ink, line), piece = max (CELD_TILE, length / (CELD_MAX_CLAIM_SPANS - 1)), from = 0;
+  float length = celd_claim_line_length (ink, line), piece = max (CELD_TILE, length / (CELD_MAX_CLAIM_SPANS - 1)),
+                 from = 0;
   int   n = 0;
 
   for (; from < length && n < CELD_MAX_CLAIM_SPANS; from += piece)
@@ -58,7 +60,8 @@ line_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *line,
 }
 
 int
-celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
+celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim,
+                  CeldTileSpan span[CELD_MAX_CLAIM_SPANS])
 {
   const CeldRay *a = &claim->from, *b = &claim->to;
   bool           narrow = a->nx * b->nx + a->ny * b->ny > NARROW_COSINE;
@@ -72,7 +75,7 @@ celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim 
   return 1;
 }
 
-/* ------------------------------------------------------------------ pixels that labels settle */
+/* ------------------------------------------------------------------ pixels that are settled without claims */
 
 static void
 compare_pixels (const CeldOwnershipCache *kept, const CeldOwnershipInput *in, CeldRect rect, const bool *solid,
@@ -90,7 +93,7 @@ compare_pixels (const CeldOwnershipCache *kept, const CeldOwnershipInput *in, Ce
       }
 }
 
-/* Everywhere if a label has become solid or ceased to be. */
+/* The whole picture if a label has become solid or has ceased to be solid. */
 static CeldRect
 changed_labels (const CeldOwnershipCache *kept, const CeldOwnershipInput *in, CeldRect new_labels, const bool *solid)
 {
@@ -137,12 +140,12 @@ compare_claims (const CeldPlane *ink, const CeldContourPens *old, const CeldCont
     }
 }
 
-/* ------------------------------------------------------------------ labels that change places in depth */
+/* ------------------------------------------------------------------ labels that change their order */
 
-/* Labels that claim ink of a tile. */
+/* Labels with claims in a tile. */
 typedef struct { uint32_t label[7], n; } Claimants;
 
-#define MAX_CLAIMANTS 7 /* more of them are not told apart */
+#define MAX_CLAIMANTS 7 /* with more of them the order counts as changed */
 
 static int
 compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
@@ -187,7 +190,7 @@ list_claimants (const CeldPlane *ink, const CeldContourPens *pens, const CeldTil
       }
 }
 
-/* Has any of these passed another?  New labels have. */
+/* Has the order of any two of these labels changed?  That of new labels has. */
 static bool
 order_changed (const Claimants *c, const CeldContourPens *old, const CeldContourPens *new)
 {

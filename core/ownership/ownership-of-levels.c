@@ -1,7 +1,7 @@
-/* Whose each pixel is, from a picture of levels in any encoding, as the steps of a graph have it: they have neither
- * labels nor an order at hand.
+/* Contour ownership and depth expansion from a picture of levels in any encoding, for callers that have neither labels
+ * nor an order, like operations of a GEGL graph.
  *
- * Every level is a label, or with regions every region of a level, numbered from the farthest.
+ * Each level is a label; with regions, each region of a level.  Labels are numbered from the farthest on.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Not a number is 0, and so is -0. */
+/* Replaces NaN and -0 by 0. */
 static float
 clean_level (float level)
 {
   return level == level ? level + 0.f : 0;
 }
 
-/* The bits of a float as a number that sorts as the float does. */
+/* Maps a float to an integer with the same order. */
 static uint32_t
 rank_of_level (float level)
 {
@@ -30,7 +30,7 @@ rank_of_level (float level)
 
 /* ------------------------------------------------------------------ levels and regions as labels */
 
-/* Replaces values by their places, from 1, among the distinct ones in rising order, of which there are *n. */
+/* Replaces each value by its position, from 1, among the *n distinct values in rising order. */
 static CeldStatus
 number_values (CeldLabels *values, size_t *n)
 {
@@ -56,7 +56,7 @@ number_values (CeldLabels *values, size_t *n)
   return status;
 }
 
-/* Parts the levels, numbers of which are in `label`, by regions. */
+/* Splits the levels, whose numbers are in `label`, by regions. */
 static CeldStatus
 split_levels_by_region (const CeldLabels *regions, CeldLabels *label, CeldLabels *scratch, size_t *n)
 {
@@ -73,7 +73,7 @@ split_levels_by_region (const CeldLabels *regions, CeldLabels *label, CeldLabels
   return status ? status : number_values (label, n);
 }
 
-/* What the labels stand for. */
+/* Records level, region and order of each label. */
 static CeldStatus
 describe_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwnership *made)
 {
@@ -112,9 +112,9 @@ number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwne
   return status ? status : describe_labels (levels, regions, made);
 }
 
-/* ------------------------------------------------------------------ the artist's strokes over ink */
+/* ------------------------------------------------------------------ corrections */
 
-/* The label with most pixels of those of the region; 0: there is none. */
+/* The largest label of a region; 0 if there is none. */
 static uint32_t
 find_region (const CeldLevelOwnership *made, const size_t *area, uint32_t region)
 {
@@ -126,7 +126,7 @@ find_region (const CeldLevelOwnership *made, const size_t *area, uint32_t region
   return found;
 }
 
-/* Strokes that name regions name labels. */
+/* Translates corrections from regions to labels. */
 static CeldStatus
 number_corrections (const CeldLevelOwnership *made, const CeldLabels *corrections, CeldLabels *numbered)
 {
@@ -149,11 +149,12 @@ number_corrections (const CeldLevelOwnership *made, const CeldLabels *correction
   return status;
 }
 
-/* ------------------------------------------------------------------ both together */
+/* ------------------------------------------------------------------ public functions */
 
 CeldStatus
 celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldLevelOwnership *made)
+                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
+                       CeldLevelOwnership *made)
 {
   CeldLabels numbered = { 0 };
   CeldStatus status;
@@ -185,7 +186,7 @@ celd_level_ownership_clear (CeldLevelOwnership *made)
   celd_free (made->region);
 }
 
-/* The level of the label that has more of each pixel. */
+/* The level of the label that covers most of each pixel. */
 static void
 write_levels (const CeldLevelOwnership *made, CeldPlane *expanded)
 {
@@ -205,7 +206,7 @@ celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLab
                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldPlane *expanded)
 {
   CeldLevelOwnership made;
-  CeldStatus    status;
+  CeldStatus         status;
 
   if (!CELD_SAME_SIZE (levels, expanded))
     return CELD_BAD_SIZE;
@@ -222,7 +223,7 @@ celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldL
                       CeldLabels *region, CeldPlane *coverage)
 {
   CeldLevelOwnership made;
-  CeldStatus    status;
+  CeldStatus         status;
 
   if (!CELD_SAME_SIZE (levels, level) || !CELD_SAME_SIZE (levels, coverage) ||
       (region && !CELD_SAME_SIZE (levels, region)))

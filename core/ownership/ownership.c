@@ -1,4 +1,8 @@
-/* Whose each pixel is, with its ink: a label for every pixel, and where two meet in one, how much of it is whose.
+/* Contour ownership: a label for every pixel, ink included; where two labels meet in a pixel, both and the coverage of
+ * the nearer one.
+ *
+ * Coverage: ink fades into paper over one or two pixels.  A pixel in between shows the label of the darkest neighbour
+ * with the coverage 1 - ink and that of the brightest neighbour with the rest.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +12,7 @@
 
 /* ------------------------------------------------------------------ by the thickness of contours */
 
-/* The pixels that have the level of their label hand it on to pixels of that level, whose label has another. */
+/* Propagates the labels of pixels that have the level of their label to connected pixels of the same level. */
 static CeldStatus
 spread_labels (const CeldLabels *labels, const uint32_t *level, const CeldLabels *levels, CeldLabels *owner)
 {
@@ -49,7 +53,7 @@ spread_labels (const CeldLabels *labels, const uint32_t *level, const CeldLabels
   return CELD_OK;
 }
 
-/* Expansion spreads a level from its own pixels, so that hardly anything stays without a label. */
+/* Expansion grows each level from its own pixels, so that propagation reaches nearly all pixels. */
 static CeldStatus
 own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, const CeldHost *host,
                   CeldLabels *owner)
@@ -90,7 +94,7 @@ own_by_outlines (const CeldContourPens *pens, const CeldPlane *ink, const CeldLa
   return status;
 }
 
-/* Either method, and then the corrections, which go by pieces of line.  The thickness has no use for pens by itself. */
+/* Applies the method, and then the corrections, which need contour edges also for the method `thickness`. */
 static CeldStatus
 own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n, const CeldLabels *corrections,
          CeldExpansion method, const CeldHost *host, CeldOwnership *own)
@@ -99,7 +103,8 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   CeldContourPens     pens = { 0 };
   CeldReassigned    reassigned = { 0 };
   CeldHostPart     fraction[2];
-  CeldHost     first = celd_host_part (&fraction[0], host, 0, 0.5), second = celd_host_part (&fraction[1], host, 0.5, 1);
+  CeldHost     first = celd_host_part (&fraction[0], host, 0, 0.5), second = celd_host_part (&fraction[1], host, 0.5,
+                                                                                             1);
   CeldStatus   status = CELD_OK;
 
   if (method == CELD_EXPANSION_OUTLINES || corrections)
@@ -120,7 +125,7 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   return status;
 }
 
-/* Does the record fit the labels? */
+/* Checks that sizes agree and labels are within 1 .. n. */
 static CeldStatus
 check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabels *corrections,
        const CeldOwnership *own)
@@ -149,7 +154,7 @@ celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level,
   return status;
 }
 
-/* The label of the brightest pixel within one pixel of (x,y), or of the darkest; ties: the first in reading order. */
+/* The label of the brightest, or darkest, pixel of the 3 x 3 round (x,y); ties: the first in reading order. */
 static uint32_t
 extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
 {
@@ -166,7 +171,7 @@ extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool
   return found;
 }
 
-/* The label of the larger part as owner, that of the other as under. */
+/* Sets the label of the larger part as owner, and that of the other as under. */
 static void
 cover_row (const CeldPlane *ink, int y, CeldOwnership *own)
 {
@@ -189,7 +194,7 @@ cover_row (const CeldPlane *ink, int y, CeldOwnership *own)
     }
 }
 
-/* The nearer label as owner. */
+/* Makes the nearer label the owner. */
 static void
 order_row (const uint32_t *level, int y, CeldOwnership *own)
 {
@@ -214,20 +219,20 @@ celd_ownership_coverage (const CeldPlane *ink, const uint32_t *level, CeldOwners
     {
       cover_row (ink, y, own);
       if (y > 0)
-        order_row (level, y - 1, own); /* a row looks around in the next one */
+        order_row (level, y - 1, own); /* cover_row reads the next row as well */
     }
   order_row (level, ink->height - 1, own);
 }
 
-/* ------------------------------------------------------------------ a part of the picture, again */
+/* ------------------------------------------------------------------ updates of a rectangle */
 
-/* A pixel's part of the record. */
+/* The labels of a pixel and the coverage of the first. */
 typedef struct { uint32_t owner, under; float coverage; } Mixture;
 
 static Mixture
 mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
 {
-  float value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
+  float   value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
   Mixture s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
 
   if (fraction < 1)
@@ -237,7 +242,7 @@ mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
   return s;
 }
 
-/* Puts it into the record, the nearer label as owner.  Is that something new? */
+/* Stores it with the nearer label as owner; true if that is a change. */
 static bool
 put_mixture (Mixture s, const uint32_t *level, int x, int y, CeldOwnership *own)
 {

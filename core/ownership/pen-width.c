@@ -1,8 +1,9 @@
-/* How wide a pen is.
+/* Widths of pens.
  *
- * Between two regions the ink is as thick as the nearer one's pen is wide, unless other lines run into it: these only
- * make it thicker.  So a pen is as wide as its thinner places say, each a median over a pen's width of the line; it
- * changes slowly along the line, and the less it varies in all, the less it may swell.
+ * Between two regions the thickness of the ink is the width of the nearer one's pen, unless other lines run into it,
+ * which only makes it thicker.  So the width is taken from the thinner points, each a median over about a pen's width
+ * of the line.  It changes slowly along the line; how much larger than typical it may become depends on how much it
+ * varies in all.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,17 +11,18 @@
 
 #include <math.h>
 
-#define TYPICAL_QUANTILE    0.35    /* share of a pen's places that are thinner than its usual width */
-#define THIN_QUANTILE     0.125   /* and of those that tell how much it varies */
-#define SPREAD_FACTOR   3.f     /* a pen may be thicker in places by so much of what it is thinner in others */
-#define SUBPIXELS    16.f    /* parts of a pixel */
-#define MIN_SWELL   1.04f   /* and by so much in any case; */
-#define MAX_SWELL    1.25f   /* but by no more than this */
-#define MAX_SLOPE    0.05f   /* how fast its width changes along the line */
-#define MEDIAN_RADIUS  4       /* places to either side that a width is the median of */
-#define MAX_LINE_THICKNESS    2.5f    /* pen widths that a line may be thick */
+#define TYPICAL_QUANTILE   0.35  /* quantile of thickness that is the typical width; chosen */
+#define THIN_QUANTILE      0.125 /* quantile that tells how much the width varies; chosen */
+#define SPREAD_FACTOR      3.f   /* the pen may be thicker than typical by so many times what it is thinner in other
+                                  * places; chosen */
+#define SUBPIXELS          16.f  /* widths are rounded to 1/16 pixel, the precision of edges */
+#define MIN_SWELL          1.04f /* ratio to the typical width that is allowed in any case; chosen */
+#define MAX_SWELL          1.25f /* ratio to the typical width that is never exceeded; chosen */
+#define MAX_SLOPE          0.05f /* pixels of width per pixel along the line, at most; chosen */
+#define MEDIAN_RADIUS      4     /* samples to either side of a median */
+#define MAX_LINE_THICKNESS 2.5f  /* pen widths; thicker ink is not one line; chosen */
 
-/* What would stand at place k if the widths were sorted; orders them around it [Hoare 1961]. */
+/* The value at index k in sorted order, by quickselect [Hoare 1961]; reorders the array. */
 static float
 select_quantile (float *width, size_t n, size_t k)
 {
@@ -58,7 +60,7 @@ select_quantile (float *width, size_t n, size_t k)
   return width[k];
 }
 
-/* Rounded to what edges are found to, so that an edit far off does not change every width by a hair. */
+/* Rounded to the precision of edges, so that a distant edit does not change every width by a tiny amount. */
 static float
 quantile (float *width, size_t n, double fraction)
 {
@@ -74,7 +76,7 @@ set_pen_widths (float *width, size_t n, float *typical, float *max)
   *max  = fminf (SPREAD_FACTOR * (*typical - thin) + MIN_SWELL * *typical, MAX_SWELL * *typical);
 }
 
-/* Lists the widths by label. */
+/* Sorts thickness by label and takes quantiles. */
 CeldStatus
 celd_pen_widths_measure (CeldContourPens *pens)
 {
@@ -106,12 +108,12 @@ celd_pen_widths_measure (CeldContourPens *pens)
 
 /* ------------------------------------------------------------------ along the line */
 
-/* The median of some places round place i, about a pen's width to either side, that have the same front. */
+/* Median thickness round point i, over about a pen's width to either side, of points with the same front label. */
 static float
 smooth_thickness (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  const CeldEdgePen       *pen = &pens->pen[loop->first];
+  const CeldEdgePen   *pen = &pens->pen[loop->first];
   uint32_t             front = celd_pen_front (pens, &pen[i]);
   float                found[2 * MEDIAN_RADIUS + 1];
   size_t               stride = 1 + (size_t) (pens->typical_width[front - 1] / MEDIAN_RADIUS), n = 0;
@@ -129,7 +131,7 @@ smooth_thickness (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t 
   return n ? found[n / 2] : INFINITY;
 }
 
-/* Of a line inside a region, or between regions of one level, each side has half; but the normal must not go along
+/* Half the thickness, for a line inside a region or between regions of one level, unless the normal runs along
  * another line. */
 static float
 shared_width (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
@@ -139,7 +141,7 @@ shared_width (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdg
   return pen->far && !(typical > 0 && p->thickness > MAX_LINE_THICKNESS * typical) ? p->thickness / 2 : typical;
 }
 
-/* No steeper than a pen, from place a to b. */
+/* Limits the change of width from point a to b. */
 static void
 limit_slope (const CeldContourPens *pens, float step, size_t a, size_t b, CeldEdgePen *pen)
 {
@@ -157,7 +159,7 @@ void
 celd_pen_widths_smooth (const CeldEdgeLoop *loop, CeldContourPens *pens)
 {
   const CeldEdgePoint *point = &pens->edges->point[loop->first];
-  CeldEdgePen             *pen = &pens->pen[loop->first];
+  CeldEdgePen         *pen = &pens->pen[loop->first];
   size_t               n = loop->n;
 
   for (size_t i = 0; i < n; i++)

@@ -11,6 +11,11 @@
 
 #define TILES_ON_DIAGONAL 96 /* along the diagonal */
 #define MIN_TILE_SIDE  4  /* pixels of a block's side */
+#define CUT_STIFFNESS       4.0   /* of a cut for each of its edges; the surface has 1 a pixel */
+#define MAX_NEWTON_STEPS  40
+#define MAX_CG_ITERATIONS 60    /* of conjugate gradients, in a step */
+#define CG_TOLERANCE       0.05  /* of the residual, to which a step is solved */
+#define GRADIENT_TOLERANCE        3e-4  /* of the first gradient */
 
 static int
 end_of (int from, int side, int size)
@@ -174,12 +179,6 @@ celd_relief_tiles_clear (CeldReliefTiles *tiles)
   celd_free (tiles->link);
   *tiles = (CeldReliefTiles) { .side = 0 };
 }
-
-#define CUT_STIFFNESS       4.0   /* of a cut for each of its edges; the surface has 1 a pixel */
-#define MAX_NEWTON_STEPS  40
-#define MAX_CG_ITERATIONS 60    /* of conjugate gradients, in a step */
-#define CG_TOLERANCE       0.05  /* of the residual, to which a step is solved */
-#define GRADIENT_TOLERANCE        3e-4  /* of the first gradient */
 
 typedef struct
 {
