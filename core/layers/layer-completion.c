@@ -1,8 +1,9 @@
-/* The hidden part of a layer: what its outline with the gaps closed encloses, where something nearer and opaque hides
- * it.  A hole that something nearer covers is closed; of the background everything is there.
+/* Completion of the hidden part of a layer: what the outline with its closed gaps encloses, where an opaque nearer
+ * layer occludes it.  Holes that a nearer layer covers are closed; the background extends over the whole picture.
  *
- * Its colour is the smoothest one that meets the paper of the part that is seen, whose ink is left out: lines would
- * smear.  Along a closed gap the layer's own line runs on, in the width and the colour that it has at both ends.
+ * The colour is inpainted by Laplace's equation from the layer's visible paper; ink is excluded, because lines would
+ * smear.  Along a closed gap the layer's own line continues, with the width and the colour that it has at the two ends,
+ * interpolated.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,24 +12,24 @@
 
 #include <math.h>
 
-#define MIN_LINE_WIDTH 0.7         /* pixels: less is no line */
-#define PAPER_INK      0.97f       /* ink above this is surely none */
-#define FLAT_TOLERANCE       (2.5f / 255)
-#define INPAINT_TOLERANCE  4e-3        /* of the range of colours */
-#define MARGIN_STROKES     4           /* strokes round the hidden part, from which its colours come */
+#define MIN_LINE_WIDTH    0.7   /* pixels; a thinner line does not count as one; chosen */
+#define PAPER_INK         0.97f /* ink above this is certainly paper; chosen */
+#define FLAT_TOLERANCE    (2.5f / 255)
+#define INPAINT_TOLERANCE 4e-3  /* relative to the range of colours */
+#define MARGIN_STROKES    4     /* stroke widths round the hidden part from which colours are taken; chosen */
 
-/* One layer at work; planes are those of the box. */
+/* A layer under completion; planes have the size of the box. */
 typedef struct
 {
   CeldLayers      *layers;
   size_t           layer;
   const CeldPlane *ink;
-  CeldGapCurve       *curve;
+  CeldGapCurve    *curve;
   size_t           n_curves;
   CeldRect         box;
-  float           *coverage;      /* of each pixel, inside the outline; 0 where it is not hidden */
-  float           *line;       /* and of the line */
-  float           *line_place; /* and on which curve at which t, as curve + t */
+  float           *coverage;      /* coverage of each pixel by the shape; 0 where the layer is not occluded */
+  float           *line;       /* coverage by the line */
+  float           *line_place; /* the line's curve and parameter, as index + t */
   size_t           n_hidden;
 } Completion;
 
@@ -38,7 +39,7 @@ index_of (const Completion *part, int x, int y)
   return (size_t) (y - part->box.y) * (size_t) part->box.width + (size_t) (x - part->box.x);
 }
 
-/* ------------------------------------------------------------------ where it is */
+/* ------------------------------------------------------------------ shape */
 
 static CeldRect
 clip (const CeldLayers *layers, CeldRect box, int margin)
@@ -51,7 +52,7 @@ clip (const CeldLayers *layers, CeldRect box, int margin)
   return left < right && top < bottom ? (CeldRect) { left, top, right - left, bottom - top } : (CeldRect) { 0 };
 }
 
-/* Round what is seen and round the curves, whose polygons hold them. */
+/* Bounding box of the visible part and of the curves' control polygons. */
 static CeldRect
 whole_box (const Completion *part)
 {
@@ -94,7 +95,7 @@ cover_curves (const Completion *part, CeldCoverage *sum)
     }
 }
 
-/* Leaves the share of hidden pixels alone, and counts them. */
+/* Clears the coverage of pixels that are not occluded, and counts the others. */
 static void
 keep_hidden (Completion *part)
 {
@@ -112,8 +113,8 @@ keep_hidden (Completion *part)
 static CeldStatus
 cover_shape (const CeldOutline *outline, Completion *part)
 {
-  CeldCoverage  sum;
-  CeldStatus status = celd_coverage_new (part->box, &sum);
+  CeldCoverage sum;
+  CeldStatus   status = celd_coverage_new (part->box, &sum);
 
   if (status)
     return status;
@@ -141,9 +142,9 @@ cover_everything (Completion *part)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ the line along closed gaps */
+/* ------------------------------------------------------------------ line along closed gaps */
 
-/* Where the one end is in a corner between lines and has none to measure, the other one's counts. */
+/* An end in a corner between lines has no measurable width; it takes that of the other end. */
 static void
 copy_missing_line (CeldGapCurve *curve)
 {
@@ -161,7 +162,7 @@ line_width_at (const CeldGapCurve *curve, double t)
   return curve->width[0] + t * (curve->width[1] - curve->width[0]);
 }
 
-/* Draws what is nearer to the place at t than the line is wide. */
+/* Draws the line round its point at parameter t. */
 static void
 draw_dot (const Completion *part, size_t curve, double t)
 {
@@ -207,14 +208,14 @@ draw_lines (Completion *part)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ the colour */
+/* ------------------------------------------------------------------ inpainting */
 
-/* The pixels from which colours come, and between. */
+/* The pixels that provide colours, and those that are inpainted. */
 typedef struct
 {
   CeldRect box;
-  uint8_t *kind;               /* of each pixel */
-  float   *value;              /* CELD_LANES a pixel: premultiplied colours and alpha, and nothing */
+  uint8_t *kind;               /* FILL_ value of each pixel */
+  float   *value;              /* CELD_LANES numbers a pixel: premultiplied r, g, b and alpha; the rest is unused */
   size_t   n_known;
 } Inpainting;
 
@@ -239,8 +240,7 @@ is_hidden (const Completion *part, int x, int y)
          y < part->box.y + part->box.height && part->coverage[index_of (part, x, y)] > 0;
 }
 
-/* Known is the paper that is the layer's alone, with ink_too its ink as well; its other pixels and hidden ones are to
- * be found. */
+/* Known pixels are paper of this layer alone, with `ink_too` also ink; its other pixels and hidden ones are free. */
 static void
 sort_pixels (const Completion *part, bool ink_too, Inpainting *fill)
 {
@@ -268,7 +268,7 @@ sort_pixels (const Completion *part, bool ink_too, Inpainting *fill)
       }
 }
 
-/* Free pixels start with the mean of the known ones.  Do nearly all known ones have it? */
+/* Sets free pixels to the mean of the known ones.  True if nearly all known pixels have that colour. */
 static bool
 fill_with_mean (Inpainting *fill)
 {
@@ -291,7 +291,7 @@ fill_with_mean (Inpainting *fill)
   return others <= fill->n_known / 100;
 }
 
-/* Laplace's equation on the free pixels; what lies beside both kinds is a wall. */
+/* Solves Laplace's equation on the free pixels, with insulated boundaries towards pixels of neither kind. */
 static CeldStatus
 solve_laplace (const CeldHost *host, Inpainting *fill)
 {
@@ -336,13 +336,13 @@ inpaint (const Completion *part, int stroke, const CeldHost *host, Inpainting *f
   if (!fill->n_known)
     sort_pixels (part, true, fill);
   if (!fill->n_known)
-    return CELD_OK; /* nothing of it is the layer's alone: it stays as it is */
+    return CELD_OK; /* no pixel belongs to the layer alone: no hidden part is made */
   return fill_with_mean (fill) ? CELD_OK : solve_laplace (host, fill);
 }
 
-/* ------------------------------------------------------------------ together */
+/* ------------------------------------------------------------------ result */
 
-/* The line over the fill, as a straight colour. */
+/* The line over the inpainted colour, with straight alpha. */
 static void
 hidden_colour (const Completion *part, const Inpainting *fill, int x, int y, float colour[4])
 {
@@ -356,7 +356,7 @@ hidden_colour (const Completion *part, const Inpainting *fill, int x, int y, flo
   if (line > 0)
     {
       const CeldGapCurve *curve = &part->curve[(size_t) part->line_place[p]];
-      float            t = part->line_place[p] - floorf (part->line_place[p]);
+      float               t = part->line_place[p] - floorf (part->line_place[p]);
 
       for (int c = 0; c < 3; c++)
         colour[c] += line * (curve->colour[0][c] + t * (curve->colour[1][c] - curve->colour[0][c]) - colour[c]);
@@ -371,7 +371,7 @@ static CeldStatus
 keep_pixels (const Completion *part, const Inpainting *fill)
 {
   CeldHiddenPixel *hidden = celd_alloc (part->n_hidden, sizeof *hidden);
-  size_t      n = 0;
+  size_t           n = 0;
 
   if (!hidden)
     return CELD_NO_MEMORY;
@@ -394,8 +394,8 @@ CeldStatus
 celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
                      const CeldHost *host)
 {
-  Completion        part = { .layers = layers, .layer = layer, .ink = ink };
-  Inpainting        fill = { 0 };
+  Completion  part = { .layers = layers, .layer = layer, .ink = ink };
+  Inpainting  fill = { 0 };
   CeldOutline outline = { 0 };
   CeldStatus  status = everything ? CELD_OK : celd_layer_outline (layers, layer, ink, stroke, &outline);
 

@@ -1,7 +1,7 @@
-/* How much of each pixel lies to the right of directed edges: exact areas, summed along rows.
+/* Coverage of pixels by a polygon: exact areas to the right of directed edges, accumulated along rows.
  *
- * An edge that goes up by h through a pixel adds h to what lies beyond it in the row, one that goes down takes it away
- * again: the sum along the row is the winding number.
+ * An edge that goes up by h through a pixel adds h to everything beyond it in the row, and one that goes down subtracts
+ * h, so that the sum along a row is the winding number.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,12 +12,13 @@
 CeldStatus
 celd_coverage_new (CeldRect box, CeldCoverage *coverage)
 {
-  /* One more a row for what lies beyond its end. */
-  *coverage = (CeldCoverage) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height, sizeof *coverage->sum) };
+  /* rows have one more number, for what lies beyond their end */
+  *coverage = (CeldCoverage) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height,
+                                                 sizeof *coverage->sum) };
   return coverage->sum ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* A piece within one row and one column, of height h, whose middle is at x. */
+/* Adds a piece of height h within one row and one column, whose middle is at x. */
 static void
 add_piece (CeldCoverage *coverage, int row, double x, double h)
 {
@@ -35,7 +36,7 @@ add_piece (CeldCoverage *coverage, int row, double x, double h)
     }
 }
 
-/* A piece within one row, cut where columns meet. */
+/* Adds a piece within one row, cut at the boundaries of columns. */
 static void
 add_row (CeldCoverage *coverage, int row, double x, double y, double to_x, double to_y)
 {

@@ -1,16 +1,15 @@
-/* How an outline runs on where something nearer hides it.
+/* Curves that complete an outline where a nearer layer occludes it.
  *
- * Two edges that vanish behind a shape look like one when a smooth curve without an inflection joins them
- * (P. J. Kellman and T. F. Shipley, A theory of visual interpolation in object perception, Cognitive Psychology
- * 23, 1991).  Each gap
- * is closed by a cubic from where the outline goes in to where it comes out, with its directions there; its handles are
- * those of a circle's arc, 2/3 d / (1 + cos), so that equal turns give an arc and no curve runs far beyond its ends.
- * Ends that no such curve joins are joined by a straight line.  Where the curve would come out from behind what hides
- * it, its handles are drawn in until it does not.  A direction that was hard to measure is the mirror image of the
- * other end's, as on an arc.
+ * Two edges that disappear behind a shape are seen as one if a smooth curve without an inflection can join them (P.  J.
+ * Kellman and T.  F.  Shipley, A theory of visual interpolation in object perception, Cognitive Psychology 23, 1991).
+ * Each gap is closed by a cubic Bezier curve from the point where the outline disappears to the point where it
+ * reappears, with the directions measured there.  Its handles have the length of those of a circular arc, 2/3 d / (1 +
+ * cos), so that equal turns give an arc and no curve extends far beyond its ends.  Ends that no such curve can join are
+ * joined by a straight line.  Where a curve would leave the occluding layer, its handles are shortened until it does
+ * not.  An unreliable direction is replaced by the mirror image of the other end's, as on an arc.
  *
- * The two sides of a limb that passes behind something come out again elsewhere: two gaps change partners where the
- * outlines run on straighter that way, and nothing that is seen contradicts it.
+ * The two sides of a limb that passes behind something reappear on its other side: two gaps exchange their ends if both
+ * outlines become straighter, and the new curves stay occluded.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,13 +17,15 @@
 
 #include <math.h>
 
-#define PI 3.14159265358979323846
-#define MAX_END_TURN   (2 * PI / 3)  /* turn at one end; beyond, the directions are not believed */
-#define MAX_INFLECTION (PI / 6)      /* to both sides: an inflection that is taken for an error of measurement */
-#define MAX_EXCHANGE_TURN   (PI / 4)      /* at either end of a curve between two gaps */
-#define MAX_EXCHANGE_LENGTH   5             /* such a curve's length in lengths of the longer gap */
-#define SAMPLES    64
-#define TENSIONS   8
+#define PI                  3.14159265358979323846
+#define MAX_END_TURN        (2 * PI / 3) /* largest turn at one end; larger ones count as errors of measurement;
+                                          * chosen */
+#define MAX_INFLECTION      (PI / 6)     /* largest turns to both sides that count as errors of measurement, not as
+                                          * an inflection; chosen */
+#define MAX_EXCHANGE_TURN   (PI / 4)     /* largest turn at the ends of a curve between two gaps; chosen */
+#define MAX_EXCHANGE_LENGTH 5            /* largest length of such a curve, in lengths of the longer gap; chosen */
+#define SAMPLES             64
+#define TENSIONS            8
 
 void
 celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y)
@@ -46,19 +47,20 @@ celd_curve_steps (const CeldGapCurve *curve)
 
   for (int i = 1; i < 4; i++)
     length += hypot (curve->x[i] - curve->x[i - 1], curve->y[i] - curve->y[i - 1]);
-  return 2 + (int) (1.5 * length); /* the middle of a cubic is at most 3/2 as fast as its polygon */
+  return 2 + (int) (1.5 * length); /* a cubic is at most 3/2 as fast as its control polygon is long */
 }
 
-/* ------------------------------------------------------------------ from one end to another */
+/* ------------------------------------------------------------------ one curve */
 
-/* From the first direction to the second, in (-PI,PI]. */
+/* Angle from the first direction to the second, in (-PI,PI]. */
 static double
 turn (double ax, double ay, double bx, double by)
 {
   return atan2 (ax * by - ay * bx, ax * bx + ay * by);
 }
 
-/* Turns from the direction at the one end to the chord, and from there to that at the other; false without a chord. */
+/* Measures the turns from the direction at the first end to the chord, and from there to the direction at the second
+ * end; false if there is no chord. */
 static bool
 measure_turns (const CeldGapEnd *in, const CeldGapEnd *out, double *first, double *second)
 {
@@ -87,11 +89,11 @@ mirror (const CeldGapEnd *end, double dx, double dy, double d, CeldGapEnd *other
   other->ty = (along * dy - across * dx) / d;
 }
 
-/* With handles of `tension` times the usual length. */
+/* The curve between two ends, with handles of `tension` times the usual length. */
 static CeldGapCurve
 join_ends (const CeldGapEnd *in, const CeldGapEnd *out, double tension)
 {
-  double    dx = out->x - in->x, dy = out->y - in->y, d = hypot (dx, dy), first = 0, second = 0, mean, handle;
+  double       dx = out->x - in->x, dy = out->y - in->y, d = hypot (dx, dy), first = 0, second = 0, mean, handle;
   CeldGapEnd   a = *in, b = *out;
   CeldGapCurve curve = { .width = { in->width, out->width } };
 
@@ -118,9 +120,10 @@ join_ends (const CeldGapEnd *in, const CeldGapEnd *out, double tension)
   return curve;
 }
 
-/* ------------------------------------------------------------------ partners */
+/* ------------------------------------------------------------------ choice of ends */
 
-/* Does the curve lie where the layer is seen, or may be?  Its ends may stick out by the roundings of antialiasing. */
+/* Does the curve lie where the layer is visible or occluded?  Small deviations are allowed near the ends, because of
+ * antialiasing. */
 static bool
 is_possible (const CeldLayers *layers, size_t layer, const CeldGapCurve *curve)
 {
@@ -142,7 +145,8 @@ chord (const CeldOutlineGap *gap)
   return hypot (gap->out.x - gap->in.x, gap->out.y - gap->in.y);
 }
 
-/* What it costs to join the ends, by the turns; infinite if another gap's end is out of the question. */
+/* The cost of joining two ends: the sum of the squared turns.  For ends of different gaps, which have longest >= 0,
+ * INFINITY if a limit is exceeded. */
 static double
 turning_cost (const CeldGapEnd *in, const CeldGapEnd *out, double longest)
 {
@@ -150,18 +154,19 @@ turning_cost (const CeldGapEnd *in, const CeldGapEnd *out, double longest)
 
   if (!measure_turns (in, out, &first, &second))
     return INFINITY;
-  if (longest >= 0 && (length > MAX_EXCHANGE_LENGTH * longest || fabs (first) > MAX_EXCHANGE_TURN || fabs (second) > MAX_EXCHANGE_TURN))
+  if (longest >= 0 && (length > MAX_EXCHANGE_LENGTH * longest || fabs (first) > MAX_EXCHANGE_TURN ||
+                       fabs (second) > MAX_EXCHANGE_TURN))
     return INFINITY;
   return first * first + second * second;
 }
 
-/* Exchanges the partners of two gaps if both run on straighter. */
+/* Exchanges the ends of two gaps if that at least halves their cost. */
 static bool
 exchange_ends (const CeldLayers *layers, size_t layer, CeldOutlineGap *one, CeldOutlineGap *other)
 {
-  double    longest = fmax (chord (one), chord (other));
-  double    now = turning_cost (&one->in, &one->out, -1) + turning_cost (&other->in, &other->out, -1);
-  double    then = turning_cost (&one->in, &other->out, longest) + turning_cost (&other->in, &one->out, longest);
+  double       longest = fmax (chord (one), chord (other));
+  double       now = turning_cost (&one->in, &one->out, -1) + turning_cost (&other->in, &other->out, -1);
+  double       then = turning_cost (&one->in, &other->out, longest) + turning_cost (&other->in, &one->out, longest);
   CeldGapCurve curve[2];
   CeldGapEnd   out;
 
@@ -180,7 +185,7 @@ exchange_ends (const CeldLayers *layers, size_t layer, CeldOutlineGap *one, Celd
 void
 celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *outline, CeldGapCurve *curve)
 {
-  /* An exchange halves the cost of two gaps at least, so that a gap changes a few times at most. */
+  /* Each exchange at least halves the cost of two gaps, so that a gap changes only a few times. */
   for (size_t i = 0; i < outline->n_gaps; i++)
     for (size_t k = i + 1; k < outline->n_gaps; k++)
       exchange_ends (layers, layer, &outline->gap[i], &outline->gap[k]);

@@ -1,8 +1,8 @@
-/* The outline of a layer as cracks between pixels, and the gaps in it: where a nearer layer hides how it runs on.
+/* The outline of a layer, traced along crack edges, and its gaps, where a nearer layer occludes it.
  *
- * A gap begins and ends at T-junctions, where the layer's own outline goes under the nearer one.  Right there lines
- * merge; so the direction comes from a parabola that is fitted to the outline a stroke's width before the junction and
- * further back.  The width of the layer's own line is measured at the same places, inwards from the outline.
+ * A gap begins and ends at T-junctions, where the layer's outline disappears under the nearer one.  Lines merge right
+ * there, so the direction is that of a parabola fitted to the outline from a stroke's width before the junction on.
+ * The width of the layer's own line is measured at the same places, inwards from the outline.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,11 +12,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MIN_HIDDEN 3         /* cracks: a shorter piece of outline is a rounding of antialiasing */
-#define MIN_VISIBLE   4         /* and so is this, or a piece no longer than a stroke is wide: a corner between lines */
-#define MIN_RELIABLE_STROKES   3         /* strokes: of a shorter piece the direction is not believed */
-#define WIDTH_SAMPLES       9         /* at so many places the line is measured */
-#define MAX_LINE_WIDTH     64        /* pixels */
+#define MIN_HIDDEN           3  /* crack edges; a shorter occluded piece is an effect of antialiasing; chosen */
+#define MIN_VISIBLE          4  /* crack edges; so is a shorter visible piece, and one below a stroke's width: a
+                                 * corner between lines; chosen */
+#define MIN_RELIABLE_STROKES 3  /* stroke widths; a shorter piece has no reliable direction; chosen */
+#define WIDTH_SAMPLES        9  /* places at which the line's width is measured; chosen */
+#define MAX_LINE_WIDTH       64 /* pixels; thicker ink is no line; chosen */
 
 CeldVisibility
 celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y)
@@ -41,9 +42,9 @@ celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y)
 
 /* ------------------------------------------------------------------ tracing */
 
-/* Directions are 0 right, 1 down, 2 left, 3 up. */
+/* Directions: 0 right, 1 down, 2 left, 3 up. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
-/* The pixels to the right and to the left of a step from corner (x,y), as offsets from it. */
+/* Offsets from corner (x,y) to the pixels on the right and on the left of a step. */
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
 static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 
@@ -51,8 +52,8 @@ typedef struct
 {
   const CeldLayers *layers;
   size_t            layer;
-  CeldRect          box;       /* of what is seen of the layer */
-  uint8_t          *traced;    /* upper sides of pixels of the box */
+  CeldRect          box;       /* of the visible part of the layer */
+  uint8_t          *traced;    /* is the upper side of a pixel of the box traced? */
   CeldOutline      *outline;
 } Tracing;
 
@@ -68,7 +69,7 @@ upper_side (const Tracing *t, int x, int y)
   return &t->traced[(size_t) (y - t->box.y) * (size_t) t->box.width + (size_t) (x - t->box.x)];
 }
 
-/* The loop that has the upper side of pixel (x,y). */
+/* Traces the loop that includes the upper side of pixel (x,y). */
 static CeldStatus
 trace_loop (Tracing *t, int x, int y)
 {
@@ -78,7 +79,7 @@ trace_loop (Tracing *t, int x, int y)
   do
     {
       CeldCrackEdge *grown = celd_grow (o->crack, o->n + 1, sizeof *grown);
-      CeldVisibility  beyond = celd_layer_visibility (t->layers, t->layer, x + left_x[d], y + left_y[d]);
+      CeldVisibility beyond = celd_layer_visibility (t->layers, t->layer, x + left_x[d], y + left_y[d]);
 
       if (!grown)
         return CELD_NO_MEMORY;
@@ -97,7 +98,7 @@ trace_loop (Tracing *t, int x, int y)
   return CELD_OK;
 }
 
-/* Adds the place where the last loop ends. */
+/* Records the end of the last loop. */
 static CeldStatus
 end_loop (CeldOutline *outline)
 {
@@ -140,7 +141,7 @@ crack_at (const Loop *loop, size_t i)
   return &loop->crack[i % loop->n];
 }
 
-/* Index of a crack where a piece begins; n if all are of one kind. */
+/* Index of a crack edge where a piece begins; n if the loop is all of one kind. */
 static size_t
 find_change (const Loop *loop)
 {
@@ -160,7 +161,7 @@ piece_length (const Loop *loop, size_t from)
   return length;
 }
 
-/* Pieces of that kind which are too short become like their neighbours. */
+/* Changes pieces of that kind below the least length to the other kind. */
 static void
 merge_short_pieces (const Loop *loop, bool hidden, size_t least)
 {
@@ -175,7 +176,7 @@ merge_short_pieces (const Loop *loop, bool hidden, size_t least)
     }
 }
 
-/* Twice the area to the right of the loop: below 0 for a hole. */
+/* Twice the area to the right of the loop; negative for a hole. */
 static int64_t
 loop_area (const Loop *loop)
 {
@@ -190,16 +191,16 @@ loop_area (const Loop *loop)
   return area;
 }
 
-/* ------------------------------------------------------------------ what an outline is like where it is hidden */
+/* ------------------------------------------------------------------ measurements at the ends of a gap */
 
-/* s steps away from the junction at crack i, backwards (way -1) or forwards. */
+/* The crack edge s steps from the junction at crack edge i, backwards (direction -1) or forwards. */
 static const CeldCrackEdge *
 walk (const Loop *loop, size_t i, int direction, size_t s)
 {
   return crack_at (loop, direction < 0 ? i + loop->n - s % loop->n : i + s);
 }
 
-/* A place on an outline whose steps are smoothed, and how far along it is. */
+/* A point of the smoothed outline, at arc length s. */
 typedef struct { double x, y, s; } Point;
 
 static void
@@ -221,8 +222,8 @@ list_points (const Loop *loop, size_t i, int direction, size_t from, size_t to, 
     }
 }
 
-/* The slope at s = 0 of a parabola through value (s), by least squares; of a straight line if there are few points.
- * `value` is the place in a Point. */
+/* The slope at s = 0 of a parabola, or with few points of a straight line, fitted to value (s) by least squares.
+ * `value` is the offset of the member of Point. */
 static double
 slope_at_junction (const Point *point, size_t n, size_t value)
 {
@@ -250,7 +251,7 @@ slope_at_junction (const Point *point, size_t n, size_t value)
   return (v1 - curve * s3) / s2 - 2 * curve * centre;
 }
 
-/* Ink inwards from the middle of a crack along (nx,ny), in pixels; the inkiest pixel's colour. */
+/* Amount of ink inwards from a crack edge along (nx,ny), in pixels; also the colour of the darkest pixel. */
 static double
 line_width (const CeldLayers *layers, size_t layer, const CeldPlane *ink, double x, double y, double nx, double ny,
             float colour[4])
@@ -287,7 +288,7 @@ compare_widths (const void *a, const void *b)
   return (one > other) - (one < other);
 }
 
-/* The median of the widths from s = from to `to`, and the colour where it was measured in the middle. */
+/* The median of the line widths from s = from to `to`, and the colour in the middle of them. */
 static void
 measure_line (const CeldLayers *layers, size_t layer, const CeldPlane *ink, const Loop *loop, size_t i, int direction,
               size_t from, size_t to, CeldGapEnd *end)
@@ -311,12 +312,14 @@ measure_line (const CeldLayers *layers, size_t layer, const CeldPlane *ink, cons
   end->width = end->colour[3] > 0 ? width[WIDTH_SAMPLES / 2] : 0;
 }
 
-/* The end at the first corner of crack i; the seen piece lies `way` of it and has `length` cracks. */
+/* Measures the end at the first corner of crack edge i; the visible piece lies in `direction` and has `length` crack
+ * edges. */
 static CeldStatus
 describe_end (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t i,
               int direction, size_t length, CeldGapEnd *end)
 {
-  size_t  length_limit = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke + 1, to;
+  size_t  length_limit = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke
+                         + 1, to;
   Point  *point;
   double  tx, ty, norm;
 
@@ -343,9 +346,9 @@ static CeldStatus
 add_gap (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t from,
          size_t length, CeldOutline *outline)
 {
-  CeldOutlineGap   *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
-  size_t     before = 1, after;
-  CeldStatus status;
+  CeldOutlineGap *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
+  size_t          before = 1, after;
+  CeldStatus      status;
 
   if (!grown)
     return CELD_NO_MEMORY;

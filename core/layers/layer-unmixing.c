@@ -1,14 +1,17 @@
-/* The colours of two layers that share a pixel.
+/* Unmixing of pixels that two layers share, and rounding to what layers can store.
  *
- * Of the pixel P, premultiplied, and the front one's share: front + (1 - alpha of front) back = P has one solution for
- * each colour that one assumes for the other.  Both are looked up: each layer's colour is that of the pixels round it
- * that are the layer's alone, ink first for the one whose ink is in the pixel, paper first for the other.  What misses
- * P then is divided between the two by least squares, nearly all to the one with the ink where it covers more than a
- * tenth of the pixel: paper keeps its colour, and a line too thin for a pixel of its own still becomes dark.  What
- * would be beyond black or white goes to the other one; that both have P's own colour is always a solution.
+ * A pixel P, premultiplied, is  front + (1 - alpha of front) back.  The expected colour of each layer is the mean of
+ * neighbouring pixels that belong to it alone, weighted towards ink for the layer that has the ink in the pixel, and
+ * towards paper for the other one.  The remaining difference to P is distributed by least squares, nearly all of it to
+ * the layer with ink if that covers more than a tenth of the pixel: paper keeps its colour, and a line thinner than a
+ * pixel still becomes dark.  What exceeds the range [0,1] goes to the other layer; a solution always exists, both
+ * layers with P's own colour.
  *
- * The share was measured on the ink.  Where the colours say how much of the pixel each covers, they say it better: a
- * pixel between black and white that is darker than its share allows would leave a dark speck on the back one.
+ * Coverage comes from the ink, but is corrected where the colours tell it better: a pixel between black and white that
+ * is darker than its coverage allows would leave a dark speck on the layer behind.
+ *
+ * Layers in 8 bits as linear light encoded by sRGB (IEC 61966-2-1) have 256 values; a colour is rounded to the value
+ * with the nearest code, so that the limits between values lie half a code away.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,20 +20,20 @@
 
 #include <math.h>
 
-#define NEAR_RADIUS 2
-#define FAR_RADIUS  5
-#define INK_MOBILITY  100.f /* how much rather the one with ink changes than the other */
-#define MIN_CONTRAST   0.2f  /* a distance of colours that tells shares */
-#define MAX_CORRECTION 0.3f  /* of a share, at most */
+#define NEAR_RADIUS    2
+#define FAR_RADIUS     5
+#define INK_MOBILITY   100.f /* weight of changes to the layer with ink, relative to the other one; chosen */
+#define MIN_CONTRAST   0.2f  /* colour distance of the layers from which coverage is corrected; chosen */
+#define MAX_CORRECTION 0.3f  /* of coverage, at most; chosen */
 
-/* ------------------------------------------------------------------ what is around */
+/* ------------------------------------------------------------------ expected colours */
 
-/* Colours near a pixel that are one layer's alone. */
+/* Colours near a pixel that belong to one layer alone. */
 typedef struct
 {
-  float ink[4], paper[4];      /* means, the first three premultiplied; weighed towards ink, and towards paper */
+  float ink[4], paper[4];      /* weighted means towards ink and towards paper; r, g, b premultiplied */
   float ink_weight, paper_weight;
-  bool  inked;                 /* is one of them more ink than paper? */
+  bool  inked;                 /* is any of the pixels more ink than paper? */
 } Neighbours;
 
 static void
@@ -71,7 +74,7 @@ sample_neighbours (const CeldLayers *layers, const CeldPlane *ink, const CeldBle
       }
 }
 
-/* The mean as a straight colour; that of the pixel itself if there is none. */
+/* The mean with straight alpha; the colour of the pixel itself if there is none. */
 static void
 mean_colour (const float *sum, float total, const float *pixel, float *colour)
 {
@@ -83,7 +86,7 @@ mean_colour (const float *sum, float total, const float *pixel, float *colour)
     colour[c] = sum[c] / sum[3];
 }
 
-/* ------------------------------------------------------------------ telling apart */
+/* ------------------------------------------------------------------ unmixing */
 
 static float
 clamp (float value)
@@ -91,7 +94,7 @@ clamp (float value)
   return value > 0 ? value < 1 ? value : 1 : 0;
 }
 
-/* Moves the share of an opaque pixel towards the one that mixes both colours to the pixel's. */
+/* Moves the coverage of an opaque pixel towards the one with which both colours mix to the pixel's. */
 static void
 correct_coverage (const float *pixel, CeldBlend *blend)
 {
@@ -109,8 +112,8 @@ correct_coverage (const float *pixel, CeldBlend *blend)
   blend->coverage = clamp (blend->coverage + fminf (fmaxf (correction, -MAX_CORRECTION), MAX_CORRECTION));
 }
 
-/* The alpha of both, so that a = front + (1 - front) back.  Where the back one is not opaque and the front one has the
- * ink, the back one stays as it is as far as that is possible. */
+/* Finds both alphas, with a = front + (1 - front) back.  If the back layer is not opaque and the front layer has the
+ * ink, the back layer's alpha is kept as far as possible. */
 static void
 split_alpha (const CeldLayers *layers, float a, bool back_inked, CeldBlend *blend)
 {
@@ -127,7 +130,7 @@ split_alpha (const CeldLayers *layers, float a, bool back_inked, CeldBlend *blen
   blend->colour[1][3] = back;
 }
 
-/* One channel, of which the colours are expected: wanted = of[0] front + of[1] back. */
+/* Finds one channel of both layers near their expected values, with wanted = of[0] front + of[1] back. */
 static void
 split_channel (const CeldLayers *layers, int c, float wanted, const float of[2], int inked, CeldBlend *blend)
 {
@@ -155,7 +158,7 @@ static void
 unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
 {
   const float *pixel = layers->art + 4 * ((size_t) blend->y * (size_t) layers->width + (size_t) blend->x);
-  Neighbours       neighbours[2];
+  Neighbours   neighbours[2];
   int          inked;
   float        of[2];
 
@@ -179,7 +182,7 @@ unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
     split_channel (layers, c, pixel[3] * pixel[c], of, inked, blend);
 }
 
-/* ------------------------------------------------------------------ all of them */
+/* ------------------------------------------------------------------ all pixels */
 
 #define CHUNK 4096
 

@@ -1,11 +1,14 @@
-/* A drawing cut into layers, one a region: its part of the art with its own ink, antialiased.
+/* Cutting a drawing into layers, one for each region: the region's part of the art with its own ink, antialiased.
  *
- * A pixel that is one region's goes to its layer as it is.  A pixel that two regions share goes to both: the front one
- * gets the share that it covers as alpha, and the colours of both are told apart so that the front over the back gives
- * the pixel again (layer-unmixing.c).  In 8 bits the back one is found for the front one as it was
- * rounded, so that the composite is right to one step.
+ * A pixel of one region is copied to its layer.  A pixel that two regions share goes to both: the front layer gets its
+ * coverage as alpha, and the colours of both are unmixed (layer-unmixing.c) so that front over back gives the pixel
+ * again.  In 8 bits the back colour is found for the rounded front colour, so that the composite is off by one step at
+ * most.
  *
- * Hidden parts are found afterwards, and only where something nearer is opaque: they cannot be seen.
+ * Hidden parts are added afterwards, only where a nearer opaque layer occludes them, so that the composite does not
+ * change.
+ *
+ * For pictures of levels, the background is the farthest label, if it covers more of the frame than any other.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +18,7 @@
 
 #include <stdlib.h>
 
-/* ------------------------------------------------------------------ which layers there are */
+/* ------------------------------------------------------------------ the list of layers */
 
 static int
 compare_layers (const void *a, const void *b)
@@ -44,7 +47,7 @@ labels_fit (const CeldOwnership *own, size_t n)
   return true;
 }
 
-/* Labels that own or show something become layers, from back to front; of_label[l - 1] is the layer of label l. */
+/* Makes a layer of each label that covers any pixel, from back to front; of_label[l - 1] is the layer of label l. */
 static CeldStatus
 list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, uint32_t *of_label, CeldLayers *layers)
 {
@@ -65,7 +68,7 @@ list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, uint32_t
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ which pixel is where */
+/* ------------------------------------------------------------------ pixels */
 
 static bool
 is_shared (const CeldOwnership *own, int x, int y)
@@ -73,14 +76,14 @@ is_shared (const CeldOwnership *own, int x, int y)
   return CELD_AT (&own->owner, x, y) != CELD_AT (&own->under, x, y) && CELD_AT (&own->coverage, x, y) < 1;
 }
 
-/* Of equal levels the owner may be either; in front is the later layer in any case. */
+/* Of equal levels either may be the owner; the later layer is in front in any case. */
 static CeldBlend
 make_blend (const CeldOwnership *own, const uint32_t *of_label, int x, int y)
 {
   uint32_t owner = of_label[CELD_AT (&own->owner, x, y) - 1], under = of_label[CELD_AT (&own->under, x, y) - 1];
   float    coverage = CELD_AT (&own->coverage, x, y);
 
-  coverage = coverage > 0 ? coverage : 0; /* NaN is none */
+  coverage = coverage > 0 ? coverage : 0; /* NaN becomes 0 */
   return owner > under ? (CeldBlend) { .x = x, .y = y, .layer = { owner, under }, .coverage = coverage }
                        : (CeldBlend) { .x = x, .y = y, .layer = { under, owner }, .coverage = 1 - coverage };
 }
@@ -122,12 +125,12 @@ copy_art (const CeldColours *art, CeldLayers *layers)
       {
         float value = art->data[4 * (size_t) y * art->stride + (size_t) i];
 
-        value = value > 0 ? value < 1 ? value : 1 : 0; /* NaN is 0 */
+        value = value > 0 ? value < 1 ? value : 1 : 0; /* NaN becomes 0 */
         *to++ = i % 4 < 3 ? celd_quantize_colour (layers, value) : celd_quantize_alpha (layers, value);
       }
 }
 
-/* Where each layer is seen, and where it has something to show. */
+/* Finds the visible box of each layer, and the box of its pixels that are not transparent. */
 static void
 find_boxes (CeldLayers *layers)
 {
@@ -165,8 +168,8 @@ complete_layers (const CeldPlane *ink, uint32_t background, const CeldHost *host
   for (size_t k = 0; k < layers->n && !status; k++)
     {
       CeldHostPart part;
-      double   turns = (double) layers->n;
-      CeldHost turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
+      double       turns = (double) layers->n;
+      CeldHost     turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
 
       status = celd_layer_complete (layers, k, layers->item[k].label == background, ink, stroke, &turn);
       if (!status)
@@ -229,7 +232,7 @@ celd_layers_item (const CeldLayers *layers, size_t layer)
   return &layers->item[layer];
 }
 
-/* ------------------------------------------------------------------ a layer as a picture */
+/* ------------------------------------------------------------------ layers as pictures */
 
 static float *
 pixel_of (const CeldRect *box, float *rgba, int x, int y)
@@ -276,14 +279,15 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
                  const CeldColours *art, uint32_t background, CeldStore store, bool complete, const CeldHost *host,
                  CeldLayers **result)
 {
-  CeldLayers *layers = NULL;
-  uint32_t   *of_label;
-  CeldHostPart    part[2];
-  CeldHost    first = celd_host_part (&part[0], host, 0, complete ? 0.3 : 1);
-  CeldHost    second = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus  status;
+  CeldLayers  *layers = NULL;
+  uint32_t    *of_label;
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, complete ? 0.3 : 1);
+  CeldHost     second = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus   status;
 
-  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) || !CELD_SAME_SIZE (ink, &own->coverage) ||
+  if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) ||
+      !CELD_SAME_SIZE (ink, &own->coverage) ||
       !CELD_SAME_SIZE (ink, art))
     return CELD_BAD_SIZE;
   if (!n)
@@ -312,7 +316,7 @@ done:
   return status;
 }
 
-/* The first label, if no other has as much of the frame; else 0. */
+/* The farthest label if it has most pixels at the frame; else 0. */
 static CeldStatus
 find_background (const CeldLevelOwnership *made, uint32_t *background)
 {
@@ -346,7 +350,8 @@ celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, con
   uint32_t   background = 0;
   CeldStatus status = find_background (made, &background);
 
-  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, host,
+  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete,
+                                            host,
                                             layers);
 }
 
@@ -356,9 +361,9 @@ celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
                        bool complete, const CeldHost *host, CeldLayers **layers)
 {
   CeldLevelOwnership made;
-  CeldHostPart      part[2];
-  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldStatus    status = celd_level_ownership_new (ink, levels, regions, corrections, method, &first, &made);
+  CeldHostPart       part[2];
+  CeldHost           first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus         status = celd_level_ownership_new (ink, levels, regions, corrections, method, &first, &made);
 
   if (!status)
     status = celd_level_layers_cut (&made, ink, art, store, complete, &second, layers);

@@ -1,13 +1,11 @@
-/* The inside of CeldLayers: a drawing cut into one layer a region.
+/* The inside of CeldLayers.
  *
- *   layers.c          which pixel is in which layer, and the layers as pictures
- *   layers.c    layers from a picture of levels
- *   layer-unmixing.c     the numbers that layers can be stored in
- *   layer-unmixing.c   the colours of two layers that share a pixel
- *   layer-outline.c   the outline of a layer, and where nearer layers hide it
- *   layer-curves.c    how an outline runs on where it is hidden
- *   layer-coverage.c     how much of each pixel lies inside an outline
- *   layer-completion.c    the hidden parts of a layer, their colours and their line
+ *   layers.c            assigns pixels to layers, also for pictures of levels; layers as pictures
+ *   layer-unmixing.c    colours of two layers that share a pixel; rounding to stored values
+ *   layer-outline.c     traces the outline of a layer and its occluded gaps
+ *   layer-curves.c      closes gaps by curves
+ *   layer-coverage.c    coverage of pixels by a polygon
+ *   layer-completion.c  hidden parts of a layer, their colours and their line
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,12 +14,12 @@
 
 #include "base/base.h"
 
-/* A pixel that shows two layers: `layer` and `colour` (straight alpha) of the front one, then of the back one. */
+/* A pixel with two layers: index and colour (straight alpha), [0] of the front layer, [1] of the back one. */
 typedef struct
 {
   int      x, y;
   uint32_t layer[2];
-  float    coverage;            /* of the pixel, that the front one covers */
+  float    coverage;            /* of the pixel by the front layer */
   float    colour[2][4];
 } CeldBlend;
 
@@ -32,27 +30,27 @@ struct CeldLayers
 {
   int         width, height;
   CeldStore   store;
-  float       code_value[256], code_limit[256]; /* linear light of each code of sRGB, and where the next one begins */
-  CeldLayer  *item;            /* from back to front */
-  CeldRect   *seen;            /* of each, where celd_layer_visibility is CELD_LAYER_VISIBLE */
-  size_t      n;
-  float      *art;             /* R, G, B, A a pixel, tight; as it can be stored */
-  uint32_t   *place;           /* of each pixel: its layer, or n + its index among the blends */
-  CeldBlend  *blend;           /* in reading order */
-  size_t      n_blends;
+  float       code_value[256], code_limit[256]; /* linear light of each sRGB code, and the upper limit of what is
+                                                 * rounded to it */
+  CeldLayer        *item;      /* from back to front */
+  CeldRect         *seen;      /* box of the pixels where each layer is CELD_LAYER_VISIBLE */
+  size_t            n;
+  float            *art;       /* r, g, b, a of each pixel without padding, rounded to what can be stored */
+  uint32_t         *place;     /* of each pixel: its layer, or n + its index among the blends */
+  CeldBlend        *blend;     /* in reading order */
+  size_t            n_blends;
   CeldHiddenPixel **hidden;         /* of each layer; NULL: none */
-  size_t     *n_hidden;
+  size_t           *n_hidden;
 };
 
 /* ------------------------------------------------------------------ layer-unmixing.c */
 
 void celd_quantizer_prepare (CeldLayers *layers);
 
-/* The nearest that can be stored. */
+/* Round to the nearest value that can be stored. */
 float celd_quantize_alpha  (const CeldLayers *layers, float alpha);
 float celd_quantize_colour (const CeldLayers *layers, float value);
 
-/* ------------------------------------------------------------------ layer-unmixing.c */
 
 /* Fills in the colours of the blends.  `ink` is that of the drawing. */
 CeldStatus celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host);
@@ -61,68 +59,68 @@ CeldStatus celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const Ce
 
 typedef enum { CELD_LAYER_ABSENT, CELD_LAYER_VISIBLE, CELD_LAYER_OCCLUDED } CeldVisibility;
 
-/* What is known of a pixel, of the frame or outside it, for one layer: it is seen there (mostly), it is not, or
- * something opaque of a nearer level hides whether it is there. */
+/* The state of a pixel, inside or outside the picture, for one layer: the layer is visible there (by half at least),
+ * is absent, or may be there but is occluded by an opaque layer of a nearer level. */
 CeldVisibility celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y);
 
-/* A side of a pixel, from corner (x,y) on to the next crack's corner; the layer is on its right. */
+/* A crack edge: a side of a pixel, from corner (x,y) to the corner of the next one; the layer is on its right. */
 typedef struct { int x, y; bool hidden; } CeldCrackEdge;
 
-/* Where an outline goes under a nearer layer, or comes out again. */
+/* One end of a gap: where an outline disappears under a nearer layer, or reappears. */
 typedef struct
 {
   double x, y;                 /* a corner */
-  double tx, ty;               /* the outline's direction there, of length 1 */
-  bool   reliable;                 /* was there enough of it to measure that? */
-  double width;                /* of the line along the outline before it is hidden; 0: none */
+  double tx, ty;               /* unit vector of the outline's direction */
+  bool   reliable;                 /* was the visible outline long enough to measure the direction? */
+  double width;                /* in pixels, of the line along the visible outline; 0: none */
   float  colour[4];            /* of that line */
 } CeldGapEnd;
 
-/* A hidden piece of outline, from in[] to out[]. */
+/* An occluded piece of outline, from `in` to `out`. */
 typedef struct { CeldGapEnd in, out; } CeldOutlineGap;
 
 typedef struct
 {
-  CeldCrackEdge *crack;            /* of all loops, one behind the other; each loop ends where the next begins */
-  size_t     n;
-  size_t    *loop;             /* index of the first crack of each, and n behind the last */
-  size_t     n_loops;
-  CeldOutlineGap   *gap;
-  size_t     n_gaps;
+  CeldCrackEdge  *crack;           /* of all loops in succession */
+  size_t          n;
+  size_t         *loop;        /* index of the first crack edge of each loop, and n at the end */
+  size_t          n_loops;
+  CeldOutlineGap *gap;
+  size_t          n_gaps;
 } CeldOutline;
 
-/* Traces a layer.  Cracks stay `hidden` only where a gap replaces them; holes that a nearer layer covers wholly are
- * left out.  `stroke` is the width of the drawing's lines in pixels. */
+/* Traces the outline of a layer.  Crack edges are `hidden` only where a gap replaces them; holes that nearer layers
+ * cover wholly are left out.  `stroke` is the drawing's stroke width in pixels. */
 CeldStatus celd_layer_outline (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke,
                                CeldOutline *outline);
 void celd_outline_clear (CeldOutline *outline);
 
 /* ------------------------------------------------------------------ layer-curves.c */
 
-/* A cubic Bezier curve, and the line along it. */
+/* A cubic Bezier curve, and width and colour of the line at its two ends. */
 typedef struct { double x[4], y[4], width[2]; float colour[2][4]; } CeldGapCurve;
 
-/* One curve for each gap of the outline: from where it goes in to where this or another gap comes out. */
+/* Makes one curve for each gap; gaps may exchange their ends. */
 void celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *outline, CeldGapCurve *curve);
 
-/* The place at t in [0,1]. */
+/* The point at parameter t in [0,1]. */
 void celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y);
-/* Steps that are at most about a pixel long. */
+/* A number of steps with which each is about a pixel long at most. */
 int celd_curve_steps (const CeldGapCurve *curve);
 
 /* ------------------------------------------------------------------ layer-coverage.c */
 
-/* A picture that collects directed edges: of what is on their right the share of each pixel. */
+/* An accumulator of directed edges, and then the coverage of each pixel by what is on their right. */
 typedef struct { CeldRect box; float *sum; } CeldCoverage;
 
-CeldStatus celd_coverage_new (CeldRect box, CeldCoverage *coverage);      /* end with celd_free (sum) */
+CeldStatus celd_coverage_new (CeldRect box, CeldCoverage *coverage);      /* sum has to be freed with celd_free */
 void celd_coverage_edge (CeldCoverage *coverage, double x, double y, double to_x, double to_y);
-/* Once all edges are in: sum[] is the share, one tight plane of the box. */
+/* Turns sum[] into coverage, a plane of the box without padding. */
 void celd_coverage_finish (CeldCoverage *coverage);
 
 /* ------------------------------------------------------------------ layer-completion.c */
 
-/* Finds the hidden part of a layer. */
+/* Finds the hidden part of a layer; with `everything`, that is the rest of the picture. */
 CeldStatus celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
                                 const CeldHost *host);
 

@@ -1,12 +1,12 @@
-/* How far a surface bulges above its outline (section 5; Johnston's Lumo for the way by normals).
+/* Inflation: the height of a surface above its outline (section 5; from normals as in Johnston's Lumo).
  *
- * Inflation: f with  laplacian f = -4,  f = 0 where a region ends in front of another, and no slope across borders at
- * which it goes on, behind something nearer, behind the frame or over a virtual border; the height is sqrt f.  Of a
- * disc that makes a hemisphere, of an ellipse an ellipsoid, and it is smooth from part to part across a virtual border.
+ * Inflation solves  laplacian f = -4  with f = 0 where a region ends in front of another, and with insulated boundaries
+ * where it continues: behind something nearer, behind the frame, or across a virtual contour.  The height is sqrt f: a
+ * disc becomes a hemisphere and an ellipse an ellipsoid, smooth across virtual contours.
  *
- * From normals: the height whose slopes are nearest to theirs, -n_x / n_z and n_y / n_z, 0 at the same outlines.
+ * From normals: the height whose slopes are closest to -n_x / n_z and n_y / n_z, with 0 at the same outlines.
  *
- * What is flat is held at 0.  Outlines run on edges of pixels, half a pixel from the centres that they hold.
+ * Flat regions are fixed at 0.  Outlines run along pixel edges, half a pixel from the nearest centres.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,20 +15,21 @@
 
 #include <math.h>
 
-#define OUTLINE_WEIGHT   2.f /* of a pixel with its outline: 1 / distance */
-#define MIN_NZ   0.1f /* of the sum of two */
-#define INFLATION_TOLERANCE      1e-5 /* of the largest f: heights are roots, and small parts count as much as large ones */
+#define OUTLINE_WEIGHT      2.f  /* of a pixel to its outline: 1 / distance */
+#define MIN_NZ              0.1f /* of the sum of two normals, limits slopes; chosen */
+#define INFLATION_TOLERANCE 1e-5 /* relative to the largest f; heights are square roots, and small parts matter as
+                                  * much as large ones; chosen */
 
-/* A system on its way. */
+/* The linear system; normals NULL: inflation. */
 typedef struct
 {
   const CeldSurface *surface;
-  const CeldVectors *normals;   /* NULL: inflation */
+  const CeldVectors *normals;
   float             *diagonal, *b;
 } Inflation;
 
-/* Slope between two points with these normals, to the right or down.  On a circle, the line through two of its points
- * is at right angles to the sum of their normals. */
+/* Slope between two neighbours with normals p and q.  On a circle, the chord of two points is perpendicular to the
+ * sum of their normals. */
 static float
 slope_of (const float *p, const float *q, bool right)
 {
@@ -45,7 +46,8 @@ normal_at (const Inflation *r, size_t i)
   return CELD_XYZ (r->normals, i % w, i / w);
 }
 
-/* The nearer side's outline is at height 0 and half a pixel away, with a normal that lies in the picture. */
+/* Ties the nearer side to its outline, at height 0 and half a pixel away, where the normal lies in the picture
+ * plane. */
 static void
 hold_outline (void *data, size_t near, size_t far, bool right)
 {
@@ -65,7 +67,7 @@ hold_outline (void *data, size_t near, size_t far, bool right)
     }
 }
 
-/* What the neighbours p and q should differ by goes to both equations. */
+/* Adds the slope between the neighbours p and q to the right-hand side. */
 static void
 add_slope (Inflation *r, size_t p, size_t q, bool right)
 {
@@ -90,13 +92,13 @@ add_slopes (Inflation *r)
     }
 }
 
-/* Solves for the height, or f. */
+/* Solves for the height, or for f. */
 static CeldStatus
 solve (Inflation *r, double tolerance, const CeldHost *host, float *x)
 {
   const CeldSurface *s = r->surface;
   size_t             n = (size_t) s->width * (size_t) s->height;
-  CeldHostPart           part[2];
+  CeldHostPart       part[2];
   CeldHost           setting_up = celd_host_part (&part[0], host, 0, 0.3);
   CeldHost           solving = celd_host_part (&part[1], host, 0.3, 1);
   CeldLaplace       *laplace = NULL;
@@ -129,7 +131,7 @@ done:
 CeldStatus
 celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height)
 {
-  Inflation      r = { .surface = surface };
+  Inflation  r = { .surface = surface };
   size_t     n = (size_t) surface->width * (size_t) surface->height;
   CeldStatus status = solve (&r, fmin (tolerance, INFLATION_TOLERANCE), host, height);
 

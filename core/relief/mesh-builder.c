@@ -1,8 +1,8 @@
-/* What makes a body of a surface: walls where it is cut, from one side to the other, walls along the frame, and a flat
- * bottom.
+/* Construction of a mesh: vertices, triangles, the walls of a solid, and normals.
  *
- * At a corner of several points, walls of different heights meet.  Each goes through all points that lie between its
- * ends, so that every edge belongs to two faces.
+ * A solid has walls at cuts, between the surfaces on both sides, walls along the frame, and a flat bottom.  Where
+ * several points lie above each other at a corner, walls of different heights meet; each wall goes through all points
+ * between its ends, so that every edge belongs to exactly two faces.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#define MAX_CHAIN 6 /* of a chain: all of a corner, and the bottom */
+#define MAX_CHAIN 6 /* points of a chain: those of a corner, and one at the bottom */
 
 /* ------------------------------------------------------------------ vertices and triangles */
 
@@ -45,11 +45,11 @@ celd_mesh_add_triangle (CeldMeshBuilder *m, uint32_t a, uint32_t b, uint32_t c)
 
 /* ------------------------------------------------------------------ walls */
 
-/* The edge of a square, counter-clockwise round it, y down: which way it goes, and at its ends, in which directions the
- * pixels inside and outside lie. */
+/* Directions of the pixels inside and outside an edge, at its beginning and its end; edges go counter-clockwise
+ * round a square, y down. */
 typedef struct { int inside, end_inside, outside, end_outside; } Edge;
 
-/* Vertices from the upper end of a wall to its lower end, or the other way. */
+/* Vertices above each other, from one end of a wall to the other. */
 typedef struct { uint32_t vertex[MAX_CHAIN]; float z[MAX_CHAIN]; int n; } Chain;
 
 static const Edge edges[4] = {
@@ -82,7 +82,7 @@ is_frame (const CeldMeshPoints *c, int x, int y, int direction)
     }
 }
 
-/* The pixels on both sides of a cut are visited both; here from the left or upper one. */
+/* Is the edge cut, seen from the left or upper pixel?  The other side is visited, too, but makes no wall. */
 static bool
 is_cut (const CeldRelief *r, int x, int y, int direction)
 {
@@ -93,7 +93,7 @@ is_cut (const CeldRelief *r, int x, int y, int direction)
   return direction == UP && r->cut[(size_t) (y - 1) * w + (size_t) (x - 1)] & CELD_CUT_RIGHT;
 }
 
-/* ------------------------------------------------------------------ chains */
+/* ------------------------------------------------------------------ walls: points above each other */
 
 static void
 add_to_chain (Chain *chain, uint32_t vertex, float z)
@@ -102,15 +102,15 @@ add_to_chain (Chain *chain, uint32_t vertex, float z)
   chain->z[chain->n++]    = z;
 }
 
-/* The point of the surface at the corner (x,y) with all other points of it below or above it, up to `end_z`, in the
- * order of their way there. */
+/* Begins a chain with the surface's point at the corner (x,y), and adds the corner's other points towards `end_z` in
+ * order of height. */
 static void
 begin_chain (const CeldMeshBuilder *m, int x, int y, int direction, float end_z, Chain *chain)
 {
   const CeldMeshPoints *c = m->points;
-  size_t             corner = celd_mesh_corner_at (c, x, y);
-  uint32_t           point = celd_mesh_point_at (c, x, y, direction);
-  bool               falling = end_z < c->z[point];
+  size_t                corner = celd_mesh_corner_at (c, x, y);
+  uint32_t              point = celd_mesh_point_at (c, x, y, direction);
+  bool                  falling = end_z < c->z[point];
 
   chain->n = 0;
   add_to_chain (chain, m->vertex[point] - 1, c->z[point]);
@@ -132,19 +132,19 @@ begin_chain (const CeldMeshBuilder *m, int x, int y, int direction, float end_z,
     }
 }
 
-/* From the surface to the surface on the other side of a cut. */
+/* The chain from the surface to the surface on the other side of a cut. */
 static void
 find_chain (const CeldMeshBuilder *m, int x, int y, int inside, int outside, Chain *chain)
 {
   const CeldMeshPoints *c = m->points;
-  uint32_t           from = celd_mesh_point_at (c, x, y, inside), to = celd_mesh_point_at (c, x, y, outside);
+  uint32_t              from = celd_mesh_point_at (c, x, y, inside), to = celd_mesh_point_at (c, x, y, outside);
 
   begin_chain (m, x, y, inside, c->z[to], chain);
   if (from != to)
     add_to_chain (chain, m->vertex[to] - 1, c->z[to]);
 }
 
-/* From the surface to the bottom. */
+/* The chain from the surface to the bottom. */
 static void
 find_chain_down (CeldMeshBuilder *m, int x, int y, int inside, Chain *chain)
 {
@@ -156,7 +156,7 @@ find_chain_down (CeldMeshBuilder *m, int x, int y, int inside, Chain *chain)
   add_to_chain (chain, m->bottom_vertex[corner] - 1, (float) m->bottom);
 }
 
-/* The wall between two chains, which both begin at the surface; seen from outside `start` is on the right. */
+/* Fills the wall between two chains that both begin at the surface; seen from outside `start` is on the right. */
 static CeldStatus
 fill_wall (CeldMeshBuilder *m, const Chain *start, const Chain *end)
 {
@@ -190,7 +190,8 @@ celd_mesh_add_wall (CeldMeshBuilder *m, int x, int y, int end_x, int end_y)
       find_chain_down (m, x, y, edge.inside, &start);
       find_chain_down (m, end_x, end_y, edge.end_inside, &end);
       status = fill_wall (m, &start, &end);
-      return status ? status : celd_mesh_add_triangle (m, m->bottom_centre, end.vertex[end.n - 1], start.vertex[start.n - 1]);
+      return status ? status : celd_mesh_add_triangle (m, m->bottom_centre, end.vertex[end.n - 1],
+                                                       start.vertex[start.n - 1]);
     }
   if (!is_cut (m->relief, x, y, direction))
     return CELD_OK;
@@ -215,8 +216,8 @@ cross (const float *a, const float *b, const float *c, double normal[3])
     normal[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
 }
 
-/* Of each vertex the mean of the surface's triangles, by their areas.  Walls do not count, for the surface would look
- * bent at every border; the bottom looks down. */
+/* Averages the normals of the surface's triangles at each vertex, weighted by area.  Walls are excluded, because
+ * they would make the surface look bent at every boundary; the bottom's normals point down. */
 void
 celd_mesh_normals (CeldReliefMesh *mesh)
 {

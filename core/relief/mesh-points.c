@@ -1,32 +1,32 @@
-/* The corners of pixels as points of a surface.
+/* The points of a surface, at the corners of pixels.
  *
- * Pixels round a corner that hang together there share a point, at their mean height; a piece that ends in front of
- * another one has its outline there.  Points that are equally high are one.  Where two pieces touch at a corner, with
- * two others lower beside them, the higher of these is lifted to them: a body would have an edge there which four faces
- * share.
+ * Pixels round a corner that are connected there share a point at their mean height; a part that ends in front of
+ * another has its outline there.  Points of equal height are merged.  Where two diagonal pixels touch at a corner, with
+ * two lower parts beside them, the higher of these is lifted to them: otherwise a solid would have an edge there which
+ * four faces share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "relief/mesh.h"
 
-/* A corner and the pixels round it; -1: beyond the frame. */
+/* A corner and the four pixels round it; pixel -1 is outside the picture. */
 typedef struct
 {
   ptrdiff_t pixel[4];
-  bool      joined[4];          /* each with the next one, clockwise */
-  bool      nearer[4];          /* where they are not: is it in front of the next one? */
+  bool      joined[4];          /* is each connected with the next one, clockwise? */
+  bool      nearer[4];          /* if not: is it in front of the next one? */
   int       part[4];           /* of each pixel */
   int       parts;
-  float     z[4];               /* of each piece */
+  float     z[4];               /* of each part */
 } Corner;
 
-/* ------------------------------------------------------------------ pieces */
+/* ------------------------------------------------------------------ parts */
 
 static void
 read_neighbours (const CeldRelief *r, int x, int y, Corner *c)
 {
   static const int dx[4] = { -1, 0, 0, -1 }, dy[4] = { -1, -1, 0, 0 };
-  /* Which of the two pixels has the edge, and which edge that is. */
+  /* The pixel that stores each edge. */
   static const int owner[4] = { CELD_NORTH_WEST, CELD_NORTH_EAST, CELD_SOUTH_WEST, CELD_NORTH_WEST };
 
   for (int k = 0; k < 4; k++)
@@ -49,7 +49,7 @@ read_neighbours (const CeldRelief *r, int x, int y, Corner *c)
     }
 }
 
-/* Numbers what hangs together, clockwise. */
+/* Numbers the connected parts, clockwise. */
 static void
 find_parts (Corner *c)
 {
@@ -74,7 +74,7 @@ find_parts (Corner *c)
       c->part[k] = 0;
 }
 
-/* Is the piece in front of another one here? */
+/* Is the part in front of another one here? */
 static bool
 ends_here (const Corner *c, int part)
 {
@@ -108,10 +108,10 @@ find_heights (const CeldRelief *r, Corner *c)
     }
 }
 
-/* ------------------------------------------------------------------ what a body cannot have */
+/* ------------------------------------------------------------------ solids */
 
-/* Of four pieces, lifts the higher one of a and the one opposite to the lower one of the two beside them, if both of
- * these are higher than both of those. */
+/* Of four parts, lifts the higher one of a and its opposite to the lower one of the two others, if both of these are
+ * higher than both of those. */
 static void
 lift (float *z, int a)
 {
@@ -122,7 +122,7 @@ lift (float *z, int a)
     *low = beside;
 }
 
-/* Pieces of the same height become one. */
+/* Merges parts of equal height. */
 static void
 merge_parts (Corner *c)
 {

@@ -1,7 +1,7 @@
-/* Squares of a surface that a few triangles show well enough: a quadtree from below.
+/* Mesh simplification: a quadtree, built from single pixels upwards.
  *
- * Four squares become one if there is no cut inside and the four triangles between its corners and its middle stay
- * within the error at every corner of a pixel.
+ * Four squares are merged if there is no cut inside and the four triangles between the corners and the centre of the
+ * merged square deviate by at most the error at every corner of a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 
 typedef struct { const CeldMeshPoints *points; const CeldRelief *relief; double error; } Surface;
 
-/* Height of the surface at the corner (x,y), which may lie at the border of the square that ends at end_x, end_y. */
+/* Height of the surface at the corner (x,y), seen from inside the square that ends at (end_x,end_y). */
 static double
 height_at (const CeldMeshPoints *c, int x, int y, int end_x, int end_y)
 {
@@ -21,11 +21,11 @@ height_at (const CeldMeshPoints *c, int x, int y, int end_x, int end_y)
   return (double) c->z[celd_mesh_point_at (c, x, y, direction)];
 }
 
-/* Does the surface go on across the lines that part the square into four? */
+/* Is the surface uncut along the lines that divide the square into four? */
 static bool
 goes_on (const CeldRelief *r, int x, int y, int side)
 {
-  int middle_x = x + side / 2 - 1, middle_y = y + side / 2 - 1; /* pixels just before them */
+  int middle_x = x + side / 2 - 1, middle_y = y + side / 2 - 1; /* pixels just before the lines */
 
   for (int i = 0; i < side; i++)
     if (r->cut[(size_t) (y + i) * (size_t) r->width + (size_t) middle_x] & CELD_CUT_RIGHT ||
@@ -34,7 +34,7 @@ goes_on (const CeldRelief *r, int x, int y, int side)
   return true;
 }
 
-/* Are the four triangles near enough to the surface? */
+/* Do the four triangles approximate the surface within the error? */
 static bool
 is_flat (const Surface *s, int x, int y, int side)
 {
@@ -49,7 +49,7 @@ is_flat (const Surface *s, int x, int y, int side)
       {
         double u = i - half, v = j - half, out = fmax (fabs (u), fabs (v)) / half, along, a, b;
 
-        if (fabs (v) >= fabs (u)) /* above or below the middle */
+        if (fabs (v) >= fabs (u)) /* above or below the centre */
           a = z[v > 0][0], b = z[v > 0][1], along = u;
         else
           a = z[0][u > 0], b = z[1][u > 0], along = v;
@@ -67,7 +67,7 @@ is_whole (const CeldQuadtree *b, int k, int x, int y)
   return k == 0 || b->whole[k][(size_t) y * (size_t) (b->width >> k) + (size_t) x];
 }
 
-/* All squares of 2^k pixels. */
+/* Merges squares into those of 2^k pixels. */
 static CeldStatus
 join_squares (const Surface *s, int k, const CeldHost *host, CeldQuadtree *b)
 {

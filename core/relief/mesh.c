@@ -1,8 +1,9 @@
-/* A relief as a mesh of triangles (section 5, Figure 1h).
+/* A relief as a triangle mesh (section 5, Figure 1h).
  *
- * Vertices are corners of pixels, twice where the surface is cut.  Squares that are flat enough are a fan round their
- * middle, through all vertices on their border that they or their neighbours have; so there is no crack but where the
- * surface is cut.  The squares are flat within half of the error, and the fans then within all of it.
+ * Vertices lie at corners of pixels, two or more where the surface is cut.  Each square of the quadtree
+ * (mesh-simplification.c) is a fan round its centre through all vertices on its boundary, its own and its neighbours',
+ * so that the mesh has no T-junctions.  Squares are flat within half of the permitted error, and fans then within all
+ * of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,8 +11,8 @@
 
 #include <math.h>
 
-#define ERROR_GROWTH 1.5 /* factor of the error while there are too many vertices */
-#define MAX_ERROR_RATIO 1e4 /* times the error asked for */
+#define ERROR_GROWTH    1.5 /* factor by which the error grows while there are too many vertices; chosen */
+#define MAX_ERROR_RATIO 1e4 /* largest permitted ratio to the requested error; chosen */
 
 /* ------------------------------------------------------------------ vertices */
 
@@ -21,7 +22,7 @@ use_point (CeldMeshBuilder *m, int x, int y, int direction)
   m->vertex[celd_mesh_point_at (m->points, x, y, direction)] = 1;
 }
 
-/* The corners of a square, and its middle. */
+/* Marks the corners of a square, and its centre. */
 static void
 use_square (CeldMeshBuilder *m, int x, int y, int side)
 {
@@ -33,7 +34,7 @@ use_square (CeldMeshBuilder *m, int x, int y, int side)
     use_point (m, x + side / 2, y + side / 2, CELD_SOUTH_EAST);
 }
 
-/* Does `body` for each square that is drawn. */
+/* Calls `body` for each leaf of the quadtree. */
 static CeldStatus
 for_squares (CeldMeshBuilder *m, const CeldHost *host, CeldStatus (*body) (CeldMeshBuilder *m, int x, int y, int side))
 {
@@ -59,13 +60,13 @@ mark_square (CeldMeshBuilder *m, int x, int y, int side)
   return CELD_OK;
 }
 
-/* Marks the points that are used, and counts them. */
+/* Marks the points that become vertices, and counts them. */
 static CeldStatus
 mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
 {
   const CeldMeshPoints *c = m->points;
-  size_t             points = ((size_t) c->width + 1) * ((size_t) c->height + 1);
-  CeldStatus         status;
+  size_t                points = ((size_t) c->width + 1) * ((size_t) c->height + 1);
+  CeldStatus            status;
 
   memset (m->vertex, 0, c->n * sizeof *m->vertex);
   status = for_squares (m, host, mark_square);
@@ -78,7 +79,7 @@ mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
   return status;
 }
 
-/* A vertex for each point that is used. */
+/* Adds a vertex for each marked point. */
 static void
 make_vertices (CeldMeshBuilder *m)
 {
@@ -97,7 +98,7 @@ make_vertices (CeldMeshBuilder *m)
 
 /* ------------------------------------------------------------------ triangles */
 
-/* A pixel, parted along the diagonal that falls less. */
+/* Two triangles for a pixel, split along the diagonal with less slope. */
 static CeldStatus
 fill_pixel (CeldMeshBuilder *m, int x, int y)
 {
@@ -118,7 +119,7 @@ fill_pixel (CeldMeshBuilder *m, int x, int y)
   return status;
 }
 
-/* The border of a square from its corner (x,y) on, counter-clockwise; `step` counts its corners of pixels. */
+/* The boundary of a square, counter-clockwise from its corner (x,y); `step` counts corners of pixels. */
 static void
 walk_outline (int x, int y, int side, int step, int *to_x, int *to_y, int *direction)
 {
@@ -130,14 +131,14 @@ walk_outline (int x, int y, int side, int step, int *to_x, int *to_y, int *direc
   *direction = inside[leg];
 }
 
-/* A square as a fan round its middle, or a pixel, with its walls. */
+/* Adds a square as a fan round its centre, or a single pixel, with the walls of a solid. */
 static CeldStatus
 fill_square (CeldMeshBuilder *m, int x, int y, int side)
 {
   const CeldMeshPoints *c = m->points;
-  uint32_t           first = m->vertex[celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST)], last = first, middle = 0;
-  int                last_x = x, last_y = y;
-  CeldStatus         status = side > 1 ? CELD_OK : fill_pixel (m, x, y);
+  uint32_t              first = m->vertex[celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST)], last = first, middle = 0;
+  int                   last_x = x, last_y = y;
+  CeldStatus            status = side > 1 ? CELD_OK : fill_pixel (m, x, y);
 
   if (side > 1)
     middle = m->vertex[celd_mesh_point_at (c, x + side / 2, y + side / 2, CELD_SOUTH_EAST)];
@@ -163,14 +164,15 @@ fill_square (CeldMeshBuilder *m, int x, int y, int side)
 
 /* ------------------------------------------------------------------ */
 
-/* Squares of the least error with which there are not too many vertices. */
+/* Finds the least error for which there are not too many vertices. */
 static CeldStatus
-choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree, size_t *n)
+choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree,
+                size_t *n)
 {
-  double     error = (double) settings->mesh_error;
-  CeldHostPart   part[2];
-  CeldHost   first = celd_host_part (&part[0], host, 0, 1), others = celd_host_part (&part[1], host, 1, 1);
-  CeldStatus status;
+  double       error = (double) settings->mesh_error;
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 1), others = celd_host_part (&part[1], host, 1, 1);
+  CeldStatus   status;
 
   for (;;)
     {
@@ -188,14 +190,15 @@ choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost
   return status;
 }
 
-/* Room for all vertices, those of the bottom too. */
+/* Allocates all vertices, including those of the bottom. */
 static CeldStatus
 mesh_new (CeldMeshBuilder *m, size_t n)
 {
   if (m->solid)
     {
       n += 2 * ((size_t) m->relief->width + (size_t) m->relief->height) + 1;
-      m->bottom_vertex = celd_alloc0 (((size_t) m->relief->width + 1) * ((size_t) m->relief->height + 1), sizeof *m->bottom_vertex);
+      m->bottom_vertex = celd_alloc0 (((size_t) m->relief->width + 1) * ((size_t) m->relief->height + 1),
+                                      sizeof *m->bottom_vertex);
       if (!m->bottom_vertex)
         return CELD_NO_MEMORY;
     }
@@ -205,7 +208,7 @@ mesh_new (CeldMeshBuilder *m, size_t n)
   return m->mesh.place && m->mesh.normal && m->mesh.art ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* Below everything by the thickness of the plate. */
+/* Below all points by the thickness of the plate. */
 static double
 find_bottom (const CeldMeshPoints *c, double thickness)
 {
@@ -219,10 +222,10 @@ find_bottom (const CeldMeshPoints *c, double thickness)
 static CeldStatus
 make_mesh (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *host, CeldQuadtree *quadtree)
 {
-  size_t     n = 0;
-  CeldHostPart   part[2];
-  CeldHost   choosing = celd_host_part (&part[0], host, 0, 0.7), filling = celd_host_part (&part[1], host, 0.7, 1);
-  CeldStatus status = choose_squares (m, settings, &choosing, quadtree, &n);
+  size_t       n = 0;
+  CeldHostPart part[2];
+  CeldHost     choosing = celd_host_part (&part[0], host, 0, 0.7), filling = celd_host_part (&part[1], host, 0.7, 1);
+  CeldStatus   status = choose_squares (m, settings, &choosing, quadtree, &n);
 
   if (status == CELD_OK)
     status = mesh_new (m, n);
@@ -249,9 +252,9 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
     return CELD_BAD_VALUE;
 
   CeldMeshPoints points = { .width = 0 };
-  CeldQuadtree  quadtree = { .width = 0 };
-  CeldHostPart    part[2];
-  CeldHost    pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
+  CeldQuadtree   quadtree = { .width = 0 };
+  CeldHostPart   part[2];
+  CeldHost       pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
   CeldMeshBuilder  m = { .relief = relief, .points = &points, .quadtree = &quadtree,
                         .solid = settings->mesh == CELD_MESH_SOLID };
   CeldStatus  status = celd_mesh_points_new (relief, &pointing, &points);

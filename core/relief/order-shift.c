@@ -1,6 +1,13 @@
-/* A surface in tiles: blocks of the picture, parted further where the surface is cut.
+/* Order-preserving shifts of surface tiles.
  *
- * What is smooth over the surface, as is a shift that keeps the order, needs no more than a value a tile.
+ * The shift is smooth over the surface, so it has one value for each tile: a block of pixels, divided further where the
+ * surface is cut.  It minimizes over u
+ *
+ *     sum over links  edges/side (u_a - u_b)^2  +  sum over pixels  u^2 / range^2, or u^2 in flat regions,
+ *       +  CUT_STIFFNESS sum over cuts  edges max (0, minimum - (u_a - u_b))^2,
+ *
+ * which is convex and differentiable, by Newton's method with an exact line search: each step solves the quadratic
+ * problem of the violated cuts by conjugate gradients with diagonal preconditioning.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,13 +16,13 @@
 
 #include <math.h>
 
-#define TILES_ON_DIAGONAL 96 /* along the diagonal */
-#define MIN_TILE_SIDE  4  /* pixels of a block's side */
-#define CUT_STIFFNESS       4.0   /* of a cut for each of its edges; the surface has 1 a pixel */
-#define MAX_NEWTON_STEPS  40
-#define MAX_CG_ITERATIONS 60    /* of conjugate gradients, in a step */
-#define CG_TOLERANCE       0.05  /* of the residual, to which a step is solved */
-#define GRADIENT_TOLERANCE        3e-4  /* of the first gradient */
+#define TILES_ON_DIAGONAL  96   /* chosen */
+#define MIN_TILE_SIDE      4    /* pixels; chosen */
+#define CUT_STIFFNESS      4.0  /* of a cut, for each of its edges; the surface has 1 for each pixel; chosen */
+#define MAX_NEWTON_STEPS   40
+#define MAX_CG_ITERATIONS  60   /* of conjugate gradients, in one Newton step */
+#define CG_TOLERANCE       0.05 /* relative to the residual at the beginning of a Newton step; chosen */
+#define GRADIENT_TOLERANCE 3e-4 /* relative to the first gradient; chosen */
 
 static int
 end_of (int from, int side, int size)
@@ -25,7 +32,7 @@ end_of (int from, int side, int size)
 
 /* ------------------------------------------------------------------ tiles */
 
-/* Does the surface go on everywhere in the block x .. end_x - 1, y .. end_y - 1? */
+/* Is the surface uncut within the block x .. end_x - 1, y .. end_y - 1? */
 static bool
 is_whole (const CeldSurface *s, int x, int y, int end_x, int end_y)
 {
@@ -40,7 +47,7 @@ is_whole (const CeldSurface *s, int x, int y, int end_x, int end_y)
   return true;
 }
 
-/* Joins the pixels of a block: `parent` goes by pixels. */
+/* Joins the connected pixels of a block; `parent` is indexed by pixels. */
 static void
 join_block (const CeldSurface *s, int x, int y, int end_x, int end_y, uint32_t *parent)
 {
@@ -74,7 +81,7 @@ number_tiles (const CeldSurface *s, CeldReliefTiles *tiles)
   for (int y = 0; y < s->height; y += tiles->side)
     for (int x = 0; x < s->width; x += tiles->side)
       join_block (s, x, y, end_of (x, tiles->side, s->width), end_of (y, tiles->side, s->height), tile);
-  for (size_t p = 0; p < n; p++) /* the parent comes before its child, so it has its number */
+  for (size_t p = 0; p < n; p++) /* the parent comes first and has its number already */
     tile[p] = tile[p] == p ? tiles->n++ : tile[tile[p]];
 }
 
@@ -105,9 +112,9 @@ measure_tiles (const CeldSurface *s, CeldReliefTiles *tiles)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ what is between them */
+/* ------------------------------------------------------------------ links between tiles */
 
-/* One more edge between two tiles; it may belong to the pair before. */
+/* Adds an edge between two tiles, to the last pair if that is the same. */
 static CeldStatus
 add_edge (CeldReliefTilePair **list, size_t *n, uint32_t a, uint32_t b)
 {
@@ -126,7 +133,7 @@ add_edge (CeldReliefTilePair **list, size_t *n, uint32_t a, uint32_t b)
   return CELD_OK;
 }
 
-/* Links of the block x .. end_x - 1, y .. end_y - 1 to the next ones. */
+/* Links the tiles of the block x .. end_x - 1, y .. end_y - 1 with those to the right and below. */
 static CeldStatus
 link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldReliefTiles *tiles)
 {
@@ -184,10 +191,10 @@ typedef struct
 {
   const CeldReliefTiles    *tiles;
   const CeldReliefTilePair *cut;
-  size_t              cuts;
-  double              hold;     /* of a pixel at its place, unless it shall stay flat */
-  uint8_t            *active;   /* of each cut */
-  double             *u, *gradient, *step, *r, *p, *q, *diagonal;
+  size_t                    cuts;
+  double                    hold; /* weight of u^2 for a pixel that is not flat */
+  uint8_t                  *active; /* of each cut: is it violated? */
+  double                   *u, *gradient, *step, *r, *p, *q, *diagonal;
 } Shift;
 
 static double
@@ -196,7 +203,7 @@ violation (const Shift *s, const double *u, size_t i)
   return (double) s->cut[i].minimum - (u[s->cut[i].a] - u[s->cut[i].b]);
 }
 
-/* How strongly a tile is held at its place. */
+/* Weight of u^2 for a tile. */
 static double
 hold_of (const Shift *s, uint32_t k)
 {
@@ -213,7 +220,7 @@ dot (const double *a, const double *b, size_t n)
   return sum;
 }
 
-/* to = A v, of links and places; with `with_cuts` also of the active cuts. */
+/* to = A v, the quadratic form of links and weights, and with `with_cuts` of the violated cuts. */
 static void
 multiply (const Shift *s, const double *v, bool with_cuts, double *to)
 {
@@ -238,7 +245,7 @@ multiply (const Shift *s, const double *v, bool with_cuts, double *to)
       }
 }
 
-/* The gradient at u, the cuts that are active there, and the diagonal with them. */
+/* Computes the gradient at u, the violated cuts, and the diagonal of the quadratic form. */
 static void
 evaluate (Shift *s)
 {
@@ -266,7 +273,7 @@ evaluate (Shift *s)
     }
 }
 
-/* The step that takes the gradient away, about. */
+/* The Newton step, approximately. */
 static void
 newton_step (Shift *s)
 {
@@ -299,7 +306,7 @@ newton_step (Shift *s)
     }
 }
 
-/* How the sum changes at u + t step along the step; rising in t. */
+/* The derivative of the objective at u + t step along the step; rising in t. */
 static double
 derivative_at (const Shift *s, double t, double slope, double curvature)
 {
@@ -315,7 +322,7 @@ derivative_at (const Shift *s, double t, double slope, double curvature)
   return sum;
 }
 
-/* How far to go: where the sum is least. */
+/* The t that minimizes the objective along the step. */
 static double
 line_search (Shift *s)
 {
@@ -371,7 +378,8 @@ minimize (Shift *s, const CeldHost *host)
 }
 
 CeldStatus
-celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts, double range, const CeldHost *host,
+celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts, double range,
+                         const CeldHost *host,
                   double *shift)
 {
   size_t     n = tiles->n;

@@ -1,13 +1,13 @@
-/* What is nearer stays in front: bulging surfaces would run through each other.
+/* Depth order of inflated surfaces, which would otherwise intersect each other.
  *
- * Wanted is the smallest and smoothest shift u of the surface z that keeps at each cut, p in front of q,
+ * Finds the smallest and smoothest shift u of the surface z that keeps at each cut, p in front of q,
  *
  *     (z + u)_p - (z + u)_q  >=  step max (0, d_p - d_q),
  *
- * minimizing  sum (u_p - u_q)^2 over what is not cut  +  sum u^2 / reach^2.  So parts move as a whole where nothing
- * holds them, and bend where they hang together with others; what is out of the way keeps its place.
+ * minimizing  sum (u_p - u_q)^2 over uncut edges  +  sum u^2 / range^2.  Parts move as a whole where nothing holds
+ * them, bend where they are connected with others, and stay in place where the order holds already.
  *
- * The shift is found for tiles of some pixels (relief-tiles.c), and smoothed over the surface.
+ * The shift is found for tiles of the surface (order-shift.c), interpolated and smoothed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,23 +16,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SHIFT_RANGE  0.5   /* of a shift, as a share of the diagonal */
-#define SMOOTHING_SIDES 0.75  /* deviation of the Gaussian that smooths it, in sides of a tile */
+#define SHIFT_RANGE      0.5   /* range of a shift relative to the diagonal; chosen */
+#define SMOOTHING_SIDES  0.75  /* standard deviation of the smoothing, in sides of a tile; chosen */
 #define SMOOTHING_PASSES 3
-#define ORDER_TOLERANCE  0.25f /* pixels that a nearer side may be behind, after smoothing */
-#define MAX_ITERATIONS 6
+#define ORDER_TOLERANCE  0.25f /* pixels by which the order may be violated after smoothing; chosen */
+#define MAX_ITERATIONS   6
 
 typedef struct
 {
-  const CeldSurface *surface;
-  const float       *z, *depth;
-  double             step;
-  CeldReliefTiles          tiles;
-  CeldReliefTilePair      *cut;       /* in order of a and b once they are merged */
-  size_t             cuts;
-  const float       *shift;
-  bool               holds;
-  CeldStatus         status;
+  const CeldSurface  *surface;
+  const float        *z, *depth;
+  double              step;
+  CeldReliefTiles     tiles;
+  CeldReliefTilePair *cut;            /* sorted by a and b once they are merged */
+  size_t              cuts;
+  const float        *shift;
+  bool                holds;
+  CeldStatus          status;
 } Order;
 
 /* ------------------------------------------------------------------ cuts between tiles */
@@ -40,9 +40,9 @@ typedef struct
 static void
 add_cut (void *data, size_t near, size_t far, bool right)
 {
-  Order        *o = data;
-  double        ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
-  uint32_t      a = o->tiles.tile[near], b = o->tiles.tile[far];
+  Order              *o = data;
+  double              ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
+  uint32_t            a = o->tiles.tile[near], b = o->tiles.tile[far];
   CeldReliefTilePair *cut;
 
   (void) right;
@@ -69,7 +69,7 @@ compare_cuts (const void *first, const void *second)
   return (p->b > q->b) - (p->b < q->b);
 }
 
-/* One cut for each pair of tiles, which asks for the most. */
+/* Merges the cuts of each pair of tiles; the largest minimum counts. */
 static void
 merge_cuts (Order *o)
 {
@@ -88,9 +88,9 @@ merge_cuts (Order *o)
   o->cuts = n;
 }
 
-/* ------------------------------------------------------------------ from tiles to pixels */
+/* ------------------------------------------------------------------ interpolation */
 
-/* Sums over the links of a tile, of which the slope follows by least squares. */
+/* Sums over the links of a tile for a least-squares fit of the slope. */
 typedef struct { double xx, xy, yy, xu, yu; } Slope;
 
 static void
@@ -103,7 +103,7 @@ add_slope (Slope *s, double weight, double x, double y, double u)
   s->yu += weight * y * u;
 }
 
-/* The slope of the shift in each tile, from the tiles that it is linked with; as x in xu and y in yu. */
+/* Fits the slope of the shift in each tile to the shifts of linked tiles; the result is in xu and yu. */
 static void
 find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
 {
@@ -118,7 +118,8 @@ find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
   for (uint32_t k = 0; k < c->n; k++)
     {
       Slope *s = &slope[k];
-      double minimum = 0.01 * (s->xx + s->yy) + 1e-9; /* tiles in a row tell nothing of the slope across */
+      double minimum = 0.01 * (s->xx + s->yy) + 1e-9; /* regularisation: tiles in a row do not determine the slope
+                                                       * across */
       double xx = s->xx + minimum, yy = s->yy + minimum, by = xx * yy - s->xy * s->xy, x = s->xu;
 
       s->xu = (yy * x - s->xy * s->yu) / by;
@@ -126,9 +127,10 @@ find_slopes (const CeldReliefTiles *c, const double *shift, Slope *slope)
     }
 }
 
-/* What tiles shift by, each with its slope. */
+/* The shift of each pixel from that of its tile and the slope there. */
 static void
-interpolate_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_tile, const Slope *slope, float *shift)
+interpolate_shift (const CeldSurface *s, const CeldReliefTiles *c, const double *of_tile, const Slope *slope,
+                   float *shift)
 {
   size_t n = (size_t) s->width * (size_t) s->height, w = (size_t) s->width;
 
@@ -141,7 +143,8 @@ interpolate_shift (const CeldSurface *s, const CeldReliefTiles *c, const double 
     }
 }
 
-/* A row there and back: each pixel takes a share of the one before, unless the surface is cut between them. */
+/* Recursive filter along a row, forwards and backwards: each pixel is mixed with the one before, unless the surface
+ * is cut between them. */
 static void
 smooth_row (const float *east, int n, float weight_of_last, float *v)
 {
@@ -151,7 +154,7 @@ smooth_row (const float *east, int n, float weight_of_last, float *v)
     v[x] += weight_of_last * east[x] * (v[x + 1] - v[x]);
 }
 
-/* The same from row to row. */
+/* One step of the recursive filter from row to row. */
 CELD_CLONES static void
 mix_rows (const float *restrict from, const float *restrict weight, int n, float weight_of_last, float *restrict v)
 {
@@ -159,8 +162,9 @@ mix_rows (const float *restrict from, const float *restrict weight, int n, float
     v[x] += weight_of_last * weight[x] * (from[x] - v[x]);
 }
 
-/* A Gaussian over the surface, about: recursive filters along rows and columns, each time with half the width, that do
- * not look over cracks [Gastal and Oliveira: Domain Transform for Edge-Aware Image and Video Processing, 2011]. */
+/* Approximates a Gaussian within the surface by recursive filters along rows and columns, with half the width in
+ * each pass, that do not cross cuts [Gastal and Oliveira: Domain Transform for Edge-Aware Image and Video
+ * Processing, 2011]. */
 static void
 smooth_shift (const CeldSurface *s, double deviation, float *shift)
 {
@@ -181,7 +185,7 @@ smooth_shift (const CeldSurface *s, double deviation, float *shift)
     }
 }
 
-/* Shifts of tiles, and from them those of pixels. */
+/* Finds the shifts of tiles, and from them those of pixels. */
 static CeldStatus
 find_shift (const Order *o, double range, const CeldHost *host, float *shift)
 {
@@ -213,12 +217,12 @@ order_holds (const Order *o)
   return true;
 }
 
-/* What smoothing has put out of order is asked for on top. */
+/* Raises the minimum of cuts whose order smoothing has violated. */
 static void
 raise_minimum (void *data, size_t near, size_t far, bool right)
 {
-  Order       *o = data;
-  float        behind = o->z[far] + o->shift[far] - (o->z[near] + o->shift[near]);
+  Order             *o = data;
+  float              behind = o->z[far] + o->shift[far] - (o->z[near] + o->shift[near]);
   CeldReliefTilePair pair = { .a = o->tiles.tile[near], .b = o->tiles.tile[far] }, *found;
 
   (void) right;
@@ -229,7 +233,7 @@ raise_minimum (void *data, size_t near, size_t far, bool right)
   o->holds      = false;
 }
 
-/* Shifts until the order is kept. */
+/* Repeats until the order holds. */
 static CeldStatus
 keep_cuts (Order *o, const CeldHost *host, float *shift)
 {
@@ -241,7 +245,7 @@ keep_cuts (Order *o, const CeldHost *host, float *shift)
   for (int i = 0; i < MAX_ITERATIONS && !o->holds && status == CELD_OK; i++)
     {
       CeldHostPart part;
-      CeldHost turn = celd_host_part (&part, host, (double) i / MAX_ITERATIONS, (double) (i + 1) / MAX_ITERATIONS);
+      CeldHost     turn = celd_host_part (&part, host, (double) i / MAX_ITERATIONS, (double) (i + 1) / MAX_ITERATIONS);
 
       status  = find_shift (o, range, &turn, shift);
       o->holds = true;
@@ -256,7 +260,8 @@ keep_cuts (Order *o, const CeldHost *host, float *shift)
 }
 
 CeldStatus
-celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step, const CeldHost *host,
+celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
+                        const CeldHost *host,
                  float *shift)
 {
   Order o = { .surface = surface, .z = z, .depth = depth, .step = step };

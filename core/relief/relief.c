@@ -1,7 +1,7 @@
-/* Relief: the picture as a surface to print, light or turn (section 5, Figure 1h).
+/* Relief: the picture as a surface to print, to light or to turn (section 5, Figure 1h).
  *
- * Each part bulges above its outline (relief-round.c), stands where its smooth depth says, and is moved where it would
- * run through another (relief-order.c).  The surface is cut only where depth is (relief-surface.c).
+ * Each part is inflated above its outline (inflation.c), placed at its smooth depth, and shifted so that the depth
+ * order holds (order.c).  The surface is cut only at depth discontinuities (surface.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,11 +10,11 @@
 
 #include <math.h>
 
-#define MIN_STEP 0.5 /* share of the difference of depth that is at least left at a cut */
+#define MIN_STEP 0.5 /* fraction of the difference of depth that is kept at a cut, at least; chosen */
 
 typedef struct { float *z, *depth, *shift; CeldVectors normals; } Planes;
 
-/* One unit of depth in pixels.  Ranks have no scale of their own: all of them together are one. */
+/* One unit of depth in pixels.  Levels have no scale of their own: their whole range is settings.relief_depth. */
 static double
 depth_scale (const CeldSurface *surface, const CeldSettings *settings)
 {
@@ -26,7 +26,7 @@ depth_scale (const CeldSurface *surface, const CeldSettings *settings)
   return (double) settings->relief_depth * hypot (surface->width, surface->height) / most;
 }
 
-/* Depth as a tight plane: the given one, or smooth depth that each region's core holds. */
+/* Depth without padding: the given depth, or else smooth depth. */
 static CeldStatus
 read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *given, const CeldSettings *settings,
             const CeldHost *host, float *depth)
@@ -39,21 +39,22 @@ read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *give
   return CELD_OK;
 }
 
-/* Height above the outline, in pixels. */
+/* Computes the height above the outline, in pixels. */
 static CeldStatus
 make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
             const CeldHost *host, Planes *p)
 {
-  size_t     n = (size_t) surface->width * (size_t) surface->height;
-  CeldHostPart   part[2];
-  CeldHost   first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldStatus status;
+  size_t       n = (size_t) surface->width * (size_t) surface->height;
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus   status;
 
   if (settings->relief_from == CELD_RELIEF_NORMALS)
     {
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
       status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
-      return status ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
+      return status ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second,
+                                                      p->z);
     }
   status = celd_relief_inflate (surface, (double) settings->tolerance, host, p->z);
   for (size_t i = 0; i < n; i++)
@@ -71,16 +72,16 @@ mark_cut (void *data, size_t near, size_t far, bool right)
                     (near > far ? 0 : right ? CELD_NEAR_RIGHT : CELD_NEAR_BELOW));
 }
 
-/* All of `relief`, of which there are the planes. */
+/* Fills in a relief whose planes are allocated. */
 static CeldStatus
 make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
              const CeldHost *host, Planes *p, CeldRelief *relief)
 {
-  size_t     n = (size_t) surface->width * (size_t) surface->height;
-  double     scale = depth_scale (surface, settings);
-  CeldHostPart   part[2];
-  CeldHost   rounding = celd_host_part (&part[0], host, 0, 0.4), ordering = celd_host_part (&part[1], host, 0.4, 1);
-  CeldStatus status = make_round (surface, ink, levels, settings, &rounding, p);
+  size_t       n = (size_t) surface->width * (size_t) surface->height;
+  double       scale = depth_scale (surface, settings);
+  CeldHostPart part[2];
+  CeldHost     rounding = celd_host_part (&part[0], host, 0, 0.4), ordering = celd_host_part (&part[1], host, 0.4, 1);
+  CeldStatus   status = make_round (surface, ink, levels, settings, &rounding, p);
 
   for (size_t i = 0; i < n; i++)
     {
@@ -124,11 +125,11 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
   CeldSurface surface = { .width = 0 };
   Planes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
                     { .data = NULL } };
-  CeldRelief  made = { .width = 0 };
-  CeldHostPart    part[3];
-  CeldHost    smoothing = celd_host_part (&part[0], host, 0, 0.2), cutting = celd_host_part (&part[1], host, 0.2, 0.3);
-  CeldHost    making = celd_host_part (&part[2], host, 0.3, 1);
-  CeldStatus  status = p.z && p.depth && p.shift ? relief_new (ink->width, ink->height, &made) : CELD_NO_MEMORY;
+  CeldRelief   made = { .width = 0 };
+  CeldHostPart part[3];
+  CeldHost     smoothing = celd_host_part (&part[0], host, 0, 0.2), cutting = celd_host_part (&part[1], host, 0.2, 0.3);
+  CeldHost     making = celd_host_part (&part[2], host, 0.3, 1);
+  CeldStatus   status = p.z && p.depth && p.shift ? relief_new (ink->width, ink->height, &made) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = read_depth (ink, levels, depth, settings, &smoothing, p.depth);

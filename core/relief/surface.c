@@ -1,10 +1,10 @@
-/* A picture as a surface with cracks: where depth jumps, the surface is cut; the nearer side ends there, the farther
- * one goes on behind it.
+/* A picture as a surface with cuts: the surface is cut at depth discontinuities, where the nearer side ends and the
+ * farther side continues behind it.
  *
- * Where depth is cut is said in depth/discontinuities.c.  A virtual border also has such edges at its ends, where it runs into
- * the ink of another contour; there the surface goes on, as it does all round: an edge counts as cut only if there is
- * no short way round it.  A region that ends nowhere, but is behind others, stays flat, and so does what has no border
- * at all: the paper.
+ * Discontinuities come from celd_depth_weights.  Where a virtual contour runs into the ink of another contour there are
+ * such edges, too, but the surface continues round them; so an edge is cut only if there is no short path round it.  A
+ * region that is only behind others and ends nowhere stays flat, and so does a connected surface without any cut: the
+ * paper.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,13 +15,13 @@
 
 /* ------------------------------------------------------------------ regions */
 
-/* Connected regions of one level, and which of them hang together. */
+/* Connected components of one level, and which of them the surface connects. */
 typedef struct
 {
   CeldLabels region;
   uint32_t  *parent;            /* of each region */
-  uint8_t   *front, *behind;    /* has it an outline of its own, is it behind one? */
-  size_t     n;                 /* regions, from 1 */
+  uint8_t   *front, *behind;    /* does it end in front of another region, is it behind one? */
+  size_t     n;                 /* number of regions; they start from 1 */
 } Regions;
 
 static void
@@ -33,7 +33,7 @@ regions_clear (Regions *r)
   celd_free (r->behind);
 }
 
-/* Regions that the surface joins. */
+/* Joins regions that the surface connects. */
 static void
 join_regions (const CeldSurface *s, Regions *r)
 {
@@ -72,7 +72,7 @@ regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
 
 /* ------------------------------------------------------------------ */
 
-/* Weights as 1 where they are not 0. */
+/* Sets positive weights to 1. */
 static void
 binarize (float *weight, size_t n)
 {
@@ -80,7 +80,7 @@ binarize (float *weight, size_t n)
     weight[p] = weight[p] > 0 ? 1.f : 0.f;
 }
 
-/* Is the cut to the right or below (x,y) near one of its ends?  Only if both sides hang together. */
+/* Is the cut to the right of (x,y), or below it, near the end of a virtual contour?  Then both sides are connected. */
 static bool
 is_cut_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int x, int y, bool down)
 {
@@ -90,7 +90,7 @@ is_cut_end (const CeldSurface *s, const CeldPixelLinks *joined, Regions *r, int 
          celd_has_detour (joined, x, y, down);
 }
 
-/* Ends are told by the cuts as they were. */
+/* Heals such cuts, judging all of them by the original cuts. */
 static CeldStatus
 heal_cut_ends (CeldSurface *s, Regions *r, const CeldHost *host)
 {
@@ -140,7 +140,7 @@ mark_sides (void *data, size_t near, size_t far, bool right)
   r->behind[r->region.data[far]] = 1;
 }
 
-/* What stays flat: regions that are behind others only, and what hangs together without any border. */
+/* Marks flat pixels: those of regions that are only behind others, and of connected surfaces without a cut. */
 static CeldStatus
 find_flat (CeldSurface *s, Regions *r)
 {
@@ -166,12 +166,12 @@ find_flat (CeldSurface *s, Regions *r)
 CeldStatus
 celd_surface_new (const CeldPlane *ink, const CeldPlane *levels, float threshold, const CeldHost *host, CeldSurface *s)
 {
-  size_t     n = (size_t) ink->width * (size_t) ink->height;
-  Regions    r = { .n = 0 };
-  CeldHostPart   part[3];
-  CeldHost   weighing = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 0.8);
-  CeldHost   joining = celd_host_part (&part[2], host, 0.8, 1);
-  CeldStatus status = CELD_OK;
+  size_t       n = (size_t) ink->width * (size_t) ink->height;
+  Regions      r = { .n = 0 };
+  CeldHostPart part[3];
+  CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 0.8);
+  CeldHost     joining = celd_host_part (&part[2], host, 0.8, 1);
+  CeldStatus   status = CELD_OK;
 
   *s = (CeldSurface) { .width = ink->width, .height = ink->height };
   s->level = celd_alloc (n, sizeof *s->level);

@@ -1,7 +1,8 @@
-/* What two eyes can bear of a drawing with depth, and where a camera goes to show it.
+/* Stereo comfort: cameras, limits of disparity, and the floating window.
  *
- * A point of depth d lies in front of the screen by the disparity  B (d - d_0),  a share B of the width for a unit of
- * depth; what has depth d_0 is on the screen.  Behind it disparity must not grow beyond the distance of the eyes.
+ * A point of depth d has the disparity  B (d - d_0)  in front of the screen, where B is a fraction of the width for
+ * each unit of depth, and points of depth d_0, the convergence, are on the screen.  Behind the screen the disparity
+ * must not exceed the distance of the eyes, or these diverge.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,9 +10,9 @@
 
 #include <stdio.h>
 
-#define PI           3.14159265358979
-#define TURNTABLE_ANGLE       20.0 /* degrees, either way, on a turntable */
-#define CIRCLE_RATIO 0.6  /* a circle is flatter than wide: eyes lie side by side */
+#define PI              3.14159265358979
+#define TURNTABLE_ANGLE 20.0 /* degrees to either side on a turntable; chosen */
+#define CIRCLE_RATIO    0.6  /* height to width of the camera's path, because eyes lie side by side; chosen */
 
 /* ------------------------------------------------------------------ cameras */
 
@@ -49,7 +50,7 @@ range_of (const CeldPlane *depth, const CeldSettings *settings)
   return range;
 }
 
-/* How far in front of the screen the nearest point of a column is. */
+/* Distance in depth by which the nearest pixel of a column is in front of the screen. */
 static double
 column_front (const CeldPlane *depth, int x, double screen)
 {
@@ -82,12 +83,12 @@ celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldC
   return CELD_OK;
 }
 
-/* What may be asked for instead is rounded down to what helps. */
+/* Suggested values are rounded down, so that they suffice. */
 void
 celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, char *text, size_t size)
 {
   double whole = comfort->front + comfort->behind, disparity = (double) settings->disparity;
-  double behind = comfort->behind * (double) settings->screen_width; /* in mm */
+  double behind = comfort->behind * (double) settings->screen_width; /* mm */
   size_t used = 0;
 
   if (size)
@@ -116,7 +117,7 @@ celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, cha
 
 /* ------------------------------------------------------------------ floating window */
 
-/* Covers the share of a pixel in black. */
+/* Covers a fraction of a pixel with black. */
 static void
 darken (float *rgba, double share)
 {
@@ -127,7 +128,7 @@ darken (float *rgba, double share)
   rgba[3] = (float) alpha;
 }
 
-/* A bar of so many pixels at one side. */
+/* Draws a black bar at one side, `wide` pixels wide. */
 static void
 draw_bar (CeldColours *view, bool right, double wide)
 {

@@ -1,8 +1,8 @@
-/* A left and a right view in one picture: side by side, one over the other, in turns of rows or columns, or for
- * coloured glasses.
+/* Frame packing: a left and a right view in one picture, side by side, one over the other, interlaced in rows or
+ * columns, or as an anaglyph.
  *
- * Anaglyphs are linear maps of the two colours in linear light, and keep white and greys as they are.  Dubois's weights
- * for red and cyan glasses make what each eye sees through its glass most like the view meant for it [Dub01].
+ * Anaglyphs are linear maps of both colours in linear light that preserve white and greys.  Dubois's matrices for red
+ * and cyan glasses approximate the view meant for each eye by least squares, as seen through its glass [Dub01].
  *
  *   [Dub01]  E. Dubois: A Projection Method to Generate Anaglyph Stereo Images.  ICASSP 2001.
  *
@@ -12,10 +12,10 @@
 
 #include <math.h>
 
-/* Red, green and blue of the glasses' picture from R, G, B of the left and of the right view. */
+/* Matrices from r, g, b of the left and of the right view to those of the anaglyph. */
 typedef struct { float left[3][3], right[3][3]; } Anaglyph;
 
-#define GREY { 0.2126f, 0.7152f, 0.0722f } /* luminance of linear sRGB */
+#define GREY { 0.2126f, 0.7152f, 0.0722f } /* luminance of linear sRGB (IEC 61966-2-1) */
 #define NONE { 0, 0, 0 }
 
 static const Anaglyph grey = { { GREY, NONE, NONE }, { NONE, GREY, GREY } };
@@ -39,7 +39,7 @@ anaglyph_of (CeldStereo format)
     }
 }
 
-/* What one view does not cover adds nothing. */
+/* Transparent parts of a view add nothing. */
 static void
 mix_anaglyph (const Anaglyph *g, const float *left, const float *right, float *to)
 {
@@ -66,7 +66,7 @@ celd_stereo_size (CeldStereo format, int *width, int *height)
     *height *= 2;
 }
 
-/* The mean of two pixels, weighted by their alpha. */
+/* The mean of two pixels, weighted by alpha. */
 static void
 average (const float *a, const float *b, float *to)
 {
@@ -77,7 +77,7 @@ average (const float *a, const float *b, float *to)
   to[3] = alpha / 2;
 }
 
-/* Where pixel (x,y) of the joined picture comes from. */
+/* Makes pixel (x,y) of the packed picture. */
 static void
 join_pixel (const CeldColours *left, const CeldColours *right, CeldStereo format, int x, int y, float *to)
 {

@@ -1,26 +1,27 @@
-/* A scene of a picture and its depth alone, such as an artist or an estimator may paint.
+/* A scene from a picture and a depth map alone, for example a painted or an estimated one.
  *
- * A row is cut where depth jumps by more than can be stretched.  At a cut the farther piece goes on under the nearer
- * one, as far as a view can uncover it, in the colour of its paper next to the cut: the mean of a few pixels without
- * ink, so that no line is smeared.  Pixels of the farther piece that only show the soft edge of the nearer one's ink
- * are that ink over that paper: left behind they would be a ghost of the line.
+ * A row is cut at depth discontinuities, where depth changes by more than may be stretched.  There the farther span
+ * continues under the nearer one, as far as any view can uncover it, in the colour of its paper near the cut: the mean
+ * of some pixels without ink, so that no line smears.  Pixels of the farther span that show the antialiased edge of the
+ * nearer one's ink are treated as that ink over paper; otherwise a ghost of the line would stay behind.
  *
- * Pieces are laid over each other by their mean depth, told apart in steps of half a cut.  A long slope that begins
- * behind something and ends before it may be put on the wrong side; layers (scene.c) have no such doubt.
+ * Spans are ordered by their mean depth, in steps of half a discontinuity.  A long slope that begins behind something
+ * and ends in front of it may be ordered wrongly; scenes from layers (scene.c) do not have this limitation.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "stereo/scene.h"
 
-#define MAX_STRETCH     0.25  /* pixels: a larger step is a cut */
-#define MAX_GROUPS  256   /* of depth that are told apart */
-#define MAX_SOFT_EDGE   6     /* pixels of an antialiased edge in a row, at most */
-#define PAPER_SEARCH    24    /* pixels: paper next to a cut */
-#define PAPER_SAMPLES      4     /* pixels of paper */
-#define FILL_OVERLAP     2     /* pixels that a filling lies under what it goes on from */
-#define PAPER_INK       0.98f /* ink above this is paper */
-#define GREY_PAPER_INK        0.8f  /* and so it is above this, where it rises by less than a step: paper need not be clean */
-#define MAX_PAPER_STEP        0.02f
+#define MAX_STRETCH    0.25  /* pixels of disparity; a larger step is a discontinuity; chosen */
+#define MAX_GROUPS     256   /* groups of depth, at most; chosen */
+#define MAX_SOFT_EDGE  6     /* pixels of an antialiased edge along a row, at most; chosen */
+#define PAPER_SEARCH   24    /* pixels searched for paper beside a discontinuity; chosen */
+#define PAPER_SAMPLES  4     /* pixels of paper that are averaged; chosen */
+#define FILL_OVERLAP   2     /* pixels by which filling overlaps the visible part; chosen */
+#define PAPER_INK      0.98f /* ink above this is paper; chosen */
+#define GREY_PAPER_INK 0.8f  /* ink above this is paper where it changes by less than MAX_PAPER_STEP: paper need not
+                              * be white; chosen */
+#define MAX_PAPER_STEP 0.02f
 
 typedef struct
 {
@@ -28,14 +29,14 @@ typedef struct
   const CeldPlane   *ink;
   CeldScene         *scene;
   float             *depths;     /* of a row */
-  float              cut;      /* a step of depth */
-  double             shift;    /* pixels that a unit of depth moves at most */
-  double             steps;    /* groups in a unit of depth */
-  size_t            *spans, *pixels; /* of each part, while they are counted; then NULL */
+  float              cut;      /* difference of depth that is a discontinuity */
+  double             shift;    /* largest shift in pixels for each unit of depth */
+  double             steps;    /* groups for each unit of depth */
+  size_t            *spans, *pixels; /* of each part, while spans are counted; then NULL */
   int                y;
 } SceneBuilder;
 
-/* ------------------------------------------------------------------ a row */
+/* ------------------------------------------------------------------ soft edges and paper */
 
 static bool
 is_cut (const SceneBuilder *m, int x, int other)
@@ -43,7 +44,7 @@ is_cut (const SceneBuilder *m, int x, int other)
   return fabsf (m->depths[x] - m->depths[other]) > m->cut;
 }
 
-/* How many pixels beyond x, the last of the nearer piece, show its ink's soft edge. */
+/* The number of pixels beyond x, the last pixel of the nearer span, with the antialiased edge of its ink. */
 static int
 soft_edge (const SceneBuilder *m, int x, int direction)
 {
@@ -57,10 +58,10 @@ soft_edge (const SceneBuilder *m, int x, int direction)
       float ink;
 
       if (at < 0 || at >= m->scene->width || (k > 1 && is_cut (m, at, at - direction)))
-        return 0; /* all there is of the farther piece */
+        return 0; /* the farther span ends here */
       ink = CELD_AT (m->ink, at, m->y);
       if (ink < last)
-        return 0; /* a line of its own */
+        return 0; /* a line of the farther span */
       if (ink > PAPER_INK || (ink > GREY_PAPER_INK && ink - last < MAX_PAPER_STEP))
         return k - 1;
       last = ink;
@@ -78,8 +79,8 @@ premultiplied (const SceneBuilder *m, int x, float colour[4])
     colour[c] = fabsf (rgba[c]) <= FLT_MAX ? rgba[c] * colour[3] : 0;
 }
 
-/* The paper of a piece, from x on; where that is nothing but a line, of what lies beyond it, if that is no nearer
- * than `most`.  False: there is none; the lightest pixel. */
+/* The mean colour of paper from x on; if there is only a line, beyond it, as long as depth is at most `most`.
+ * Returns false, with the brightest pixel's colour, if there is no paper. */
 static bool
 average_paper (const SceneBuilder *m, int x, int direction, float most, float colour[4])
 {
@@ -114,9 +115,9 @@ paper_of (const SceneBuilder *m, int x, int direction, float colour[4])
     average_paper (m, x, direction, FLT_MAX, colour);
 }
 
-/* ------------------------------------------------------------------ pieces */
+/* ------------------------------------------------------------------ spans */
 
-/* Counts a piece, or adds it: NULL while they are counted. */
+/* Counts a span, or adds it; returns NULL while spans are counted. */
 static CeldSceneSpan *
 add_span (SceneBuilder *m, int x, int n, double depth, bool filling)
 {
@@ -140,15 +141,15 @@ mean_depth (const SceneBuilder *m, int first, int end)
   return sum / (end - first);
 }
 
-/* What comes into sight at the end x of the farther piece, whose other pixels lie in `way`, of which the first `soft`
- * show the soft edge of what is nearer. */
+/* Adds the pixels that views may uncover beside the end x of a farther span, whose other pixels lie in `direction`;
+ * the first `soft` of them show the antialiased edge of the nearer span. */
 static void
 fill_behind (SceneBuilder *m, int x, int direction, int soft, int length, double group_depth)
 {
-  float     depth = m->depths[x], paper[4] = { 0 };
-  int       most = (int) (m->shift * (m->scene->most - (double) depth)) + 3, hidden = 0;
-  int       shown = soft + FILL_OVERLAP < length ? soft + FILL_OVERLAP : length;
-  int       first, n;
+  float          depth = m->depths[x], paper[4] = { 0 };
+  int            most = (int) (m->shift * (m->scene->most - (double) depth)) + 3, hidden = 0;
+  int            shown = soft + FILL_OVERLAP < length ? soft + FILL_OVERLAP : length;
+  int            first, n;
   CeldSceneSpan *s;
 
   while (hidden < most && x - (hidden + 1) * direction >= 0 && x - (hidden + 1) * direction < m->scene->width &&
@@ -159,10 +160,11 @@ fill_behind (SceneBuilder *m, int x, int direction, int soft, int length, double
   s     = add_span (m, first, n, group_depth, true);
   if (!s)
     return;
-  paper_of (m, soft + 1 < length ? x + (soft + 1) * direction : x, direction, paper); /* the next pixel may not be clean */
+  paper_of (m, soft + 1 < length ? x + (soft + 1) * direction : x, direction, paper); /* the next pixel may be
+                                                                                       * antialiased, too */
   for (int k = 0; k < n; k++)
     {
-      int inside = (first + k - x) * direction; /* pixels into the piece */
+      int inside = (first + k - x) * direction; /* pixels into the span */
 
       if (inside >= soft)
         premultiplied (m, first + k, s->colour + 4 * k);
@@ -173,7 +175,7 @@ fill_behind (SceneBuilder *m, int x, int direction, int soft, int length, double
   celd_scene_span_pad (s, m->scene->width);
 }
 
-/* Ink over the paper of the piece beyond, so that both together are the art. */
+/* The ink of a soft edge over the paper beyond, so that both together give the art. */
 static void
 soft_pixel (const SceneBuilder *m, int x, const float paper[4], float colour[4])
 {
@@ -185,12 +187,12 @@ soft_pixel (const SceneBuilder *m, int x, const float paper[4], float colour[4])
     colour[c] = fmaxf (0, fminf (colour[c] - (1 - alpha) * paper[c], c < 3 ? colour[3] : 1));
 }
 
-/* The art from `first` to before `end`, and at both ends so many soft pixels of ink beyond. */
+/* Adds the art from `first` to before `end`, with soft[0] and soft[1] pixels of antialiased ink beyond its ends. */
 static void
 add_visible_span (SceneBuilder *m, int first, int end, const int soft[2], double group_depth)
 {
   CeldSceneSpan *s = add_span (m, first - soft[0], end - first + soft[0] + soft[1], group_depth, false);
-  float     paper[2][4] = { { 0 } };
+  float          paper[2][4] = { { 0 } };
 
   if (!s)
     return;
@@ -211,7 +213,8 @@ add_visible_span (SceneBuilder *m, int first, int end, const int soft[2], double
   celd_scene_span_pad (s, m->scene->width);
 }
 
-/* The piece from `first` to before `end`: nearer than its neighbours it has soft ends, farther it goes on below. */
+/* Handles the pixels from `first` to before `end`, between two discontinuities: a nearer end gets a soft edge, a
+ * farther one is continued. */
 static void
 make_segment (SceneBuilder *m, int first, int end)
 {
@@ -272,7 +275,7 @@ make_rows (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host, double
   return status;
 }
 
-/* Counts all pieces, makes room, and makes them. */
+/* Counts all spans, allocates them, and makes them. */
 static CeldStatus
 make_scene (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host)
 {
@@ -290,9 +293,9 @@ CeldStatus
 celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
                      const CeldSettings *settings, const CeldHost *host, CeldScene **result)
 {
-  SceneBuilder      m = { .art = art, .ink = ink };
-  double     least, most, steps;
-  CeldStatus status;
+  SceneBuilder m = { .art = art, .ink = ink };
+  double       least, most, steps;
+  CeldStatus   status;
 
   if (!CELD_SAME_SIZE (art, depth) || !CELD_SAME_SIZE (ink, depth))
     return CELD_BAD_SIZE;

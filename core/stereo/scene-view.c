@@ -1,41 +1,41 @@
-/* A scene as it looks from the side (section 5, Figure 1g).
+/* Views of a scene from other places (section 5, Figure 1g).
  *
- * A pixel of depth d at x goes to  c + q (x - c) - s (d - d_0),  where c is the middle, q how much the picture is
- * squeezed, d_0 the depth on the screen and 2 s the disparity of two eyes in pixels for each unit of depth.  A piece of
- * a row becomes a line through its pixels' new places, so that it has no cracks where it is stretched; where it folds
- * over itself, the nearer part counts.  Groups of pieces are laid over each other in their order.
+ * A pixel of depth d at x is projected to  c + q (x - c) - s (d - d_0),  where c is the middle of the picture, q its
+ * horizontal compression, d_0 the depth on the screen and 2 s the disparity of both eyes in pixels for each unit of
+ * depth.  A span becomes a polyline through its pixels' new places, so that stretching leaves no holes; where it folds
+ * over itself, the nearest part wins.  Groups of spans are composited in their order.
  *
- * A camera that moves up or down, too, goes the two ways one after the other: rows first, then columns of what that
- * gave, of each group by itself with its depth.
+ * A camera that moves vertically as well is handled in two passes: rows first, then columns of the result, for each
+ * group separately with its depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "stereo/scene.h"
 
-#define BAND_ROWS 32 /* rows of one job */
+#define BAND_ROWS 32 /* rows of one task */
 
-/* How places change. */
+/* new x = middle + squeeze (x - middle) - shift (depth - screen) */
 typedef struct { double squeeze, middle, shift, screen; } Projection;
 
 typedef struct
 {
   const CeldScene *scene;
-  Projection             move;
+  Projection       move;
   CeldColours     *view;       /* straight alpha */
   char            *scratch;    /* of each band */
 } View;
 
-/* What is nearest in a group at each pixel of a row: at `at` + t of the span's pixels. */
+/* The nearest sample of a group at each pixel of a row: `t` of the way from pixel `at` of the span to the next. */
 typedef struct
 {
-  float          *nearest, *t;
-  const CeldSceneSpan **span;       /* NULL: nothing */
-  int            *at;
-  float          *colour;      /* of the row so far, premultiplied */
-  int             width, first, end; /* pixels that the group may have reached */
+  float                *nearest, *t;
+  const CeldSceneSpan **span;       /* NULL: no sample */
+  int                  *at;
+  float                *colour; /* composite of the row so far, premultiplied */
+  int                   width, first, end; /* pixels that the group may have reached */
 } Scanline;
 
-/* What a line takes, rounded up so that several may lie one behind the other. */
+/* Memory of a scanline, rounded up for alignment. */
 static size_t
 scanline_bytes (int width)
 {
@@ -47,8 +47,8 @@ scanline_bytes (int width)
 static Scanline
 scanline_in (char *scratch, int width)
 {
-  size_t w = (size_t) width;
-  Scanline   line = { .width = width };
+  size_t   w = (size_t) width;
+  Scanline line = { .width = width };
 
   line.span    = (const CeldSceneSpan **) (void *) scratch;
   line.nearest = (float *) (void *) (scratch + w * sizeof *line.span);
@@ -58,9 +58,9 @@ scanline_in (char *scratch, int width)
   return line;
 }
 
-/* ------------------------------------------------------------------ a piece on its way */
+/* ------------------------------------------------------------------ projection of a span */
 
-/* The first pixel whose middle is at or behind a place, within 0 .. width. */
+/* The first pixel whose centre is at or beyond a place, within 0 .. width. */
 static inline int
 pixel_from (double place, int width)
 {
@@ -70,7 +70,7 @@ pixel_from (double place, int width)
   return pixel + (pixel < inside);
 }
 
-/* The new place of the middle of pixel i of a piece. */
+/* The projected centre of pixel i of a span. */
 static inline double
 place_of (const Projection *m, const CeldSceneSpan *s, int i)
 {
@@ -88,7 +88,7 @@ put_sample (Scanline *line, const CeldSceneSpan *s, int i, int k, float t, float
   line->t[k]       = t;
 }
 
-/* Beyond the frame a piece goes on as it is there. */
+/* Beyond the frame a span continues with its last pixel. */
 static void
 put_beyond (Scanline *line, const CeldSceneSpan *s, int i, int first, int end)
 {
@@ -96,7 +96,7 @@ put_beyond (Scanline *line, const CeldSceneSpan *s, int i, int first, int end)
     put_sample (line, s, i, k, 0, s->depths[i]);
 }
 
-/* The pixels from k to before `end` lie between the places of the pixels i and i + 1. */
+/* Samples the pixels from k to before `end`, which lie between the projections of the pixels i and i + 1. */
 static inline void
 put_between (Scanline *line, const CeldSceneSpan *s, int i, int k, int end, double place, double next)
 {
@@ -141,8 +141,8 @@ project_span (const Projection *m, const CeldSceneSpan *s, Scanline *line)
     }
 }
 
-/* Between two pixels: a cubic through their neighbours, too (Catmull and Rom), that stays within the two; straight
- * where one covers less than the other, so that colours and alpha go on fitting each other. */
+/* Interpolates between two pixels by a Catmull-Rom spline clamped to their range; linearly where their alphas
+ * differ, so that premultiplied colours stay consistent. */
 static inline void
 blend (const float *a, float t, float colour[4])
 {
@@ -163,21 +163,21 @@ blend (const float *a, float t, float colour[4])
     }
 }
 
-/* The colours of a group over those so far; makes the line ready for the next group. */
+/* Composites a group over the row, and clears the samples for the next group. */
 CELD_CLONES static void
 composite_group (Scanline *line)
 {
   for (int k = line->first; k < line->end; k++)
     {
       const CeldSceneSpan *s = line->span[k];
-      const float    *from;
-      float          *to = line->colour + 4 * k, colour[4];
+      const float         *from;
+      float               *to = line->colour + 4 * k, colour[4];
 
       if (!s)
         continue;
       line->span[k] = NULL;
       from = s->colour + 4 * line->at[k];
-      if (memcmp (from, from + 4, sizeof colour)) /* most neighbours in drawings are the same */
+      if (memcmp (from, from + 4, sizeof colour)) /* most neighbours in drawings are equal */
         {
           blend (from, line->t[k], colour);
           from = colour;
@@ -208,7 +208,7 @@ draw_row (const View *v, int y, Scanline *line)
     }
 }
 
-/* With straight alpha. */
+/* Writes straight alpha. */
 static void
 unpremultiply (const float *from, int n, float *to)
 {
@@ -225,7 +225,7 @@ draw_band (void *data, int band)
 {
   const View *v = data;
   int         width = v->scene->width, end = (band + 1) * BAND_ROWS;
-  Scanline        line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
+  Scanline    line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
 
   memset (line.span, 0, (size_t) width * sizeof *line.span);
   line.first = width;
@@ -249,12 +249,13 @@ draw (const CeldScene *scene, Projection move, const CeldHost *host, CeldColours
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ columns */
+/* ------------------------------------------------------------------ vertical movement */
 
-/* A part of the scene after its rows moved, with rows and columns exchanged: colours, premultiplied, and depth. */
+/* A part of the scene after horizontal projection, with rows and columns exchanged: premultiplied colours, and
+ * depth. */
 typedef struct { const View *view; const CeldSceneSpans *part; float *colour, *depths; } Transposition;
 
-/* Colours and depth of one row of a part, which is in the line, to a column of the turned picture. */
+/* Writes the samples of one row to a column of the transposed picture. */
 static void
 transpose_row (const Transposition *t, int y, Scanline *line)
 {
@@ -263,7 +264,7 @@ transpose_row (const Transposition *t, int y, Scanline *line)
   for (int k = line->first; k < line->end; k++)
     {
       const CeldSceneSpan *s = line->span[k];
-      size_t          to = (size_t) k * height + (size_t) y;
+      size_t               to = (size_t) k * height + (size_t) y;
 
       if (!s)
         continue;
@@ -275,7 +276,7 @@ transpose_row (const Transposition *t, int y, Scanline *line)
   line->end   = 0;
 }
 
-/* Moves group `group` of the scene, and makes a part of the turned scene of it. */
+/* Projects a group horizontally and makes a part of the transposed scene of it. */
 static CeldStatus
 transpose_group (Transposition *t, uint32_t group, Scanline *line, const CeldHost *host, CeldSceneSpans *to)
 {
@@ -292,7 +293,8 @@ transpose_group (Transposition *t, uint32_t group, Scanline *line, const CeldHos
           project_span (&t->view->move, &scene->span[i], line);
       transpose_row (t, y, line);
     }
-  return celd_scene_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour, t->depths,
+  return celd_scene_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour,
+                                      t->depths,
                                 group, host, to);
 }
 
@@ -309,12 +311,12 @@ count_groups (const CeldScene *scene)
 static CeldStatus
 transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, CeldScene **transposed)
 {
-  size_t     n = (size_t) scene->width * (size_t) scene->height;
-  uint32_t   groups = count_groups (scene);
-  char      *scratch = celd_alloc (1, scanline_bytes (scene->width));
-  View       v = { scene, move, NULL, scratch };
-  Transposition       t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
-  CeldStatus status = celd_scene_new (scene->height, scene->width, groups, transposed);
+  size_t        n = (size_t) scene->width * (size_t) scene->height;
+  uint32_t      groups = count_groups (scene);
+  char         *scratch = celd_alloc (1, scanline_bytes (scene->width));
+  View          v = { scene, move, NULL, scratch };
+  Transposition t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
+  CeldStatus    status = celd_scene_new (scene->height, scene->width, groups, transposed);
 
   if (!scratch || !t.colour || !t.depths)
     status = CELD_NO_MEMORY;
@@ -339,7 +341,7 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
   return status;
 }
 
-/* Rows, and then columns. */
+/* Horizontally, and then vertically. */
 static CeldStatus
 draw_two_axes (const CeldScene *scene, Projection across, Projection along, const CeldHost *host, CeldColours *view)
 {
@@ -366,7 +368,7 @@ celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *
                  CeldColours *view)
 {
   double     half, screen;
-  Projection       across, along;
+  Projection across, along;
   CeldStatus status;
 
   if (!view->data || view->width != scene->width || view->height != scene->height)

@@ -1,7 +1,7 @@
-/* A scene: the visible and the hidden pixels of layers, with their depth, as pieces of rows.
+/* A scene: the visible and the hidden pixels of layers with their depth, as spans of rows.
  *
- * Pieces hold only what is not transparent, so that a scene is about as large as what there is to see in it, and views
- * need not look for it.  The depth of a layer goes on under whatever hides it, along rows.
+ * Spans hold only pixels that are not transparent, so that memory and the cost of views are proportional to their
+ * number.  Where a layer is occluded, its depth is interpolated along rows.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,7 +9,7 @@
 #include "ownership/expansion.h"
 #include "stereo/scene.h"
 
-#define BAND_ROWS 32 /* rows of one job */
+#define BAND_ROWS 32 /* rows of one task */
 
 void
 celd_depth_range (const CeldPlane *depth, double *least, double *most)
@@ -30,7 +30,7 @@ celd_depth_range (const CeldPlane *depth, double *least, double *most)
   *most  = low <= high ? (double) celd_scene_depth (high) : 0;
 }
 
-/* ------------------------------------------------------------------ pieces */
+/* ------------------------------------------------------------------ spans */
 
 CeldStatus
 celd_scene_spans_new (size_t n, size_t pixels, CeldSceneSpans *spans)
@@ -49,7 +49,7 @@ CeldSceneSpan *
 celd_scene_spans_add (CeldSceneSpans *spans, int x, int y, int n, uint32_t group)
 {
   CeldSceneSpan *span = &spans->span[spans->n++];
-  size_t    first = spans->pixels + CELD_SPAN_END;
+  size_t         first = spans->pixels + CELD_SPAN_END;
 
   *span = (CeldSceneSpan) { x, y, n, group, spans->colour + 4 * first, spans->depths + first };
   spans->pixels += (size_t) n + 2 * CELD_SPAN_END;
@@ -74,7 +74,8 @@ celd_scene_span_pad (CeldSceneSpan *span, int width)
     }
 }
 
-/* The end of the next run of pixels that are there, from x on, and where it begins; n if there is none. */
+/* Finds the next run of pixels that are not transparent, from x on: returns its end, *first is its beginning, and
+ * both are n if there is none. */
 static int
 next_run (const float *rgba, int n, int x, int *first)
 {
@@ -153,7 +154,7 @@ celd_scene_free (CeldScene *scene)
   celd_free (scene);
 }
 
-/* By counting: row[y + 2] first has the pieces of row y, then row[y + 1] is where the next of them goes. */
+/* Counting sort: row[y + 2] first has the number of spans of row y, then row[y + 1] is the index of the next one. */
 CeldStatus
 celd_scene_sort (CeldScene *scene)
 {
@@ -180,18 +181,18 @@ celd_scene_sort (CeldScene *scene)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ a layer and its depth */
+/* ------------------------------------------------------------------ scenes of layers */
 
 typedef struct
 {
   const CeldOwnership *own;
   const CeldPlane     *depth;
   CeldLayer            layer;
-  float               *art, *depths; /* of the layer's box; the art premultiplied */
-  bool                *known;      /* of each row: has it depth of its own? */
+  float               *art, *depths; /* of the layer's box; the art is premultiplied */
+  bool                *known;      /* of each row: does it have depth of the layer's own? */
 } Part;
 
-/* Is the depth of this pixel the layer's?  It is that of the label that covers more of it. */
+/* Is the depth of this pixel the layer's?  It is that of the label that covers most of the pixel. */
 static bool
 is_own (const Part *p, int x, int y)
 {
@@ -200,7 +201,8 @@ is_own (const Part *p, int x, int y)
   return CELD_AT (larger, x, y) == p->layer.label;
 }
 
-/* Row y of the box, where it is the layer's own; between, and beyond at its ends, from there. */
+/* Copies the layer's own depth in row y of the box, and interpolates between, constant at both ends.  False if there
+ * is none. */
 static bool
 fill_row (const Part *p, int y)
 {
@@ -214,7 +216,8 @@ fill_row (const Part *p, int y)
         continue;
       depths[x] = celd_scene_depth (CELD_AT (p->depth, box.x + x, box.y + y));
       for (int k = last + 1; k < x; k++)
-        depths[k] = last < 0 ? depths[x] : depths[last] + (depths[x] - depths[last]) * (float) (k - last) / (float) (x - last);
+        depths[k] = last < 0 ? depths[x] : depths[last] + (depths[x] - depths[last])
+                    * (float) (k - last) / (float) (x - last);
       last = x;
     }
   for (int k = last + 1; k < box.width && last >= 0; k++)
@@ -226,7 +229,8 @@ static void
 prepare_band (void *data, int band)
 {
   Part *p = data;
-  int   w = p->layer.box.width, end = (band + 1) * BAND_ROWS < p->layer.box.height ? (band + 1) * BAND_ROWS : p->layer.box.height;
+  int   w = p->layer.box.width, end = (band + 1) * BAND_ROWS < p->layer.box.height ? (band + 1) * BAND_ROWS
+            : p->layer.box.height;
 
   for (int y = band * BAND_ROWS; y < end; y++)
     {
@@ -239,7 +243,7 @@ prepare_band (void *data, int band)
     }
 }
 
-/* Rows without depth of their own are as the next one above, or at the top the next one below. */
+/* Rows without depth of their own copy the next one above, or at the top the next one below. */
 static void
 fill_rows (const Part *p)
 {
@@ -275,7 +279,8 @@ add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldHost *host
       celd_layers_paint (layers, layer, p->art);
       celd_parallel_for (host, (box.height + BAND_ROWS - 1) / BAND_ROWS, prepare_band, p);
       fill_rows (p);
-      status = celd_scene_spans_of_picture (box, scene->width, p->art, p->depths, (uint32_t) layer, host, &scene->part[layer]);
+      status = celd_scene_spans_of_picture (box, scene->width, p->art, p->depths, (uint32_t) layer, host,
+                                            &scene->part[layer]);
     }
   celd_free (p->art);
   celd_free (p->depths);
@@ -300,7 +305,7 @@ celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, 
   for (size_t k = 0; k < n && !status; k++)
     {
       CeldHostPart turn;
-      CeldHost short_run = celd_host_part (&turn, host, 0, 0);
+      CeldHost     short_run = celd_host_part (&turn, host, 0, 0);
 
       status = add_layer (&part, layers, k, &short_run, scene);
       if (!status)

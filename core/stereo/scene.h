@@ -1,9 +1,8 @@
-/* The inside of CeldScene: what there is to see, as pieces of rows that move sideways.
+/* The inside of CeldScene: spans of rows that views shift sideways.
  *
- *   scene.c        the pieces, and those of layers
- *   scene-levels.c those of a picture with levels and depth
- *   scene-depth.c  those of a picture with depth alone
- *   scene-view.c   how they look from the side
+ *   scene.c             spans, and scenes of layers
+ *   scene-from-depth.c  scenes of a picture with a depth map
+ *   scene-view.c        views
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,37 +14,37 @@
 #include <float.h>
 #include <math.h>
 
-#define CELD_SPAN_END 2 /* pixels that are stored beyond either end of a piece, for blending */
+#define CELD_SPAN_END 2 /* pixels stored beyond either end of a span, for interpolation */
 
-/* n pixels from (x,y) on.  At the frame a piece goes on beyond it, elsewhere it ends.  colour[] is premultiplied and,
- * as near[], can be read from pixel -CELD_SPAN_END to n + CELD_SPAN_END - 1. */
+/* n pixels from (x,y) on.  A span that ends at the frame continues beyond it.  colour[] is premultiplied and, like
+ * depths[], can be read from pixel -CELD_SPAN_END to n + CELD_SPAN_END - 1. */
 typedef struct
 {
   int      x, y, n;
-  uint32_t group;              /* within one the nearest counts; each is laid over those before it */
+  uint32_t group;              /* within a group the nearest pixel wins; groups are composited in rising order */
   float   *colour, *depths;
 } CeldSceneSpan;
 
-/* The memory of some pieces. */
+/* The memory of a number of spans. */
 typedef struct
 {
   CeldSceneSpan *span;
-  float    *colour, *depths;
-  size_t    n, pixels;         /* that are in it; `pixels` with what is beyond ends */
+  float         *colour, *depths;
+  size_t         n, pixels;    /* used so far; `pixels` includes those beyond ends */
 } CeldSceneSpans;
 
 struct CeldScene
 {
-  int        width, height;
-  bool       separate;            /* pieces of a group are laid one by one, as different surfaces */
-  double     least, most;      /* depth that there is */
+  int             width, height;
+  bool            separate;       /* are spans of one group composited one by one, as separate surfaces? */
+  double          least, most; /* range of depth */
   CeldSceneSpans *part;
-  size_t     n_parts;
-  CeldSceneSpan  *span;             /* of all parts, by rows; within a row in the order of the parts */
-  size_t    *row;              /* the first of each row, and one behind the last */
+  size_t          n_parts;
+  CeldSceneSpan  *span;             /* of all parts, sorted by rows; within a row in the order of the parts */
+  size_t         *row;         /* index of the first span of each row, and the number of spans at the end */
 };
 
-/* Depth as it is kept: what is not a number is 0, and none is so large that pixels cannot be counted. */
+/* Depth as stored: NaN and infinity become 0, and magnitude is limited so that shifts can be counted in int. */
 static inline float
 celd_scene_depth (float depth)
 {
@@ -54,22 +53,23 @@ celd_scene_depth (float depth)
   return depth < -1e5f ? -1e5f : depth < 1e5f ? depth : 1e5f;
 }
 
-/* Least and most depth; 0 and 0 if there is none. */
+/* Range of the finite depths; 0 and 0 if there are none. */
 void celd_depth_range (const CeldPlane *depth, double *least, double *most);
 
 CeldStatus celd_scene_new (int width, int height, size_t parts, CeldScene **scene);
 
-/* Room for n pieces of so many pixels in all. */
+/* Allocates n spans with that many pixels in all. */
 CeldStatus celd_scene_spans_new (size_t n, size_t pixels, CeldSceneSpans *spans);
-/* The next piece, whose n pixels the caller fills; then it is closed. */
+/* Adds a span, whose n pixels the caller fills in before celd_scene_span_pad fills those beyond its ends. */
 CeldSceneSpan *celd_scene_spans_add (CeldSceneSpans *spans, int x, int y, int n, uint32_t group);
 void      celd_scene_span_pad (CeldSceneSpan *span, int width);
 
-/* All that is not transparent in a picture: `rgba` premultiplied and `near` as large as the box. */
+/* Makes spans of all pixels of a picture that are not transparent; `rgba` is premultiplied, and both planes have the
+ * size of the box. */
 CeldStatus celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const float *depths, uint32_t group,
                                   const CeldHost *host, CeldSceneSpans *spans);
 
-/* Once all parts are there. */
+/* Sorts the spans by rows; to be called once, when all parts are complete. */
 CeldStatus celd_scene_sort (CeldScene *scene);
 
 #endif
