@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#define CELD_PI 3.14159265358979323846
+
 /* ------------------------------------------------------------------ memory.c */
 
 /* All allocation in core goes through these two; NULL when count x size overflows or is refused. */

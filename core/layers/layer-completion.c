@@ -13,7 +13,7 @@
 #include <math.h>
 
 #define MIN_LINE_WIDTH    0.7   /* pixels; a thinner line does not count as one; chosen */
-#define PAPER_INK         0.97f /* ink above this is certainly paper; chosen */
+#define INPAINT_PAPER     0.97f /* ink above this is certainly paper; chosen */
 #define FLAT_TOLERANCE    (2.5f / 255)
 #define INPAINT_TOLERANCE 4e-3  /* relative to the range of colours */
 #define MARGIN_STROKES    4     /* stroke widths round the hidden part from which colours are taken; chosen */
@@ -256,7 +256,7 @@ sort_pixels (const Completion *part, bool ink_too, Inpainting *fill)
         bool         own = layers->place[at] == part->layer;
 
         fill->kind[p] = is_hidden (part, x, y) ? FILL_FREE : FILL_NONE;
-        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < PAPER_INK)))
+        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < INPAINT_PAPER)))
           fill->kind[p] = FILL_KNOWN;
         else if (celd_layer_visibility (layers, part->layer, x, y) == CELD_LAYER_VISIBLE)
           fill->kind[p] = FILL_FREE;

@@ -17,14 +17,13 @@
 
 #include <math.h>
 
-#define PI                  3.14159265358979323846
-#define MAX_END_TURN        (2 * PI / 3) /* largest turn at one end; larger ones count as errors of measurement;
-                                          * chosen */
-#define MAX_INFLECTION      (PI / 6)     /* largest turns to both sides that count as errors of measurement, not as
-                                          * an inflection; chosen */
-#define MAX_EXCHANGE_TURN   (PI / 4)     /* largest turn at the ends of a curve between two gaps; chosen */
-#define MAX_EXCHANGE_LENGTH 5            /* largest length of such a curve, in lengths of the longer gap; chosen */
-#define SAMPLES             64
+#define MAX_END_TURN        (2 * CELD_PI / 3) /* largest turn at one end; larger ones count as errors of measurement;
+                                               * chosen */
+#define MAX_INFLECTION      (CELD_PI / 6)     /* largest turns to both sides that count as errors of measurement, not
+                                               * as an inflection; chosen */
+#define MAX_EXCHANGE_TURN   (CELD_PI / 4)     /* largest turn at the ends of a curve between two gaps; chosen */
+#define MAX_EXCHANGE_LENGTH 5                 /* largest length of such a curve, in lengths of the longer gap; chosen */
+#define CURVE_SAMPLES       64
 #define TENSIONS            8
 
 void
@@ -52,7 +51,7 @@ celd_curve_steps (const CeldGapCurve *curve)
 
 /* ------------------------------------------------------------------ one curve */
 
-/* Angle from the first direction to the second, in (-PI,PI]. */
+/* Angle from the first direction to the second, in (-pi,pi]. */
 static double
 turn (double ax, double ay, double bx, double by)
 {
@@ -129,14 +128,14 @@ is_possible (const CeldLayers *layers, size_t layer, const CeldGapCurve *curve)
 {
   int outside = 0;
 
-  for (int i = 1; i < SAMPLES; i++)
+  for (int i = 1; i < CURVE_SAMPLES; i++)
     {
       double x, y;
 
-      celd_curve_at (curve, (double) i / SAMPLES, &x, &y);
+      celd_curve_at (curve, (double) i / CURVE_SAMPLES, &x, &y);
       outside += celd_layer_visibility (layers, layer, (int) floor (x), (int) floor (y)) == CELD_LAYER_ABSENT;
     }
-  return outside <= SAMPLES / 16;
+  return outside <= CURVE_SAMPLES / 16;
 }
 
 static double

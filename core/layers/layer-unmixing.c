@@ -186,13 +186,13 @@ unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
 
 #define CHUNK 4096
 
-typedef struct { CeldLayers *layers; const CeldPlane *ink; } Work;
+typedef struct { CeldLayers *layers; const CeldPlane *ink; } UnmixWork;
 
 static void
 unmix_chunk (void *data, int i)
 {
-  const Work *work = data;
-  size_t      end = ((size_t) i + 1) * CHUNK;
+  const UnmixWork *work = data;
+  size_t           end = ((size_t) i + 1) * CHUNK;
 
   end = end < work->layers->n_blends ? end : work->layers->n_blends;
   for (size_t b = (size_t) i * CHUNK; b < end; b++)
@@ -202,7 +202,7 @@ unmix_chunk (void *data, int i)
 CeldStatus
 celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host)
 {
-  Work work = { layers, ink };
+  UnmixWork work = { layers, ink };
 
   celd_parallel_for (host, (int) ((layers->n_blends + CHUNK - 1) / CHUNK), unmix_chunk, &work);
   return celd_progress (host, 1);

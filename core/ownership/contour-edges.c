@@ -8,7 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/contours.h"
+#include "ownership/contour-pens.h"
 
 #include <math.h>
 
@@ -27,16 +27,16 @@ typedef struct
   uint8_t          *flags;
   int               stride;
   CeldContourEdges *edges;
-} Tracer;
+} EdgeTracer;
 
 static uint8_t *
-flags_at (const Tracer *t, int x, int y)
+flags_at (const EdgeTracer *t, int x, int y)
 {
   return t->flags + (size_t) (y + 1) * (size_t) t->stride + (x + 1);
 }
 
 static CeldStatus
-read_flags (Tracer *t)
+read_flags (EdgeTracer *t)
 {
   const CeldPlane *ink = t->ink;
 
@@ -88,7 +88,7 @@ add_point (CeldContourEdges *e, CeldEdgePoint point)
 
 /* Follows the loop that includes the edge above the paper at (x,y). */
 static CeldStatus
-follow (Tracer *t, int x, int y)
+follow (EdgeTracer *t, int x, int y)
 {
   CeldContourEdges *e = t->edges;
   CeldEdgeLoop      loop = { .first = e->n_points }, *loops;
@@ -120,7 +120,7 @@ follow (Tracer *t, int x, int y)
 }
 
 static CeldStatus
-follow_all (Tracer *t, const CeldHost *host)
+follow_all (EdgeTracer *t, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
@@ -226,7 +226,7 @@ find_crossing (const CeldPlane *ink, const CeldEdgePoint *p, float from, float t
 }
 
 static void
-measure_thickness (const Tracer *t, CeldEdgePoint *p)
+measure_thickness (const EdgeTracer *t, CeldEdgePoint *p)
 {
   for (float s = 1; s < MAX_THICKNESS; s++)
     {
@@ -244,7 +244,7 @@ measure_thickness (const Tracer *t, CeldEdgePoint *p)
 }
 
 static CeldStatus
-measure_all (const Tracer *t, const CeldHost *host)
+measure_all (const EdgeTracer *t, const CeldHost *host)
 {
   CeldContourEdges *e = t->edges;
 
@@ -262,7 +262,7 @@ CeldStatus
 celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges)
 {
   CeldContourEdges made = { .width = ink->width, .height = ink->height, .stroke = celd_stroke_width (ink) };
-  Tracer           t = { .ink = ink, .edges = &made };
+  EdgeTracer       t = { .ink = ink, .edges = &made };
   CeldStatus       status = read_flags (&t);
 
   if (status == CELD_OK)

@@ -8,12 +8,12 @@
  */
 #include "base/tiles.h"
 #include "image/image.h"
-#include "ownership/contours.h"
+#include "ownership/contour-pens.h"
 
 #include <math.h>
 
-#define RAY_STEP        0.5f /* pixels between the samples of a ray; chosen */
-#define MAX_LINE_WIDTHS 3    /* pen widths; a piece of line is at most so thick; chosen */
+#define SEARCH_STEP      0.5f /* pixels between the samples of a ray; chosen */
+#define MAX_PIECE_WIDTHS 3    /* pen widths; a piece of line is at most so thick; chosen */
 
 typedef struct { uint32_t from, to; } Reassignment; /* ink of label `from` is given to `to`; 0: none */
 
@@ -79,7 +79,7 @@ ink_behind (const Corrector *h, const CeldEdgePoint *p, float s, int *x, int *y)
 static float
 search_depth (const Corrector *h, size_t i)
 {
-  return fminf (h->pens->edges->point[i].thickness, MAX_LINE_WIDTHS * h->pens->pen[i].width + 2);
+  return fminf (h->pens->edges->point[i].thickness, MAX_PIECE_WIDTHS * h->pens->pen[i].width + 2);
 }
 
 /* The reassignment by the first stroke that a point sees through the ink. */
@@ -92,7 +92,7 @@ find_change (const Corrector *h, size_t i)
   if (!celd_tiles_any (&h->strokes, celd_tile_span (&h->strokes, fminf (x, p->x) - 1, fminf (y, p->y) - 1,
                                                     fmaxf (x, p->x) + 1, fmaxf (y, p->y) + 1), 1))
     return (Reassignment) { 0, 0 };
-  for (float s = RAY_STEP / 2; s < length; s += RAY_STEP)
+  for (float s = SEARCH_STEP / 2; s < length; s += SEARCH_STEP)
     {
       int u, v;
 
@@ -129,7 +129,7 @@ reassign_behind (const Corrector *h, size_t i)
   float                length = search_depth (h, i);
   CeldStatus           status = CELD_OK;
 
-  for (float s = RAY_STEP / 2; s < length && h->change[i].to && !status; s += RAY_STEP)
+  for (float s = SEARCH_STEP / 2; s < length && h->change[i].to && !status; s += SEARCH_STEP)
     {
       int x, y;
 

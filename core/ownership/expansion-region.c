@@ -23,12 +23,12 @@
 
 #include <math.h>
 
-#define MIN_GAP             16     /* pixels; gaps smaller than this, or than 2 w^2 for line width w, are filled;
-                                    * chosen */
-#define OPPOSITE_COSINE     (-0.9) /* cosine; two directions with a larger one are not opposite; chosen */
-#define THICKNESS_TOLERANCE 0.01   /* of the propagated thickness, relative to its range; chosen */
-#define TIE_DISTANCE        0.02   /* pixels; D1 has to be below t by this much, so that rounding has no influence;
-                                    * chosen */
+#define MIN_GAP               16     /* pixels; gaps smaller than this, or than 2 w^2 for line width w, are filled;
+                                      * chosen */
+#define OPPOSITE_COSINE       (-0.9) /* cosine; two directions with a larger one are not opposite; chosen */
+#define PROPAGATION_TOLERANCE 0.01   /* of the propagated thickness, relative to its range; chosen */
+#define TIE_DISTANCE          0.02   /* pixels; D1 has to be below t by this much, so that rounding has no influence;
+                                      * chosen */
 
 /* A part of the picture; planes without padding, masks are 0 or 1. */
 typedef struct
@@ -49,11 +49,11 @@ typedef struct
   float              *east, *south, *diagonal, *b; /* Laplace's equation for t */
   int32_t            *stack;
   double              mean, most; /* of t on the axis; infinite without an axis */
-} Window;
+} ExpansionWindow;
 
 /* The first pixel of row y of the window in the picture. */
 static inline uint32_t *
-state_row (const Window *w, int y)
+state_row (const ExpansionWindow *w, int y)
 {
   return w->state->level + (size_t) (w->top + y) * (size_t) w->state->width + (size_t) w->left;
 }
@@ -62,7 +62,7 @@ state_row (const Window *w, int y)
 
 /* Sets the window to the region's box with `margin` pixels round it, clipped to the picture. */
 static void
-place_window (Window *w, int margin)
+place_window (ExpansionWindow *w, int margin)
 {
   const CeldExpansionState *state = w->state;
   CeldRect                  box = state->box[w->k - 1];
@@ -77,7 +77,7 @@ place_window (Window *w, int margin)
 
 /* Upper bound of the thickness of free ink in the window; 0 if there is none. */
 static int
-thickest_ink (const Window *w)
+thickest_ink (const ExpansionWindow *w)
 {
   const CeldExpansionState *state = w->state;
   int32_t                   deepest = 0;
@@ -96,7 +96,7 @@ thickest_ink (const Window *w)
 
 /* Finds a margin that is as wide as the ink within it is thick.  False if there is no ink. */
 static bool
-find_window (Window *w)
+find_window (ExpansionWindow *w)
 {
   int margin = 1, thickest;
 
@@ -110,7 +110,7 @@ find_window (Window *w)
 }
 
 static CeldStatus
-open_window (Window *w)
+open_window (ExpansionWindow *w)
 {
   w->front = celd_alloc (w->pixels, 1);
   w->farther = celd_alloc (w->pixels, 1);
@@ -133,7 +133,7 @@ open_window (Window *w)
 }
 
 static void
-close_window (Window *w)
+close_window (ExpansionWindow *w)
 {
   celd_free (w->front);
   celd_free (w->farther);
@@ -155,7 +155,7 @@ close_window (Window *w)
 
 /* Sets the masks; nearer regions, which are expanded already, are in none of them. */
 static void
-read_window (Window *w)
+read_window (ExpansionWindow *w)
 {
   for (int y = 0; y < w->height; y++)
     {
@@ -175,7 +175,7 @@ read_window (Window *w)
 
 /* Flood fill from the region: marks the open pixels that are connected to it in `reached`. */
 static void
-flood (const Window *w, uint8_t *reached)
+flood (const ExpansionWindow *w, uint8_t *reached)
 {
   size_t n = 0;
 
@@ -199,14 +199,14 @@ flood (const Window *w, uint8_t *reached)
 
 /* The sign of D1 - D2. */
 static inline int
-side (const Window *w, size_t p)
+side (const ExpansionWindow *w, size_t p)
 {
   return (w->d1[p] > w->d2[p]) - (w->d1[p] < w->d2[p]);
 }
 
 /* Is D1 - D2 zero at the contour pixel p, or does it change sign between p and one of its 8 neighbours? */
 static bool
-on_axis (const Window *w, int x, int y, size_t p)
+on_axis (const ExpansionWindow *w, int x, int y, size_t p)
 {
   if (side (w, p) == 0)
     return true;
@@ -224,7 +224,7 @@ on_axis (const Window *w, int x, int y, size_t p)
 
 /* Do the nearest points of the region and of farther regions lie on opposite sides of (x,y)? */
 static bool
-between_opposites (const Window *w, int x, int y, size_t p)
+between_opposites (const ExpansionWindow *w, int x, int y, size_t p)
 {
   double x1 = w->near1[p] % w->width - x, y1 = w->near1[p] / w->width - y;
   double x2 = w->near2[p] % w->width - x, y2 = w->near2[p] / w->width - y;
@@ -234,7 +234,7 @@ between_opposites (const Window *w, int x, int y, size_t p)
 
 /* Finds the axis, and t = D1 + D2 on it. */
 static void
-find_axis (Window *w)
+find_axis (ExpansionWindow *w)
 {
   double sum = 0;
   size_t n = 0, p = 0;
@@ -257,7 +257,7 @@ find_axis (Window *w)
 
 /* Removes contour that is farther from the region than any contour is thick, since it cannot be taken. */
 static void
-trim_contour (Window *w)
+trim_contour (ExpansionWindow *w)
 {
   double most = w->most * w->most;
 
@@ -268,7 +268,7 @@ trim_contour (Window *w)
 
 /* Solves Laplace's equation for t over the contour.  Components without an axis keep the initial value. */
 static CeldStatus
-propagate_thickness (Window *w, const CeldHost *host)
+propagate_thickness (ExpansionWindow *w, const CeldHost *host)
 {
   CeldLaplace *laplace = NULL;
   CeldHostPart part[2];
@@ -289,7 +289,7 @@ propagate_thickness (Window *w, const CeldHost *host)
   celd_lap_pin (w->width, w->height, w->axis, 1, w->t, w->east, w->south, w->diagonal, w->b);
   status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, NULL, &set_up, &laplace);
   if (!status)
-    status = celd_lap_solve (laplace, 1, w->b, w->t, THICKNESS_TOLERANCE, &solve, NULL);
+    status = celd_lap_solve (laplace, 1, w->b, w->t, PROPAGATION_TOLERANCE, &solve, NULL);
   celd_lap_free (laplace);
   return status;
 }
@@ -297,7 +297,7 @@ propagate_thickness (Window *w, const CeldHost *host)
 /* ------------------------------------------------------------------ what the region takes */
 
 static void
-take_contour (Window *w)
+take_contour (ExpansionWindow *w)
 {
   for (size_t p = 0; p < w->pixels; p++)
     w->open[p] = w->contour[p] && sqrt (w->d1[p]) < w->t[p] - TIE_DISTANCE;
@@ -307,7 +307,7 @@ take_contour (Window *w)
 /* Does pixel (x,y) touch a farther region, or the border of the window inside the picture, beyond which anything may
  * be? */
 static bool
-touches_others (const Window *w, int x, int y)
+touches_others (const ExpansionWindow *w, int x, int y)
 {
   size_t p = (size_t) y * (size_t) w->width + (size_t) x;
 
@@ -320,7 +320,7 @@ touches_others (const Window *w, int x, int y)
 
 /* Takes the small remaining components of contour that touch no farther region. */
 static CeldStatus
-fill_gaps (Window *w, const CeldHost *host)
+fill_gaps (ExpansionWindow *w, const CeldHost *host)
 {
   CeldLabels     gaps = { 0 };
   CeldComponent *list = NULL;
@@ -348,7 +348,7 @@ done:
 }
 
 static void
-write_window (const Window *w)
+write_window (const ExpansionWindow *w)
 {
   const uint8_t *taken = w->taken;
 
@@ -361,11 +361,11 @@ write_window (const Window *w)
 CeldStatus
 celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host)
 {
-  Window       w = { .state = state, .k = k };
-  CeldHostPart part[4];
-  CeldHost     first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
-  CeldHost     third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
-  CeldStatus   status;
+  ExpansionWindow w = { .state = state, .k = k };
+  CeldHostPart    part[4];
+  CeldHost        first = celd_host_part (&part[0], host, 0, 0.2), second = celd_host_part (&part[1], host, 0.2, 0.4);
+  CeldHost        third = celd_host_part (&part[2], host, 0.4, 0.9), fourth = celd_host_part (&part[3], host, 0.9, 1);
+  CeldStatus      status;
 
   if (!state->box[k - 1].width || !find_window (&w))
     return celd_progress (host, 1);

@@ -8,7 +8,7 @@
  */
 #include "base/tiles.h"
 #include "image/image.h"
-#include "ownership/contours.h"
+#include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
 
 #include <math.h>

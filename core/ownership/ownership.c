@@ -7,7 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/contours.h"
+#include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
 
 /* ------------------------------------------------------------------ by the thickness of contours */
@@ -100,8 +100,8 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
          CeldExpansion method, const CeldHost *host, CeldOwnership *own)
 {
   CeldContourEdges edges = { 0 };
-  CeldContourPens     pens = { 0 };
-  CeldReassigned    reassigned = { 0 };
+  CeldContourPens  pens = { 0 };
+  CeldReassigned   reassigned = { 0 };
   CeldHostPart     fraction[2];
   CeldHost     first = celd_host_part (&fraction[0], host, 0, 0.5), second = celd_host_part (&fraction[1], host, 0.5,
                                                                                              1);

@@ -10,7 +10,7 @@
 #define CELD_OWNERSHIP_H
 
 #include "base/tiles.h"
-#include "ownership/contours.h"
+#include "ownership/contour-pens.h"
 
 /* ------------------------------------------------------------------ ownership.c */
 

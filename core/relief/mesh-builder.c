@@ -47,12 +47,12 @@ celd_mesh_add_triangle (CeldMeshBuilder *m, uint32_t a, uint32_t b, uint32_t c)
 
 /* Directions of the pixels inside and outside an edge, at its beginning and its end; edges go counter-clockwise
  * round a square, y down. */
-typedef struct { int inside, end_inside, outside, end_outside; } Edge;
+typedef struct { int inside, end_inside, outside, end_outside; } WallEdge;
 
 /* Vertices above each other, from one end of a wall to the other. */
 typedef struct { uint32_t vertex[MAX_CHAIN]; float z[MAX_CHAIN]; int n; } Chain;
 
-static const Edge edges[4] = {
+static const WallEdge edges[4] = {
   { CELD_SOUTH_EAST, CELD_NORTH_EAST, CELD_SOUTH_WEST, CELD_NORTH_WEST }, /* down */
   { CELD_NORTH_EAST, CELD_NORTH_WEST, CELD_SOUTH_EAST, CELD_SOUTH_WEST }, /* to the right */
   { CELD_NORTH_WEST, CELD_SOUTH_WEST, CELD_NORTH_EAST, CELD_SOUTH_EAST }, /* up */
@@ -181,7 +181,7 @@ CeldStatus
 celd_mesh_add_wall (CeldMeshBuilder *m, int x, int y, int end_x, int end_y)
 {
   int        direction = direction_of (x, y, end_x, end_y);
-  Edge       edge = edges[direction];
+  WallEdge   edge = edges[direction];
   Chain      start, end;
   CeldStatus status;
 

@@ -12,7 +12,7 @@
 
 #define MIN_STEP 0.5 /* fraction of the difference of depth that is kept at a cut, at least; chosen */
 
-typedef struct { float *z, *depth, *shift; CeldVectors normals; } Planes;
+typedef struct { float *z, *depth, *shift; CeldVectors normals; } ReliefPlanes;
 
 /* One unit of depth in pixels.  Levels have no scale of their own: their whole range is settings.relief_depth. */
 static double
@@ -42,7 +42,7 @@ read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *give
 /* Computes the height above the outline, in pixels. */
 static CeldStatus
 make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-            const CeldHost *host, Planes *p)
+            const CeldHost *host, ReliefPlanes *p)
 {
   size_t       n = (size_t) surface->width * (size_t) surface->height;
   CeldHostPart part[2];
@@ -75,7 +75,7 @@ mark_cut (void *data, size_t near, size_t far, bool right)
 /* Fills in a relief whose planes are allocated. */
 static CeldStatus
 make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
-             const CeldHost *host, Planes *p, CeldRelief *relief)
+             const CeldHost *host, ReliefPlanes *p, CeldRelief *relief)
 {
   size_t       n = (size_t) surface->width * (size_t) surface->height;
   double       scale = depth_scale (surface, settings);
@@ -123,7 +123,7 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
 
   size_t      n = (size_t) ink->width * (size_t) ink->height;
   CeldSurface surface = { .width = 0 };
-  Planes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
+  ReliefPlanes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
                     { .data = NULL } };
   CeldRelief   made = { .width = 0 };
   CeldHostPart part[3];

@@ -10,7 +10,6 @@
 
 #include <stdio.h>
 
-#define PI              3.14159265358979
 #define TURNTABLE_ANGLE 20.0 /* degrees to either side on a turntable; chosen */
 #define CIRCLE_RATIO    0.6  /* height to width of the camera's path, because eyes lie side by side; chosen */
 
@@ -25,8 +24,8 @@ celd_camera_eye (double eye)
 CeldCamera
 celd_camera_on_path (CeldPath path, int frame, int frames)
 {
-  double angle = frames > 0 ? 2 * PI * (frame % frames) / frames : 0;
-  double side = sin (TURNTABLE_ANGLE * PI / 180), turn = sin (angle) * TURNTABLE_ANGLE * PI / 180;
+  double angle = frames > 0 ? 2 * CELD_PI * (frame % frames) / frames : 0;
+  double side = sin (TURNTABLE_ANGLE * CELD_PI / 180), turn = sin (angle) * TURNTABLE_ANGLE * CELD_PI / 180;
 
   switch (path)
     {
@@ -38,12 +37,12 @@ celd_camera_on_path (CeldPath path, int frame, int frames)
 
 /* ------------------------------------------------------------------ comfort */
 
-typedef struct { double least, most, screen; } Range;
+typedef struct { double least, most, screen; } ComfortRange;
 
-static Range
+static ComfortRange
 range_of (const CeldPlane *depth, const CeldSettings *settings)
 {
-  Range range;
+  ComfortRange range;
 
   celd_depth_range (depth, &range.least, &range.most);
   range.screen = range.least + (double) settings->convergence * (range.most - range.least);
@@ -65,8 +64,8 @@ column_front (const CeldPlane *depth, int x, double screen)
 CeldStatus
 celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort)
 {
-  Range  range;
-  double disparity = (double) settings->disparity;
+  ComfortRange range;
+  double       disparity = (double) settings->disparity;
 
   if (!CELD_SAME_SIZE (depth, depth))
     return CELD_BAD_SIZE;

@@ -15,12 +15,12 @@
 /* Matrices from r, g, b of the left and of the right view to those of the anaglyph. */
 typedef struct { float left[3][3], right[3][3]; } Anaglyph;
 
-#define GREY { 0.2126f, 0.7152f, 0.0722f } /* luminance of linear sRGB (IEC 61966-2-1) */
-#define NONE { 0, 0, 0 }
+#define GREY     { 0.2126f, 0.7152f, 0.0722f } /* luminance of linear sRGB (IEC 61966-2-1) */
+#define ZERO_ROW { 0, 0, 0 }
 
-static const Anaglyph grey = { { GREY, NONE, NONE }, { NONE, GREY, GREY } };
-static const Anaglyph colour = { { { 1, 0, 0 }, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
-static const Anaglyph half_colour = { { GREY, NONE, NONE }, { NONE, { 0, 1, 0 }, { 0, 0, 1 } } };
+static const Anaglyph grey = { { GREY, ZERO_ROW, ZERO_ROW }, { ZERO_ROW, GREY, GREY } };
+static const Anaglyph colour = { { { 1, 0, 0 }, ZERO_ROW, ZERO_ROW }, { ZERO_ROW, { 0, 1, 0 }, { 0, 0, 1 } } };
+static const Anaglyph half_colour = { { GREY, ZERO_ROW, ZERO_ROW }, { ZERO_ROW, { 0, 1, 0 }, { 0, 0, 1 } } };
 static const Anaglyph dubois = {
   { { 0.437f, 0.449f, 0.164f }, { -0.062f, -0.062f, -0.024f }, { -0.048f, -0.050f, -0.017f } },
   { { -0.011f, -0.032f, -0.007f }, { 0.377f, 0.761f, 0.009f }, { -0.026f, -0.093f, 1.234f } },

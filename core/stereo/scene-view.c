@@ -12,7 +12,7 @@
  */
 #include "stereo/scene.h"
 
-#define BAND_ROWS 32 /* rows of one task */
+#define VIEW_BAND_ROWS 32 /* rows of one task */
 
 /* new x = middle + squeeze (x - middle) - shift (depth - screen) */
 typedef struct { double squeeze, middle, shift, screen; } Projection;
@@ -23,7 +23,7 @@ typedef struct
   Projection       move;
   CeldColours     *view;       /* straight alpha */
   char            *scratch;    /* of each band */
-} View;
+} SceneView;
 
 /* The nearest sample of a group at each pixel of a row: `t` of the way from pixel `at` of the span to the next. */
 typedef struct
@@ -192,7 +192,7 @@ composite_group (Scanline *line)
 /* ------------------------------------------------------------------ rows */
 
 static void
-draw_row (const View *v, int y, Scanline *line)
+draw_row (const SceneView *v, int y, Scanline *line)
 {
   const CeldScene *scene = v->scene;
   size_t           end = scene->row[y + 1];
@@ -223,13 +223,13 @@ unpremultiply (const float *from, int n, float *to)
 static void
 draw_band (void *data, int band)
 {
-  const View *v = data;
-  int         width = v->scene->width, end = (band + 1) * BAND_ROWS;
-  Scanline    line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
+  const SceneView *v = data;
+  int              width = v->scene->width, end = (band + 1) * VIEW_BAND_ROWS;
+  Scanline         line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
 
   memset (line.span, 0, (size_t) width * sizeof *line.span);
   line.first = width;
-  for (int y = band * BAND_ROWS; y < end && y < v->scene->height; y++)
+  for (int y = band * VIEW_BAND_ROWS; y < end && y < v->scene->height; y++)
     {
       draw_row (v, y, &line);
       unpremultiply (line.colour, width, CELD_RGBA (v->view, 0, y));
@@ -239,8 +239,8 @@ draw_band (void *data, int band)
 static CeldStatus
 draw (const CeldScene *scene, Projection move, const CeldHost *host, CeldColours *view)
 {
-  int  bands = (scene->height + BAND_ROWS - 1) / BAND_ROWS;
-  View v = { scene, move, view, celd_alloc ((size_t) bands, scanline_bytes (scene->width)) };
+  int       bands = (scene->height + VIEW_BAND_ROWS - 1) / VIEW_BAND_ROWS;
+  SceneView v = { scene, move, view, celd_alloc ((size_t) bands, scanline_bytes (scene->width)) };
 
   if (!v.scratch)
     return CELD_NO_MEMORY;
@@ -253,7 +253,7 @@ draw (const CeldScene *scene, Projection move, const CeldHost *host, CeldColours
 
 /* A part of the scene after horizontal projection, with rows and columns exchanged: premultiplied colours, and
  * depth. */
-typedef struct { const View *view; const CeldSceneSpans *part; float *colour, *depths; } Transposition;
+typedef struct { const SceneView *view; const CeldSceneSpans *part; float *colour, *depths; } Transposition;
 
 /* Writes the samples of one row to a column of the transposed picture. */
 static void
@@ -314,7 +314,7 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
   size_t        n = (size_t) scene->width * (size_t) scene->height;
   uint32_t      groups = count_groups (scene);
   char         *scratch = celd_alloc (1, scanline_bytes (scene->width));
-  View          v = { scene, move, NULL, scratch };
+  SceneView     v = { scene, move, NULL, scratch };
   Transposition t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
   CeldStatus    status = celd_scene_new (scene->height, scene->width, groups, transposed);
 

@@ -190,11 +190,11 @@ typedef struct
   CeldLayer            layer;
   float               *art, *depths; /* of the layer's box; the art is premultiplied */
   bool                *known;      /* of each row: does it have depth of the layer's own? */
-} Part;
+} LayerDepth;
 
 /* Is the depth of this pixel the layer's?  It is that of the label that covers most of the pixel. */
 static bool
-is_own (const Part *p, int x, int y)
+is_own (const LayerDepth *p, int x, int y)
 {
   const CeldLabels *larger = CELD_AT (&p->own->coverage, x, y) < 0.5f ? &p->own->under : &p->own->owner;
 
@@ -204,7 +204,7 @@ is_own (const Part *p, int x, int y)
 /* Copies the layer's own depth in row y of the box, and interpolates between, constant at both ends.  False if there
  * is none. */
 static bool
-fill_row (const Part *p, int y)
+fill_row (const LayerDepth *p, int y)
 {
   CeldRect box = p->layer.box;
   float   *depths = p->depths + (size_t) y * (size_t) box.width;
@@ -228,7 +228,7 @@ fill_row (const Part *p, int y)
 static void
 prepare_band (void *data, int band)
 {
-  Part *p = data;
+  LayerDepth *p = data;
   int   w = p->layer.box.width, end = (band + 1) * BAND_ROWS < p->layer.box.height ? (band + 1) * BAND_ROWS
             : p->layer.box.height;
 
@@ -245,7 +245,7 @@ prepare_band (void *data, int band)
 
 /* Rows without depth of their own copy the next one above, or at the top the next one below. */
 static void
-fill_rows (const Part *p)
+fill_rows (const LayerDepth *p)
 {
   size_t w = (size_t) p->layer.box.width;
   int    last = -1;
@@ -264,7 +264,7 @@ fill_rows (const Part *p)
 }
 
 static CeldStatus
-add_layer (Part *p, const CeldLayers *layers, size_t layer, const CeldHost *host, CeldScene *scene)
+add_layer (LayerDepth *p, const CeldLayers *layers, size_t layer, const CeldHost *host, CeldScene *scene)
 {
   CeldRect   box = celd_layers_item (layers, layer)->box;
   size_t     n = (size_t) box.width * (size_t) box.height;
@@ -293,7 +293,7 @@ celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, 
                       const CeldHost *host, CeldScene **result)
 {
   size_t     n = celd_layers_count (layers);
-  Part       part = { .own = ownership, .depth = depth };
+  LayerDepth part = { .own = ownership, .depth = depth };
   CeldScene *scene = NULL;
   CeldStatus status;
 

@@ -10,8 +10,8 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef CELD_CONTOURS_H
-#define CELD_CONTOURS_H
+#ifndef CELD_CONTOUR_PENS_H
+#define CELD_CONTOUR_PENS_H
 
 #include "base/base.h"
 
