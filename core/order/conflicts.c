@@ -4,8 +4,8 @@
  * One is left out if those kept before it already lead from its farther to its nearer side; an equality, if they lead
  * through an inequality from one of its labels to another (sequence.c tells).  The shortest such path (breadth first)
  * with the relation itself is the cycle that the artist gets to see, equalities that carry it included.  Greedy, so not
- * always the least weight left out, but easy to foresee: a heavier arrow never yields to lighter ones.  For the least,
- * feedback.c chooses what is tried last.
+ * always the least weight left out, but easy to foresee: a heavier arrow never yields to lighter ones.  For the
+ * least weight in sum feedback-arc-set.c chooses what is tried last.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,6 +14,9 @@
 #include <stdlib.h>
 
 #define BETWEEN_STEPS 256 /* relations between two reports of progress */
+
+/* A relation to be tried: by rising round, falling weight, and in the order given. */
+typedef struct { int round; double weight; size_t relation; } Candidate;
 
 /* One more cycle, the one that a search has found. */
 static CeldStatus
@@ -60,7 +63,7 @@ complete_background (CeldGraph *g, CeldSearch *s)
 static int
 compare_turns (const void *one, const void *two)
 {
-  const CeldTurn *a = one, *b = two;
+  const Candidate *a = one, *b = two;
 
   if (a->round != b->round)
     return a->round < b->round ? -1 : 1;
@@ -71,7 +74,7 @@ compare_turns (const void *one, const void *two)
 
 /* All relations of knots in the order in which they are tried; none of them counts yet. */
 static size_t
-take_turns (CeldGraph *g, const CeldKnots *knots, CeldTurn *turns)
+take_turns (CeldGraph *g, const CeldKnots *knots, Candidate *turns)
 {
   size_t n = 0;
 
@@ -81,7 +84,7 @@ take_turns (CeldGraph *g, const CeldKnots *knots, CeldTurn *turns)
         double weight = g->relations->item[i].weight;
 
         g->kept[i] = false;
-        turns[n++] = (CeldTurn) { 0, weight > 0 ? weight : 0, i }; /* NaN has no place in a sort */
+        turns[n++] = (Candidate) { 0, weight > 0 ? weight : 0, i }; /* NaN has no place in a sort */
       }
   qsort (turns, n, sizeof *turns, compare_turns);
   return n;
@@ -93,12 +96,28 @@ is_suggestion (const CeldGraph *g, size_t link)
   return g->relations->item[link].source == CELD_SOURCE_SUGGESTION;
 }
 
-/* Has those relations tried last that feedback.c chooses, and behind them suggestions. */
+/* Marks a set of the least total weight whose removal breaks all cycles; in knots too large for that it marks nothing,
+ * and relations are tried by weight alone. */
 static CeldStatus
-put_off (CeldGraph *g, const CeldKnots *knots, const CeldHost *host, const CeldKnot *knot, CeldTurn *turns, size_t n)
+find_lightest (const CeldGraph *g, const CeldKnots *knots, const CeldKnot *knot, const CeldHost *host, bool *broken)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < knots->n && status == CELD_OK; k++)
+    {
+      status = celd_feedback_arc_set (g, knots, &knot[k], (uint32_t) k + 1, broken);
+      if (status == CELD_OK)
+        status = celd_progress (host, (double) (k + 1) / (double) knots->n);
+    }
+  return status;
+}
+
+/* Lets relations that are best left out be tried after the others, and suggestions after them. */
+static CeldStatus
+put_off (CeldGraph *g, const CeldKnots *knots, const CeldHost *host, const CeldKnot *knot, Candidate *turns, size_t n)
 {
   bool      *broken = celd_alloc0 (g->n_links, sizeof *broken);
-  CeldStatus status = broken ? celd_feedback (g, knots, knot, turns, n, host, broken) : CELD_NO_MEMORY;
+  CeldStatus status = broken ? find_lightest (g, knots, knot, host, broken) : CELD_NO_MEMORY;
 
   for (size_t t = 0; t < n && status == CELD_OK; t++)
     turns[t].round = is_suggestion (g, turns[t].relation) ? 2 : broken[turns[t].relation];
@@ -110,7 +129,7 @@ put_off (CeldGraph *g, const CeldKnots *knots, const CeldHost *host, const CeldK
 
 /* Keeps relations by turns as long as they contradict nothing. */
 static CeldStatus
-try_turns (CeldGraph *g, const CeldKnots *knots, const CeldTurn *turns, size_t n, const CeldHost *host,
+try_turns (CeldGraph *g, const CeldKnots *knots, const Candidate *turns, size_t n, const CeldHost *host,
            CeldSearch *search, CeldOrder *order)
 {
   CeldSequence sequence;
@@ -142,7 +161,7 @@ break_knots (CeldGraph *g, const CeldKnots *knots, CeldOnCycle on_cycle, const C
   CeldHostPart   part[2];
   CeldHost   choose = celd_host_part (&part[0], host, 0, 0.5);
   CeldHost   try = celd_host_part (&part[1], host, on_cycle == CELD_ON_CYCLE_REPORT ? 0 : 0.5, 1);
-  CeldTurn  *turns = celd_alloc (g->n_links, sizeof *turns);
+  Candidate  *turns = celd_alloc (g->n_links, sizeof *turns);
   size_t     n = turns ? take_turns (g, knots, turns) : 0;
   CeldStatus status = turns ? CELD_OK : CELD_NO_MEMORY;
 

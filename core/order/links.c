@@ -81,19 +81,6 @@ add_term (Picture *picture, const CeldTerm *term, CeldGraph *graph)
   return label ? celd_graph_add (graph, label) : CELD_OK;
 }
 
-uint32_t
-celd_term_label (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldTerm *term,
-                 int *stroke)
-{
-  Picture   picture = { labels, palette, ink, *stroke };
-  CeldGraph graph = { 0 };
-  uint32_t  label = add_term (&picture, term, &graph) == CELD_OK && graph.n_ends == 1 ? graph.end[0] + 1 : 0;
-
-  *stroke = picture.stroke;
-  celd_graph_clear (&graph);
-  return label;
-}
-
 void
 celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation, int *x, int *y)
 {

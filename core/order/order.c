@@ -217,8 +217,9 @@ find_level (const double *height, size_t n, double wanted)
   return (uint32_t) low;
 }
 
-CeldStatus
-celd_levels_write (CeldClasses *classes, const double *of_class, const bool *visible, CeldOrder *order)
+/* Replaces the levels of an order, for labels whose classes have these heights. */
+static CeldStatus
+write_levels (CeldClasses *classes, const double *of_class, const bool *visible, CeldOrder *order)
 {
   size_t    n = order->n, n_heights;
   double   *height = celd_alloc (n + 1, sizeof *height), top;
@@ -252,7 +253,7 @@ celd_levels_write (CeldClasses *classes, const double *of_class, const bool *vis
 }
 
 static CeldStatus
-sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order, CeldRanks *ranks)
+sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order)
 {
   Sort       sort;
   CeldStatus status = sort_new (graph, &sort);
@@ -265,9 +266,7 @@ sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order,
   for (size_t i = 0; i < sort.n_queue; i++)
     place_class (&sort, sort.queue[i]);
   order->n = graph->n_labels;
-  status = celd_levels_write (&sort.classes, sort.level, sort.visible, order);
-  if (status == CELD_OK && ranks && celd_ranks_suit (graph, sort.visible))
-    status = celd_ranks_new (graph, order, &sort.classes, sort.level, ranks);
+  status = write_levels (&sort.classes, sort.level, sort.visible, order);
   sort_end (&sort);
   return status;
 }
@@ -291,13 +290,12 @@ report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalet
 }
 
 CeldStatus
-celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                 const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
-                 CeldProblems *problems, CeldRanks *ranks)
+celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+            const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
+            CeldProblems *problems)
 {
   CeldGraph  graph  = { 0 };
   CeldOrder  made   = { 0 };
-  CeldRanks  kept   = { 0 };
   size_t     before = problems ? problems->n : 0;
   CeldStatus status;
 
@@ -307,7 +305,7 @@ celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const Cel
   if (status == CELD_OK)
     status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, host, &made);
   if (status == CELD_OK)
-    status = sort_levels (&graph, labels, &made, ranks ? &kept : NULL);
+    status = sort_levels (&graph, labels, &made);
   if (status == CELD_OK)
     status = celd_cycles_explain (labels, palette, ink, &graph, &made);
   if (status == CELD_OK)
@@ -318,27 +316,13 @@ celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const Cel
   if (status != CELD_OK)
     {
       celd_order_clear (&made);
-      celd_ranks_clear (&kept);
       if (problems)
         problems->n = before;
       return status;
     }
   celd_order_clear (order);
   *order = made;
-  if (ranks)
-    {
-      celd_ranks_clear (ranks);
-      *ranks = kept;
-    }
   return CELD_OK;
-}
-
-CeldStatus
-celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-            const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
-            CeldProblems *problems)
-{
-  return celd_order_keep (labels, palette, relations, ink, settings, host, order, problems, NULL);
 }
 
 float

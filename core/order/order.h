@@ -3,11 +3,10 @@
  *   links.c       which labels a relation joins
  *   knots.c       which relations go round in circles
  *   sequence.c    labels from far to near, kept up while relations are added
- *   feedback.c, feedback-exact.c   relations of little weight that break all circles
+ *   feedback-arc-set.c   relations of the least total weight that break all cycles
  *   conflicts.c   which relations can hold together, and the cycles of those that cannot
  *   cycle-search.c   shortest cycles
  *   order.c       levels
- *   ranks.c       levels kept up while relations are added
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -86,28 +85,6 @@ celd_class_of (CeldClasses *classes, uint32_t k)
   return celd_root (classes->parent, k);
 }
 
-/* A relation from a farther to a nearer label, by number - 1; `counts`: it was not left out. */
-typedef struct { uint32_t to, next; double gap; bool counts; } CeldArc;
-
-/* An order to which relations can be added. */
-typedef struct
-{
-  size_t      n;             /* labels; 0: to this order none can be added */
-  bool        knotted;       /* have relations been left out? */
-  CeldClasses classes;
-  double     *height;        /* of a class */
-  bool       *behind;        /* of a label: is it behind the background, or equal, or the background itself? */
-  uint32_t   *first;         /* of a label: the first of its arcs */
-  CeldArc    *arc;
-  size_t      n_arcs;
-  double     *old;           /* of a class that has been lifted: its height before */
-  uint32_t   *lifted;        /* number of the lift, or search, that came to a class last */
-  uint32_t    number;
-  uint32_t   *heap, *list;   /* classes to lift; classes that have been lifted */
-  size_t      n_heap, n_list;
-  int         stroke;        /* width of the ink's strokes; 0: not measured yet */
-} CeldRanks;
-
 /* ------------------------------------------------------------------ knots.c */
 
 /* Knots, from 1, of labels (index label - 1) and of links; 0: in none. */
@@ -183,27 +160,12 @@ CeldStatus celd_search_cycle (const CeldSearch *search, CeldCycle *cycle);
 void       celd_search_behind (CeldSearch *search, size_t first, size_t last);
 bool       celd_search_was_at (const CeldSearch *search, size_t k);
 
-/* ------------------------------------------------------------------ feedback-exact.c, feedback.c */
+/* ------------------------------------------------------------------ feedback-arc-set.c */
 
-/* Marks the relations of knot `number` that are to be left out; *done is false if the knot is too large. */
-CeldStatus celd_feedback_exact (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
-                                bool *broken, bool *done);
-
-/* A relation that is tried, and what decides when. */
-typedef struct { int round; double weight; size_t relation; } CeldTurn;
-
-/* What it costs to leave a relation out: its weight, nothing for a suggestion. */
-static inline double
-celd_link_cost (const CeldGraph *graph, size_t link)
-{
-  const CeldRelation *r = &graph->relations->item[link];
-
-  return r->weight > 0 && r->source != CELD_SOURCE_SUGGESTION ? r->weight : 0; /* NaN: 0 */
-}
-
-/* The same for all knots, whose relations are turn[0..n_turns-1], by falling weight. */
-CeldStatus celd_feedback (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, const CeldTurn *turn,
-                          size_t n_turns, const CeldHost *host, bool *broken);
+/* Marks the relations of knot `number` that are to be left out so that the rest is consistent: a set of the least total
+ * weight.  Nothing is marked if the knot is too large for that. */
+CeldStatus celd_feedback_arc_set (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
+                                  bool *broken);
 
 /* ------------------------------------------------------------------ conflicts.c */
 
@@ -214,36 +176,12 @@ CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const Celd
 
 /* ------------------------------------------------------------------ order.c */
 
-/* The order, and if `ranks` is not NULL what it takes to add relations to it; of that n stays 0 if none can be. */
-CeldStatus celd_order_keep (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
-                            const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldOrder *order,
-                            CeldProblems *problems, CeldRanks *ranks);
-
 /* Least distance in levels that a relation asks for. */
 static inline double
 celd_gap (double gap)
 {
   return gap > 0 ? fmin (fmax (gap, CELD_LEAST_GAP), CELD_LARGEST_GAP) : 1; /* NaN: 1 */
 }
-
-/* Levels of order->n labels from the heights of their classes; visible[k] is false for labels without a pixel, NULL if
- * there are none.  Replaces what the order has. */
-CeldStatus celd_levels_write (CeldClasses *classes, const double *height, const bool *visible, CeldOrder *order);
-
-/* ------------------------------------------------------------------ ranks.c */
-
-/* May relations be added to an order of this graph one by one? */
-bool       celd_ranks_suit (const CeldGraph *graph, const bool *visible);
-
-/* From the classes of an order, and their heights. */
-CeldStatus celd_ranks_new (const CeldGraph *graph, const CeldOrder *order, CeldClasses *classes, const double *height,
-                           CeldRanks *ranks);
-void       celd_ranks_clear (CeldRanks *ranks);
-
-/* Adds a relation between two labels, behind all others, and changes the order accordingly.  False if that takes an
- * order of all relations: then the order is as it was but must not be added to any more. */
-bool       celd_ranks_add (CeldRanks *ranks, const CeldRelation *relation, uint32_t near, uint32_t far,
-                           CeldOrder *order);
 
 /* ------------------------------------------------------------------ cycle-colours.c */
 
@@ -273,9 +211,5 @@ void celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int 
 /* Where an artist finds a relation: an end inside the drawing; -1,-1 if none is. */
 void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation,
                           int *x, int *y);
-
-/* The only label that a term names; 0: it names none, or several.  *stroke as in CeldRanks. */
-uint32_t celd_term_label (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                          const CeldTerm *term, int *stroke);
 
 #endif

@@ -10,7 +10,7 @@
  * What the anchors' sides of the region hold whatever the cut costs: everything nearer to one of them, within the
  * region, than a quarter of the way between both; so no cut wraps a point.  Anchors less than two line widths apart, on
  * ink, in parts of a colour that do not touch, or on the background are not parted: such a contradiction stays for
- * feedback.c.
+ * feedback-arc-set.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -265,42 +265,6 @@ drop_relations (CeldRelations *relations, uint32_t id, size_t end)
   return n - kept;
 }
 
-/* Adds a relation behind all others to what was made of these; false if that has to be made anew. */
-static bool
-take_relation (CeldSession *s, const CeldRelation *relation)
-{
-  const CeldLabels *labels = celd_session_current_labels (s);
-  uint32_t          near, far;
-
-  if (!s->ranks.n || !celd_session_relation_keeps_labels (s, relation))
-    return false;
-  near = celd_term_label (labels, &s->palette, &s->ink, &relation->nearer, &s->ranks.stroke);
-  far  = celd_term_label (labels, &s->palette, &s->ink, &relation->farther, &s->ranks.stroke);
-  return near && far && celd_ranks_add (&s->ranks, relation, near, far, &s->order) &&
-         celd_relation_add (&s->relations, *relation) == CELD_OK;
-}
-
-/* The same for several; then all that is made of the order is to be made anew, but not the order itself. */
-static bool
-take_relations (CeldSession *s, const CeldRelations *added)
-{
-  size_t before = s->relations.n;
-
-  if (!s->valid[STAGE_RELATIONS] || !s->valid[STAGE_ORDER] || s->settings.suggest != CELD_SUGGEST_OFF ||
-      (s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && (s->splits.n || s->order.n_knots)))
-    return false;
-  for (size_t i = 0; i < added->n; i++)
-    if (!take_relation (s, &added->item[i]))
-      {
-        s->relations.n = before; /* labels are told by what they were made from */
-        return false;
-      }
-  celd_session_forget (s, STAGE_EXACT);
-  celd_session_forget (s, STAGE_ORDER);
-  s->valid[STAGE_ORDER] = true;
-  return true;
-}
-
 /* Takes over `added`, with nothing of the same id before. */
 static CeldStatus
 append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
@@ -315,8 +279,8 @@ append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
       s->single.n = before;
       return status;
     }
-  if (drop_relations (&s->single, id, before) || !take_relations (s, added))
-    celd_session_forget (s, STAGE_RELATIONS);
+  drop_relations (&s->single, id, before);
+  celd_session_forget (s, STAGE_RELATIONS);
   return CELD_OK;
 }
 

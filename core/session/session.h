@@ -67,7 +67,6 @@ struct CeldSession
   CeldLabels     separated;                    /* the same with regions separated or split; data NULL: not needed */
   CeldPalette    palette;
   CeldOrder      order;
-  CeldRanks      ranks;                        /* of the order, for adding one more relation */
   CeldPlane      flat, levels, preview, depth, shading;
   CeldOwnership  ownership;
   uint32_t      *owned_level;                  /* order level of each label when the ownership was made; NULL: the

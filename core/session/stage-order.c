@@ -40,8 +40,8 @@ celd_make_order (CeldSession *s, const CeldHost *host)
     status = celd_suggestions_join (labels, &s->palette, &s->relations, &s->suggested, &s->settings, &s->ink, NULL,
                                     &s->joined);
   if (status == CELD_OK)
-    status = celd_order_keep (labels, &s->palette, suggest ? &s->joined : &s->relations, &s->ink, &s->settings, host,
-                              &order, &problems, &s->ranks);
+    status = celd_order (labels, &s->palette, suggest ? &s->joined : &s->relations, &s->ink, &s->settings, host, &order,
+                         &problems);
   if (status != CELD_OK)
     {
       celd_order_clear (&order);

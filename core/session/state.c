@@ -169,7 +169,6 @@ celd_session_clear_results (CeldSession *session)
   celd_seed_rows_clear (&s->layer_seeds);
   celd_seed_rows_clear (&s->seeds);
   celd_order_clear (&s->order);
-  celd_ranks_clear (&s->ranks);
   celd_segmenter_free (s->segmenter);
   celd_program_free (s->program);
   celd_palette_clear (&s->exact_palette);

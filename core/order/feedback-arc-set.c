@@ -43,6 +43,15 @@ exact_clear (Exact *x)
   celd_free (x->last);
 }
 
+/* What it costs to leave a relation out: its weight, nothing for a suggestion. */
+static double
+link_cost (const CeldGraph *graph, size_t link)
+{
+  const CeldRelation *r = &graph->relations->item[link];
+
+  return r->weight > 0 && r->source != CELD_SOURCE_SUGGESTION ? r->weight : 0; /* NaN: 0 */
+}
+
 /* The labels of end[first] .. end[last - 1] that are in the knot. */
 static uint32_t
 set_of (const Exact *x, size_t first, size_t last)
@@ -63,7 +72,7 @@ read_arcs (Exact *x)
   double           sum = 0;
 
   for (size_t i = 0; i < x->knot->n; i++)
-    sum += celd_link_cost (g, x->knot->item[i]);
+    sum += link_cost (g, x->knot->item[i]);
   for (size_t i = 0; i < x->knot->n; i++)
     {
       size_t        link = x->knot->item[i];
@@ -71,7 +80,7 @@ read_arcs (Exact *x)
       double        age = (double) (x->knot->n - i) / (double) (x->knot->n * x->knot->n);
 
       x->arc[i] = (Arc) { set_of (x, f[0], f[1]), set_of (x, f[1], f[2]), celd_graph_equal (g, link),
-                          celd_link_cost (g, link) + AGE * sum * age };
+                          link_cost (g, link) + AGE * sum * age };
     }
 }
 
@@ -193,13 +202,12 @@ is_small (const Exact *x)
 }
 
 CeldStatus
-celd_feedback_exact (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
-                     bool *broken, bool *done)
+celd_feedback_arc_set (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
+                       bool *broken)
 {
   Exact      x = { .graph = graph, .knot = knot };
   CeldStatus status;
 
-  *done = false;
   for (uint32_t k = 0; k < graph->n_labels; k++)
     if (knots->label[k] == number)
       {
@@ -217,10 +225,9 @@ celd_feedback_exact (const CeldGraph *graph, const CeldKnots *knots, const CeldK
   if (status == CELD_OK && is_small (&x))
     {
       status = place_labels (&x);
-      *done  = status == CELD_OK;
+      if (status == CELD_OK)
+        mark_broken (&x, broken);
     }
-  if (*done)
-    mark_broken (&x, broken);
   exact_clear (&x);
   return status;
 }
