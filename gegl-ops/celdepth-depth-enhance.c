@@ -12,8 +12,8 @@ static const CeldSettingChoice results[] = {
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldEnhanceResult, results),
-  .help = "The art with its shadows, only the shadows as a black layer to put over it, or a grey picture in which depth "
-          "is easy to see"
+  .help = "The art with its shadows, only the shadows as a black layer to put over it, or a grey picture in which "
+          "depth is easy to see"
 };
 
 static const CeldProperty properties[] = {
@@ -26,7 +26,7 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Art", "The picture that shadows fall on", TRUE },
-  { "aux", "Levels", "Expanded depth levels, from Depth Expand, or smooth depth for sharpening", TRUE },
+  { "aux", "Levels", "Expanded depth levels from Depth Expand, or smooth depth for sharpening", TRUE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -77,7 +77,7 @@ const CeldOperationInfo celd_depth_enhance_operation = {
   .name        = "celdepth:depth-enhance",
   .title       = "Depth Enhance",
   .categories  = "artistic:light",
-  .description = "Sets the parts of a picture off against what is behind them, by soft shadows",
+  .description = "Makes the parts of a picture stand out from what is behind them, by soft shadows",
   .reference   = CELD_REFERENCE " T. Luft, C. Colditz, O. Deussen: Image Enhancement by Unsharp Masking the "
                  "Depth Buffer. SIGGRAPH 2006.",
   .pads        = pads,

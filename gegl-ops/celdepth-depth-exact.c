@@ -14,9 +14,9 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Scribbles", "A stroke of another colour over each part; each stroke keeps one depth", FALSE },
-  { "aux2", "Arrows", "Arrows from nearer to farther parts", FALSE },
-  { "aux3", "Virtual contours", "Red: depth steps here; green: ink where it does not", FALSE },
+  { "aux", "Scribbles", "One stroke over each part, in a colour of its own; each stroke has one depth", FALSE },
+  { "aux2", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
+  { "aux3", "Virtual contours", "Red: depth changes abruptly here; green: ink where it does not", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -46,8 +46,8 @@ const CeldOperationInfo celd_depth_exact_operation = {
   .name        = "celdepth:depth-exact",
   .title       = "Depth Exact",
   .categories  = "artistic",
-  .description = "Depth for a line drawing as the smoothest one that keeps every relation exactly, and steps at "
-                 "contours; a second or more for a megapixel, then quick for each new arrow",
+  .description = "Finds the smoothest depth for a line drawing that satisfies every relation exactly and changes at "
+                 "contours. Takes a second or more per megapixel, but responds quickly to each further arrow",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

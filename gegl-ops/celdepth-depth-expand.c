@@ -35,10 +35,12 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Levels", "The depth levels of the regions, from Depth Order", TRUE },
+  { "input", "Levels", "The depth levels of the regions from Depth Order", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Regions", "Flat colours that part regions of one level; without, a level is one region", FALSE },
-  { "aux3", "Corrections", "Strokes over ink, each in the colour of the region that gets that piece of line", FALSE },
+  { "aux2", "Regions", "Flat colours that separate regions of the same level; otherwise each level is one region",
+    FALSE },
+  { "aux3", "Corrections", "Strokes over ink, each in the colour of the region that the piece of line belongs to",
+    FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -97,7 +99,8 @@ read_corrections (CeldOp *op, const CeldLabels *regions, CeldLabels *corrections
   if (!celd_op_has (op, "aux3"))
     return TRUE;
   if (!regions->data)
-    return celd_op_fail (op, "Corrections are in the colours of regions. Choose the layer for 'Regions' (pad aux2).");
+    return celd_op_fail (op, "Corrections are painted in the colours of regions. Choose a layer for 'Regions' (pad "
+                             "aux2).");
   if (!celd_op_read_paint (op, "aux3", &paint) || !celd_op_new_labels (op, corrections) ||
       !celd_op_try (op, celd_corrections_read (&paint, &op->palette, corrections)))
     return FALSE;
@@ -221,8 +224,8 @@ const CeldOperationInfo celd_depth_expand_operation = {
   .name        = "celdepth:depth-expand",
   .title       = "Depth Expand",
   .categories  = "artistic",
-  .description = "Gives each contour to the region in front, which drew it, so that levels change at the outer edge of "
-                 "the ink",
+  .description = "Gives each contour to the region in front that it belongs to, so that levels change at the outer "
+                 "edge of the ink",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

@@ -12,12 +12,12 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Labels", "The regions as flat colours, made by Lazybrush Segment or painted", TRUE },
-  { "aux", "Arrows", "Arrows from nearer to farther parts", FALSE },
-  { "aux2", "Drawing", "The line drawing: points on its ink mean the region beside it; suggestions "
-                      "come from it", FALSE },
-  { "aux3", "Depth hint", "Depth from elsewhere, such as an estimator's, nearer is brighter: suggestions come from "
-                          "it, too", FALSE },
+  { "input", "Labels", "The regions as flat colours, from Lazybrush Segment or painted", TRUE },
+  { "aux", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
+  { "aux2", "Drawing", "The line drawing. A point on its ink stands for the region beside it, and "
+                      "suggestions come from it", FALSE },
+  { "aux3", "Depth hint", "Depth from another source, such as an estimator, where nearer is brighter. Suggestions "
+                          "come from it, too", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -97,7 +97,7 @@ const CeldOperationInfo celd_depth_order_operation = {
   .name        = "celdepth:depth-order",
   .title       = "Depth Order",
   .categories  = "artistic",
-  .description = "Gives each region a depth level, from arrows and relations that say which is in front of "
+  .description = "Gives each region a depth level, by arrows and relations that tell which region is in front of "
                  "which",
   .reference   = CELD_REFERENCE,
   .pads        = pads,

@@ -10,10 +10,10 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Levels", "Depth levels, from Depth Expand or Depth Order", TRUE },
+  { "input", "Levels", "Depth levels from Depth Expand or Depth Order", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Anchors", "Where it is painted the depth keeps its level, for example the scribbles; without it the "
-                       "core of each region does", FALSE },
+  { "aux2", "Anchors", "Painted pixels keep their level, for example the scribbles. Without this layer the core "
+                       "of each region does", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -52,8 +52,8 @@ const CeldOperationInfo celd_depth_smooth_operation = {
   .name        = "celdepth:depth-smooth",
   .title       = "Depth Smooth",
   .categories  = "artistic",
-  .description = "Makes smooth depth of depth levels: steps stay where there is ink, and vanish where the "
-                 "drawing is open",
+  .description = "Turns depth levels into smooth depth, which changes abruptly at ink and gradually where contours are "
+                 "open",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

@@ -26,8 +26,9 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Scribbles", "A stroke of another colour over each part", FALSE },
-  { "aux2", "Arrows", "Arrows from nearer to farther parts; their ends make regions where no scribble is", FALSE },
+  { "aux", "Scribbles", "One stroke over each part, in a colour of its own", FALSE },
+  { "aux2", "Arrows", "Arrows that point from nearer to farther parts. Their ends make regions where there is no "
+                      "scribble", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -75,7 +76,7 @@ const CeldOperationInfo celd_lazybrush_segment_operation = {
   .name        = "celdepth:lazybrush-segment",
   .title       = "Lazybrush Segment",
   .categories  = "artistic",
-  .description = "Finds the parts of a line drawing from a few sloppy strokes; each part gets the colour of "
+  .description = "Finds the parts of a line drawing from a few sloppy strokes, and fills each part with the colour of "
                  "its stroke",
   .reference   = CELD_REFERENCE,
   .pads        = pads,

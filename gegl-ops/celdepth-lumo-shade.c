@@ -35,13 +35,13 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Levels", "Expanded depth levels, from Depth Expand", TRUE },
+  { "input", "Levels", "Expanded depth levels from Depth Expand", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Colour art", "What the light falls on; without it the drawing", FALSE },
-  { "aux3", "Smooth depth", "Which side of a stroke inside a part is higher", FALSE },
-  { "aux4", "Hints", "Paint beside lines: on a white side parts bend, on a black one they do not, at grey ones on both",
+  { "aux2", "Colour art", "What the light falls on; the drawing by default", FALSE },
+  { "aux3", "Smooth depth", "Tells which side of a stroke inside a part is higher", FALSE },
+  { "aux4", "Hints", "Paint beside lines. Parts bend on a white side, not on a black one, and on both sides at grey",
     FALSE },
-  { "aux5", "Matcap", "The picture of a lit ball, for shading like it", CELD_PAD_SAMPLE },
+  { "aux5", "Matcap", "The picture of a lit ball to take the shading from", CELD_PAD_SAMPLE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -86,7 +86,7 @@ write_light (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
 
   if (by_matcap && !celd_op_has (op, "aux5"))
     return celd_op_fail (op, "There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or "
-                             "another shading.");
+                             "another kind of shading.");
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
       !celd_op_try (op, celd_light (normals, ink, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
@@ -149,8 +149,8 @@ const CeldOperationInfo celd_lumo_shade_operation = {
   .name        = "celdepth:lumo-shade",
   .title       = "Lumo Shade",
   .categories  = "artistic:light",
-  .description = "Shades a drawing as if its parts were round: the parts in front bend at their contours, those behind "
-                 "do not",
+  .description = "Shades a drawing as if its parts were round. Parts in front bend at their contours; those behind do "
+                 "not",
   .reference   = CELD_REFERENCE " S. F. Johnston: Lumo: Illumination for Cel Animation. NPAR 2002.",
   .pads        = pads,
   .properties  = properties,

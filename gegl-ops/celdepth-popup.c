@@ -35,10 +35,10 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Scribbles", "A stroke of another colour over each part", FALSE },
-  { "aux2", "Arrows", "Arrows from nearer to farther parts", FALSE },
-  { "aux3", "Virtual contours", "Red: a border for regions and depth; blue: a border for regions, across which "
-                                "depth stays smooth; green: ink that is no border", FALSE },
+  { "aux", "Scribbles", "One stroke over each part, in a colour of its own", FALSE },
+  { "aux2", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
+  { "aux3", "Virtual contours", "Red: a boundary of regions and depth; blue: a boundary of regions across which "
+                                "depth stays smooth; green: ink that is not a boundary", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -130,8 +130,8 @@ const CeldOperationInfo celd_popup_operation = {
   .name        = "celdepth:popup",
   .title       = "Pop-up",
   .categories  = "artistic",
-  .description = "Depth for a line drawing from scribbles over its parts and arrows from nearer to farther "
-                 "ones, in one step",
+  .description = "Finds depth for a line drawing in one step, from scribbles over its parts and arrows from nearer to "
+                 "farther parts",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

@@ -23,9 +23,9 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Levels", "Expanded depth levels, from Depth Expand", TRUE },
+  { "input", "Levels", "Expanded depth levels from Depth Expand", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Smooth depth", "From Depth Smooth; without it, it is made of the levels", FALSE },
+  { "aux2", "Smooth depth", "Smooth depth from Depth Smooth; by default it is computed from the levels", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -73,7 +73,7 @@ const CeldOperationInfo celd_relief_operation = {
   .name        = "celdepth:relief",
   .title       = "Relief",
   .categories  = "artistic:light",
-  .description = "Rounds the parts of a drawing to heights, each before what is behind it",
+  .description = "Turns the parts of a drawing into rounded heights, each in front of what is behind it",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

@@ -11,11 +11,11 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Art", "The picture that is to be seen", TRUE },
-  { "aux", "Depth", "Smooth depth, near is bright", TRUE },
-  { "aux2", "Levels", "Depth levels: the picture is cut into completed layers by them; without, what comes into sight "
-                      "is filled from what is farther", FALSE },
-  { "aux3", "Drawing", "The line drawing, where the art is coloured: it tells ink from paint", FALSE },
+  { "input", "Art", "The picture to show", TRUE },
+  { "aux", "Depth", "Smooth depth, where nearer is brighter", TRUE },
+  { "aux2", "Levels", "Depth levels, by which the picture is cut into completed layers. Otherwise what comes into "
+                      "sight is filled in from what is farther", FALSE },
+  { "aux3", "Drawing", "The line drawing, to distinguish ink from paint in coloured art", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -133,7 +133,7 @@ const CeldOperationInfo celd_stereo_operation = {
   .name        = "celdepth:stereo",
   .title       = "Stereo",
   .categories  = "artistic",
-  .description = "Shows a picture with depth to two eyes, each from its own side",
+  .description = "Shows a picture with depth as two eyes see it, each from its own side",
   .reference   = CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. "
                  "ICASSP 2001.",
   .pads        = pads,

@@ -22,8 +22,8 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Contours", "Red: a border for regions and depth; blue: a border for regions, across which depth stays "
-                       "smooth; green: ink that is no border", TRUE },
+  { "aux", "Contours", "Red: a boundary of regions and depth; blue: a boundary of regions across which depth stays "
+                       "smooth; green: ink that is not a boundary", TRUE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -58,8 +58,8 @@ const CeldOperationInfo celd_virtual_contours_operation = {
   .name        = "celdepth:virtual-contours",
   .title       = "Virtual Contours",
   .categories  = "artistic",
-  .description = "Draws painted contours into a line drawing: borders that the artist left out, and ink "
-                 "that is no border",
+  .description = "Adds painted contours to a line drawing: boundaries that the artist left out, and ink that is not a "
+                 "boundary",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

@@ -43,8 +43,8 @@ try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char 
 {
   if (status != CELD_BAD_RELATION)
     return celd_op_try (op, status);
-  return celd_op_fail (op, "The %s cannot be read: line %d, column %d has %s, where %s was expected. An example of %s",
-                       what, error->line, error->column, error->found, error->expected, example);
+  return celd_op_fail (op, "The %s cannot be read: in line %d, column %d there is %s where %s was expected. An "
+                       "example of %s", what, error->line, error->column, error->found, error->expected, example);
 }
 
 gboolean
@@ -77,7 +77,7 @@ celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palet
         }
     }
   if (problems && problems->n > MOST_PROBLEMS)
-    g_string_append_printf (op->message, "\nThere are %zu more remarks.", problems->n - MOST_PROBLEMS);
+    g_string_append_printf (op->message, "\nThere are %zu more messages.", problems->n - MOST_PROBLEMS);
   return TRUE;
 }
 

@@ -56,8 +56,8 @@ tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
   if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
     return;
   g_snprintf (text, sizeof text,
-              "'%s' has %d x %d pixels at %d, %d, the picture %d x %d at %d, %d: what sticks out is cut off, the rest "
-              "counts as empty. If it looks shifted, give the layer the picture's size.",
+              "'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. What lies outside is cut off, "
+              "and what is missing counts as empty. If the layer looks shifted, give it the picture's size.",
               pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
   celd_op_add (op, text);
 }
@@ -67,7 +67,7 @@ static gboolean
 check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
 {
   if (gegl_rectangle_is_infinite_plane (r) || r->width > CELD_MAX_SIDE || r->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture for '%s' (pad %s) is too large. Scale it down, or crop it.", pad->label,
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is too large. Scale it down or crop it.", pad->label,
                          pad->name);
   return TRUE;
 }
@@ -86,9 +86,9 @@ check_pad (CeldOp *op, const CeldPad *pad)
     }
   if (!r)
     return pad->required != TRUE ||
-           celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose the layer.", pad->label, pad->name);
+           celd_op_fail (op, "There is no picture for '%s' (pad %s). Choose a layer.", pad->label, pad->name);
   if (!r->width || !r->height)
-    return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or see whether its "
+    return celd_op_fail (op, "The picture for '%s' (pad %s) is empty. Choose another layer, or check that its "
                              "file can be read.",
                          pad->label, pad->name);
   if (pad->required == CELD_PAD_SAMPLE)
@@ -107,10 +107,10 @@ celd_op_check_pads (CeldOp *op)
   const GeglRectangle *p = &op->picture;
 
   if (gegl_rectangle_is_infinite_plane (p))
-    return celd_op_fail (op, "The input has no size. Crop it first.");
+    return celd_op_fail (op, "The input is infinitely large. Crop it first.");
   if (p->width > CELD_MAX_SIDE || p->height > CELD_MAX_SIDE)
-    return celd_op_fail (op, "The picture is %d x %d pixels large; at most %d a side can be worked on. Scale it "
-                             "down first.",
+    return celd_op_fail (op, "The picture has %d x %d pixels; the limit is %d pixels per side. Scale it down "
+                             "first.",
                          p->width, p->height, CELD_MAX_SIDE);
   for (const CeldPad *pad = CELD_OPERATION_CLASS_OF (op->operation)->info->pads; pad->name; pad++)
     if (!check_pad (op, pad))

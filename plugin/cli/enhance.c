@@ -72,7 +72,7 @@ const CliCommand cli_enhance_command = {
   .name     = "enhance",
   .step     = CLI_ENHANCE,
   .input    = "LEVELS",
-  .summary  = "Sets parts off against what is behind them, by soft shadows.",
+  .summary  = "Makes parts stand out from what is behind them, by soft shadows.",
   .examples = "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
               "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"
               "  celdepth enhance levels.npy --view view.png",

@@ -79,7 +79,7 @@ const CliCommand cli_exact_command = {
   .name     = "exact",
   .step     = CLI_EXACT,
   .input    = "DRAWING|LAYERED",
-  .summary  = "The smoothest depth that keeps every relation exactly, by the paper's quadratic program.",
+  .summary  = "Finds the smoothest depth that satisfies every relation, by the paper's quadratic program.",
   .examples = "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
               "      --encoding rank --report report.json",

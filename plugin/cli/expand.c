@@ -43,7 +43,7 @@ const CliCommand cli_expand_command = {
   .name     = "expand",
   .step     = CLI_EXPAND,
   .input    = "LEVELS",
-  .summary  = "Gives each contour to the region that drew it.",
+  .summary  = "Gives each contour to the region that it belongs to.",
   .examples = "  celdepth expand flat-levels.npy --drawing bee.png --regions flat.png --levels levels.npy",
   .settings = "ink method=expansion",
   .output   = "depth",

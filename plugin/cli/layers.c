@@ -176,7 +176,7 @@ const CliCommand cli_layers_command = {
   .name     = "layers",
   .step     = CLI_LAYERS,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Cuts a drawing into one layer a region, each with its own ink, in order.",
+  .summary  = "Cuts a drawing into one layer per region, each with its own ink, in the order of depth.",
   .examples = "  celdepth layers bee.png --scribbles strokes.png --arrows arrows.png --output bee.ora\n"
               "  celdepth layers bee.png --scribbles strokes.png --relations '120,80 > 300,90' --complete yes \\\n"
               "      --colours painted.png --output bee.exr --report report.json\n"

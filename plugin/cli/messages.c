@@ -128,7 +128,7 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
         cli_say ("%s", text);
       }
   if (n > MOST_PROBLEMS)
-    cli_say ("And %" G_GSIZE_FORMAT " more remarks; --report writes them all.", n - MOST_PROBLEMS);
+    cli_say ("There are %" G_GSIZE_FORMAT " more messages; --report writes them all.", n - MOST_PROBLEMS);
 }
 
 int

@@ -145,7 +145,7 @@ const CliCommand cli_order_command = {
   .name     = "order",
   .step     = CLI_ORDER,
   .input    = "LABELS",
-  .summary  = "Orders regions by depth; contours still belong to whoever segmentation gave them.",
+  .summary  = "Orders regions by depth. Contours stay where the segmentation put them.",
   .examples = "  celdepth order flat.png --arrows arrows.png --drawing bee.png --levels flat-levels.npy\n"
               "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' --levels flat-levels.npy",
   .settings = "ink background background-colour same-colour arrow-style on-cycle suggest encoding near-level far-level",

@@ -14,7 +14,7 @@ const CliCommand cli_popup_command = {
   .name     = "popup",
   .step     = CLI_POPUP,
   .input    = "DRAWING|LAYERED",
-  .summary  = "The whole route: regions, order, depth, normals and shading of a drawing.",
+  .summary  = "Goes the whole route: regions, order, depth, normals and shading of a drawing.",
   .examples = "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
               "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"

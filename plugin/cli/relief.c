@@ -85,7 +85,7 @@ const CliCommand cli_relief_command = {
   .name     = "relief",
   .step     = CLI_RELIEF,
   .input    = "LEVELS",
-  .summary  = "Rounds the parts of a drawing, as heights or as a mesh to look at or to print.",
+  .summary  = "Rounds the parts of a drawing, as heights or as a mesh to view or to print.",
   .examples = "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr\n"
               "  celdepth relief levels.npy --drawing bee.png --colours art.png --mesh bee.glb\n"
               "  celdepth relief levels.npy --drawing bee.png --mesh bee.stl --bulge 0.3 --mesh-size 80",

@@ -347,7 +347,7 @@ const CliCommand cli_shade_command = {
   .name     = "shade",
   .step     = CLI_SHADE,
   .input    = "LEVELS",
-  .summary  = "Bends normals at the contours of expanded levels, and shades them.",
+  .summary  = "Computes normals that bend at the contours of expanded levels, and shades them.",
   .examples = "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
               "      --light-azimuth 45\n"
               "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png \\\n"

@@ -159,7 +159,7 @@ const CliCommand cli_stereo_command = {
   .name     = "stereo",
   .step     = CLI_STEREO,
   .input    = "DRAWING|LAYERED",
-  .summary  = "The drawing as two eyes see it, from its layers and their depth.",
+  .summary  = "Shows the drawing as two eyes see it, by its layers and their depth.",
   .examples = "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
               "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png \\\n"
               "      --right right.png --disparity 0.03\n"

@@ -41,7 +41,7 @@ const CliCommand cli_wiggle_command = {
   .name     = "wiggle",
   .step     = CLI_WIGGLE,
   .input    = "DRAWING|LAYERED",
-  .summary  = "The camera moves before the drawing: depth at a glance, as GIF or PNG files.",
+  .summary  = "Moves a camera in front of the drawing, to show depth at a glance, as GIF or PNG files.",
   .examples = "  celdepth wiggle bee.png --scribbles strokes.png --arrows arrows.png --output bee.gif\n"
               "  celdepth wiggle page.psd --path circle --frames 48 --output frames      (a folder of PNG files)",
   .settings = CLI_SETTINGS_OF_LABELS CLI_SETTINGS_OF_SCENES " path disparity convergence",
