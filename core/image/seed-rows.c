@@ -1,5 +1,7 @@
-/* Seeds as runs by row.  Runs of one label that touch are one, so that equal seeds are equal records, however they were
- * painted.  Painting costs what the row has of runs; everything else what the seeds have of runs, and the rows.
+/* Seeds as runs by row.  Touching runs of one label are joined, so equal seeds are equal records, whatever order they
+ * were painted in.
+ *
+ * Cost: painting takes the number of runs in the row; everything else the number of all runs and of rows.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -114,7 +116,7 @@ celd_seed_rows_write (const CeldSeedRows *seeds, CeldLabels *labels)
 
 /* ------------------------------------------------------------------ single runs */
 
-/* The first run of a row that ends behind x; row->n if none does. */
+/* The index of the first run of a row that ends after x; row->n: none. */
 static size_t
 first_behind (const CeldSeedRow *row, int x)
 {
@@ -132,7 +134,7 @@ first_behind (const CeldSeedRow *row, int x)
   return low;
 }
 
-/* Joins a run to the last of `n` pieces that are its left neighbours, or makes it one more. */
+/* Appends a run to the n pieces to its left, or extends the last of them; returns their number. */
 static size_t
 join (CeldSeedRun *piece, size_t n, CeldSeedRun run)
 {
@@ -145,7 +147,7 @@ join (CeldSeedRun *piece, size_t n, CeldSeedRun run)
   return n;
 }
 
-/* Puts `pieces` runs, at most two more than that, in the place of run[first] to run[last - 1]. */
+/* Replaces run[first] .. run[last - 1] by `pieces` runs, at most two more. */
 static CeldStatus
 replace (CeldSeedRow *row, size_t first, size_t last, const CeldSeedRun *piece, size_t pieces)
 {

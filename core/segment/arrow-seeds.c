@@ -1,15 +1,15 @@
-/* Arrows as strokes: the expert gesture of section 4 ("generate scribbles with a newly added depth inequality")
- * and Figure 2, which has two arrows and nothing else.
+/* Arrows as strokes: the expert gesture of section 4 ("generate scribbles with a newly added depth inequality") and
+ * Figure 2, which has two arrows and nothing else.
  *
- * An end in a room that nothing reaches makes that room a label.  Equalities never part their ends: both share one
- * label.  What this costs goes by the seeds and the size of the discs, not by the picture.  Where both ends of an
- * inequality end up in one region, split.c goes on.
+ * An end in an enclosure without seeds gets seeds of a new label.  Equalities never separate their ends: both share one
+ * label.  The cost is that of the seeds and discs, not of the picture.  If both ends of an inequality end up in one
+ * region, split.c divides it.
  *
- * A seed of one pixel would collapse: to wrap it is cheaper than any cut across.  So an end is seeded with discs that
- * touch the contours beside it: one round the end, one on the summit of the distance to ink above it.  Where both ends
- * of a relation lie in one region, all discs of an end are nearer to it than half the way to the other end; a cut
- * between the ends is then cheaper across a gap than round a disc.  The distance to ink is looked for in the drawing,
- * row by row outwards; at the maximum of a basin it is known.
+ * A seed of one pixel would have no effect: a cut round it is cheaper than any cut across.  So an end is seeded with
+ * discs that touch the contours beside it: one round the end, one on the peak of the distance to ink above it.  Where
+ * both ends of a relation lie in one region, all discs of an end are nearer to it than half the way to the other end,
+ * so that a cut between the ends is cheaper across a gap than round a disc.  The distance to ink is searched in the
+ * drawing row by row outwards; at the maximum of a basin it is known.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,9 +20,10 @@
 
 #include <math.h>
 
-#define WIDEST 8    /* discs are at most 1/8 of the shorter side */
-#define ROUND  64   /* pixels; the disc round an end is no larger: the one on the summit is */
-#define ON_BASINS 12 /* pixels: the radius of discs where no cut could run round one, as it would take in its basin */
+#define WIDEST 8    /* discs have a radius of at most 1/8 of the shorter side (chosen) */
+#define ROUND  64   /* pixels: largest radius of the disc round an end; the one on the peak may be larger (chosen) */
+#define ON_BASINS 12 /* pixels: largest radius on basins, where a cut round a disc would take in its whole basin
+                      * (chosen) */
 
 /* ------------------------------------------------------------------ ends of relations */
 
@@ -59,7 +60,7 @@ has_ink (const float *ink, int n)
   return found;
 }
 
-/* The squared distance from (x,y) to ink in row v, if it is less than `least`. */
+/* The squared distance from (x,y) to ink in row v, if less than `least`; else `least`. */
 static int32_t
 nearest_in_row (const CeldPlane *ink, int x, int y, int v, int32_t least)
 {
@@ -75,7 +76,7 @@ nearest_in_row (const CeldPlane *ink, int x, int y, int v, int32_t least)
   return least;
 }
 
-/* The squared distance from (x,y) to the nearest ink, at most that of `limit`. */
+/* The squared distance from (x,y) to the nearest ink, at most the square of `limit`. */
 static int32_t
 to_ink (const CeldPlane *ink, int x, int y, double limit)
 {
@@ -102,7 +103,7 @@ shorter_side (const CeldSegmentTask *task)
   return task->basins->width < task->basins->height ? task->basins->width : task->basins->height;
 }
 
-/* The largest disc round (x,y) that touches no ink, this squared distance away. */
+/* The largest disc round (x,y) that touches no ink, which is this squared distance away. */
 static CeldSeedDisc
 disc_of (const Search *search, int x, int y, int32_t squared)
 {
@@ -120,7 +121,7 @@ disc_at (const Search *search, int x, int y, double most)
   return disc_of (search, x, y, to_ink (search->task->ink, x, y, fmax (0, limit) + 1));
 }
 
-/* One step to where the disc is larger, without leaving the paper that the disc covers; false on a summit. */
+/* Moves a disc one step to where it is largest, without leaving the paper that it covers; false on a peak. */
 static bool
 climb (const Search *search, int step, CeldSeedDisc *disc)
 {
@@ -145,7 +146,7 @@ climb (const Search *search, int step, CeldSeedDisc *disc)
   return true;
 }
 
-/* Climbs in ever shorter steps, each less than the disc is wide: no line of ink is stepped over. */
+/* Climbs in ever shorter steps, each smaller than the disc's radius, so that no line is stepped over. */
 static CeldSeedDisc
 climb_to_peak (const Search *search, CeldSeedDisc disc)
 {
@@ -191,7 +192,7 @@ celd_seed_disc_row (const CeldSeedDisc *disc, int y, int *x, int *end)
   return left >= 0;
 }
 
-/* ------------------------------------------------------------------ what seeds reach */
+/* ------------------------------------------------------------------ enclosures with seeds */
 
 static bool
 has_paper (const CeldPlane *ink, int y, int x, int end)
@@ -202,7 +203,7 @@ has_paper (const CeldPlane *ink, int y, int x, int end)
   return false;
 }
 
-/* The rooms on whose paper the seeds of row y lie; both are runs from left to right. */
+/* Marks the enclosures on whose paper the seeds of row y lie; seeds and basins are runs from left to right. */
 static void
 mark_seeded (const CeldSegmentTask *task, int y)
 {
@@ -224,9 +225,9 @@ mark_seeded (const CeldSegmentTask *task, int y)
       }
 }
 
-/* ------------------------------------------------------------------ planting */
+/* ------------------------------------------------------------------ adding seeds */
 
-/* Paints those pixels x .. end - 1 of row y that lie in the room and have no seed. */
+/* Adds seeds in the pixels x .. end - 1 of row y that lie in the enclosure. */
 static CeldStatus
 paint_in_enclosure (CeldSegmentTask *task, int y, int x, int end, uint32_t enclosure, uint32_t label)
 {
@@ -247,7 +248,8 @@ paint_in_enclosure (CeldSegmentTask *task, int y, int x, int end, uint32_t enclo
   return status;
 }
 
-/* A room that nothing reaches has no seed on its paper, and a disc holds no ink: there is nothing to spare. */
+/* Adds the seeds of a disc.  The enclosure has no seeds on its paper, and a disc has no ink, so no seed is overwritten.
+ */
 static CeldStatus
 add_disc (CeldSegmentTask *task, const CeldSeedDisc *disc, uint32_t enclosure, uint32_t label)
 {
@@ -272,11 +274,11 @@ add_relation (const CeldRelation *relation, CeldSegmentTask *task)
 {
   CeldRelationEnd end[2] = { celd_relation_end_find (task, &relation->nearer),
                              celd_relation_end_find (task, &relation->farther) };
-  uint32_t        enclosure[2] = { enclosure_of (task->basins, end[0]), enclosure_of (task->basins, end[1]) },
-  label = 0;
+  uint32_t        enclosure[2] = { enclosure_of (task->basins, end[0]), enclosure_of (task->basins, end[1]) };
+  uint32_t        label = 0;
   double          widest = task->settings->method != CELD_METHOD_BASINS ? INFINITY : ON_BASINS;
-  double          farthest = enclosure[0] == enclosure[1] ? CELD_DISC_RANGE * celd_relation_end_distance (end[0], end[1])
-                                                          : INFINITY;
+  bool            same = enclosure[0] == enclosure[1];
+  double          farthest = same ? CELD_DISC_RANGE * celd_relation_end_distance (end[0], end[1]) : INFINITY;
   CeldStatus      status = CELD_OK;
 
   for (int i = 0; i < 2 && status == CELD_OK; i++)

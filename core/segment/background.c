@@ -1,11 +1,11 @@
-/* Which label is the background, and what of the paper along the frame it gets.
+/* Which label is the background, and how much of the paper along the frame it gets.
  *
- * Paper along the frame belongs to the label that holds most of it: the label with most paint in a room
- * (basin-unions.c) holds that room, where strokes that are at home elsewhere do not count.  A stroke is at home where
- * it leaves at least half of its paint.  One that is at home nowhere, but leaves half along the frame, runs on over
- * hatching: it counts in every room there.  Rooms along the frame that nobody holds are seeded for that label; or, if
- * no label holds a quarter of the frame or runs on over hatching, and more of it is nobody's, for a transparent label
- * of their own.  (Parts of a figure that the frame cuts off hold a little of it; they are not the background.)
+ * Paper along the frame belongs to the label that owns most of it.  The owner of an enclosure is the label with most
+ * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  A
+ * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
+ * enclosure along the frame.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
+ * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
+ * of their own: parts of a figure that are cut off by the frame own a little of it, but are not the background.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,19 +13,19 @@
 #include "segment/basins.h"
 #include "segment/task.h"
 
-#define MAIN_SHARE 4 /* a quarter of the frame is the main part of it */
+#define MAIN_SHARE 4 /* 1 / this: a quarter of the frame is the main part of it (chosen) */
 
 typedef struct
 {
-  size_t   *pixel;    /* paper along the frame */
-  uint32_t *basin;    /* of each of these */
-  uint32_t *owner;    /* the label that holds it; 0 = nobody */
+  size_t   *pixel;    /* indices of paper pixels along the frame */
+  uint32_t *basin;    /* the basin of each */
+  uint32_t *owner;    /* its owner, a label; 0: none */
   size_t    n;
-  size_t   *owned;    /* of label l: frame pixels, held[l]; held[0]: nobody's */
-  bool     *across;   /* does a stroke of label l run on along the frame, through rooms where it is not at home? */
+  size_t   *owned;    /* pixels of the frame that label l owns; owned[0]: without an owner */
+  bool     *across;   /* has label l a stroke along the frame that is at home nowhere? */
 } Frame;
 
-/* Without flecks of paper in solid ink, which are in no room. */
+/* Lists the frame, without specks of paper in solid ink. */
 static CeldStatus
 frame_new (const CeldSegmentTask *task, Frame *frame)
 {
@@ -65,9 +65,9 @@ frame_clear (Frame *frame)
   celd_free (frame->across);
 }
 
-/* ------------------------------------------------------------------ who holds the frame */
+/* ------------------------------------------------------------------ owners of the frame */
 
-/* scattered[k]: of stroke k, which is at home nowhere, the paint in parts along the frame; 0 of all others. */
+/* scattered[k]: pixels of stroke k along the frame, if it is at home nowhere; else 0. */
 static void
 find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scattered)
 {
@@ -79,8 +79,8 @@ find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scatter
       scattered[strokes->overlap[i].stroke] = 0;
 }
 
-/* holder[k]: the label with most paint in part k, 0 if there is none.  Soft strokes count only where they are at home,
- * and along the frame those that are scattered there.  along[k]: pixels of the frame in part k. */
+/* owner[k] becomes the label with most paint in part k, 0 without any.  Soft strokes count only where they are at home,
+ * or along the frame if they are scattered there. along[k]: frame pixels in part k. */
 static CeldStatus
 find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bool *across, uint32_t *owner)
 {
@@ -119,7 +119,7 @@ find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bo
   return CELD_OK;
 }
 
-/* Who holds each part of the drawing. */
+/* Finds the owner of each part of the drawing. */
 static CeldStatus
 find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, CeldStrokes *strokes, size_t *along,
                   uint32_t *owner)
@@ -133,8 +133,8 @@ find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *par
   return status;
 }
 
-/* Who holds each pixel of the frame: who holds its room; behind a small gap in a contour, where its room is not most of
- * the frame, also who holds its piece. */
+/* Finds the owner of each frame pixel: that of its enclosure.  Behind a small gap in a contour, in an enclosure that
+ * does not have most of the frame, the owner of its component counts, too. */
 static CeldStatus
 find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *frame)
 {
@@ -167,7 +167,7 @@ find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *fra
 
 /* ------------------------------------------------------------------ what it gets */
 
-/* The label that holds most of the frame, or most of those that run on along it; 0 if there is none. */
+/* The label that owns most of the frame, or most among those with a stroke along it; 0: none. */
 static uint32_t
 most_owned (const Frame *frame, size_t n_labels, bool across)
 {
@@ -179,7 +179,7 @@ most_owned (const Frame *frame, size_t n_labels, bool across)
   return best;
 }
 
-/* Label 0 if the frame is nobody's. */
+/* The label that owns most of the frame; 0: none. */
 static uint32_t
 main_owner (const Frame *frame, size_t n_labels)
 {
@@ -190,7 +190,7 @@ main_owner (const Frame *frame, size_t n_labels)
   return best;
 }
 
-/* The background's label as the settings want it, made if need be; 0 if there is none. */
+/* Chooses the background's label by the settings, and adds it if it is new; 0: there is none. */
 static CeldStatus
 choose (CeldSegmentTask *task, const Frame *frame, uint32_t *label)
 {
@@ -207,8 +207,8 @@ choose (CeldSegmentTask *task, const Frame *frame, uint32_t *label)
   return celd_task_add_label (task, made, label);
 }
 
-/* Rooms along the frame that nobody holds get the background's seeds there, and lose the stains in them.  A stroke that
- * must be obeyed may lie there where a bridge hides the paper: it stays. */
+/* Adds the background's seeds in enclosures along the frame without an owner, and removes spills there.  Hard strokes
+ * stay: they may lie where a bridge covers the paper. */
 static CeldStatus
 seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t label)
 {

@@ -1,6 +1,7 @@
-/* Borders between basins: what the paper's energy charges along each, and the widest place where paper goes through.
+/* The boundaries between basins: the smoothness cost along each, and the widest place of its opening in paper.
  *
- * Only ends of runs, and columns where a row's basin differs from the next row's, are looked at.
+ * Only ends of runs are visited, and columns where the basins of two rows differ.  Pairs of basins are found in a hash
+ * table with a small cache in front.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS   256 /* between two reports of progress */
+#define ROWS   256 /* rows between two reports of progress */
 #define RECENT 512
 
 typedef struct { uint32_t a, b; size_t boundary; } Slot; /* a = b: empty */
@@ -22,9 +23,9 @@ typedef struct
   const CeldBasins      *basins;
   CeldBasinBoundary     *boundary;
   size_t                 n;
-  Slot                  *slot;           /* open hash by the two basins */
+  Slot                  *slot;           /* hash table by the two basins, open addressing */
   size_t                 n_slots;        /* a power of two, more than twice n */
-  Slot                   recent[RECENT]; /* the same, as far as the last rows touch it: small enough to stay at hand */
+  Slot                   recent[RECENT]; /* cache of slots used lately */
 } Boundaries;
 
 static Slot *
@@ -54,7 +55,7 @@ grow_slots (Boundaries *b)
   return true;
 }
 
-/* The border of two basins; NULL: no memory. */
+/* The boundary of two basins, added if it is new; NULL: no memory. */
 static CeldBasinBoundary *
 find_boundary (Boundaries *b, uint32_t first, uint32_t second)
 {
@@ -88,7 +89,7 @@ is_outermost (const CeldPlane *ink, int x, int y)
   return x == 0 || y == 0 || x == ink->width - 1 || y == ink->height - 1;
 }
 
-/* Does `least` at this pair come before the saddle so far?  Ties go in reading order, east before south. */
+/* Does this pair replace the saddle?  Ties go to the first pair in reading order, east before south. */
 static bool
 comes_first (const CeldBasinBoundary *boundary, int32_t least, int x, int y, bool south)
 {
@@ -113,14 +114,14 @@ celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *m
   boundary->south = more->south;
 }
 
-/* Signed distance of a pixel in the box. */
+/* The signed squared distance of pixel (x,y). */
 static inline const int32_t *
 squared_at (const CeldBasinExtent *extent, int x, int y)
 {
   return extent->squared + (ptrdiff_t) (y - extent->box.y) * (ptrdiff_t) extent->stride + (x - extent->box.x);
 }
 
-/* Counts in the pair of (x,y) and the pixel below it, or to the right. */
+/* Adds the pair of (x,y) and the pixel below it (south) or to its right. */
 static void
 add_pair (const Boundaries *b, CeldBasinBoundary *boundary, int x, int y, bool south)
 {
@@ -149,7 +150,7 @@ is_rebuilt (const CeldBasinExtent *extent, int x, int y)
          extent->rebuilt[(size_t) v * (size_t) extent->box.width + (size_t) u];
 }
 
-/* What the borders of a row will read. */
+/* Prefetches what the boundaries of a row read. */
 static void
 fetch_row (const Boundaries *b, int y)
 {

@@ -1,11 +1,11 @@
-/* Which basins a change of the drawing inside a rectangle R can reach.
+/* Which basins a change of the drawing inside a rectangle R can affect.
  *
- * A pixel's distance is another one only if R is nearer to it than what lies outside R and ends its paper or ink.  Such
- * pixels, found in a window round R that is grown until they do not touch its edge, lie in touched basins; with three
- * pixels to spare, so do their neighbours.  No other basin loses a pixel, since neither the relief nor a step is another
- * one there.
+ * The distance of a pixel changes only if R is nearer to it than the ink or paper outside R that its distance is
+ * measured to.  Such pixels are searched in a window round R, which grows until none of them touches its edge.  The
+ * basins that contain them, with a margin of three pixels for their neighbours, are affected.  No other basin loses a
+ * pixel, since neither its relief nor a step of its ascent changes.
  *
- * Cost: by the box of the touched basins and as much around it as distances in it are long.
+ * Cost: the area of the affected basins' box, and of a margin as wide as the distances in it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,9 +16,10 @@
 #include <math.h>
 
 #define SPARE       3      /* pixels: more than two diagonal steps */
-#define FIRST_REACH 0.75   /* of how wide the basins at R are: most changes reach half as far */
-#define LOOKED_AT   0.2    /* of all pixels, in windows; from there on, and */
-#define MADE        0.6    /* from here on, it is as fast to build anew */
+#define FIRST_REACH 0.75   /* of the largest radius of basins at R: the first margin (measured: most changes reach half
+                            * as far) */
+#define LOOKED_AT   0.2    /* of the picture, in windows searched: beyond this it is as fast to build anew (measured) */
+#define MADE        0.6    /* of the picture, in the window of the update: likewise */
 
 typedef struct
 {
@@ -26,7 +27,7 @@ typedef struct
   const CeldBasins *old;
   CeldRect          changed;
   uint8_t          *affected; /* by old basin */
-  double            deepest;  /* least bound known of the distances in touched basins */
+  double            deepest;  /* lower bound of the largest distance in affected basins */
 } Search;
 
 static CeldRect
@@ -39,7 +40,7 @@ grow_rect (CeldRect r, int margin, int width, int height)
   return (CeldRect) { left, top, right - left, bottom - top };
 }
 
-/* The share of the drawing that lies in a rectangle. */
+/* The fraction of the drawing that lies in a rectangle. */
 static double
 share_of (const CeldPlane *ink, CeldRect r)
 {
@@ -52,9 +53,9 @@ in_rect (CeldRect r, int x, int y)
   return x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
 }
 
-/* ------------------------------------------------------------------ which basins are touched */
+/* ------------------------------------------------------------------ affected basins */
 
-/* Signed distances in a window to what lies outside `changed`, if all of that is `value`. */
+/* Signed squared distances in a window, with all of `changed` set to `value`. */
 static CeldStatus
 measure_around (const Search *r, CeldRect window, float value, const CeldHost *host, float *copy, int32_t *squared)
 {
@@ -67,7 +68,7 @@ measure_around (const Search *r, CeldRect window, float value, const CeldHost *h
   return celd_signed_distance (&plane, host, squared);
 }
 
-/* From (x,y) to the nearest pixel of `changed`. */
+/* The distance from (x,y) to the nearest pixel of `changed`, in pixels. */
 static inline double
 distance_to (CeldRect changed, int x, int y)
 {
@@ -77,8 +78,8 @@ distance_to (CeldRect changed, int x, int y)
   return sqrt ((double) dx * dx + (double) dy * dy);
 }
 
-/* Marks the basins of the pixels of a window that the change may reach.  to_ink, to_paper: distances there to what lies
- * outside `changed`.  False if that goes on beyond the window. */
+/* Marks the basins of the pixels in a window that the change may affect. to_ink, to_paper: distances there to ink and
+ * paper outside `changed`. Returns false if the affected pixels may continue outside the window. */
 static bool
 mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *to_paper)
 {
@@ -109,7 +110,7 @@ mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *
   return true;
 }
 
-/* How far to look for what the change reaches, to begin with. */
+/* The margin of the first window, in pixels. */
 static int
 first_margin (const Search *r)
 {
@@ -124,7 +125,7 @@ first_margin (const Search *r)
   return 4 * SPARE + (int) (FIRST_REACH * sqrt (widest));
 }
 
-/* Marks the basins that the change reaches; *worth becomes false if that is much of the drawing. */
+/* Marks the affected basins; *worthwhile becomes false if that is much of the drawing. */
 static CeldStatus
 find_affected (Search *r, const CeldHost *host, bool *worthwhile)
 {
@@ -158,7 +159,7 @@ find_affected (Search *r, const CeldHost *host, bool *worthwhile)
   return status;
 }
 
-/* The box of the touched basins, and how deep they are. */
+/* Finds the box of the affected basins and the window that their distances depend on. */
 static void
 find_box (Search *r, CeldBasinChange *change)
 {
@@ -179,7 +180,7 @@ find_box (Search *r, CeldBasinChange *change)
   for (size_t k = 0; k < old->n; k++)
     if (r->affected[k] && sqrt (old->basin[k].squared) > r->deepest)
       r->deepest = sqrt (old->basin[k].squared);
-  if (r->deepest < old->stroke + 4) /* ink around leads to paper from a stroke's width deep */
+  if (r->deepest < old->stroke + 4) /* ink around them ascends to paper from a stroke's width deep */
     r->deepest = old->stroke + 4;
   change->box = grow_rect ((CeldRect) { left, top, right - left, bottom - top }, 1, old->width, old->height);
   change->window = grow_rect (change->box, (int) r->deepest + SPARE, old->width, old->height);

@@ -1,10 +1,10 @@
-/* The basin graph of a drawing, step by step; and that of a drawing that has changed inside a rectangle, from the graph
- * before.
+/* The basin graph of a drawing, built step by step or updated where the drawing has changed.
  *
- * The pixels of the basins that the change touches (basin-change.c) are led anew, to maxima among them or into basins that
- * are kept; borders are the old ones between kept basins, and all pairs with a pixel of touched basins.
+ * An update assigns the pixels of the affected basins (basin-change.c) again, to maxima among them or to basins that
+ * are kept.  The boundaries between kept basins are taken over, and all pairs with a pixel of an affected basin are
+ * counted again.
  *
- * Cost of an update: by the box of the touched basins; the list of runs is copied.
+ * Cost of an update: the box of the affected basins; the list of runs is copied.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,13 +17,13 @@ typedef struct
   const CeldPlane  *ink;
   const CeldBasins *old;
   CeldBasinChange   change;
-  int32_t          *squared;  /* signed distance in the window */
-  uint8_t          *rebuilt;  /* of the box: lies in a touched basin */
+  int32_t          *squared;  /* signed squared distance in the window */
+  uint8_t          *rebuilt;  /* of each pixel of the box: is it in an affected basin? */
 } Update;
 
-/* ------------------------------------------------------------------ from the beginning */
+/* ------------------------------------------------------------------ all of a drawing */
 
-/* Everything but stroke and costs. */
+/* Fills in all but stroke width and costs. */
 static CeldStatus
 build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
 {
@@ -69,7 +69,7 @@ celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, Ce
   return status;
 }
 
-/* ------------------------------------------------------------------ new basins among kept ones */
+/* ------------------------------------------------------------------ an update: new basins among kept ones */
 
 static void
 mark_rebuilt (Update *u)
@@ -90,7 +90,8 @@ mark_rebuilt (Update *u)
     }
 }
 
-/* The basins of both, in reading order; to[k] is the number of basin k of the new ones, kept[k] of the old ones. */
+/* Merges old and new basins in reading order of their maxima. to[k] becomes the number of new basin k, kept[k] that of
+ * old basin k. */
 static CeldStatus
 merge_basins (const Update *u, const CeldBasins *made, uint32_t *to, uint32_t *kept, CeldBasins *found)
 {
@@ -125,8 +126,8 @@ merge_basins (const Update *u, const CeldBasins *made, uint32_t *to, uint32_t *k
   return CELD_OK;
 }
 
-/* Appends the runs of row `y` of a graph, as far as they lie between the columns from and end, with other numbers; the
- * row starts in column `left`. */
+/* Appends the runs of row y of a graph, clipped to the columns from .. end - 1 and renumbered; the graph's first column
+ * is `left`. */
 static void
 copy_runs (const CeldBasins *from_graph, int y, int left, int from, int end, const uint32_t *to, const uint32_t *kept,
            size_t start, CeldBasins *found, size_t *n)
@@ -144,7 +145,7 @@ copy_runs (const CeldBasins *from_graph, int y, int left, int from, int end, con
     }
 }
 
-/* The old runs, and in the box those of `made`. */
+/* The old runs, and those of `made` in the box. */
 static CeldStatus
 merge_runs (const Update *u, const CeldBasins *made, const uint32_t *to, const uint32_t *kept, CeldBasins *found)
 {
@@ -171,7 +172,7 @@ merge_runs (const Update *u, const CeldBasins *made, const uint32_t *to, const u
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ borders */
+/* ------------------------------------------------------------------ boundaries */
 
 static int
 compare_boundaries (const CeldBasinBoundary *p, const CeldBasinBoundary *q)
@@ -181,7 +182,7 @@ compare_boundaries (const CeldBasinBoundary *p, const CeldBasinBoundary *q)
   return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/* The borders between kept basins, and those that pixels made anew have; where they are the same, one. */
+/* The boundaries between kept basins joined with the recounted ones. */
 static CeldStatus
 merge_boundaries (const Update *u, const uint32_t *kept, const CeldBasinBoundary *more, size_t n_more,
                   CeldBasins *found)
@@ -212,9 +213,9 @@ merge_boundaries (const Update *u, const uint32_t *kept, const CeldBasinBoundary
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ all of it */
+/* ------------------------------------------------------------------ the whole */
 
-/* Makes the touched basins anew, and the graph of them and those that are kept. */
+/* Finds the basins of the affected pixels, and makes the graph of these and the kept basins. */
 static CeldStatus
 rebuild (Update *u, const CeldHost *host, CeldBasins *found)
 {
@@ -256,7 +257,8 @@ rebuild (Update *u, const CeldHost *host, CeldBasins *found)
   return status;
 }
 
-/* Makes *found, but for the paper, of the graph before the change; it stays empty where that is not worth the trouble. */
+/* Makes *found, except for its paper bits, from the graph before the change.  *found stays empty where building all of
+ * it is faster. */
 static CeldStatus
 update (const CeldPlane *ink, const CeldRect *changed, const CeldBasins *old, const CeldHost *host, CeldBasins *found)
 {

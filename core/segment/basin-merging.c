@@ -1,10 +1,10 @@
-/* Unions of basins, coarser and coarser: blocks, rooms, pieces.
+/* Unions of basins, coarser and coarser: merged basins, enclosures, components.
  *
- * A stretch of line art has many maxima, so that a person's region is many basins.  From the widest passage on, blocks
- * join over it unless both are clearly wider than the passage: corners and corridors stay with their region, a small
- * region behind a gap stays by itself, however large the picture.  A passage along the frame parts nothing: the page
- * goes on behind it.  Rooms are blocks joined over all passages wider than two stroke widths, which is no gap.  Pieces
- * are joined over any passage: connected paper.
+ * The region that a person sees has many maxima, so it is many basins.  Passages between basins are visited from the
+ * widest on.  Basins are merged over a passage unless both sides are clearly wider than it: corners and corridors join
+ * their region, while a small region behind a gap stays separate, however large the picture.  A passage along the frame
+ * separates nothing, as the page continues there.  Enclosures are merged basins joined over every passage wider than
+ * two stroke widths, which is no gap in a contour.  Components are joined over any passage: connected paper.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,9 +15,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define WIDER 1.25 /* times as wide as a passage, and a pixel more */
+#define WIDER 1.25 /* times as wide as the passage, plus a pixel: clearly wider (chosen) */
 
-/* Basins joined so far: unions.h, and of each root its union's largest squared distance. */
+/* The unions so far (unions.h), and the largest squared distance in each, by root. */
 typedef struct { uint32_t *parent; int32_t *widest; } Unions;
 
 static void
@@ -37,7 +37,7 @@ width_of (const CeldBasinBoundary *boundary)
   return boundary->frame ? INT32_MAX : boundary->saddle;
 }
 
-/* The widest first; ties in a fixed order. */
+/* The widest first; ties by number. */
 static int
 compare_widths (const void *a, const void *b)
 {
@@ -59,7 +59,7 @@ separates (Unions *unions, const CeldBasinBoundary *boundary)
   return !boundary->frame && sqrt (a < b ? a : b) > WIDER * sqrt (boundary->saddle) + 1;
 }
 
-/* Numbers unions in the order of their first basins; unless `all`, only those of paper. */
+/* Numbers the unions from 1 by their first basins; unless `all`, solid ones get 0.  Returns how many there are. */
 static size_t
 number_unions (const CeldBasins *basins, Unions *unions, bool all, uint32_t *number)
 {
@@ -74,7 +74,7 @@ number_unions (const CeldBasins *basins, Unions *unions, bool all, uint32_t *num
   return n;
 }
 
-/* The borders over which blocks may join, the widest first. */
+/* Lists the boundaries over which basins may be merged, the widest first; returns their number. */
 static size_t
 find_passages (const CeldBasins *basins, const CeldBasinBoundary **passage)
 {

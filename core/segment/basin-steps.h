@@ -1,4 +1,4 @@
-/* The steps from a signed distance to the basin graph.
+/* The steps from a signed distance to the basin graph, shared by the files that make one.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,61 +7,64 @@
 
 #include "segment/basins.h"
 
-#define CELD_OLD_BASIN (1u << 30) /* in place of a basin: the rest is a basin of the old graph */
+#define CELD_OLD_BASIN (1u << 30) /* in place of a basin number: the rest is a number in the old graph */
 
-/* The part of a drawing that basins are made of: all of it, or a box in which some pixels are made anew. */
+/* The part of a drawing in which basins are found: all of it, or a box in which some pixels are assigned again. */
 typedef struct
 {
   CeldRect          box;
-  const int32_t    *squared;  /* signed distance, from the first pixel of the box on */
+  const int32_t    *squared;  /* signed squared distance, from the first pixel of the box on */
   size_t            stride;   /* of squared */
   int               stroke;
-  const uint8_t    *rebuilt;  /* of each pixel of the box: is it made anew?  NULL: all are */
-  const CeldBasins *old;      /* what the others keep */
+  const uint8_t    *rebuilt;  /* of each pixel of the box: is it assigned again?  NULL: all are */
+  const CeldBasins *old;      /* the basins that the other pixels keep */
 } CeldBasinExtent;
 
-/* basin-ascent.c: fills in basin, n, row and run of a graph of the size of the box, areas left out.  Pixels that are
- * not made anew belong to CELD_OLD_BASIN | their old basin; outside the box nothing may be made anew. */
+/* watershed.c: fills in basin, n, row and run of a graph of the size of the box; areas are 0. Pixels that are not
+ * assigned again belong to CELD_OLD_BASIN | their old basin; none outside the box may be assigned again. */
 CeldStatus celd_basins_ascend (const CeldBasinExtent *extent, const CeldHost *host, CeldBasins *basins);
 
-/* basin-borders.c: the borders of the basins that width, height, basin, row and run describe, as far as a pixel of each
- * pair is made anew.  End with celd_free. */
+/* basin-boundaries.c: the boundaries of the basins that width, height, basin, row and run describe, counting only
+ * pairs with a pixel that is assigned again. The caller frees *boundary with celd_free. */
 CeldStatus celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent, const CeldBasins *basins,
                                         const CeldHost *host,
                                         CeldBasinBoundary **boundary, size_t *n);
 
-/* One border where both are, of the same basins. */
+/* Adds to a boundary another part of it. */
 void celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *more);
 
-/* basin-unions.c: fills in block, room and piece. */
+/* basin-merging.c: fills in merged, enclosure and component, and their numbers. */
 CeldStatus celd_basins_merge (CeldBasins *basins);
 
 /* basins.c: fills in the areas. */
 void celd_basins_count_areas (CeldBasins *basins);
 
-/* basin-change.c: what of a graph a change of the drawing inside a rectangle reaches. */
+/* basin-change.c: the basins that a change of the drawing inside a rectangle can reach. */
 typedef struct
 {
-  CeldRect box;        /* of the touched basins, and a pixel more */
-  CeldRect window;     /* box and as much as its distances are long */
+  CeldRect box;        /* of the affected basins, and a pixel more */
+  CeldRect window;     /* the box, and as far round it as its distances are long */
   uint8_t *affected;   /* by old basin; end with celd_free, also after a failure */
-  bool     worthwhile; /* is it less work than all of the drawing?  If not, box and window may be missing */
+  bool     worthwhile; /* is an update less work than building all?  If not, box and window may be unset */
 } CeldBasinChange;
 
 CeldStatus celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old, const CeldRect *changed,
                                     const CeldHost *host, CeldBasinChange *change);
 
-/* ------------------------------------------------------------------ bands of rows in which pixels are led up */
+/* ------------------------------------------------------------------ watershed.c, watershed-bands.c: bands of rows */
 
-#define CELD_WATERSHED_BAND    32         /* rows of a band */
-#define CELD_WATERSHED_JOBS   8          /* bands at once, with threads */
-#define CELD_LEAD_MAXIMUM (1u << 31) /* of a lead: the rest is twice the number of a maximum in its band, or with CELD_OLD_BASIN
-                                 * of an old basin; else it is a place in `edge` */
+#define CELD_WATERSHED_BAND 32 /* rows of a band (chosen) */
+#define CELD_WATERSHED_JOBS 8  /* bands at a time, with threads (chosen) */
 
-/* Pixels of a row, up to the next stretch: all lead to the same, or each to the place after the last one's. */
+/* Flag of a lead: the rest is twice the number of a maximum in its band, or with CELD_OLD_BASIN of an old basin.  A
+ * lead without the flag is an index into `edge`. */
+#define CELD_LEAD_MAXIMUM (1u << 31)
+
+/* Pixels of a row, up to the next stretch. Either all lead to the same place, or each to the place after the previous
+ * one's. */
 typedef struct { int32_t x; bool moves; uint32_t lead; } CeldLeadStretch;
 
-/* What a band finds. */
+/* What is found in a band. */
 typedef struct
 {
   uint32_t        *maximum; /* pixels in reading order */
@@ -74,11 +77,11 @@ typedef struct
   bool             failed;  /* no memory */
 } CeldWatershedBand;
 
-/* What a job works with. */
+/* Workspace of one job. */
 typedef struct
 {
   int32_t  *relief;         /* 3 rows with a pixel more at both ends */
-  uint32_t *lead;           /* of the band and a row above and below it, likewise */
+  uint32_t *lead;           /* of the band and one row above and below it, likewise */
   uint8_t  *step;
   uint8_t  *begins;         /* a row */
 } CeldWatershedScratch;
@@ -87,14 +90,14 @@ typedef struct
 {
   const CeldBasinExtent *extent;
   int                    width, height;
-  int32_t                core;  /* of ink that is deeper the relief rises again */
-  uint32_t              *edge;  /* the first and the last row of each band: where they lead, then their basins */
-  uint32_t              *until; /* of a place in edge: the next one that has another basin, or is another row's */
+  int32_t                core;  /* squared distance to paper from which on the relief of ink rises again */
+  uint32_t              *edge;  /* first and last row of each band: their leads, then their basins */
+  uint32_t              *until; /* of an index into edge: the next one with another basin or in another row */
   CeldWatershedScratch   scratch[CELD_WATERSHED_JOBS];
   int                    n_jobs;
   CeldWatershedBand     *band;
   int                    n_bands;
-  int                    first; /* the first band of this round of jobs */
+  int                    first; /* first band of the present round of jobs */
   CeldBasins            *basins;
 } CeldWatershed;
 
@@ -110,7 +113,8 @@ celd_watershed_band_end (const CeldWatershed *a, int band)
   return (band + 1) * CELD_WATERSHED_BAND < a->height ? (band + 1) * CELD_WATERSHED_BAND : a->height;
 }
 
-/* basin-bands.c: the maxima and stretches of band first + job of a CeldWatershed, and where its edges lead. */
+/* watershed-bands.c: finds the maxima and stretches of band first + job of a CeldWatershed (`data`), and where its
+ * first and last row lead. */
 void celd_watershed_lead_band (void *data, int job);
 
 #endif

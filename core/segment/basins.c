@@ -1,9 +1,9 @@
-/* The record of a basin graph, and its paper as bits: how much of it stands under a run of pixels, as is asked of every
- * painted run after every stroke.
+/* The record of a basin graph, and its paper as bits: how many pixels of a run are paper is asked for every seed run
+ * after every stroke.
  *
- * The drawing itself is 32 times as large, and the strokes of an artist lie all over it, so that nearly every look at
- * it is a miss of the cache.  A byte is 8 pixels of a row, and 8 rows of such bytes stand together, so that 64 x 8
- * pixels share a line of the cache.
+ * The drawing itself takes 32 times as much memory, and strokes lie all over it, so nearly every access to it misses
+ * the cache.  A byte holds 8 pixels of a row, and the bytes of 8 rows are stored together, so that 64 x 8 pixels share
+ * a cache line.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
 
-#define PACK 64 /* bytes at a time */
+#define PACK 64 /* bytes converted at a time (chosen) */
 
 void
 celd_basins_count_areas (CeldBasins *basins)
@@ -38,7 +38,7 @@ celd_basins_clear (CeldBasins *basins)
 
 /* ------------------------------------------------------------------ paper as bits */
 
-/* The byte of pixels 8 column .. 8 column + 7 of row y. */
+/* The index of the byte with the pixels 8 column .. 8 column + 7 of row y. */
 static inline size_t
 byte_of (int width, int column, int y)
 {
@@ -47,7 +47,7 @@ byte_of (int width, int column, int y)
 
 typedef struct { const CeldPlane *ink; uint8_t *bits; CeldRect rect; } Work;
 
-/* Bytes of 0 or 1 for n pixels, and 0 up to the next multiple of 8. */
+/* Sets n bytes to 1 for paper and 0 for ink, and pads with 0 to a multiple of 8. */
 static void
 find_paper (const float *restrict ink, int n, uint8_t *restrict paper)
 {
@@ -57,7 +57,7 @@ find_paper (const float *restrict ink, int n, uint8_t *restrict paper)
     paper[i] = 0;
 }
 
-/* Eight such bytes as bits of one: a product moves them side by side. */
+/* Packs eight such bytes into the bits of one, by a multiplication that moves them side by side. */
 static uint8_t
 pack (const uint8_t *paper)
 {
@@ -68,7 +68,7 @@ pack (const uint8_t *paper)
   return (uint8_t) (b * 0x0102040810204080 >> 56);
 }
 
-/* Rows come in bands of 8, so that jobs share no line of the cache. */
+/* Reads a band of 8 rows: jobs share no cache line. */
 static void
 read_band (void *data, int band)
 {

@@ -1,11 +1,11 @@
-/* White borders of a labelling, found without going over the picture.
+/* Chains of boundary edges across paper, found without a pass over the picture.
  *
- * A border of basins with different labels is on paper where it has passes, and the pair at its saddle is one of them.
- * From there the edges between the two labels are followed both ways.  Two basins may meet in several gaps of which the
- * border names only one; then some of its passes are still missing, and the region is walked round, through ink and
- * all: basins are connected, so that all places where two of them meet lie on one such loop.
+ * The boundary of two basins with different labels crosses paper where it has an opening, and the pair at its saddle is
+ * part of that.  From there the edges between the two labels are followed both ways.  If two basins meet in several
+ * openings, the boundary names only one of them, and fewer edges are found than the openings have; then the region's
+ * outline is followed all round: basins are connected, so all places where two of them meet lie on one such loop.
  *
- * Cost: the length of the chains, and of the loops where passes are missing.
+ * Cost: the length of the chains, and of the loops where edges are missing.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,16 +24,16 @@ typedef struct
   const CeldPlane  *ink;
   const CeldLabels *labels;
   CeldChains       *chains;
-  uint32_t         *known;       /* edges of chains so far: a hash table, 0 where it is empty */
-  size_t            capacity, n; /* room is a power of two */
+  uint32_t         *known;       /* hash set of edges found so far, 0: empty */
+  size_t            capacity, n; /* a power of two */
 } ChainTracer;
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up. */
+/* Headings: 0 right, 1 down, 2 left, 3 up. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 
-/* ------------------------------------------------------------------ edges that are known */
+/* ------------------------------------------------------------------ edges found so far */
 
-/* The edge that leaves a corner with a heading; from 1. */
+/* The number, from 1, of the edge that leaves a corner with this heading. */
 static uint32_t
 edge_number (const ChainTracer *t, CeldCorner corner, int heading)
 {
@@ -42,7 +42,7 @@ edge_number (const ChainTracer *t, CeldCorner corner, int heading)
   return 2 * (y * ((uint32_t) t->labels->width + 1) + x) + (uint32_t) (heading & 1) + 1;
 }
 
-/* Where the edge stands in the table, or would. */
+/* The slot of an edge in the table, or where it would be inserted. */
 static size_t
 edge_place (const uint32_t *known, size_t capacity, uint32_t edge)
 {
@@ -83,7 +83,7 @@ is_known (const ChainTracer *t, uint32_t edge)
 
 /* ------------------------------------------------------------------ pixels round a corner */
 
-/* The pixel ahead on the left; with the next heading, that on the right. */
+/* The pixel ahead to the left; that to the right is the one for the next heading. */
 static CeldCorner
 pixel_ahead (CeldCorner corner, int heading)
 {
@@ -96,7 +96,7 @@ is_inside (const ChainTracer *t, CeldCorner pixel)
   return pixel.x >= 0 && pixel.y >= 0 && pixel.x < t->labels->width && pixel.y < t->labels->height;
 }
 
-/* 0 outside. */
+/* The label of the pixel ahead to the left; 0 outside. */
 static uint32_t
 label_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 {
@@ -105,7 +105,7 @@ label_ahead (const ChainTracer *t, CeldCorner corner, int heading)
   return is_inside (t, pixel) ? CELD_AT (t->labels, pixel.x, pixel.y) : 0;
 }
 
-/* 0 outside and on ink. */
+/* The label of the pixel ahead to the left; 0 outside and on ink. */
 static uint32_t
 paper_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 {
@@ -117,8 +117,8 @@ paper_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 
 /* ------------------------------------------------------------------ one chain */
 
-/* The heading with which the edges between two labels go on, or -1.  Where four pixels meet crosswise the smaller label
- * stays connected, whichever way one comes. */
+/* The heading with which the edges between two labels continue, or -1.  Where four pixels meet crosswise the smaller
+ * label stays connected, in either direction. */
 static int
 go_on (const ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
 {
@@ -145,7 +145,7 @@ add_corner (CeldChains *chains, CeldCorner corner)
   return CELD_OK;
 }
 
-/* What stops a chain at this corner. */
+/* What a chain ends at in this corner. */
 static CeldChainEnd
 stop_at (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *ink)
 {
@@ -160,7 +160,7 @@ stop_at (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *ink)
   return CELD_CHAIN_JUNCTION;
 }
 
-/* Adds this corner, which was reached with a heading, and all that follow; ends at the edge `first`, too. */
+/* Adds a corner, reached with this heading, and all that follow, up to the chain's end or the edge `first`. */
 static CeldStatus
 follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right, uint32_t first,
         CeldChainEnd *end,
@@ -188,7 +188,8 @@ follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t 
   return status;
 }
 
-/* The chain through the edge between a pixel and the one below it or to its right, if there is one and it is new. */
+/* Adds the chain through the edge between a pixel and the one below (south) or to its right, if it is a boundary on
+ * paper and new. */
 static CeldStatus
 trace (ChainTracer *t, int x, int y, bool south)
 {
@@ -241,7 +242,7 @@ trace (ChainTracer *t, int x, int y, bool south)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ where chains can be */
+/* ------------------------------------------------------------------ where to look for chains */
 
 static CeldStatus
 trace_patches (ChainTracer *t, const CeldPatches *windows)
@@ -275,7 +276,7 @@ compare_boundaries (const void *a, const void *b)
   return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/* Counts the edges of the chains from chain `first` on by the border of basins that they belong to. */
+/* Counts the edges of the chains from number `first` on by the boundary of basins that they belong to. */
 static void
 count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, uint32_t *opening)
 {
@@ -294,7 +295,7 @@ count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, 
       }
 }
 
-/* Walks once round the region on the left of an edge and traces all chains on the way. */
+/* Follows the outline of the region to the left of an edge once round, and adds all chains on it. */
 static CeldStatus
 walk_around (ChainTracer *t, CeldCorner start, int first)
 {
@@ -322,7 +323,7 @@ walk_around (ChainTracer *t, CeldCorner start, int first)
   return status;
 }
 
-/* Finds the chains of borders of which some passes lie on none so far. */
+/* Finds chains on boundaries whose openings have more edges than were found. */
 static CeldStatus
 trace_missing (ChainTracer *t, const CeldBasins *basins, const uint32_t *label)
 {
@@ -354,7 +355,7 @@ celd_chains_clear (CeldChains *chains)
   *chains = (CeldChains) { 0 };
 }
 
-/* Chains along bridges: the borders of their basins are no passes. */
+/* Adds chains along bridges, whose pixels are no openings. */
 static CeldStatus
 trace_bridges (ChainTracer *t, const CeldBridges *bridges)
 {

@@ -1,12 +1,12 @@
 /* Which line ends may be joined, the closest and straightest pair first.
  *
  * No gap is too wide, so in principle every end is compared with every other.  But a pair costs at least half its
- * distance, and one that is joined leaves no other pair for its ends.  So ends are compared within a reach that doubles
- * from round to round: what costs less than the closest pair of the next round can be given out first, and ends that
- * were taken by then are compared no more.  From FAR on lines go on nearly straight: there only ends in cells ahead are
- * looked at, and of these only those that point back.
+ * distance, and a joined pair leaves no other pair for its ends.  So ends are compared within a distance that doubles
+ * from round to round: pairs cheaper than the closest pair of the next round can be returned first, and ends taken by
+ * then are not compared again.  From FAR on lines must continue nearly straight: there only ends in cells ahead are
+ * visited, and of these only those that point back.
  *
- * Cost: for n ends, of which few stay alone, n log n; at worst, where none finds another, n^2 comparisons.
+ * Cost: n log n for n ends of which few stay single; n^2 comparisons at worst, if no end finds another.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,32 +16,32 @@
 #include <stdlib.h>
 
 #define NEAR  6                 /* stroke widths: up to here a line may turn sharply to meet another */
-#define FAR   12                /* from here on it goes on nearly straight */
+#define FAR   12                /* from here on it must continue nearly straight */
 #define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
 #define TURN      0.5
 #define TURN_FAR  0.94
-#define OWN       0.5           /* of the cost: a line would rather close itself */
-#define BOW       0.8           /* of both cosines: from such a turn on both ends must turn to the same side */
-#define ROUND_OFF 1e-6          /* a quick test leaves this much to the exact one */
+#define OWN       0.5           /* factor of the cost between two ends of one outline: closing it is preferred */
+#define BOW       0.8           /* if both cosines are less, both ends must turn to the same side */
+#define ROUND_OFF 1e-6          /* margin by which quick tests are less strict than the exact one */
 
 #define SECTORS 16              /* of directions */
-#define BACK    2               /* sectors: where both turn by 20 degrees at most, they face each other but for 40 */
+#define BACK    2               /* sectors: two ends that turn by at most 20 degrees each face each other within 40 */
 #define PI      3.14159265358979
 
 struct CeldTipPairs
 {
   const CeldTip *tip;
   int            stroke;
-  bool           last;                     /* no pair is farther than the reach */
-  double         from, most;               /* distances of the round: from < distance <= reach */
+  bool           last;                     /* the largest distance has been reached */
+  double         from, most;               /* distances of this round: from < distance <= most */
   double         left, top, width, height; /* the box of all ends */
 
-  uint32_t *free;                         /* ends that were not taken when the round began */
+  uint32_t *free;                         /* ends that were free when the round began */
   size_t    n_free;
   double    side;                         /* of a cell, in pixels */
   int       columns, rows;
-  size_t   *first;                        /* of each cell, by sectors: the first of these ends in `sorted`; one more */
-  uint32_t *sorted;                       /* the same ends by cells and sectors */
+  size_t   *first;                        /* of each cell and sector: its first end in `sorted`; one more */
+  uint32_t *sorted;                       /* the free ends by cells and sectors */
   CeldTip  *sorted_tip;
 
   CeldTipPair *pair;                      /* by cost */
@@ -50,8 +50,8 @@ struct CeldTipPairs
 
 /* ------------------------------------------------------------------ a pair */
 
-/* May two tips be joined?  What it costs: the distance, more where the lines have to turn, and less where that closes
- * an outline. */
+/* May two ends be joined?  The cost is their distance, more where the lines have to turn, and less if that closes an
+ * outline. */
 static bool
 may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cost)
 {
@@ -105,7 +105,7 @@ place_of (const CeldTipPairs *s, const CeldTip *tip)
   return (row * (size_t) s->columns + column) * SECTORS + (size_t) sector_of (tip->dx, tip->dy);
 }
 
-/* Sorts the free ends: into as many cells as there are ends at most, or small enough to tell what lies ahead. */
+/* Sorts the free ends into cells: no more cells than ends, and small enough to find what lies ahead. */
 static CeldStatus
 sort_into_cells (CeldTipPairs *s)
 {
@@ -135,11 +135,11 @@ sort_into_cells (CeldTipPairs *s)
 
 /* ------------------------------------------------------------------ rounds */
 
-/* May an end within `radius` of the place, seen from the tip, be nearly straight ahead? */
+/* May an end within `radius` of this place, relative to the tip, be nearly straight ahead? */
 static bool
 lies_ahead (const CeldTip *tip, double x, double y, double radius)
 {
-  static const double cosine = TURN_FAR, sine = 0.342; /* a little more than sqrt (1 - cosine^2) */
+  static const double cosine = TURN_FAR, sine = 0.342; /* rounded up from sqrt (1 - cosine^2) */
   double              along = x * tip->dx + y * tip->dy, across = fabs (x * tip->dy - y * tip->dx);
 
   return across * cosine - along * sine <= radius + ROUND_OFF;
@@ -157,7 +157,7 @@ add_pair (CeldTipPairs *s, CeldTipPair pair)
   return CELD_OK;
 }
 
-/* A quick test: may two ends of this round, where lines go on nearly straight, be a pair? */
+/* A quick test: may two ends of a far round be a pair? */
 static bool
 may_face (const CeldTip *p, const CeldTip *q)
 {
@@ -167,7 +167,7 @@ may_face (const CeldTip *p, const CeldTip *q)
   return turn > 0 && other > 0 && turn * turn >= least && other * other >= least;
 }
 
-/* Pairs of end i with sorted ends from .. to - 1, as far as they come behind it in the order of all ends. */
+/* Adds the pairs of end i with sorted ends from .. to - 1 of higher number. */
 static CeldStatus
 search_ends (CeldTipPairs *s, uint32_t i, bool far, size_t from, size_t to)
 {
@@ -184,7 +184,7 @@ search_ends (CeldTipPairs *s, uint32_t i, bool far, size_t from, size_t to)
   return status;
 }
 
-/* In a far round, those of a cell that point back. */
+/* Searches the ends of a cell that point back, in a far round. */
 static CeldStatus
 search_back (CeldTipPairs *s, uint32_t i, size_t cell)
 {
@@ -225,7 +225,7 @@ search_round (CeldTipPairs *s, uint32_t i)
   return status;
 }
 
-/* Forgets ends that are taken, and the pairs that they or earlier rounds have done with. */
+/* Removes ends that are taken, and pairs that are used up. */
 static void
 forget (CeldTipPairs *s, const bool *taken)
 {
@@ -249,7 +249,7 @@ progress (const CeldTipPairs *s)
   return fmin (1, s->from / (s->width + s->height));
 }
 
-/* Adds all pairs within twice the reach. */
+/* Starts the next round: adds all pairs up to twice the distance. */
 static CeldStatus
 widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
 {

@@ -1,9 +1,9 @@
 /* Gaps in contours, bridged before the basins are found.
  *
- * Where a gap is as wide as the region behind it, or wider, no narrow place of the paper tells where the contour would
- * have been; but the lines do.  A line that ends in the open and points to another line's end asks to be continued.  So
- * such ends are joined, the closest and straightest pair first, by the curve that closures.c draws; basins part along
- * it.  A bridge only offers a border: it is taken where labels differ on both sides.
+ * Where a gap is as wide as the region behind it, or wider, no narrow place of the paper shows where the contour would
+ * have been; but the lines do.  Line ends that point to each other are joined, the closest and straightest pair first,
+ * by the curve of closures.c; basins then meet along it.  A bridge only offers a boundary: it is used where the labels
+ * on both sides differ.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAINT 0.499f            /* ink of a bridge */
+#define FAINT 0.499f            /* ink value of a bridge: just not paper */
 
 typedef struct
 {
@@ -24,7 +24,7 @@ typedef struct
   int              stroke;
   CeldTip         *tip;
   size_t           n;
-  bool            *taken;       /* by tip */
+  bool            *taken;       /* of each line end: has it a bridge? */
   CeldBridges     *bridges;
 } Builder;
 
@@ -37,7 +37,7 @@ end_of (const CeldTip *tip)
                          .dx = tip->dx, .dy = tip->dy };
 }
 
-/* Adds the pixel to the last bridge, unless it is its last one or ink. */
+/* Adds a pixel to the last bridge, unless it is the previous one or ink. */
 static CeldStatus
 add_pixel (Builder *b, CeldBridge *bridge, int x, int y)
 {
@@ -57,7 +57,7 @@ add_pixel (Builder *b, CeldBridge *bridge, int x, int y)
   return CELD_OK;
 }
 
-/* Walks along the curve in steps of half a pixel.  *open becomes false where it meets ink away from its ends. */
+/* Follows the curve in steps of half a pixel.  *open becomes false where it meets ink away from its ends. */
 static CeldStatus
 walk (Builder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *bridge, bool *open)
 {
@@ -110,7 +110,7 @@ build (Builder *b, const CeldTipPair *pair)
   return CELD_OK;
 }
 
-/* Joins ends, the cheapest pair first. */
+/* Joins line ends, the cheapest pair first. */
 static CeldStatus
 build_all (Builder *b, const CeldHost *host)
 {
@@ -169,7 +169,7 @@ compare_pixels (const void *a, const void *b)
   return p->x < q->x ? -1 : p->x > q->x;
 }
 
-/* All pixels in reading order; NULL without memory. */
+/* All pixels in reading order, to be freed; NULL: no memory. */
 static CeldBridgePixel *
 sort_pixels (const CeldBridges *bridges)
 {
@@ -224,9 +224,9 @@ celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
     CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y) = FAINT;
 }
 
-/* ------------------------------------------------------------------ pieces and rooms */
+/* ------------------------------------------------------------------ components and enclosures over bridges */
 
-/* Makes one part of those on both sides of bridges longer than `length`. */
+/* Joins the parts on both sides of bridges longer than `length` pixels. */
 static void
 join (const CeldBridges *bridges, double length, const CeldPlane *ink, const CeldBasins *basins, const uint32_t *part,
       uint32_t *parent)
@@ -249,7 +249,7 @@ join (const CeldBridges *bridges, double length, const CeldPlane *ink, const Cel
       }
 }
 
-/* Numbers the parts anew, in the order of their first basins. */
+/* Renumbers the parts by their first basins. */
 static void
 renumber (uint32_t *parent, uint32_t *number, size_t n, uint32_t *part, size_t *n_parts)
 {
@@ -295,7 +295,7 @@ celd_bridges_join (const CeldBridges *bridges, const CeldPlane *ink, CeldBasins 
 
 /* ------------------------------------------------------------------ basins of a drawing with bridges */
 
-/* Remembers what the bridges part, before pieces are joined over them. */
+/* Copies the components before they are joined over bridges. */
 static CeldStatus
 keep_components (const CeldBasins *basins, uint32_t **bridged_component)
 {

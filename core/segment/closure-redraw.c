@@ -1,10 +1,10 @@
-/* What changes sides when a white border is drawn anew.
+/* Which pixels change sides when the boundary across a gap is redrawn.
  *
- * What lies between the old border and the new one, by winding number at pixel centres, changes sides: to the left of
- * the old border it was the left label's, and becomes the right one's.  The new border is refused if anything else is
- * found there: a third label, another border, ink that does not belong to the two lines, faint lines, a seed.
+ * The pixels between the old boundary and the new one, by winding number at pixel centres, change sides: to the left of
+ * the old boundary they had the left label and get the right one.  The new boundary is rejected if anything else is
+ * found there: a third label, another new boundary, ink that is not part of the two lines, faint lines, a seed.
  *
- * Cost: the length of both borders, times its logarithm, and the area between them.
+ * Cost: the length of both boundaries times its logarithm, and the area between them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,10 +14,10 @@
 
 #include <stdlib.h>
 
-#define SHARP 12  /* pixels of stroke width to one of rim */
-#define TIP   1.5 /* pixels, and half a line: ink of its own so near to its ends may lie under the new border */
+#define SHARP 12  /* pixels of stroke width for each pixel of antialiased edge (chosen) */
+#define TIP   1.5 /* pixels, and half a line width: so near its ends the new boundary may lie on their ink (chosen) */
 
-/* ------------------------------------------------------------------ is the way free? */
+/* ------------------------------------------------------------------ does anything stand in the way? */
 
 static bool
 is_inside (const CeldRedrawing *r, int x, int y)
@@ -25,7 +25,7 @@ is_inside (const CeldRedrawing *r, int x, int y)
   return x >= 0 && y >= 0 && x < r->labels->width && y < r->labels->height;
 }
 
-/* Is there ink so near that this pixel may be on its rim?  Thick lines are seldom as sharp as thin ones. */
+/* Is ink so near that this pixel may be on its antialiased edge?  Thick lines are seldom as sharp as thin ones. */
 static bool
 near_ink (const CeldRedrawing *r, int x, int y)
 {
@@ -64,7 +64,7 @@ line_width (const CeldRedrawing *r)
   return fmax (r->end[0].width, r->end[1].width);
 }
 
-/* May the new border run here?  On paper of the two labels; over ink only where it begins and ends. */
+/* May the new boundary pass here?  On paper of the two labels; on ink only near its ends. */
 static bool
 is_allowed (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, CeldPlace place)
 {
@@ -142,7 +142,8 @@ centre (CeldCorner pixel)
   return (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
 }
 
-/* From the last corner of the old border to the new one, through the ink that both end at; or the way back. */
+/* Adds the path from the last corner of the old boundary through the ink at its end to the new one; or, if `back`, in
+ * the opposite direction. */
 static CeldStatus
 add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace to, bool back)
 {
@@ -162,7 +163,7 @@ add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace 
   return status == CELD_OK ? add_crossings (r, place[!back], place[back]) : status;
 }
 
-/* The outline: the old border, and the new one backwards. */
+/* The outline: the old boundary, and the new one backwards. */
 static CeldStatus
 outline (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve)
 {
@@ -207,7 +208,7 @@ is_relabelled (const CeldRedrawing *r, int y, int x, int end)
   return false;
 }
 
-/* Gives the paper in pixels x .. end - 1 of row y to `label`; *may becomes false if something stands against it. */
+/* Gives the paper in pixels x .. end - 1 of row y to `label`; *allowed becomes false if that is not possible. */
 static CeldStatus
 relabel (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, bool *allowed)
 {
@@ -226,14 +227,14 @@ relabel (CeldRedrawing *r, int y, int x, int end, uint32_t old, uint32_t label, 
       if (!celd_is_paper (ink))
         *allowed = celd_line_end_contains (&r->end[0], x, y) || celd_line_end_contains (&r->end[1], x, y);
       else if ((now != old && now != label) || ((ink < CELD_FAINT_INK || now != old) && !near_ink (r, x, y)))
-        *allowed = false; /* the rims of lines may be faint, and of the right label already */
+        *allowed = false; /* antialiased edges may be faint, and may already have the new label */
       else if (now == old)
         status = celd_patch_add (&r->relabelled, (CeldPatch) { y, x, x + 1, label });
     }
   return status;
 }
 
-/* CeldClosurePatches all that the outline encloses. */
+/* Relabels all pixels that the outline encloses. */
 static CeldStatus
 relabel_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, bool *allowed)
 {
@@ -259,7 +260,7 @@ relabel_enclosed (CeldRedrawing *r, const CeldChain *chain, const CeldClosureCur
   return status;
 }
 
-/* Adds what the way flipped to the patches. */
+/* Appends the relabelled pixels to the patches. */
 static CeldStatus
 keep_relabelled (CeldRedrawing *r)
 {

@@ -1,16 +1,16 @@
 /* Gaps closed as a person would close them.
  *
- * Where labels meet on paper the cut of a 4-connected grid makes staircases, and borders of basins wobble.  Each such
- * border is drawn again as a curve from line end to line end; if anything stands against it, as a straight line; else
- * it stays as it is.
+ * Where labels meet on paper, the cut of a 4-connected grid is a staircase, and boundaries of basins wobble.  Each such
+ * boundary is redrawn as a curve from line end to line end; if something stands in the way, as a straight line; else it
+ * stays as it is.
  *
- * The curve is a cubic Hermite segment between two tips.  An arc of a circle over a chord that it meets at the angle a has
- * tangents of length chord / cos^2 (a/2) there, as Hermite segments count it.  Hands flatten what they have to guess, and
- * small angles are as likely a wobble of the line as its course; so the tangents are shortened.  Lines that leave the
- * chord by more than a person would follow, or that bend it into an S, are no continuation of each other: then the curve
- * becomes straight, and so it is between ends that point nowhere.
+ * The curve is a cubic Hermite segment between two tips.  A circular arc that meets its chord at the angle a has
+ * tangents of length chord / cos^2 (a/2) in Hermite form.  People draw such guesses flatter, and small angles are as
+ * likely an irregularity of the line as its direction, so the tangents are shortened.  Lines that leave the chord at a
+ * large angle, or that would bend the curve into an S, do not continue each other: then the curve becomes straight, as
+ * it is between ends without a direction.
  *
- * Cost: the length of the borders, and the ink a few stroke widths round their ends.
+ * Cost: the length of the boundaries, and the ink a few stroke widths round their ends.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -19,24 +19,24 @@
 
 #include <math.h>
 
-#define DAMPING    0.7         /* of the length of tangents */
+#define DAMPING    0.7         /* factor of the length of tangents (chosen, as all of these) */
 #define WOBBLE     0.28         /* radians: an angle of this size counts half */
 #define TRUSTED    0.7          /* radians off the chord: up to here an angle is followed */
-#define MOST_ANGLE 1.05         /* from here on it is not; 60 degrees */
-#define MOST_S     0.5          /* radians: of two angles that make an S the smaller one may be as large */
-#define SPACING    3.0          /* pixels between places */
-#define SHORTEST   0.75         /* pixels */
+#define MOST_ANGLE 1.05         /* from here on it is not: 60 degrees */
+#define MOST_S     0.5          /* radians: the smaller of two angles that make an S may be this large */
+#define SPACING    3.0          /* pixels between places of the polyline */
+#define SHORTEST   0.75         /* pixels: shorter closures are not listed */
 
 /* ------------------------------------------------------------------ the curve */
 
-/* 1 up to `trusted`, 0 from `most` on. */
+/* 1 up to `trusted`, falling to 0 at `most`. */
 static double
 fade (double value, double trusted, double most)
 {
   return value <= trusted ? 1 : value >= most ? 0 : (most - value) / (most - trusted);
 }
 
-/* How far to the right the way on from a tip turns off the chord, in radians; 0 where no line ends. */
+/* The angle by which the line's direction at a tip turns right off the chord, in radians; 0 without a tip. */
 static double
 angle_off (const CeldLineEnd *end, double chord_x, double chord_y)
 {
@@ -59,7 +59,8 @@ celd_curve_draw (const CeldLineEnd *from, const CeldLineEnd *to, CeldPlace place
 
   trust = fade (fmax (fabs (a), fabs (b)), TRUSTED, MOST_ANGLE);
   if (a * b > 0)
-    trust *= fade (fmin (fabs (a), fabs (b)), 0, MOST_S); /* seen from both ends, a bow turns off to different sides */
+    trust *= fade (fmin (fabs (a), fabs (b)), 0, MOST_S); /* in an S both ends turn to the same side as seen from them
+                                                           */
   m  = trust * tangent_length (a, length);
   n  = trust * tangent_length (b, length);
   px = m * from->dx;
@@ -72,7 +73,7 @@ celd_curve_draw (const CeldLineEnd *from, const CeldLineEnd *to, CeldPlace place
       place[1] = q;
       return 2;
     }
-  if (!from->tip) /* no bend where the curve meets the side of a line */
+  if (!from->tip) /* no curvature where the curve meets the side of a line */
     {
       px = 1.5 * x - 0.5 * qx;
       py = 1.5 * y - 0.5 * qy;
@@ -113,7 +114,7 @@ add_closure (const CeldChain *chain, const CeldPlace *place, size_t n, CeldClosu
   return CELD_OK;
 }
 
-/* The old border, as it is; only its bends. */
+/* Adds the old boundary, reduced to its bends. */
 static CeldStatus
 add_old (const CeldChain *chain, const CeldCorner *corner, CeldClosures *closures)
 {
@@ -131,7 +132,7 @@ add_old (const CeldChain *chain, const CeldCorner *corner, CeldClosures *closure
   return status;
 }
 
-/* Looks at both ends of a border and decides where the curve starts and ends. */
+/* Examines both ends of a chain, and sets where the curve starts and ends. */
 static void
 find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
 {
@@ -147,12 +148,12 @@ find_ends (CeldRedrawing *r, const CeldChain *chain, const CeldCorner *corner)
   if (a->n && !a->tip)
     celd_line_end_aim (r->task->ink, b, a);
   if (b->n && !b->tip && !a->tip)
-    celd_line_end_aim (r->task->ink, a, b); /* once more: the narrowest place between two sides */
+    celd_line_end_aim (r->task->ink, a, b); /* again, for the narrowest place between two sides of lines */
   if (!a->n || !b->n)
-    a->tip = b->tip = false;   /* nothing says with which direction a border meets the frame */
+    a->tip = b->tip = false;   /* a boundary may meet the frame or another one in any direction */
 }
 
-/* Does the border cross white paper, rather than follow a faint line? */
+/* Does the boundary cross white paper, rather than follow a faint line? */
 static bool
 is_white (const CeldPlane *ink, const CeldChain *chain, const CeldCorner *corner)
 {
@@ -168,7 +169,7 @@ is_white (const CeldPlane *ink, const CeldChain *chain, const CeldCorner *corner
   return false;
 }
 
-/* Tries the curve, a straight line between the same ends, and one between those of the old border. */
+/* Tries the curve, a straight line between the same ends, and a straight line between the ends of the chain. */
 static CeldStatus
 close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
 {
@@ -202,7 +203,7 @@ close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
   if (!done)
     return add_old (chain, corner, closures);
   if (celd_distance_between (curve.place[0], curve.place[curve.n - 1]) < SHORTEST)
-    return CELD_OK; /* from a tip to the same tip */
+    return CELD_OK; /* from a tip to itself */
   return add_closure (chain, curve.place, curve.n, closures);
 }
 
@@ -236,9 +237,9 @@ celd_closures_find (const CeldSegmentTask *task, const uint32_t *label, const Ce
   return status;
 }
 
-/* ------------------------------------------------------------------ a picture of closures */
+/* ------------------------------------------------------------------ closures as a picture, to be looked at */
 
-/* How far a place is from the piece of a line between two others. */
+/* The distance of a place from the line segment between two others. */
 static double
 distance_to_segment (CeldPlace place, CeldPlace p, CeldPlace q)
 {
@@ -249,7 +250,7 @@ distance_to_segment (CeldPlace place, CeldPlace p, CeldPlace q)
   return celd_distance_between (place, (CeldPlace) { p.x + t * x, p.y + t * y });
 }
 
-/* Lays red of this opacity over a pixel. */
+/* Blends red of this opacity over a pixel. */
 static void
 blend (uint8_t *rgba, double opacity)
 {
@@ -261,7 +262,7 @@ blend (uint8_t *rgba, double opacity)
   rgba[3] = (uint8_t) lround (255 * alpha);
 }
 
-/* A pixel belongs to the piece that is nearest, so that it is painted once where two pieces meet. */
+/* Paints a segment.  A pixel belongs to the nearest segment, so it is painted once where two meet. */
 static void
 paint_segment (const CeldClosure *closure, size_t i, double width, CeldPaint *paint)
 {

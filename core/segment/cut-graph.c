@@ -1,8 +1,8 @@
 /* The graph that a region is cut on.
  *
- * A node is the connected paper of one basin in a square, or its connected ink; so what a thin line or a narrow place
- * parts is two nodes, however coarse the squares are.  Links are the exact sums of V between their pixels.  In the
- * 4-neighbour metric a staircase costs what the straight line costs, so coarse squares lose little of a cut's value.
+ * A node is the connected paper or ink of one basin in a square, so the two sides of a thin line or a narrow opening
+ * are two nodes, however coarse the squares are.  Links are the exact sums of V_pq between their pixels.  With 4
+ * neighbours a staircase costs what the straight line costs, so coarse squares lose little of a cut's value.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,12 +14,13 @@
 #include <string.h>
 
 #define NO_KIND UINT32_MAX
-#define FINE    4        /* pixels; in squares up to here ink costs less the deeper it is */
-#define MOST_TO_PAPER   4        /* pixels; deeper ink counts as this deep */
-#define COARSE_TO_PAPER 4   /* squared; what ink counts as in larger ones, so that cuts like the middle of lines */
+#define FINE    4        /* pixels: in squares up to this size the distance of ink to paper is measured (chosen) */
+#define MOST_TO_PAPER   4        /* pixels: ink farther from paper counts as this far (chosen) */
+#define COARSE_TO_PAPER 4   /* squared pixels: what ink counts as in larger squares, so that cuts prefer the middle of
+                             * lines (chosen) */
 
-/* The first x in row y from which a square has something inside; `right` if there is none.  Single pixels are told at a
- * glance, of others the visit finds out. */
+/* The first x in row y from which a square has pixels inside; `right` if there is none.  Single pixels are tested here,
+ * larger squares by the visit. */
 static int
 skip_outside (const CeldCutGraph *graph, int x, int y, int right, int size)
 {
@@ -75,7 +76,7 @@ celd_cut_graph_node_at (const CeldCutGraph *graph, int x, int y)
 
 /* ------------------------------------------------------------------ nodes */
 
-/* What a square has: pixels inside, others; ink, if all are inside. */
+/* What a square contains: pixels inside, others; and ink, if all are inside. */
 typedef struct { bool inside, outside, ink; } Contents;
 
 static Contents
@@ -118,7 +119,7 @@ add_node (CeldCutGraph *graph, CeldCutNode node)
   return CELD_OK;
 }
 
-/* The kind of each pixel inside: pixels of one node are of one kind. */
+/* Sets the kind of each pixel inside: pixels of one node are of one kind. */
 static void
 tell_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
@@ -139,7 +140,7 @@ tell_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
     }
 }
 
-/* Gives the pixels that join pixel i of a square `width` wide, of the same kind, the number of the last node. */
+/* Assigns pixel i of the square and all pixels of the same kind connected to it to the last node (flood fill). */
 static void
 flood (CeldCutGraph *graph, int x, int y, int width, int height, int i)
 {
@@ -195,7 +196,7 @@ number_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int siz
 
 /* ------------------------------------------------------------------ links */
 
-/* The squared distance from ink at (x,y) to paper. */
+/* The squared distance from ink at (x,y) to paper, up to MOST_TO_PAPER squared. */
 static int32_t
 squared_to_paper (const CeldPlane *ink, int x, int y)
 {
@@ -225,7 +226,7 @@ cost_between (const CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
               : celd_smoothness_cost (costs, a, b, COARSE_TO_PAPER, COARSE_TO_PAPER, along);
 }
 
-/* Does it take looking closer to tell where the cut runs between two nodes? */
+/* Does it take smaller squares to find where a cut runs between two nodes? */
 static bool
 is_uncertain (const CeldCutNode *a, const CeldCutNode *b)
 {
@@ -256,7 +257,7 @@ add_link (CeldCutGraph *graph, uint32_t a, uint32_t b, int32_t cost)
   return CELD_OK;
 }
 
-/* The pixel (x,y) inside and its neighbour (u,v).  Pairs of two inside come up twice, once from each. */
+/* Links the pixel (x,y) inside to its neighbour (u,v).  Pairs of two pixels inside occur twice, once from each. */
 static CeldStatus
 connect (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
 {
@@ -277,7 +278,7 @@ connect (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
   return CELD_OK;
 }
 
-/* The pixels x .. right - 1 of row y, with the row above (step -1) or below (1). */
+/* Links the pixels x .. right - 1 of row y to the row above (step -1) or below (1). */
 static CeldStatus
 link_rows (CeldCutGraph *graph, int x, int right, int y, int step, bool fine)
 {
@@ -293,7 +294,7 @@ link_rows (CeldCutGraph *graph, int x, int right, int y, int step, bool fine)
   return status;
 }
 
-/* The pixels y .. bottom - 1 of column x, with the column to the left (step -1) or right (1). */
+/* Links the pixels y .. bottom - 1 of column x to the column to the left (step -1) or right (1). */
 static CeldStatus
 link_columns (CeldCutGraph *graph, int y, int bottom, int x, int step, bool fine)
 {
@@ -308,7 +309,7 @@ link_columns (CeldCutGraph *graph, int y, int bottom, int x, int step, bool fine
   return status;
 }
 
-/* Two neighbours in a square that differ, the one of lower index first. */
+/* Links two different neighbours in a square, the first one in reading order first. */
 static CeldStatus
 link_pair (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
 {

@@ -1,5 +1,5 @@
-/* The smallest cut of the graph of a region; and which end of it is nearer to the seeds that the region has: ways lead
- * from node to node and avoid ink.
+/* The minimum cut of a region's graph, and which end of it is nearer to the seeds of the region: by the shortest path
+ * from node to node, where ink counts as longer.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,10 +8,10 @@
 
 #include <math.h>
 
-#define INK_STEP  8                     /* times as long as a step on paper */
+#define INK_STEP  8                     /* length of a step through ink, in steps on paper (chosen) */
 #define HARD_TERMINAL ((int64_t) 1 << 48)
 
-/* The links by node: those of node k are link[first[k]] to link[first[k + 1] - 1]. */
+/* The links by node: those of node k are link[first[k]] .. link[first[k + 1] - 1]. */
 typedef struct { size_t *first, *link; uint32_t *queue; double *length; bool *queued; } Paths;
 
 static void
@@ -56,7 +56,7 @@ other_of (const CeldCutGraph *graph, size_t link, uint32_t k)
   return graph->link[link].a == k ? graph->link[link].b : graph->link[link].a;
 }
 
-/* What does not join the first end is lost. */
+/* Marks the nodes that are not connected to the first end. */
 static void
 mark_unreachable (CeldCutGraph *graph, Paths *paths)
 {
@@ -87,7 +87,7 @@ step_between (const CeldCutGraph *graph, size_t link)
   return hypot (x, y) * (a->ink || b->ink || !graph->uncertain[link] ? INK_STEP : 1);
 }
 
-/* The shortest way from each node to a seed: nodes wait in a ring until no way gets shorter. */
+/* Finds the shortest path from each node to a seed: nodes wait in a ring buffer until no path gets shorter. */
 static void
 find_shortest_paths (const CeldCutGraph *graph, Paths *paths)
 {
@@ -120,7 +120,7 @@ find_shortest_paths (const CeldCutGraph *graph, Paths *paths)
     }
 }
 
-/* How far end i is from the region's seeds. */
+/* The length of the path from end i to the region's seeds. */
 static double
 path_from (const CeldCutGraph *graph, const Paths *paths, int i)
 {
@@ -173,7 +173,7 @@ celd_cut_graph_find_kept_end (CeldCutGraph *graph, int *kept)
   return status;
 }
 
-/* ------------------------------------------------------------------ the smallest cut */
+/* ------------------------------------------------------------------ minimum cut */
 
 CeldStatus
 celd_cut_graph_solve (CeldCutGraph *graph, int kept, const CeldHost *host)

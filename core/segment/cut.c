@@ -1,15 +1,16 @@
-/* A region, cut between two points of it: the smallest sum of V of LazyBrush [SDC09b] over the border.
+/* A region, cut between two points of it: the smallest sum of the smoothness cost V_pq of LazyBrush [SDC09b] along the
+ * boundary.
  *
- * The cut is found on squares that are small beside the ends and larger the farther away they are, and then again and
- * again in a band along the last one, of squares a quarter as large, down to pixels (H. Lombaert et al., "A multilevel
- * banded graph cuts method for fast image segmentation", ICCV 2005; theirs has one size of squares in a pass).  What
- * this costs goes by the region's pixels once, for looking at the drawing, and else by the length of the cut.
+ * The minimum cut is found on squares that are small near the ends and larger the farther away they are, and then again
+ * and again in a band along the previous cut, on squares a quarter as large, down to pixels (H. Lombaert et al., "A
+ * multilevel banded graph cuts method for fast image segmentation", ICCV 2005; theirs has squares of one size in each
+ * pass).  The cost is one pass over the region's pixels to read the drawing, and otherwise the length of the cut.
  *
- * Of all smallest cuts it is the one nearest to the end that has more room: a limb reaches to where the body begins.
- * Seeds that the region has pull to the end that keeps its label.
+ * Of all minimum cuts the one nearest to the end with more clearance is taken: a limb reaches to where the body begins.
+ * Seeds of the region add data costs for the end that keeps its label.
  *
- * Where a narrow place parts the two ends, that is where the cut belongs, and the basins meet there already: the region is
- * cut between whole basins.  Blocks (basins.h) are what no narrow place parts: they stay whole.
+ * Where a narrow opening separates the two ends, the basins already meet where the cut should be, and the region is cut
+ * between whole basins.  Merged basins (basins.h), which have no narrow opening inside, stay whole.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,9 +24,9 @@
 #include <math.h>
 #include <string.h>
 
-#define PER_REACH 8                     /* squares on the way between the ends; those as far away are as large */
-#define FINER     4                     /* times, from one band to the next */
-#define GLUE ((int64_t) 1 << 44) /* what parting a block costs more: than any cut, less than moving an end */
+#define PER_REACH 8                     /* squares between the ends; those as far away are as large (chosen) */
+#define FINER     4                     /* ratio of the squares' sides in consecutive bands (chosen) */
+#define GLUE ((int64_t) 1 << 44) /* extra cost of cutting a merged basin: above any cut, below HARD_TERMINAL */
 
 /* ------------------------------------------------------------------ squares */
 
@@ -48,7 +49,7 @@ graph_new (const CeldCut *cut, CeldCutGraph *graph)
   return graph->kind && graph->stack && graph->recent && graph->size && graph->active ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* How far the interval from `a` to `b` is from one that starts at x and is a tile long. */
+/* The distance of the interval between a and b from the one of a tile that starts at x. */
 static int
 distance_to_tile (int a, int b, int x)
 {
@@ -77,7 +78,7 @@ set_sizes (CeldCutGraph *graph)
     }
 }
 
-/* ------------------------------------------------------------------ what pulls */
+/* ------------------------------------------------------------------ seeds and discs */
 
 static bool
 in_disc (const CeldSeedDiscs *discs, int x, int y)
@@ -131,9 +132,9 @@ add_seed_costs (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept
     node->terminal += (int64_t) (end - x) * (kept == 0 ? vote : -vote);
 }
 
-/* ------------------------------------------------------------------ one level */
+/* ------------------------------------------------------------------ one pass */
 
-/* Tells the pixels of each square by the side of their nodes; of lost nodes they are outside from now on. */
+/* Marks the pixels of a square by the side of their nodes; those of unreachable nodes become outside. */
 static CeldStatus
 label_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
@@ -155,7 +156,7 @@ label_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size
   return CELD_OK;
 }
 
-/* Takes back what is told of a node's square and those around it. */
+/* Reopens a node's square and those around it. */
 static void
 reactivate_around (CeldCutGraph *graph, const CeldCutNode *node)
 {
@@ -176,15 +177,15 @@ reactivate_around (CeldCutGraph *graph, const CeldCutNode *node)
       graph->active[y * graph->columns + x] = true;
 }
 
-/* Was something pulled to the other side than where it is? */
+/* Is a forced node on the wrong side? */
 static bool
 is_misplaced (const CeldCutNode *node)
 {
   return (node->forced[0] && node->side == CELD_NEAR_SECOND) || (node->forced[1] && node->side == CELD_NEAR_FIRST);
 }
 
-/* Opens a band along the cut where its squares are larger than pixels; false if they are not, anywhere.  In ink that
- * parts two basins the cut is in the middle of the line already. */
+/* Activates a band along the cut where its squares are larger than pixels; false if they are not, anywhere.  In ink
+ * between two basins the cut is in the middle of the line already. */
 static bool
 refine (CeldCutGraph *graph)
 {
@@ -299,7 +300,8 @@ add_boundaries (CeldCutGraph *graph)
   return CELD_OK;
 }
 
-/* Counts the region's seeds in row y of its basins, both runs from left to right, and notes where they are. */
+/* Counts the region's seeds in row y of its basins, and notes where they are; seeds and basins are runs from left to
+ * right. */
 static void
 count_seeds (CeldCutGraph *graph, int y, size_t *seeds)
 {
@@ -325,7 +327,7 @@ count_seeds (CeldCutGraph *graph, int y, size_t *seeds)
     }
 }
 
-/* Seeds pull to the end that is kept, but for those in the block of the other. */
+/* Adds the data costs of seeds for the end that is kept, except for those in the other end's merged basin. */
 static void
 terminal (CeldCutGraph *graph, const size_t *seeds, int kept)
 {

@@ -1,4 +1,4 @@
-/* Labels on a picture: only pixels whose label changes are written, and the rectangle of all changes is noted.
+/* Labels on a picture: only pixels whose label changes are written, and the bounding box of all changes is kept.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,7 +17,7 @@ celd_patch_add (CeldPatches *patches, CeldPatch patch)
 
   if (item && item->y == patch.y && item->end == patch.x && item->label == patch.label)
     {
-      item->end = patch.end; /* added pixel by pixel, they are one run all the same */
+      item->end = patch.end; /* extends the last patch */
       return CELD_OK;
     }
   item = celd_grow (patches->item, patches->n + 1, sizeof *item);
@@ -91,7 +91,7 @@ fill (uint32_t *row, int n, uint32_t label)
     row[i] = label;
 }
 
-/* The labels of the basins in pixels x .. end - 1 of row y. */
+/* Copies the basins' labels in pixels x .. end - 1 of row y to `row`. */
 static void
 read_basins (const CeldBasins *basins, const uint32_t *label, int y, int x, int end, uint32_t *row)
 {
@@ -106,7 +106,7 @@ read_basins (const CeldBasins *basins, const uint32_t *label, int y, int x, int 
     }
 }
 
-/* ------------------------------------------------------------------ a new picture */
+/* ------------------------------------------------------------------ a new labelling */
 
 static void
 paint_basins (CeldLabelling *labelling, const CeldBasins *basins, const uint32_t *old, CeldLabels *labels)
@@ -168,7 +168,7 @@ compare_patches (const void *a, const void *b)
   return p->x < q->x ? -1 : p->x > q->x;
 }
 
-/* Adds what differs from the basins' labels in pixels x .. end - 1 of row y. */
+/* Adds patches for pixels x .. end - 1 of row y that differ from their basins' labels. */
 static CeldStatus
 patch_row (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, int y, int x, int end,
            uint32_t *row, CeldPatches *patches)
@@ -186,7 +186,7 @@ patch_row (const CeldLabelling *labelling, const CeldBasins *basins, const CeldL
   return status;
 }
 
-/* What was painted over the basins' labels, in whatever order, as patches in reading order without a pixel twice. */
+/* Replaces patches painted in any order by patches in reading order without overlaps. */
 static CeldStatus
 tidy_patches (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, uint32_t *row)
 {
@@ -215,7 +215,7 @@ tidy_patches (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabe
   return CELD_OK;
 }
 
-/* Notes where pixels under old patches have another label now. */
+/* Adds to `changed` the pixels under old patches that have another label now. */
 static void
 compare_old (CeldLabelling *labelling, const CeldPatches *old, const CeldLabels *labels)
 {
@@ -232,7 +232,7 @@ compare_old (CeldLabelling *labelling, const CeldPatches *old, const CeldLabels 
     }
 }
 
-/* Notes which pixels of patches had another label before, as basins or as old patches. */
+/* Adds to `changed` the pixels of patches that had another label before, by basins or old patches. */
 static void
 compare_new (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old, uint32_t *row)
 {
@@ -299,12 +299,12 @@ celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, cons
   return status;
 }
 
-/* ------------------------------------------------------------------ what is known of the labels */
+/* ------------------------------------------------------------------ measures of the labels */
 
 /* How good a label's place is so far. */
 typedef struct { int32_t squared; int length; } Place;
 
-/* The maximum of a basin is as far from ink as a pixel of the basin can be. */
+/* The maximum of a basin is its pixel farthest from ink. */
 static void
 place_basins (const CeldBasins *basins, const CeldLabels *labels, Place *place, CeldPalette *palette)
 {
@@ -322,7 +322,7 @@ place_basins (const CeldBasins *basins, const CeldLabels *labels, Place *place, 
     }
 }
 
-/* Labels without a maximum: the middle of their longest patch. */
+/* For labels without a maximum: the middle of their longest patch. */
 static void
 place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
 {
@@ -340,7 +340,7 @@ place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
     }
 }
 
-/* Labels whose every maximum is under a patch: their first pixel. */
+/* For labels whose maxima are all under patches: their first pixel. */
 static void
 place_rest (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels, CeldPalette *palette)
 {

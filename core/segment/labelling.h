@@ -1,4 +1,4 @@
-/* What a segmenter has painted: the labels of the basins, and patches over them.
+/* A labelling: the labels of the basins, and patches that lie over them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,22 +15,24 @@ void       celd_patches_clear (CeldPatches *patches);             /* accepts a z
 
 typedef struct
 {
-  uint32_t   *label;    /* of each basin; 0: not painted yet */
+  uint32_t   *label;    /* of each basin; 0: unknown, to be painted */
   CeldPatches patches;  /* in reading order */
-  CeldRect    changed;  /* where the picture differs from the last one that was seen */
+  CeldRect    changed;  /* bounding box of all changes not reported so far */
 } CeldLabelling;
 
 void celd_labelling_clear (CeldLabelling *labelling);               /* accepts a zeroed record */
 
-/* Nothing is painted any more, for the basins of a new drawing; `changed` stays. */
+/* Prepares for the basins of a new drawing: nothing counts as painted. `changed` is kept. */
 CeldStatus celd_labelling_reset (CeldLabelling *labelling, const CeldBasins *basins);
 
-/* After a failure in the middle of a picture: nobody knows what is painted where, and everything counts as changed. */
+/* Call it after a failure between begin and end: the picture's content is unknown then, and all of it counts as
+ * changed. */
 void celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basins);
 
-/* A new picture in three steps, over the old one in `labels`.  Begin: the basins take their labels, old patches go;
- * `label` is the painting's from now on, and what was painted before is handed over in *old.  Add: patches, one over
- * the other.  End: tidies the patches and notes what differs from *old.  After a failure the picture is lost. */
+/* A new labelling is painted over the old one, in `labels`, in three steps. Begin: paints the basins and removes old
+ * patches; takes ownership of `label`, and moves the old labelling to *old, which the caller clears. Add: paints
+ * patches, one over the other. End: sorts the patches and adds to `changed` what differs from *old. After a failure
+ * call celd_labelling_invalidate. */
 void       celd_labelling_begin (CeldLabelling *labelling, const CeldBasins *basins, uint32_t *label,
                                  CeldLabels *labels,
                                  CeldLabelling *old);
@@ -38,11 +40,13 @@ CeldStatus celd_labelling_add   (CeldLabelling *labelling, const CeldPatches *pa
 CeldStatus celd_labelling_end   (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old,
                                  const CeldLabels *labels);
 
-/* Copies a whole picture over the old one, and notes what differs; no basin counts as painted then. */
+/* Copies a whole picture over the old one, and adds what differs to `changed`; no basin counts as painted afterwards.
+ */
 CeldStatus celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *from,
                                    CeldLabels *labels);
 
-/* Area of each label, and a pixel of it as far from ink as can be; -1,-1 for labels without a pixel. */
+/* Fills in the area of each label, and its pixel farthest from ink, as well as that is known from maxima; -1,-1 for
+ * labels without a pixel. */
 CeldStatus celd_labelling_measure (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels,
                                    CeldPalette *palette);
 

@@ -1,11 +1,12 @@
-/* The ink at the end of a white border: does a line end there, where exactly, and where would it go on?
+/* Fits the line that ends where a boundary meets ink: does a line end there, where exactly, and in which direction
+ * would it go on?
  *
- * The ink that is connected to the pixel where the border lands is gathered by distance.  Its principal axis gives a
- * frame; the middle of a line is fitted in it as a parabola through all pixels.  It is a line end if the ink is longer
- * than wide, as even in width as a line is, and if the border lands near one end of it: on the side of a line ink goes
- * on both ways.  Where four stroke widths are too much, as in a hook or near a fork, two may do.
+ * The ink connected to the pixel that the boundary meets is gathered by distance.  Its principal axis is the coordinate
+ * system in which the middle of the line is fitted as a parabola through all pixels.  It is a line end if the ink is
+ * longer than wide, as even in width as a line is, and if the boundary meets it near one end: along the side of a line,
+ * ink continues both ways.  Where four stroke widths are too far, as in a hook or near a fork, two may do.
  *
- * Of thick strokes only every second, third ... pixel both ways is looked at.
+ * Of thick strokes only every second, third ... pixel both ways is sampled.
  *
  * Cost: some hundred pixels of ink.
  *
@@ -17,15 +18,17 @@
 #include <math.h>
 #include <string.h>
 
-#define RADIUS         4         /* stroke widths */
-#define LEAST_RADIUS   16        /* pixels; shorter ends say nothing about directions */
+#define RADIUS         4         /* stroke widths (chosen, as all of these) */
+#define LEAST_RADIUS   16        /* pixels: shorter ends have no reliable direction */
 #define FINE          7         /* pixels across a stroke are enough */
-#define LEAST_LENGTH  1.5       /* of a line end, in its own widths */
-#define SHORTEST      6         /* pixels: dots and specks point nowhere */
-#define MOST_UNEVEN   0.33        /* widths; across a straight line pixels deviate by 1 / sqrt 12 */
-#define MOST_ASLANT   1.5         /* widths between a tip and where the border lands */
-#define LAG           0.25        /* of the length: right at its end a parabola is least certain of its direction */
-#define CUT_OFF       0.15        /* of the length */
+#define LEAST_LENGTH  1.5       /* line widths: length of a line end, at least */
+#define SHORTEST      6         /* pixels: dots and specks have no direction */
+#define MOST_UNEVEN   0.33        /* widths: standard deviation from the middle; across a straight line it is 1 / sqrt
+                                   * 12 */
+#define MOST_ASLANT   1.5         /* line widths between a tip and where the boundary meets the ink */
+#define LAG           0.25        /* of the length: the direction is taken so far behind the end, where a parabola is
+                                   * more certain */
+#define CUT_OFF       0.15        /* of the length: left out at the far side, which the radius cuts off aslant */
 
 CeldStatus
 celd_line_end_new (int stroke, CeldLineEnd *end)
@@ -59,7 +62,7 @@ celd_line_end_clear (CeldLineEnd *end)
 
 /* ------------------------------------------------------------------ connected ink */
 
-/* How many steps from the middle, which is pixel 0, a pixel is; rounded. */
+/* The number of sampling steps from the middle pixel, rounded. */
 static int
 steps (const CeldLineEnd *end, int pixel)
 {
@@ -68,7 +71,7 @@ steps (const CeldLineEnd *end, int pixel)
   return from < 0 ? -((end->step - 1 - from) / end->step) : from / end->step;
 }
 
-/* The place of (u,v) in the square; NULL outside. */
+/* The entry of (u,v) in the square; NULL outside. */
 static uint8_t *
 place_of (const CeldLineEnd *end, int u, int v)
 {
@@ -119,8 +122,8 @@ add_pixel (const CeldPlane *ink, int u, int v, size_t from, CeldLineEnd *end)
 /* The first n pixels of the list; those from `rim` on are the farthest. */
 typedef struct { size_t rim, n; } Part;
 
-/* Goes to 4 and to 8 neighbours in turn: distances grow nearly alike in all directions.  *near is what is within half
- * the reach. */
+/* Gathers connected ink by steps to 4 and 8 neighbours in turn, which approximates circles.  *near is what lies within
+ * half the radius. */
 static void
 gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end, Part *near, Part *far)
 {
@@ -171,7 +174,7 @@ middle (const Line *line, double u)
   return line->a + (line->b + line->c * u) * u;
 }
 
-/* Centre and principal axis of the first n pixels, towards the landing. */
+/* Finds centre and principal axis of the first n pixels; the axis points to where the boundary meets them. */
 static void
 find_axis (const CeldLineEnd *end, size_t n, Line *line)
 {
@@ -201,14 +204,14 @@ find_axis (const CeldLineEnd *end, size_t n, Line *line)
   line->along_y = -line->along_y;
 }
 
-/* The pixels at the far side, where the reach cuts the line off aslant, say nothing about its middle. */
+/* Does a pixel count for the middle of the line?  Those at the far side, cut off aslant, do not. */
 static bool
 counts (const Line *line, double u)
 {
   return u >= line->least + CUT_OFF * (line->most - line->least);
 }
 
-/* Least squares over all pixels that count: the normal equations of a parabola by Cramer's rule. */
+/* Fits a parabola by least squares over all pixels that count: the normal equations by Cramer's rule. */
 static void
 fit_middle (const CeldLineEnd *end, size_t n, Line *line)
 {
@@ -261,7 +264,7 @@ is_line_end (const CeldLineEnd *end, Part part, const Line *line)
 
   for (size_t i = part.rim; i < part.n; i++)
     if (along (line, end->pixel[i].x + 0.5, end->pixel[i].y + 0.5) > landing)
-      return false; /* the ink goes on there */
+      return false; /* the ink continues there */
   return line->most - line->least + end->step >= fmax (LEAST_LENGTH * line->width, SHORTEST) &&
          line->most - landing <= MOST_ASLANT * line->width + 1.5 * end->step &&
          line->uneven <= MOST_UNEVEN * line->width + 0.3 * end->step;
@@ -285,7 +288,7 @@ is_member (const CeldPlane *ink, const CeldLineEnd *end, CeldPlace place)
          celd_line_end_contains (end, x, y);
 }
 
-/* Where the middle of the line comes out of the ink; a line that was rubbed out may end hollow. */
+/* Finds where the middle of the line leaves the ink; a line that was rubbed out may have a hollow end. */
 static void
 find_tip (const CeldPlane *ink, const Line *line, CeldLineEnd *end)
 {
@@ -311,7 +314,7 @@ find_direction (const Line *line, CeldLineEnd *end)
   end->dy = (line->along_y + slope * line->along_x) / length;
 }
 
-/* What is near says best where the tip is, and what is farther away, where the line is heading. */
+/* The nearer ink determines the tip best, the farther ink the direction. */
 void
 celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 {
@@ -366,8 +369,8 @@ celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place)
   return nearest;
 }
 
-/* The ink that a border from the other end should go to.  A way of length l that turns off by the angle a from where a
- * line is heading counts l (1 + 2 (1 - cos a)): straight on, if the shortest way is not less than half as long. */
+/* The ink that a boundary from the other end should go to.  A path of length l that turns by the angle a from a line's
+ * direction costs l (1 + 2 (1 - cos a)): it goes straight on unless the shortest path is less than half as long. */
 static CeldPlace
 aimed_place (const CeldLineEnd *from, const CeldLineEnd *end)
 {
@@ -395,7 +398,7 @@ celd_line_end_aim (const CeldPlane *ink, const CeldLineEnd *from, CeldLineEnd *e
   double    x = length > 0 ? (place.x - from->at.x) / length : 0, y = length > 0 ? (place.y - from->at.y) / length : 0;
 
   end->at = end->inside = place;
-  for (double t = 0; t < length; t += 0.25) /* the edge of that ink */
+  for (double t = 0; t < length; t += 0.25) /* find the edge of that ink */
     {
       place = (CeldPlace) { from->at.x + t * x, from->at.y + t * y };
       if (!is_member (ink, end, place))

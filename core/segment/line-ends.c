@@ -1,10 +1,10 @@
-/* The free ends of a drawing's lines.
+/* Finds the free ends of a drawing's lines.
  *
- * The outline of all ink is followed, ink on the right, diagonal neighbours connected.  At the end of a line the
- * outline turns back: two places a few stroke widths before and behind are close to each other, with ink between.  What
- * is left of such places is looked at as closures look at what they end at (closure-ends.c).
+ * The outlines of all ink are followed, ink on the right, diagonal neighbours connected.  At the end of a line the
+ * outline turns back: two places a few stroke widths before and after are close to each other, with ink between.  Such
+ * places are then examined like the ends of closures (line-end-fit.c).
  *
- * Cost: one pass over the picture, and the length of the outlines; a byte a pixel for a while.
+ * Cost: one pass over the picture, and the length of the outlines; temporarily a byte a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,31 +16,31 @@
 
 #define ARM      1.25           /* stroke widths along the outline to either side */
 #define SHORTEST 6              /* pixels of such an arm, at least */
-#define SCALES   3              /* arms are tried at, each twice as long as the one before */
-#define SHARP    0.6            /* how close both arms end, to how long they are: a right angle has 0.71 */
-#define CERTAIN  0.42           /* the same of a line that is not seen to be one */
-#define SAME     0.75           /* widths of the line: ends as close as this are one */
-#define CELL     16             /* pixels: side of the cells in which known ends are looked up */
+#define SCALES   3              /* lengths of arms that are tried, each twice the one before */
+#define SHARP    0.6            /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
+#define CERTAIN  0.42           /* the largest such value for a line whose direction cannot be fitted */
+#define SAME     0.75           /* line widths: ends closer than this are the same */
+#define CELL     16             /* pixels: side of the cells in which found ends are looked up */
 
 #define NONE UINT32_MAX
 
-#define INKED 1                 /* of a pixel */
+#define INKED 1                 /* a pixel of ink */
 #define SEEN  2                 /* its upper edge has been followed */
 
 typedef struct
 {
   const CeldPlane *ink;
   int              stroke, width, height;
-  uint8_t         *mask;        /* with a margin of a pixel, and of 8 at the right */
+  uint8_t         *mask;        /* INKED or SEEN; with a margin of a pixel, and of 8 at the right */
   size_t           stride;
-  CeldCorner      *corner;      /* of the outline that is followed */
+  CeldCorner      *corner;      /* of the current outline */
   size_t           n;
   uint32_t         outline;     /* its number */
   CeldLineEnd      end;
   CeldTip         *tip;
-  uint32_t        *before;      /* of tip k: the one before it in its cell; NONE */
+  uint32_t        *before;      /* of tip k: the one before it in its cell, or NONE */
   size_t           n_tips;
-  uint32_t        *latest;      /* by cells: the last tip there; NONE */
+  uint32_t        *latest;      /* of each cell: the last tip found there, or NONE */
   int              columns, rows;
 } Search;
 
@@ -84,12 +84,12 @@ mask_at (const Search *s, int x, int y)
   return s->mask + (size_t) (y + 1) * s->stride + (size_t) (x + 1);
 }
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner: the pixels ahead, left and right. */
+/* Headings: 0 right, 1 down, 2 left, 3 up.  The pixels ahead of a corner, to the left and to the right: */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
 
-/* Follows the outline that has the upper edge of the pixel (x,y). */
+/* Follows the outline along the upper edge of pixel (x,y). */
 static CeldStatus
 follow (Search *s, int x, int y)
 {
@@ -120,7 +120,7 @@ follow (Search *s, int x, int y)
 
 /* ------------------------------------------------------------------ where outlines turn back */
 
-/* How close the ends of both arms at corner i are, to their length; and the middle between them. */
+/* The distance of both arms' ends at corner i relative to the arms' lengths; *middle is between them. */
 static double
 sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
 {
@@ -131,7 +131,7 @@ sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
   return length > 0 ? hypot (a.x - b.x, a.y - b.y) / length : 1;
 }
 
-/* The column or row of cells in which a coordinate is; the nearest one if it is off the picture. */
+/* The column or row of cells of a coordinate, clamped to the picture. */
 static int
 cell_along (double at, int n)
 {
@@ -146,7 +146,7 @@ latest_at (const Search *s, CeldTip tip)
   return &s->latest[row * (size_t) s->columns + column];
 }
 
-/* Has this end been found, at another scale?  The one on the other side of a narrow gap points the other way. */
+/* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction. */
 static bool
 is_known (const Search *s, CeldTip end, double width)
 {
@@ -181,12 +181,13 @@ add_tip (Search *s, CeldTip end)
   return CELD_OK;
 }
 
-/* Adds the corner if a line ends there.  A tip as sharp as CERTAIN is one even if the line is too short or too bent to
- * tell its direction. */
+/* Adds the corner if a line ends there.  A very sharp tip (CERTAIN) counts even if its line is too short or too curved
+ * to fit a direction. */
 static CeldStatus
 try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
 {
-  double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* of the line, about */
+  double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* estimated width of
+                                                                                                 * the line */
   CeldCorner inside;
   CeldTip    end;
 
@@ -207,7 +208,7 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
   return add_tip (s, end);
 }
 
-/* Corners of the outline that are sharper than all within an arm's length. */
+/* Examines the sharpest corner of each turn of the outline. */
 static CeldStatus
 search_outline (Search *s, size_t arm)
 {
@@ -224,7 +225,7 @@ search_outline (Search *s, size_t arm)
 
       if (least > SHARP)
         continue;
-      for (; i < s->n; i += step) /* the whole turn */
+      for (; i < s->n; i += step) /* to the end of the turn */
         {
           double sharp = sharpness (s, i, arm, &other);
 
@@ -276,7 +277,8 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
 
           memcpy (&here, row + x, 8);
           memcpy (&over, above + x, 8);
-          edges = here & ~over & 0x0101010101010101u; /* SEEN is looked at below: following may set it on the way */
+          edges = here & ~over & 0x0101010101010101u; /* candidates; SEEN may be set while following, so it is tested
+                                                       * below */
           for (int k = 0; k < 8 && edges && status == CELD_OK; k++)
             if (row[x + k] == INKED && !above[x + k])
               status = search_from (&s, x + k, y);

@@ -1,6 +1,7 @@
-/* What the artist should know of a segmentation: strokes overruled, regions that no stroke reaches, colours lost.
+/* What the artist should know about a segmentation: strokes overruled, regions that no stroke reaches, labels that got
+ * no pixel.
  *
- * All of it is told from the seeds, the basins and what was painted over them, without a look at most of the pixels.
+ * All of it follows from the seeds, the basins and the labelling; hardly any pixels are read.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,17 +10,17 @@
 #include "segment/labelling.h"
 #include "segment/task.h"
 
-#define SMALLEST_SHARE 2000 /* regions below 1/2000 of the picture are not worth a word */
-#define SMALLEST_WIDTH 3    /* nor are those below the square of so many stroke widths */
-#define SCRAP          8    /* nor 1/8 of a colour's paint, which another stroke has cut off */
+#define SMALLEST_SHARE 2000 /* regions below 1/2000 of the picture are not reported (chosen) */
+#define SMALLEST_WIDTH 3    /* nor those below the square of so many stroke widths */
+#define SCRAP          8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off */
 
-/* How a connected stroke fared.  `other` is the label that most of its overruled pixels have, found by majority vote:
- * `lead` is how far it leads.  (x,y): the middle of the longest row of overruled pixels. */
+/* The outcome of a connected stroke.  `other` is the label that most of its overruled pixels have, found by majority
+ * vote with the margin `lead`. (x,y): the middle of the longest run of overruled pixels. */
 typedef struct { uint32_t label, other; size_t area, overruled, lead; int longest, x, y; } StrokeOutcome;
 
 /* ------------------------------------------------------------------ strokes */
 
-/* Pixels x .. end - 1 of row y, painted by a stroke, all have the label `other`. */
+/* Counts pixels x .. end - 1 of row y, painted by a stroke but labelled `other`. */
 static void
 count_overruled (StrokeOutcome *outcome, uint32_t other, int y, int x, int end)
 {
@@ -57,7 +58,7 @@ follow_pixels (const CeldStrokePiece *piece, const CeldLabels *labels, StrokeOut
     }
 }
 
-/* Where no patch lies over it, a dab has the label of its basin. */
+/* A piece has the label of its basin, unless a patch lies over it. */
 static void
 follow_strokes (const CeldStrokes *strokes, const CeldLabelling *labelling, const CeldLabels *labels,
                 StrokeOutcome *outcome)
@@ -81,7 +82,7 @@ follow_strokes (const CeldStrokes *strokes, const CeldLabelling *labelling, cons
     }
 }
 
-/* Seeds of arrows are nobody's strokes. */
+/* Is this the label of a stroke, rather than of an arrow? */
 static bool
 is_painted (const CeldSegmentTask *task, uint32_t label)
 {
@@ -131,8 +132,8 @@ report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblem
 
 /* ------------------------------------------------------------------ regions */
 
-/* A closed piece of paper that may be worth a word.  `area`: of its basins, with ink; 0 if it is not.  `missing`: the
- * paper that is yet to be found to make it so.  `basin`: the roomiest, from 1. */
+/* A component without seeds.  `area`: of its basins, ink included; 0: not worth reporting.  `missing`: paper still to
+ * be found for it to be.  `basin`: the basin farthest from ink, from 1. */
 typedef struct { size_t area, missing, basin; } PaperComponent;
 
 static void
@@ -148,7 +149,7 @@ gather_components (const CeldBasins *b, PaperComponent *component)
     }
 }
 
-/* Keeps pieces of a sensible size without a seed on them; returns how many.  Pieces, not rooms: a stroke reaches
+/* Selects components of sufficient size without seeds, and returns their number.  Not enclosures, as a stroke reaches
  * through a gap. */
 static size_t
 choose_components (const CeldBasins *b, const CeldStrokes *strokes, PaperComponent *component)
@@ -171,7 +172,7 @@ choose_components (const CeldBasins *b, const CeldStrokes *strokes, PaperCompone
   return n;
 }
 
-/* Looks for the paper of `n` pieces until it is enough. */
+/* Counts the paper of n components until each has enough. */
 static void
 find_paper (const CeldBasins *b, size_t n, PaperComponent *component)
 {

@@ -1,9 +1,9 @@
-/* Borders of least energy.  Those of the basins follow the middle of lines and the shortest way across a gap; the
- * energy of LazyBrush [SDC09b] (section 3.2) counts edges between pixels, and is often a little lower beside them.
+/* Boundaries of lower energy.  Those of the basins follow the middle of lines and the shortest path across a gap; the
+ * energy of LazyBrush [SDC09b] (section 3.2), a sum over pairs of pixels, is often slightly lower beside them.
  *
- * A run is a straight piece of a border, as long as the same two labels lie on its sides.  It is moved by a pixel to
- * the side where it costs less, votes of strokes included, until no run of the picture gains.  Across paper, where an
- * edge costs a thousand times as much as in a line, borders are then cut anew in windows (settle-gaps.c).
+ * A segment is a straight piece of a boundary along which the labels on its sides are the same.  It is moved by a pixel
+ * to the side where the energy is lower, data costs included, until no segment of the picture gains.  Across paper,
+ * where an edge costs a thousand times as much as in a line, boundaries are then cut again in windows (refine-gaps.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,16 +16,16 @@
 
 #include <stdlib.h>
 
-#define DISOBEYED (INT64_C (1) << 50)  /* what it costs to disobey a hard stroke */
+#define DISOBEYED (INT64_C (1) << 50)  /* cost of another label on a hard seed */
 
-/* The first edge of a run: between (x,y) and the pixel below, the run going to the right; or between (x,y) and the
- * pixel to the right, the run going down. */
+/* The first edge of a segment: between (x,y) and the pixel below, the segment going right; or between (x,y) and the
+ * pixel to the right, the segment going down. */
 typedef struct { int x, y; bool south; } Edge;
 typedef struct { Edge *item; size_t n; } Edges;
 
 /* ------------------------------------------------------------------ pixels */
 
-/* What a pixel with this label costs: its borders, and its stroke. */
+/* The energy of a pixel with this label: its edges, and its seed. */
 static int64_t
 cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
 {
@@ -50,7 +50,7 @@ cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
   return cost;
 }
 
-/* ------------------------------------------------------------------ runs */
+/* ------------------------------------------------------------------ segments */
 
 static bool
 is_edge (const CeldLabels *l, int x, int y, bool south)
@@ -59,7 +59,7 @@ is_edge (const CeldLabels *l, int x, int y, bool south)
          CELD_AT (l, x, y) != CELD_AT (l, x + !south, y + south);
 }
 
-/* Do two edges of the same direction belong to one run, if they are neighbours? */
+/* Do two neighbouring edges of the same direction belong to one segment? */
 static bool
 same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
 {
@@ -67,7 +67,7 @@ same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
          CELD_AT (l, x + !south, y + south) == CELD_AT (l, x2 + !south, y2 + south);
 }
 
-/* Notes the run that an edge is part of, unless it is the one noted last. */
+/* Appends the segment that an edge is part of, unless it is the last one appended. */
 static CeldStatus
 note (const CeldLabels *l, int x, int y, bool south, Edges *edges)
 {
@@ -112,7 +112,7 @@ find_segments (const CeldLabels *l, Edges *edges)
   return status;
 }
 
-/* The n pixels from (x,y) on take a label, if that costs less. */
+/* Gives the n pixels from (x,y) on to a label, if that lowers the energy. */
 static CeldStatus
 move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
 {
@@ -140,7 +140,7 @@ move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label
   return status;
 }
 
-/* The runs that touch pixels which have moved. */
+/* Appends the segments that touch pixels which have changed. */
 static CeldStatus
 note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
 {
@@ -163,7 +163,7 @@ note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
   return status;
 }
 
-/* Moves a run to one side or the other. */
+/* Moves a segment to one side or the other. */
 static CeldStatus
 try_segment (CeldBoundaryRefinement *s, Edge edge, Edges *next)
 {
@@ -210,9 +210,9 @@ refine_segments (CeldBoundaryRefinement *s)
   return status;
 }
 
-/* ------------------------------------------------------------------ paint */
+/* ------------------------------------------------------------------ seeds */
 
-/* Paint on lines: there a border round a single pixel costs less than the stroke that it disobeys. */
+/* On lines a boundary round a single seed may cost less than the seed's data cost. */
 static CeldStatus
 refine_seeds (CeldBoundaryRefinement *s)
 {
@@ -245,7 +245,7 @@ compare_pixels (const void *a, const void *b)
   return p < q ? -1 : p > q;
 }
 
-/* What has changed, as patches. */
+/* Appends the changed pixels as patches. */
 static CeldStatus
 list_changes (CeldBoundaryRefinement *s, CeldPatches *patches)
 {

@@ -1,5 +1,5 @@
-/* Where a border runs across paper, the LazyBrush energy [SDC09b] is solved on pixels: in a window that has room for
- * the ends of the lines on both sides, with everything outside as it is.  An answer is taken if its energy is lower.
+/* Where a boundary crosses paper, the LazyBrush energy [SDC09b] is minimised on pixels: in a window that has room for
+ * the line ends on both sides, with everything outside fixed.  A result is accepted if its energy is lower.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,14 +10,14 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#define NEAR    3               /* pixels between borders across paper that share a window */
-#define MARGIN  6               /* pixels round a gap, besides the width of strokes and half the gap */
-#define LARGEST (1 << 18)       /* pixels of a window: what is larger is no gap */
+#define NEAR    3               /* pixels between boundaries across paper that share a window (chosen) */
+#define MARGIN  6               /* pixels round a gap, besides a stroke width and half the gap (chosen) */
+#define LARGEST (1 << 18)       /* pixels of a window: larger ones are no gaps (chosen) */
 
 typedef struct { int left, top, right, bottom; } Box;  /* inclusive */
 typedef struct { Box *item; size_t n; } Boxes;
 
-/* A window as a graph: a node a pixel, what lies outside as votes. */
+/* A window as a graph: a node per pixel; neighbours outside become data costs. */
 typedef struct
 {
   Box       box;
@@ -25,7 +25,7 @@ typedef struct
   CeldLink *link;
   CeldVote *vote;
   uint32_t *fixed, *present, *label;
-  uint32_t *global, *local;     /* labels of the picture by those of the window, from 0; and back, from 1 */
+  uint32_t *global, *local;     /* label of the picture by number in the window, from 0; and the inverse, from 1 */
   uint32_t *order;
   size_t    n_labels;
 } Window;
@@ -71,7 +71,7 @@ celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t lab
 
 /* ------------------------------------------------------------------ gaps */
 
-/* Adds a pixel to a box that is near, or makes one. */
+/* Adds a pixel to a box nearby, or to a new one. */
 static CeldStatus
 note_gap (int x, int y, Boxes *boxes)
 {
@@ -94,7 +94,7 @@ note_gap (int x, int y, Boxes *boxes)
   return CELD_OK;
 }
 
-/* Is the edge a border across paper? */
+/* Is the edge a boundary across paper? */
 static bool
 is_gap (const CeldBoundaryRefinement *s, int x, int y, bool south)
 {
@@ -226,7 +226,7 @@ window_clear (Window *window)
 
 /* ------------------------------------------------------------------ the cuts */
 
-/* Labels are told apart in the order of the whole picture. */
+/* Labels are cut in the order of the whole picture. */
 static CeldStatus
 order_labels (const CeldBoundaryRefinement *s, Window *window)
 {

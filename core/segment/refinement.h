@@ -1,4 +1,4 @@
-/* What the two files that settle borders share.
+/* What the two files that refine boundaries share: the energy of a labelling at single pixels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,18 +12,18 @@ typedef struct
   const CeldSegmentTask *task;
   const CeldHost        *host;
   CeldLabels            *labels;
-  int32_t               *to_paper; /* of each pixel: its squared distance to paper */
-  uint32_t              *changed;  /* pixels whose label was changed, any number of times */
+  int32_t               *to_paper; /* of each pixel: squared distance to paper */
+  uint32_t              *changed;  /* indices of changed pixels, in any order and number */
   size_t                 n_changed;
 } CeldBoundaryRefinement;
 
-/* settle-gaps.c: V between (x,y) and the pixel below, or to the right. */
+/* refine-gaps.c: V_pq of (x,y) and the pixel below (south) or to the right. */
 int32_t celd_refinement_cost (const CeldBoundaryRefinement *s, int x, int y, bool south);
 
-/* Gives a pixel another label. */
+/* Sets the label of a pixel and notes the change. */
 CeldStatus celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t label);
 
-/* Borders across paper, solved on pixels in windows round them. */
+/* Solves boundaries across paper on pixels, in windows round them. */
 CeldStatus celd_refine_gaps (CeldBoundaryRefinement *s);
 
 #endif

@@ -14,30 +14,34 @@ typedef struct CeldSegmenter CeldSegmenter;
 CeldSegmenter *celd_segmenter_new (void);                       /* NULL: no memory */
 void           celd_segmenter_free (CeldSegmenter *segmenter);  /* accepts NULL */
 
-/* The drawing: line art that the caller keeps as it is until the next call of this function.  `changed`: where it
- * differs from the last one of the same size; NULL: everywhere.  Of the settings ink_threshold and close_gaps matter:
- * these must be the same when solving. */
+/* Sets the drawing: line art (paper 1, ink 0) that the caller must keep unchanged until the next call of this function.
+ * `changed` is where it differs from the previous drawing of the same size; NULL: everywhere. Of the settings,
+ * ink_threshold and close_gaps count, and must be the same in celd_segmenter_solve. After a failure the segmenter has
+ * no drawing: the next call starts from the beginning whatever `changed` says. CELD_NO_MEMORY, CELD_CANCELLED,
+ * CELD_BAD_SIZE. */
 CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
                                    const CeldSettings *settings, const CeldHost *host);
 
-/* Labels for these seeds.  `palette`: in, that of the seeds; out, with the regions that arrows made and the background
- * behind them.  `labels` is tight, the caller's, and as this function left it after the last call for this drawing
- * (anything the first time); *changed is where it differs from that.  Problems are appended.  The result does not
- * depend on earlier calls. */
+/* Labels the drawing by these seeds (LazyBrush, section 3.2). `palette`: in, that of the seeds; out, with the regions
+ * that arrows made and the background behind them. `labels` is a tight picture of the drawing's size, the caller's,
+ * unchanged since the last call for this drawing (of any content the first time); *changed is where the call altered
+ * it. Problems are appended; NULL: not wanted. The result depends on the drawing, the seeds, the relations and the
+ * settings only, not on earlier calls. CELD_NOTHING_TO_GO_BY if there is no seed. After a failure the palette and the
+ * problems are as before. */
 CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
                                  const CeldSettings *settings, const CeldHost *host, CeldPalette *palette,
                                  CeldProblems *problems, CeldLabels *labels, CeldRect *changed);
 
-/* How many of the last solve's relations, from the first on, it takes for its answer: those behind changed nothing. */
+/* The number of relations, counted from the first, that the last solve depends on: those after them changed nothing. */
 size_t celd_segmenter_effective_relations (const CeldSegmenter *segmenter);
 
-/* Would this relation, behind those, change nothing either?  `settings` and `labels` are those of the last solve.
- * False also where that cannot be told without solving. */
+/* Would this relation, added after those of the last solve, change nothing? `settings` and `labels` are those of the
+ * last solve. Also false where that is not known without solving. */
 bool celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation,
                                   const CeldSettings *settings,
                                   const CeldLabels *labels);
 
-/* The gaps that the last solve closed; borrowed. */
+/* The gaps that the last solve closed; borrowed, and valid until the next solve. */
 const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);
 
 #endif

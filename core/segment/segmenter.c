@@ -1,7 +1,8 @@
-/* The segmentation of one drawing, kept between strokes: the basin graph is built once, every stroke is answered on it,
+/* The segmentation of one drawing, kept between strokes: the basin graph is built once, every stroke is solved on it,
  * and only pixels whose label changes are painted.
  *
- * An answer depends on the drawing and the seeds alone; what is remembered of the last one is only what is painted.
+ * The result depends on the drawing, the seeds, the relations and the settings alone; all that is remembered of the
+ * last one is what is painted.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,15 +19,15 @@ struct CeldSegmenter
 {
   CeldPlane     ink;               /* borrowed */
   CeldBridges   bridges;
-  uint32_t     *bridged_component; /* of each basin: its piece, parted by bridges; NULL without any */
+  uint32_t     *bridged_component; /* of each basin: its component with bridges as lines; NULL: no bridges */
   CeldBasins    basins;
-  float         threshold;         /* that the basins were made with, */
-  bool          bridged;           /* and whether over bridges */
+  float         threshold;         /* ink_threshold of the basins */
+  bool          bridged;           /* were they made with bridges? */
   CeldLabelling labelling;
-  CeldStrokes   strokes;           /* of the last answer's seeds */
+  CeldStrokes   strokes;           /* of the last solve's seeds */
   CeldClosures  closures;
-  CeldPatches   redrawn;           /* what closing gaps and settling borders have changed of the last answer */
-  bool         *seeded;            /* of the last answer, as in CeldSegmentTask; NULL: none that arrows could plant for */
+  CeldPatches   redrawn;           /* pixels changed by closing gaps or refining boundaries in the last solve */
+  bool         *seeded;            /* of the last solve, as in CeldSegmentTask; NULL: without arrows */
   size_t        n_effective;
 };
 
@@ -91,7 +92,7 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
       s->bridged   = settings->close_gaps;
     }
   else
-    s->basins.width = 0; /* what is left is of no drawing: the next one starts anew */
+    s->basins.width = 0; /* invalid: the next drawing starts from the beginning */
   return status;
 }
 
@@ -106,13 +107,13 @@ has_seeds (const CeldSeedRows *seeds)
   return false;
 }
 
-/* What arrows, the background and common sense make of the artist's seeds. */
+/* Adds the seeds of arrows and of the background to those of the artist, and removes spills. */
 static CeldStatus
 prepare_seeds (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task)
 {
   CeldStatus status;
 
-  celd_task_set_soft_cost (task); /* before anything else adds seeds */
+  celd_task_set_soft_cost (task); /* needs the artist's seeds alone */
   status = relations ? celd_arrow_seeds_add (relations, host, task) : CELD_OK;
   if (status == CELD_OK && !has_seeds (&task->seeds))
     status = CELD_NOTHING_TO_GO_BY;
@@ -125,7 +126,7 @@ prepare_seeds (const CeldRelations *relations, const CeldHost *host, CeldSegment
   return status;
 }
 
-/* ------------------------------------------------------------------ an answer on basins */
+/* ------------------------------------------------------------------ solving on basins */
 
 static CeldStatus
 split (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task,
@@ -140,7 +141,7 @@ split (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, C
   return status;
 }
 
-/* Closes gaps between labels as they are painted: a basin is called what its maximum is. */
+/* Closes gaps between the labels painted so far; a basin's label is that of its maximum. */
 static CeldStatus
 close_gaps (CeldSegmenter *s, const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels)
 {
@@ -167,7 +168,7 @@ close_gaps (CeldSegmenter *s, const CeldSegmentTask *task, const CeldHost *host,
   return CELD_OK;
 }
 
-/* Without curves across gaps borders run where the energy is least. */
+/* Without closures, boundaries move to where the energy is lower. */
 static CeldStatus
 refine_boundaries (CeldSegmenter *s, const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels)
 {
@@ -180,7 +181,8 @@ refine_boundaries (CeldSegmenter *s, const CeldSegmentTask *task, const CeldHost
   return status;
 }
 
-/* From here on the picture changes: the basins' labels, over them windows, split regions and closed gaps. */
+/* Paints the basins' labels, and over them windows, split regions and closed gaps.  From here on a failure invalidates
+ * the labelling. */
 static CeldStatus
 repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const CeldRelations *relations,
          const CeldHost *host, CeldSegmentTask *task, CeldLabels *labels)
@@ -231,7 +233,7 @@ solve_on_basins (CeldSegmenter *s, const CeldRelations *relations, const CeldHos
   return status;
 }
 
-/* ------------------------------------------------------------------ an answer on pixels */
+/* ------------------------------------------------------------------ solving on pixels */
 
 static CeldStatus
 solve_on_pixels (CeldSegmenter *s, const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task,
@@ -339,7 +341,7 @@ celd_segmenter_effective_relations (const CeldSegmenter *segmenter)
   return segmenter->n_effective;
 }
 
-/* Bends of borders came after regions were split, so ends must not lie where a border has moved. */
+/* Boundaries are redrawn after regions are split, so the ends must not lie where that has changed pixels. */
 bool
 celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
                              const CeldLabels *labels)
@@ -353,7 +355,7 @@ celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation 
          celd_regions_are_separate (&task, relation, labels, &s->redrawn);
 }
 
-/* ------------------------------------------------------------------ in one call, for those who keep nothing */
+/* ------------------------------------------------------------------ in one call, without keeping anything */
 
 CeldStatus
 celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations *relations,

@@ -1,12 +1,13 @@
-/* The cost of a border between two pixels: V_pq = 1 + K g (I), K = 2 (width + height), so that one step through paper
- * costs more than any border inside ink could.  The paper leaves open:
- *   I   of an edge is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
- *   g   is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey that contrast normalisation left
- *       behind costs nothing, half ink 1/27, and paper grain little.
- *   ink  costs less the deeper it is, so that borders run along the middle of a line, not along its shorter side
- *       (LazyBrush filters the drawing with a LoG to that end); with ragged pencil lines this keeps both sides clean.
- *   frame  A page is often cropped to its drawing.  Edges of paper along the frame cost as if some of the margin were
- *       left, so that the background holds together where a figure nearly touches the frame.
+/* The smoothness cost of two neighbouring pixels in LazyBrush [SDC09b]: V_pq = 1 + K g (I), K = 2 (width + height), so
+ * that one step through paper costs more than any boundary inside ink could.  The paper leaves open:
+ *
+ * - I of a pair is the darker of its two pixels: a line one pixel wide closes a region even if it is antialiased.
+ * - g is 0 up to ink_threshold and from there the cube of I stretched to [0,1]: grey left over by contrast
+ *   normalisation costs nothing, half ink 1/27, and paper grain little.
+ * - Ink costs less the farther it is from paper, so that boundaries run along the middle of a line, not along its
+ *   shorter side (LazyBrush filters the drawing with a LoG for this); with ragged pencil lines both sides stay clean.
+ * - Pages are often cropped to the drawing.  Pairs of paper along the frame cost as if some of the margin were left, so
+ *   that the background holds together where a figure nearly touches the frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,8 +16,8 @@
 
 #include <math.h>
 
-#define MOST_DISCOUNT   10  /* an edge deep inside ink costs this much less than one at its rim */
-#define MARGIN 64  /* of half the perimeter: the margin that a cropped page is taken to have had */
+#define MOST_DISCOUNT   10  /* cost units: a pair far from paper costs at most this much less (chosen) */
+#define MARGIN 64  /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
 
 void
 celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs)
@@ -39,7 +40,7 @@ celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnes
 static int
 ink_step (float ink)
 {
-  return ink > 0 && ink < 1 ? (int) (ink * CELD_INK_STEPS) : ink <= 0 ? 0 : CELD_INK_STEPS; /* NaN is paper */
+  return ink > 0 && ink < 1 ? (int) (ink * CELD_INK_STEPS) : ink <= 0 ? 0 : CELD_INK_STEPS; /* NaN counts as paper */
 }
 
 int32_t

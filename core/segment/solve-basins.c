@@ -1,12 +1,12 @@
 /* LazyBrush [SDC09b] (section 3.2) on the basin graph of a drawing.
  *
- * A block of basins (basins.c) in which one label alone has paint, or none, is one node; a block that several labels
- * share is as many nodes as it has basins, so that the cut can look for the narrowest place between their strokes.
- * Links are the borders' costs, summed up; votes are the paint's, as on pixels.  The labels of the nodes are those of
- * the lowest energy that greedy cuts and alpha-expansion find (partition.c).
+ * A merged basin in which at most one label has paint is one node; a merged basin that several labels share becomes one
+ * node per basin, so that the cut can find the narrowest place between their strokes.  Links are the sums of smoothness
+ * costs along boundaries, data costs are those of the paint, as on pixels.  The labels are those of the lowest energy
+ * that greedy cuts and alpha-expansion find (partition.c).
  *
- * Necks: to cut off a part at a neck of two pixels can cost less than the part's outline.  With keep_necks a block that
- * has paint of one label alone keeps that label, whatever a cut would save.
+ * Cutting a part off at a neck of two pixels can cost less than the part's outline.  With keep_necks a merged basin
+ * with paint of one label keeps that label, whatever a cut would save.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,17 +15,17 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#define SHARED UINT32_MAX       /* a block in which several labels have paint */
+#define SHARED UINT32_MAX       /* value of sole_label: several labels have paint there */
 
 typedef struct
 {
   const CeldSegmentTask *task;
   CeldStrokes            strokes;
-  uint32_t              *sole_label; /* of block b: the only label with paint in it, 0, or SHARED */
+  uint32_t              *sole_label; /* of each merged basin: the only label with paint in it, 0, or SHARED */
   uint32_t              *node;       /* of basin k */
   size_t                 n;          /* nodes */
-  uint32_t              *fixed;      /* of node k: its label, or 0 */
-  uint32_t              *label;      /* of node k: the answer */
+  uint32_t              *fixed;      /* of node k: its label if that is given, or 0 */
+  uint32_t              *label;      /* of node k: the result */
   uint32_t              *order;
   CeldLink              *link;
   CeldVote              *vote;
@@ -66,8 +66,8 @@ graph_clear (Graph *g)
 
 /* ------------------------------------------------------------------ nodes */
 
-/* Paint that says something of the basin it lies in: paint on the outer half of a contour says nothing of the region
- * behind. */
+/* The pixels of a piece that say something about its basin: paint on the outer half of a contour says nothing about the
+ * region behind it. */
 static size_t
 informative_pixels (const CeldBasins *basins, const CeldStrokePiece *piece)
 {
@@ -93,7 +93,7 @@ static CeldStatus
 make_nodes (Graph *g)
 {
   const CeldBasins *basins = g->task->basins;
-  uint32_t         *node = celd_alloc0 (basins->n_merged + 1, sizeof *node); /* of a block, from 1 */
+  uint32_t         *node = celd_alloc0 (basins->n_merged + 1, sizeof *node); /* of a merged basin, from 1 */
 
   if (!node)
     return CELD_NO_MEMORY;
@@ -114,9 +114,9 @@ make_nodes (Graph *g)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ what they are told */
+/* ------------------------------------------------------------------ data costs */
 
-/* The hard label with most telling paint on a node has it; windows.c sees to the others. */
+/* Fixes nodes to the hard label with most informative pixels; solve-windows.c deals with the others. */
 static CeldStatus
 fix_hard_labels (Graph *g)
 {
@@ -160,7 +160,7 @@ done:
   return status;
 }
 
-/* With keep_necks: a block keeps the only label that has paint there. */
+/* With keep_necks: a merged basin keeps the only label that has paint there. */
 static void
 fix_sole_labels (Graph *g)
 {
@@ -204,14 +204,14 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
-/* Borders between nodes, those of the same two nodes summed up. */
+/* Sums up the boundaries between each two nodes to a link. */
 static CeldStatus
 gather_links (Graph *g)
 {
   const CeldBasins *basins = g->task->basins;
-  size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's borders, as the lesser node */
+  size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's boundaries, as the lesser node */
   size_t           *boundary = celd_alloc (basins->n_boundaries, sizeof *boundary);
-  size_t           *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the present one */
+  size_t           *found = celd_alloc (g->n, sizeof *found);           /* by node: its link with the current one */
   CeldStatus        status = first && boundary && found ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)

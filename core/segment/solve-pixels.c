@@ -1,15 +1,15 @@
 /* The two methods that label every pixel without basins, and keep nothing between strokes.
  *
- * LazyBrush [SDC09b] (section 3.2) as published: the energy of multiway.c with the costs of costs.c.
+ * LazyBrush [SDC09b] (section 3.2) as published: the energy of multiway.c with the costs of smoothness-costs.c.
  *
- * Random walker segmentation [Gra06], with which the paper compares LazyBrush: a pixel gets the label that a walker who
- * sets out there reaches first most likely.  The likelihoods are the harmonic bases of the exact program, on the same
- * weights (affinity.c): one set-up of the Laplacian solver and one solution for each label but one, CELD_LANES at a time.
- * Only the best label so far and the sum are kept.  Every seed is obeyed; a gap in a contour is a border where walkers
- * from both sides are equally likely.
+ * Random walker [Gra06], with which the paper compares LazyBrush: a pixel gets the label that a random walker starting
+ * there most likely reaches first.  The probabilities are the harmonic bases of the exact program, on the same weights
+ * (affinity.c): one set-up of the Laplacian solver and one solution for each label but one, CELD_LANES at a time.  Only
+ * the best label so far and the sum are kept.  Every seed is obeyed; across a gap in a contour the boundary lies where
+ * walkers reach both sides with equal probability.
  *
- * Cost: cuts of all pixels, a second per megapixel and more; or a solution a label, so seconds for a megapixel, and 50
- * bytes a pixel beside the solver's.
+ * Cost: LazyBrush takes a second per megapixel and more; a random walker a solution per label, seconds for a megapixel,
+ * and 50 bytes a pixel besides the solver's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,11 +20,11 @@
 
 #include <string.h>
 
-#define TOLERANCE 1e-3 /* of likelihoods */
+#define TOLERANCE 1e-3 /* of probabilities */
 
 /* ------------------------------------------------------------------ LazyBrush on all pixels */
 
-/* V_pq of all edges, as celd_multiway wants them. */
+/* V_pq of all pairs, as celd_multiway needs them. */
 static CeldStatus
 weigh_edges (const CeldSegmentTask *task, const CeldHost *host, int32_t *east, int32_t *south)
 {
@@ -93,12 +93,12 @@ celd_lazybrush_solve (const CeldSegmentTask *task, const CeldHost *host, CeldLab
 typedef struct
 {
   size_t    n;                  /* pixels */
-  uint32_t *seed;               /* label of each pixel, 0 = none */
-  uint32_t *label;              /* those that have seeds */
+  uint32_t *seed;               /* label of each pixel; 0: none */
+  uint32_t *label;              /* the labels that have seeds */
   size_t    n_labels;
   float    *east, *south;
-  float    *lane;               /* CELD_LANES likelihoods a pixel */
-  float    *best, *sum;         /* of all but the first label */
+  float    *lane;               /* CELD_LANES probabilities a pixel */
+  float    *best, *sum;         /* largest probability and sum, over all but the first label */
 } Walker;
 
 static void
@@ -113,7 +113,7 @@ walker_clear (Walker *w)
   celd_free (w->sum);
 }
 
-/* Seeds as a plane, and which labels have any. */
+/* Reads the seeds into a plane, and lists the labels that have any. */
 static CeldStatus
 read_seeds (const CeldSegmentTask *task, Walker *w)
 {
@@ -176,7 +176,7 @@ set_up (const CeldSegmentTask *task, const Walker *w, const CeldHost *host, Celd
   return status;
 }
 
-/* The labels from number `first` on start from their seeds. */
+/* Starts the solutions of the labels from number `first` on with their seeds. */
 static void
 start_lanes (Walker *w, size_t first)
 {

@@ -1,9 +1,9 @@
-/* Strokes in basins of another label: the LazyBrush energy [SDC09b] solved on pixels, in windows round them.
+/* Strokes in basins of another label: the LazyBrush energy [SDC09b] minimised on pixels, in windows round them.
  *
- * A window's pixels are contracted to a graph (window-cells.c) and cut like the basin graph (partition.c); where a
- * border then runs across paper the blocks along it are opened to pixels, and the window is cut once more.  Small
- * windows are pixels from the start, and exact for each cut.  An answer is taken only if its energy is lower than that
- * of the basins' labels with hard paint on them.
+ * A window's pixels are contracted to a graph (window-graph.c) and cut like the basin graph (partition.c).  Where a
+ * boundary then crosses paper, the blocks along it are divided into pixels, and the window is cut once more.  Small
+ * windows are pixels from the start, and each of their cuts is exact.  A result is accepted only if its energy is lower
+ * than that of the basins' labels with hard seeds on them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,28 +15,28 @@
 
 #include <string.h>
 
-#define PIXELS  4096            /* a window of so many is solved on pixels */
-#define BLOCKS  4096            /* larger ones on about so many blocks, */
-#define LARGEST 5               /* of at most 1 << so many pixels a side */
+#define PIXELS  4096            /* largest window that is solved on pixels (chosen) */
+#define BLOCKS  4096            /* blocks of larger windows, approximately (chosen) */
+#define LARGEST 5               /* largest block: 1 << so many pixels a side (chosen) */
 
 typedef struct
 {
   const CeldSegmentTask *task;
   const uint32_t        *label;  /* of each basin */
   const CeldHost        *host;
-  uint32_t              *free;   /* of each basin: the last window, from 1, in which it is free */
-  uint32_t              *order;  /* all labels, as they are told apart */
-  uint32_t              *local;  /* of each label, from 1: its place among those of this window, 0 if it is not there */
-  uint32_t              *global; /* the other way round, from 0 */
-  int64_t               *votes;  /* of each label, from 1: the sum of its votes in this window */
+  uint32_t              *free;   /* of each basin: the last window, from 1, that it is free in */
+  uint32_t              *order;  /* all labels in the order of cuts */
+  uint32_t              *local;  /* of each label, from 1: its number in this window, or 0 */
+  uint32_t              *global; /* of each such number, from 0: the label */
+  int64_t               *votes;  /* of each label, from 1: the sum of its data costs here */
   CeldPatches            patches;
   size_t                 hint;   /* of celd_basin_run_at */
 } WindowSolver;
 
 /* ------------------------------------------------------------------ cutting a graph */
 
-/* Numbers the labels that matter to a graph from 1, in their order; returns how many there are.  A label that no node
- * has, and whose votes together pay for no edge of paper, gets no paper. */
+/* Numbers the labels that can occur in a graph from 1, in their order; returns how many there are.  A label that no
+ * node has now, and whose data costs together are less than one edge of paper, cannot get paper. */
 static size_t
 number_labels (WindowSolver *s, const CeldWindowGraph *graph)
 {
@@ -61,7 +61,7 @@ number_labels (WindowSolver *s, const CeldWindowGraph *graph)
   return n;
 }
 
-/* Votes for the labels of this graph, by their local numbers; others are lost whatever happens. */
+/* Replaces the labels of data costs by their local numbers; those of other labels are constant and are dropped. */
 static void
 number_votes (const WindowSolver *s, CeldWindowGraph *graph)
 {
@@ -78,7 +78,7 @@ number_votes (const WindowSolver *s, CeldWindowGraph *graph)
   graph->n_votes = n;
 }
 
-/* With two labels one cut is all there is to do. */
+/* With two labels a single cut is the optimum. */
 static CeldStatus
 cut_in_two (const CeldPartition *problem, const CeldHost *host, uint32_t *label)
 {
@@ -100,7 +100,7 @@ done:
   return status;
 }
 
-/* The labels of the graph's nodes: their present ones, unless others cost less.  *better: do they? */
+/* Sets the labels of the nodes: the present ones, unless others cost less (*better). */
 static CeldStatus
 cut (WindowSolver *s, CeldWindowGraph *graph, bool *better)
 {
@@ -135,9 +135,9 @@ done:
   return status;
 }
 
-/* ------------------------------------------------------------------ where a closer look is wanted */
+/* ------------------------------------------------------------------ refinement along new boundaries */
 
-/* Marks the nodes on both sides of a new border, where it runs across paper.  Returns whether there are any. */
+/* Marks the nodes on both sides of new boundaries across paper; are there any? */
 static bool
 mark_nodes (const CeldWindowGraph *graph, uint8_t *crossed)
 {
@@ -180,7 +180,7 @@ mark_blocks (const CeldWindowGraph *graph, const uint8_t *crossed, uint8_t *fine
     }
 }
 
-/* Looks again at the blocks along new borders.  *finer is left empty where that is no better. */
+/* Solves again with finer blocks along new boundaries.  *finer stays empty if that is no better. */
 static CeldStatus
 refine (WindowSolver *s, const CeldWindowGraph *graph, CeldWindowGraph *finer)
 {
@@ -205,7 +205,7 @@ refine (WindowSolver *s, const CeldWindowGraph *graph, CeldWindowGraph *finer)
 
 /* ------------------------------------------------------------------ one window */
 
-/* Could a pixel of the block have another label than its basin? */
+/* Can a pixel of the block have another label than its basin? */
 static bool
 is_changed (const CeldWindowGraph *graph, size_t k)
 {
@@ -227,7 +227,7 @@ is_changed (const CeldWindowGraph *graph, size_t k)
   return false;
 }
 
-/* Pixels x .. end - 1 of row y whose label is not that of their basin. */
+/* Adds patches for the pixels x .. end - 1 of row y whose label is not that of their basin. */
 static CeldStatus
 add_patch (WindowSolver *s, const CeldWindowGraph *graph, int y, int x, int end)
 {
@@ -281,7 +281,7 @@ block_shift (const CeldWindow *window)
   return shift;
 }
 
-/* Cuts the window to the pixels of its basins, and those round them. */
+/* Shrinks a window to the free pixels and a margin of one pixel. */
 static CeldWindow
 trim (const WindowSolver *s, uint32_t id, const CeldWindow *window)
 {

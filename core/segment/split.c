@@ -1,9 +1,9 @@
 /* Regions in which both ends of an inequality lie, split between them.
  *
- * The end that is nearer, within the region, to the seeds that the region has keeps its label, the other becomes a new
- * one; only the region is cut again, and by what earlier relations made of it.  A region is basins that touch: of one
- * label where they are widest, or where they touch.  A basin may hold pixels of other labels; these stay as they are,
- * and so do those under hard strokes of the artist.
+ * The end with the shorter path, within the region, to the seeds of the region keeps its label; the other gets a new
+ * one.  Only the region is cut again, and regions that earlier relations made of it.  A region consists of basins that
+ * touch: those with the label at their maximum, or where they touch.  Pixels of other labels in these basins keep them,
+ * and so do pixels under hard strokes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,12 +23,12 @@ typedef struct
 {
   CeldSegmentTask  *task;
   const CeldLabels *labels;
-  CeldSeedRows      taken;      /* what relations have changed of the labels so far */
-  CeldSeedRows      painted;    /* seeds before any relation added some */
-  size_t           *first;      /* of basin k: its borders are border[first[k]] to border[first[k + 1] - 1] */
+  CeldSeedRows      taken;      /* labels that relations have changed so far */
+  CeldSeedRows      painted;    /* seeds before relations added any */
+  size_t           *first;      /* of basin k: its boundaries are boundary[first[k]] .. boundary[first[k + 1] - 1] */
   uint32_t         *boundary;
   Box              *box;        /* of each basin */
-  uint32_t         *basin, *at; /* the region at hand, as CeldCut has it */
+  uint32_t         *basin, *at; /* the current region, as in CeldCut */
   uint8_t          *side;       /* of its basins, after a cut between basins */
   uint8_t          *mark;       /* of each pixel, for celd_cut_pixels; CELD_OUTSIDE between two cuts */
   uint32_t         *node;
@@ -56,7 +56,7 @@ on_hard_stroke (const Split *split, CeldRelationEnd end, uint32_t label)
   return is_hard (split->task, label) && celd_seed_rows_at (&split->painted, end.x, end.y) == label;
 }
 
-/* ------------------------------------------------------------------ work space, made for the first region */
+/* ------------------------------------------------------------------ workspace, allocated for the first region */
 
 static CeldStatus
 split_new (Split *split)
@@ -141,7 +141,7 @@ basin_has (const Split *split, uint32_t k, uint32_t label)
   return label_at (split, basin->x, basin->y) == label;
 }
 
-/* Does the label go on from one basin to another? */
+/* Does the label continue from one basin to the other? */
 static bool
 goes_on (const Split *split, const CeldBasinBoundary *boundary, uint32_t label)
 {
@@ -166,8 +166,8 @@ join (Split *split, uint32_t k, CeldCut *cut)
   cut->bottom = box->bottom > cut->bottom ? box->bottom : cut->bottom;
 }
 
-/* Finds the basins of the region round the first end; does it reach the second?  Where an earlier cut has left the ends
- * mere pieces of basins, the region may go on through such pieces: then any basin may belong to it. */
+/* Finds the basins of the region round the first end; does it contain the second?  If earlier cuts have left only
+ * pieces of basins at the ends, the region may continue through such pieces: then all basins are taken. */
 static bool
 find_region (Split *split, CeldCut *cut)
 {
@@ -193,7 +193,7 @@ find_region (Split *split, CeldCut *cut)
   return cut->at[second] != 0;
 }
 
-/* Marks the pixels of the label in row y of the region's basins: as inside, or as on the side of their basin. */
+/* Marks the pixels of the label in row y of the region's basins: as inside, or with the side of their basin. */
 static void
 mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
 {
@@ -221,7 +221,7 @@ mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
           if (from < to)
             memset (mark + from, taken->run[t].label == cut->label ? value : CELD_OUTSIDE, (size_t) (to - from));
           if (taken->run[t].end > end)
-            break; /* goes on in the next basin */
+            break; /* continues in the next basin */
         }
     }
 }
@@ -236,9 +236,9 @@ leave_region (Split *split, const CeldCut *cut)
             (size_t) (cut->right - cut->left + 1));
 }
 
-/* ------------------------------------------------------------------ taking over */
+/* ------------------------------------------------------------------ applying a cut */
 
-/* Under hard strokes the region stays what it was, wherever the cut runs. */
+/* Pixels under hard strokes keep the region's label, wherever the cut runs. */
 static void
 obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
 {
@@ -253,7 +253,7 @@ obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
     }
 }
 
-/* The pixels of a disc that its side of the cut holds are seeds from now on. */
+/* Adds the pixels of a disc on its side of the cut to the seeds. */
 static CeldStatus
 seed_disc (Split *split, const CeldSeedDisc *disc, uint8_t side, uint32_t label)
 {
@@ -274,7 +274,7 @@ seed_disc (Split *split, const CeldSeedDisc *disc, uint8_t side, uint32_t label)
   return status;
 }
 
-/* The new label takes its end's side of the cut. */
+/* Gives an end's side of the cut to the new label. */
 static CeldStatus
 take_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
 {
@@ -313,7 +313,7 @@ take_over (Split *split, const CeldCut *cut, int kept)
   return status;
 }
 
-/* A narrow place between the ends is where two basins meet; else the cut is looked for pixel by pixel. */
+/* Cuts between basins if a narrow opening separates the ends; else between pixels. */
 static CeldStatus
 cut_region (Split *split, CeldCut *cut, const CeldHost *host, int *kept)
 {
@@ -375,7 +375,7 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
       find_boxes (split);
     }
   if (on_hard_stroke (split, cut.end[0], cut.label) && on_hard_stroke (split, cut.end[1], cut.label))
-    return CELD_OK; /* neither may change */
+    return CELD_OK; /* both labels are given */
   cut.basin = split->basin;
   cut.at    = split->at;
   cut.mark  = split->mark;
@@ -385,7 +385,7 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
 
 /* ------------------------------------------------------------------ all relations in turn */
 
-/* What is taken, as patches; `patches` stays as it was if there is no memory. */
+/* Appends the changed labels as patches; without memory the patches are as before. */
 static CeldStatus
 add_patches (const Split *split, CeldPatches *patches)
 {

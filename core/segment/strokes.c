@@ -1,15 +1,16 @@
-/* Where the strokes of an artist lie: how much of each falls on which part of the drawing, and what of it is a stain.
+/* Where the artist's strokes lie: how much of each falls on which part of the drawing, and which parts of it are
+ * spills.
  *
- * Runs of seeds are cut where basins meet; that makes dabs, and their number is what all of this costs, whatever the
- * size of the picture.  To look for basins and paper under a run takes longest, as it is somewhere else in memory for
- * each; so what was found for the last answer is taken over.
+ * Runs of seeds are cut where basins meet.  The cost of everything here is the number of these pieces, whatever the
+ * size of the picture.  Finding the basins and the paper under a run takes longest, because it is scattered memory
+ * access; so the pieces of the last solve are reused.
  *
- * A soft stroke may run on through a contour.  The paint behind it says nothing about the region there, but it would
- * outvote the cost of cutting that region at a narrow place.  So a stroke's share of a piece of paper is weighed by the
- * odds that the stroke is meant for the piece: what the stroke leaves there to what it leaves elsewhere, times the
- * paint of its colour there to that of others.  Below one half the share is a stain and does not count.  Where right
- * paint outweighs foreign paint 3:1 this finds every stain of a stroke that keeps 2/5 of its paint out of the piece,
- * and a colour alone in its piece, or a stroke within one piece, never is one.
+ * A soft stroke may run on through a contour.  Its pixels behind the contour say nothing about the region there, but
+ * would outweigh the cost of cutting that region at a narrow place.  So the overlap of a stroke with a component is
+ * weighed by the odds that the stroke is meant for it: the stroke's pixels there to those elsewhere, times the pixels
+ * of its label there to those of others.  Below LEAST_ODDS the overlap is a spill and is ignored.  If correct paint
+ * outweighs foreign paint 3:1, this finds every spill of a stroke that has 2/5 of its paint outside the component; a
+ * label alone in its component, or a stroke within one component, is never a spill.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,7 +25,7 @@
 
 /* ------------------------------------------------------------------ connected strokes */
 
-/* Joins the runs of two rows, numbered from `first_above` and `first_below`, that touch, be it by a corner. */
+/* Joins the runs of two rows that touch, also by a corner.  Runs are numbered from `first_above` and `first_below`. */
 static void
 join_rows (const CeldSeedRow *above, uint32_t first_above, const CeldSeedRow *below, uint32_t first_below,
            uint32_t *parent)
@@ -43,7 +44,8 @@ join_rows (const CeldSeedRow *above, uint32_t first_above, const CeldSeedRow *be
     }
 }
 
-/* stroke[k]: the connected stroke that the k-th run in reading order belongs to, from 0 in reading order too. */
+/* stroke[k] becomes the connected stroke of the k-th run in reading order; strokes are numbered from 0 in that order.
+ */
 static CeldStatus
 find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
 {
@@ -63,14 +65,15 @@ find_strokes (const CeldSeedRows *seeds, uint32_t **stroke, size_t *n_strokes)
       join_rows (&seeds->row[y - 1], above, &seeds->row[y], below, parent);
     }
   for (uint32_t k = 0; k < n; k++)
-    parent[k] = parent[k] == k ? (uint32_t) strokes++ : parent[parent[k]]; /* a parent has its number already */
+    parent[k] = parent[k] == k ? (uint32_t) strokes++ : parent[parent[k]]; /* a parent comes first and has its number
+                                                                            * already */
   *n_strokes = strokes;
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ dabs */
+/* ------------------------------------------------------------------ stroke pieces */
 
-/* Dabs of the same drawing, gathered before: the next one in reading order that may be taken over. */
+/* The pieces of the last solve of this drawing: the next one that may be reused. */
 typedef struct { const CeldStrokePiece *piece, *end; } KnownPieces;
 
 static const CeldStrokePiece *
@@ -82,7 +85,7 @@ take_known_piece (KnownPieces *known, int y, int x, int end)
          ? known->piece : NULL;
 }
 
-/* Adds what pixels x .. end - 1 are in one basin; a known dab may end before its basin does. */
+/* Adds a piece; a reused one may end before its basin does and is joined with the next. */
 static CeldStatus
 add_piece (CeldStrokePiece piece, bool first, CeldStrokes *strokes)
 {
@@ -151,7 +154,7 @@ gather_pieces (const CeldSegmentTask *task, CeldStrokes *strokes)
   return status;
 }
 
-/* ------------------------------------------------------------------ shares */
+/* ------------------------------------------------------------------ overlaps */
 
 static int
 compare_overlaps (const void *a, const void *b)
@@ -165,7 +168,7 @@ compare_overlaps (const void *a, const void *b)
   return p->stroke < q->stroke ? -1 : p->stroke > q->stroke;
 }
 
-/* sorted[from[k]] to sorted[from[k + 1] - 1]: the dabs with paper in part k, for k up to n_parts. */
+/* Sorts the pieces by parts: sorted[from[k]] to sorted[from[k + 1] - 1] are those with paper in part k. */
 static void
 sort_pieces (const CeldStrokes *strokes, const uint32_t *part, uint32_t n_parts, size_t *from, size_t *sorted)
 {
@@ -178,7 +181,7 @@ sort_pieces (const CeldStrokes *strokes, const uint32_t *part, uint32_t n_parts,
       sorted[--from[part[strokes->piece[i].basin]]] = i;
 }
 
-/* Adds up the dabs of one part by stroke.  in_part[stroke] is all 0, before and after. */
+/* Sums up the pieces of one part by stroke. in_part[stroke] is 0 for all strokes before and after. */
 static CeldStatus
 add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldStrokes *strokes)
 {
@@ -279,9 +282,9 @@ celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes)
   celd_strokes_clear (strokes);
 }
 
-/* ------------------------------------------------------------------ stains */
+/* ------------------------------------------------------------------ spills */
 
-/* Marks the stains among the shares of one piece: those from share[first] to share[last - 1]. */
+/* Marks the spills among the overlaps first .. last - 1, which are those of one component. */
 static void
 find_spills (CeldStrokes *strokes, size_t first, size_t last)
 {
@@ -348,7 +351,8 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
         ;
       find_spills (strokes, i, j);
     }
-  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill); /* the pieces of most strokes need no look */
+  has_spill = celd_alloc0 (strokes->n_strokes, sizeof *has_spill); /* most strokes have none: their pieces need no
+                                                                    * look-up */
   status  = has_spill ? CELD_OK : CELD_NO_MEMORY;
   for (size_t i = 0; i < strokes->n && status == CELD_OK; i++)
     has_spill[strokes->overlap[i].stroke] |= strokes->overlap[i].spill;

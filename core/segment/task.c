@@ -1,9 +1,10 @@
-/* The canvas of a segmentation: its labels, what their paint weighs, and which paint counts.
+/* The task of a segmentation: its labels, the data cost of their seeds, and which seeds count.
  *
- * A painted pixel costs hardness K in LazyBrush [SDC09b], so that a stroke closes gaps up to hardness x its area, and
- * the same stroke with a thicker brush closes wider ones until it wraps itself.  Here that is divided by the mean width
- * of all strokes, in units of 20 pixels: at 0.05 a stroke closes gaps up to its own length, whatever the brush and the
- * resolution, and to wrap it costs twice that, so that a majority of paint wins.
+ * A painted pixel costs hardness K in LazyBrush [SDC09b], so a stroke closes gaps up to hardness x its area, and the
+ * same stroke with a thicker brush closes wider ones until the cheapest cut goes round the stroke itself.  Here the
+ * data cost is divided by the mean width of all strokes, in units of 20 pixels: at hardness 0.05 a stroke closes gaps
+ * up to its own length, whatever the brush and the resolution; a cut round the stroke costs twice that, so the majority
+ * of paint wins.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,13 +16,13 @@
 #include <stdlib.h>
 
 #define MOST_COST (1 << 28)
-#define BRUSH     20.0          /* pixels; at this width votes are hardness K */
+#define BRUSH     20.0          /* pixels: at this width the data cost is hardness K (chosen) */
 
 #define HUES   360                   /* colours to choose from */
-#define FIRST  ((uint32_t) 1417339208)  /* hues are shares of 2^32, round the circle: 0.33 */
-#define GOLDEN ((uint32_t) 2654435769)  /* from one to the next: the golden section */
+#define FIRST  ((uint32_t) 1417339208)  /* hues are fractions of 2^32, round the circle: 0.33 */
+#define GOLDEN ((uint32_t) 2654435769)  /* step from one to the next: the golden section */
 #define THIRD  ((uint32_t) 1431655765)
-#define FAR    150                   /* distance that is aimed at, a sum over three channels of 0 .. 255 */
+#define FAR    150                   /* distance that is aimed at: a sum over three channels of 0 .. 255 (chosen) */
 
 /* ------------------------------------------------------------------ the record, and its labels */
 
@@ -109,7 +110,7 @@ colour_distance (const uint8_t a[4], const uint8_t b[4])
   return abs (a[0] - b[0]) + abs (a[1] - b[1]) + abs (a[2] - b[2]);
 }
 
-/* The first of a fixed row of colours that is far from all labels; the farther, the fewer labels there are. */
+/* The first of a fixed series of colours that is far from all labels; how far depends on the number of labels. */
 static void
 new_colour (const CeldPalette *palette, uint8_t colour[4])
 {
@@ -145,7 +146,7 @@ celd_task_data_cost (const CeldSegmentTask *task, uint32_t label)
   return all_hard || task->palette.item[label - 1].hard ? CELD_HARD : task->soft_cost;
 }
 
-/* Pixels of row `below` that have another label in row `above`, and pixels where `above` has paint and `below` none. */
+/* Counts the pixels whose label differs between two rows of seeds. */
 static size_t
 count_changes (const CeldSeedRow *above, const CeldSeedRow *below, int width)
 {
@@ -181,7 +182,7 @@ count_changes (const CeldSeedRow *above, const CeldSeedRow *below, int width)
   return changes;
 }
 
-/* Mean width of the artist's strokes: twice their area over the length of their outline. */
+/* The mean width of the artist's strokes in pixels: twice their area divided by the length of their outline. */
 static double
 brush_width (const CeldSeedRows *seeds)
 {
@@ -213,7 +214,7 @@ celd_task_set_soft_cost (CeldSegmentTask *task)
   task->soft_cost = (int32_t) fmax (1, fmin (cost, MOST_COST));
 }
 
-/* ------------------------------------------------------------------ the order of labels */
+/* ------------------------------------------------------------------ order of labels */
 
 typedef struct { uint32_t label; size_t seeds; } LabelPixels;
 
@@ -252,10 +253,10 @@ celd_task_label_order (const CeldSegmentTask *task, uint32_t *order)
 
 /* ------------------------------------------------------------------ flat colourings */
 
-/* The paint of a label: its pixels, those on paper, and its runs. */
+/* The seeds of a label: all pixels, those on paper, and runs. */
 typedef struct { size_t pixels, paper, runs; } PaintCounts;
 
-/* Where the pixels from x on that are all paper, or all ink, end. */
+/* The end of the pixels from x on that are all paper, or all ink. */
 static int
 end_of_kind (const float *ink, int x, int end)
 {
@@ -283,14 +284,14 @@ count_paint (const CeldSegmentTask *task, PaintCounts *counts)
       }
 }
 
-/* Hardly any of it is on paper, and it is wider than strokes are. */
+/* Hardly any of it is on paper, and it is wider than strokes are: the colour of a black area. */
 static bool
 is_dark_area (const PaintCounts *counts, int stroke)
 {
   return 20 * counts->paper < counts->pixels && counts->pixels > 3 * (size_t) stroke * counts->runs;
 }
 
-/* Adds to `kept` what counts of a run; runs come in reading order. */
+/* Adds to `kept` the part of a run that counts; runs come in reading order. */
 static CeldStatus
 keep_run (const CeldSegmentTask *task, const PaintCounts *counts, int y, CeldSeedRun run, CeldSeedRows *kept)
 {
@@ -308,7 +309,7 @@ keep_run (const CeldSegmentTask *task, const PaintCounts *counts, int y, CeldSee
   return status;
 }
 
-/* On ink, paint says nothing, unless it is a whole dark area. */
+/* Seeds on ink count only for labels of dark areas. */
 CeldStatus
 celd_task_drop_ink_seeds (CeldSegmentTask *task)
 {

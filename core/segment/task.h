@@ -1,4 +1,4 @@
-/* What the steps of the segmentation share: the drawing's basins, the seeds on them, and who has paint where.
+/* The task that the steps of a segmentation work on: the drawing's basins, the seeds, and which stroke lies where.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,19 +12,21 @@
 
 /* ------------------------------------------------------------------ records */
 
-/* What a connected stroke of one label leaves on the paper of one part of the drawing. */
+/* How many pixels of paper a connected stroke covers in one part of the drawing (a component, enclosure or merged
+ * basin). */
 typedef struct { uint32_t part, label, stroke; size_t pixels; bool spill; } CeldStrokeOverlap;
 
-/* A piece of a run of seeds that lies in one basin; ink and paper.  `stroke`: connected strokes from 0. */
+/* The pixels x .. end - 1 of row y, of one stroke and in one basin. `paper`: how many of them are paper. `stroke`:
+ * connected strokes are numbered from 0. */
 typedef struct { int32_t y, x, end; uint32_t label, basin, stroke; uint32_t paper; } CeldStrokePiece;
 
 typedef struct
 {
   CeldStrokePiece   *piece;     /* in reading order */
   size_t             n_pieces;
-  size_t            *total;     /* of stroke k: its pixels on paper */
+  size_t            *total;     /* of stroke k: its pixels of paper */
   size_t             n_strokes;
-  CeldStrokeOverlap *overlap;   /* by part, label, stroke; without part 0 */
+  CeldStrokeOverlap *overlap;   /* by part, label, stroke; ink alone (part 0) is left out */
   size_t             n;
 } CeldStrokes;
 
@@ -34,133 +36,140 @@ typedef struct
   const CeldPlane    *ink;
   const CeldBasins   *basins;
   const CeldBridges  *bridges;
-  const uint32_t     *bridged_component; /* pieces, parted by bridges too; NULL: the same as pieces */
-  CeldSeedRows        seeds;             /* painted ones, and those that arrows and the frame add */
+  const uint32_t     *bridged_component; /* of each basin: its component with bridges as lines; NULL: none */
+  CeldSeedRows        seeds;             /* painted ones, and those added for arrows and the frame */
   CeldPalette         palette;           /* of all labels so far */
-  int32_t             soft_cost;         /* cost of a pixel of a soft stroke with another label */
-  CeldStrokes         painted;           /* where seeds lay before stains were taken back; empty before they are looked for */
-  bool                spilled;           /* and some have been taken back */
-  bool               *seeded;            /* by room: does a seed lie on its paper?  NULL before arrows have planted any */
-  size_t              n_effective;       /* relations from the first to the last that planted or split anything */
-  CeldStrokes        *kept;              /* of seeds that the last answer for these basins was made from; NULL: none is kept */
+  int32_t             soft_cost;         /* data cost of a pixel of a soft stroke */
+  CeldStrokes         painted;           /* the strokes before spills were removed; empty until then */
+  bool                spilled;           /* has a spill been removed? */
+  bool               *seeded;            /* of each enclosure: is there a seed on its paper?  NULL without arrows */
+  size_t              n_effective;       /* relations up to the last one that added seeds or split a region */
+  CeldStrokes        *kept;              /* strokes of the last solve, to be reused; NULL: none are kept */
 } CeldSegmentTask;
 
-/* Is every stroke obeyed, wherever it runs? */
+/* Are all strokes hard, and obeyed even where they run over a contour? */
 static inline bool
 celd_task_all_hard (const CeldSegmentTask *task)
 {
   return task->settings->flats || task->settings->hardness >= 1;
 }
 
-/* ------------------------------------------------------------------ canvas.c */
+/* ------------------------------------------------------------------ task.c */
 
-/* The seeds that the palette knows, and its labels without what an earlier answer said of them, on a canvas that has
- * its settings, drawing and basins; to be cleared also after a failure. */
+/* Fills in seeds and palette of a task whose settings, drawing and basins are set: the seeds whose label is in the
+ * palette, and the labels without results of an earlier solve. Clear the task also after a failure. */
 CeldStatus celd_task_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldSegmentTask *task);
 void       celd_task_clear (CeldSegmentTask *task);
 
-/* One more label, without seeds so far: *label is its number. */
+/* Appends a label without seeds; *label is its number. */
 CeldStatus celd_task_add_label (CeldSegmentTask *task, CeldRegion region, uint32_t *label);
 
-/* One more label for an arrow's end, of a colour that is far from all others. */
+/* Appends an opaque label for an arrow's end, of a colour far from all others. */
 CeldStatus celd_task_add_arrow_label (CeldSegmentTask *task, uint32_t *label);
 
-/* Enters the seeds of labels that arrows made into the palette. */
+/* Adds the pixels of seeds that arrows made to the palette's counts. */
 void celd_task_count_arrow_seeds (CeldSegmentTask *task);
 
-/* What a seed's pixel costs with another label: CELD_HARD where it must be obeyed. */
+/* Data cost: what a pixel of a seed costs if it gets another label; CELD_HARD where the seed must be obeyed. */
 int32_t celd_task_data_cost (const CeldSegmentTask *task, uint32_t label);
 
-/* Fills in soft_vote from the seeds that the artist painted: call it before anything else adds some. */
+/* Computes soft_cost from the seeds that the artist painted: must be called before any seeds are added. */
 void celd_task_set_soft_cost (CeldSegmentTask *task);
 
-/* Labels by falling paint: most of the picture is decided first, and later cuts are small. */
+/* All labels by the number of their seeds, the largest first: most of the picture is decided early, so later cuts are
+ * small. */
 CeldStatus celd_task_label_order (const CeldSegmentTask *task, uint32_t *order);
 
-/* In a flat colouring the ink lines may be painted too: takes these seeds back. */
+/* In a flat colouring ink lines may be painted over, too: removes the seeds there, unless a label has a whole dark
+ * area. */
 CeldStatus celd_task_drop_ink_seeds (CeldSegmentTask *task);
 
-/* ------------------------------------------------------------------ paint.c: where strokes lie */
+/* ------------------------------------------------------------------ strokes.c: where strokes lie */
 
-/* part[basin] is the part it belongs to: basins->piece, room or block; NULL: no shares. */
+/* The strokes of the task's seeds; makes the record. part[basin] says which part a basin belongs to: basins->component,
+ * enclosure or merged; NULL: no overlaps are computed. */
 CeldStatus celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes *strokes);
 void       celd_strokes_clear (CeldStrokes *strokes);
 
-/* Ends a spread: the canvas keeps it, if it keeps any. */
+/* Clears *strokes, or moves them to task->kept if the task keeps any. */
 void celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes);
 
-/* Makes the shares anew, by other parts. */
+/* Computes the overlaps with these parts in place of the present ones. */
 CeldStatus celd_strokes_overlap (const CeldBasins *basins, const uint32_t *part, CeldStrokes *strokes);
 
-/* Takes back the seeds of a dab that lie on paper. */
+/* Removes the seeds of a stroke piece that lie on paper. */
 CeldStatus celd_stroke_piece_remove (CeldSegmentTask *task, const CeldStrokePiece *piece);
 
-/* Takes back the seeds where a stroke ran on through a contour into a piece that other paint holds. */
+/* Removes the seeds where a soft stroke ran on through a contour onto a component that is mostly painted otherwise;
+ * fills in task->painted. */
 CeldStatus celd_spills_remove (const CeldHost *host, CeldSegmentTask *task);
 
 /* ------------------------------------------------------------------ background.c */
 
-/* Seeds along the frame where nothing reaches; marks the background in the palette. */
+/* Adds seeds along the frame where no stroke reaches, and marks the background in the palette. */
 CeldStatus celd_background_seed (const CeldHost *host, CeldSegmentTask *task);
 
-/* ------------------------------------------------------------------ seeds.c: arrows as strokes */
+/* ------------------------------------------------------------------ arrow-seeds.c and split.c: arrows as strokes */
 
-/* Seeds for each end of a relation that lies in a room which nothing reaches; canvas->reached says which those are. */
+/* Adds seeds for each end of a relation that lies in an enclosure without any; fills in task->seeded. */
 CeldStatus celd_arrow_seeds_add (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task);
 
-/* Does an end of the relation lie in such a room? */
+/* Does an end of the relation lie in an enclosure without seeds? */
 bool       celd_arrow_seeds_needed (const CeldSegmentTask *task, const CeldRelation *relation);
 
-/* split.c: splits regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes: what
- * is under these keeps its label.  What changes is appended to the patches, no pixel twice among them, and the discs of
- * both ends to the canvas' seeds. */
+/* Splits the regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes; pixels
+ * under hard strokes keep their labels. The changed pixels are appended to the patches, each once, and the discs of
+ * both ends are added to the task's seeds. After a failure the patches are as before. */
 CeldStatus celd_regions_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels,
                                CeldSegmentTask *task, CeldPatches *patches);
 
-/* Has it nothing to split for the relation, whose ends are settled: not on any of the patches? */
+/* Is there nothing to split for the relation? False if an end lies on one of the patches, where labels changed after
+ * regions were split. */
 bool       celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation,
                                       const CeldLabels *labels,
                                       const CeldPatches *patches);
 
-/* ------------------------------------------------------------------ exact.c, graph.c: the labels of lowest energy */
+/* ------------------------------------------------------------------ solve-pixels.c, solve-basins.c */
 
-/* Of every pixel; `labels` is tight. */
+/* The labels of all pixels by greedy cuts of LazyBrush [SDC09b]; `labels` is tight. */
 CeldStatus celd_lazybrush_solve (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels);
 
-/* walker.c: of every pixel, those that a random walker likely reaches first; `labels` is tight. */
+/* The labels of all pixels by a random walker [Gra06]; `labels` is tight. */
 CeldStatus celd_random_walker_solve (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels);
 
-/* Of every basin. */
+/* The label of every basin, by cuts on the graph of basins; label[n] has room for all basins. */
 CeldStatus celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label);
 
-/* ------------------------------------------------------------------ windows.c: conflicts, solved on pixels */
+/* ------------------------------------------------------------------ solve-windows.c: misplaced strokes, solved on
+ * pixels */
 
-/* label[basin] is the answer of the basin graph.  Where a stroke lies in a basin that has another label, the basin is
- * told apart pixel by pixel, in a window round the strokes, with everything outside as it is.  Hard seeds are always
- * obeyed; soft ones where that lowers the energy. */
+/* label[basin] is the result of celd_basin_graph_solve. Where a stroke lies in a basin with another label, the pixels
+ * of that basin are labelled one by one in a window round the stroke, with everything outside fixed. Hard seeds are
+ * always obeyed, soft ones where that lowers the energy. Appends the pixels whose label differs from their basin's;
+ * after a failure the patches are as before. */
 CeldStatus celd_windows_solve (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host,
                                CeldPatches *patches);
 
-/* ------------------------------------------------------------------ settle.c: borders of least energy */
+/* ------------------------------------------------------------------ refine-boundaries.c: boundaries of lower energy */
 
-/* Moves the borders between `labels`, which are what basins and windows make, to where they cost less: in lines, and
- * across gaps.  The pixels that change sides are painted, and appended to the patches; after a failure some are painted
- * that are in no patch. */
+/* Moves the boundaries between `labels` in place to where the energy is lower, within lines and across gaps. Appends
+ * the pixels that changed; after a failure some changed pixels are missing from the patches. */
 CeldStatus celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels,
                                    CeldPatches *patches);
 
-/* ------------------------------------------------------------------ closures.c: gaps as a person would close them */
+/* ------------------------------------------------------------------ closures.c: gaps closed by curves */
 
-/* `labels` is what basins and windows make.  Where two labels meet on paper, from one line end to another, the border
- * is redrawn as a curve that continues the lines: the closures, and the pixels that change sides.  No seed gets another
- * label by this.  Makes both records. */
+/* `label` are the labels of the basins, and `labels` those with the patches `windows` on top. Where two labels meet on
+ * paper between two line ends, the boundary is redrawn as a curve that continues the lines. Returns the closures and
+ * the pixels that change sides (makes both records); no seed changes its label. */
 CeldStatus celd_closures_find (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels,
                                const CeldPatches *windows, const CeldHost *host, CeldClosures *closures,
                                CeldPatches *patches);
 
-/* ------------------------------------------------------------------ report.c */
+/* ------------------------------------------------------------------ problems.c */
 
-/* `seeds` are those that the artist painted, `labels` the result, `painting` what is known of it. */
+/* Appends what the artist should know. `seeds` are those that the artist painted, `labels` the result, described by
+ * `labelling`. */
 CeldStatus celd_segment_report (const CeldSegmentTask *task, const CeldSeedRows *seeds, const CeldLabelling *labelling,
                                 const CeldLabels *labels, const CeldHost *host, CeldProblems *problems);
 

@@ -1,8 +1,8 @@
-/* Pixels of a band of rows, each led to a maximum or to the first pixel outside the band.
+/* Leads each pixel of a band of rows to a maximum, or to the first pixel outside the band.
  *
- * The steps of all pixels are found row by row from the relief.  Sweeps down and up the band take over what is known
- * where a step leads; the few pixels that are left then, whose ways go to and fro, are followed one by one.  Side by
- * side, pixels mostly lead to the same place or to places side by side, and are kept as such stretches.
+ * The steps of all pixels are computed row by row from the relief.  Sweeps down and up the band then copy leads along
+ * the steps; the few pixels left, whose paths turn back and forth, are followed one by one.  Neighbouring pixels mostly
+ * lead to the same place or to neighbouring places, and are stored as such stretches.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,12 +11,13 @@
 
 #define UNKNOWN UINT32_MAX
 
-/* Where a pixel leads: three steps up, three down, and from STAY on those that stay in their row.  KEEP: as before. */
+/* The step of a pixel: three upwards, three downwards, and from STAY on those within its row.  KEEP: it keeps its old
+ * basin. */
 enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST, KEEP };
 
 /* ------------------------------------------------------------------ steps */
 
-/* Row y of the relief, with low ground on both sides; all low outside the picture. */
+/* Computes row y of the relief, with the lowest value at both sides and outside the picture. */
 CELD_CLONES static void
 raise_row (const CeldWatershed *a, int y, int32_t *restrict relief)
 {
@@ -31,7 +32,7 @@ raise_row (const CeldWatershed *a, int y, int32_t *restrict relief)
     relief[x + 1] = squared[x] < -core ? -squared[x] - 2 * core : squared[x];
 }
 
-/* The steps of a row; the rows of the relief start one pixel to the left. */
+/* Finds the steps of a row; the rows of the relief start one pixel further left. */
 CELD_CLONES static void
 find_steps (int width, const int32_t *restrict above, const int32_t *restrict here, const int32_t *restrict below,
             uint8_t *restrict step)
@@ -59,8 +60,8 @@ find_steps (int width, const int32_t *restrict above, const int32_t *restrict he
 
 /* ------------------------------------------------------------------ leads within a band */
 
-/* Takes over what is known in the row that the steps from first, first + 1, first + 2 (to the left, straight, to the
- * right) lead to. */
+/* Copies known leads from the row above or below along the steps first, first + 1, first + 2 (left, straight, right).
+ */
 CELD_CLONES static void
 take_over (int width, const uint8_t *restrict step, int first, const uint32_t *restrict next, uint32_t *restrict lead)
 {
@@ -75,7 +76,7 @@ take_over (int width, const uint8_t *restrict step, int first, const uint32_t *r
     }
 }
 
-/* Takes over what is known beside a pixel. */
+/* Copies known leads along the row. */
 static void
 go_sideways (int width, const uint8_t *step, uint32_t *lead)
 {
@@ -107,7 +108,7 @@ step_offset (uint8_t step, ptrdiff_t row_size)
     }
 }
 
-/* Follows the steps from a pixel whose lead is unknown, and tells all pixels on the way. */
+/* Follows the steps from a pixel whose lead is unknown, and sets the leads of all pixels on the way. */
 static void
 follow (int width, const uint8_t *step, uint32_t *lead)
 {
@@ -138,7 +139,7 @@ has_unknown (int width, const uint32_t *lead)
   return most == UNKNOWN;
 }
 
-/* Leads n rows to maxima, or to the rows above and below them, whose leads are known. */
+/* Sets the leads of n rows: to maxima, or to the rows above and below, whose leads are set. */
 static void
 lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
 {
@@ -164,7 +165,7 @@ lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
 
 /* ------------------------------------------------------------------ a band */
 
-/* Pixels of row y that keep their old basins lead there. */
+/* Sets the leads of the pixels of row y that keep their old basins. */
 static void
 keep_row (const CeldWatershed *a, int y, uint8_t *step, uint32_t *lead)
 {
@@ -185,7 +186,7 @@ keep_row (const CeldWatershed *a, int y, uint8_t *step, uint32_t *lead)
     }
 }
 
-/* Maxima lead to themselves; what else does is not known. */
+/* Starts a row: maxima lead to themselves, the rest is unknown. */
 static bool
 start_row (const CeldWatershed *a, int y, uint8_t *step, CeldWatershedBand *band, uint32_t *lead)
 {

@@ -1,12 +1,15 @@
-/* Basins by steepest ascent: every pixel leads to the neighbour where the relief is greatest, and at last to a maximum.
+/* Basins by steepest ascent: a watershed transform in which every pixel leads to its highest neighbour, and at last to
+ * a maximum.
  *
  * The relief is the signed squared distance, but deeper in ink than T it rises again: d^2 - 2 T^2.  Ties are broken by
- * the order of the pixels, so that no plateau is left: among 4-neighbours an equal one that comes later in reading
- * order is higher.  Diagonal neighbours must be higher by relief alone: a diagonal line one pixel wide has paper at
- * distance 1 on both sides, which thus never leads across.
+ * the order of pixels, so there are no plateaus: among 4-neighbours of equal height the later one in reading order
+ * counts as higher.  Diagonal neighbours must be higher by the relief alone: a diagonal line one pixel wide has paper
+ * at distance 1 on both sides, which must not lead across it.
  *
- * Bands of rows lead their pixels to maxima, or out of the band.  Then the outermost rows of all bands are led to their
- * maxima, and with them everything else, as runs.  O(pixels) time; a band and half a byte a pixel of workspace.
+ * Bands of rows lead their pixels to maxima, or out of the band (watershed-bands.c).  Then the first and last rows of
+ * all bands are led to their maxima, and with them all other pixels, as runs.
+ *
+ * Cost: O(pixels) time; workspace for a band, and half a byte a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +18,7 @@
 
 /* ------------------------------------------------------------------ basins */
 
-/* Numbers the maxima. */
+/* Numbers the maxima of all bands, and makes their basins. */
 static CeldStatus
 make_basins (const CeldWatershed *a)
 {
@@ -46,7 +49,7 @@ make_basins (const CeldWatershed *a)
   return CELD_OK;
 }
 
-/* The basin that a lead with CELD_LEAD_MAXIMUM stands for. */
+/* The basin of a lead with CELD_LEAD_MAXIMUM. */
 static inline uint32_t
 basin_of (const CeldWatershedBand *band, uint32_t lead)
 {
@@ -55,7 +58,7 @@ basin_of (const CeldWatershedBand *band, uint32_t lead)
   return lead & CELD_OLD_BASIN ? CELD_OLD_BASIN | number : (uint32_t) band->first + number;
 }
 
-/* Leads the outermost rows of all bands to their basins. */
+/* Replaces the leads of the first and last rows of all bands by basins. */
 static void
 lead_edges (const CeldWatershed *a)
 {
@@ -83,7 +86,7 @@ lead_edges (const CeldWatershed *a)
     }
 }
 
-/* From x on pixels of the row belong to a basin. */
+/* Adds a run of a basin that starts at x, unless it continues the last one of the row. */
 static bool
 add_run (CeldWatershedBand *band, size_t row, int x, uint32_t basin)
 {
@@ -99,7 +102,7 @@ add_run (CeldWatershedBand *band, size_t row, int x, uint32_t basin)
   return true;
 }
 
-/* The runs of a band: basins->row gets their places within the band. */
+/* Finds the runs of a band; basins->row gets their places within the band. */
 static void
 find_runs (void *data, int job)
 {
@@ -134,7 +137,7 @@ find_runs (void *data, int job)
   band->failed = !good;
 }
 
-/* One list of runs of those of the bands. */
+/* Joins the runs of all bands to one list. */
 static CeldStatus
 gather_runs (const CeldWatershed *a)
 {
@@ -158,7 +161,7 @@ gather_runs (const CeldWatershed *a)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ all of it */
+/* ------------------------------------------------------------------ the whole */
 
 static CeldStatus
 run_bands (CeldWatershed *a, void (*body) (void *data, int job), const CeldHost *host, double from, double to)

@@ -1,4 +1,4 @@
-/* What borders cost between the parts of a window: links between its nodes, votes for what is fixed beside them.
+/* The edges of a window's graph: links between its nodes, and data costs where a neighbour is fixed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,7 +26,7 @@ celd_window_graph_add_data_cost (CeldWindowGraph *graph, uint32_t node, uint32_t
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ single borders */
+/* ------------------------------------------------------------------ single edges */
 
 /* The squared distance from (x,y) in ink to paper, as far as it matters to costs. */
 static int32_t
@@ -38,7 +38,7 @@ squared_to_paper (const CeldSegmentTask *task, int x, int y)
 
   while (least > 1 && discount[least - 1] == discount[CELD_MOST_TO_PAPER])
     least--;
-  for (int r = 1; r * r < least; r++) /* what is nearer than r columns or rows has been looked at */
+  for (int r = 1; r * r < least; r++) /* nearer columns and rows have been searched */
     for (int i = -r; i <= r; i++)
       {
         const int at[4][2] = { { x + i, y - r }, { x + i, y + r }, { x - r, y + i }, { x + r, y + i } };
@@ -51,16 +51,16 @@ squared_to_paper (const CeldSegmentTask *task, int x, int y)
   return least;
 }
 
-/* The label that pixels of this part have now. */
+/* The present label of the pixels of a part. */
 static uint32_t
 present_label (const CeldWindowGraph *graph, uint32_t part)
 {
   return part & CELD_PART_FIXED ? part & ~CELD_PART_FIXED : graph->present[part];
 }
 
-/* V between (x,y) of part a and the pixel to the right, or below, of part b.  With blocks, ink is taken to be as deep
- * as can be where the present border runs, and shallow elsewhere: what seems to be an improvement then is one, and
- * nobody needs to know how deep ink is. */
+/* V_pq between (x,y) of part a and the pixel below (south) or to the right, of part b.  In blocks ink counts as cheap
+ * as possible along present boundaries and as dear as possible elsewhere: an improvement by these costs is one by the
+ * true costs, and no distance to paper needs to be measured. */
 static int32_t
 edge_cost (const CeldWindowGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
 {
@@ -83,7 +83,8 @@ edge_cost (const CeldWindowGraph *graph, uint32_t a, uint32_t b, int x, int y, b
   return celd_smoothness_cost (&task->basins->costs, here, there, to_paper, other_to_paper, frame);
 }
 
-/* The border between the parts a and b of two neighbouring pixels: a link, or a vote for what is fixed. */
+/* Adds the edge between the parts a and b of two neighbouring pixels: to a link, or to a data cost if one of them is
+ * fixed. */
 static CeldStatus
 add_edge (CeldWindowGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
 {
@@ -117,7 +118,7 @@ add_edge (CeldWindowGraph *graph, uint32_t a, uint32_t b, int x, int y, bool sou
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ all of them */
+/* ------------------------------------------------------------------ all edges */
 
 static uint32_t
 block_at (const CeldWindowGraph *graph, int column, int row)
@@ -125,7 +126,7 @@ block_at (const CeldWindowGraph *graph, int column, int row)
   return graph->block[(size_t) row * (size_t) graph->columns + (size_t) column];
 }
 
-/* Are there no nodes in either block?  Blocks beyond the last ones are none. */
+/* Have both blocks no nodes?  Blocks outside have none. */
 static bool
 is_idle (const CeldWindowGraph *graph, uint32_t block, int column, int row)
 {
@@ -136,7 +137,7 @@ is_idle (const CeldWindowGraph *graph, uint32_t block, int column, int row)
   (other_to_paper & CELD_PART_FIXED || other_to_paper == CELD_PART_ABOVE);
 }
 
-/* The borders inside a block of several parts, which has w x h pixels, the first of them (left,top). */
+/* Adds the edges inside a block of several parts, which has w x h pixels from (left,top) on. */
 static CeldStatus
 link_inside (CeldWindowGraph *graph, uint32_t block, int left, int top, int w, int h)
 {
@@ -156,7 +157,7 @@ link_inside (CeldWindowGraph *graph, uint32_t block, int left, int top, int w, i
   return status;
 }
 
-/* All borders of a block: inside it, to the right and below. */
+/* Adds all edges of a block: inside it, to the right and below. */
 static CeldStatus
 link_block (CeldWindowGraph *graph, int column, int row)
 {
@@ -180,7 +181,7 @@ link_block (CeldWindowGraph *graph, int column, int row)
   return status;
 }
 
-/* Sums up the links of the same two nodes: they are sorted by their lesser node, of which none has many. */
+/* Sums up the links of the same two nodes, sorted by the lesser node; no node has many. */
 static CeldStatus
 sum_links (CeldWindowGraph *graph)
 {

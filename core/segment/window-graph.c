@@ -1,9 +1,10 @@
-/* A window of the picture as a graph whose nodes are pieces of one kind in square blocks.
+/* A window of the picture as a graph whose nodes are connected pixels of one kind in square blocks.
  *
- * A cut costs the same along any monotone staircase of pixels, so blocks of empty paper lose no more than it takes from
- * the block's corner to where the cut would begin; borders run for nothing in ink, so a piece of ink in a block can be
- * a node as well.  Apart are paper, faint ink and dark ink, paint and its labels, and labels that the basins have now.
- * What is fixed (other basins, hard paint, the window's rim) is no node: an edge to it is a vote for its label.
+ * A cut costs the same along any monotone staircase of pixels, so blocks of empty paper lose only the distance from a
+ * block's corner to where the cut would begin; boundaries in ink cost next to nothing, so connected ink in a block can
+ * be a node as well.  Kinds are paper, faint ink and dark ink; each label of seeds, and each present label of basins,
+ * is also separate.  What is fixed (other basins, hard seeds, the window's outermost pixels) is no node: an edge to it
+ * is a data cost.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +15,7 @@
 
 #include <string.h>
 
-#define DARK (1 / 128.0)        /* of what paper costs: an edge of dark ink costs no more */
+#define DARK (1 / 128.0)        /* of the cost of paper: a pair of dark ink costs no more (chosen) */
 
 void
 celd_window_graph_clear (CeldWindowGraph *graph)
@@ -45,8 +46,8 @@ add_node (CeldWindowBuilder *b, uint32_t present, uint32_t *node)
   return CELD_OK;
 }
 
-/* Is the pixel (i,j) of a block of the piece of (x,y)?  `first`: the block's first pixel; pieces other than dark ink
- * end at squares of 1 << square pixels a side. */
+/* Is pixel (i,j) of a block of the same node as its neighbour (x,y)?  `first`: the block's first pixel.  Nodes other
+ * than dark ink end at squares of 1 << square pixels a side. */
 static inline bool
 is_alike (const CeldWindowBuilder *b, size_t first, int square, int x, int y, int i, int j)
 {
@@ -59,8 +60,8 @@ is_alike (const CeldWindowBuilder *b, size_t first, int square, int x, int y, in
              || (x >> square == i >> square && y >> square == j >> square));
 }
 
-/* Joins pixels of a block that are of the same kind: ink in eight directions, so that a slanting line's rim is one.
- * What the row above has joined already needs no second time. */
+/* Joins pixels of a block that are of the same kind; ink in eight directions, so that the antialiased edge of a
+ * slanting line is one node.  Pixels joined through the row above are not joined again. */
 static void
 join_pixels (const CeldWindowBuilder *b, size_t first, int w, int h, int square)
 {
@@ -90,7 +91,7 @@ join_pixels (const CeldWindowBuilder *b, size_t first, int w, int h, int square)
       }
 }
 
-/* A block of several parts: a node for each piece, and the votes of the paint on it. */
+/* Divides a block into several parts: a node for each, and the data costs of its seeds. */
 static CeldStatus
 split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint32_t *block)
 {
@@ -104,7 +105,7 @@ split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint3
   graph->detail = detail;
   *block = CELD_PART_MIXED | (uint32_t) graph->n_details;
   detail += graph->n_details++ * area;
-  memset (detail, 0xff, area * sizeof *detail); /* fixed, where the block is cut off */
+  memset (detail, 0xff, area * sizeof *detail); /* fixed where the block is clipped */
   join_pixels (b, first, w, h, square);
   for (int y = 0; y < h; y++)
     for (int x = 0; x < w && status == CELD_OK; x++)
@@ -127,7 +128,8 @@ split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint3
   return status;
 }
 
-/* What the pixels of a block have in common, of the columns from `left` to `end` - 1; *uniform: everything? */
+/* The bits that the states of a block's pixels in the columns left .. end - 1 have in common; *uniform: are all states
+ * equal? */
 static uint32_t
 common_state (const CeldWindowBuilder *b, int left, int end, bool *uniform)
 {
@@ -162,7 +164,7 @@ make_block (CeldWindowBuilder *b, int column, int h, uint32_t *block)
   return split_block (b, (size_t) left, w, h, graph->shift, block);
 }
 
-/* change[i] and common[i] of the pixels in column i. */
+/* Fills in change[i] and common[i] of each column i. */
 static void
 compare_rows (const CeldWindowBuilder *b, int h)
 {
@@ -197,7 +199,7 @@ make_row (CeldWindowBuilder *b, int row, int top, int h)
 
 /* ------------------------------------------------------------------ finer blocks */
 
-/* A block that was one node becomes 4 x 4, for no part of it is near ink; others 8 x 8 and what ink is in them. */
+/* Divides a block: one that was a single node into 4 x 4, as it has no ink near; others into 8 x 8 and their ink. */
 static CeldStatus
 make_fine_row (CeldWindowBuilder *b, int row, int top, int h)
 {
@@ -228,7 +230,7 @@ make_fine_row (CeldWindowBuilder *b, int row, int top, int h)
 
 /* ------------------------------------------------------------------ the whole */
 
-/* Ink from here on costs more to cross than dark ink does. */
+/* The ink value from which on a pair costs more than dark ink may. */
 static float
 end_of_dark (const CeldSmoothnessCosts *costs)
 {
@@ -239,7 +241,7 @@ end_of_dark (const CeldSmoothnessCosts *costs)
   return (float) i / CELD_INK_STEPS;
 }
 
-/* b->cells has its place; what it gets besides is left to the caller to free. */
+/* Builds b->graph, whose window is set; after a failure the caller clears it. */
 static CeldStatus
 build (CeldWindowBuilder *b)
 {

@@ -1,4 +1,4 @@
-/* What the pixels of a window are to the graph of its cells: their labels, what is fixed, ink, and paint.
+/* The pixels of a window as the builder of its graph needs them: their labels, what is fixed, ink, and seeds.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,9 +10,9 @@
 
 #include <string.h>
 
-#define PAPER 0.75f /* ink from here on is paper, which a border had better not cross */
+#define PAPER 0.75f /* ink value from which on a pixel is white paper, which a boundary should not cross (chosen) */
 
-/* The rim of the window is as it is, but where the picture ends. */
+/* Reads labels from basins.  The outermost pixels of the window are fixed, except at the frame. */
 static void
 read_basins (CeldWindowBuilder *b, int y, uint32_t *state)
 {
@@ -37,7 +37,7 @@ read_basins (CeldWindowBuilder *b, int y, uint32_t *state)
     state[w->right - w->left] |= CELD_PART_FIXED;
 }
 
-/* What is fixed has no kind. */
+/* Adds the kind of ink to states that are not fixed. */
 static void
 read_ink (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
 {
@@ -48,7 +48,7 @@ read_ink (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
                 (1 - (state[i] >> 31));
 }
 
-/* Hard paint on pixel k of a row.  What is not free is another window's. */
+/* A hard seed on pixel k of a row.  Pixels that are not free belong to other windows. */
 static inline void
 obey (const CeldWindowBuilder *b, uint32_t label, int k, uint32_t *state)
 {
@@ -94,7 +94,7 @@ read_paint (const CeldWindowBuilder *b, int y, uint32_t *state, uint32_t *paint)
     }
 }
 
-/* The labels that the coarser cells have found are the present ones now. */
+/* Reads the labels found on the coarser graph as the present ones. */
 static void
 read_coarse (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
 {

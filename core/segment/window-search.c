@@ -1,8 +1,8 @@
-/* Where paint lies in a basin of another label: the places that windows.c looks at pixel by pixel.
+/* Where paint lies in a basin of another label: the places that solve-windows.c solves on pixels.
  *
- * Runs of such foreign paint that touch are a clump.  A clump's window is its box with room around: an artist's stroke
- * gets no more of a basin than lies near it, or it would have got the basin.  Windows that overlap are one, unless only
- * ink is between their basins.
+ * Runs of such misplaced paint that touch form a cluster.  A cluster's window is its bounding box with a margin: a
+ * stroke gets only the part of a basin that lies near it, or it would have got the basin.  Windows that overlap become
+ * one, unless only ink lies between their basins.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,9 +16,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARGIN 8                  /* pixels round the foreign paint, besides a stroke's width and half the longer side */
+#define MARGIN 8                  /* pixels round a cluster, besides a stroke width and half its longer side (chosen) */
 
-/* A run of paint in a basin of another label. */
+/* A run of seeds in a basin of another label. */
 typedef struct { int32_t y, x, end; uint32_t label, basin; } Run;
 
 typedef struct { CeldWindow box; bool wanted; } Cluster;
@@ -30,13 +30,13 @@ typedef struct
   size_t                 hint;
   Run                   *run;        /* in reading order */
   size_t                 n_runs;
-  uint32_t              *cluster_of; /* of each run: a set of unions.h, in the end its number */
+  uint32_t              *cluster_of; /* of each run: a disjoint-set forest (unions.h), in the end its cluster */
   Cluster               *cluster;
   size_t                 n_clusters;
-  uint32_t              *group;      /* of each basin: another one of its family, or itself */
+  uint32_t              *group;      /* of each basin: a disjoint-set forest of groups */
 } WindowSearch;
 
-/* ------------------------------------------------------------------ foreign paint */
+/* ------------------------------------------------------------------ misplaced paint */
 
 size_t
 celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint)
@@ -95,14 +95,14 @@ find_runs (WindowSearch *search)
   return status;
 }
 
-/* ------------------------------------------------------------------ clumps */
+/* ------------------------------------------------------------------ clusters */
 
-/* Joins runs that touch, in one row or in two, be it by a corner. */
+/* Joins runs that touch, in one row or in two, also by a corner. */
 static void
 join_runs (WindowSearch *search)
 {
   const Run *run = search->run;
-  size_t     above = 0;         /* no run before it touches run i, or one behind that */
+  size_t     above = 0;         /* no run before it touches run i, or a later one */
 
   celd_roots (search->cluster_of, search->n_runs);
   for (size_t i = 1; i < search->n_runs; i++)
@@ -125,7 +125,7 @@ widen (CeldWindow *box, const CeldWindow *other)
   box->bottom = box->bottom > other->bottom ? box->bottom : other->bottom;
 }
 
-/* Roots come first among the runs of a clump, so numbers go by first runs. */
+/* Numbers the clusters by their first runs, which are their roots. */
 static CeldStatus
 number_clusters (WindowSearch *search)
 {
@@ -150,9 +150,9 @@ number_clusters (WindowSearch *search)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ which are worth a look */
+/* ------------------------------------------------------------------ which clusters need a window */
 
-/* Hard paint is obeyed wherever it lies; soft paint on ink alone asks for nothing that shows. */
+/* Hard seeds are obeyed wherever they lie; soft seeds on ink alone would change nothing visible. */
 static void
 select_clusters (WindowSearch *search)
 {
@@ -167,16 +167,16 @@ select_clusters (WindowSearch *search)
     }
 }
 
-/* ------------------------------------------------------------------ which belong together */
+/* ------------------------------------------------------------------ groups of basins */
 
-/* Basins with foreign paint are of a family if paper joins them, or a clump.  Ink between two of them is worth nothing:
- * they may as well be looked at one by one. */
+/* Groups the basins with misplaced paint: those joined by paper or by a cluster.  With only ink between them they can
+ * be solved independently. */
 static CeldStatus
 group_basins (WindowSearch *search)
 {
   const CeldBasins *basins = search->task->basins;
   bool             *foreign = celd_alloc0 (basins->n, sizeof *foreign);
-  uint32_t         *first = celd_alloc (search->n_clusters, sizeof *first); /* a basin of each clump */
+  uint32_t         *first = celd_alloc (search->n_clusters, sizeof *first); /* a basin of each cluster */
 
   search->group = celd_alloc (basins->n, sizeof *search->group);
   if (!foreign || !first || !search->group)
@@ -233,14 +233,14 @@ compare_windows (const void *a, const void *b)
   return p->left < q->left ? -1 : p->left > q->left;
 }
 
-/* Of windows in this order: could q, or one after it, overlap p? */
+/* In this order of windows: can q, or one after it, overlap p? */
 static bool
 may_overlap (const CeldWindow *p, const CeldWindow *q)
 {
   return q->group == p->group && q->top <= p->bottom;
 }
 
-/* Unites windows of a family that overlap until none do; the united ones are larger and may overlap others. */
+/* Unites overlapping windows of a group until none overlap; united windows are larger and may overlap others. */
 static void
 merge (CeldWindows *windows)
 {
@@ -270,7 +270,7 @@ merge (CeldWindows *windows)
     }
 }
 
-/* The window of a run's family that holds it; windows->n if there is none.  Windows of a family do not overlap. */
+/* The index of the window of a run's group that contains it; windows->n: none. */
 static size_t
 window_of (const WindowSearch *search, const CeldWindows *windows, const Run *run)
 {
@@ -293,11 +293,11 @@ window_of (const WindowSearch *search, const CeldWindows *windows, const Run *ru
   return windows->n;
 }
 
-/* The basins in which foreign paint lies, by window. */
+/* Lists the basins with misplaced paint by window. */
 static CeldStatus
 list_basins (WindowSearch *search, CeldWindows *windows)
 {
-  uint32_t *last = celd_alloc0 (search->task->basins->n, sizeof *last); /* by basin: its last window, from 1 */
+  uint32_t *last = celd_alloc0 (search->task->basins->n, sizeof *last); /* of each basin: its last window, from 1 */
   size_t   *begin = celd_alloc0 (windows->n + 1, sizeof *begin);
   size_t    n = 0;
 
@@ -310,7 +310,7 @@ list_basins (WindowSearch *search, CeldWindows *windows)
     }
   for (size_t i = 0; i < search->n_runs; i++)
     {
-      search->cluster_of[i] = (uint32_t) window_of (search, windows, &search->run[i]); /* clumps are of no more use */
+      search->cluster_of[i] = (uint32_t) window_of (search, windows, &search->run[i]); /* clusters */
       begin[search->cluster_of[i]]++;
     }
   for (size_t k = 0; k < windows->n; k++)

@@ -1,4 +1,4 @@
-/* Windows: where the labels of basins are not enough, and a graph of what lies in one.
+/* Windows: where the labels of basins are not enough, and a graph of the pixels in a window.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,28 +9,28 @@
 #include "segment/task.h"
 #include "solve/partition.h"
 
-/* ------------------------------------------------------------------ window-places.c */
+/* ------------------------------------------------------------------ window-search.c */
 
-/* Pixels left .. right, top .. bottom, in which the pixels of these basins get labels anew. */
+/* The pixels left .. right, top .. bottom (inclusive), in which the pixels of these basins are labelled again. */
 typedef struct { int left, top, right, bottom; uint32_t group; size_t first, n; } CeldWindow;
 typedef struct { CeldWindow *item; size_t n; uint32_t *basin; } CeldWindows; /* basins first .. first + n - 1 */
 
-/* The places where paint lies in basins of another label, and might get pixels of its own.  No two windows of a family
- * of basins overlap; families have no basin in common. */
+/* Finds windows where paint lies in basins of another label.  Windows of a group of basins do not overlap; groups have
+ * no basin in common.  Makes the record. */
 CeldStatus celd_windows_find (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host,
                               CeldWindows *windows);
 void       celd_windows_clear (CeldWindows *windows);        /* accepts a zeroed record */
 
-/* The last run of basins in row y that begins at or before x.  It is looked for near *hint, 0 at first, which is left
- * at a good one for what is near in the same row or the next. */
+/* The index of the run of basins that contains (x,y).  The search starts near *hint, 0 at first, which is updated for
+ * pixels nearby in the same row or the next. */
 size_t celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint);
 
-/* ------------------------------------------------------------------ window-cells.c */
+/* ------------------------------------------------------------------ window-graph.c */
 
-/* What a pixel or a block is part of: a node, or a fixed label.  A block can also be of several parts, or fixed as the
- * coarser cells have it, or where there are none as the basins do. */
-#define CELD_PART_FIXED UINT32_C (0x80000000) /* and the label */
-#define CELD_PART_MIXED UINT32_C (0x40000000) /* and the number of its detail */
+/* The part that a pixel or a block belongs to: the number of a node, or a fixed label.  A block can also consist of
+ * several parts, or be left to the coarser graph or, where there is none, to the labels of the basins. */
+#define CELD_PART_FIXED UINT32_C (0x80000000) /* plus the label */
+#define CELD_PART_MIXED UINT32_C (0x40000000) /* plus the number of its detail */
 #define CELD_PART_ABOVE UINT32_C (0x3fffffff)
 
 typedef struct CeldWindowGraph CeldWindowGraph;
@@ -38,29 +38,29 @@ typedef struct CeldWindowGraph CeldWindowGraph;
 struct CeldWindowGraph
 {
   const CeldSegmentTask *task;
-  const CeldWindowGraph *coarse;        /* that these ones are finer than; NULL: none */
+  const CeldWindowGraph *coarse;        /* the graph that this one refines; NULL: none */
   const uint32_t        *basin_label;
   CeldWindow             window;
-  int                    shift;         /* square blocks of 1 << shift pixels a side; the last ones may be cut off */
-  int                    columns, rows; /* of blocks */
+  int                    shift;         /* square blocks of side 1 << shift; the last ones may be clipped */
+  int                    columns, rows; /* in blocks */
   uint32_t              *block;
-  bool                  *hard;          /* of each block: is there hard paint of another label than the basin's? */
-  uint32_t              *detail;        /* of each mixed block its pixels, as if no block was cut off */
+  bool                  *hard;          /* of each block: has it a hard seed of another label than its basin's? */
+  uint32_t              *detail;        /* the parts of the pixels of each mixed block, as if none were clipped */
   size_t                 n_details;
   size_t                 n;             /* nodes */
-  uint32_t              *present;       /* of node k: the label that its pixels have now */
-  uint32_t              *label;         /* and the one they get */
+  uint32_t              *present;       /* of node k: the present label of its pixels */
+  uint32_t              *label;         /* and their new one */
   CeldLink              *link;
   CeldVote              *vote;
   size_t                 n_links, n_votes;
 };
 
-/* Contracts the window to a graph: pixels of the basins with free[basin] == id become nodes, others count with the
- * label of their basin. */
+/* Contracts the window to a graph: pixels of the basins with free[basin] == id become nodes, all others are fixed to
+ * the label of their basin.  Makes the record; so does celd_window_graph_refine. */
 CeldStatus celd_window_graph_new (const CeldSegmentTask *task, const uint32_t *label, const uint32_t *free, uint32_t id,
                                   const CeldWindow *window, int shift, CeldWindowGraph *graph);
 
-/* The blocks with fine[block] of cells that have got their labels, contracted less; everything else is fixed. */
+/* Contracts less the blocks with fine[block], of a graph whose nodes have their labels; everything else is fixed. */
 CeldStatus celd_window_graph_refine (const CeldWindowGraph *coarse, const uint8_t *fine, CeldWindowGraph *graph);
 
 void celd_window_graph_clear (CeldWindowGraph *graph);                    /* accepts a zeroed record */
@@ -72,7 +72,7 @@ celd_window_part_label (const CeldWindowGraph *graph, uint32_t part)
   return part & CELD_PART_FIXED ? part & ~CELD_PART_FIXED : graph->label[part];
 }
 
-/* The part of pixel (x,y) of the picture, inside the window. */
+/* The part of pixel (x,y) of the picture, which must be inside the window. */
 static inline uint32_t
 celd_window_part_at (const CeldWindowGraph *graph, int x, int y)
 {
@@ -90,17 +90,17 @@ celd_window_part_at (const CeldWindowGraph *graph, int x, int y)
                        + ((size_t) (j & mask) << graph->shift) + (size_t) (i & mask)];
 }
 
-/* ------------------------------------------------------------------ window-links.c */
+/* ------------------------------------------------------------------ window-edges.c */
 
-/* A vote for a label, or one that is added to the last. */
+/* Adds the cost of a node without this label. */
 CeldStatus celd_window_graph_add_data_cost (CeldWindowGraph *graph, uint32_t node, uint32_t label, int64_t cost);
 
-/* Fills in the links between nodes, and what is fixed as votes. */
+/* Fills in the links between nodes, and data costs for neighbours that are fixed. */
 CeldStatus celd_window_graph_connect (CeldWindowGraph *graph);
 
 /* ------------------------------------------------------------------ building the graph */
 
-/* In the state of a pixel, besides CELD_PART_FIXED: its label, and unless it is fixed its kind. */
+/* The state of a pixel: CELD_PART_FIXED, its label, and its kind unless it is fixed. */
 #define CELD_PART_LABELS   UINT32_C (0x1fffffff)
 #define CELD_PART_KINDS    UINT32_C (0x60000000)
 #define CELD_PART_KIND_INK UINT32_C (0x20000000)        /* once: ink; twice: dark ink */
@@ -111,15 +111,15 @@ typedef struct
   const uint32_t  *free;         /* by basin */
   uint32_t         id;
   size_t           hint;         /* of celd_basin_run_at */
-  const uint8_t   *fine;         /* by block; NULL: blocks are to be coarse */
-  float            dark;         /* ink below this is dark */
-  uint32_t        *state;        /* of the pixels of a row of blocks: label, kind, CELD_PART_FIXED */
-  uint32_t        *paint;        /* and the label of soft paint on them, 0 if there is none */
-  uint32_t        *change;       /* of the columns of pixels in it: not 0 where states differ */
-  uint32_t        *common;       /* and the bits that all states have */
-  bool            *painted;      /* by block of the row */
-  bool            *hard;         /* the same: is there hard paint in it that changes something? */
-  uint32_t        *parent;       /* of the pixels of a block: another one of its piece, itself for the first */
+  const uint8_t   *fine;         /* by block; NULL: for coarse blocks */
+  float            dark;         /* ink below this value is dark */
+  uint32_t        *state;        /* states of the pixels in a row of blocks */
+  uint32_t        *paint;        /* their soft seeds, 0: none */
+  uint32_t        *change;       /* of each column of these pixels: not 0 where states differ */
+  uint32_t        *common;       /* and the bits that all of its states have */
+  bool            *painted;      /* of each block of the row: has it soft seeds? */
+  bool            *hard;         /* and a hard seed of another label than its basin's? */
+  uint32_t        *parent;       /* of the pixels of a block: a disjoint-set forest (unions.h) */
 } CeldWindowBuilder;
 
 static inline int
@@ -130,11 +130,12 @@ celd_window_width (const CeldWindowGraph *graph)
 
 /* ------------------------------------------------------------------ window-pixels.c */
 
-/* The states of the pixels of row y of the picture, as the basins have them, and soft paint.  Notes in what blocks
- * there is paint, and hard paint. */
+/* Reads the states of the pixels of row y of the picture from the basins' labels, and their soft seeds; sets `painted`
+ * and `hard`. */
 void celd_window_read (CeldWindowBuilder *builder, int y, uint32_t *state, uint32_t *paint);
 
-/* The same as coarser cells have found them, of the blocks with fine[column]. */
+/* Reads the states of the pixels of row y from the coarser graph's new labels, for the blocks with fine[column], and
+ * their soft seeds. */
 void celd_window_read_fine (CeldWindowBuilder *builder, int y, const uint8_t *fine, uint32_t *state, uint32_t *paint);
 
 #endif

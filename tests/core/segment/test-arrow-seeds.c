@@ -63,7 +63,7 @@ ends_make_regions (void)
 {
   Case c = segment (enclosures, "4.5,4.5 > 12.5,4.5", celd_settings ());
 
-  CHECK (c.status == CELD_OK && c.palette.n == 3); /* the third room goes along with one of them, or the background */
+  CHECK (c.status == CELD_OK && c.palette.n == 3); /* it goes with one of them, or the background */
   CHECK (LABEL (4, 4) == 1 && LABEL (2, 2) == 1 && LABEL (8, 6) == 1);
   CHECK (LABEL (12, 4) == 2 && LABEL (10, 6) == 2);
   CHECK (LABEL (0, 0) == 3 && c.palette.item[2].background && c.palette.item[2].colour[3] == 0);

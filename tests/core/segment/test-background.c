@@ -110,8 +110,8 @@ a_figure_that_the_frame_cuts_off_is_not_the_background (void)
   sketch_close (&s);
 }
 
-/* A runs on out of the figure.  A soft stroke is at home where most of it is, and loses what lies in nobody's room; an
- * obeyed one holds the frame. */
+/* A runs on out of the figure.  A soft stroke is at home where most of it is, and loses what lies in nobody's
+ * enclosure; an obeyed one holds the frame. */
 static void
 a_stroke_that_runs_out_does_not_hold_the_frame (void)
 {
@@ -151,9 +151,9 @@ a_stroke_over_hatching_holds_the_frame (void)
   sketch_close (&s);
 }
 
-/* A small room behind a gap goes to whom its piece goes, and gets no seeds. */
+/* A small enclosure behind a gap goes to the owner of its component, and gets no seeds. */
 static void
-behind_a_gap_the_piece_counts (void)
+behind_a_gap_the_component_counts (void)
 {
   static const char *const enclosures[] = { "1111#22", "1111122", "1111#22", "1111111", NULL };
   static const char *const painted[] = { ".......", ".AA....", ".......", ".......", NULL };
@@ -165,8 +165,8 @@ behind_a_gap_the_piece_counts (void)
   sketch_close (&s);
 }
 
-/* Flecks of paper in a solid area that the frame cuts off, some of them painted: they are in no room, so that none
- * takes the paint away from another. */
+/* Flecks of paper in a solid area that the frame cuts off, some of them painted: they are in no enclosure, so that
+ * none takes the paint away from another. */
 static void
 flecks_in_solid_ink_are_left_alone (void)
 {
@@ -330,11 +330,11 @@ seeds_are_those_of_the_pixels (void)
       pixels = (Pixels) { .painted = art_labels (painted_rows), .enclosure = art_labels (paper_rows),
                           .all_count = round % 4 == 0 };
       flood (&pixels.painted, pixels.stroke);
-      if (joined) /* a room behind a gap */
+      if (joined) /* an enclosure behind a gap */
         s.basins.component[joined] = 1;
       for (int p = 0; p < W * H; p++)
         pixels.component[p] = pixels.enclosure.data[p] == joined + 1 ? 1 : pixels.enclosure.data[p];
-      if (round % 2) /* as in a segmentation: what is left of stains counts, and strokes that they have cut in two */
+      if (round % 2) /* as in a segmentation: what is left of spills counts, and strokes that they have cut in two */
         {
           CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
           celd_seed_rows_write (&s.task.seeds, &pixels.painted);
@@ -366,7 +366,7 @@ main (void)
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
   RUN (a_stroke_over_hatching_holds_the_frame);
-  RUN (behind_a_gap_the_piece_counts);
+  RUN (behind_a_gap_the_component_counts);
   RUN (flecks_in_solid_ink_are_left_alone);
   RUN (an_obeyed_stroke_under_a_bridge_stays);
   RUN (seeds_are_those_of_the_pixels);

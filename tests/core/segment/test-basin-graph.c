@@ -41,7 +41,7 @@ renewed_is_new (void)
   CHECK (wrong == 0);
 }
 
-/* Pairs of one border that are counted apart: sums, and the place of the widest pass, the first of equal ones. */
+/* Pairs of one boundary that are counted separately: sums, and the place of the saddle, the first of equal ones. */
 static void
 boundaries_add_up (void)
 {

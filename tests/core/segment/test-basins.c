@@ -15,7 +15,7 @@ find (const char *const *rows, CeldPlane *ink, CeldBasins *basins)
   CHECK (celd_basins_new (ink, THRESHOLD, NULL, basins) == CELD_OK);
 }
 
-/* The numbers of pieces, rooms and blocks must be these. */
+/* The numbers of components, enclosures and merged basins must be these. */
 static void
 count (const char *const *rows, int stroke, size_t pieces, size_t enclosures, size_t blocks)
 {
@@ -32,7 +32,7 @@ count (const char *const *rows, int stroke, size_t pieces, size_t enclosures, si
 }
 
 static void
-a_wall_parts_pieces_and_a_gap_parts_rooms (void)
+a_wall_separates_components_and_a_gap_enclosures (void)
 {
   static const char *const walled[] = {
     ".......#.......", ".......#.......", ".......#.......", ".......#.......", ".......#.......", NULL
@@ -61,7 +61,7 @@ a_wall_parts_pieces_and_a_gap_parts_rooms (void)
 
 /* Nothing is wider there than the passage that leads to it. */
 static void
-a_corridor_and_a_corner_stay_with_their_room (void)
+a_corridor_and_a_corner_stay_with_their_enclosure (void)
 {
   static const char *const corridor[] = {
     "####################", "#........###########", "#........###########", "#........###########",
@@ -224,8 +224,8 @@ bad_sizes (void)
 int
 main (void)
 {
-  RUN (a_wall_parts_pieces_and_a_gap_parts_rooms);
-  RUN (a_corridor_and_a_corner_stay_with_their_room);
+  RUN (a_wall_separates_components_and_a_gap_enclosures);
+  RUN (a_corridor_and_a_corner_stay_with_their_enclosure);
   RUN (a_diagonal_line_of_one_pixel_parts);
   RUN (a_black_disc_is_solid);
   RUN (pictures_without_paper_or_without_ink);

@@ -1,4 +1,4 @@
-/* White borders as chains of edges: where they run, what stops them, and that none is missed.
+/* Boundaries across paper as chains of edges: where they run, what stops them, and that none is missed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

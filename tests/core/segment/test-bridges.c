@@ -1,4 +1,4 @@
-/* Bridges over gaps in contours: which ends they join, that basins part there, and that paper stays one piece.
+/* Bridges over gaps in contours: which ends they join, that basins part there, and that paper stays one component.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -83,7 +83,7 @@ a_gap_in_a_circle_is_bridged (void)
 }
 
 /* A third of the circle is missing: no narrow place of the paper says where it was.  Basins part all the same, but
- * pieces and rooms do not. */
+ * components and enclosures do not. */
 static void
 basins_part_at_a_bridge (void)
 {

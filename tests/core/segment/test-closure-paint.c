@@ -70,9 +70,9 @@ over_nothing_only_opacity_is_painted (void)
   check_pixel (picture, 9, 1, 9, 9, 9, 0);
 }
 
-/* A line of many pieces is that of one piece. */
+/* A line of many segments looks like that of one segment. */
 static void
-pieces_do_not_show (void)
+segments_do_not_show (void)
 {
   CeldPlace one[] = { { 3, 3.3 }, { 17, 8.3 } }, many[15];
   uint8_t   picture[2][4 * W * H];
@@ -104,7 +104,7 @@ main (void)
   RUN (a_line_covers_its_width);
   RUN (its_rim_is_antialiased);
   RUN (over_nothing_only_opacity_is_painted);
-  RUN (pieces_do_not_show);
+  RUN (segments_do_not_show);
   RUN (what_lies_outside_is_cut_off);
   return DONE;
 }

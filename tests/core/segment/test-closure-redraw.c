@@ -1,4 +1,4 @@
-/* What keeps a border from being redrawn: ink, other labels, seeds, faint lines.
+/* What keeps a boundary from being redrawn: ink, other labels, seeds, faint lines.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 #include "segment/labelling.h"
 #include "segment/task.h"
 
-/* Lays something across the straight way between two tips, while the old border makes a detour below it. */
+/* Puts something on the straight line between two tips, while the old boundary makes a detour below it. */
 static void
 draw_detour (Scene *s)
 {
@@ -86,7 +86,7 @@ seeds_keep_their_label (void)
   scene_close (&s);
 }
 
-/* A border along a line that is too faint to be ink is no gap. */
+/* A boundary along a line that is too faint to be ink is no gap. */
 static void
 faint_lines_are_followed (void)
 {
@@ -104,7 +104,7 @@ faint_lines_are_followed (void)
   scene_close (&s);
 }
 
-/* A stroke that a window gave back to its label, and nothing else: a closed loop of border. */
+/* A stroke that a window gave back to its label, and nothing else: its boundary is a closed loop. */
 static void
 islands_and_rims_of_patches (void)
 {
@@ -121,7 +121,7 @@ islands_and_rims_of_patches (void)
   NEAR (s.patches.n, 0, 0);
   scene_close (&s);
 
-  draw_detour (&s); /* basins of one label on both sides: only the patch says that there is a border */
+  draw_detour (&s); /* basins of one label on both sides: only the patch says that there is a boundary */
   windows = (CeldPatches) { side, 1 };
   CHECK (scene_find (&s, &windows) == CELD_OK);
   NEAR (s.closures.n, 1, 0);

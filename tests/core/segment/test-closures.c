@@ -1,4 +1,4 @@
-/* Gaps closed by lines and curves: where the new border runs, and that nothing else changes.
+/* Gaps closed by lines and curves: where the new boundary runs, and that nothing else changes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -190,7 +190,7 @@ long_arcs_are_continued (void)
 
 /* ------------------------------------------------------------------ several ends */
 
-/* The chain of the second gap is one with that of the first as a border of basins. */
+/* The chain of the second gap is one with that of the first as a boundary of basins. */
 static void
 two_gaps_between_two_regions_are_both_closed (void)
 {
@@ -217,7 +217,7 @@ two_gaps_between_two_regions_are_both_closed (void)
   scene_close (&s);
 }
 
-/* The border from a line's end to the frame starts in the middle of the tip and ends where it did. */
+/* The boundary from a line's end to the frame starts in the middle of the tip and ends where it did. */
 static void
 a_gap_at_the_frame_ends_there (void)
 {

@@ -82,9 +82,11 @@ weigh (const Page *page, int32_t *east, int32_t *south)
         const float *ink = page->ink.data + p;
 
         east[p] = x + 1 < w
-                ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[1], depth[p], depth[p + 1], y == 0 || y == h - 1) : 0;
+                ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[1], depth[p], depth[p + 1],
+                                        y == 0 || y == h - 1) : 0;
         south[p] = y + 1 < h
-                 ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[w], depth[p], depth[p + w], x == 0 || x == w - 1) : 0;
+                 ? celd_smoothness_cost (&page->basins.costs, ink[0], ink[w], depth[p], depth[p + w],
+                                        x == 0 || x == w - 1) : 0;
       }
   free (paper);
   free (depth);

@@ -110,7 +110,7 @@ hollow_tips (void)
   scene_close (&s);
 }
 
-/* From a tip that heads for another line's side the border goes on ahead, not along the shortest way. */
+/* From a tip that heads for another line's side the boundary goes on ahead, not along the shortest way. */
 static void
 sides_are_met_ahead (void)
 {

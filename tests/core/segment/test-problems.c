@@ -25,7 +25,7 @@ paint (const CeldBasins *b, const CeldLabels *labels, CeldLabelling *labelling)
       }
 }
 
-/* A canvas whose labels are `labels`, with their areas counted, and what is reported of it. */
+/* A task whose labels are `labels`, with their areas counted, and what is reported of it. */
 typedef struct { Sketch sketch; CeldLabels labels; CeldLabelling labelling; CeldProblems problems; } Case;
 
 static void

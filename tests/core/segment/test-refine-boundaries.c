@@ -1,5 +1,5 @@
-/* Borders of least energy: it never rises, no run of a border is left that would gain, hard strokes are obeyed, and two
- * labels across a gap cost what exact cuts of all pixels do.
+/* Boundaries of least energy: it never rises, no segment of a boundary is left that would gain, hard strokes are obeyed, and
+ * two labels across a gap cost what exact cuts of all pixels do.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -53,7 +53,7 @@ scene_close (Scene *s)
   celd_palette_clear (&s->task.palette);
 }
 
-/* The paper's energy; of hard seeds what no border can cost. */
+/* The paper's energy; of hard seeds what no boundary can cost. */
 static int64_t
 energy (const Scene *s, const CeldLabels *l)
 {
@@ -192,8 +192,8 @@ random_boundaries_settle (void)
 
 /* ------------------------------------------------------------------ gaps */
 
-/* A ring with a gap on its right at some angle, one label inside, the other outside; parted by a vertical line far from
- * where the gap is narrowest. */
+/* A ring with a gap on its right at some angle, one label inside, the other outside; parted by a vertical line far
+ * from where the gap is narrowest. */
 static void
 gap_costs_what_exact_cuts_do (void)
 {

@@ -149,7 +149,7 @@ a_stroke_closes_gaps_of_its_length (void)
   case_clear (&c);
 }
 
-/* The stroke of C runs on through the contour into the room of B. */
+/* The stroke of C runs on through the contour into the enclosure of B. */
 static const char *const sloppy[] = {
   "AAAAAAA.............",
   "....................",
@@ -186,7 +186,7 @@ hard_strokes_are_obeyed (void)
   case_clear (&c);
 }
 
-/* Paint of both in one room: the smaller stroke loses, and is told so. */
+/* Paint of both in one enclosure: the smaller stroke loses, and that is reported. */
 static void
 overruled_and_lost_are_told (void)
 {
@@ -420,7 +420,7 @@ strides_aliases_and_nonsense (void)
 }
 
 /* A circle of radius 120, its line 6 wide, with a gap of 60 pixels between the tips, at any angle; a stroke inside and
- * one outside.  The border in the gap is at most 3 pixels off the chord. */
+ * one outside.  The boundary in the gap is at most 3 pixels off the chord. */
 static void
 a_gap_is_closed_like_by_hand (void)
 {

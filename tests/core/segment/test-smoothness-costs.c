@@ -1,4 +1,4 @@
-/* What a border between two pixels costs.
+/* What a boundary between two pixels costs.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -44,7 +44,7 @@ the_darker_pixel_counts (void)
     }
 }
 
-/* A border runs along the middle of a line: there it costs least, but never nothing. */
+/* A boundary runs along the middle of a line: there it costs least, but never nothing. */
 static void
 deep_ink_costs_less (void)
 {

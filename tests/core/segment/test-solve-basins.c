@@ -63,7 +63,7 @@ solve (Page *p)
     CHECK (p->label[k] >= 1 && p->label[k] <= p->task.palette.n);
 }
 
-/* A room on the left, joined to a room on the right by a neck of two pixels; all else is outside. */
+/* An enclosure on the left, joined to an enclosure on the right by a neck of two pixels; all else is outside. */
 static const char *const neck[] = {
   "..............................",
   "..############..############..",
@@ -77,7 +77,7 @@ static const char *const neck[] = {
   "..............................", NULL };
 
 static void
-a_part_behind_a_neck_follows_its_room (void)
+a_part_behind_a_neck_follows_its_enclosure (void)
 {
   static const char *const painted[] = {
     "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAA",
@@ -94,7 +94,7 @@ a_part_behind_a_neck_follows_its_room (void)
   page_close (&p);
 }
 
-/* A speck of paint against the whole page: a cut of two pixels of paper would save the speck's votes, and more. */
+/* A speck of paint against the whole page: a cut of two pixels of paper would save the speck's data costs, and more. */
 static void
 a_part_with_paint_of_its_own_keeps_it (void)
 {
@@ -133,7 +133,7 @@ hard_labels_are_obeyed_and_the_greater_wins_a_basin (void)
   page_close (&p);
 }
 
-/* Paint on the ink between two rooms says nothing of either. */
+/* Paint on the ink between two enclosures says nothing of either. */
 static void
 paint_on_a_line_does_not_count (void)
 {
@@ -151,9 +151,9 @@ paint_on_a_line_does_not_count (void)
   page_close (&p);
 }
 
-/* Closed rooms of random size, each with its stroke: the same labels on paper as by exact cuts. */
+/* Closed enclosures of random size, each with its stroke: the same labels on paper as by exact cuts. */
 static void
-closed_rooms_come_out_as_by_exact_cuts (void)
+closed_enclosures_come_out_as_by_exact_cuts (void)
 {
   enum { WIDTH = 64, HEIGHT = 48 };
   uint32_t state = 5;
@@ -203,10 +203,10 @@ closed_rooms_come_out_as_by_exact_cuts (void)
 int
 main (void)
 {
-  RUN (a_part_behind_a_neck_follows_its_room);
+  RUN (a_part_behind_a_neck_follows_its_enclosure);
   RUN (a_part_with_paint_of_its_own_keeps_it);
   RUN (hard_labels_are_obeyed_and_the_greater_wins_a_basin);
   RUN (paint_on_a_line_does_not_count);
-  RUN (closed_rooms_come_out_as_by_exact_cuts);
+  RUN (closed_enclosures_come_out_as_by_exact_cuts);
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* Random walker segmentation: known borders, and the bases of the exact program.
+/* Random walker segmentation: known boundaries, and the bases of the exact program.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -253,7 +253,7 @@ static const char *const one_basin[] = {
 };
 
 static void
-two_hard_strokes_share_a_room (void)
+two_hard_strokes_share_an_enclosure (void)
 {
   static const char *const painted[] = {
     "....................", "..AAAAA.............", "..AAAAA.............", "....................",
@@ -270,7 +270,7 @@ two_hard_strokes_share_a_room (void)
   scene_close (&s);
 }
 
-/* The tail of a stroke in the next room is kept, and nothing else of that room. */
+/* The tail of a stroke in the next enclosure is kept, and nothing else of that enclosure. */
 static void
 hard_stroke_through_a_contour (void)
 {
@@ -371,7 +371,7 @@ soft_stroke_in_a_dead_end (void)
 
 /* ------------------------------------------------------------------ many */
 
-/* A page of rooms of 60 x 60 pixels, one basin each, with label A; in some of them hard strokes of B and C. */
+/* A page of enclosures of 60 x 60 pixels, one basin each, with label A; in some of them hard strokes of B and C. */
 static void
 several_windows_at_once (void)
 {
@@ -569,7 +569,7 @@ cancel_leaves_the_patches (void)
 int
 main (void)
 {
-  RUN (two_hard_strokes_share_a_room);
+  RUN (two_hard_strokes_share_an_enclosure);
   RUN (hard_stroke_through_a_contour);
   RUN (hard_strokes_on_ink_and_at_the_frame);
   RUN (soft_minority_changes_nothing);

@@ -1,4 +1,4 @@
-/* Where strokes lie, and which of their shares are stains.
+/* Where strokes lie, and which of their overlaps are spills.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,7 +17,7 @@ check_share (const CeldStrokes *strokes, size_t i, CeldStrokeOverlap wanted)
 
 /* A runs through the contour and back, in runs that add up; paint on ink is no share.  B touches only by a corner. */
 static void
-shares_of_strokes (void)
+overlaps_of_strokes (void)
 {
   static const char *const paper[] = { "111#222", "111#222", "111#222", "111#222", NULL };
   static const char *const painted[] = { ".AAAAA.", ".....A.", ".AAAAAB", "B.....B", NULL };
@@ -86,7 +86,7 @@ runs_are_cut_where_basins_meet (void)
 
 /* ------------------------------------------------------------------ the same by pixels */
 
-/* Is pixel p a stain?  By the definition, pixel by pixel. */
+/* Is pixel p a spill?  By the definition, pixel by pixel. */
 static bool
 slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32_t stroke[W * H], int p)
 {
@@ -106,7 +106,7 @@ slow_stain (const CeldLabels *painted, const CeldLabels *component, const uint32
   return here * mine < 0.5 * elsewhere * others;
 }
 
-/* With what other seeds on the same drawing left behind, dabs must be the same. */
+/* With what other seeds on the same drawing left behind, stroke pieces must be the same. */
 static void
 check_kept (Sketch *s, const CeldStrokes *wanted, uint32_t *state)
 {
@@ -139,7 +139,7 @@ check_kept (Sketch *s, const CeldStrokes *wanted, uint32_t *state)
 }
 
 static void
-dabs_shares_and_stains_are_those_of_the_pixels (void)
+stroke_pieces_overlaps_and_spills_are_those_of_the_pixels (void)
 {
   uint32_t state = 5, stroke[W * H];
   int      stains = 0;
@@ -215,7 +215,7 @@ dabs_shares_and_stains_are_those_of_the_pixels (void)
   CHECK (stains > 500);
 }
 
-/* ------------------------------------------------------------------ stains */
+/* ------------------------------------------------------------------ spills */
 
 /* The seeds that are left of the painted ones. */
 static void
@@ -233,7 +233,7 @@ check_left (const char *const *paper, const char *const *painted, float hardness
 static const char *const halves[] = { "111111#2222", "111111#2222", NULL };
 
 static void
-paint_behind_a_contour_is_a_stain (void)
+paint_behind_a_contour_is_a_spill (void)
 {
   static const char *const painted[] = { "AAAAAAAAA..", ".......BBBB", NULL };
   static const char *const left[] = { "AAAAAAA....", ".......BBBB", NULL };
@@ -254,7 +254,7 @@ at_home_or_alone_paint_is_none (void)
 
 /* A stroke with 2 of its 5 pixels elsewhere: 9 pixels of B do not outweigh the other 3, 10 do. */
 static void
-the_odds_of_a_stain (void)
+the_odds_of_a_spill (void)
 {
   static const char *const paper[] = { "1#22222", "1#22222", "1#22222", NULL };
   static const char *const nine[] = { "AAAAA..", "A.BBBBB", "...BBBB", NULL };
@@ -268,12 +268,12 @@ the_odds_of_a_stain (void)
 int
 main (void)
 {
-  RUN (shares_of_strokes);
+  RUN (overlaps_of_strokes);
   RUN (pixels_that_touch_by_a_corner_are_one_stroke);
   RUN (runs_are_cut_where_basins_meet);
-  RUN (dabs_shares_and_stains_are_those_of_the_pixels);
-  RUN (paint_behind_a_contour_is_a_stain);
+  RUN (stroke_pieces_overlaps_and_spills_are_those_of_the_pixels);
+  RUN (paint_behind_a_contour_is_a_spill);
   RUN (at_home_or_alone_paint_is_none);
-  RUN (the_odds_of_a_stain);
+  RUN (the_odds_of_a_spill);
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* What paint weighs, in which order labels are told apart, and which paint of a flat colouring counts.
+/* What paint weighs, in which order labels are separated, and which paint of a flat colouring counts.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -78,7 +78,7 @@ check_weight (Sketch *s)
 
   seeds.data = malloc ((size_t) (seeds.width * seeds.height) * sizeof *seeds.data);
   celd_seed_rows_write (&s->task.seeds, &seeds);
-  s->basins.costs.paper_cost = 5e5; /* so that votes tell widths well apart */
+  s->basins.costs.paper_cost = 5e5; /* so that data costs differ well between widths */
   s->settings.hardness  = 1;
   celd_task_set_soft_cost (&s->task);
   NEAR (s->task.soft_cost, floor (CELD_COST_UNIT * 5e5 * 20 / slow_brush (&seeds)), 0);
@@ -110,9 +110,9 @@ paint_weighs_by_the_width_of_its_strokes (void)
   sketch_close (&s);
 }
 
-/* A vote is at least 1 and at most what sums stay exact with. */
+/* A data cost is at least 1, and small enough for sums to be exact. */
 static void
-votes_keep_their_bounds (void)
+data_costs_keep_their_bounds (void)
 {
   static const char *const paper[] = { "1111", "1111", NULL }, *const painted[] = { "A...", "BB..", NULL };
   Sketch                   s;
@@ -229,7 +229,7 @@ int
 main (void)
 {
   RUN (paint_weighs_by_the_width_of_its_strokes);
-  RUN (votes_keep_their_bounds);
+  RUN (data_costs_keep_their_bounds);
   RUN (labels_come_by_falling_paint);
   RUN (paint_on_lines_says_nothing);
   RUN (dark_areas_are_on_ink);

@@ -1,4 +1,4 @@
-/* Basins, borders and pieces against their definition, pixel by pixel, on random drawings.
+/* Basins, boundaries and components against their definition, pixel by pixel, on random drawings.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -103,7 +103,7 @@ outermost (const Slow *s, int p)
   return p % s->w == 0 || p % s->w == s->w - 1 || p < s->w || p >= s->w * (s->h - 1);
 }
 
-/* The border of two basins by definition; `pairs` 0 if they do not touch. */
+/* The boundary of two basins by definition; `pairs` 0 if they do not touch. */
 static CeldBasinBoundary
 slow_boundary (const Slow *s, const CeldBasins *basins, int a, int b, int *pairs)
 {
@@ -208,7 +208,7 @@ same_boundaries (const Slow *s, const CeldBasins *basins)
   CHECK (n == basins->n_boundaries);
 }
 
-/* Pieces are the components of paper; rooms part pieces, and blocks rooms; no number is left out. */
+/* Components are connected paper; enclosures divide them, and merged basins divide enclosures; every number occurs. */
 static void
 right_unions (const Slow *s, const CeldBasins *basins)
 {
