@@ -20,10 +20,10 @@
 
 #include <math.h>
 
-#define WIDEST 8    /* discs have a radius of at most 1/8 of the shorter side (chosen) */
-#define ROUND  64   /* pixels: largest radius of the disc round an end; the one on the peak may be larger (chosen) */
-#define ON_BASINS 12 /* pixels: largest radius on basins, where a cut round a disc would take in its whole basin
-                      * (chosen) */
+#define RADII_PER_SIDE    8  /* discs have a radius of at most 1/8 of the shorter side (chosen) */
+#define MOST_END_RADIUS   64 /* pixels: largest radius round an end; the disc on the peak may be larger (chosen) */
+#define MOST_BASIN_RADIUS 12 /* pixels: largest radius on basins, where a cut round a disc would take in its whole basin
+                              * (chosen) */
 
 /* ------------------------------------------------------------------ ends of relations */
 
@@ -95,7 +95,7 @@ to_ink (const CeldPlane *ink, int x, int y, double limit)
 
 /* ------------------------------------------------------------------ discs */
 
-typedef struct { const CeldSegmentTask *task; CeldRelationEnd end; double farthest, widest; } Search;
+typedef struct { const CeldSegmentTask *task; CeldRelationEnd end; double farthest, widest; } DiscSearch;
 
 static double
 shorter_side (const CeldSegmentTask *task)
@@ -105,7 +105,7 @@ shorter_side (const CeldSegmentTask *task)
 
 /* The largest disc round (x,y) that touches no ink, which is this squared distance away. */
 static CeldSeedDisc
-disc_of (const Search *search, int x, int y, int32_t squared)
+disc_of (const DiscSearch *search, int x, int y, int32_t squared)
 {
   double radius = fmin (sqrt (squared) - 0.5, search->widest);
 
@@ -114,7 +114,7 @@ disc_of (const Search *search, int x, int y, int32_t squared)
 }
 
 static CeldSeedDisc
-disc_at (const Search *search, int x, int y, double most)
+disc_at (const DiscSearch *search, int x, int y, double most)
 {
   double limit = fmin (most, search->farthest - hypot (x - search->end.x, y - search->end.y));
 
@@ -123,7 +123,7 @@ disc_at (const Search *search, int x, int y, double most)
 
 /* Moves a disc one step to where it is largest, without leaving the paper that it covers; false on a peak. */
 static bool
-climb (const Search *search, int step, CeldSeedDisc *disc)
+climb (const DiscSearch *search, int step, CeldSeedDisc *disc)
 {
   const CeldPlane *ink = search->task->ink;
   CeldSeedDisc     best = *disc;
@@ -148,7 +148,7 @@ climb (const Search *search, int step, CeldSeedDisc *disc)
 
 /* Climbs in ever shorter steps, each smaller than the disc's radius, so that no line is stepped over. */
 static CeldSeedDisc
-climb_to_peak (const Search *search, CeldSeedDisc disc)
+climb_to_peak (const DiscSearch *search, CeldSeedDisc disc)
 {
   for (int step = (int) (disc.radius / 2); ; step /= 2)
     {
@@ -164,8 +164,8 @@ CeldSeedDiscs
 celd_seed_discs_find (const CeldSegmentTask *task, CeldRelationEnd end, double farthest, double widest)
 {
   const CeldBasin *basin = &task->basins->basin[celd_basin_at (task->basins, end.x, end.y)];
-  Search           search = { task, end, farthest, fmin (widest, fmax (1, shorter_side (task) / WIDEST)) };
-  CeldSeedDiscs    discs = { .disc = { disc_at (&search, end.x, end.y, fmin (search.widest, ROUND)) } };
+  DiscSearch       search = { task, end, farthest, fmin (widest, fmax (1, shorter_side (task) / RADII_PER_SIDE)) };
+  CeldSeedDiscs    discs = { .disc = { disc_at (&search, end.x, end.y, fmin (search.widest, MOST_END_RADIUS)) } };
   CeldSeedDisc     peak = discs.disc[0];
 
   if (!basin->solid)
@@ -276,7 +276,7 @@ add_relation (const CeldRelation *relation, CeldSegmentTask *task)
                              celd_relation_end_find (task, &relation->farther) };
   uint32_t        enclosure[2] = { enclosure_of (task->basins, end[0]), enclosure_of (task->basins, end[1]) };
   uint32_t        label = 0;
-  double          widest = task->settings->method != CELD_METHOD_BASINS ? INFINITY : ON_BASINS;
+  double          widest = task->settings->method != CELD_METHOD_BASINS ? INFINITY : MOST_BASIN_RADIUS;
   bool            same = enclosure[0] == enclosure[1];
   double          farthest = same ? CELD_DISC_RANGE * celd_relation_end_distance (end[0], end[1]) : INFINITY;
   CeldStatus      status = CELD_OK;

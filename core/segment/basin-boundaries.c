@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROWS   256 /* rows between two reports of progress */
-#define RECENT 512
+#define ROWS_PER_REPORT 256 /* rows between two reports of progress */
+#define RECENT_SLOTS    512 /* of the cache; a power of two (chosen) */
 
 typedef struct { uint32_t a, b; size_t boundary; } Slot; /* a = b: empty */
 
@@ -23,9 +23,9 @@ typedef struct
   const CeldBasins      *basins;
   CeldBasinBoundary     *boundary;
   size_t                 n;
-  Slot                  *slot;           /* hash table by the two basins, open addressing */
-  size_t                 n_slots;        /* a power of two, more than twice n */
-  Slot                   recent[RECENT]; /* cache of slots used lately */
+  Slot                  *slot;                 /* hash table by the two basins, open addressing */
+  size_t                 n_slots;              /* a power of two, more than twice n */
+  Slot                   recent[RECENT_SLOTS]; /* cache of slots used lately */
 } Boundaries;
 
 static Slot *
@@ -60,7 +60,7 @@ static CeldBasinBoundary *
 find_boundary (Boundaries *b, uint32_t first, uint32_t second)
 {
   uint32_t           least = first < second ? first : second, most = first < second ? second : first;
-  Slot              *slot, *recent = &b->recent[(most ^ least * 37) % RECENT];
+  Slot              *slot, *recent = &b->recent[(most ^ least * 37) % RECENT_SLOTS];
   CeldBasinBoundary *boundary;
 
   if (recent->a == least && recent->b == most)
@@ -227,7 +227,7 @@ celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent
       if (y + 2 < end)
         fetch_row (&b, y + 2);
       status = add_row (&b, y);
-      if (status == CELD_OK && y % ROWS == 0)
+      if (status == CELD_OK && y % ROWS_PER_REPORT == 0)
         status = celd_progress (host, (double) (y - top) / (end - top));
     }
   celd_free (b.slot);

@@ -15,11 +15,11 @@
 
 #include <math.h>
 
-#define SPARE       3      /* pixels: more than two diagonal steps */
-#define FIRST_REACH 0.75   /* of the largest radius of basins at R: the first margin (measured: most changes reach half
+#define SPARE         3    /* pixels: more than two diagonal steps */
+#define FIRST_MARGIN  0.75 /* of the largest radius of basins at R: the first margin (measured: most changes reach half
                             * as far) */
-#define LOOKED_AT   0.2    /* of the picture, in windows searched: beyond this it is as fast to build anew (measured) */
-#define MADE        0.6    /* of the picture, in the window of the update: likewise */
+#define MOST_SEARCHED 0.2  /* of the picture, in windows searched: beyond this it is as fast to build anew (measured) */
+#define MOST_UPDATED  0.6  /* of the picture, in the window of the update: likewise */
 
 typedef struct
 {
@@ -27,8 +27,8 @@ typedef struct
   const CeldBasins *old;
   CeldRect          changed;
   uint8_t          *affected; /* by old basin */
-  double            deepest;  /* lower bound of the largest distance in affected basins */
-} Search;
+  double            farthest; /* lower bound of the largest distance in affected basins */
+} ChangeSearch;
 
 static CeldRect
 grow_rect (CeldRect r, int margin, int width, int height)
@@ -42,7 +42,7 @@ grow_rect (CeldRect r, int margin, int width, int height)
 
 /* The fraction of the drawing that lies in a rectangle. */
 static double
-share_of (const CeldPlane *ink, CeldRect r)
+fraction_of (const CeldPlane *ink, CeldRect r)
 {
   return (double) r.width * r.height / ((double) ink->width * ink->height);
 }
@@ -57,7 +57,8 @@ in_rect (CeldRect r, int x, int y)
 
 /* Signed squared distances in a window, with all of `changed` set to `value`. */
 static CeldStatus
-measure_around (const Search *r, CeldRect window, float value, const CeldHost *host, float *copy, int32_t *squared)
+measure_around (const ChangeSearch *r, CeldRect window, float value, const CeldHost *host, float *copy,
+                int32_t *squared)
 {
   CeldPlane plane = { window.width, window.height, (size_t) window.width, copy };
 
@@ -81,7 +82,7 @@ distance_to (CeldRect changed, int x, int y)
 /* Marks the basins of the pixels in a window that the change may affect. to_ink, to_paper: distances there to ink and
  * paper outside `changed`. Returns false if the affected pixels may continue outside the window. */
 static bool
-mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *to_paper)
+mark_affected (ChangeSearch *r, CeldRect window, const int32_t *to_ink, const int32_t *to_paper)
 {
   CeldRect inner = { window.x + (window.x > 0), window.y + (window.y > 0), 0, 0 };
 
@@ -104,7 +105,7 @@ mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *
           while (run + 1 < end && run[1].x <= x)
             run++;
           r->affected[run->basin] = 1;
-          r->deepest = distance > r->deepest ? distance : r->deepest;
+          r->farthest = distance > r->farthest ? distance : r->farthest;
         }
     }
   return true;
@@ -112,7 +113,7 @@ mark_reached (Search *r, CeldRect window, const int32_t *to_ink, const int32_t *
 
 /* The margin of the first window, in pixels. */
 static int
-first_margin (const Search *r)
+first_margin (const ChangeSearch *r)
 {
   const CeldBasins *old = r->old;
   int32_t           widest = 0;
@@ -122,12 +123,12 @@ first_margin (const Search *r)
       if (old->run[i].x < r->changed.x + r->changed.width && old->basin[old->run[i].basin].squared > widest &&
           (i + 1 == old->row[y + 1] || old->run[i + 1].x > r->changed.x))
         widest = old->basin[old->run[i].basin].squared;
-  return 4 * SPARE + (int) (FIRST_REACH * sqrt (widest));
+  return 4 * SPARE + (int) (FIRST_MARGIN * sqrt (widest));
 }
 
 /* Marks the affected basins; *worthwhile becomes false if that is much of the drawing. */
 static CeldStatus
-find_affected (Search *r, const CeldHost *host, bool *worthwhile)
+find_affected (ChangeSearch *r, const CeldHost *host, bool *worthwhile)
 {
   CeldStatus status = CELD_OK;
   double     looked_at = 0;
@@ -140,8 +141,8 @@ find_affected (Search *r, const CeldHost *host, bool *worthwhile)
       float   *copy;
       int32_t *to_ink, *to_paper;
 
-      looked_at += share_of (r->ink, window);
-      *worthwhile = looked_at < LOOKED_AT;
+      looked_at += fraction_of (r->ink, window);
+      *worthwhile = looked_at < MOST_SEARCHED;
       if (!*worthwhile)
         return CELD_OK;
       copy = celd_alloc (n, sizeof *copy);
@@ -151,7 +152,7 @@ find_affected (Search *r, const CeldHost *host, bool *worthwhile)
       if (status == CELD_OK)
         status = measure_around (r, window, 0, host, copy, to_paper);
       if (status == CELD_OK)
-        found = mark_reached (r, window, to_ink, to_paper);
+        found = mark_affected (r, window, to_ink, to_paper);
       celd_free (copy);
       celd_free (to_ink);
       celd_free (to_paper);
@@ -161,7 +162,7 @@ find_affected (Search *r, const CeldHost *host, bool *worthwhile)
 
 /* Finds the box of the affected basins and the window that their distances depend on. */
 static void
-find_box (Search *r, CeldBasinChange *change)
+find_box (ChangeSearch *r, CeldBasinChange *change)
 {
   const CeldBasins *old = r->old;
   int               left = old->width, top = old->height, right = 0, bottom = 0;
@@ -178,20 +179,20 @@ find_box (Search *r, CeldBasinChange *change)
           bottom = y + 1;
         }
   for (size_t k = 0; k < old->n; k++)
-    if (r->affected[k] && sqrt (old->basin[k].squared) > r->deepest)
-      r->deepest = sqrt (old->basin[k].squared);
-  if (r->deepest < old->stroke + 4) /* ink around them ascends to paper from a stroke's width deep */
-    r->deepest = old->stroke + 4;
+    if (r->affected[k] && sqrt (old->basin[k].squared) > r->farthest)
+      r->farthest = sqrt (old->basin[k].squared);
+  if (r->farthest < old->stroke + 4) /* ink around them ascends to paper from a stroke's width deep */
+    r->farthest = old->stroke + 4;
   change->box = grow_rect ((CeldRect) { left, top, right - left, bottom - top }, 1, old->width, old->height);
-  change->window = grow_rect (change->box, (int) r->deepest + SPARE, old->width, old->height);
+  change->window = grow_rect (change->box, (int) r->farthest + SPARE, old->width, old->height);
 }
 
 CeldStatus
 celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old, const CeldRect *changed, const CeldHost *host,
                          CeldBasinChange *change)
 {
-  Search     r = { .ink = ink, .old = old, .changed = *changed, .affected = celd_alloc0 (old->n, 1) };
-  CeldStatus status = CELD_NO_MEMORY;
+  ChangeSearch r = { .ink = ink, .old = old, .changed = *changed, .affected = celd_alloc0 (old->n, 1) };
+  CeldStatus   status = CELD_NO_MEMORY;
 
   *change = (CeldBasinChange) { .affected = r.affected, .worthwhile = true };
   if (r.affected)
@@ -199,7 +200,7 @@ celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old, const Celd
   if (status == CELD_OK && change->worthwhile)
     {
       find_box (&r, change);
-      change->worthwhile = share_of (ink, change->window) < MADE;
+      change->worthwhile = fraction_of (ink, change->window) < MOST_UPDATED;
     }
   return status;
 }

@@ -45,7 +45,7 @@ byte_of (int width, int column, int y)
   return ((size_t) (y >> 3) * (size_t) ((width + 7) >> 3) + (size_t) column) << 3 | (size_t) (y & 7);
 }
 
-typedef struct { const CeldPlane *ink; uint8_t *bits; CeldRect rect; } Work;
+typedef struct { const CeldPlane *ink; uint8_t *bits; CeldRect rect; } PaperBits;
 
 /* Sets n bytes to 1 for paper and 0 for ink, and pads with 0 to a multiple of 8. */
 static void
@@ -72,19 +72,19 @@ pack (const uint8_t *paper)
 static void
 read_band (void *data, int band)
 {
-  const Work *work = data;
-  int         w = work->ink->width, first = work->rect.x >> 3, end = (work->rect.x + work->rect.width + 7) >> 3;
-  int         top = (work->rect.y & ~7) + 8 * band, bottom = work->rect.y + work->rect.height;
-  uint8_t     paper[8 * PACK];
+  const PaperBits *job = data;
+  int              w = job->ink->width, first = job->rect.x >> 3, end = (job->rect.x + job->rect.width + 7) >> 3;
+  int              top = (job->rect.y & ~7) + 8 * band, bottom = job->rect.y + job->rect.height;
+  uint8_t          paper[8 * PACK];
 
   for (int y = top; y < top + 8 && y < bottom; y++)
     for (int column = first; column < end; column += PACK)
       {
         int      columns = end - column < PACK ? end - column : PACK;
         int      pixels = w - 8 * column < 8 * columns ? w - 8 * column : 8 * columns;
-        uint8_t *bits = work->bits + byte_of (w, column, y);
+        uint8_t *bits = job->bits + byte_of (w, column, y);
 
-        find_paper (&CELD_AT (work->ink, 8 * column, y), pixels, paper);
+        find_paper (&CELD_AT (job->ink, 8 * column, y), pixels, paper);
         for (int k = 0; k < columns; k++)
           bits[8 * k] = pack (paper + 8 * k);
       }
@@ -93,10 +93,10 @@ read_band (void *data, int band)
 void
 celd_paper_update (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits)
 {
-  Work work = { ink, bits, *changed };
+  PaperBits job = { ink, bits, *changed };
 
   if (changed->width > 0 && changed->height > 0)
-    celd_parallel_for (host, ((changed->y + changed->height + 7) >> 3) - (changed->y >> 3), read_band, &work);
+    celd_parallel_for (host, ((changed->y + changed->height + 7) >> 3) - (changed->y >> 3), read_band, &job);
 }
 
 CeldStatus

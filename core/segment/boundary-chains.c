@@ -54,7 +54,7 @@ edge_place (const uint32_t *known, size_t capacity, uint32_t edge)
 }
 
 static CeldStatus
-remember (ChainTracer *t, uint32_t edge)
+add_edge (ChainTracer *t, uint32_t edge)
 {
   if (2 * t->n >= t->capacity)
     {
@@ -120,7 +120,7 @@ paper_ahead (const ChainTracer *t, CeldCorner corner, int heading)
 /* The heading with which the edges between two labels continue, or -1.  Where four pixels meet crosswise the smaller
  * label stays connected, in either direction. */
 static int
-go_on (const ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
+next_heading (const ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right)
 {
   uint32_t l = paper_ahead (t, corner, heading), r = paper_ahead (t, corner, heading + 1);
 
@@ -147,7 +147,7 @@ add_corner (CeldChains *chains, CeldCorner corner)
 
 /* What a chain ends at in this corner. */
 static CeldChainEnd
-stop_at (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *ink)
+end_of_chain (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *ink)
 {
   for (int i = 0; i < 2; i++)
     {
@@ -170,18 +170,18 @@ follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t 
 
   while (status == CELD_OK)
     {
-      int      next = go_on (t, corner, heading, left, right);
+      int      next = next_heading (t, corner, heading, left, right);
       uint32_t edge = next < 0 ? 0 : edge_number (t, corner, next);
 
       if (next < 0 || edge == first)
         {
-          *end = next < 0 ? stop_at (t, corner, heading, ink) : CELD_CHAIN_LOOP;
+          *end = next < 0 ? end_of_chain (t, corner, heading, ink) : CELD_CHAIN_LOOP;
           break;
         }
       corner.x += step_x[next];
       corner.y += step_y[next];
       heading   = next;
-      status    = remember (t, edge);
+      status    = add_edge (t, edge);
       if (status == CELD_OK)
         status = add_corner (t->chains, corner);
     }
@@ -220,7 +220,7 @@ trace (ChainTracer *t, int x, int y, bool south)
     }
   chain.left  = left;
   chain.right = right;
-  status = remember (t, edge);
+  status = add_edge (t, edge);
   if (status == CELD_OK)
     status = follow (t, from, heading ^ 2, right, left, edge, &chain.end[0], &chain.ink[0]);
   for (size_t i = chain.first, j = chains->n_corners; status == CELD_OK && i + 1 < j; i++)
@@ -384,9 +384,9 @@ celd_chains_find (const CeldSegmentTask *task, const uint32_t *label, const Celd
                   CeldChains *chains)
 {
   const CeldBasins *basins = task->basins;
-  ChainTracer       t = { .ink = task->ink, .labels = labels, .chains = chains };
-  size_t            wanted = 0, found = 0;
-  CeldStatus        status = CELD_OK;
+  ChainTracer t = { .ink = task->ink, .labels = labels, .chains = chains };
+  size_t      wanted = 0, found = 0;
+  CeldStatus  status = CELD_OK;
 
   *chains = (CeldChains) { 0 };
   for (size_t i = 0; i < basins->n_boundaries && status == CELD_OK; i++)

@@ -3,7 +3,7 @@
  * No gap is too wide, so in principle every end is compared with every other.  But a pair costs at least half its
  * distance, and a joined pair leaves no other pair for its ends.  So ends are compared within a distance that doubles
  * from round to round: pairs cheaper than the closest pair of the next round can be returned first, and ends taken by
- * then are not compared again.  From FAR on lines must continue nearly straight: there only ends in cells ahead are
+ * then are not compared again.  From FAR_END on lines must continue nearly straight: there only ends in cells ahead are
  * visited, and of these only those that point back.
  *
  * Cost: n log n for n ends of which few stay single; n^2 comparisons at worst, if no end finds another.
@@ -15,17 +15,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR  6                 /* stroke widths: up to here a line may turn sharply to meet another */
-#define FAR   12                /* from here on it must continue nearly straight */
-#define TURN_NEAR -0.17         /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
-#define TURN      0.5
-#define TURN_FAR  0.94
-#define OWN       0.5           /* factor of the cost between two ends of one outline: closing it is preferred */
-#define BOW       0.8           /* if both cosines are less, both ends must turn to the same side */
-#define ROUND_OFF 1e-6          /* margin by which quick tests are less strict than the exact one */
+#define NEAR_END          6     /* stroke widths: up to here a line may turn sharply to meet another */
+#define FAR_END           12    /* from here on it must continue nearly straight */
+#define LEAST_COSINE_NEAR -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
+#define LEAST_COSINE      0.5
+#define LEAST_COSINE_FAR  0.94
+#define OWN_OUTLINE       0.5   /* factor of the cost between two ends of one outline: closing it is preferred */
+#define BOW_COSINE        0.8   /* if both cosines are less, both ends must turn to the same side */
+#define ROUND_OFF         1e-6  /* margin by which quick tests are less strict than the exact one */
 
-#define SECTORS 16              /* of directions */
-#define BACK    2               /* sectors: two ends that turn by at most 20 degrees each face each other within 40 */
+#define SECTORS 16 /* of directions (chosen) */
+#define BACK    2  /* sectors: two ends that turn by at most 20 degrees each face each other within 40 */
 #define PI      3.14159265358979
 
 struct CeldTipPairs
@@ -61,10 +61,11 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
 
   if (length < 1 || length <= s->from || length > s->most)
     return false;
-  least = length <= NEAR * s->stroke ? TURN_NEAR : length <= FAR * s->stroke ? TURN : TURN_FAR;
-  if (turn < least || other < least || (turn < BOW && other < BOW && side * other_side < 0))
+  least = length <= NEAR_END * s->stroke ? LEAST_COSINE_NEAR : length <= FAR_END * s->stroke ? LEAST_COSINE :
+  LEAST_COSINE_FAR;
+  if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
-  *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN : 1);
+  *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN_OUTLINE : 1);
   return true;
 }
 
@@ -139,7 +140,7 @@ sort_into_cells (CeldTipPairs *s)
 static bool
 lies_ahead (const CeldTip *tip, double x, double y, double radius)
 {
-  static const double cosine = TURN_FAR, sine = 0.342; /* rounded up from sqrt (1 - cosine^2) */
+  static const double cosine = LEAST_COSINE_FAR, sine = 0.342; /* rounded up from sqrt (1 - cosine^2) */
   double              along = x * tip->dx + y * tip->dy, across = fabs (x * tip->dy - y * tip->dx);
 
   return across * cosine - along * sine <= radius + ROUND_OFF;
@@ -161,7 +162,8 @@ add_pair (CeldTipPairs *s, CeldTipPair pair)
 static bool
 may_face (const CeldTip *p, const CeldTip *q)
 {
-  double x = q->x - p->x, y = q->y - p->y, least = (1 - ROUND_OFF) * TURN_FAR * TURN_FAR * (x * x + y * y);
+  double x = q->x - p->x, y = q->y - p->y;
+  double least = (1 - ROUND_OFF) * LEAST_COSINE_FAR * LEAST_COSINE_FAR * (x * x + y * y);
   double turn = x * p->dx + y * p->dy, other = -(x * q->dx + y * q->dy);
 
   return turn > 0 && other > 0 && turn * turn >= least && other * other >= least;
@@ -206,7 +208,7 @@ static CeldStatus
 search_round (CeldTipPairs *s, uint32_t i)
 {
   const CeldTip *tip = &s->tip[i];
-  bool           far = s->from >= FAR * s->stroke;
+  bool           far = s->from >= FAR_END * s->stroke;
   double         x = tip->x - s->left, y = tip->y - s->top, radius = sqrt (0.5) * s->side;
   int            right = cell_along (x + s->most, s->side, s->columns);
   int            bottom = cell_along (y + s->most, s->side, s->rows);
@@ -227,7 +229,7 @@ search_round (CeldTipPairs *s, uint32_t i)
 
 /* Removes ends that are taken, and pairs that are used up. */
 static void
-forget (CeldTipPairs *s, const bool *taken)
+remove_taken (CeldTipPairs *s, const bool *taken)
 {
   size_t n = 0;
 
@@ -251,13 +253,13 @@ progress (const CeldTipPairs *s)
 
 /* Starts the next round: adds all pairs up to twice the distance. */
 static CeldStatus
-widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
+start_round (CeldTipPairs *s, const bool *taken, const CeldHost *host)
 {
   CeldStatus status;
 
-  forget (s, taken);
+  remove_taken (s, taken);
   s->from  = s->most;
-  s->most = s->most > 0 ? 2 * s->most : fmax (1, NEAR * s->stroke);
+  s->most = s->most > 0 ? 2 * s->most : fmax (1, NEAR_END * s->stroke);
   s->last  = s->most > s->width + s->height || s->n_free < 2;
   status   = s->n_free ? sort_into_cells (s) : CELD_OK;
   for (size_t i = 0; i < s->n_free && status == CELD_OK; i++)
@@ -268,7 +270,7 @@ widen (CeldTipPairs *s, const bool *taken, const CeldHost *host)
     }
   if (s->n)
     qsort (s->pair, s->n, sizeof *s->pair, compare_pairs);
-  for (s->ready = 0; s->ready < s->n && (s->last || s->pair[s->ready].cost < (1 - ROUND_OFF) * OWN * s->most);)
+  for (s->ready = 0; s->ready < s->n && (s->last || s->pair[s->ready].cost < (1 - ROUND_OFF) * OWN_OUTLINE * s->most);)
     s->ready++;
   return status;
 }
@@ -325,7 +327,7 @@ celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const CeldHost *hos
   *pair = NULL;
   while (status == CELD_OK && !*pair && (pairs->next < pairs->ready || !pairs->last))
     if (pairs->next == pairs->ready)
-      status = widen (pairs, taken, host);
+      status = start_round (pairs, taken, host);
     else
       {
         const CeldTipPair *first = &pairs->pair[pairs->next++];

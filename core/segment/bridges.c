@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAINT 0.499f            /* ink value of a bridge: just not paper */
+#define BRIDGE_INK 0.499f /* ink value of a bridge: just not paper */
 
 typedef struct
 {
@@ -26,7 +26,7 @@ typedef struct
   size_t           n;
   bool            *taken;       /* of each line end: has it a bridge? */
   CeldBridges     *bridges;
-} Builder;
+} BridgeBuilder;
 
 /* ------------------------------------------------------------------ bridges */
 
@@ -39,7 +39,7 @@ end_of (const CeldTip *tip)
 
 /* Adds a pixel to the last bridge, unless it is the previous one or ink. */
 static CeldStatus
-add_pixel (Builder *b, CeldBridge *bridge, int x, int y)
+add_pixel (BridgeBuilder *b, CeldBridge *bridge, int x, int y)
 {
   CeldBridges     *all = b->bridges;
   CeldBridgePixel *pixel;
@@ -59,7 +59,7 @@ add_pixel (Builder *b, CeldBridge *bridge, int x, int y)
 
 /* Follows the curve in steps of half a pixel.  *open becomes false where it meets ink away from its ends. */
 static CeldStatus
-walk (Builder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *bridge, bool *open)
+walk (BridgeBuilder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *bridge, bool *open)
 {
   CeldPlace  first = place[0], last = place[n - 1];
   CeldStatus status = CELD_OK;
@@ -87,7 +87,7 @@ walk (Builder *b, const CeldPlace *place, size_t n, double clear, CeldBridge *br
 }
 
 static CeldStatus
-build (Builder *b, const CeldTipPair *pair)
+build (BridgeBuilder *b, const CeldTipPair *pair)
 {
   CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
   CeldPlace   place[CELD_CURVE_PLACES];
@@ -112,7 +112,7 @@ build (Builder *b, const CeldTipPair *pair)
 
 /* Joins line ends, the cheapest pair first. */
 static CeldStatus
-build_all (Builder *b, const CeldHost *host)
+build_all (BridgeBuilder *b, const CeldHost *host)
 {
   CeldTipPairs      *pairs = celd_tip_pairs_new (b->tip, b->n, b->stroke);
   const CeldTipPair *pair = NULL;
@@ -140,11 +140,11 @@ celd_bridges_clear (CeldBridges *bridges)
 CeldStatus
 celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges)
 {
-  CeldHostPart part[2];
-  CeldHost     ends = celd_host_part (&part[0], host, 0, 0.5), join = celd_host_part (&part[1], host, 0.5, 1);
-  CeldBridges  found = { 0 };
-  Builder      b = { .ink = ink, .stroke = stroke, .bridges = &found };
-  CeldStatus   status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
+  CeldHostPart  part[2];
+  CeldHost      ends = celd_host_part (&part[0], host, 0, 0.5), join = celd_host_part (&part[1], host, 0.5, 1);
+  CeldBridges   found = { 0 };
+  BridgeBuilder b = { .ink = ink, .stroke = stroke, .bridges = &found };
+  CeldStatus    status = celd_line_ends_find (ink, stroke, &ends, &b.tip, &b.n);
 
   if (status != CELD_OK)
     return status;
@@ -221,7 +221,7 @@ void
 celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
 {
   for (size_t i = 0; i < bridges->n_pixels; i++)
-    CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y) = FAINT;
+    CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y) = BRIDGE_INK;
 }
 
 /* ------------------------------------------------------------------ components and enclosures over bridges */

@@ -14,8 +14,8 @@
 
 #include <stdlib.h>
 
-#define SHARP 12  /* pixels of stroke width for each pixel of antialiased edge (chosen) */
-#define TIP   1.5 /* pixels, and half a line width: so near its ends the new boundary may lie on their ink (chosen) */
+#define STROKE_PER_EDGE 12  /* pixels of stroke width for each pixel of antialiased edge (chosen) */
+#define TIP_MARGIN      1.5 /* pixels, plus half a line: so near its ends the new boundary may cross ink (chosen) */
 
 /* ------------------------------------------------------------------ does anything stand in the way? */
 
@@ -29,7 +29,7 @@ is_inside (const CeldRedrawing *r, int x, int y)
 static bool
 near_ink (const CeldRedrawing *r, int x, int y)
 {
-  int radius = 1 + r->task->basins->stroke / SHARP;
+  int radius = 1 + r->task->basins->stroke / STROKE_PER_EDGE;
 
   for (int v = y - radius; v <= y + radius; v++)
     for (int u = x - radius; u <= x + radius; u++)
@@ -69,7 +69,7 @@ static bool
 is_allowed (const CeldRedrawing *r, const CeldChain *chain, const CeldClosureCurve *curve, CeldPlace place)
 {
   int      x = (int) floor (place.x), y = (int) floor (place.y);
-  double   tip = TIP + line_width (r) / 2;
+  double   tip = TIP_MARGIN + line_width (r) / 2;
   bool     at_end = celd_distance_between (place, curve->place[0]) <= tip ||
                     celd_distance_between (place, curve->place[curve->n - 1]) <= tip;
   float    ink;

@@ -19,13 +19,13 @@
 
 #include <math.h>
 
-#define DAMPING    0.7         /* factor of the length of tangents (chosen, as all of these) */
-#define WOBBLE     0.28         /* radians: an angle of this size counts half */
-#define TRUSTED    0.7          /* radians off the chord: up to here an angle is followed */
-#define MOST_ANGLE 1.05         /* from here on it is not: 60 degrees */
-#define MOST_S     0.5          /* radians: the smaller of two angles that make an S may be this large */
-#define SPACING    3.0          /* pixels between places of the polyline */
-#define SHORTEST   0.75         /* pixels: shorter closures are not listed */
+#define DAMPING          0.7  /* factor of the length of tangents (chosen, as all of these) */
+#define WOBBLE           0.28 /* radians: an angle of this size counts half */
+#define TRUSTED          0.7  /* radians off the chord: up to here an angle is followed */
+#define MOST_ANGLE       1.05 /* from here on it is not: 60 degrees */
+#define MOST_S           0.5  /* radians: the smaller of two angles that make an S may be this large */
+#define SPACING          3.0  /* pixels between places of the polyline */
+#define SHORTEST_CLOSURE 0.75 /* pixels: shorter closures are not listed */
 
 /* ------------------------------------------------------------------ the curve */
 
@@ -202,7 +202,7 @@ close_chain (CeldRedrawing *r, const CeldChain *chain, CeldClosures *closures)
     return status;
   if (!done)
     return add_old (chain, corner, closures);
-  if (celd_distance_between (curve.place[0], curve.place[curve.n - 1]) < SHORTEST)
+  if (celd_distance_between (curve.place[0], curve.place[curve.n - 1]) < SHORTEST_CLOSURE)
     return CELD_OK; /* from a tip to itself */
   return add_closure (chain, curve.place, curve.n, closures);
 }

@@ -13,11 +13,11 @@
 
 #include <string.h>
 
-#define NO_KIND UINT32_MAX
-#define FINE    4        /* pixels: in squares up to this size the distance of ink to paper is measured (chosen) */
-#define MOST_TO_PAPER   4        /* pixels: ink farther from paper counts as this far (chosen) */
-#define COARSE_TO_PAPER 4   /* squared pixels: what ink counts as in larger squares, so that cuts prefer the middle of
-                             * lines (chosen) */
+#define NO_KIND         UINT32_MAX
+#define FINE_SQUARE     4 /* pixels: in squares up to this size the distance of ink to paper is measured (chosen) */
+#define MOST_TO_PAPER   4 /* pixels: ink farther from paper counts as this far (chosen) */
+#define COARSE_TO_PAPER 4 /* squared pixels: what ink counts as in larger squares, so that cuts prefer the middle of
+                           * lines (chosen) */
 
 /* The first x in row y from which a square has pixels inside; `right` if there is none.  Single pixels are tested here,
  * larger squares by the visit. */
@@ -80,7 +80,7 @@ celd_cut_graph_node_at (const CeldCutGraph *graph, int x, int y)
 typedef struct { bool inside, outside, ink; } Contents;
 
 static Contents
-look (const CeldCutGraph *graph, int x, int y, int right, int bottom)
+inspect (const CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
   unsigned inside = 0, outside = 0, ink = 0;
 
@@ -121,7 +121,7 @@ add_node (CeldCutGraph *graph, CeldCutNode node)
 
 /* Sets the kind of each pixel inside: pixels of one node are of one kind. */
 static void
-tell_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
+find_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
   const CeldBasins *basins = graph->cut->task->basins;
   uint32_t         *kind = graph->kind;
@@ -169,7 +169,7 @@ flood (CeldCutGraph *graph, int x, int y, int width, int height, int i)
 static CeldStatus
 number_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  Contents    has = look (graph, x, y, right, bottom);
+  Contents    has = inspect (graph, x, y, right, bottom);
   CeldCutNode node = { .x = x, .y = y, .size = size, .whole = !has.outside && !has.ink, .ink = has.ink };
   CeldStatus  status = CELD_OK;
 
@@ -180,7 +180,7 @@ number_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int siz
       graph->cut->node[celd_cut_index (graph->cut, x, y)] = (uint32_t) graph->n;
       return add_node (graph, node);
     }
-  tell_kinds (graph, x, y, right, bottom);
+  find_kinds (graph, x, y, right, bottom);
   for (int i = 0; i < (right - x) * (bottom - y) && status == CELD_OK; i++)
     {
       if (graph->kind[i] == NO_KIND)
@@ -346,7 +346,7 @@ static CeldStatus
 link_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
   size_t     p = celd_cut_index (graph->cut, x, y);
-  bool       fine = size <= FINE;
+  bool       fine = size <= FINE_SQUARE;
   CeldStatus status = CELD_OK;
 
   if (graph->cut->mark[p] != CELD_INSIDE || !graph->node[graph->cut->node[p]].whole)

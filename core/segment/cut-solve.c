@@ -8,8 +8,8 @@
 
 #include <math.h>
 
-#define INK_STEP  8                     /* length of a step through ink, in steps on paper (chosen) */
-#define HARD_TERMINAL ((int64_t) 1 << 48)
+#define INK_STEP      8                   /* length of a step through ink, in steps on paper (chosen) */
+#define HARD_TERMINAL ((int64_t) 1 << 48) /* of forced nodes: above any cut */
 
 /* The links by node: those of node k are link[first[k]] .. link[first[k + 1] - 1]. */
 typedef struct { size_t *first, *link; uint32_t *queue; double *length; bool *queued; } Paths;

@@ -24,9 +24,9 @@
 #include <math.h>
 #include <string.h>
 
-#define PER_REACH 8                     /* squares between the ends; those as far away are as large (chosen) */
-#define FINER     4                     /* ratio of the squares' sides in consecutive bands (chosen) */
-#define GLUE ((int64_t) 1 << 44) /* extra cost of cutting a merged basin: above any cut, below HARD_TERMINAL */
+#define SQUARES_BETWEEN_ENDS 8                   /* squares between the ends; those as far away are as large (chosen) */
+#define FINER                4                   /* ratio of the squares' sides in consecutive bands (chosen) */
+#define GLUE                 ((int64_t) 1 << 44) /* for cutting a merged basin: above any cut, below HARD_TERMINAL */
 
 /* ------------------------------------------------------------------ squares */
 
@@ -68,7 +68,7 @@ set_sizes (CeldCutGraph *graph)
     {
       int    x = distance_to_tile (cut->end[0].x, cut->end[1].x, cut->left + t % graph->columns * CELD_CUT_SQUARE);
       int    y = distance_to_tile (cut->end[0].y, cut->end[1].y, cut->top + t / graph->columns * CELD_CUT_SQUARE);
-      double wanted = fmax (apart, x > y ? x : y) / PER_REACH;
+      double wanted = fmax (apart, x > y ? x : y) / SQUARES_BETWEEN_ENDS;
       int    size = 1;
 
       while (2 * size <= wanted && size < CELD_CUT_SQUARE)
@@ -329,7 +329,7 @@ count_seeds (CeldCutGraph *graph, int y, size_t *seeds)
 
 /* Adds the data costs of seeds for the end that is kept, except for those in the other end's merged basin. */
 static void
-terminal (CeldCutGraph *graph, const size_t *seeds, int kept)
+add_basin_seed_costs (CeldCutGraph *graph, const size_t *seeds, int kept)
 {
   const uint32_t *merged = graph->cut->task->basins->merged;
   uint32_t        new_merged = merged[graph->node[graph->at_end[1 - kept]].basin];
@@ -364,7 +364,7 @@ celd_cut_basins (const CeldCut *cut, const CeldHost *host, uint8_t *side, int *k
     status = celd_cut_graph_find_kept_end (&graph, kept);
   if (status == CELD_OK && *kept >= 0)
     {
-      terminal (&graph, seeds, *kept);
+      add_basin_seed_costs (&graph, seeds, *kept);
       status = celd_cut_graph_solve (&graph, *kept, host);
     }
   for (size_t k = 0; k < graph.n && status == CELD_OK; k++)

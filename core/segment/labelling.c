@@ -69,7 +69,7 @@ celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basins)
 /* ------------------------------------------------------------------ runs of pixels */
 
 static void
-note (CeldLabelling *labelling, int y, int left, int right)
+add_changed (CeldLabelling *labelling, int y, int left, int right)
 {
   CeldRect *rect = &labelling->changed;
   int       top = y, bottom = y + 1;
@@ -119,7 +119,7 @@ paint_basins (CeldLabelling *labelling, const CeldBasins *basins, const uint32_t
 
         if (label == old[basins->run[i].basin])
           continue;
-        note (labelling, y, x, end);
+        add_changed (labelling, y, x, end);
         fill (&CELD_AT (labels, x, y), end - x, label);
       }
 }
@@ -228,7 +228,7 @@ compare_old (CeldLabelling *labelling, const CeldPatches *old, const CeldLabels 
       while (end > x && CELD_AT (labels, end - 1, y) == old->item[i].label)
         end--;
       if (x < end)
-        note (labelling, y, x, end);
+        add_changed (labelling, y, x, end);
     }
 }
 
@@ -257,7 +257,7 @@ compare_new (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabel
       while (n > from && row[n - 1] == new->label)
         n--;
       if (from < n)
-        note (labelling, new->y, new->x + from, new->x + n);
+        add_changed (labelling, new->y, new->x + from, new->x + n);
     }
 }
 
@@ -293,7 +293,7 @@ celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, cons
         right--;
       if (left == right)
         continue;
-      note (labelling, y, left, right);
+      add_changed (labelling, y, left, right);
       memcpy (old + left, new + left, (size_t) (right - left) * sizeof *old);
     }
   return status;
@@ -302,11 +302,11 @@ celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, cons
 /* ------------------------------------------------------------------ measures of the labels */
 
 /* How good a label's place is so far. */
-typedef struct { int32_t squared; int length; } Place;
+typedef struct { int32_t squared; int length; } LabelPlace;
 
 /* The maximum of a basin is its pixel farthest from ink. */
 static void
-place_basins (const CeldBasins *basins, const CeldLabels *labels, Place *place, CeldPalette *palette)
+place_basins (const CeldBasins *basins, const CeldLabels *labels, LabelPlace *place, CeldPalette *palette)
 {
   for (size_t k = 0; k < basins->n; k++)
     {
@@ -324,7 +324,7 @@ place_basins (const CeldBasins *basins, const CeldLabels *labels, Place *place, 
 
 /* For labels without a maximum: the middle of their longest patch. */
 static void
-place_patches (const CeldPatches *patches, Place *place, CeldPalette *palette)
+place_patches (const CeldPatches *patches, LabelPlace *place, CeldPalette *palette)
 {
   for (size_t i = 0; i < patches->n; i++)
     {
@@ -369,9 +369,9 @@ CeldStatus
 celd_labelling_measure (const CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *labels,
                         CeldPalette *palette)
 {
-  uint32_t  *row = celd_alloc ((size_t) basins->width, sizeof *row);
-  Place     *place = celd_alloc0 (palette->n, sizeof *place);
-  CeldStatus status = row && place ? CELD_OK : CELD_NO_MEMORY;
+  uint32_t   *row = celd_alloc ((size_t) basins->width, sizeof *row);
+  LabelPlace *place = celd_alloc0 (palette->n, sizeof *place);
+  CeldStatus  status = row && place ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;

@@ -18,25 +18,25 @@
 #include <math.h>
 #include <string.h>
 
-#define RADIUS         4         /* stroke widths (chosen, as all of these) */
-#define LEAST_RADIUS   16        /* pixels: shorter ends have no reliable direction */
-#define FINE          7         /* pixels across a stroke are enough */
-#define LEAST_LENGTH  1.5       /* line widths: length of a line end, at least */
-#define SHORTEST      6         /* pixels: dots and specks have no direction */
-#define MOST_UNEVEN   0.33        /* widths: standard deviation from the middle; across a straight line it is 1 / sqrt
-                                   * 12 */
-#define MOST_ASLANT   1.5         /* line widths between a tip and where the boundary meets the ink */
-#define LAG           0.25        /* of the length: the direction is taken so far behind the end, where a parabola is
-                                   * more certain */
-#define CUT_OFF       0.15        /* of the length: left out at the far side, which the radius cuts off aslant */
+#define FIT_RADIUS        4    /* stroke widths (chosen, as all of these) */
+#define LEAST_FIT_RADIUS  16   /* pixels: shorter ends have no reliable direction */
+#define FINE_STROKE       7    /* pixels across a stroke are enough */
+#define LEAST_LENGTH      1.5  /* line widths: length of a line end, at least */
+#define SHORTEST_LINE_END 6    /* pixels: dots and specks have no direction */
+#define MOST_UNEVEN       0.33 /* widths: standard deviation from the middle; across a straight line it is 1 / sqrt
+                                * 12 */
+#define MOST_ASLANT       1.5  /* line widths between a tip and where the boundary meets the ink */
+#define LAG               0.25 /* of the length: the direction is taken so far behind the end, where a parabola is
+                                * more certain */
+#define CUT_OFF           0.15 /* of the length: left out at the far side, which the radius cuts off aslant */
 
 CeldStatus
 celd_line_end_new (int stroke, CeldLineEnd *end)
 {
-  int    step = stroke / FINE > 1 ? stroke / FINE : 1, radius = RADIUS * stroke / step;
+  int    step = stroke / FINE_STROKE > 1 ? stroke / FINE_STROKE : 1, radius = FIT_RADIUS * stroke / step;
   size_t n;
 
-  radius = radius < LEAST_RADIUS ? LEAST_RADIUS : radius;
+  radius = radius < LEAST_FIT_RADIUS ? LEAST_FIT_RADIUS : radius;
   n     = (size_t) (2 * radius + 1) * (size_t) (2 * radius + 1);
   *end  = (CeldLineEnd) {
     .step  = step,
@@ -64,7 +64,7 @@ celd_line_end_clear (CeldLineEnd *end)
 
 /* The number of sampling steps from the middle pixel, rounded. */
 static int
-steps (const CeldLineEnd *end, int pixel)
+sampling_steps (const CeldLineEnd *end, int pixel)
 {
   int from = pixel + end->step / 2;
 
@@ -85,7 +85,7 @@ place_of (const CeldLineEnd *end, int u, int v)
 bool
 celd_line_end_contains (const CeldLineEnd *end, int x, int y)
 {
-  int u = steps (end, x - end->middle.x), v = steps (end, y - end->middle.y), around = end->step > 1;
+  int u = sampling_steps (end, x - end->middle.x), v = sampling_steps (end, y - end->middle.y), around = end->step > 1;
 
   for (int dv = -around; dv <= around && end->n; dv++)
     for (int du = -around; du <= around; du++)
@@ -99,7 +99,7 @@ celd_line_end_contains (const CeldLineEnd *end, int x, int y)
 }
 
 static void
-forget (CeldLineEnd *end)
+clear_ink (CeldLineEnd *end)
 {
   for (size_t i = 0; i < end->n; i++)
     *place_of (end, (end->pixel[i].x - end->middle.x) / end->step, (end->pixel[i].y - end->middle.y) / end->step) = 0;
@@ -129,7 +129,7 @@ gather (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end, Part *near, Pa
 {
   size_t from = 0;
 
-  forget (end);
+  clear_ink (end);
   end->middle = pixel;
   add_pixel (ink, 0, 0, 0, end);
   for (int distance = 1; distance <= end->radius; distance++)
@@ -265,7 +265,7 @@ is_line_end (const CeldLineEnd *end, Part part, const Line *line)
   for (size_t i = part.rim; i < part.n; i++)
     if (along (line, end->pixel[i].x + 0.5, end->pixel[i].y + 0.5) > landing)
       return false; /* the ink continues there */
-  return line->most - line->least + end->step >= fmax (LEAST_LENGTH * line->width, SHORTEST) &&
+  return line->most - line->least + end->step >= fmax (LEAST_LENGTH * line->width, SHORTEST_LINE_END) &&
          line->most - landing <= MOST_ASLANT * line->width + 1.5 * end->step &&
          line->uneven <= MOST_UNEVEN * line->width + 0.3 * end->step;
 }
@@ -343,7 +343,7 @@ celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end)
 void
 celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end)
 {
-  forget (end);
+  clear_ink (end);
   end->tip   = false;
   end->width = 0;
   end->at    = end->inside = (CeldPlace) { corner.x, corner.y };

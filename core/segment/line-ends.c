@@ -14,40 +14,40 @@
 
 #include <string.h>
 
-#define ARM      1.25           /* stroke widths along the outline to either side */
-#define SHORTEST 6              /* pixels of such an arm, at least */
-#define SCALES   3              /* lengths of arms that are tried, each twice the one before */
-#define SHARP    0.6            /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
-#define CERTAIN  0.42           /* the largest such value for a line whose direction cannot be fitted */
-#define SAME     0.75           /* line widths: ends closer than this are the same */
-#define CELL     16             /* pixels: side of the cells in which found ends are looked up */
+#define ARM_LENGTH   1.25 /* stroke widths along the outline to either side */
+#define SHORTEST_ARM 6    /* pixels of such an arm, at least */
+#define SCALES       3    /* lengths of arms that are tried, each twice the one before */
+#define SHARP_TURN   0.6  /* distance of both arms' ends, relative to the arms' lengths: a right angle has 0.71 */
+#define CERTAIN_TIP  0.42 /* the largest such value for a line whose direction cannot be fitted */
+#define SAME_END     0.75 /* line widths: ends closer than this are the same */
+#define END_CELL     16   /* pixels: side of the cells in which found ends are looked up */
 
-#define NONE UINT32_MAX
+#define NO_TIP UINT32_MAX
 
-#define INKED 1                 /* a pixel of ink */
-#define SEEN  2                 /* its upper edge has been followed */
+#define IS_INK   1 /* a pixel of ink */
+#define FOLLOWED 2 /* its upper edge has been followed */
 
 typedef struct
 {
   const CeldPlane *ink;
   int              stroke, width, height;
-  uint8_t         *mask;        /* INKED or SEEN; with a margin of a pixel, and of 8 at the right */
+  uint8_t         *mask;        /* IS_INK or FOLLOWED; with a margin of a pixel, and of 8 at the right */
   size_t           stride;
   CeldCorner      *corner;      /* of the current outline */
   size_t           n;
   uint32_t         outline;     /* its number */
   CeldLineEnd      end;
   CeldTip         *tip;
-  uint32_t        *before;      /* of tip k: the one before it in its cell, or NONE */
+  uint32_t        *before;      /* of tip k: the one before it in its cell, or NO_TIP */
   size_t           n_tips;
-  uint32_t        *latest;      /* of each cell: the last tip found there, or NONE */
+  uint32_t        *latest;      /* of each cell: the last tip found there, or NO_TIP */
   int              columns, rows;
-} Search;
+} LineEndSearch;
 
 /* ------------------------------------------------------------------ outlines */
 
 static CeldStatus
-read_mask (Search *s)
+read_mask (LineEndSearch *s)
 {
   s->stride = (size_t) s->width + 16;
   s->mask   = celd_alloc0 ((size_t) s->height + 2, s->stride);
@@ -65,21 +65,21 @@ read_mask (Search *s)
 }
 
 static CeldStatus
-make_cells (Search *s)
+make_cells (LineEndSearch *s)
 {
   size_t n;
 
-  s->columns = (s->width + CELL - 1) / CELL;
-  s->rows    = (s->height + CELL - 1) / CELL;
+  s->columns = (s->width + END_CELL - 1) / END_CELL;
+  s->rows    = (s->height + END_CELL - 1) / END_CELL;
   n          = (size_t) s->columns * (size_t) s->rows;
   s->latest  = celd_alloc (n, sizeof *s->latest);
   for (size_t k = 0; k < n && s->latest; k++)
-    s->latest[k] = NONE;
+    s->latest[k] = NO_TIP;
   return s->latest ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static uint8_t *
-mask_at (const Search *s, int x, int y)
+mask_at (const LineEndSearch *s, int x, int y)
 {
   return s->mask + (size_t) (y + 1) * s->stride + (size_t) (x + 1);
 }
@@ -91,7 +91,7 @@ static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
 
 /* Follows the outline along the upper edge of pixel (x,y). */
 static CeldStatus
-follow (Search *s, int x, int y)
+follow (LineEndSearch *s, int x, int y)
 {
   CeldCorner at = { x, y };
   int        heading = 0;
@@ -106,7 +106,7 @@ follow (Search *s, int x, int y)
       s->corner = grown;
       grown[s->n++] = at;
       if (heading == 0)
-        *mask_at (s, at.x, at.y) |= SEEN;
+        *mask_at (s, at.x, at.y) |= FOLLOWED;
       at.x += step_x[heading];
       at.y += step_y[heading];
       if (*mask_at (s, at.x + left_x[heading], at.y + left_y[heading]))
@@ -122,7 +122,7 @@ follow (Search *s, int x, int y)
 
 /* The distance of both arms' ends at corner i relative to the arms' lengths; *middle is between them. */
 static double
-sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
+sharpness (const LineEndSearch *s, size_t i, size_t arm, CeldPlace *middle)
 {
   CeldCorner p = s->corner[i], a = s->corner[(i + s->n - arm) % s->n], b = s->corner[(i + arm) % s->n];
   double     length = hypot (a.x - p.x, a.y - p.y) + hypot (b.x - p.x, b.y - p.y);
@@ -135,11 +135,11 @@ sharpness (const Search *s, size_t i, size_t arm, CeldPlace *middle)
 static int
 cell_along (double at, int n)
 {
-  return at < CELL ? 0 : at < (double) CELL * n ? (int) (at / CELL) : n - 1;
+  return at < END_CELL ? 0 : at < (double) END_CELL * n ? (int) (at / END_CELL) : n - 1;
 }
 
 static uint32_t *
-latest_at (const Search *s, CeldTip tip)
+latest_at (const LineEndSearch *s, CeldTip tip)
 {
   size_t row = (size_t) cell_along (tip.y, s->rows), column = (size_t) cell_along (tip.x, s->columns);
 
@@ -148,14 +148,14 @@ latest_at (const Search *s, CeldTip tip)
 
 /* Has this end been found at another scale?  The end on the other side of a narrow gap has the opposite direction. */
 static bool
-is_known (const Search *s, CeldTip end, double width)
+is_known (const LineEndSearch *s, CeldTip end, double width)
 {
-  double near = SAME * width + 1;
+  double near = SAME_END * width + 1;
   int    right = cell_along (end.x + near, s->columns), bottom = cell_along (end.y + near, s->rows);
 
   for (int row = cell_along (end.y - near, s->rows); row <= bottom; row++)
     for (int column = cell_along (end.x - near, s->columns); column <= right; column++)
-      for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NONE; i = s->before[i])
+      for (uint32_t i = s->latest[(size_t) row * (size_t) s->columns + (size_t) column]; i != NO_TIP; i = s->before[i])
         if (hypot (s->tip[i].x - end.x, s->tip[i].y - end.y) < near &&
             s->tip[i].dx * end.dx + s->tip[i].dy * end.dy > 0)
           return true;
@@ -163,7 +163,7 @@ is_known (const Search *s, CeldTip end, double width)
 }
 
 static CeldStatus
-add_tip (Search *s, CeldTip end)
+add_tip (LineEndSearch *s, CeldTip end)
 {
   uint32_t *latest = latest_at (s, end), *before = celd_grow (s->before, s->n_tips + 1, sizeof *before);
   CeldTip  *tip;
@@ -181,10 +181,10 @@ add_tip (Search *s, CeldTip end)
   return CELD_OK;
 }
 
-/* Adds the corner if a line ends there.  A very sharp tip (CERTAIN) counts even if its line is too short or too curved
- * to fit a direction. */
+/* Adds the corner if a line ends there.  A very sharp tip (CERTAIN_TIP) counts even if its line is too short or too
+ * curved to fit a direction. */
 static CeldStatus
-try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
+try_corner (LineEndSearch *s, CeldCorner corner, CeldPlace middle, double sharp)
 {
   double     back = hypot (middle.x - corner.x, middle.y - corner.y), width = 2 * sharp * back; /* estimated width of
                                                                                                  * the line */
@@ -203,14 +203,14 @@ try_corner (Search *s, CeldCorner corner, CeldPlace middle, double sharp)
     end = (CeldTip) { s->end.at.x, s->end.at.y, s->end.dx, s->end.dy, s->outline };
   else
     end = (CeldTip) { corner.x, corner.y, (corner.x - middle.x) / back, (corner.y - middle.y) / back, s->outline };
-  if ((!s->end.tip && sharp > CERTAIN) || is_known (s, end, width))
+  if ((!s->end.tip && sharp > CERTAIN_TIP) || is_known (s, end, width))
     return CELD_OK;
   return add_tip (s, end);
 }
 
 /* Examines the sharpest corner of each turn of the outline. */
 static CeldStatus
-search_outline (Search *s, size_t arm)
+search_outline (LineEndSearch *s, size_t arm)
 {
   size_t     step = arm / 8 ? arm / 8 : 1;
   CeldStatus status = CELD_OK;
@@ -223,13 +223,13 @@ search_outline (Search *s, size_t arm)
       double    least = sharpness (s, i, arm, &middle);
       size_t    best = i;
 
-      if (least > SHARP)
+      if (least > SHARP_TURN)
         continue;
       for (; i < s->n; i += step) /* to the end of the turn */
         {
           double sharp = sharpness (s, i, arm, &other);
 
-          if (sharp > SHARP)
+          if (sharp > SHARP_TURN)
             break;
           if (sharp < least)
             {
@@ -244,9 +244,9 @@ search_outline (Search *s, size_t arm)
 }
 
 static CeldStatus
-search_from (Search *s, int x, int y)
+search_from (LineEndSearch *s, int x, int y)
 {
-  size_t     arm = (size_t) fmax (SHORTEST, ARM * s->stroke);
+  size_t     arm = (size_t) fmax (SHORTEST_ARM, ARM_LENGTH * s->stroke);
   CeldStatus status = follow (s, x, y);
 
   s->outline++;
@@ -260,8 +260,8 @@ search_from (Search *s, int x, int y)
 CeldStatus
 celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldTip **tip, size_t *n)
 {
-  Search     s = { .ink = ink, .stroke = stroke, .width = ink->width, .height = ink->height };
-  CeldStatus status = read_mask (&s);
+  LineEndSearch s = { .ink = ink, .stroke = stroke, .width = ink->width, .height = ink->height };
+  CeldStatus    status = read_mask (&s);
 
   if (status == CELD_OK)
     status = make_cells (&s);
@@ -277,10 +277,9 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
 
           memcpy (&here, row + x, 8);
           memcpy (&over, above + x, 8);
-          edges = here & ~over & 0x0101010101010101u; /* candidates; SEEN may be set while following, so it is tested
-                                                       * below */
+          edges = here & ~over & 0x0101010101010101u; /* candidates: FOLLOWED may be set meanwhile */
           for (int k = 0; k < 8 && edges && status == CELD_OK; k++)
-            if (row[x + k] == INKED && !above[x + k])
+            if (row[x + k] == IS_INK && !above[x + k])
               status = search_from (&s, x + k, y);
         }
       if (status == CELD_OK && (y & 255) == 255)

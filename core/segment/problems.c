@@ -10,9 +10,9 @@
 #include "segment/labelling.h"
 #include "segment/task.h"
 
-#define SMALLEST_SHARE 2000 /* regions below 1/2000 of the picture are not reported (chosen) */
-#define SMALLEST_WIDTH 3    /* nor those below the square of so many stroke widths */
-#define SCRAP          8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off */
+#define SMALLEST_SHARE     2000 /* regions below 1/2000 of the picture are not reported (chosen) */
+#define SMALLEST_WIDTH     3    /* nor those below the square of so many stroke widths */
+#define LEAST_STROKE_SHARE 8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off */
 
 /* The outcome of a connected stroke.  `other` is the label that most of its overruled pixels have, found by majority
  * vote with the margin `lead`. (x,y): the middle of the longest run of overruled pixels. */
@@ -100,7 +100,7 @@ report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const
     follow_strokes (strokes, labelling, labels, outcome);
   for (size_t k = 0; k < strokes->n_strokes && status == CELD_OK; k++)
     if (is_painted (task, outcome[k].label) && 2 * outcome[k].overruled > outcome[k].area &&
-        SCRAP * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds)
+        LEAST_STROKE_SHARE * outcome[k].area >= task->palette.item[outcome[k].label - 1].seeds)
       status = celd_problem_add (problems, (CeldProblem) {
         CELD_PROBLEM_STROKE_OVERRULED, outcome[k].x, outcome[k].y, outcome[k].label, outcome[k].other, CELD_NO_INDEX });
   celd_free (outcome);

@@ -69,7 +69,7 @@ same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
 
 /* Appends the segment that an edge is part of, unless it is the last one appended. */
 static CeldStatus
-note (const CeldLabels *l, int x, int y, bool south, Edges *edges)
+add_segment (const CeldLabels *l, int x, int y, bool south, Edges *edges)
 {
   Edge *item;
 
@@ -105,16 +105,16 @@ find_segments (const CeldLabels *l, Edges *edges)
     for (int x = 0; x < l->width && status == CELD_OK; x++)
       {
         if (is_edge (l, x, y, true) && !same_segment (l, x, y, x - 1, y, true))
-          status = note (l, x, y, true, edges);
+          status = add_segment (l, x, y, true, edges);
         if (is_edge (l, x, y, false) && !same_segment (l, x, y, x, y - 1, false) && status == CELD_OK)
-          status = note (l, x, y, false, edges);
+          status = add_segment (l, x, y, false, edges);
       }
   return status;
 }
 
 /* Gives the n pixels from (x,y) on to a label, if that lowers the energy. */
 static CeldStatus
-move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
+try_move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
 {
   uint32_t   old = CELD_AT (s->labels, x, y);
   size_t     before = s->n_changed;
@@ -142,7 +142,7 @@ move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label
 
 /* Appends the segments that touch pixels which have changed. */
 static CeldStatus
-note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
+add_segments_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
 {
   CeldStatus status = CELD_OK;
 
@@ -151,14 +151,14 @@ note_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
       {
         int px = x + (south ? i : across), py = y + (south ? across : i);
 
-        status = note (l, px, py, south, edges);
+        status = add_segment (l, px, py, south, edges);
       }
   for (int across = -1; across <= 1; across++)
     for (int i = -1; i <= n && status == CELD_OK; i++)
       {
         int px = x + (south ? i : across), py = y + (south ? across : i);
 
-        status = note (l, px, py, !south, edges);
+        status = add_segment (l, px, py, !south, edges);
       }
   return status;
 }
@@ -179,14 +179,14 @@ try_segment (CeldBoundaryRefinement *s, Edge edge, Edges *next)
     n++;
   one    = CELD_AT (l, x, y);
   other  = CELD_AT (l, x + !south, y + south);
-  status = move (s, x, y, south, n, other, &moved);
+  status = try_move (s, x, y, south, n, other, &moved);
   if (status == CELD_OK && !moved)
     {
       x += !south;
       y += south;
-      status = move (s, x, y, south, n, one, &moved);
+      status = try_move (s, x, y, south, n, one, &moved);
     }
-  return status == CELD_OK && moved ? note_around (l, x, y, south, n, next) : status;
+  return status == CELD_OK && moved ? add_segments_around (l, x, y, south, n, next) : status;
 }
 
 static CeldStatus

@@ -10,9 +10,9 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-#define NEAR    3               /* pixels between boundaries across paper that share a window (chosen) */
-#define MARGIN  6               /* pixels round a gap, besides a stroke width and half the gap (chosen) */
-#define LARGEST (1 << 18)       /* pixels of a window: larger ones are no gaps (chosen) */
+#define GAP_DISTANCE    3         /* pixels between boundaries across paper that share a window (chosen) */
+#define GAP_MARGIN      6         /* pixels round a gap, besides a stroke width and half the gap (chosen) */
+#define MOST_GAP_PIXELS (1 << 18) /* pixels of a window: larger ones are no gaps (chosen) */
 
 typedef struct { int left, top, right, bottom; } Box;  /* inclusive */
 typedef struct { Box *item; size_t n; } Boxes;
@@ -28,7 +28,7 @@ typedef struct
   uint32_t *global, *local;     /* label of the picture by number in the window, from 0; and the inverse, from 1 */
   uint32_t *order;
   size_t    n_labels;
-} Window;
+} GapWindow;
 
 static int
 least (int a, int b)
@@ -73,7 +73,7 @@ celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t lab
 
 /* Adds a pixel to a box nearby, or to a new one. */
 static CeldStatus
-note_gap (int x, int y, Boxes *boxes)
+add_gap (int x, int y, Boxes *boxes)
 {
   Box *item;
 
@@ -81,7 +81,8 @@ note_gap (int x, int y, Boxes *boxes)
     {
       Box *b = &boxes->item[i];
 
-      if (x < b->left - NEAR || x > b->right + NEAR || y < b->top - NEAR || y > b->bottom + NEAR)
+      if (x < b->left - GAP_DISTANCE || x > b->right + GAP_DISTANCE || y < b->top - GAP_DISTANCE || y > b->bottom +
+          GAP_DISTANCE)
         continue;
       *b = (Box) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
       return CELD_OK;
@@ -112,7 +113,7 @@ find_gaps (const CeldBoundaryRefinement *s, Boxes *boxes)
   for (int y = 0; y < s->labels->height && status == CELD_OK; y++)
     for (int x = 0; x < s->labels->width && status == CELD_OK; x++)
       if (is_gap (s, x, y, false) || is_gap (s, x, y, true))
-        status = note_gap (x, y, boxes);
+        status = add_gap (x, y, boxes);
   return status;
 }
 
@@ -120,7 +121,7 @@ find_gaps (const CeldBoundaryRefinement *s, Boxes *boxes)
 static Box
 widen (const CeldBoundaryRefinement *s, Box b)
 {
-  int margin = MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
+  int margin = GAP_MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
 
   return (Box) { most (b.left - margin, 0), most (b.top - margin, 0),
                  least (b.right + margin, s->labels->width - 1), least (b.bottom + margin, s->labels->height - 1) };
@@ -136,7 +137,7 @@ inside (const Box *b, int x, int y)
 
 /* The number of a label in the window. */
 static uint32_t
-local_label (Window *window, uint32_t label)
+local_label (GapWindow *window, uint32_t label)
 {
   if (!window->local[label])
     {
@@ -147,7 +148,7 @@ local_label (Window *window, uint32_t label)
 }
 
 static void
-add_edge (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x, int y, int x2, int y2)
+add_edge (const CeldBoundaryRefinement *s, GapWindow *window, uint32_t node, int x, int y, int x2, int y2)
 {
   int     w = window->box.right - window->box.left + 1;
   bool    south = x == x2;
@@ -168,7 +169,7 @@ add_edge (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x,
 }
 
 static void
-add_pixel (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x, int y)
+add_pixel (const CeldBoundaryRefinement *s, GapWindow *window, uint32_t node, int x, int y)
 {
   uint32_t seed = celd_seed_rows_at (&s->task->seeds, x, y);
   int32_t  vote = seed ? celd_task_data_cost (s->task, seed) : 0;
@@ -184,13 +185,13 @@ add_pixel (const CeldBoundaryRefinement *s, Window *window, uint32_t node, int x
 }
 
 static CeldStatus
-window_new (const CeldBoundaryRefinement *s, Box box, Window *window)
+window_new (const CeldBoundaryRefinement *s, Box box, GapWindow *window)
 {
   size_t   w = (size_t) (box.right - box.left + 1), h = (size_t) (box.bottom - box.top + 1), n = w * h;
   size_t   n_labels = s->task->palette.n;
   uint32_t node = 0;
 
-  *window = (Window) {
+  *window = (GapWindow) {
     .box     = box,
     .n       = n,
     .link    = celd_alloc (2 * n, sizeof *window->link),
@@ -212,7 +213,7 @@ window_new (const CeldBoundaryRefinement *s, Box box, Window *window)
 }
 
 static void
-window_clear (Window *window)
+window_clear (GapWindow *window)
 {
   celd_free (window->link);
   celd_free (window->vote);
@@ -228,7 +229,7 @@ window_clear (Window *window)
 
 /* Labels are cut in the order of the whole picture. */
 static CeldStatus
-order_labels (const CeldBoundaryRefinement *s, Window *window)
+order_labels (const CeldBoundaryRefinement *s, GapWindow *window)
 {
   uint32_t  *order = celd_alloc (s->task->palette.n, sizeof *order);
   size_t     n = 0;
@@ -242,7 +243,7 @@ order_labels (const CeldBoundaryRefinement *s, Window *window)
 }
 
 static CeldStatus
-solve (CeldBoundaryRefinement *s, Window *window)
+solve (CeldBoundaryRefinement *s, GapWindow *window)
 {
   CeldPartition problem = {
     window->n, window->link, window->n_links, window->vote, window->n_votes, window->fixed, window->order,
@@ -269,10 +270,10 @@ celd_refine_gaps (CeldBoundaryRefinement *s)
 
   for (size_t i = 0; i < boxes.n && status == CELD_OK; i++)
     {
-      Box    box = widen (s, boxes.item[i]);
-      Window window;
+      Box       box = widen (s, boxes.item[i]);
+      GapWindow window;
 
-      if ((int64_t) (box.right - box.left + 1) * (box.bottom - box.top + 1) > LARGEST)
+      if ((int64_t) (box.right - box.left + 1) * (box.bottom - box.top + 1) > MOST_GAP_PIXELS)
         continue;
       status = window_new (s, box, &window);
       if (status == CELD_OK)

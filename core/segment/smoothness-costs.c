@@ -16,8 +16,8 @@
 
 #include <math.h>
 
-#define MOST_DISCOUNT   10  /* cost units: a pair far from paper costs at most this much less (chosen) */
-#define MARGIN 64  /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
+#define MOST_DISCOUNT 10 /* cost units: a pair far from paper costs at most this much less (chosen) */
+#define PAGE_MARGIN   64 /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
 
 void
 celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs)
@@ -25,7 +25,7 @@ celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnes
   costs->width  = width;
   costs->height = height;
   costs->paper_cost  = 2.0 * (width + height);
-  costs->margin = 1 + (width + height) / MARGIN;
+  costs->margin = 1 + (width + height) / PAGE_MARGIN;
   for (int i = 0; i <= CELD_INK_STEPS; i++)
     {
       double g = fmax (0, ((double) i / CELD_INK_STEPS - (double) threshold) / (1 - (double) threshold));

@@ -15,9 +15,9 @@
 
 #include <string.h>
 
-#define PIXELS  4096            /* largest window that is solved on pixels (chosen) */
-#define BLOCKS  4096            /* blocks of larger windows, approximately (chosen) */
-#define LARGEST 5               /* largest block: 1 << so many pixels a side (chosen) */
+#define WINDOW_PIXELS 4096 /* largest window that is solved on pixels (chosen) */
+#define WINDOW_BLOCKS 4096 /* blocks of larger windows, approximately (chosen) */
+#define LARGEST_BLOCK 5    /* largest block: 1 << so many pixels a side (chosen) */
 
 typedef struct
 {
@@ -274,9 +274,9 @@ block_shift (const CeldWindow *window)
   int64_t area = (int64_t) (window->right - window->left + 1) * (window->bottom - window->top + 1);
   int     shift = 2;
 
-  if (area <= PIXELS)
+  if (area <= WINDOW_PIXELS)
     return 0;
-  while (area >> 2 * shift > BLOCKS && shift < LARGEST)
+  while (area >> 2 * shift > WINDOW_BLOCKS && shift < LARGEST_BLOCK)
     shift++;
   return shift;
 }

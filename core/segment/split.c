@@ -143,7 +143,7 @@ basin_has (const Split *split, uint32_t k, uint32_t label)
 
 /* Does the label continue from one basin to the other? */
 static bool
-goes_on (const Split *split, const CeldBasinBoundary *boundary, uint32_t label)
+continues (const Split *split, const CeldBasinBoundary *boundary, uint32_t label)
 {
   if (basin_has (split, boundary->a, label) && basin_has (split, boundary->b, label))
     return true;
@@ -184,7 +184,7 @@ find_region (Split *split, CeldCut *cut)
       {
         const CeldBasinBoundary *boundary = &basins->boundary[split->boundary[j]];
 
-        if (goes_on (split, boundary, cut->label))
+        if (continues (split, boundary, cut->label))
           join (split, boundary->a == cut->basin[i] ? boundary->b : boundary->a, cut);
       }
   cut->any = !whole && !cut->at[second];
@@ -227,7 +227,7 @@ mark_row (const Split *split, const CeldCut *cut, const uint8_t *side, int y)
 }
 
 static void
-leave_region (Split *split, const CeldCut *cut)
+clear_region (Split *split, const CeldCut *cut)
 {
   for (size_t i = 0; i < cut->n; i++)
     cut->at[cut->basin[i]] = 0;
@@ -240,7 +240,7 @@ leave_region (Split *split, const CeldCut *cut)
 
 /* Pixels under hard strokes keep the region's label, wherever the cut runs. */
 static void
-obey_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
+keep_hard_strokes (const Split *split, const CeldCut *cut, uint8_t kept_side)
 {
   for (int y = cut->top; y <= cut->bottom; y++)
     {
@@ -276,7 +276,7 @@ seed_disc (Split *split, const CeldSeedDisc *disc, uint8_t side, uint32_t label)
 
 /* Gives an end's side of the cut to the new label. */
 static CeldStatus
-take_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
+label_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
 {
   CeldStatus status = CELD_OK;
 
@@ -297,16 +297,16 @@ take_side (Split *split, const CeldCut *cut, uint8_t side, uint32_t label)
 }
 
 static CeldStatus
-take_over (Split *split, const CeldCut *cut, int kept)
+apply_cut (Split *split, const CeldCut *cut, int kept)
 {
   const uint8_t side[2] = { CELD_NEAR_FIRST, CELD_NEAR_SECOND };
   uint32_t      label[2] = { cut->label, cut->label };
   CeldStatus    status = celd_task_add_arrow_label (split->task, &label[1 - kept]);
 
   if (is_hard (split->task, cut->label))
-    obey_strokes (split, cut, side[kept]);
+    keep_hard_strokes (split, cut, side[kept]);
   if (status == CELD_OK)
-    status = take_side (split, cut, side[1 - kept], label[1 - kept]);
+    status = label_side (split, cut, side[1 - kept], label[1 - kept]);
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < 2 && status == CELD_OK; k++)
       status = seed_disc (split, &cut->discs[i].disc[k], side[i], label[i]);
@@ -342,12 +342,12 @@ split_region (Split *split, CeldCut *cut, size_t relation, const CeldHost *host)
       status = cut_region (split, cut, host, &kept);
       if (status == CELD_OK && kept >= 0)
         {
-          status = take_over (split, cut, kept);
+          status = apply_cut (split, cut, kept);
           if (split->task->n_effective <= relation)
             split->task->n_effective = relation + 1;
         }
     }
-  leave_region (split, cut);
+  clear_region (split, cut);
   return status;
 }
 

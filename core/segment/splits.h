@@ -12,19 +12,21 @@
 /* An end of a relation on the drawing: the paper nearest to its point, if there is any near. */
 typedef struct { bool there; int x, y; } CeldRelationEnd;
 
-typedef struct { int x, y; double radius; } CeldSeedDisc;
+typedef struct { int x, y; double radius; } CeldSeedDisc; /* centre and radius in pixels */
 
 /* The discs of an end: one round the end and one on the peak of the distance to ink above it.  `clearance`: the squared
  * distance to ink at the peak. */
 typedef struct { CeldSeedDisc disc[2]; int32_t clearance; } CeldSeedDiscs;
 
-#define CELD_DISC_RANGE 0.45 /* of the way between both ends: how far discs extend where nothing else separates the ends
-                              * (chosen) */
+/* Of the way between both ends: how far discs extend where nothing else separates the ends (chosen). */
+#define CELD_DISC_RANGE 0.45
 
 /* ------------------------------------------------------------------ arrow-seeds.c */
 
+/* The end of a relation on the drawing. */
 CeldRelationEnd celd_relation_end_find (const CeldSegmentTask *task, const CeldTerm *term);
 
+/* The distance of two ends in pixels. */
 double celd_relation_end_distance (CeldRelationEnd a, CeldRelationEnd b);
 
 /* The discs of an end.  None extends farther than `farthest` from the end or has a radius above `widest`; INFINITY: no
@@ -109,7 +111,7 @@ celd_cut_index (const CeldCut *cut, int x, int y)
   return (size_t) y * (size_t) cut->task->basins->width + (size_t) x;
 }
 
-/* ------------------------------------------------------------------ cut-mesh.c */
+/* ------------------------------------------------------------------ cut-graph.c */
 
 /* Makes nodes of all pixels inside, square by square, and the links between them; pixels that have an end already add
  * capacities to their neighbours. */
@@ -143,9 +145,7 @@ void celd_cut_graph_note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end,
 /* Finds *kept as in celd_cut_pixels, from the seeds noted; nodes not connected to the first end become unreachable. */
 CeldStatus celd_cut_graph_find_kept_end (CeldCutGraph *graph, int *kept);
 
-/* ------------------------------------------------------------------ cut.c */
-
-void celd_cut_graph_clear (CeldCutGraph *graph);                        /* accepts a zeroed record */
+void celd_cut_graph_clear (CeldCutGraph *graph); /* accepts a zeroed record */
 
 /* Sets the side of each node by a minimum cut. */
 CeldStatus celd_cut_graph_solve (CeldCutGraph *graph, int kept, const CeldHost *host);

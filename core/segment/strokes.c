@@ -21,7 +21,7 @@
 
 #include <stdlib.h>
 
-#define LEAST_ODDS 0.5
+#define LEAST_ODDS 0.5 /* of being meant, below which an overlap is a spill (chosen) */
 
 /* ------------------------------------------------------------------ connected strokes */
 

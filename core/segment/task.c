@@ -15,14 +15,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MOST_COST (1 << 28)
-#define BRUSH     20.0          /* pixels: at this width the data cost is hardness K (chosen) */
-
-#define HUES   360                   /* colours to choose from */
-#define FIRST  ((uint32_t) 1417339208)  /* hues are fractions of 2^32, round the circle: 0.33 */
-#define GOLDEN ((uint32_t) 2654435769)  /* step from one to the next: the golden section */
-#define THIRD  ((uint32_t) 1431655765)
-#define FAR    150                   /* distance that is aimed at: a sum over three channels of 0 .. 255 (chosen) */
+#define MOST_COST             (1 << 28)               /* of a seed's pixel: sums of costs stay below 2^60 */
+#define BRUSH                 20.0                    /* pixels: at this width the data cost is hardness K (chosen) */
+#define HUES                  360                     /* colours to choose from */
+#define FIRST_HUE             ((uint32_t) 1417339208) /* hues are fractions of 2^32, round the circle: 0.33 */
+#define HUE_STEP              ((uint32_t) 2654435769) /* from one to the next: the golden section */
+#define THIRD                 ((uint32_t) 1431655765)
+#define LEAST_COLOUR_DISTANCE 150                     /* sum over three channels of 0 .. 255, to aim at (chosen) */
 
 /* ------------------------------------------------------------------ the record, and its labels */
 
@@ -114,12 +113,12 @@ colour_distance (const uint8_t a[4], const uint8_t b[4])
 static void
 new_colour (const CeldPalette *palette, uint8_t colour[4])
 {
-  for (int least = FAR; ; least = least * 2 / 3)
+  for (int least = LEAST_COLOUR_DISTANCE; ; least = least * 2 / 3)
     for (uint32_t i = 0; i < HUES; i++)
       {
         bool far = true;
 
-        from_hue (FIRST + i * GOLDEN, i % 3 == 1 ? 0.55 : 0.8, i % 3 == 2 ? 0.65 : 0.95, colour);
+        from_hue (FIRST_HUE + i * HUE_STEP, i % 3 == 1 ? 0.55 : 0.8, i % 3 == 2 ? 0.65 : 0.95, colour);
         for (size_t k = 0; k < palette->n && far; k++)
           far = !palette->item[k].colour[3] || colour_distance (palette->item[k].colour, colour) >= least;
         if (far)

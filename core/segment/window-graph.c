@@ -284,7 +284,7 @@ build (CeldWindowBuilder *b)
 }
 
 static CeldStatus
-keep (CeldStatus status, CeldWindowGraph *made, CeldWindowGraph *graph)
+finish (CeldStatus status, CeldWindowGraph *made, CeldWindowGraph *graph)
 {
   if (status == CELD_OK)
     *graph = *made;
@@ -300,7 +300,7 @@ celd_window_graph_new (const CeldSegmentTask *task, const uint32_t *label, const
   CeldWindowGraph       made = { .task = task, .basin_label = label, .window = *window, .shift = shift };
   CeldWindowBuilder b = { .graph = &made, .free = free, .id = id };
 
-  return keep (build (&b), &made, graph);
+  return finish (build (&b), &made, graph);
 }
 
 CeldStatus
@@ -311,5 +311,5 @@ celd_window_graph_refine (const CeldWindowGraph *coarse, const uint8_t *fine, Ce
   };
   CeldWindowBuilder b = { .graph = &made, .fine = fine };
 
-  return keep (build (&b), &made, graph);
+  return finish (build (&b), &made, graph);
 }

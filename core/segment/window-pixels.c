@@ -50,7 +50,7 @@ read_ink (const CeldWindowBuilder *b, int y, int x, int end, uint32_t *state)
 
 /* A hard seed on pixel k of a row.  Pixels that are not free belong to other windows. */
 static inline void
-obey (const CeldWindowBuilder *b, uint32_t label, int k, uint32_t *state)
+read_hard_seed (const CeldWindowBuilder *b, uint32_t label, int k, uint32_t *state)
 {
   if (*state & CELD_PART_FIXED)
     return;
@@ -86,7 +86,7 @@ read_paint (const CeldWindowBuilder *b, int y, uint32_t *state, uint32_t *paint)
 
       for (int k = x; k < end; k++)
         if (hard)
-          obey (b, l, k, &state[k]);
+          read_hard_seed (b, l, k, &state[k]);
         else
           paint[k] = l;
       for (int k = x >> b->graph->shift; k <= (end - 1) >> b->graph->shift && !hard; k++)

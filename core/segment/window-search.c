@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARGIN 8                  /* pixels round a cluster, besides a stroke width and half its longer side (chosen) */
+#define CLUSTER_MARGIN 8 /* pixels round a cluster, besides a stroke width and half its longer side (chosen) */
 
 /* A run of seeds in a basin of another label. */
 typedef struct { int32_t y, x, end; uint32_t label, basin; } Run;
@@ -207,7 +207,7 @@ static void
 add_margin (const CeldBasins *basins, CeldWindow *box)
 {
   int w = box->right - box->left, h = box->bottom - box->top;
-  int margin = MARGIN + basins->stroke + (w > h ? w : h) / 2;
+  int margin = CLUSTER_MARGIN + basins->stroke + (w > h ? w : h) / 2;
 
   box->left   = box->left > margin ? box->left - margin : 0;
   box->top    = box->top > margin ? box->top - margin : 0;

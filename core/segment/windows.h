@@ -83,7 +83,7 @@ celd_window_part_at (const CeldWindowGraph *graph, int x, int y)
   if (block == CELD_PART_ABOVE)
     return CELD_PART_FIXED |
            (graph->coarse ? celd_window_part_label (graph->coarse, celd_window_part_at (graph->coarse, x, y))
-                          : graph->basin_label[celd_basin_at (graph->task->basins, x, y)]);
+            : graph->basin_label[celd_basin_at (graph->task->basins, x, y)]);
   if (block & CELD_PART_FIXED || !(block & CELD_PART_MIXED))
     return block;
   return graph->detail[((size_t) (block & ~CELD_PART_MIXED) << 2 * graph->shift)
@@ -103,7 +103,7 @@ CeldStatus celd_window_graph_connect (CeldWindowGraph *graph);
 /* The state of a pixel: CELD_PART_FIXED, its label, and its kind unless it is fixed. */
 #define CELD_PART_LABELS   UINT32_C (0x1fffffff)
 #define CELD_PART_KINDS    UINT32_C (0x60000000)
-#define CELD_PART_KIND_INK UINT32_C (0x20000000)        /* once: ink; twice: dark ink */
+#define CELD_PART_KIND_INK UINT32_C (0x20000000) /* once: ink; twice: dark ink */
 
 typedef struct
 {
