@@ -16,7 +16,7 @@
  */
 #include "image/image.h"
 #include "order/order.h"
-#include "segment/basins.h"
+#include "segment/segment.h"
 #include "solve/maxflow.h"
 
 #include <math.h>

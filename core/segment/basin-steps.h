@@ -20,12 +20,12 @@ typedef struct
   const CeldBasins *old;      /* the basins that the other pixels keep */
 } CeldBasinExtent;
 
-/* watershed.c: fills in basin, n, row and run of a graph of the size of the box; areas are 0. Pixels that are not
+/* watershed.c: fills in basin, n, row and run of a graph of the size of the box; areas are 0.  Pixels that are not
  * assigned again belong to CELD_OLD_BASIN | their old basin; none outside the box may be assigned again. */
 CeldStatus celd_basins_ascend (const CeldBasinExtent *extent, const CeldHost *host, CeldBasins *basins);
 
-/* basin-boundaries.c: the boundaries of the basins that width, height, basin, row and run describe, counting only
- * pairs with a pixel that is assigned again. The caller frees *boundary with celd_free. */
+/* basin-boundaries.c: the boundaries of the basins that width, height, basin, row and run describe, counting only pairs
+ * with a pixel that is assigned again.  The caller frees *boundary with celd_free. */
 CeldStatus celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent, const CeldBasins *basins,
                                         const CeldHost *host,
                                         CeldBasinBoundary **boundary, size_t *n);
@@ -60,7 +60,7 @@ CeldStatus celd_basins_find_change (const CeldPlane *ink, const CeldBasins *old,
  * lead without the flag is an index into `edge`. */
 #define CELD_LEAD_MAXIMUM (1u << 31)
 
-/* Pixels of a row, up to the next stretch. Either all lead to the same place, or each to the place after the previous
+/* Pixels of a row, up to the next stretch.  Either all lead to the same place, or each to the place after the previous
  * one's. */
 typedef struct { int32_t x; bool moves; uint32_t lead; } CeldLeadStretch;
 

@@ -10,37 +10,7 @@
 #ifndef CELD_BASINS_H
 #define CELD_BASINS_H
 
-#include "base/base.h"
-
-/* ------------------------------------------------------------------ smoothness-costs.c */
-
-#define CELD_COST_UNIT     16   /* cost of a pair of pixels inside ink: energies are integers */
-#define CELD_INK_STEPS     1024 /* steps of the table by ink */
-#define CELD_MOST_TO_PAPER 1024 /* squared pixels: the discount grows no more from here on */
-
-typedef struct
-{
-  int     width, height;
-  double  paper_cost;                       /* K: what a pair of paper costs more than one inside ink */
-  int32_t by_ink[CELD_INK_STEPS + 1];       /* by the darker pixel of a pair, from ink (0) to paper */
-  int32_t discount[CELD_MOST_TO_PAPER + 1]; /* for ink at this squared distance to paper */
-  int32_t margin;                           /* factor for pairs of paper along the frame */
-} CeldSmoothnessCosts;
-
-/* V_pq of LazyBrush [SDC09b] (section 3.2): fills in *costs for a picture of this size. `threshold` is
- * settings->ink_threshold, 0 .. 1. */
-void celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs);
-
-/* V_pq of two neighbouring pixels: their ink, their squared distances to paper (0 or less on paper), and whether both
- * are outermost pixels on the same side of the picture. */
-int32_t celd_smoothness_cost (const CeldSmoothnessCosts *costs, float ink, float other_ink, int32_t to_paper,
-                              int32_t other_to_paper,
-                              bool along_frame);
-
-/* The squared distance of every pixel to the nearest paper, 0 on paper: a tight plane of the picture's size. */
-CeldStatus celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_paper);
-
-/* ------------------------------------------------------------------ basins */
+#include "segment/segment.h"
 
 typedef struct
 {
@@ -84,11 +54,11 @@ typedef struct
   size_t    n_merged, n_enclosures, n_components;
 } CeldBasins;
 
-/* Makes the record. `threshold` is settings->ink_threshold. CELD_NO_MEMORY, CELD_CANCELLED, CELD_BAD_SIZE. */
+/* Makes the record.  `threshold` is settings->ink_threshold.  CELD_NO_MEMORY, CELD_CANCELLED, CELD_BAD_SIZE. */
 CeldStatus celd_basins_new (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins);
 
-/* Updates *basins after the ink has changed inside `changed`. The result equals that of celd_basins_new, but only
- * basins that the change can reach are rebuilt. After a failure *basins is as before. */
+/* Updates *basins after the ink has changed inside `changed`.  The result equals that of celd_basins_new, but only
+ * basins that the change can reach are rebuilt.  After a failure *basins is as before. */
 CeldStatus celd_basins_update (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, CeldBasins *basins);
 
 /* Replaces *basins by those of this ink: updates them inside `changed`, or makes all of them if that is NULL. After a
@@ -98,7 +68,7 @@ CeldStatus celd_basins_make (const CeldPlane *ink, const CeldRect *changed, floa
 
 void celd_basins_clear (CeldBasins *basins);
 
-/* How many of the pixels x .. end - 1 of row y are paper. The bits that it counts are made by celd_paper_new (free
+/* How many of the pixels x .. end - 1 of row y are paper.  The bits that it counts are made by celd_paper_new (free
  * them with celd_free), and updated inside `changed` by celd_paper_update. */
 uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
 CeldStatus celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits);

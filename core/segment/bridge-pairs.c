@@ -17,9 +17,9 @@
 
 #define NEAR_END          6     /* stroke widths: up to here a line may turn sharply to meet another */
 #define FAR_END           12    /* from here on it must continue nearly straight */
-#define LEAST_COSINE_NEAR -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
-#define LEAST_COSINE      0.5
-#define LEAST_COSINE_FAR  0.94
+#define NEAR_COSINE -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
+#define MIDDLE_COSINE      0.5
+#define FAR_COSINE  0.94
 #define OWN_OUTLINE       0.5   /* factor of the cost between two ends of one outline: closing it is preferred */
 #define BOW_COSINE        0.8   /* if both cosines are less, both ends must turn to the same side */
 #define ROUND_OFF         1e-6  /* margin by which quick tests are less strict than the exact one */
@@ -61,8 +61,8 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
 
   if (length < 1 || length <= s->from || length > s->most)
     return false;
-  least = length <= NEAR_END * s->stroke ? LEAST_COSINE_NEAR : length <= FAR_END * s->stroke ? LEAST_COSINE :
-  LEAST_COSINE_FAR;
+  least = length <= NEAR_END * s->stroke ? NEAR_COSINE : length <= FAR_END * s->stroke ? MIDDLE_COSINE :
+  FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
   *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN_OUTLINE : 1);
@@ -140,7 +140,7 @@ sort_into_cells (CeldTipPairs *s)
 static bool
 lies_ahead (const CeldTip *tip, double x, double y, double radius)
 {
-  static const double cosine = LEAST_COSINE_FAR, sine = 0.342; /* rounded up from sqrt (1 - cosine^2) */
+  static const double cosine = FAR_COSINE, sine = 0.342; /* rounded up from sqrt (1 - cosine^2) */
   double              along = x * tip->dx + y * tip->dy, across = fabs (x * tip->dy - y * tip->dx);
 
   return across * cosine - along * sine <= radius + ROUND_OFF;
@@ -163,7 +163,7 @@ static bool
 may_face (const CeldTip *p, const CeldTip *q)
 {
   double x = q->x - p->x, y = q->y - p->y;
-  double least = (1 - ROUND_OFF) * LEAST_COSINE_FAR * LEAST_COSINE_FAR * (x * x + y * y);
+  double least = (1 - ROUND_OFF) * FAR_COSINE * FAR_COSINE * (x * x + y * y);
   double turn = x * p->dx + y * p->dy, other = -(x * q->dx + y * q->dy);
 
   return turn > 0 && other > 0 && turn * turn >= least && other * other >= least;

@@ -22,16 +22,16 @@ typedef struct
 
 void celd_labelling_clear (CeldLabelling *labelling);               /* accepts a zeroed record */
 
-/* Prepares for the basins of a new drawing: nothing counts as painted. `changed` is kept. */
+/* Prepares for the basins of a new drawing: nothing counts as painted.  `changed` is kept. */
 CeldStatus celd_labelling_reset (CeldLabelling *labelling, const CeldBasins *basins);
 
 /* Call it after a failure between begin and end: the picture's content is unknown then, and all of it counts as
  * changed. */
 void celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basins);
 
-/* A new labelling is painted over the old one, in `labels`, in three steps. Begin: paints the basins and removes old
- * patches; takes ownership of `label`, and moves the old labelling to *old, which the caller clears. Add: paints
- * patches, one over the other. End: sorts the patches and adds to `changed` what differs from *old. After a failure
+/* A new labelling is painted over the old one, in `labels`, in three steps.  Begin: paints the basins and removes old
+ * patches; takes ownership of `label`, and moves the old labelling to *old, which the caller clears.  Add: paints
+ * patches, one over the other.  End: sorts the patches and adds to `changed` what differs from *old.  After a failure
  * call celd_labelling_invalidate. */
 void       celd_labelling_begin (CeldLabelling *labelling, const CeldBasins *basins, uint32_t *label,
                                  CeldLabels *labels,
@@ -40,8 +40,8 @@ CeldStatus celd_labelling_add   (CeldLabelling *labelling, const CeldPatches *pa
 CeldStatus celd_labelling_end   (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old,
                                  const CeldLabels *labels);
 
-/* Copies a whole picture over the old one, and adds what differs to `changed`; no basin counts as painted afterwards.
- */
+/* Copies a whole picture over the old one, and adds what differs to `changed`; no basin counts as painted
+ * afterwards. */
 CeldStatus celd_labelling_replace (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabels *from,
                                    CeldLabels *labels);
 

@@ -24,14 +24,14 @@
 
 #define NO_TIP UINT32_MAX
 
-#define IS_INK   1 /* a pixel of ink */
-#define FOLLOWED 2 /* its upper edge has been followed */
+#define PIXEL_INK   1 /* a pixel of ink */
+#define PIXEL_FOLLOWED 2 /* its upper edge has been followed */
 
 typedef struct
 {
   const CeldPlane *ink;
   int              stroke, width, height;
-  uint8_t         *mask;        /* IS_INK or FOLLOWED; with a margin of a pixel, and of 8 at the right */
+  uint8_t         *mask;        /* PIXEL_INK or PIXEL_FOLLOWED; with a margin of a pixel, and of 8 at the right */
   size_t           stride;
   CeldCorner      *corner;      /* of the current outline */
   size_t           n;
@@ -106,7 +106,7 @@ follow (LineEndSearch *s, int x, int y)
       s->corner = grown;
       grown[s->n++] = at;
       if (heading == 0)
-        *mask_at (s, at.x, at.y) |= FOLLOWED;
+        *mask_at (s, at.x, at.y) |= PIXEL_FOLLOWED;
       at.x += step_x[heading];
       at.y += step_y[heading];
       if (*mask_at (s, at.x + left_x[heading], at.y + left_y[heading]))
@@ -277,9 +277,9 @@ celd_line_ends_find (const CeldPlane *ink, int stroke, const CeldHost *host, Cel
 
           memcpy (&here, row + x, 8);
           memcpy (&over, above + x, 8);
-          edges = here & ~over & 0x0101010101010101u; /* candidates: FOLLOWED may be set meanwhile */
+          edges = here & ~over & 0x0101010101010101u; /* candidates: PIXEL_FOLLOWED may be set meanwhile */
           for (int k = 0; k < 8 && edges && status == CELD_OK; k++)
-            if (row[x + k] == IS_INK && !above[x + k])
+            if (row[x + k] == PIXEL_INK && !above[x + k])
               status = search_from (&s, x + k, y);
         }
       if (status == CELD_OK && (y & 255) == 255)

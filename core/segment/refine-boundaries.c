@@ -20,8 +20,8 @@
 
 /* The first edge of a segment: between (x,y) and the pixel below, the segment going right; or between (x,y) and the
  * pixel to the right, the segment going down. */
-typedef struct { int x, y; bool south; } Edge;
-typedef struct { Edge *item; size_t n; } Edges;
+typedef struct { int x, y; bool south; } BoundarySegment;
+typedef struct { BoundarySegment *item; size_t n; } BoundarySegments;
 
 /* ------------------------------------------------------------------ pixels */
 
@@ -69,9 +69,9 @@ same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
 
 /* Appends the segment that an edge is part of, unless it is the last one appended. */
 static CeldStatus
-add_segment (const CeldLabels *l, int x, int y, bool south, Edges *edges)
+add_segment (const CeldLabels *l, int x, int y, bool south, BoundarySegments *edges)
 {
-  Edge *item;
+  BoundarySegment *item;
 
   if (!is_edge (l, x, y, south))
     return CELD_OK;
@@ -82,7 +82,7 @@ add_segment (const CeldLabels *l, int x, int y, bool south, Edges *edges)
     }
   if (edges->n)
     {
-      const Edge *last = &edges->item[edges->n - 1];
+      const BoundarySegment *last = &edges->item[edges->n - 1];
 
       if (last->x == x && last->y == y && last->south == south)
         return CELD_OK;
@@ -91,13 +91,13 @@ add_segment (const CeldLabels *l, int x, int y, bool south, Edges *edges)
   if (!item)
     return CELD_NO_MEMORY;
   edges->item = item;
-  item[edges->n++] = (Edge) { x, y, south };
+  item[edges->n++] = (BoundarySegment) { x, y, south };
   return CELD_OK;
 }
 
 /* All runs of the picture. */
 static CeldStatus
-find_segments (const CeldLabels *l, Edges *edges)
+find_segments (const CeldLabels *l, BoundarySegments *edges)
 {
   CeldStatus status = CELD_OK;
 
@@ -142,7 +142,7 @@ try_move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t l
 
 /* Appends the segments that touch pixels which have changed. */
 static CeldStatus
-add_segments_around (const CeldLabels *l, int x, int y, bool south, int n, Edges *edges)
+add_segments_around (const CeldLabels *l, int x, int y, bool south, int n, BoundarySegments *edges)
 {
   CeldStatus status = CELD_OK;
 
@@ -165,7 +165,7 @@ add_segments_around (const CeldLabels *l, int x, int y, bool south, int n, Edges
 
 /* Moves a segment to one side or the other. */
 static CeldStatus
-try_segment (CeldBoundaryRefinement *s, Edge edge, Edges *next)
+try_segment (CeldBoundaryRefinement *s, BoundarySegment edge, BoundarySegments *next)
 {
   const CeldLabels *l = s->labels;
   bool              south = edge.south, moved;
@@ -192,12 +192,12 @@ try_segment (CeldBoundaryRefinement *s, Edge edge, Edges *next)
 static CeldStatus
 refine_segments (CeldBoundaryRefinement *s)
 {
-  Edges      edges = { 0 };
-  CeldStatus status = find_segments (s->labels, &edges);
+  BoundarySegments edges = { 0 };
+  CeldStatus       status = find_segments (s->labels, &edges);
 
   while (edges.n && status == CELD_OK)
     {
-      Edges next = { 0 };
+      BoundarySegments next = { 0 };
 
       for (size_t i = 0; i < edges.n && status == CELD_OK; i++)
         status = try_segment (s, edges.item[i], &next);

@@ -14,13 +14,13 @@
 #define GAP_MARGIN      6         /* pixels round a gap, besides a stroke width and half the gap (chosen) */
 #define MOST_GAP_PIXELS (1 << 18) /* pixels of a window: larger ones are no gaps (chosen) */
 
-typedef struct { int left, top, right, bottom; } Box;  /* inclusive */
-typedef struct { Box *item; size_t n; } Boxes;
+typedef struct { int left, top, right, bottom; } GapBox;  /* inclusive */
+typedef struct { GapBox *item; size_t n; } GapBoxes;
 
 /* A window as a graph: a node per pixel; neighbours outside become data costs. */
 typedef struct
 {
-  Box       box;
+  GapBox    box;
   size_t    n, n_links, n_votes;
   CeldLink *link;
   CeldVote *vote;
@@ -73,25 +73,25 @@ celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t lab
 
 /* Adds a pixel to a box nearby, or to a new one. */
 static CeldStatus
-add_gap (int x, int y, Boxes *boxes)
+add_gap (int x, int y, GapBoxes *boxes)
 {
-  Box *item;
+  GapBox *item;
 
   for (size_t i = 0; i < boxes->n; i++)
     {
-      Box *b = &boxes->item[i];
+      GapBox *b = &boxes->item[i];
 
       if (x < b->left - GAP_DISTANCE || x > b->right + GAP_DISTANCE || y < b->top - GAP_DISTANCE || y > b->bottom +
           GAP_DISTANCE)
         continue;
-      *b = (Box) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
+      *b = (GapBox) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
       return CELD_OK;
     }
   item = celd_grow (boxes->item, boxes->n + 1, sizeof *item);
   if (!item)
     return CELD_NO_MEMORY;
   boxes->item = item;
-  item[boxes->n++] = (Box) { x, y, x, y };
+  item[boxes->n++] = (GapBox) { x, y, x, y };
   return CELD_OK;
 }
 
@@ -106,7 +106,7 @@ is_gap (const CeldBoundaryRefinement *s, int x, int y, bool south)
 }
 
 static CeldStatus
-find_gaps (const CeldBoundaryRefinement *s, Boxes *boxes)
+find_gaps (const CeldBoundaryRefinement *s, GapBoxes *boxes)
 {
   CeldStatus status = CELD_OK;
 
@@ -118,19 +118,19 @@ find_gaps (const CeldBoundaryRefinement *s, Boxes *boxes)
 }
 
 /* The window of a gap. */
-static Box
-widen (const CeldBoundaryRefinement *s, Box b)
+static GapBox
+widen (const CeldBoundaryRefinement *s, GapBox b)
 {
   int margin = GAP_MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
 
-  return (Box) { most (b.left - margin, 0), most (b.top - margin, 0),
+  return (GapBox) { most (b.left - margin, 0), most (b.top - margin, 0),
                  least (b.right + margin, s->labels->width - 1), least (b.bottom + margin, s->labels->height - 1) };
 }
 
 /* ------------------------------------------------------------------ the graph of a window */
 
 static bool
-inside (const Box *b, int x, int y)
+inside (const GapBox *b, int x, int y)
 {
   return x >= b->left && x <= b->right && y >= b->top && y <= b->bottom;
 }
@@ -185,7 +185,7 @@ add_pixel (const CeldBoundaryRefinement *s, GapWindow *window, uint32_t node, in
 }
 
 static CeldStatus
-window_new (const CeldBoundaryRefinement *s, Box box, GapWindow *window)
+window_new (const CeldBoundaryRefinement *s, GapBox box, GapWindow *window)
 {
   size_t   w = (size_t) (box.right - box.left + 1), h = (size_t) (box.bottom - box.top + 1), n = w * h;
   size_t   n_labels = s->task->palette.n;
@@ -265,12 +265,12 @@ solve (CeldBoundaryRefinement *s, GapWindow *window)
 CeldStatus
 celd_refine_gaps (CeldBoundaryRefinement *s)
 {
-  Boxes      boxes = { 0 };
+  GapBoxes   boxes = { 0 };
   CeldStatus status = find_gaps (s, &boxes);
 
   for (size_t i = 0; i < boxes.n && status == CELD_OK; i++)
     {
-      Box       box = widen (s, boxes.item[i]);
+      GapBox    box = widen (s, boxes.item[i]);
       GapWindow window;
 
       if ((int64_t) (box.right - box.left + 1) * (box.bottom - box.top + 1) > MOST_GAP_PIXELS)

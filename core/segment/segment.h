@@ -1,4 +1,4 @@
-/* A drawing segmented again and again, as strokes are added and changed.
+/* What other themes use of the segmentation: a drawing segmented again as strokes change, and the smoothness cost.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,18 +15,18 @@ CeldSegmenter *celd_segmenter_new (void);                       /* NULL: no memo
 void           celd_segmenter_free (CeldSegmenter *segmenter);  /* accepts NULL */
 
 /* Sets the drawing: line art (paper 1, ink 0) that the caller must keep unchanged until the next call of this function.
- * `changed` is where it differs from the previous drawing of the same size; NULL: everywhere. Of the settings,
- * ink_threshold and close_gaps count, and must be the same in celd_segmenter_solve. After a failure the segmenter has
- * no drawing: the next call starts from the beginning whatever `changed` says. CELD_NO_MEMORY, CELD_CANCELLED,
+ * `changed` is where it differs from the previous drawing of the same size; NULL: everywhere.  Of the settings,
+ * ink_threshold and close_gaps count, and must be the same in celd_segmenter_solve.  After a failure the segmenter has
+ * no drawing: the next call starts from the beginning whatever `changed` says.  CELD_NO_MEMORY, CELD_CANCELLED,
  * CELD_BAD_SIZE. */
 CeldStatus celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const CeldRect *changed,
                                    const CeldSettings *settings, const CeldHost *host);
 
-/* Labels the drawing by these seeds (LazyBrush, section 3.2). `palette`: in, that of the seeds; out, with the regions
- * that arrows made and the background behind them. `labels` is a tight picture of the drawing's size, the caller's,
+/* Labels the drawing by these seeds (LazyBrush, section 3.2).  `palette`: in, that of the seeds; out, with the regions
+ * that arrows made and the background behind them.  `labels` is a tight picture of the drawing's size, the caller's,
  * unchanged since the last call for this drawing (of any content the first time); *changed is where the call altered
- * it. Problems are appended; NULL: not wanted. The result depends on the drawing, the seeds, the relations and the
- * settings only, not on earlier calls. CELD_NOTHING_TO_GO_BY if there is no seed. After a failure the palette and the
+ * it.  Problems are appended; NULL: not wanted.  The result depends on the drawing, the seeds, the relations and the
+ * settings only, not on earlier calls.  CELD_NOTHING_TO_GO_BY if there is no seed.  After a failure the palette and the
  * problems are as before. */
 CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
                                  const CeldSettings *settings, const CeldHost *host, CeldPalette *palette,
@@ -35,13 +35,41 @@ CeldStatus celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *s
 /* The number of relations, counted from the first, that the last solve depends on: those after them changed nothing. */
 size_t celd_segmenter_effective_relations (const CeldSegmenter *segmenter);
 
-/* Would this relation, added after those of the last solve, change nothing? `settings` and `labels` are those of the
- * last solve. Also false where that is not known without solving. */
+/* Would this relation, added after those of the last solve, change nothing?  `settings` and `labels` are those of the
+ * last solve.  Also false where that is not known without solving. */
 bool celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation,
                                   const CeldSettings *settings,
                                   const CeldLabels *labels);
 
 /* The gaps that the last solve closed; borrowed, and valid until the next solve. */
 const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);
+
+/* ------------------------------------------------------------------ smoothness-costs.c */
+
+#define CELD_COST_UNIT     16   /* cost of a pair of pixels inside ink: energies are integers */
+#define CELD_INK_STEPS     1024 /* steps of the table by ink */
+#define CELD_MOST_TO_PAPER 1024 /* squared pixels: the discount grows no more from here on */
+
+typedef struct
+{
+  int     width, height;
+  double  paper_cost;                       /* K: what a pair of paper costs more than one inside ink */
+  int32_t by_ink[CELD_INK_STEPS + 1];       /* by the darker pixel of a pair, from ink (0) to paper */
+  int32_t discount[CELD_MOST_TO_PAPER + 1]; /* for ink at this squared distance to paper */
+  int32_t margin;                           /* factor for pairs of paper along the frame */
+} CeldSmoothnessCosts;
+
+/* V_pq of LazyBrush [SDC09b] (section 3.2): fills in *costs for a picture of this size.  `threshold` is
+ * settings->ink_threshold, 0 .. 1. */
+void celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnessCosts *costs);
+
+/* V_pq of two neighbouring pixels: their ink, their squared distances to paper (0 or less on paper), and whether both
+ * are outermost pixels on the same side of the picture. */
+int32_t celd_smoothness_cost (const CeldSmoothnessCosts *costs, float ink, float other_ink, int32_t to_paper,
+                              int32_t other_to_paper,
+                              bool along_frame);
+
+/* The squared distance of every pixel to the nearest paper, 0 on paper: a tight plane of the picture's size. */
+CeldStatus celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_paper);
 
 #endif

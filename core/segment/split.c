@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct { int left, top, right, bottom; } Box; /* inclusive */
+typedef struct { int left, top, right, bottom; } BasinBox; /* inclusive */
 
 typedef struct
 {
@@ -27,7 +27,7 @@ typedef struct
   CeldSeedRows      painted;    /* seeds before relations added any */
   size_t           *first;      /* of basin k: its boundaries are boundary[first[k]] .. boundary[first[k + 1] - 1] */
   uint32_t         *boundary;
-  Box              *box;        /* of each basin */
+  BasinBox         *box;        /* of each basin */
   uint32_t         *basin, *at; /* the current region, as in CeldCut */
   uint8_t          *side;       /* of its basins, after a cut between basins */
   uint8_t          *mark;       /* of each pixel, for celd_cut_pixels; CELD_OUTSIDE between two cuts */
@@ -117,12 +117,12 @@ find_boxes (Split *split)
   const CeldBasins *basins = split->task->basins;
 
   for (size_t k = 0; k < basins->n; k++)
-    split->box[k] = (Box) { basins->width, basins->height, -1, -1 };
+    split->box[k] = (BasinBox) { basins->width, basins->height, -1, -1 };
   for (int y = 0; y < basins->height; y++)
     for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
       {
-        Box *box = &split->box[basins->run[i].basin];
-        int  left = basins->run[i].x, right = celd_basin_run_end (basins, i, y) - 1;
+        BasinBox *box = &split->box[basins->run[i].basin];
+        int       left = basins->run[i].x, right = celd_basin_run_end (basins, i, y) - 1;
 
         box->left   = left < box->left ? left : box->left;
         box->right  = right > box->right ? right : box->right;
@@ -154,7 +154,7 @@ continues (const Split *split, const CeldBasinBoundary *boundary, uint32_t label
 static void
 join (Split *split, uint32_t k, CeldCut *cut)
 {
-  const Box *box = &split->box[k];
+  const BasinBox *box = &split->box[k];
 
   if (cut->at[k])
     return;

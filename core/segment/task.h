@@ -16,7 +16,7 @@
  * basin). */
 typedef struct { uint32_t part, label, stroke; size_t pixels; bool spill; } CeldStrokeOverlap;
 
-/* The pixels x .. end - 1 of row y, of one stroke and in one basin. `paper`: how many of them are paper. `stroke`:
+/* The pixels x .. end - 1 of row y, of one stroke and in one basin.  `paper`: how many of them are paper.  `stroke`:
  * connected strokes are numbered from 0. */
 typedef struct { int32_t y, x, end; uint32_t label, basin, stroke; uint32_t paper; } CeldStrokePiece;
 
@@ -57,7 +57,7 @@ celd_task_all_hard (const CeldSegmentTask *task)
 /* ------------------------------------------------------------------ task.c */
 
 /* Fills in seeds and palette of a task whose settings, drawing and basins are set: the seeds whose label is in the
- * palette, and the labels without results of an earlier solve. Clear the task also after a failure. */
+ * palette, and the labels without results of an earlier solve.  Clear the task also after a failure. */
 CeldStatus celd_task_new (const CeldSeedRows *seeds, const CeldPalette *palette, CeldSegmentTask *task);
 void       celd_task_clear (CeldSegmentTask *task);
 
@@ -118,12 +118,12 @@ CeldStatus celd_arrow_seeds_add (const CeldRelations *relations, const CeldHost 
 bool       celd_arrow_seeds_needed (const CeldSegmentTask *task, const CeldRelation *relation);
 
 /* Splits the regions of `labels` in which both ends of an inequality lie, unless both are under hard strokes; pixels
- * under hard strokes keep their labels. The changed pixels are appended to the patches, each once, and the discs of
- * both ends are added to the task's seeds. After a failure the patches are as before. */
+ * under hard strokes keep their labels.  The changed pixels are appended to the patches, each once, and the discs of
+ * both ends are added to the task's seeds.  After a failure the patches are as before. */
 CeldStatus celd_regions_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels,
                                CeldSegmentTask *task, CeldPatches *patches);
 
-/* Is there nothing to split for the relation? False if an end lies on one of the patches, where labels changed after
+/* Is there nothing to split for the relation?  False if an end lies on one of the patches, where labels changed after
  * regions were split. */
 bool       celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation,
                                       const CeldLabels *labels,
@@ -143,24 +143,24 @@ CeldStatus celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *
 /* ------------------------------------------------------------------ solve-windows.c: misplaced strokes, solved on
  * pixels */
 
-/* label[basin] is the result of celd_basin_graph_solve. Where a stroke lies in a basin with another label, the pixels
- * of that basin are labelled one by one in a window round the stroke, with everything outside fixed. Hard seeds are
- * always obeyed, soft ones where that lowers the energy. Appends the pixels whose label differs from their basin's;
+/* label[basin] is the result of celd_basin_graph_solve.  Where a stroke lies in a basin with another label, the pixels
+ * of that basin are labelled one by one in a window round the stroke, with everything outside fixed.  Hard seeds are
+ * always obeyed, soft ones where that lowers the energy.  Appends the pixels whose label differs from their basin's;
  * after a failure the patches are as before. */
 CeldStatus celd_windows_solve (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host,
                                CeldPatches *patches);
 
 /* ------------------------------------------------------------------ refine-boundaries.c: boundaries of lower energy */
 
-/* Moves the boundaries between `labels` in place to where the energy is lower, within lines and across gaps. Appends
+/* Moves the boundaries between `labels` in place to where the energy is lower, within lines and across gaps.  Appends
  * the pixels that changed; after a failure some changed pixels are missing from the patches. */
 CeldStatus celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels,
                                    CeldPatches *patches);
 
 /* ------------------------------------------------------------------ closures.c: gaps closed by curves */
 
-/* `label` are the labels of the basins, and `labels` those with the patches `windows` on top. Where two labels meet on
- * paper between two line ends, the boundary is redrawn as a curve that continues the lines. Returns the closures and
+/* `label` are the labels of the basins, and `labels` those with the patches `windows` on top.  Where two labels meet on
+ * paper between two line ends, the boundary is redrawn as a curve that continues the lines.  Returns the closures and
  * the pixels that change sides (makes both records); no seed changes its label. */
 CeldStatus celd_closures_find (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels,
                                const CeldPatches *windows, const CeldHost *host, CeldClosures *closures,
@@ -168,7 +168,7 @@ CeldStatus celd_closures_find (const CeldSegmentTask *task, const uint32_t *labe
 
 /* ------------------------------------------------------------------ problems.c */
 
-/* Appends what the artist should know. `seeds` are those that the artist painted, `labels` the result, described by
+/* Appends what the artist should know.  `seeds` are those that the artist painted, `labels` the result, described by
  * `labelling`. */
 CeldStatus celd_segment_report (const CeldSegmentTask *task, const CeldSeedRows *seeds, const CeldLabelling *labelling,
                                 const CeldLabels *labels, const CeldHost *host, CeldProblems *problems);

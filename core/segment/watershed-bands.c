@@ -11,9 +11,10 @@
 
 #define UNKNOWN UINT32_MAX
 
-/* The step of a pixel: three upwards, three downwards, and from STAY on those within its row.  KEEP: it keeps its old
- * basin. */
-enum { NORTH_WEST, NORTH, NORTH_EAST, SOUTH_WEST, SOUTH, SOUTH_EAST, STAY = 0x80, EAST, WEST, KEEP };
+/* The step of a pixel: three upwards, three downwards, and from STEP_NONE on those within its row.  STEP_KEEP: the
+ * pixel keeps its old basin. */
+enum { STEP_NORTH_WEST, STEP_NORTH, STEP_NORTH_EAST, STEP_SOUTH_WEST, STEP_SOUTH, STEP_SOUTH_EAST, STEP_NONE = 0x80,
+       STEP_EAST, STEP_WEST, STEP_KEEP };
 
 /* ------------------------------------------------------------------ steps */
 
@@ -40,19 +41,19 @@ find_steps (int width, const int32_t *restrict above, const int32_t *restrict he
   for (int x = 0; x < width; x++)
     {
       int32_t best = here[x + 1];
-      int     to = STAY;
+      int     to = STEP_NONE;
 
 #define TRY(height, is_higher, where) \
   to = (height) is_higher best ? where : to; \
   best = (height) is_higher best ? (height) : best
-      TRY (below[x + 1], >=, SOUTH);
-      TRY (here[x + 2], >=, EAST);
-      TRY (here[x], >, WEST);
-      TRY (above[x + 1], >, NORTH);
-      TRY (above[x], >, NORTH_WEST);
-      TRY (above[x + 2], >, NORTH_EAST);
-      TRY (below[x], >, SOUTH_WEST);
-      TRY (below[x + 2], >, SOUTH_EAST);
+      TRY (below[x + 1], >=, STEP_SOUTH);
+      TRY (here[x + 2], >=, STEP_EAST);
+      TRY (here[x], >, STEP_WEST);
+      TRY (above[x + 1], >, STEP_NORTH);
+      TRY (above[x], >, STEP_NORTH_WEST);
+      TRY (above[x + 2], >, STEP_NORTH_EAST);
+      TRY (below[x], >, STEP_SOUTH_WEST);
+      TRY (below[x + 2], >, STEP_SOUTH_EAST);
 #undef TRY
       step[x] = (uint8_t) to;
     }
@@ -84,9 +85,9 @@ go_sideways (int width, const uint8_t *step, uint32_t *lead)
     {
       for (end = x + 1; end < width && step[end] == step[x]; end++)
         ;
-      if (step[x] != STAY && lead[x] == UNKNOWN)
+      if (step[x] != STEP_NONE && lead[x] == UNKNOWN)
         {
-          uint32_t to = lead[step[x] == EAST ? end : x - 1];
+          uint32_t to = lead[step[x] == STEP_EAST ? end : x - 1];
 
           for (int u = x; u < end; u++)
             lead[u] = to;
@@ -99,12 +100,12 @@ step_offset (uint8_t step, ptrdiff_t row_size)
 {
   switch (step)
     {
-    case EAST:
+    case STEP_EAST:
       return 1;
-    case WEST:
+    case STEP_WEST:
       return -1;
     default:
-      return step < SOUTH_WEST ? step - NORTH - row_size : step - SOUTH + row_size;
+      return step < STEP_SOUTH_WEST ? step - STEP_NORTH - row_size : step - STEP_SOUTH + row_size;
     }
 }
 
@@ -152,8 +153,8 @@ lead_rows (int width, int n, const uint8_t *step, uint32_t *lead)
         int       y = down ? i : n - 1 - i;
         uint32_t *row = lead + (size_t) y * row_size;
 
-        take_over (width, step + (size_t) y * w, down ? NORTH_WEST : SOUTH_WEST, down ? row - row_size : row + row_size,
-                   row);
+        take_over (width, step + (size_t) y * w, down ? STEP_NORTH_WEST : STEP_SOUTH_WEST,
+                   down ? row - row_size : row + row_size, row);
         go_sideways (width, step + (size_t) y * w, row);
       }
   for (int y = 0; y < n; y++)
@@ -181,7 +182,7 @@ keep_row (const CeldWatershed *a, int y, uint8_t *step, uint32_t *lead)
         run++;
       if (rebuilt[x])
         continue;
-      step[x] = KEEP;
+      step[x] = STEP_KEEP;
       lead[x] = CELD_LEAD_MAXIMUM | CELD_OLD_BASIN | 2 * run->basin;
     }
 }
@@ -194,7 +195,7 @@ start_row (const CeldWatershed *a, int y, uint8_t *step, CeldWatershedBand *band
   if (a->extent->rebuilt)
     keep_row (a, y, step, lead);
   for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
-    if (step[x] == STAY)
+    if (step[x] == STEP_NONE)
       {
         uint32_t *maximum = celd_grow (band->maximum, band->n + 1, sizeof *maximum);
 

@@ -19,19 +19,19 @@
 #define CLUSTER_MARGIN 8 /* pixels round a cluster, besides a stroke width and half its longer side (chosen) */
 
 /* A run of seeds in a basin of another label. */
-typedef struct { int32_t y, x, end; uint32_t label, basin; } Run;
+typedef struct { int32_t y, x, end; uint32_t label, basin; } MisplacedRun;
 
-typedef struct { CeldWindow box; bool wanted; } Cluster;
+typedef struct { CeldWindow box; bool wanted; } PaintCluster;
 
 typedef struct
 {
   const CeldSegmentTask *task;
   const uint32_t        *label;      /* of each basin */
   size_t                 hint;
-  Run                   *run;        /* in reading order */
+  MisplacedRun          *run;        /* in reading order */
   size_t                 n_runs;
   uint32_t              *cluster_of; /* of each run: a disjoint-set forest (unions.h), in the end its cluster */
-  Cluster               *cluster;
+  PaintCluster          *cluster;
   size_t                 n_clusters;
   uint32_t              *group;      /* of each basin: a disjoint-set forest of groups */
 } WindowSearch;
@@ -53,9 +53,9 @@ celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint)
 }
 
 static CeldStatus
-add_run (WindowSearch *search, Run run)
+add_run (WindowSearch *search, MisplacedRun run)
 {
-  Run *runs = celd_grow (search->run, search->n_runs + 1, sizeof *runs);
+  MisplacedRun *runs = celd_grow (search->run, search->n_runs + 1, sizeof *runs);
 
   if (!runs)
     return CELD_NO_MEMORY;
@@ -78,7 +78,7 @@ compare_seeds (WindowSearch *search, int y, const CeldSeedRun *seeds)
       end = i + 1 < basins->row[y + 1] ? basins->run[i + 1].x : basins->width;
       end = end < seeds->end ? end : seeds->end;
       if (search->label[basin] != seeds->label)
-        status = add_run (search, (Run) { y, x, end, seeds->label, basin });
+        status = add_run (search, (MisplacedRun) { y, x, end, seeds->label, basin });
     }
   return status;
 }
@@ -101,8 +101,8 @@ find_runs (WindowSearch *search)
 static void
 join_runs (WindowSearch *search)
 {
-  const Run *run = search->run;
-  size_t     above = 0;         /* no run before it touches run i, or a later one */
+  const MisplacedRun *run = search->run;
+  size_t              above = 0; /* no run before it touches run i, or a later one */
 
   celd_roots (search->cluster_of, search->n_runs);
   for (size_t i = 1; i < search->n_runs; i++)
@@ -129,8 +129,8 @@ widen (CeldWindow *box, const CeldWindow *other)
 static CeldStatus
 number_clusters (WindowSearch *search)
 {
-  const Run *run = search->run;
-  uint32_t  *cluster_of;
+  const MisplacedRun *run = search->run;
+  uint32_t           *cluster_of;
 
   search->cluster    = celd_alloc (search->n_runs, sizeof *search->cluster);
   search->cluster_of = cluster_of = celd_alloc (search->n_runs, sizeof *cluster_of);
@@ -144,7 +144,7 @@ number_clusters (WindowSearch *search)
 
       cluster_of[i] = root ? (uint32_t) search->n_clusters : cluster_of[cluster_of[i]];
       if (root)
-        search->cluster[search->n_clusters++] = (Cluster) { box, false };
+        search->cluster[search->n_clusters++] = (PaintCluster) { box, false };
       widen (&search->cluster[cluster_of[i]].box, &box);
     }
   return CELD_OK;
@@ -158,8 +158,8 @@ select_clusters (WindowSearch *search)
 {
   for (size_t i = 0; i < search->n_runs; i++)
     {
-      const Run *run = &search->run[i];
-      bool      *wanted = &search->cluster[search->cluster_of[i]].wanted;
+      const MisplacedRun *run = &search->run[i];
+      bool               *wanted = &search->cluster[search->cluster_of[i]].wanted;
 
       *wanted = *wanted || celd_task_data_cost (search->task, run->label) == CELD_HARD;
       for (int x = run->x; x < run->end && !*wanted; x++)
@@ -272,7 +272,7 @@ merge (CeldWindows *windows)
 
 /* The index of the window of a run's group that contains it; windows->n: none. */
 static size_t
-window_of (const WindowSearch *search, const CeldWindows *windows, const Run *run)
+window_of (const WindowSearch *search, const CeldWindows *windows, const MisplacedRun *run)
 {
   uint32_t group = celd_root (search->group, run->basin);
   size_t   low = 0, high = windows->n;
@@ -348,7 +348,7 @@ make_windows (WindowSearch *search, CeldWindows *windows)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < search->n_runs; i++)
     {
-      Cluster *cluster = &search->cluster[search->cluster_of[i]];
+      PaintCluster *cluster = &search->cluster[search->cluster_of[i]];
 
       if (!cluster->wanted)
         continue;
