@@ -98,7 +98,7 @@ write_result (CeldOp *op)
   switch ((CeldPopupResult) op->own.result)
     {
     case CELD_POPUP_LABELS:   return celd_op_write_labels (op);
-    case CELD_POPUP_ORDER:    return write_plane (op, celd_session_flat);
+    case CELD_POPUP_ORDER:    return write_plane (op, celd_session_unexpanded_levels);
     case CELD_POPUP_LEVELS:   return write_plane (op, celd_session_levels);
     case CELD_POPUP_DEPTH:    return write_plane (op, celd_session_depth);
     case CELD_POPUP_NORMALS:  return write_normals (op);

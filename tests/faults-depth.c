@@ -17,9 +17,9 @@ order_step (const CeldHost *host, Results *r)
   return celd_order (&labels, &label_palette, &scene_relations, &ink, &scene_settings, host, &r->order, &r->problems);
 }
 
-/* A knot of three labels and one of twenty, which is too large to be solved exactly. */
+/* A component of three labels and one of twenty, which is too large to be solved exactly. */
 static CeldStatus
-knots_step (const CeldHost *host, Results *r)
+cycles_step (const CeldHost *host, Results *r)
 {
   enum { SMALL = 3, N = 23 };
   uint32_t      pixel[N];
@@ -244,7 +244,7 @@ program_step (const CeldHost *host, Results *r)
 const Step depth_steps[] = {
   { "order", order_step, NULL, true },
   { "suggest", suggest_step, NULL, true },
-  { "knots", knots_step, NULL, true },
+  { "strong-components", cycles_step, NULL, true },
   { "split-cycles", split_step, NULL, true },
   { "expand", expand_step, NULL, true },
   { "expand levels", expand_levels_step, NULL, true },

@@ -145,23 +145,23 @@ celd_problems_clear (CeldProblems *problems)
 }
 
 static void
-clear_cycles (CeldCycle *cycle, size_t n_cycles, CeldKnot *knot, size_t n_knots)
+clear_cycles (CeldCycle *cycle, size_t n_cycles, CeldScc *scc, size_t n_sccs)
 {
   for (size_t i = 0; i < n_cycles; i++)
     celd_free (cycle[i].item);
-  for (size_t i = 0; i < n_knots; i++)
+  for (size_t i = 0; i < n_sccs; i++)
     {
-      celd_free (knot[i].item);
-      celd_free (knot[i].newest.item);
+      celd_free (scc[i].item);
+      celd_free (scc[i].newest.item);
     }
   celd_free (cycle);
-  celd_free (knot);
+  celd_free (scc);
 }
 
 void
 celd_order_clear (CeldOrder *order)
 {
-  clear_cycles (order->cycle, order->n_cycles, order->knot, order->n_knots);
+  clear_cycles (order->cycle, order->n_cycles, order->scc, order->n_sccs);
   celd_free (order->level);
   celd_free (order->height);
   *order = (CeldOrder) { 0 };
@@ -170,7 +170,7 @@ celd_order_clear (CeldOrder *order)
 void
 celd_exact_clear (CeldExact *exact)
 {
-  clear_cycles (exact->cycle, exact->n_cycles, exact->knot, exact->n_knots);
+  clear_cycles (exact->cycle, exact->n_cycles, exact->scc, exact->n_sccs);
   celd_free (exact->node);
   *exact = (CeldExact) { 0 };
 }

@@ -222,17 +222,17 @@ static const CeldSettingInfo infos[] = {
   { .name = "encoding", .label = "Encoding", CHOICE (encoding, CeldEncoding, encodings),
     .help = "How levels become numbers. They run from 0 to 1, are ranks (0, 1, 2, ...), or lie on a fixed scale that "
             "does not change with a new arrow",
-    .stages = READ_BY (FLAT) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
+    .stages = READ_BY (UNEXPANDED) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
 
   { .name = "near-level", .label = "Near level", NUMBER (near_level),
     .help = "The level that becomes 1; it must be above the far level",
     .usual = 1, .least = -1e6, .most = 1e6, .shown = { 0, 20, 0.01, 1, .digits = 3 }, .when = "encoding {fixed}",
-    .stages = READ_BY (FLAT) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
+    .stages = READ_BY (UNEXPANDED) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
 
   { .name = "far-level", .label = "Far level", NUMBER (far_level),
     .help = "The level that becomes 0; it must be below the near level",
     .usual = 0, .least = -1e6, .most = 1e6, .shown = { 0, 20, 0.01, 1, .digits = 3 }, .when = "encoding {fixed}",
-    .stages = READ_BY (FLAT) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
+    .stages = READ_BY (UNEXPANDED) | READ_BY (LEVELS) | READ_BY (PREVIEW) | READ_BY (EXACT) },
 
   { .theme = "Contour ownership and layers",
     .name = "expansion", .label = "Contour ownership", CHOICE (expansion, CeldExpansion, expansions),

@@ -16,7 +16,7 @@ typedef enum
   STAGE_LABELS,
   STAGE_SUGGESTIONS,
   STAGE_ORDER,
-  STAGE_FLAT,
+  STAGE_UNEXPANDED,
   STAGE_OWNERSHIP, /* whose the ink is */
   STAGE_LEVELS,
   STAGE_PREVIEW,   /* of depth */

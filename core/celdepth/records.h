@@ -100,7 +100,7 @@ typedef struct
 {
   size_t  *item;
   size_t   n;
-  size_t   knot;                /* of CeldOrder */
+  size_t   scc;                /* of CeldOrder */
   uint32_t label;               /* whose connected regions it takes to have one depth: without that, as with
                                  * same_colour = separate, there would be no such cycle; 0: none */
   uint8_t  colour[3];           /* of that label */
@@ -109,7 +109,7 @@ typedef struct
 
 /* All relations that go round in circles with each other: those of a strongly connected component of regions, in the
  * order given; and a shortest cycle through the newest of them that is on one. */
-typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldKnot;
+typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldScc;
 
 typedef struct
 {
@@ -119,8 +119,8 @@ typedef struct
   double    *height;            /* of each level, in gaps of one relation; NULL where that is the level itself */
   CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
   size_t     n_cycles;
-  CeldKnot  *knot;
-  size_t     n_knots;
+  CeldScc  *scc;
+  size_t     n_sccs;
 } CeldOrder;
 
 CELD_API void celd_order_clear (CeldOrder *order);
@@ -161,8 +161,8 @@ typedef struct
   CeldSolve  solve;             /* of the harmonic bases */
   CeldCycle *cycle;             /* contradictions between nodes, as in CeldOrder */
   size_t     n_cycles;
-  CeldKnot  *knot;
-  size_t     n_knots;
+  CeldScc  *scc;
+  size_t     n_sccs;
 } CeldExact;
 
 CELD_API void celd_exact_clear (CeldExact *exact);

@@ -61,7 +61,7 @@ CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldHo
 /* The same as arrows on a transparent picture: an arrows layer, in which the artist may erase what is wrong. */
 CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, CeldPaint *paint);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder **order);
-CELD_API CeldStatus celd_session_flat (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed);
+CELD_API CeldStatus celd_session_unexpanded_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed);
 /* Whose the pixels are, with their ink, in the labels above.  Where a pixel has two labels, `levels` have the one that
  * covers more of it. */
 CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership,

@@ -175,7 +175,7 @@ settle_relations (const CeldProgram *p, const CeldSettings *settings, const Celd
   if (status != CELD_OK)
     return status;
   rename_labels (p, before, problems);
-  status = celd_graph_settle (&q->graph, settings->on_cycle, host, &q->order);
+  status = celd_graph_resolve (&q->graph, settings->on_cycle, host, &q->order);
   return status == CELD_OK ? report_cycles (&nodes, q, problems) : status;
 }
 
@@ -287,7 +287,7 @@ worst_violation (const Problem *q)
   return worst;
 }
 
-/* Everything there is to tell; takes the cycles and knots. */
+/* Everything there is to tell; takes the cycles and strong components. */
 static CeldStatus
 tell (const CeldProgram *p, Problem *q, CeldExact *exact)
 {
@@ -302,7 +302,7 @@ tell (const CeldProgram *p, Problem *q, CeldExact *exact)
     .node = node, .n = n, .sigma = p->sigma, .energy = q->certificate.energy, .gap = q->certificate.gap,
     .violation = worst_violation (q), .inequalities = q->n, .active = q->certificate.active,
     .steps = q->certificate.steps, .solve = p->solve, .cycle = q->order.cycle, .n_cycles = q->order.n_cycles,
-    .knot = q->order.knot, .n_knots = q->order.n_knots,
+    .scc = q->order.scc, .n_sccs = q->order.n_sccs,
   };
   q->order = (CeldOrder) { 0 };
   return CELD_OK;

@@ -104,13 +104,13 @@ is_free (const Arrow *a, const Arrow *painted, size_t n)
   return true;
 }
 
-typedef struct { double weight; size_t relation; } Turn;
+typedef struct { double weight; size_t relation; } RankedRelation;
 
 /* By falling weight, then in the order given. */
 static int
-compare_turns (const void *one, const void *two)
+compare_ranked (const void *one, const void *two)
 {
-  const Turn *a = one, *b = two;
+  const RankedRelation *a = one, *b = two;
 
   if (a->weight != b->weight)
     return a->weight > b->weight ? -1 : 1;
@@ -120,26 +120,26 @@ compare_turns (const void *one, const void *two)
 CeldStatus
 celd_relations_paint (const CeldRelations *relations, double width, CeldPaint *paint)
 {
-  Turn  *turn = celd_alloc (relations->n, sizeof *turn);
+  RankedRelation  *ranked = celd_alloc (relations->n, sizeof *ranked);
   Arrow *painted = celd_alloc (relations->n, sizeof *painted);
   size_t n = 0;
 
-  if (turn && painted)
+  if (ranked && painted)
     {
       for (size_t i = 0; i < relations->n; i++)
-        turn[i] = (Turn) { relations->item[i].weight > 0 ? relations->item[i].weight : 0, i };
-      qsort (turn, relations->n, sizeof *turn, compare_turns);
+        ranked[i] = (RankedRelation) { relations->item[i].weight > 0 ? relations->item[i].weight : 0, i };
+      qsort (ranked, relations->n, sizeof *ranked, compare_ranked);
       for (size_t i = 0; i < relations->n; i++)
         {
-          Arrow a = arrow_of (&relations->item[turn[i].relation], width);
+          Arrow a = arrow_of (&relations->item[ranked[i].relation], width);
 
           if (!(a.length > 0) || !is_free (&a, painted, n))
             continue;
           painted[n++] = a;
-          paint_arrow (&a, fmin (1, turn[i].weight), paint);
+          paint_arrow (&a, fmin (1, ranked[i].weight), paint);
         }
     }
-  celd_free (turn);
+  celd_free (ranked);
   celd_free (painted);
-  return turn && painted ? CELD_OK : CELD_NO_MEMORY;
+  return ranked && painted ? CELD_OK : CELD_NO_MEMORY;
 }

@@ -1,7 +1,7 @@
 /* Which colours of a painted layer are labels.
  *
- * The colours with most honest pixels come first; each takes in the colours within the radius of rounding, or of loss.
- * A cluster needs honest pixels of its own; in a lossy picture it needs an inside, too, for there a fringe may look
+ * The colours with most solid pixels come first; each takes in the colours within the radius of rounding, or of loss.
+ * A cluster needs solid pixels of its own; in a lossy picture it needs an inside, too, for there a fringe may look
  * like a pencil line.  Rims and ends of strokes, left in a colour of their own by loss and resampling, are given back
  * to the stroke that they keep touching.
  * Cost: a sort of the colours; clusters are found through cells of colour space, O(1) each.
@@ -15,28 +15,28 @@
 #define SATELLITE 40    /* a rim is no farther than this from the colour of its stroke */
 #define MANY 4096       /* clusters: more than these are a photograph, where nothing has a rim */
 
-typedef struct { uint32_t honest, id; } Candidate;
+typedef struct { uint32_t solid, id; } Candidate;
 
 static int
-by_falling_honesty (const void *a, const void *b)
+by_falling_solid (const void *a, const void *b)
 {
   const Candidate *p = a, *q = b;
 
-  if (p->honest != q->honest)
-    return p->honest < q->honest ? 1 : -1;
+  if (p->solid != q->solid)
+    return p->solid < q->solid ? 1 : -1;
   return (p->id > q->id) - (p->id < q->id);
 }
 
 /* Cells are a radius wide, so that whatever is near lies in one of the 27 cells round about. */
 static int
-cell_side (const Reading *r)
+cell_side (const CeldScribbleLayer *r)
 {
   return 255 / r->radius + 1;
 }
 
 /* The nearest cluster within the radius, CELD_NO_CLUSTER if there is none. */
 static uint32_t
-nearest_cluster (const Reading *r, const int *channel)
+nearest_cluster (const CeldScribbleLayer *r, const int *channel)
 {
   int      side = cell_side (r), least = r->radius * r->radius + 1;
   int      low[3], high[3];
@@ -64,9 +64,9 @@ nearest_cluster (const Reading *r, const int *channel)
 }
 
 CeldStatus
-celd_scribble_cluster_add (Reading *r, uint32_t id)
+celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t id)
 {
-  Cluster   *grown = celd_grow (r->cluster, r->n_clusters + 1, sizeof *grown);
+  CeldScribbleCluster   *grown = celd_grow (r->cluster, r->n_clusters + 1, sizeof *grown);
   const int *c = r->colour[id].channel;
   int        side = cell_side (r);
   size_t     cell = (size_t) ((c[0] / r->radius * side + c[1] / r->radius) * side + c[2] / r->radius);
@@ -74,7 +74,7 @@ celd_scribble_cluster_add (Reading *r, uint32_t id)
   if (!grown)
     return CELD_NO_MEMORY;
   r->cluster = grown;
-  grown[r->n_clusters] = (Cluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
+  grown[r->n_clusters] = (CeldScribbleCluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
   if (id) /* transparent is near nothing */
     {
       grown[r->n_clusters].next = r->head[cell];
@@ -85,21 +85,21 @@ celd_scribble_cluster_add (Reading *r, uint32_t id)
 }
 
 static void
-tally_clusters (Reading *r)
+tally_clusters (CeldScribbleLayer *r)
 {
   for (size_t k = 0; k < r->n_clusters; k++)
     {
-      r->cluster[k].pixels = r->cluster[k].honest = r->cluster[k].core = 0;
+      r->cluster[k].pixels = r->cluster[k].solid = r->cluster[k].core = 0;
       r->cluster[k].opacity = 0;
     }
   for (size_t i = 1; i < r->n; i++)
     if (r->colour[i].cluster != CELD_NO_CLUSTER)
       {
-        const Colour *c = &r->colour[i];
-        Cluster      *k = &r->cluster[c->cluster];
+        const CeldScribbleColour *c = &r->colour[i];
+        CeldScribbleCluster      *k = &r->cluster[c->cluster];
 
         k->pixels += c->pixels;
-        k->honest += c->honest;
+        k->solid += c->solid;
         k->core += c->core;
         k->opacity += c->opacity;
       }
@@ -107,16 +107,16 @@ tally_clusters (Reading *r)
 
 /* Is an eighth of the cluster inside strokes, as it is not for the rims of strokes? */
 static bool
-has_core (const Cluster *k)
+has_core (const CeldScribbleCluster *k)
 {
   return k->core >= CELD_LEAST_DOT && 8 * (size_t) k->core >= k->pixels;
 }
 
 /* Could cluster k be a part of cluster j, larger than it and of nearly its colour? */
 static bool
-may_belong (const Reading *r, uint32_t k, uint32_t j)
+may_belong (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
 {
-  const Cluster *c = &r->cluster[k], *l = &r->cluster[j];
+  const CeldScribbleCluster *c = &r->cluster[k], *l = &r->cluster[j];
 
   return k && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)) &&
          celd_colour_distance (c->channel, l->channel) <= SATELLITE * SATELLITE;
@@ -126,7 +126,7 @@ typedef struct { uint32_t of, votes, touch; } Parent;
 
 /* One vote of cluster k for j: what most vote for remains. */
 static void
-vote (const Reading *r, Parent *parent, uint32_t k, uint32_t j)
+vote (const CeldScribbleLayer *r, Parent *parent, uint32_t k, uint32_t j)
 {
   if (!may_belong (r, k, j))
     return;
@@ -137,7 +137,7 @@ vote (const Reading *r, Parent *parent, uint32_t k, uint32_t j)
 
 /* Lets every two pixels of unlike clusters that touch vote for each other's, or counts those that touch a parent. */
 static void
-visit_touches (const Reading *r, Parent *parent, bool count)
+visit_touches (const CeldScribbleLayer *r, Parent *parent, bool count)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -162,7 +162,7 @@ visit_touches (const Reading *r, Parent *parent, bool count)
 
 /* Is the cluster the tinge that loss leaves on paper? */
 static bool
-is_tinge (const Reading *r, const Cluster *c)
+is_tinge (const CeldScribbleLayer *r, const CeldScribbleCluster *c)
 {
   return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= SATELLITE * SATELLITE;
 }
@@ -170,7 +170,7 @@ is_tinge (const Reading *r, const Cluster *c)
 /* The rims and ends of strokes make clusters of their own: a cluster that keeps touching a larger one of nearly its
  * colour is a part of that, unless the picture is clean and the cluster has an inside. */
 static CeldStatus
-absorb_satellites (Reading *r)
+absorb_satellites (CeldScribbleLayer *r)
 {
   Parent *parent = celd_alloc0 (r->n_clusters, sizeof *parent);
 
@@ -182,7 +182,7 @@ absorb_satellites (Reading *r)
   visit_touches (r, parent, true);
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
-      const Cluster *c = &r->cluster[k];
+      const CeldScribbleCluster *c = &r->cluster[k];
       bool           touching = parent[k].touch >= CELD_LEAST_DOT && 10 * (size_t) parent[k].touch >= c->pixels;
 
       if (r->lossy && is_tinge (r, c))
@@ -197,28 +197,28 @@ absorb_satellites (Reading *r)
   return CELD_OK;
 }
 
-/* Honest enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except
+/* Solid enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except
  * for the tails of soft brushes on paper.  In a lossy picture a fringe may pass for a pencil line: there it needs an
  * inside. */
 static bool
-is_label (const Reading *r, const Cluster *k)
+is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
-  if (k->honest < CELD_LEAST_DOT || (r->lossy && !has_core (k)))
+  if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_core (k)))
     return false;
-  return 3 * (size_t) k->honest >= k->pixels ||
-         (2 * (size_t) k->core >= k->honest && has_core (k) && !is_tinge (r, k));
+  return 3 * (size_t) k->solid >= k->pixels ||
+         (2 * (size_t) k->core >= k->solid && has_core (k) && !is_tinge (r, k));
 }
 
 /* Equal to paper: the tail of a soft brush, though it may be nearer to what lies beyond. */
 static bool
-is_paper (const Reading *r, const Colour *c)
+is_paper (const CeldScribbleLayer *r, const CeldScribbleColour *c)
 {
   return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= r->radius * r->radius;
 }
 
-/* The colours with most honest pixels first; each takes in what lies within the radius. */
+/* The colours with most solid pixels first; each takes in what lies within the radius. */
 CeldStatus
-celd_scribble_clusters (Reading *r, const CeldHost *host)
+celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
 {
   Candidate *candidate = celd_alloc (r->n, sizeof *candidate);
   size_t     cells = (size_t) cell_side (r) * (size_t) cell_side (r) * (size_t) cell_side (r), n = 0;
@@ -230,9 +230,9 @@ celd_scribble_clusters (Reading *r, const CeldHost *host)
   for (size_t i = 0; i < cells; i++)
     r->head[i] = CELD_NO_CLUSTER;
   for (size_t i = 1; i < r->n; i++)
-    if (r->colour[i].honest)
-      candidate[n++] = (Candidate) { r->colour[i].honest, (uint32_t) i };
-  qsort (candidate, n, sizeof *candidate, by_falling_honesty);
+    if (r->colour[i].solid)
+      candidate[n++] = (Candidate) { r->colour[i].solid, (uint32_t) i };
+  qsort (candidate, n, sizeof *candidate, by_falling_solid);
 
   status = celd_scribble_cluster_add (r, r->paper);
   for (size_t i = 0; i < n && status == CELD_OK; i++)

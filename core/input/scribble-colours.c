@@ -21,7 +21,7 @@
 /* ------------------------------------------------------------------ exact colours */
 
 static size_t
-slot_of (const Reading *r, uint32_t rgb)
+slot_of (const CeldScribbleLayer *r, uint32_t rgb)
 {
   size_t s = (size_t) ((rgb * 2654435761u) >> 7) & (r->slots - 1);
 
@@ -37,7 +37,7 @@ slot_of (const Reading *r, uint32_t rgb)
 }
 
 static CeldStatus
-grow_slots (Reading *r)
+grow_slots (CeldScribbleLayer *r)
 {
   uint32_t *old = r->slot;
   size_t    slots = r->slots ? 2 * r->slots : 1024;
@@ -61,11 +61,11 @@ grow_slots (Reading *r)
 
 /* The index of a colour, made when it is new; 0 = no memory. */
 static uint32_t
-colour_index (Reading *r, const uint8_t *rgba)
+colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
 {
   uint32_t rgb = ((uint32_t) rgba[0] << 16) | ((uint32_t) rgba[1] << 8) | rgba[2];
   size_t   s;
-  Colour  *grown;
+  CeldScribbleColour  *grown;
 
   if (2 * (r->n + 1) > r->slots && grow_slots (r) != CELD_OK)
     return 0;
@@ -76,13 +76,13 @@ colour_index (Reading *r, const uint8_t *rgba)
   if (!grown)
     return 0;
   r->colour = grown;
-  grown[r->n] = (Colour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
+  grown[r->n] = (CeldScribbleColour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
   r->slot[s] = (uint32_t) r->n;
   return (uint32_t) r->n++;
 }
 
 static CeldStatus
-count_colours (Reading *r, bool flats, const CeldHost *host)
+count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
   bool opaque = true;
 
@@ -118,7 +118,7 @@ count_colours (Reading *r, bool flats, const CeldHost *host)
 /* How far a pixel is from the mean of those beside it, in nine of ten places where the three are of one stroke; a ramp
  * is no noise. */
 static void
-measure_noise (Reading *r)
+measure_noise (CeldScribbleLayer *r)
 {
   size_t places[NOISY + 1] = { 0 }, all = 0, below = 0;
   int    noise = 0;
@@ -151,7 +151,7 @@ measure_noise (Reading *r)
   r->radius = noise + CLEAN < NOISY ? noise + CLEAN : NOISY;
 }
 
-typedef struct { const CeldPaint *from; CeldPaint to; const Colour *paper; } Filter; /* paper NULL: transparent */
+typedef struct { const CeldPaint *from; CeldPaint to; const CeldScribbleColour *paper; } Filter; /* paper NULL: transparent */
 
 static bool
 is_none (const Filter *f, const uint8_t *rgba)
@@ -195,7 +195,7 @@ filter_row (void *data, int y)
 }
 
 static void
-forget_colours (Reading *r)
+forget_colours (CeldScribbleLayer *r)
 {
   r->n = 1;
   r->paper = 0;
@@ -206,7 +206,7 @@ forget_colours (Reading *r)
 
 /* Filters into buffer[0], by way of buffer[1]. */
 static CeldStatus
-filter (const Reading *r, CeldPaint *buffer, const CeldHost *host)
+filter (const CeldScribbleLayer *r, CeldPaint *buffer, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
@@ -222,7 +222,7 @@ filter (const Reading *r, CeldPaint *buffer, const CeldHost *host)
 
 /* Counts the colours again, in a restored or filtered copy. */
 static CeldStatus
-clean (Reading *r, bool smeared, bool flats, const CeldHost *host)
+clean (CeldScribbleLayer *r, bool smeared, bool flats, const CeldHost *host)
 {
   CeldHostPart   part;
   CeldHost   again = celd_host_part (&part, host, 0.8, 1);
@@ -249,7 +249,7 @@ clean (Reading *r, bool smeared, bool flats, const CeldHost *host)
 }
 
 CeldStatus
-celd_scribble_colours (Reading *r, bool flats, const CeldHost *host)
+celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
   CeldHostPart   part[2];
   CeldHost   count = celd_host_part (&part[0], host, 0, 0.3), rest = celd_host_part (&part[1], host, 0.3, 1);
@@ -259,7 +259,7 @@ celd_scribble_colours (Reading *r, bool flats, const CeldHost *host)
   r->colour = celd_grow (NULL, 1, sizeof *r->colour);
   if (!r->colour)
     return CELD_NO_MEMORY;
-  r->colour[0] = (Colour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
+  r->colour[0] = (CeldScribbleColour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
   r->n = 1;
   status = count_colours (r, flats, &count);
   if (status != CELD_OK)

@@ -25,7 +25,7 @@
 #define SMEARED 0.04    /* of all chroma lies beside the strokes */
 
 static inline void
-deficit (const Reading *r, int x, int y, int *d)
+deficit (const CeldScribbleLayer *r, int x, int y, int *d)
 {
   const uint8_t *p = CELD_RGBA (r->paint, x, y);
 
@@ -43,7 +43,7 @@ luma_of (const int *d)
 
 /* The chroma of a block's paper along that of its strokes, and all; red and blue against luma. */
 static void
-add_smear (const Reading *r, int left, int top, double *beside, double *all)
+add_smear (const CeldScribbleLayer *r, int left, int top, double *beside, double *all)
 {
   double paper[2] = { 0 }, stroke[2] = { 0 }, length;
   int    n = 0;
@@ -69,7 +69,7 @@ add_smear (const Reading *r, int left, int top, double *beside, double *all)
 }
 
 bool
-celd_scribble_smeared (const Reading *r)
+celd_scribble_smeared (const CeldScribbleLayer *r)
 {
   double beside = 0, all = 0;
 
@@ -87,7 +87,7 @@ celd_scribble_smeared (const Reading *r)
 static void
 weigh_row (void *data, int y)
 {
-  Reading *r = data;
+  CeldScribbleLayer *r = data;
 
   for (int x = 0; x < r->width; x++)
     {
@@ -105,7 +105,7 @@ weigh_row (void *data, int y)
 static void
 mark_blocks (void *data, int row)
 {
-  Reading *r = data;
+  CeldScribbleLayer *r = data;
   int      bottom = (row + 1) * LUMA_BLOCK < r->height ? (row + 1) * LUMA_BLOCK : r->height;
 
   for (int left = 0; left < r->width; left += LUMA_BLOCK)
@@ -131,16 +131,16 @@ mark_blocks (void *data, int row)
 
 /* Gives the pixels that hang together with (x,y) within their block to the next piece. */
 static CeldStatus
-take_piece (Strokes *s, int x, int y)
+take_piece (CeldLossStrokes *s, int x, int y)
 {
-  Reading *r = s->r;
+  CeldScribbleLayer *r = s->r;
   int      left = x / BLOCK * BLOCK, top = y / BLOCK * BLOCK, stack[BLOCK * BLOCK], n = 0;
-  Piece   *grown = celd_grow (s->piece, s->n + 1, sizeof *grown);
+  CeldLossPiece   *grown = celd_grow (s->piece, s->n + 1, sizeof *grown);
 
   if (!grown)
     return CELD_NO_MEMORY;
   s->piece = grown;
-  grown[s->n] = (Piece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) };
+  grown[s->n] = (CeldLossPiece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) };
   s->n++;
   r->label[(size_t) y * (size_t) r->width + (size_t) x] = (uint32_t) s->n;
   stack[n++] = (y - top) * BLOCK + x - left;
@@ -160,7 +160,7 @@ take_piece (Strokes *s, int x, int y)
 }
 
 static CeldStatus
-find_pieces (Strokes *s)
+find_pieces (CeldLossStrokes *s)
 {
   CeldStatus status = CELD_OK;
 
@@ -173,10 +173,10 @@ find_pieces (Strokes *s)
 
 /* Pieces that touch across the border of a block. */
 static CeldStatus
-find_contacts (Strokes *s)
+find_contacts (CeldLossStrokes *s)
 {
   static const int step[4][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 } };
-  const Reading   *r = s->r;
+  const CeldScribbleLayer   *r = s->r;
 
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -184,7 +184,7 @@ find_contacts (Strokes *s)
         {
           int      u = x + step[k][0], v = y + step[k][1];
           uint32_t a = r->label[(size_t) y * (size_t) r->width + (size_t) x], b;
-          Contact *grown;
+          CeldLossContact *grown;
 
           if (!a || u < 0 || u >= r->width || v >= r->height)
             continue;
@@ -195,7 +195,7 @@ find_contacts (Strokes *s)
           if (!grown)
             return CELD_NO_MEMORY;
           s->contact = grown;
-          s->contact[s->n_contacts++] = (Contact) { a - 1, b - 1, 0 };
+          s->contact[s->n_contacts++] = (CeldLossContact) { a - 1, b - 1, 0 };
         }
   return CELD_OK;
 }
@@ -204,7 +204,7 @@ find_contacts (Strokes *s)
 
 /* Does nothing beside the pixel stand out more? */
 static bool
-is_core (const Reading *r, int x, int y)
+is_core (const CeldScribbleLayer *r, int x, int y)
 {
   int most = 0;
 
@@ -217,9 +217,9 @@ is_core (const Reading *r, int x, int y)
 
 /* The mean deficit of each piece's core; of all its pixels where the core is in another block. */
 static void
-measure_cores (Strokes *s)
+measure_cores (CeldLossStrokes *s)
 {
-  const Reading *r = s->r;
+  const CeldScribbleLayer *r = s->r;
 
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -238,7 +238,7 @@ measure_cores (Strokes *s)
       }
   for (size_t k = 0; k < s->n; k++)
     {
-      Piece *p = &s->piece[k];
+      CeldLossPiece *p = &s->piece[k];
 
       for (int i = 0; i < 3; i++)
         p->core[i] /= p->all;
@@ -247,11 +247,11 @@ measure_cores (Strokes *s)
 }
 
 /* The piece of a pixel, or one that it touches in its block: the thin end of an edge; NULL = paper. */
-static Piece *
-piece_near (const Strokes *s, int x, int y)
+static CeldLossPiece *
+piece_near (const CeldLossStrokes *s, int x, int y)
 {
   static const int step[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
-  const Reading   *r = s->r;
+  const CeldScribbleLayer   *r = s->r;
 
   for (int k = 0; k < 5; k++)
     {
@@ -267,15 +267,15 @@ piece_near (const Strokes *s, int x, int y)
 /* How much of each pixel is painted, and what each block holds; of paper only its tint, where none of it is clipped, as
  * echoes are grey. */
 static void
-measure_sums (Strokes *s)
+measure_sums (CeldLossStrokes *s)
 {
-  const Reading *r = s->r;
+  const CeldScribbleLayer *r = s->r;
 
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
       {
-        Block *block = &s->block[y / BLOCK * s->columns + x / BLOCK];
-        Piece *p = piece_near (s, x, y);
+        CeldLossBlock *block = &s->block[y / BLOCK * s->columns + x / BLOCK];
+        CeldLossPiece *p = piece_near (s, x, y);
         int    d[3], grey;
 
         deficit (r, x, y, d);
@@ -296,7 +296,7 @@ measure_sums (Strokes *s)
 /* ------------------------------------------------------------------ the whole restoration */
 
 static void
-paint_strokes (const Strokes *s, CeldPaint *out)
+paint_strokes (const CeldLossStrokes *s, CeldPaint *out)
 {
   const int *paper = s->r->colour[s->r->paper].channel;
 
@@ -304,7 +304,7 @@ paint_strokes (const Strokes *s, CeldPaint *out)
     for (int x = 0; x < out->width; x++)
       {
         uint32_t     l = s->r->label[(size_t) y * (size_t) out->width + (size_t) x];
-        const Piece *stroke = l ? &s->piece[s->piece[l - 1].stroke] : NULL;
+        const CeldLossPiece *stroke = l ? &s->piece[s->piece[l - 1].stroke] : NULL;
         uint8_t     *rgba = CELD_RGBA (out, x, y);
 
         for (int i = 0; i < 3; i++)
@@ -318,9 +318,9 @@ paint_strokes (const Strokes *s, CeldPaint *out)
 }
 
 CeldStatus
-celd_scribble_restore (Reading *r, const CeldHost *host, CeldPaint *out)
+celd_scribble_restore (CeldScribbleLayer *r, const CeldHost *host, CeldPaint *out)
 {
-  Strokes    s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
+  CeldLossStrokes    s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
   CeldStatus status = CELD_NO_MEMORY;
 
   s.n_blocks = (size_t) s.columns * (size_t) ((r->height + BLOCK - 1) / BLOCK);

@@ -19,23 +19,23 @@ typedef struct
   double   all;         /* the same, of the stroke that it is the first piece of */
   uint32_t block;
   uint32_t stroke;      /* union-find: a piece of its stroke */
-} Piece;
+} CeldLossPiece;
 
-typedef struct { uint32_t a, b; float distance; } Contact;      /* pieces that touch, and how unlike they are */
+typedef struct { uint32_t a, b; float distance; } CeldLossContact;      /* pieces that touch, and how unlike they are */
 
-typedef struct { double sum[3], expected[3]; } Block;           /* deficit: of its pixels, and of the strokes in it */
+typedef struct { double sum[3], expected[3]; } CeldLossBlock;           /* deficit: of its pixels, and of the strokes in it */
 
 typedef struct
 {
-  Reading *r;           /* label is lent: 1 + the piece of each pixel, 0 = paper; kind, too: how much it stands out */
+  CeldScribbleLayer *r;           /* label is lent: 1 + the piece of each pixel, 0 = paper; kind, too: how much it stands out */
   int      columns;     /* blocks a row */
   size_t   n_blocks;
-  Block   *block;
-  Piece   *piece;
+  CeldLossBlock   *block;
+  CeldLossPiece   *piece;
   size_t   n;
-  Contact *contact;
+  CeldLossContact *contact;
   size_t   n_contacts;
-} Strokes;
+} CeldLossStrokes;
 
 /* Luma of a colour or a deficit. */
 static inline double
@@ -45,6 +45,6 @@ celd_deficit_luma (const double *d)
 }
 
 /* Fills in stroke and colour of the pieces, whose core, cover and block are known. */
-CeldStatus celd_scribble_unmix (Strokes *s, const CeldHost *host);
+CeldStatus celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host);
 
 #endif

@@ -15,7 +15,7 @@
 
 /* The label at a pixel, counted from 1; 0 for anything else. */
 static uint32_t
-label_at (const Reading *r, const uint32_t *number, size_t i)
+label_at (const CeldScribbleLayer *r, const uint32_t *number, size_t i)
 {
   uint32_t k = r->colour[r->id[i]].cluster;
 
@@ -24,7 +24,7 @@ label_at (const Reading *r, const uint32_t *number, size_t i)
 
 /* touch[a * n + b]: how often labels a and b face each other across REACH pixels. */
 static void
-count_touches (const Reading *r, const uint32_t *number, uint32_t *touch, size_t n)
+count_touches (const CeldScribbleLayer *r, const uint32_t *number, uint32_t *touch, size_t n)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -58,13 +58,13 @@ is_mixture (const int *c, const int *from, const int *to, const int *origin)
 }
 
 static double
-mean_opacity (const Cluster *c)
+mean_opacity (const CeldScribbleCluster *c)
 {
   return (double) c->opacity / c->pixels;
 }
 
 static bool
-is_overlap (const Reading *r, const Cluster *c, const Cluster *a, const Cluster *b)
+is_overlap (const CeldScribbleLayer *r, const CeldScribbleCluster *c, const CeldScribbleCluster *a, const CeldScribbleCluster *b)
 {
   const int *paper = r->colour[r->paper].channel;
 
@@ -98,7 +98,7 @@ find_partners (const uint32_t *touch, size_t n, size_t k, size_t *first, size_t 
 }
 
 CeldStatus
-celd_scribble_overlaps (Reading *r)
+celd_scribble_overlaps (CeldScribbleLayer *r)
 {
   uint32_t  *number = celd_alloc0 (r->n_clusters, sizeof *number), *touch = NULL;
   size_t    *cluster = celd_alloc0 (r->n_clusters + 1, sizeof *cluster), n = 1;

@@ -1,6 +1,6 @@
 /* Which pixels of scribbles each label has.
  *
- * Those of its own colours, as far as they are honest or touch honest ones; every other pixel goes to the label nearby
+ * Those of its own colours, as far as they are solid or touch solid ones; every other pixel goes to the label nearby
  * whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its full colour is taken by its
  * strongest one.
  *
@@ -19,23 +19,23 @@
 
 /* The label of a pixel's own colour; CELD_UNDECIDED if its colour is no label's. */
 static uint32_t
-own_label (const Reading *r, size_t i)
+own_label (const CeldScribbleLayer *r, size_t i)
 {
   uint32_t k = r->id[i] ? r->colour[r->id[i]].cluster : 0;
 
   return k == 0 || (k != CELD_NO_CLUSTER && r->cluster[k].is_label) ? k : CELD_UNDECIDED;
 }
 
-/* Does an honest pixel of the same label touch the pixel (x,y)? */
+/* Does an solid pixel of the same label touch the pixel (x,y)? */
 static bool
-is_rim (const Reading *r, int x, int y, uint32_t label)
+is_rim (const CeldScribbleLayer *r, int x, int y, uint32_t label)
 {
   for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < r->height; v++)
     for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < r->width; u++)
       {
         size_t i = (size_t) v * (size_t) r->width + (size_t) u;
 
-        if (r->kind[i] != FRINGE && own_label (r, i) == label)
+        if (r->kind[i] != CELD_FRINGE && own_label (r, i) == label)
           return true;
       }
   return false;
@@ -44,7 +44,7 @@ is_rim (const Reading *r, int x, int y, uint32_t label)
 static void
 place_row (void *data, int y)
 {
-  Reading  *r = data;
+  CeldScribbleLayer  *r = data;
   uint32_t *label = r->label + (size_t) y * (size_t) r->width;
 
   for (int x = 0; x < r->width; x++)
@@ -52,14 +52,14 @@ place_row (void *data, int y)
       size_t i = (size_t) y * (size_t) r->width + (size_t) x;
 
       label[x] = own_label (r, i);
-      if (label[x] && label[x] != CELD_UNDECIDED && r->kind[i] == FRINGE && !is_rim (r, x, y, label[x]))
+      if (label[x] && label[x] != CELD_UNDECIDED && r->kind[i] == CELD_FRINGE && !is_rim (r, x, y, label[x]))
         label[x] = CELD_UNDECIDED;
     }
 }
 
 /* Among the labels that touch the pixel, the one of the nearest colour; none where paper is nearer still. */
 static uint32_t
-nearest_neighbour (const Reading *r, size_t i)
+nearest_neighbour (const CeldScribbleLayer *r, size_t i)
 {
   const int *c = r->colour[r->id[i]].channel;
   int        x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width);
@@ -86,7 +86,7 @@ nearest_neighbour (const Reading *r, size_t i)
 
 /* Queues the undecided pixels that touch pixel i. */
 static size_t
-queue_neighbours (Reading *r, size_t i, uint32_t *queue, size_t n)
+queue_neighbours (CeldScribbleLayer *r, size_t i, uint32_t *queue, size_t n)
 {
   int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width);
 
@@ -106,7 +106,7 @@ queue_neighbours (Reading *r, size_t i, uint32_t *queue, size_t n)
 
 /* Undecided pixels take a label from their neighbours, ring by ring; what no label reaches is none. */
 static CeldStatus
-place_rest (Reading *r, const CeldHost *host)
+place_rest (CeldScribbleLayer *r, const CeldHost *host)
 {
   size_t     undecided = 0, ring = 0, end = 0, decided;
   uint32_t  *queue, *taken;
@@ -149,7 +149,7 @@ done:
 
 /* Paint, unlike paper, that no label took. */
 static bool
-is_lost (const Reading *r, size_t i)
+is_lost (const CeldScribbleLayer *r, size_t i)
 {
   return (r->label[i] == 0 || r->label[i] == CELD_UNDECIDED) && r->id[i] && r->id[i] != r->paper &&
          celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > STRONG * STRONG;
@@ -158,7 +158,7 @@ is_lost (const Reading *r, size_t i)
 /* Gathers the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds the strongest colour among them, 0 if
  * a label touches them: then they are what is left of its rim. */
 static size_t
-gather_line (Reading *r, uint32_t i, uint32_t *line, uint32_t *strongest)
+gather_line (CeldScribbleLayer *r, uint32_t i, uint32_t *line, uint32_t *strongest)
 {
   const int *paper = r->colour[r->paper].channel;
   size_t     n = 0;
@@ -193,7 +193,7 @@ gather_line (Reading *r, uint32_t i, uint32_t *line, uint32_t *strongest)
 
 /* Is the lost line broader than CELD_THIN round a pixel?  Then what is strongest there is hardly thinned by paper. */
 static bool
-is_broad (const Reading *r, uint32_t i)
+is_broad (const CeldScribbleLayer *r, uint32_t i)
 {
   int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width), reach = CELD_THIN / 2 + 1;
 
@@ -207,7 +207,7 @@ is_broad (const Reading *r, uint32_t i)
 
 /* The strongest colour among the pixels where a gathered line is broad; 0 if it is broad nowhere. */
 static uint32_t
-strongest_of_broad (const Reading *r, const uint32_t *line, size_t n)
+strongest_of_broad (const CeldScribbleLayer *r, const uint32_t *line, size_t n)
 {
   const int *paper = r->colour[r->paper].channel;
   uint32_t   strongest = 0;
@@ -226,7 +226,7 @@ strongest_of_broad (const Reading *r, const uint32_t *line, size_t n)
 
 /* The label whose colour, thinned with paper, comes nearest to the colour given; 0 if none is near. */
 static uint32_t
-label_of_tint (const Reading *r, uint32_t id)
+label_of_tint (const CeldScribbleLayer *r, uint32_t id)
 {
   const int *paper = r->colour[r->paper].channel, *c = r->colour[id].channel;
   uint32_t   found = 0;
@@ -259,7 +259,7 @@ label_of_tint (const Reading *r, uint32_t id)
 
 /* The label of nearly this colour; 0 if there is none. */
 static uint32_t
-label_of_colour (const Reading *r, uint32_t id)
+label_of_colour (const CeldScribbleLayer *r, uint32_t id)
 {
   uint32_t found = 0;
   int      least = TINT * TINT;
@@ -278,7 +278,7 @@ label_of_colour (const Reading *r, uint32_t id)
 }
 
 static CeldStatus
-rescue_lines (Reading *r)
+rescue_lines (CeldScribbleLayer *r)
 {
   size_t     lost = 0;
   uint32_t  *line;
@@ -317,7 +317,7 @@ rescue_lines (Reading *r)
 /* ------------------------------------------------------------------ all pixels */
 
 CeldStatus
-celd_scribble_places (Reading *r, const CeldHost *host)
+celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host)
 {
   CeldStatus status;
 

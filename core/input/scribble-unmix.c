@@ -28,7 +28,7 @@
 
 /* One round: what each stroke has in full, from what its blocks hold and what they were expected to. */
 static void
-unmix_once (Strokes *s, double (*given)[3])
+unmix_once (CeldLossStrokes *s, double (*given)[3])
 {
   for (size_t b = 0; b < s->n_blocks; b++)
     for (int i = 0; i < 3; i++)
@@ -42,7 +42,7 @@ unmix_once (Strokes *s, double (*given)[3])
   for (size_t k = 0; k < s->n; k++)
     for (int i = 0; i < 3; i++)
       {
-        const Block *b = &s->block[s->piece[k].block];
+        const CeldLossBlock *b = &s->block[s->piece[k].block];
 
         if (b->expected[i] > 0)
           given[s->piece[k].stroke][i] += s->piece[k].cover * fmax (b->sum[i], 0) / b->expected[i];
@@ -56,7 +56,7 @@ unmix_once (Strokes *s, double (*given)[3])
 /* Luma and hue are those of the core.  How much stronger chroma is in full, the channels tell that are darker than
  * luma: the smear of others is brighter than paper, where it is clipped. */
 static void
-find_colour (const Reading *r, Piece *p)
+find_colour (const CeldScribbleLayer *r, CeldLossPiece *p)
 {
   const int *paper = r->colour[r->paper].channel;
   double     core = 0, full = 0, gain = 1;
@@ -81,7 +81,7 @@ find_colour (const Reading *r, Piece *p)
 /* ------------------------------------------------------------------ strokes and labels */
 
 static double
-distance (const Piece *p, const Piece *q)
+distance (const CeldLossPiece *p, const CeldLossPiece *q)
 {
   double d = 0;
 
@@ -91,7 +91,7 @@ distance (const Piece *p, const Piece *q)
 }
 
 static uint32_t
-stroke_of (Strokes *s, uint32_t k)
+stroke_of (CeldLossStrokes *s, uint32_t k)
 {
   while (s->piece[k].stroke != k)
     k = s->piece[k].stroke = s->piece[s->piece[k].stroke].stroke;
@@ -100,9 +100,9 @@ stroke_of (Strokes *s, uint32_t k)
 
 /* Stroke b becomes a part of stroke a: means by cover. */
 static void
-unite (Strokes *s, uint32_t a, uint32_t b)
+unite (CeldLossStrokes *s, uint32_t a, uint32_t b)
 {
-  Piece *p = &s->piece[a], *q = &s->piece[b];
+  CeldLossPiece *p = &s->piece[a], *q = &s->piece[b];
   double all = p->all + q->all, share = all > 0 ? q->all / all : 0.5;
 
   for (int i = 0; i < 3; i++)
@@ -119,7 +119,7 @@ unite (Strokes *s, uint32_t a, uint32_t b)
 static int
 by_distance (const void *a, const void *b)
 {
-  const Contact *p = a, *q = b;
+  const CeldLossContact *p = a, *q = b;
 
   if (p->distance < q->distance || p->distance > q->distance)
     return p->distance > q->distance ? 1 : -1;
@@ -130,7 +130,7 @@ by_distance (const void *a, const void *b)
 
 /* The likest pieces first; then once more, with scraps, and again for scraps that touched nothing but scraps. */
 static void
-join_pieces (Strokes *s)
+join_pieces (CeldLossStrokes *s)
 {
   for (size_t i = 0; i < s->n_contacts; i++)
     s->contact[i].distance = (float) distance (&s->piece[s->contact[i].a], &s->piece[s->contact[i].b]);
@@ -163,7 +163,7 @@ by_falling_cover (const void *a, const void *b)
 
 /* The largest strokes come first; each joins the nearest label of nearly its colour, or founds one. */
 static void
-gather_labels (Strokes *s, Candidate *candidate, uint32_t *label)
+gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
 {
   size_t n = 0, n_labels = 0;
 
@@ -195,7 +195,7 @@ gather_labels (Strokes *s, Candidate *candidate, uint32_t *label)
 }
 
 CeldStatus
-celd_scribble_unmix (Strokes *s, const CeldHost *host)
+celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host)
 {
   double   (*given)[3] = celd_alloc (s->n, sizeof *given);
   Candidate *candidate = celd_alloc (s->n, sizeof *candidate);
@@ -206,7 +206,7 @@ celd_scribble_unmix (Strokes *s, const CeldHost *host)
     goto done;
   for (uint32_t k = 0; k < s->n; k++)
     {
-      Piece *p = &s->piece[k];
+      CeldLossPiece *p = &s->piece[k];
 
       p->stroke = k;
       p->all = p->cover;

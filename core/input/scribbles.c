@@ -1,8 +1,8 @@
 /* Scribbles as an artist paints them -> one label a colour.
  *
- * A pixel is FRINGE when it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
+ * A pixel is CELD_FRINGE when it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
  * between theirs too: that is what soft brushes, antialiasing, overlaps and resampling make, while a pencil line one
- * pixel wide has the same colour on both its sides.  Colours with honest pixels are labels (scribble-clusters.c);
+ * pixel wide has the same colour on both its sides.  Colours with solid pixels are labels (scribble-clusters.c);
  * every other pixel goes to one of them (scribble-places.c).
  *
  * Transparent counts as a colour that is unlike every other.
@@ -20,7 +20,7 @@
 /* ------------------------------------------------------------------ fringes */
 
 static bool
-differ (const Reading *r, uint32_t a, uint32_t b)
+differ (const CeldScribbleLayer *r, uint32_t a, uint32_t b)
 {
   if (a == b)
     return false;
@@ -29,7 +29,7 @@ differ (const Reading *r, uint32_t a, uint32_t b)
 
 /* Is the colour c, unlike both, a step from a to b?  (The angle at c is obtuse.) */
 static bool
-between (const Reading *r, uint32_t a, uint32_t c, uint32_t b)
+between (const CeldScribbleLayer *r, uint32_t a, uint32_t c, uint32_t b)
 {
   const int *ca = r->colour[a].channel, *cb = r->colour[b].channel, *cc = r->colour[c].channel;
   int        dot = 0;
@@ -43,7 +43,7 @@ between (const Reading *r, uint32_t a, uint32_t c, uint32_t b)
 
 /* The pixel at p has `before` pixels before it and `after` behind it on a line of the picture, `step` apart. */
 static bool
-in_fringe (const Reading *r, const uint32_t *p, int before, int after, ptrdiff_t step)
+in_fringe (const CeldScribbleLayer *r, const uint32_t *p, int before, int after, ptrdiff_t step)
 {
   int a = 1, b = 1;
 
@@ -67,7 +67,7 @@ in_fringe (const Reading *r, const uint32_t *p, int before, int after, ptrdiff_t
 static void
 judge_row (void *data, int y)
 {
-  Reading *r = data;
+  CeldScribbleLayer *r = data;
   size_t   width = (size_t) r->width;
 
   for (int x = 0; x < r->width; x++)
@@ -77,26 +77,26 @@ judge_row (void *data, int y)
       int             left = x, right = r->width - 1 - x, above = y, below = r->height - 1 - y;
 
       if (!*p || (r->paper && !differ (r, *p, r->paper)))
-        r->kind[i] = CORE;
+        r->kind[i] = CELD_INTERIOR;
       else if (in_fringe (r, p, left, right, 1) || in_fringe (r, p, above, below, (ptrdiff_t) width))
-        r->kind[i] = FRINGE;
+        r->kind[i] = CELD_FRINGE;
       else
         {
           bool rim = (left && differ (r, p[-1], *p)) || (right && differ (r, p[1], *p)) ||
                      (above && differ (r, p[-(ptrdiff_t) width], *p)) || (below && differ (r, p[width], *p));
 
-          r->kind[i] = rim ? HONEST : CORE;
+          r->kind[i] = rim ? CELD_SOLID : CELD_INTERIOR;
         }
     }
 }
 
 static void
-count_honest (Reading *r)
+count_kinds (CeldScribbleLayer *r)
 {
   for (size_t i = 0; i < r->pixels; i++)
     {
-      r->colour[r->id[i]].honest += r->kind[i] != FRINGE;
-      r->colour[r->id[i]].core += r->kind[i] == CORE;
+      r->colour[r->id[i]].solid += r->kind[i] != CELD_FRINGE;
+      r->colour[r->id[i]].core += r->kind[i] == CELD_INTERIOR;
     }
 }
 
@@ -114,7 +114,7 @@ by_falling_seeds (const void *a, const void *b)
 
 /* Counts each cluster's pixels; (x,y) is the middle of its longest row of pixels, whose length goes to area. */
 static void
-survey_labels (const Reading *r, CeldRegion *of)
+survey_labels (const CeldScribbleLayer *r, CeldRegion *of)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0, end; x < r->width; x = end)
@@ -139,7 +139,7 @@ survey_labels (const Reading *r, CeldRegion *of)
 
 /* Palette and seeds at once, so that neither changes when memory is short. */
 static CeldStatus
-deliver (const Reading *r, CeldLabels *seeds, CeldPalette *palette)
+deliver (const CeldScribbleLayer *r, CeldLabels *seeds, CeldPalette *palette)
 {
   CeldRegion *of = celd_alloc0 (r->n_clusters, sizeof *of);      /* by cluster */
   CeldRegion *item = celd_alloc (r->n_clusters, sizeof *item);   /* those with pixels, sorted */
@@ -187,7 +187,7 @@ deliver (const Reading *r, CeldLabels *seeds, CeldPalette *palette)
 /* ------------------------------------------------------------------ the whole reading */
 
 static void
-free_reading (Reading *r)
+free_reading (CeldScribbleLayer *r)
 {
   celd_free (r->id);
   celd_free (r->kind);
@@ -204,7 +204,7 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
 {
   CeldHostPart   part;
   CeldHost   begin = celd_host_part (&part, host, 0, 0.5);
-  Reading    r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
+  CeldScribbleLayer    r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
   CeldStatus status;
 
   if (!CELD_SAME_SIZE (scribbles, seeds))
@@ -218,7 +218,7 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
     goto done;
 
   celd_parallel_for (host, r.height, judge_row, &r);
-  count_honest (&r);
+  count_kinds (&r);
   status = celd_progress (host, 0.6);
   if (status == CELD_OK)
     status = celd_scribble_clusters (&r, host);

@@ -11,7 +11,7 @@
 #define NOWHERE UINT32_MAX
 
 void
-celd_search_clear (CeldSearch *s)
+celd_cycle_search_clear (CeldCycleSearch *s)
 {
   for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
     {
@@ -19,15 +19,15 @@ celd_search_clear (CeldSearch *s)
       celd_free (s->passed[to]);
       celd_free (s->queue[to]);
     }
-  *s = (CeldSearch) { 0 };
+  *s = (CeldCycleSearch) { 0 };
 }
 
 CeldStatus
-celd_search_new (const CeldGraph *graph, CeldSearch *s)
+celd_cycle_search_new (const CeldGraph *graph, CeldCycleSearch *s)
 {
   CeldStatus status = CELD_OK;
 
-  *s = (CeldSearch) { .graph = graph, .except = CELD_NO_INDEX };
+  *s = (CeldCycleSearch) { .graph = graph, .except = CELD_NO_INDEX };
   for (int to = CELD_FARTHER; to <= CELD_NEARER && status == CELD_OK; to++)
     {
       s->step[to]   = celd_alloc0 (2 * graph->n_labels, sizeof *s->step[to]);
@@ -42,7 +42,7 @@ celd_search_new (const CeldGraph *graph, CeldSearch *s)
 /* ------------------------------------------------------------------ one step */
 
 static void
-begin (CeldSearch *s)
+begin (CeldCycleSearch *s)
 {
   s->number++;
   s->n[CELD_FARTHER] = s->n[CELD_NEARER] = 0;
@@ -50,21 +50,21 @@ begin (CeldSearch *s)
 }
 
 static void
-visit (CeldSearch *s, CeldSide to, size_t label, size_t strict, uint32_t from, size_t link)
+visit (CeldCycleSearch *s, CeldSide to, size_t label, size_t strict, uint32_t from, size_t link)
 {
   size_t    state = 2 * label + strict;
-  CeldStep *step = &s->step[to][state];
+  CeldSearchStep *step = &s->step[to][state];
 
   if (step->number == s->number)
     return;
-  *step = (CeldStep) { s->number, from, link };
+  *step = (CeldSearchStep) { s->number, from, link };
   s->queue[to][s->n[to]++] = (uint32_t) state;
   if (s->step[!to][state].number == s->number && s->met == NOWHERE)
     s->met = (uint32_t) state;
 }
 
 static bool
-within_limits (const CeldSearch *s, uint32_t label)
+within_limits (const CeldCycleSearch *s, uint32_t label)
 {
   uint32_t place;
 
@@ -76,7 +76,7 @@ within_limits (const CeldSearch *s, uint32_t label)
 
 /* Has a search not passed the link yet? */
 static bool
-pass (CeldSearch *s, CeldSide to, size_t link, size_t strict)
+pass (CeldCycleSearch *s, CeldSide to, size_t link, size_t strict)
 {
   uint32_t *passed = &s->passed[to][2 * link + strict];
 
@@ -88,7 +88,7 @@ pass (CeldSearch *s, CeldSide to, size_t link, size_t strict)
 
 /* Upwards through an inequality the path may or may not have passed another one before. */
 static void
-reach (CeldSearch *s, CeldSide to, uint32_t label, size_t strict, bool inequality, uint32_t from, size_t link)
+reach (CeldCycleSearch *s, CeldSide to, uint32_t label, size_t strict, bool inequality, uint32_t from, size_t link)
 {
   if (!within_limits (s, label))
     return;
@@ -99,23 +99,23 @@ reach (CeldSearch *s, CeldSide to, uint32_t label, size_t strict, bool inequalit
 
 /* The states that one step leads to; towards nearer labels, those that it leads from. */
 static void
-expand (CeldSearch *s, CeldSide to, uint32_t state)
+expand (CeldCycleSearch *s, CeldSide to, uint32_t state)
 {
   const CeldGraph *g = s->graph;
-  const CeldWays  *ways = &s->ways[to];
+  const CeldLinkArcs  *arcs = &s->arcs[to];
   size_t           label = state / 2, before = state % 2;
 
-  for (const CeldWay *way = ways->way + ways->first[label]; way < ways->way + ways->last[label]; way++)
+  for (const CeldLinkArc *arc = arcs->arc + arcs->first[label]; arc < arcs->arc + arcs->last[label]; arc++)
     {
-      bool   several = way->end == CELD_ENDS, equal = several && g->equal[way->link];
+      bool   several = arc->end == CELD_MANY_ENDS, equal = several && g->equal[arc->link];
       size_t strict = before | (to == CELD_FARTHER && !equal);
-      size_t first = several ? g->first[2 * way->link + (equal ? 0 : to)] : 0;
-      size_t end = several ? g->first[2 * way->link + (equal ? 2 : to + 1)] : 1;
+      size_t first = several ? g->first[2 * arc->link + (equal ? 0 : to)] : 0;
+      size_t end = several ? g->first[2 * arc->link + (equal ? 2 : to + 1)] : 1;
 
-      if (way->link == s->except || (!equal && !strict) || (several && !pass (s, to, way->link, strict)))
+      if (arc->link == s->except || (!equal && !strict) || (several && !pass (s, to, arc->link, strict)))
         continue;
       for (size_t e = first; e < end; e++)
-        reach (s, to, several ? g->end[e] : way->end, strict, !equal, state, way->link);
+        reach (s, to, several ? g->end[e] : arc->end, strict, !equal, state, arc->link);
     }
 }
 
@@ -123,7 +123,7 @@ expand (CeldSearch *s, CeldSide to, uint32_t state)
 
 /* The places between which a path from farther ends end[f[0]] .. to nearer ones lies. */
 static void
-find_limits (CeldSearch *s, size_t first, size_t middle, size_t last)
+find_limits (CeldCycleSearch *s, size_t first, size_t middle, size_t last)
 {
   s->limit[CELD_FARTHER] = UINT32_MAX;
   s->limit[CELD_NEARER]  = 0;
@@ -139,7 +139,7 @@ find_limits (CeldSearch *s, size_t first, size_t middle, size_t last)
 }
 
 bool
-celd_search_contradiction (CeldSearch *s, size_t i)
+celd_cycle_search_contradiction (CeldCycleSearch *s, size_t i)
 {
   const CeldGraph *g = s->graph;
   const size_t    *f = &g->first[2 * i];
@@ -167,7 +167,7 @@ celd_search_contradiction (CeldSearch *s, size_t i)
 }
 
 void
-celd_search_behind (CeldSearch *s, size_t first, size_t last)
+celd_cycle_search_behind (CeldCycleSearch *s, size_t first, size_t last)
 {
   begin (s);
   s->loose = false;
@@ -178,16 +178,16 @@ celd_search_behind (CeldSearch *s, size_t first, size_t last)
 }
 
 bool
-celd_search_was_at (const CeldSearch *s, size_t k)
+celd_cycle_search_was_at (const CeldCycleSearch *s, size_t k)
 {
   return s->step[CELD_FARTHER][2 * k].number == s->number || s->step[CELD_FARTHER][2 * k + 1].number == s->number;
 }
 
 /* An equality may be led round a loop that it has no part in. */
 bool
-celd_search_is_simple (CeldSearch *s)
+celd_cycle_search_is_simple (CeldCycleSearch *s)
 {
-  const CeldStep *step;
+  const CeldSearchStep *step;
   uint32_t       *label = s->queue[0], *link = s->passed[0], number = ++s->number;
 
   for (size_t k = 0; k < s->graph->n_labels; k++)
@@ -207,9 +207,9 @@ celd_search_is_simple (CeldSearch *s)
 }
 
 CeldStatus
-celd_search_cycle (const CeldSearch *s, CeldCycle *cycle)
+celd_cycle_search_cycle (const CeldCycleSearch *s, CeldCycle *cycle)
 {
-  const CeldStep *down = s->step[CELD_FARTHER], *up = s->step[CELD_NEARER];
+  const CeldSearchStep *down = s->step[CELD_FARTHER], *up = s->step[CELD_NEARER];
   size_t          before = 1, n;
 
   for (uint32_t t = s->met; down[t].from != NOWHERE; t = down[t].from)

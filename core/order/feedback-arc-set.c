@@ -1,5 +1,5 @@
-/* The relations of a small knot whose weight is the least in sum and without which the others can hold: a minimum
- * weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all others
+/* The relations of a small strongly connected component with the least total weight without which the others can hold: a
+ * minimum weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all others
  * [Lawler 1964].
  *
  * Labels are placed from far to near in blocks of equal depth.  That a relation is broken shows when the first of its
@@ -13,18 +13,18 @@
 
 #include <math.h>
 
-#define MOST_LABELS 18
-#define SURE_LABELS 12          /* exact whatever the number of relations */
-#define MOST_WORK   (1u << 26)  /* looks at a relation, about 0.1 s */
-#define AGE         1e-9        /* of the sum of weights: how much the age of relations may matter */
+#define MOST_LABELS 18          /* of a component; more are left to the order by weight */
+#define SURE_LABELS 12          /* up to so many are solved whatever the number of relations */
+#define MOST_WORK   (1u << 26)  /* visits of a relation, about 0.1 s */
+#define AGE         1e-9        /* of the sum of weights: total influence of the age of relations */
 
-/* A relation between labels of the knot, as sets of these. */
+/* A relation between labels of the component, as sets of these. */
 typedef struct { uint32_t far, near; bool equal; double weight; } Arc;
 
 typedef struct
 {
   const CeldGraph *graph;
-  const CeldKnot  *knot;
+  const CeldScc  *scc;
   uint32_t         label[MOST_LABELS]; /* label - 1 */
   size_t           n;
   Arc             *arc;
@@ -52,7 +52,7 @@ link_cost (const CeldGraph *graph, size_t link)
   return r->weight > 0 && r->source != CELD_SOURCE_SUGGESTION ? r->weight : 0; /* NaN: 0 */
 }
 
-/* The labels of end[first] .. end[last - 1] that are in the knot. */
+/* The labels of end[first] .. end[last - 1] that are in the component, as a set. */
 static uint32_t
 set_of (const Exact *x, size_t first, size_t last)
 {
@@ -71,13 +71,13 @@ read_arcs (Exact *x)
   const CeldGraph *g = x->graph;
   double           sum = 0;
 
-  for (size_t i = 0; i < x->knot->n; i++)
-    sum += link_cost (g, x->knot->item[i]);
-  for (size_t i = 0; i < x->knot->n; i++)
+  for (size_t i = 0; i < x->scc->n; i++)
+    sum += link_cost (g, x->scc->item[i]);
+  for (size_t i = 0; i < x->scc->n; i++)
     {
-      size_t        link = x->knot->item[i];
+      size_t        link = x->scc->item[i];
       const size_t *f = &g->first[2 * link];
-      double        age = (double) (x->knot->n - i) / (double) (x->knot->n * x->knot->n);
+      double        age = (double) (x->scc->n - i) / (double) (x->scc->n * x->scc->n);
 
       x->arc[i] = (Arc) { set_of (x, f[0], f[1]), set_of (x, f[1], f[2]), celd_graph_equal (g, link),
                           link_cost (g, link) + AGE * sum * age };
@@ -93,7 +93,7 @@ hangs_together (const Exact *x, uint32_t set)
   do
     {
       before = reached;
-      for (size_t i = 0; i < x->knot->n; i++)
+      for (size_t i = 0; i < x->scc->n; i++)
         if (x->arc[i].equal && ((x->arc[i].far | x->arc[i].near) & reached))
           reached |= (x->arc[i].far | x->arc[i].near) & set;
     }
@@ -106,7 +106,7 @@ list_blocks (Exact *x)
 {
   bool any = false;
 
-  for (size_t i = 0; i < x->knot->n; i++)
+  for (size_t i = 0; i < x->scc->n; i++)
     any |= x->arc[i].equal;
   for (uint32_t set = 1; set < 1u << x->n; set++)
     if (!(set & (set - 1)) || (any && hangs_together (x, set)))
@@ -127,7 +127,7 @@ broken_weight (const Exact *x, uint32_t set, uint32_t block)
 {
   double sum = 0;
 
-  for (size_t i = 0; i < x->knot->n; i++)
+  for (size_t i = 0; i < x->scc->n; i++)
     {
       const Arc *a = &x->arc[i];
       uint32_t   all = a->far | a->near;
@@ -173,49 +173,49 @@ mark_broken (const Exact *x, bool *broken)
 {
   uint32_t set = (1u << x->n) - 1;
 
-  for (size_t i = 0; i < x->knot->n; i++)
-    broken[x->knot->item[i]] = false;
+  for (size_t i = 0; i < x->scc->n; i++)
+    broken[x->scc->item[i]] = false;
   while (set)
     {
       uint32_t block = x->last[set];
 
       set &= ~block;
-      for (size_t i = 0; i < x->knot->n; i++)
+      for (size_t i = 0; i < x->scc->n; i++)
         {
           const Arc *a = &x->arc[i];
           uint32_t   all = a->far | a->near;
 
           if (a->equal ? (all & block) && (all & ~block)
                        : (a->near & block) && !(a->near & set) && (a->far & ~set))
-            broken[x->knot->item[i]] = true;
+            broken[x->scc->item[i]] = true;
         }
     }
 }
 
-/* Is the knot small enough, once its blocks are known? */
+/* Is the component small enough, once its blocks are known? */
 static bool
 is_small (const Exact *x)
 {
   double pairs = fmin (ldexp ((double) x->n_blocks, (int) x->n), pow (3, (double) x->n));
 
-  return x->n <= SURE_LABELS || pairs * (double) x->knot->n <= MOST_WORK;
+  return x->n <= SURE_LABELS || pairs * (double) x->scc->n <= MOST_WORK;
 }
 
 CeldStatus
-celd_feedback_arc_set (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
+celd_feedback_arc_set (const CeldGraph *graph, const CeldSccs *sccs, const CeldScc *scc, uint32_t number,
                        bool *broken)
 {
-  Exact      x = { .graph = graph, .knot = knot };
+  Exact      x = { .graph = graph, .scc = scc };
   CeldStatus status;
 
   for (uint32_t k = 0; k < graph->n_labels; k++)
-    if (knots->label[k] == number)
+    if (sccs->label[k] == number)
       {
         if (x.n == MOST_LABELS)
           return CELD_OK;
         x.label[x.n++] = k;
       }
-  x.arc  = celd_alloc (knot->n, sizeof *x.arc);
+  x.arc  = celd_alloc (scc->n, sizeof *x.arc);
   status = x.arc ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
     {

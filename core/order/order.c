@@ -24,8 +24,8 @@
 typedef struct
 {
   const CeldGraph *graph;
-  CeldIndex        up;      /* links that lead up from a label */
-  CeldClasses      classes;
+  CeldArcIndex        up;      /* links that lead up from a label */
+  CeldEquivalence      classes;
   bool            *visible; /* of a class, at its root: has it a pixel? */
   double          *level;   /* of a class: its height; -1: not visible, and nothing visible behind it */
   size_t          *waits;   /* of a class: nearer ends in links that are not placed yet */
@@ -38,8 +38,8 @@ typedef struct
 static void
 sort_end (Sort *s)
 {
-  celd_index_clear (&s->up);
-  celd_classes_clear (&s->classes);
+  celd_arc_index_clear (&s->up);
+  celd_equivalence_clear (&s->classes);
   celd_free (s->visible);
   celd_free (s->level);
   celd_free (s->waits);
@@ -61,7 +61,7 @@ sort_new (const CeldGraph *g, Sort *s)
     .height = celd_alloc0 (m, sizeof (double)), .queue = celd_alloc (n, sizeof (uint32_t)),
   };
   status = s->visible && s->level && s->waits && s->behind && s->height && s->queue
-         ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
+         ? celd_equivalence_new (n, &s->classes) : CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = celd_graph_index (g, CELD_FARTHER, NULL, &s->up);
   if (status != CELD_OK)
@@ -83,7 +83,7 @@ contract_equalities (Sort *s)
   for (size_t i = 0; i < g->n_links; i++)
     if (g->kept[i] && celd_graph_equal (g, i))
       for (size_t e = g->first[2 * i] + 1; e < g->first[2 * i + 2]; e++)
-        celd_classes_join (&s->classes, g->end[e - 1], g->end[e]);
+        celd_equivalence_join (&s->classes, g->end[e - 1], g->end[e]);
 }
 
 static void
@@ -159,7 +159,7 @@ place_class (Sort *s, uint32_t c)
     {
       for (size_t j = s->up.first[k]; j < s->up.first[k + 1]; j++)
         {
-          size_t  link   = s->up.way[j].link;
+          size_t  link   = s->up.arc[j].link;
           double  height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
 
           if (!g->kept[link] || celd_graph_equal (g, link))
@@ -184,7 +184,7 @@ compare_heights (const void *one, const void *two)
 
 /* The heights of visible labels, each once, by rising height; 0 is one of them. */
 static size_t
-list_heights (CeldClasses *classes, const double *of_class, const bool *visible, size_t n_labels, double *height)
+list_heights (CeldEquivalence *classes, const double *of_class, const bool *visible, size_t n_labels, double *height)
 {
   size_t n = 1, kept = 1;
 
@@ -219,7 +219,7 @@ find_level (const double *height, size_t n, double wanted)
 
 /* Replaces the levels of an order, for labels whose classes have these heights. */
 static CeldStatus
-write_levels (CeldClasses *classes, const double *of_class, const bool *visible, CeldOrder *order)
+write_levels (CeldEquivalence *classes, const double *of_class, const bool *visible, CeldOrder *order)
 {
   size_t    n = order->n, n_heights;
   double   *height = celd_alloc (n + 1, sizeof *height), top;
@@ -303,7 +303,7 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
     return CELD_BAD_SIZE;
   status = celd_graph_new (labels, palette, relations, ink, &graph, problems);
   if (status == CELD_OK)
-    status = celd_graph_settle (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, host, &made);
+    status = celd_graph_resolve (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, host, &made);
   if (status == CELD_OK)
     status = sort_levels (&graph, labels, &made);
   if (status == CELD_OK)

@@ -1,12 +1,14 @@
 /* The graph of an order: labels, and relations as links between them.
  *
- *   links.c       which labels a relation joins
- *   knots.c       which relations go round in circles
- *   sequence.c    labels from far to near, kept up while relations are added
- *   feedback-arc-set.c   relations of the least total weight that break all cycles
- *   conflicts.c   which relations can hold together, and the cycles of those that cannot
- *   cycle-search.c   shortest cycles
- *   order.c       levels
+ *   order-graph.c         which labels a relation joins; classes of labels of equal depth
+ *   strong-components.c   which relations lie on common cycles
+ *   incremental-order.c   a topological order of classes to which relations are added
+ *   feedback-arc-set.c    relations of the least total weight that break all cycles
+ *   cycle-search.c        shortest cycles
+ *   conflicts.c           which relations can hold together, and the cycles of those that cannot
+ *   cycle-colours.c       cycles that exist only because regions of one colour have one depth
+ *   order.c               levels
+ *   split-cycles.c        contradictions resolved by splitting regions
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,12 +19,14 @@
 
 #include <math.h>
 
-#define CELD_LEAST_GAP   1e-6
-#define CELD_LARGEST_GAP 1000
+#define CELD_LEAST_GAP   1e-6 /* levels; chosen */
+#define CELD_LARGEST_GAP 1000 /* levels; chosen */
+
+/* ------------------------------------------------------------------ order-graph.c */
 
 /* A link joins all its farther labels with all its nearer ones, since a colour may name several regions.
- * Link i < relations->n is relation i; the last one is no relation: it puts the background behind what nothing else
- * puts behind it. */
+ * Link i < relations->n is relation i.  The last link is no relation: it puts the background behind all labels that no
+ * relation puts behind it. */
 typedef struct
 {
   const CeldRelations *relations;
@@ -35,20 +39,20 @@ typedef struct
 
 typedef enum { CELD_FARTHER, CELD_NEARER } CeldSide;
 
-/* A link that leads from a label to one side: an inequality to the label end + 1 alone; or if end is CELD_ENDS,
- * whatever the graph says. */
-typedef struct { uint32_t link, end; } CeldWay;
-#define CELD_ENDS UINT32_MAX
+/* A link as seen from a label: an inequality that leads to the one label end + 1; or any link, whose labels are in the
+ * graph, if end is CELD_MANY_ENDS. */
+typedef struct { uint32_t link, end; } CeldLinkArc;
+#define CELD_MANY_ENDS UINT32_MAX
 
-/* The links that have a label on one side (an equality has it on both) and lead to the other: those of label k are
- * way[first[k-1]] .. before way[first[k]], by rising number. */
-typedef struct { size_t *first; CeldWay *way; } CeldIndex;
+/* For each label the links that have it on one side (an equality has it on both) and lead to the other side: those of
+ * label k are arc[first[k-1]] to arc[first[k] - 1], by rising number. */
+typedef struct { size_t *first; CeldLinkArc *arc; } CeldArcIndex;
 
-/* The same as a view: way[first[k-1]] .. before way[last[k-1]]. */
-typedef struct { const size_t *first, *last; const CeldWay *way; } CeldWays;
+/* A borrowed view of such lists: those of label k are arc[first[k-1]] to arc[last[k-1] - 1]. */
+typedef struct { const size_t *first, *last; const CeldLinkArc *arc; } CeldLinkArcs;
 
-/* Finds the labels of every relation; reports and does not keep those that join nothing.  The last link has its farther
- * labels and is not kept yet. */
+/* Finds the labels of every relation.  Relations that join nothing are reported as problems and not kept.  The last link
+ * has its farther labels only, and is not kept yet.  ink and problems may be NULL. */
 CeldStatus celd_graph_new (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                            const CeldPlane *ink, CeldGraph *graph, CeldProblems *problems);
 void       celd_graph_clear (CeldGraph *graph);
@@ -59,124 +63,137 @@ celd_graph_equal (const CeldGraph *graph, size_t link)
   return graph->equal[link];
 }
 
-CeldStatus celd_graph_add (CeldGraph *graph, uint32_t label); /* one more nearer label of the last link */
-CeldWay    celd_graph_way (const CeldGraph *graph, size_t link, CeldSide to);
-CeldStatus celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldIndex *index);
-void       celd_index_clear (CeldIndex *index);
+/* Appends a nearer label to the last link. */
+CeldStatus celd_graph_add (CeldGraph *graph, uint32_t label);
 
-static inline CeldWays
-celd_index_ways (const CeldIndex *index)
+/* A link as an arc that leads to one side. */
+CeldLinkArc celd_graph_arc (const CeldGraph *graph, size_t link, CeldSide to);
+
+/* The arcs of all labels that are on `side` of a link with use[link] (NULL: of any).  Cleared by the caller. */
+CeldStatus celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldArcIndex *index);
+void       celd_arc_index_clear (CeldArcIndex *index);
+
+static inline CeldLinkArcs
+celd_arc_index_view (const CeldArcIndex *index)
 {
-  return (CeldWays) { index->first, index->first + 1, index->way };
+  return (CeldLinkArcs) { index->first, index->first + 1, index->arc };
 }
 
-/* ------------------------------------------------------------------ classes.c */
+/* Equivalence classes of labels of equal depth.  Labels count from 0 here, and a class has the number of one of its
+ * labels.  parent: a union-find forest; next: the next label of the class, in a ring. */
+typedef struct { uint32_t *parent, *next; } CeldEquivalence;
 
-/* Labels of equal depth, numbered from 0: a class has the number of one of its labels; next goes round them. */
-typedef struct { uint32_t *parent, *next; } CeldClasses;
-
-CeldStatus celd_classes_new (size_t n, CeldClasses *classes); /* also after a failure celd_classes_clear is to follow */
-void       celd_classes_clear (CeldClasses *classes);
-void       celd_classes_join (CeldClasses *classes, uint32_t a, uint32_t b);
+/* Each label in a class of its own.  To be cleared by the caller, also after a failure. */
+CeldStatus celd_equivalence_new (size_t n, CeldEquivalence *classes);
+void       celd_equivalence_clear (CeldEquivalence *classes);
+void       celd_equivalence_join (CeldEquivalence *classes, uint32_t a, uint32_t b);
 
 static inline uint32_t
-celd_class_of (CeldClasses *classes, uint32_t k)
+celd_class_of (CeldEquivalence *classes, uint32_t k)
 {
   return celd_root (classes->parent, k);
 }
 
-/* ------------------------------------------------------------------ knots.c */
+/* A place to report a relation at: an end of it inside the drawing; -1,-1 if there is none. */
+void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation,
+                          int *x, int *y);
 
-/* Knots, from 1, of labels (index label - 1) and of links; 0: in none. */
-typedef struct { uint32_t *label, *link; size_t n; } CeldKnots;
+/* ------------------------------------------------------------------ strong-components.c */
 
-/* Of kept links. */
-CeldStatus celd_knots_find (const CeldGraph *graph, CeldKnots *knots);
-void       celd_knots_clear (CeldKnots *knots);
+/* The strongly connected component, from 1, of each label (index label - 1) and of each link; 0: in none. */
+typedef struct { uint32_t *label, *link; size_t n; } CeldSccs;
 
-/* ------------------------------------------------------------------ sequence.c */
+/* The components of the kept links that have an inequality, numbered by their first link.  Cleared by the caller. */
+CeldStatus celd_sccs_find (const CeldGraph *graph, CeldSccs *sccs);
+void       celd_sccs_clear (CeldSccs *sccs);
 
+/* ------------------------------------------------------------------ incremental-order.c */
+
+/* Classes in a sequence from far to near in which every admitted inequality leads to a higher place. */
 typedef struct
 {
   const CeldGraph *graph;
-  CeldClasses      classes;
-  CeldIndex        way[2];   /* room for the links that lead from a label to its CeldSide */
-  size_t          *last[2];  /* of label k: where its admitted ones end; they begin at way[side].first[k] */
-  uint32_t        *at;       /* the class at a place; UINT32_MAX: none */
-  uint32_t        *place;    /* of a class; an admitted inequality leads to a higher one */
-  uint32_t        *mark[2];  /* by side: number of the search that was at a place last */
-  uint32_t         number;   /* of this search, from 1 */
-  uint32_t         window[2]; /* first and last place that it may go to */
-  uint32_t        *moved;
-} CeldSequence;
+  CeldEquivalence  classes;
+  CeldArcIndex     arc[2];    /* room for the links that lead from a label to its CeldSide */
+  size_t          *last[2];   /* of label k: where its admitted ones end; they begin at arc[side].first[k] */
+  uint32_t        *at;        /* the class at a place; UINT32_MAX: none */
+  uint32_t        *place;     /* of a class */
+  uint32_t        *mark[2];   /* by side: number of the last search that reached a place */
+  uint32_t         number;    /* of this search, from 1 */
+  uint32_t         window[2]; /* first and last place that this search may reach */
+  uint32_t        *moved;     /* work space: classes of the window in their new order */
+} CeldIncrementalOrder;
 
-/* Nothing is admitted yet; also after a failure celd_sequence_clear is to follow. */
-CeldStatus celd_sequence_new (const CeldGraph *graph, CeldSequence *sequence);
-void       celd_sequence_clear (CeldSequence *sequence);
+/* No link is admitted yet.  To be cleared by the caller, also after a failure. */
+CeldStatus celd_incremental_order_new (const CeldGraph *graph, CeldIncrementalOrder *sequence);
+void       celd_incremental_order_clear (CeldIncrementalOrder *sequence);
 
-/* Can link i hold beside all that is admitted?  Then it is, too. */
-bool       celd_sequence_admit (CeldSequence *sequence, size_t link);
+/* Admits a link and returns true, unless it contradicts the links admitted before. */
+bool       celd_incremental_order_admit (CeldIncrementalOrder *sequence, size_t link);
 
-static inline CeldWays
-celd_sequence_ways (const CeldSequence *sequence, CeldSide to)
+/* The admitted links that lead from each label to one side; valid until the next one is admitted. */
+static inline CeldLinkArcs
+celd_incremental_order_arcs (const CeldIncrementalOrder *sequence, CeldSide to)
 {
-  return (CeldWays) { sequence->way[to].first, sequence->last[to], sequence->way[to].way };
+  return (CeldLinkArcs) { sequence->arc[to].first, sequence->last[to], sequence->arc[to].arc };
 }
 
 /* ------------------------------------------------------------------ cycle-search.c */
 
 /* How a search came to a state: its number, the state before, and by which link. */
-typedef struct { uint32_t number, from; size_t link; } CeldStep;
+typedef struct { uint32_t number, from; size_t link; } CeldSearchStep;
 
 typedef struct
 {
-  const CeldGraph *graph;
-  CeldWays         ways[2];    /* by CeldSide: links that a search may take; for the caller to set */
-  size_t           except;     /* but for this one; CELD_NO_INDEX */
-  CeldSequence    *sequence;   /* of all these links, between whose places paths are looked for; NULL: anywhere */
-  uint32_t         limit[2];
-  bool             loose;      /* does a path begin before any inequality? */
-  size_t           relation;
-  CeldStep        *step[2];    /* by the side a search goes to: of each state */
-  uint32_t        *passed[2];  /* of each link, without and behind an inequality: number of the search */
-  uint32_t        *queue[2];   /* of states */
-  size_t           n[2];
-  uint32_t         number;     /* of this search, from 1 */
-  uint32_t         met;        /* the state in which both sides of a search met */
-} CeldSearch;
+  const CeldGraph      *graph;
+  CeldLinkArcs          arcs[2];   /* by CeldSide: links that a search may take; set by the caller */
+  size_t                except;    /* a link that it may not take; CELD_NO_INDEX: none */
+  CeldIncrementalOrder *sequence;  /* of all these links: bounds the search; NULL: unbounded */
+  uint32_t              limit[2];  /* first and last place of the sequence that it may reach */
+  bool                  loose;     /* may a path begin with equalities? */
+  size_t                relation;  /* the one whose contradiction is looked for */
+  CeldSearchStep       *step[2];   /* by the side a search goes to: of each state */
+  uint32_t             *passed[2]; /* number of the last search that took a link: at 2 link + (behind an inequality) */
+  uint32_t             *queue[2];  /* of states */
+  size_t                n[2];
+  uint32_t              number;    /* of this search, from 1 */
+  uint32_t              met;       /* the state in which both sides of a search met */
+} CeldCycleSearch;
 
-/* Also after a failure celd_search_clear is to follow. */
-CeldStatus celd_search_new (const CeldGraph *graph, CeldSearch *search);
-void       celd_search_clear (CeldSearch *search);
+/* To be cleared by the caller, also after a failure. */
+CeldStatus celd_cycle_search_new (const CeldGraph *graph, CeldCycleSearch *search);
+void       celd_cycle_search_clear (CeldCycleSearch *search);
 
-/* Is there a path that relation i contradicts: from a farther end to a nearer one, or, if it is an equality, through an
- * inequality from one end to another?  Then it is a shortest one; does it pass nothing twice; and the relation with
- * what the path consists of. */
-bool       celd_search_contradiction (CeldSearch *search, size_t i);
-bool       celd_search_is_simple (CeldSearch *search);
-CeldStatus celd_search_cycle (const CeldSearch *search, CeldCycle *cycle);
+/* Finds a shortest path that relation i contradicts: from a farther end to a nearer one, or, for an equality, from one
+ * end to another with an inequality on it.  False if there is none. */
+bool       celd_cycle_search_contradiction (CeldCycleSearch *search, size_t i);
 
-/* Finds all that is behind end[first] .. end[last - 1] of the graph, or equal; is label k + 1 among it? */
-void       celd_search_behind (CeldSearch *search, size_t first, size_t last);
-bool       celd_search_was_at (const CeldSearch *search, size_t k);
+/* After true: does the path visit no label and take no link twice?  And the relation with the links of the path. */
+bool       celd_cycle_search_is_simple (CeldCycleSearch *search);
+CeldStatus celd_cycle_search_cycle (const CeldCycleSearch *search, CeldCycle *cycle);
+
+/* Finds all labels behind, or equal to, those of end[first] to end[last - 1] of the graph; then: is label k + 1 one of
+ * them? */
+void       celd_cycle_search_behind (CeldCycleSearch *search, size_t first, size_t last);
+bool       celd_cycle_search_was_at (const CeldCycleSearch *search, size_t k);
 
 /* ------------------------------------------------------------------ feedback-arc-set.c */
 
-/* Marks the relations of knot `number` that are to be left out so that the rest is consistent: a set of the least total
- * weight.  Nothing is marked if the knot is too large for that. */
-CeldStatus celd_feedback_arc_set (const CeldGraph *graph, const CeldKnots *knots, const CeldKnot *knot, uint32_t number,
+/* Marks the relations of component `number` that are to be left out so that the rest is consistent: a set of the least
+ * total weight.  Marks nothing if the component is too large for that. */
+CeldStatus celd_feedback_arc_set (const CeldGraph *graph, const CeldSccs *sccs, const CeldScc *scc, uint32_t number,
                                   bool *broken);
 
 /* ------------------------------------------------------------------ conflicts.c */
 
-/* Does not keep relations that contradict heavier or earlier ones, or, unless contradictions are only to be reported,
- * those whose weight is the least in sum; appends knots and the cycle of each to `order`, and completes the last
- * link. */
-CeldStatus celd_graph_settle (CeldGraph *graph, CeldOnCycle on_cycle, const CeldHost *host, CeldOrder *order);
+/* Makes the kept links consistent: drops relations that contradict heavier or earlier ones, or, unless on_cycle is
+ * CELD_ON_CYCLE_REPORT, those with the least total weight.  Appends the strongly connected components and a cycle for
+ * each dropped relation to `order`, and completes the last link. */
+CeldStatus celd_graph_resolve (CeldGraph *graph, CeldOnCycle on_cycle, const CeldHost *host, CeldOrder *order);
 
 /* ------------------------------------------------------------------ order.c */
 
-/* Least distance in levels that a relation asks for. */
+/* The least difference in levels that a relation demands, from its gap as read. */
 static inline double
 celd_gap (double gap)
 {
@@ -185,31 +202,25 @@ celd_gap (double gap)
 
 /* ------------------------------------------------------------------ cycle-colours.c */
 
-/* Finds the label of each cycle that needs regions of it that do not touch to have one depth. */
+/* For each cycle of the order, finds the label, if any, whose separate regions must have one depth for it to exist. */
 CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                 const CeldGraph *graph, CeldOrder *order);
 
 /* ------------------------------------------------------------------ split-cycles.c */
 
-/* A region split between two anchors: x[0],y[0] is in what keeps the label, x[1],y[1] in the other. */
+/* A region split in two: x[0],y[0] is in the part that keeps the label, x[1],y[1] in the other. */
 typedef struct { uint32_t label, other; int x[2], y[2]; } CeldSplit;
 typedef struct { CeldSplit *item; size_t n; } CeldSplits;
 
-/* Splits regions of `labels` until no contradiction is left that this can resolve; labels and palette grow.  After a
- * failure they are undefined, but can be cleared. */
+/* Splits regions of `labels` until no contradiction is left that a split can resolve; new labels are appended to the
+ * palette.  After a failure labels and palette are undefined, but can be cleared. */
 CeldStatus celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const CeldSettings *settings,
                               const CeldHost *host, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits);
 
 /* Has the label been split? */
 bool celd_splits_have (const CeldSplits *splits, uint32_t label);
 
-/* Ink along the new borders becomes paper; that of the regions' outlines, `stroke` wide, stays. */
+/* Turns ink along the new boundaries into paper, but not within `stroke` pixels of the regions' outlines. */
 void celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink);
-
-/* ------------------------------------------------------------------ links.c */
-
-/* Where an artist finds a relation: an end inside the drawing; -1,-1 if none is. */
-void celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const CeldRelation *relation,
-                          int *x, int *y);
 
 #endif

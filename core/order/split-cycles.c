@@ -334,7 +334,7 @@ split_once (Work *w, const CeldHost *host, CeldSplits *splits, bool *done)
 
   if (status != CELD_OK)
     return status;
-  status = celd_graph_settle (&w->graph, CELD_ON_CYCLE_REPORT, NULL, &order);
+  status = celd_graph_resolve (&w->graph, CELD_ON_CYCLE_REPORT, NULL, &order);
   for (size_t i = 0; i < order.n_cycles && status == CELD_OK && !best.label; i++)
     status = find_cut (w, &order.cycle[i], host, &best);
   *done = !best.label;

@@ -1,9 +1,9 @@
 /* Which relations go round in circles with each other: strongly connected components [Tar72] of a graph whose nodes are
- * labels and links, by turns.
+ * labels and links, by trials.
  *
  * Steps lead down: from a label to the links that have it on their nearer side, from a link to its farther labels; an
- * equality leads both ways.  A component with an inequality in it is a knot: not all of its relations can hold.  All
- * others can, whatever becomes of the knots.  Linear time.
+ * equality leads both ways.  Of a component with an inequality in it not all relations can hold; only such components are
+ * listed.  All other relations can hold, whatever is kept of those.  Linear time.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 typedef struct
 {
   const CeldGraph *graph;
-  CeldIndex        down;
+  CeldArcIndex        down;
   uint32_t        *number;  /* in the order in which nodes are found, from 1; 0: not yet */
   uint32_t        *low;     /* the least number that is known to be reached from a node */
   size_t          *cursor;  /* of a node: the next step from it */
@@ -25,7 +25,7 @@ typedef struct
 static void
 walk_end (Walk *w)
 {
-  celd_index_clear (&w->down);
+  celd_arc_index_clear (&w->down);
   celd_free (w->number);
   celd_free (w->low);
   celd_free (w->cursor);
@@ -81,9 +81,10 @@ enter (Walk *w, size_t node)
   w->path[w->n_path++]   = (uint32_t) node;
 }
 
-/* All that lies on the stack from the node on is one component: gives it the next number if it is a knot. */
+/* All that lies on the stack from the node on is one component: gives it the next number if there is an inequality
+ * in it. */
 static void
-close_component (Walk *w, size_t node, CeldKnots *knots)
+close_component (Walk *w, size_t node, CeldSccs *sccs)
 {
   const CeldGraph *g = w->graph;
   size_t           from = w->n_stack;
@@ -99,19 +100,19 @@ close_component (Walk *w, size_t node, CeldKnots *knots)
   while (w->stack[from] != node);
   if (strict && w->n_stack - from > 1)
     {
-      knots->n++;
+      sccs->n++;
       for (size_t i = from; i < w->n_stack; i++)
         if (w->stack[i] < g->n_labels)
-          knots->label[w->stack[i]] = (uint32_t) knots->n;
+          sccs->label[w->stack[i]] = (uint32_t) sccs->n;
         else
-          knots->link[w->stack[i] - g->n_labels] = (uint32_t) knots->n;
+          sccs->link[w->stack[i] - g->n_labels] = (uint32_t) sccs->n;
     }
   w->n_stack = from;
 }
 
 /* Goes on with the node at the end of the path: one step, or back. */
 static void
-go_on (Walk *w, CeldKnots *knots)
+go_on (Walk *w, CeldSccs *sccs)
 {
   const CeldGraph *g = w->graph;
   size_t           node = w->path[w->n_path - 1], first, last;
@@ -120,7 +121,7 @@ go_on (Walk *w, CeldKnots *knots)
   if (w->cursor[node] < last)
     {
       size_t step = w->cursor[node]++;
-      size_t next = node < g->n_labels ? g->n_labels + w->down.way[step].link : g->end[step];
+      size_t next = node < g->n_labels ? g->n_labels + w->down.arc[step].link : g->end[step];
 
       if (next >= g->n_labels && !g->kept[next - g->n_labels])
         return;
@@ -131,56 +132,56 @@ go_on (Walk *w, CeldKnots *knots)
       return;
     }
   if (w->low[node] == w->number[node])
-    close_component (w, node, knots);
+    close_component (w, node, sccs);
   if (--w->n_path && w->low[node] < w->low[w->path[w->n_path - 1]])
     w->low[w->path[w->n_path - 1]] = w->low[node];
 }
 
-/* Numbers the knots by their first relation. */
+/* Numbers the components by their first relation. */
 static CeldStatus
-renumber (const CeldGraph *g, CeldKnots *knots)
+renumber (const CeldGraph *g, CeldSccs *sccs)
 {
-  uint32_t *number = celd_alloc0 (knots->n + 1, sizeof *number), n = 0;
+  uint32_t *number = celd_alloc0 (sccs->n + 1, sizeof *number), n = 0;
 
   if (!number)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < g->n_links; i++)
-    if (knots->link[i] && !number[knots->link[i]])
-      number[knots->link[i]] = ++n;
+    if (sccs->link[i] && !number[sccs->link[i]])
+      number[sccs->link[i]] = ++n;
   for (size_t i = 0; i < g->n_links; i++)
-    knots->link[i] = number[knots->link[i]];
+    sccs->link[i] = number[sccs->link[i]];
   for (size_t k = 0; k < g->n_labels; k++)
-    knots->label[k] = number[knots->label[k]];
+    sccs->label[k] = number[sccs->label[k]];
   celd_free (number);
   return CELD_OK;
 }
 
 void
-celd_knots_clear (CeldKnots *knots)
+celd_sccs_clear (CeldSccs *sccs)
 {
-  celd_free (knots->label);
-  celd_free (knots->link);
-  *knots = (CeldKnots) { 0 };
+  celd_free (sccs->label);
+  celd_free (sccs->link);
+  *sccs = (CeldSccs) { 0 };
 }
 
 CeldStatus
-celd_knots_find (const CeldGraph *graph, CeldKnots *knots)
+celd_sccs_find (const CeldGraph *graph, CeldSccs *sccs)
 {
   Walk       walk;
   CeldStatus status = walk_new (graph, &walk);
 
-  *knots = (CeldKnots) { celd_alloc0 (graph->n_labels, sizeof (uint32_t)),
+  *sccs = (CeldSccs) { celd_alloc0 (graph->n_labels, sizeof (uint32_t)),
                          celd_alloc0 (graph->n_links, sizeof (uint32_t)), 0 };
-  if (!knots->label || !knots->link)
+  if (!sccs->label || !sccs->link)
     status = CELD_NO_MEMORY;
   for (size_t k = 0; k < graph->n_labels && status == CELD_OK; k++)
     if (!walk.number[k])
       for (enter (&walk, k); walk.n_path; )
-        go_on (&walk, knots);
+        go_on (&walk, sccs);
   if (status == CELD_OK)
-    status = renumber (graph, knots);
+    status = renumber (graph, sccs);
   walk_end (&walk);
   if (status != CELD_OK)
-    celd_knots_clear (knots);
+    celd_sccs_clear (sccs);
   return status;
 }

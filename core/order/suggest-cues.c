@@ -15,7 +15,7 @@
 #define DOUBT     0.03          /* of what a clear junction says */
 #define DOUBT_UNCLEAR 0.2       /* and of any other */
 #define SHORTEST  1.0           /* stroke widths of a border */
-#define ROUND     0.3           /* radians: a border that turns as much as this is hardly straight */
+#define ROUND     0.3           /* radians: a border that trials as much as this is hardly straight */
 #define STEP      1.5           /* stroke widths between places at which a border's turning is measured */
 #define PLACES    5             /* along a run of border, at which a place for an arrow's end is looked for */
 #define DEEP      3.0           /* stroke widths that such an end lies inside, at most */
@@ -25,7 +25,7 @@ typedef struct { CeldPairCues cues; double facing[2], turn[2], marks[2], bar, de
 
 typedef struct
 {
-  const CeldRims    *rims;
+  const CeldRegionOutlines    *outlines;
   const CeldPalette *palette;
   Pair              *pair;
   size_t             n;
@@ -94,44 +94,44 @@ find_pair (Gathering *g, uint32_t one, uint32_t other, Pair **pair, int *side)
 /* Places of a loop from `first` on, which may run over its end: point (loop, first + k). */
 typedef struct { size_t first, n; uint32_t faces; double length; } Run;
 
-static const CeldRimPoint *
-point_of (const CeldRims *rims, const CeldRimLoop *loop, size_t i)
+static const CeldOutlinePoint *
+point_of (const CeldRegionOutlines *outlines, const CeldOutlineLoop *loop, size_t i)
 {
-  return &rims->point[loop->first + i % loop->n];
+  return &outlines->point[loop->first + i % loop->n];
 }
 
 static double
-between (const CeldRimPoint *p, const CeldRimPoint *q)
+between (const CeldOutlinePoint *p, const CeldOutlinePoint *q)
 {
   return hypot ((double) (q->x - p->x), (double) (q->y - p->y));
 }
 
 /* The run that begins at place i. */
 static Run
-next_run (const CeldRims *rims, const CeldRimLoop *loop, size_t i, size_t end)
+next_run (const CeldRegionOutlines *outlines, const CeldOutlineLoop *loop, size_t i, size_t end)
 {
-  Run run = { .first = i, .faces = point_of (rims, loop, i)->faces };
+  Run run = { .first = i, .faces = point_of (outlines, loop, i)->faces };
 
-  for (; i < end && point_of (rims, loop, i)->faces == run.faces; i++, run.n++)
-    run.length += between (point_of (rims, loop, i), point_of (rims, loop, i + 1));
+  for (; i < end && point_of (outlines, loop, i)->faces == run.faces; i++, run.n++)
+    run.length += between (point_of (outlines, loop, i), point_of (outlines, loop, i + 1));
   return run;
 }
 
-/* How much a run turns, without its ends: they are rounded by the contours that end there. */
+/* How much a run trials, without its ends: they are rounded by the contours that end there. */
 static double
-turning (const CeldRims *rims, const CeldRimLoop *loop, const Run *run)
+turning (const CeldRegionOutlines *outlines, const CeldOutlineLoop *loop, const Run *run)
 {
-  double              step = fmax (3, STEP * rims->stroke), at = 0, next = run->n == loop->n ? 0 : step / 2, sum = 0;
+  double              step = fmax (3, STEP * outlines->stroke), at = 0, next = run->n == loop->n ? 0 : step / 2, sum = 0;
   double              dx = 0, dy = 0;
-  const CeldRimPoint *last = NULL;
+  const CeldOutlinePoint *last = NULL;
 
   if (run->n == loop->n)
     {
-      double area = 0; /* a closed outline turns once, inwards or outwards */
+      double area = 0; /* a closed outline trials once, inwards or outwards */
 
       for (size_t k = 0; k < run->n; k++)
         {
-          const CeldRimPoint *p = point_of (rims, loop, k), *q = point_of (rims, loop, k + 1);
+          const CeldOutlinePoint *p = point_of (outlines, loop, k), *q = point_of (outlines, loop, k + 1);
 
           area += (double) p->x * (double) q->y - (double) q->x * (double) p->y;
         }
@@ -139,7 +139,7 @@ turning (const CeldRims *rims, const CeldRimLoop *loop, const Run *run)
     }
   for (size_t k = 0; k < run->n && at <= run->length - step / 2; k++)
     {
-      const CeldRimPoint *p = point_of (rims, loop, run->first + k);
+      const CeldOutlinePoint *p = point_of (outlines, loop, run->first + k);
 
       if (at >= next)
         {
@@ -155,7 +155,7 @@ turning (const CeldRims *rims, const CeldRimLoop *loop, const Run *run)
           last = p;
           next = at + step;
         }
-      at += between (p, point_of (rims, loop, run->first + k + 1));
+      at += between (p, point_of (outlines, loop, run->first + k + 1));
     }
   return sum;
 }
@@ -164,31 +164,31 @@ turning (const CeldRims *rims, const CeldRimLoop *loop, const Run *run)
 
 /* Half the way through a region from (*x,*y) on, as deep as arrows need; that place.  Starts in ink, if need be. */
 static double
-go_inside (const CeldRims *rims, uint32_t label, double dx, double dy, double *x, double *y)
+go_inside (const CeldRegionOutlines *outlines, uint32_t label, double dx, double dy, double *x, double *y)
 {
-  double most = DEEP * rims->stroke + 4, way = 0;
+  double most = DEEP * outlines->stroke + 4, way = 0;
   double u = *x, v = *y;
 
-  for (int k = 0; k < 3 * rims->stroke + 4 && celd_surface_at (rims, (int) floor (u), (int) floor (v)) != label; k++)
+  for (int k = 0; k < 3 * outlines->stroke + 4 && celd_surface_at (outlines, (int) floor (u), (int) floor (v)) != label; k++)
     {
       u += dx;
       v += dy;
     }
-  while (way < 2 * most && celd_surface_at (rims, (int) floor (u + way * dx), (int) floor (v + way * dy)) == label)
+  while (way < 2 * most && celd_surface_at (outlines, (int) floor (u + way * dx), (int) floor (v + way * dy)) == label)
     way++;
   *x = u + way / 2 * dx;
   *y = v + way / 2 * dy;
-  return celd_surface_at (rims, (int) floor (*x), (int) floor (*y)) == label ? way / 2 : 0;
+  return celd_surface_at (outlines, (int) floor (*x), (int) floor (*y)) == label ? way / 2 : 0;
 }
 
 /* Keeps the places at which both ends lie deepest. */
 static void
-try_place (const Gathering *g, const CeldRimLoop *loop, const Run *run, size_t i, int side, Pair *pair)
+try_place (const Gathering *g, const CeldOutlineLoop *loop, const Run *run, size_t i, int side, Pair *pair)
 {
-  const CeldRims     *r = g->rims;
+  const CeldRegionOutlines     *r = g->outlines;
   size_t              arm = (size_t) r->stroke + 2;
-  const CeldRimPoint *p = point_of (r, loop, i), *q = point_of (r, loop, i + arm);
-  const CeldRimPoint *o = point_of (r, loop, i + loop->n - arm % loop->n);
+  const CeldOutlinePoint *p = point_of (r, loop, i), *q = point_of (r, loop, i + arm);
+  const CeldOutlinePoint *o = point_of (r, loop, i + loop->n - arm % loop->n);
   double              dx = (double) (q->x - o->x), dy = (double) (q->y - o->y), length = hypot (dx, dy), depth;
   double              x[2] = { (double) p->x, (double) p->x }, y[2] = { (double) p->y, (double) p->y };
 
@@ -209,7 +209,7 @@ try_place (const Gathering *g, const CeldRimLoop *loop, const Run *run, size_t i
 
 /* A run of outline that faces another region. */
 static CeldStatus
-gather_run (Gathering *g, const CeldRimLoop *loop, const Run *run)
+gather_run (Gathering *g, const CeldOutlineLoop *loop, const Run *run)
 {
   Pair      *pair;
   int        side;
@@ -218,8 +218,8 @@ gather_run (Gathering *g, const CeldRimLoop *loop, const Run *run)
   if (status != CELD_OK)
     return status;
   pair->facing[side] += run->length;
-  pair->turn[side]   += turning (g->rims, loop, run);
-  if (run->length >= SHORTEST * g->rims->stroke)
+  pair->turn[side]   += turning (g->outlines, loop, run);
+  if (run->length >= SHORTEST * g->outlines->stroke)
     for (size_t k = 0; k < PLACES; k++)
       try_place (g, loop, run, run->first + (2 * k + 1) * run->n / (2 * PLACES), side, pair);
   return CELD_OK;
@@ -228,15 +228,15 @@ gather_run (Gathering *g, const CeldRimLoop *loop, const Run *run)
 /* A line inside a region that ends at its border: the outline runs along ink and back, and faces the same on both sides
  * of it. */
 static CeldStatus
-gather_mark (Gathering *g, const CeldRimLoop *loop, const Run *before, const Run *run, const Run *after)
+gather_mark (Gathering *g, const CeldOutlineLoop *loop, const Run *before, const Run *run, const Run *after)
 {
-  double stroke = g->rims->stroke;
+  double stroke = g->outlines->stroke;
   Pair  *pair;
   int    side;
 
   if (run->faces || before->faces != after->faces || !before->faces || before->faces == CELD_FACES_FRAME ||
-      run->length < CELD_SHORTEST_MARK * stroke || between (point_of (g->rims, loop, run->first),
-                                           point_of (g->rims, loop, run->first + run->n)) > 4 * stroke)
+      run->length < CELD_SHORTEST_MARK * stroke || between (point_of (g->outlines, loop, run->first),
+                                           point_of (g->outlines, loop, run->first + run->n)) > 4 * stroke)
     return CELD_OK;
   if (find_pair (g, loop->label, before->faces, &pair, &side) != CELD_OK)
     return CELD_NO_MEMORY;
@@ -245,9 +245,9 @@ gather_mark (Gathering *g, const CeldRimLoop *loop, const Run *before, const Run
 }
 
 static CeldStatus
-gather_loop (Gathering *g, const CeldRimLoop *loop)
+gather_loop (Gathering *g, const CeldOutlineLoop *loop)
 {
-  const CeldRims *r = g->rims;
+  const CeldRegionOutlines *r = g->outlines;
   size_t          start = 0, end;
   Run             run[3] = { { 0 } };
   CeldStatus      status = CELD_OK;
@@ -275,9 +275,9 @@ gather_loop (Gathering *g, const CeldRimLoop *loop)
 }
 
 /* Do the outlines of three regions turn as they do at a T?  One of them runs on, both others have a corner, and all
- * turns together make half a circle. */
+ * trials together make half a circle. */
 static bool
-is_clear (const CeldCornerSet *corner)
+is_clear (const CeldJunction *corner)
 {
   double sum = 0;
   int    corners = 0;
@@ -290,7 +290,7 @@ is_clear (const CeldCornerSet *corner)
   return fabs (sum - PI) < 2 * STRAIGHT && corners >= 2;
 }
 
-/* How likely it is that an outline that turns so much at a junction is the bar of a T, not to scale. */
+/* How likely it is that an outline that trials so much at a junction is the bar of a T, not to scale. */
 static double
 straightness (float turn, bool clear)
 {
@@ -300,11 +300,11 @@ straightness (float turn, bool clear)
 }
 
 static CeldStatus
-gather_corners (Gathering *g, const CeldCornerSet *corners, size_t n)
+gather_corners (Gathering *g, const CeldJunction *corners, size_t n)
 {
   for (size_t i = 0; i < 3 * n; i++)
     {
-      const CeldCornerSet *c = &corners[i / 3];
+      const CeldJunction *c = &corners[i / 3];
       size_t               k = i % 3, other = (k + 1) % 3;
       bool                 clear = is_clear (c);
       double               odds = log (straightness (c->turn[k], clear) / straightness (c->turn[other], clear));
@@ -333,7 +333,7 @@ compactness (const Gathering *g, uint32_t label)
 static double
 backing (const Gathering *g, uint32_t label)
 {
-  return fmax (0, g->frame[label] / (g->rims->width + g->rims->height) - 1);
+  return fmax (0, g->frame[label] / (g->outlines->width + g->outlines->height) - 1);
 }
 
 static void
@@ -371,7 +371,7 @@ list_pairs (Gathering *g, CeldPairCues **pairs, size_t *n)
   for (size_t i = 0; i < g->n; i++)
     {
       finish_pair (g, &g->pair[i]);
-      if (g->pair[i].depth > 0 && g->pair[i].cues.length >= SHORTEST * g->rims->stroke)
+      if (g->pair[i].depth > 0 && g->pair[i].cues.length >= SHORTEST * g->outlines->stroke)
         list[found++] = g->pair[i].cues;
     }
   qsort (list, found, sizeof *list, compare_pairs);
@@ -381,9 +381,9 @@ list_pairs (Gathering *g, CeldPairCues **pairs, size_t *n)
 }
 
 static CeldStatus
-gathering_new (const CeldPalette *palette, const CeldRims *rims, Gathering *g)
+gathering_new (const CeldPalette *palette, const CeldRegionOutlines *outlines, Gathering *g)
 {
-  *g = (Gathering) { .rims = rims, .palette = palette, .n_slots = 64 };
+  *g = (Gathering) { .outlines = outlines, .palette = palette, .n_slots = 64 };
   g->slot  = celd_alloc0 (g->n_slots, sizeof *g->slot);
   g->rim   = celd_alloc0 (palette->n + 1, sizeof *g->rim);
   g->whole = celd_alloc0 (palette->n + 1, sizeof *g->whole);
@@ -407,24 +407,24 @@ celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const Ce
 {
   CeldHostPart       part[2];
   CeldHost       first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
-  CeldRims       rims = { 0 };
+  CeldRegionOutlines       outlines = { 0 };
   Gathering      g = { 0 };
-  CeldCornerSet *corner = NULL;
+  CeldJunction *corner = NULL;
   size_t         n_corners = 0;
-  CeldStatus     status = celd_rims_new (labels, palette->n, ink, &first, &rims);
+  CeldStatus     status = celd_region_outlines_new (labels, palette->n, ink, &first, &outlines);
 
   if (status == CELD_OK)
-    status = gathering_new (palette, &rims, &g);
-  for (size_t k = 0; k < rims.n_loops && status == CELD_OK; k++)
-    status = gather_loop (&g, &rims.loop[k]);
+    status = gathering_new (palette, &outlines, &g);
+  for (size_t k = 0; k < outlines.n_loops && status == CELD_OK; k++)
+    status = gather_loop (&g, &outlines.loop[k]);
   if (status == CELD_OK)
-    status = celd_rim_corners_find (labels, palette->n, &rims, &second, &corner, &n_corners);
+    status = celd_junctions_find (labels, palette->n, &outlines, &second, &corner, &n_corners);
   if (status == CELD_OK)
     status = gather_corners (&g, corner, n_corners);
   if (status == CELD_OK)
     status = list_pairs (&g, pairs, n);
   celd_free (corner);
   gathering_clear (&g);
-  celd_rims_clear (&rims);
+  celd_region_outlines_clear (&outlines);
   return status;
 }

@@ -50,7 +50,7 @@ take_samples (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, c
   return n;
 }
 
-/* Of n samples of one label, by rising depth; turns them into distances from the median. */
+/* Of n samples of one label, by rising depth; trials them into distances from the median. */
 static Summary
 summarize (Sample *sample, size_t n)
 {

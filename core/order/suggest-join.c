@@ -15,7 +15,7 @@ typedef struct
 {
   const CeldGraph *graph;
   size_t           n_own;
-  CeldIndex        down;
+  CeldArcIndex        down;
   uint32_t        *queue;
   size_t          *seen, number;
 } Walk;
@@ -33,7 +33,7 @@ walk_clear (Walk *w)
 {
   celd_free (w->queue);
   celd_free (w->seen);
-  celd_index_clear (&w->down);
+  celd_arc_index_clear (&w->down);
 }
 
 static size_t
@@ -58,7 +58,7 @@ is_decided (Walk *w, size_t link)
   for (size_t i = 0; i < n; i++)
     for (size_t j = w->down.first[w->queue[i]]; j < w->down.first[w->queue[i] + 1]; j++)
       {
-        size_t        l = w->down.way[j].link;
+        size_t        l = w->down.arc[j].link;
         const size_t *f = &g->first[2 * l];
 
         if (l >= w->n_own || !g->kept[l])
@@ -127,7 +127,7 @@ celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, con
     {
       status = celd_graph_new (labels, palette, &all, ink, &graph, NULL);
       if (status == CELD_OK)
-        status = celd_graph_settle (&graph, settings->on_cycle, host, &order);
+        status = celd_graph_resolve (&graph, settings->on_cycle, host, &order);
       if (status == CELD_OK)
         status = select_kept (&graph, relations->n, settings->suggest, &all);
     }

@@ -45,13 +45,13 @@ odds_of (const CeldPairCues *pair, const CeldPalette *palette)
 
 /* ------------------------------------------------------------------ without contradictions */
 
-typedef struct { double odds; size_t pair; } Turn;
+typedef struct { double odds; size_t pair; } RankedPair;
 
 /* By falling confidence, then in the order given. */
 static int
-compare_turns (const void *one, const void *two)
+compare_ranked (const void *one, const void *two)
 {
-  const Turn *a = one, *b = two;
+  const RankedPair *a = one, *b = two;
 
   if (fabs (a->odds) != fabs (b->odds))
     return fabs (a->odds) > fabs (b->odds) ? -1 : 1;
@@ -109,14 +109,14 @@ relation_of (const CeldPairCues *pair, double odds)
 }
 
 static CeldStatus
-add_consistent (const CeldPairCues *pairs, const Turn *turn, size_t n, Behind *behind, CeldRelations *suggested)
+add_consistent (const CeldPairCues *pairs, const RankedPair *ranked, size_t n, Behind *behind, CeldRelations *suggested)
 {
   CeldStatus status = CELD_OK;
 
   for (size_t i = 0; i < n && status == CELD_OK; i++)
     {
-      const CeldPairCues *pair = &pairs[turn[i].pair];
-      double              odds = turn[i].odds;
+      const CeldPairCues *pair = &pairs[ranked[i].pair];
+      double              odds = ranked[i].odds;
       uint32_t            nearer = odds > 0 ? pair->a : pair->b, farther = odds > 0 ? pair->b : pair->a;
 
       if (is_behind (behind, nearer, farther))
@@ -133,28 +133,28 @@ CeldStatus
 celd_suggestions_add (const CeldPairCues *pairs, const double *odds, size_t n, size_t n_labels,
                       CeldRelations *suggested)
 {
-  Turn   *turn = celd_alloc (n, sizeof *turn);
+  RankedPair   *ranked = celd_alloc (n, sizeof *ranked);
   Behind  behind = {
     .first = celd_alloc (n_labels + 1, sizeof (size_t)), .next = celd_alloc (n, sizeof (size_t)),
     .edge = celd_alloc (n, sizeof (uint32_t)), .stack = celd_alloc (n_labels + 1, sizeof (uint32_t)),
     .seen = celd_alloc0 (n_labels + 1, sizeof (size_t)),
   };
-  size_t     turns = 0, before = suggested->n;
+  size_t     n_ranked = 0, before = suggested->n;
   CeldStatus status = CELD_NO_MEMORY;
 
-  if (turn && behind.first && behind.next && behind.edge && behind.stack && behind.seen)
+  if (ranked && behind.first && behind.next && behind.edge && behind.stack && behind.seen)
     {
       for (size_t k = 0; k <= n_labels; k++)
         behind.first[k] = SIZE_MAX;
       for (size_t i = 0; i < n; i++)
         if (odds[i] < 0 || odds[i] > 0)
-          turn[turns++] = (Turn) { odds[i], i };
-      qsort (turn, turns, sizeof *turn, compare_turns);
-      status = add_consistent (pairs, turn, turns, &behind, suggested);
+          ranked[n_ranked++] = (RankedPair) { odds[i], i };
+      qsort (ranked, n_ranked, sizeof *ranked, compare_ranked);
+      status = add_consistent (pairs, ranked, n_ranked, &behind, suggested);
     }
   if (status != CELD_OK)
     suggested->n = before;
-  celd_free (turn);
+  celd_free (ranked);
   celd_free (behind.first);
   celd_free (behind.next);
   celd_free (behind.edge);

@@ -1,7 +1,7 @@
 /* What the files that suggest an order from the drawing share.
  *
- *   rims.c           the outlines of all regions' surfaces
- *   rim-corners.c    where three regions meet, and which outline runs on there without a corner: the bar of a T
+ *   outlines.c           the outlines of all regions' surfaces
+ *   t-junctions.c    where three regions meet, and which outline runs on there without a corner: the bar of a T
  *   suggest-cues.c   what the drawing says of each pair of regions that touch
  *   suggest.c        a direction and a confidence for each, without contradictions
  *   suggest-depth.c  the same from a depth picture
@@ -13,16 +13,16 @@
 
 #include "base/base.h"
 
-/* ------------------------------------------------------------------ rims.c */
+/* ------------------------------------------------------------------ outlines.c */
 
 #define CELD_FACES_FRAME   UINT32_MAX
 #define CELD_SHORTEST_MARK 6 /* stroke widths along a line inside a surface, there and back */
 
 /* A place on the outline of a surface, between two pixels; where ink begins, as exact as its antialiasing. */
-typedef struct { float x, y; uint32_t faces; } CeldRimPoint; /* the label behind the ink there; 0 = none, only ink */
+typedef struct { float x, y; uint32_t faces; } CeldOutlinePoint; /* the label behind the ink there; 0 = none, only ink */
 
 /* Closed, the surface on the right hand of who follows it. */
-typedef struct { size_t first, n; uint32_t label; double length; } CeldRimLoop;
+typedef struct { size_t first, n; uint32_t label; double length; } CeldOutlineLoop;
 
 /* A region's surface is its paper; of a region that is hardly anything but ink, all of it. */
 typedef struct
@@ -30,33 +30,33 @@ typedef struct
   int           width, height, stroke;
   uint32_t     *surface;        /* of each pixel: the label whose surface it is, 0 = contour; with a margin of 1 */
   size_t        stride;
-  CeldRimPoint *point;
+  CeldOutlinePoint *point;
   size_t        n_points;
-  CeldRimLoop  *loop;
+  CeldOutlineLoop  *loop;
   size_t        n_loops;
-} CeldRims;
+} CeldRegionOutlines;
 
 /* Labels above n_labels count as none.  ink may be NULL: then all is paper. */
-CeldStatus celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host,
-                          CeldRims *rims);
-void       celd_rims_clear (CeldRims *rims);                    /* accepts a zeroed record */
+CeldStatus celd_region_outlines_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host,
+                          CeldRegionOutlines *outlines);
+void       celd_region_outlines_clear (CeldRegionOutlines *outlines);                    /* accepts a zeroed record */
 
 /* The label whose surface this pixel is, 0 off the picture. */
 static inline uint32_t
-celd_surface_at (const CeldRims *rims, int x, int y)
+celd_surface_at (const CeldRegionOutlines *outlines, int x, int y)
 {
-  return x < 0 || y < 0 || x >= rims->width || y >= rims->height
-         ? 0 : rims->surface[(size_t) (y + 1) * rims->stride + (size_t) (x + 1)];
+  return x < 0 || y < 0 || x >= outlines->width || y >= outlines->height
+         ? 0 : outlines->surface[(size_t) (y + 1) * outlines->stride + (size_t) (x + 1)];
 }
 
-/* ------------------------------------------------------------------ rim-corners.c */
+/* ------------------------------------------------------------------ t-junctions.c */
 
-/* Where three regions meet, and how sharply the outline of each turns there: radians, > 0 = its corner is convex;
+/* Where three regions meet, and how sharply the outline of each trials there: radians, > 0 = its corner is convex;
  * NaN if that cannot be told. */
-typedef struct { float x, y; uint32_t label[3]; float turn[3]; } CeldCornerSet;
+typedef struct { float x, y; uint32_t label[3]; float turn[3]; } CeldJunction;
 
-CeldStatus celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldHost *host,
-                                  CeldCornerSet **corners, size_t *n);
+CeldStatus celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegionOutlines *outlines, const CeldHost *host,
+                                  CeldJunction **corners, size_t *n);
 
 /* ------------------------------------------------------------------ suggest-cues.c */
 

@@ -144,12 +144,12 @@ celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder 
 }
 
 CeldStatus
-celd_session_flat (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
+celd_session_unexpanded_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_FLAT, host, changed);
+  CeldStatus status = ask (session, STAGE_UNEXPANDED, host, changed);
 
   if (status == CELD_OK)
-    *levels = session->flat;
+    *levels = session->unexpanded;
   return status;
 }
 

@@ -67,7 +67,7 @@ struct CeldSession
   CeldLabels     separated;                    /* the same with regions separated or split; data NULL: not needed */
   CeldPalette    palette;
   CeldOrder      order;
-  CeldPlane      flat, levels, preview, depth, shading;
+  CeldPlane      unexpanded, levels, preview, depth, shading;
   CeldOwnership  ownership;
   uint32_t      *owned_level;                  /* order level of each label when the ownership was made; NULL: the
                                                 * ownership has to be made from scratch */
@@ -151,7 +151,7 @@ CeldStatus celd_make_suggestions (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_order       (CeldSession *session, const CeldHost *host);
 
 /* stage-levels.c */
-CeldStatus celd_make_flat      (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_unexpanded      (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_ownership (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_levels    (CeldSession *session, const CeldHost *host);
 

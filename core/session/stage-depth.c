@@ -61,7 +61,7 @@ typedef struct { const CeldSession *session; int side; CeldMask mask; CeldPlane 
 
 /* The level of a pixel before expansion. */
 static float
-flat_level (const CeldSession *s, int x, int y)
+unexpanded_level (const CeldSession *s, int x, int y)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
 
@@ -75,7 +75,7 @@ mark (Anchors *a, int x, int y)
 
   a->n++;
   if (a->side > 1 && !*here)
-    CELD_AT (a->levels, x / a->side, y / a->side) = flat_level (a->session, x, y);
+    CELD_AT (a->levels, x / a->side, y / a->side) = unexpanded_level (a->session, x, y);
   *here = 1;
 }
 
@@ -239,7 +239,7 @@ sample_levels (const CeldSession *s, CeldPlane *levels)
       {
         int u = x * SIDE + SIDE / 2, v = y * SIDE + SIDE / 2;
 
-        CELD_AT (levels, x, y) = flat_level (s, u < labels->width ? u : labels->width - 1,
+        CELD_AT (levels, x, y) = unexpanded_level (s, u < labels->width ? u : labels->width - 1,
                                              v < labels->height ? v : labels->height - 1);
       }
 }

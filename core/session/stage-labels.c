@@ -36,13 +36,13 @@ static CeldStatus
 agree (const CeldSession *s, const CeldRelations *relations, bool *agreed)
 {
   CeldGraph  graph = { 0 };
-  CeldKnots  knots = { 0 };
+  CeldSccs  sccs = { 0 };
   CeldStatus status = celd_graph_new (celd_session_current_labels (s), &s->palette, relations, &s->ink, &graph, NULL);
 
   if (status == CELD_OK)
-    status = celd_knots_find (&graph, &knots);
-  *agreed = status == CELD_OK && !knots.n;
-  celd_knots_clear (&knots);
+    status = celd_sccs_find (&graph, &sccs);
+  *agreed = status == CELD_OK && !sccs.n;
+  celd_sccs_clear (&sccs);
   celd_graph_clear (&graph);
   return status;
 }

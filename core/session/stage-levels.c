@@ -23,24 +23,24 @@ list_values (const CeldSession *s, float **list)
 }
 
 CeldStatus
-celd_make_flat (CeldSession *s, const CeldHost *host)
+celd_make_unexpanded (CeldSession *s, const CeldHost *host)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
   float            *value = NULL;
-  CeldPlane         flat = { 0 };
+  CeldPlane         unexpanded = { 0 };
   CeldStatus        status = list_values (s, &value);
 
   (void) host;
   if (status == CELD_OK)
-    status = celd_plane_new (labels->width, labels->height, &flat);
+    status = celd_plane_new (labels->width, labels->height, &unexpanded);
   if (status == CELD_OK)
     {
-      for (size_t p = 0; p < (size_t) flat.width * (size_t) flat.height; p++)
-        flat.data[p] = value[labels->data[p] - 1];
-      celd_session_replace_plane (s, STAGE_FLAT, &s->flat, &flat);
+      for (size_t p = 0; p < (size_t) unexpanded.width * (size_t) unexpanded.height; p++)
+        unexpanded.data[p] = value[labels->data[p] - 1];
+      celd_session_replace_plane (s, STAGE_UNEXPANDED, &s->unexpanded, &unexpanded);
     }
   celd_free (value);
-  celd_free (flat.data);
+  celd_free (unexpanded.data);
   return status;
 }
 

@@ -19,7 +19,7 @@ static const unsigned needs[N_STAGES] = {
   [STAGE_LABELS]      = NEEDS (INK) | NEEDS (SEEDS),
   [STAGE_SUGGESTIONS] = NEEDS (LABELS),
   [STAGE_ORDER]       = NEEDS (LABELS) | NEEDS (RELATIONS),
-  [STAGE_FLAT]        = NEEDS (ORDER),
+  [STAGE_UNEXPANDED]        = NEEDS (ORDER),
   [STAGE_OWNERSHIP]   = NEEDS (ORDER),
   [STAGE_LEVELS]      = NEEDS (OWNERSHIP),
   [STAGE_PREVIEW]     = NEEDS (ORDER),
@@ -179,7 +179,7 @@ celd_session_clear_results (CeldSession *session)
   celd_free (s->depth_ink.data);
   celd_free (s->segmented.data);
   celd_free (s->separated.data);
-  celd_free (s->flat.data);
+  celd_free (s->unexpanded.data);
   celd_free (s->levels.data);
   celd_session_forget_ownership (s);
   celd_session_forget_values (s);
@@ -200,7 +200,7 @@ celd_session_clear_results (CeldSession *session)
   s->edge_radius = 0;
   s->segmenter_ink = s->ink = s->depth_ink = s->preview_ink = s->split_ink = (CeldPlane) { 0 };
   s->splits = (CeldSplits) { 0 };
-  s->flat = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
+  s->unexpanded = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
   s->segmented = s->separated = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };
   s->exact_preview = s->exact_depth = (CeldPlane) { 0 };

@@ -65,8 +65,8 @@ run_exact (const CliOptions *options)
     {
       cycles.cycle    = celd_session_exact_report (session)->cycle;
       cycles.n_cycles = celd_session_exact_report (session)->n_cycles;
-      cycles.knot     = celd_session_exact_report (session)->knot;
-      cycles.n_knots  = celd_session_exact_report (session)->n_knots;
+      cycles.scc     = celd_session_exact_report (session)->scc;
+      cycles.n_sccs  = celd_session_exact_report (session)->n_sccs;
       if (cli_write_depth (options->depth, &depth, nearest_depth (&depth, options->settings.encoding)))
         code = tell (session, options, &run, &depth, &cycles);
     }

@@ -108,9 +108,9 @@ say_cycles (const CeldOrder *order, const CeldRelations *relations)
         fprintf (stderr, "    That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
                  "--same-colour separate gives each its own.\n", cycle->colour[0], cycle->colour[1], cycle->colour[2],
                  cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
-      if (order->knot[cycle->knot].n > cycle->n)
+      if (order->scc[cycle->scc].n > cycle->n)
         fprintf (stderr, "    Other circles go through these, too: %" G_GSIZE_FORMAT " relations in all.\n",
-                 order->knot[cycle->knot].n);
+                 order->scc[cycle->scc].n);
     }
 }
 

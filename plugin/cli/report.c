@@ -196,13 +196,13 @@ add_one_colour (JsonBuilder *json, size_t index, const CeldCycle *cycle)
 }
 
 static void
-add_knot (JsonBuilder *json, const CeldKnot *knot)
+add_scc (JsonBuilder *json, const CeldScc *scc)
 {
   json_builder_begin_object (json);
   json_builder_set_member_name (json, "relations");
-  add_indices (json, knot->item, knot->n);
+  add_indices (json, scc->item, scc->n);
   json_builder_set_member_name (json, "newest");
-  add_indices (json, knot->newest.item, knot->newest.n);
+  add_indices (json, scc->newest.item, scc->newest.n);
   json_builder_end_object (json);
 }
 
@@ -339,9 +339,9 @@ add_order (JsonBuilder *json, const CliReport *report)
     if (report->order->cycle[i].label)
       add_one_colour (json, i, &report->order->cycle[i]);
   json_builder_end_array (json);
-  begin_list (json, "knots");
-  for (size_t i = 0; i < report->order->n_knots; i++)
-    add_knot (json, &report->order->knot[i]);
+  begin_list (json, "strong-components");
+  for (size_t i = 0; i < report->order->n_sccs; i++)
+    add_scc (json, &report->order->scc[i]);
   json_builder_end_array (json);
 }
 

@@ -11,7 +11,7 @@ typedef struct
   const CeldClosures  *closures;
   const CeldRelations *suggestions;
   const CeldOrder     *order;
-  CeldPlane            flat, levels, depth, shading;
+  CeldPlane            unexpanded, levels, depth, shading;
   CeldVectors          normals;
 } Results;
 
@@ -36,7 +36,7 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
   cli_run_stage (run, "order");
   status = celd_session_order (session, &run->host, &results->order);
   if (status == CELD_OK && options->order)
-    status = celd_session_flat (session, &run->host, &results->flat, NULL);
+    status = celd_session_unexpanded_levels (session, &run->host, &results->unexpanded, NULL);
   if (options->levels || options->depth || options->normals || options->shading)
     cli_run_stage (run, "levels");
   if (status == CELD_OK && options->levels)
@@ -80,7 +80,7 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
          (!options->suggestions || cli_write_relations (options->suggestions, results->suggestions)) &&
          (!options->suggested_arrows ||
           write_layer (session, options->suggested_arrows, results, celd_session_paint_suggestions)) &&
-         (!options->order   || cli_write_depth (options->order, &results->flat, nearest)) &&
+         (!options->order   || cli_write_depth (options->order, &results->unexpanded, nearest)) &&
          (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
          (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
          (!options->normals || cli_write_normals (options->normals, &results->normals)) &&

@@ -84,8 +84,8 @@ measure (const char *name, uint32_t astray, uint32_t equal, CeldOnCycle on_cycle
       taken[run] = now () - start;
     }
   qsort (taken, RUNS, sizeof *taken, compare);
-  printf ("%-34s %7.2f ms   levels %4u   knots %3zu   left out %5zu\n", name, taken[RUNS / 2], (unsigned) order.levels,
-          order.n_knots, order.n_cycles);
+  printf ("%-34s %7.2f ms   levels %4u   sccs %3zu   left out %5zu\n", name, taken[RUNS / 2], (unsigned) order.levels,
+          order.n_sccs, order.n_cycles);
   celd_order_clear (&order);
 }
 

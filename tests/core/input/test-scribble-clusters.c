@@ -8,7 +8,7 @@
 static const char *const apart[] = { "AAAA....BBB", "AAAA....BBB", NULL };
 
 static void
-cluster (Reading *r, size_t wanted)
+cluster (CeldScribbleLayer *r, size_t wanted)
 {
   CHECK (celd_scribble_clusters (r, NULL) == CELD_OK);
   NEAR (r->n_clusters, wanted + 1, 0); /* 0 is none */
@@ -19,7 +19,7 @@ static void
 colours_within_the_radius_are_one (void)
 {
   int     near[2][3] = { { 100, 100, 100 }, { 103, 100, 100 } }, far[2][3] = { { 100, 100, 100 }, { 100, 104, 100 } };
-  Reading r = reading_new (apart, near, 2);
+  CeldScribbleLayer r = reading_new (apart, near, 2);
 
   cluster (&r, 1);
   CHECK (r.colour[1].cluster == 1 && r.colour[2].cluster == 1);
@@ -34,20 +34,20 @@ colours_within_the_radius_are_one (void)
   reading_clear (&r);
 }
 
-/* Four honest pixels; with loss an inside, too. */
+/* Four solid pixels; with loss an inside, too. */
 static void
 a_label_needs_honest_pixels (void)
 {
-  static const struct { uint32_t honest, core; bool lossy, label; } given[] = {
+  static const struct { uint32_t solid, core; bool lossy, label; } given[] = {
     { 4, 0, false, true }, { 3, 0, false, false }, { 4, 4, true, true }, { 4, 3, true, false },
   };
   int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
 
   for (size_t i = 0; i < sizeof given / sizeof *given; i++)
     {
-      Reading r = reading_new (apart, rgb, 2);
+      CeldScribbleLayer r = reading_new (apart, rgb, 2);
 
-      r.colour[2].honest = given[i].honest;
+      r.colour[2].solid = given[i].solid;
       r.colour[2].core = given[i].core;
       r.lossy = given[i].lossy;
       cluster (&r, 2);
@@ -57,21 +57,21 @@ a_label_needs_honest_pixels (void)
     }
 }
 
-/* Fringes of other strokes pass through its colour: it needs a third, or an inside that is most of what is honest. */
+/* Fringes of other strokes pass through its colour: it needs a third, or an inside that is most of what is solid. */
 static void
 fringes_of_others_do_not_count (void)
 {
-  static const struct { uint32_t honest, core; bool label; } given[] = {
+  static const struct { uint32_t solid, core; bool label; } given[] = {
     { 44, 0, true }, { 43, 0, false }, { 32, 17, true }, { 36, 17, false }, { 16, 15, false },
   };
   int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
 
   for (size_t i = 0; i < sizeof given / sizeof *given; i++)
     {
-      Reading r = reading_new (apart, rgb, 2);
+      CeldScribbleLayer r = reading_new (apart, rgb, 2);
 
       r.colour[2].pixels = 132;
-      r.colour[2].honest = given[i].honest;
+      r.colour[2].solid = given[i].solid;
       r.colour[2].core = given[i].core;
       cluster (&r, 2);
       CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
@@ -89,7 +89,7 @@ a_rim_belongs_to_its_stroke (void)
 
   for (int i = 0; i < 4; i++)
     {
-      Reading r = reading_new (i == 1 ? apart_too : touching, i == 2 ? far : near, 2);
+      CeldScribbleLayer r = reading_new (i == 1 ? apart_too : touching, i == 2 ? far : near, 2);
 
       r.colour[2].core = i == 3 ? 6 : 0;
       cluster (&r, 2);
@@ -107,7 +107,7 @@ a_rim_belongs_to_what_it_touches (void)
     "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL
   };
   int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
-  Reading r = reading_new (art, rgb, 4);
+  CeldScribbleLayer r = reading_new (art, rgb, 4);
 
   r.colour[3].core = 0;
   cluster (&r, 4);
@@ -121,7 +121,7 @@ what_equals_paper_is_paper (void)
 {
   static const char *const art[] = { "AAAAAAAAAA", "AAAAAAAAAA", "CCCCCCCCCC", "BBBBBBBBBB", NULL };
   int     rgb[3][3] = { { 255, 255, 255 }, { 255, 251, 255 }, { 255, 253, 255 } };
-  Reading r = reading_new (art, rgb, 3);
+  CeldScribbleLayer r = reading_new (art, rgb, 3);
 
   r.paper = 1;
   cluster (&r, 1);

@@ -7,7 +7,7 @@
 
 enum { W = 64, H = 48 };
 
-typedef struct { uint8_t rgba[H][W][4]; CeldPaint paint; Reading reading; } Layer;
+typedef struct { uint8_t rgba[H][W][4]; CeldPaint paint; CeldScribbleLayer reading; } Layer;
 
 static Layer *
 layer_new (uint8_t red, uint8_t green, uint8_t blue, uint8_t alpha)
@@ -15,7 +15,7 @@ layer_new (uint8_t red, uint8_t green, uint8_t blue, uint8_t alpha)
   Layer *l = calloc (1, sizeof *l);
 
   l->paint = (CeldPaint) { W, H, W, &l->rgba[0][0][0] };
-  l->reading = (Reading) { .paint = &l->paint, .width = W, .height = H, .pixels = W * H,
+  l->reading = (CeldScribbleLayer) { .paint = &l->paint, .width = W, .height = H, .pixels = W * H,
                            .id = calloc (W * H, sizeof (uint32_t)) };
   for (int i = 0; i < W * H; i++)
     memcpy (l->rgba[i / W][i % W], (uint8_t[4]) { red, green, blue, alpha }, 4);

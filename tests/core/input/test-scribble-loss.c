@@ -122,8 +122,8 @@ static bool
 is_smeared (double width, double share, int shake)
 {
   CeldPaint paint = { W, H, W, &paint_of[0][0][0] };
-  Reading   r = { .paint = &paint, .width = W, .height = H, .pixels = W * H };
-  Colour    colour[2] = { { .pixels = 0 }, { .channel = { 255, 255, 255 } } };
+  CeldScribbleLayer   r = { .paint = &paint, .width = W, .height = H, .pixels = W * H };
+  CeldScribbleColour    colour[2] = { { .pixels = 0 }, { .channel = { 255, 255, 255 } } };
 
   draw (width);
   store (share, shake);

@@ -9,7 +9,7 @@
 static bool
 is_label (const char *const *art, int (*rgb)[3], bool on_paper, int opacity)
 {
-  Reading r = reading_new (art, rgb, 4);
+  CeldScribbleLayer r = reading_new (art, rgb, 4);
   bool    label;
 
   r.paper = on_paper ? 4 : 0;

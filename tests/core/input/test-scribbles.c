@@ -1,4 +1,4 @@
-/* Reading scribbles: exact colours, tiny honest strokes, and what soft brushes, overlaps and lossy storage add.
+/* CeldScribbleLayer scribbles: exact colours, tiny solid strokes, and what soft brushes, overlaps and lossy storage add.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -248,15 +248,15 @@ check_cycles (const Scene *s)
   for (size_t j = 0; j < s->order.n_cycles; j++)
     {
       const CeldCycle *cycle = &s->order.cycle[j];
-      bool             in_knot = false;
+      bool             in_scc = false;
 
       CHECK (is_cycle (s, cycle));
-      CHECK (cycle->knot < s->order.n_knots);
+      CHECK (cycle->scc < s->order.n_sccs);
       for (size_t k = 0; k < cycle->n; k++)
         CHECK (s->kept[cycle->item[k]] == (k > 0));
-      for (size_t k = 0; k < s->order.knot[cycle->knot].n; k++)
-        in_knot |= s->order.knot[cycle->knot].item[k] == cycle->item[0];
-      CHECK (in_knot);
+      for (size_t k = 0; k < s->order.scc[cycle->scc].n; k++)
+        in_scc |= s->order.scc[cycle->scc].item[k] == cycle->item[0];
+      CHECK (in_scc);
     }
 }
 
@@ -270,31 +270,31 @@ check_levels (const Scene *s)
           CHECK (s->item[i].equal ? s->order.level[a] == s->order.level[b] : s->order.level[a] > s->order.level[b]);
 }
 
-/* Knots have exactly the relations that go round in circles with an inequality, each in one knot; and their newest
- * cycle is a shortest one. */
+/* Strong components have exactly the relations that lie on a cycle with an inequality, each in one component; and their
+ * newest cycle is a shortest one. */
 static void
-check_knots (const Scene *s)
+check_sccs (const Scene *s)
 {
   bool all[MOST_RELATIONS], listed[MOST_RELATIONS] = { false };
   int  way[MOST_RELATIONS];
 
   for (int i = 0; i < s->n; i++)
     all[i] = true;
-  for (size_t j = 0; j < s->order.n_knots; j++)
+  for (size_t j = 0; j < s->order.n_sccs; j++)
     {
-      const CeldKnot *knot = &s->order.knot[j];
-      int             newest = (int) knot->newest.item[0];
+      const CeldScc *scc = &s->order.scc[j];
+      int             newest = (int) scc->newest.item[0];
 
-      for (size_t k = 0; k < knot->n; k++)
+      for (size_t k = 0; k < scc->n; k++)
         {
-          CHECK (!listed[knot->item[k]] && (k == 0 || knot->item[k] > knot->item[k - 1]));
-          listed[knot->item[k]] = true;
+          CHECK (!listed[scc->item[k]] && (k == 0 || scc->item[k] > scc->item[k - 1]));
+          listed[scc->item[k]] = true;
         }
-      CHECK (is_cycle (s, &knot->newest));
-      for (size_t k = 0; k < knot->n; k++) /* all later ones are equalities, led round but on no circle */
-        CHECK ((int) knot->item[k] <= newest || s->item[knot->item[k]].equal);
+      CHECK (is_cycle (s, &scc->newest));
+      for (size_t k = 0; k < scc->n; k++) /* all later ones are equalities, led round but on no circle */
+        CHECK ((int) scc->item[k] <= newest || s->item[scc->item[k]].equal);
       if (!s->item[newest].equal)
-        CHECK ((int) knot->newest.n == 1 + shortest_way (s, all, s->far[newest], s->near[newest], true, way));
+        CHECK ((int) scc->newest.n == 1 + shortest_way (s, all, s->far[newest], s->near[newest], true, way));
     }
   for (int i = 0; i < s->n; i++)
     {
@@ -314,7 +314,7 @@ check_scene (Scene *s, bool least, size_t *contradictions)
   CHECK (consistent (s, s->kept));
   check_levels (s);
   check_cycles (s);
-  check_knots (s);
+  check_sccs (s);
   for (int i = 0; i < s->n; i++)
     all[i] = true;
   if (least)
@@ -346,9 +346,9 @@ random_scenes (void)
   CHECK (reported > 1000 && dropped > 500 && dropped < reported); /* else the test would say little */
 }
 
-/* All of twelve labels in one knot: the largest that is promised to be exact, and dense. */
+/* All of twelve labels in one component: the largest that is promised to be exact, and dense. */
 static void
-full_knots (void)
+full_components (void)
 {
   uint32_t state = 5;
   size_t   n = 0;
@@ -380,7 +380,7 @@ known_choices (void)
     }
   solve (&s, CELD_ON_CYCLE_DROP_WEAKEST);
   CHECK (s.order.n_cycles == 1 && s.order.cycle[0].n == 4 && s.order.cycle[0].item[0] == 3);
-  CHECK (s.order.n_knots == 1 && s.order.knot[0].n == 4 && s.order.knot[0].newest.item[0] == 3);
+  CHECK (s.order.n_sccs == 1 && s.order.scc[0].n == 4 && s.order.scc[0].newest.item[0] == 3);
   forget (&s);
   /* 0>1 (weight 2) closes circles with 1>2>0 and 1>3>0 of weights 1.5: greedy keeps it and loses 3, best loses 2 */
   s.item[0].weight = 2;
@@ -399,7 +399,7 @@ int
 main (void)
 {
   RUN (random_scenes);
-  RUN (full_knots);
+  RUN (full_components);
   RUN (known_choices);
   return DONE;
 }

@@ -291,7 +291,7 @@ check_same (CeldSession *a, CeldSession *b)
   for (int i = 0; i < 2; i++)
     {
       CHECK (celd_session_labels (i ? b : a, NULL, &labels[i], NULL) == CELD_OK);
-      CHECK (celd_session_flat (i ? b : a, NULL, &flat[i], NULL) == CELD_OK);
+      CHECK (celd_session_unexpanded_levels (i ? b : a, NULL, &flat[i], NULL) == CELD_OK);
       CHECK (celd_session_depth (i ? b : a, NULL, &depth[i], NULL) == CELD_OK);
     }
   CHECK (!memcmp (labels[0].data, labels[1].data, W * H * sizeof (uint32_t)));
@@ -350,7 +350,7 @@ the_sheet_bends (void)
   const CeldOrder *order;
 
   CHECK (celd_session_order (s, NULL, &order) == CELD_OK && order->n_cycles == 0);
-  CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK);
+  CHECK (celd_session_unexpanded_levels (s, NULL, &flat, NULL) == CELD_OK);
   CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
   CHECK (CELD_AT (&flat, 8, 8) > CELD_AT (&flat, 56, 8) + 0.5f);
   NEAR (CELD_AT (&depth, 8, 8), CELD_AT (&flat, 8, 8), 1e-3);

@@ -342,7 +342,7 @@ suggestions (void)
   put_box (s, 1, 7, 7, 10, 3, red);
   put_box (s, 2, 24, 16, 14, 3, blue);
   put_box (s, 3, 1, 0, 44, 2, green);
-  CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK);
+  CHECK (celd_session_unexpanded_levels (s, NULL, &flat, NULL) == CELD_OK);
   CHECK (CELD_AT (&flat, 8, 8) == CELD_AT (&flat, 30, 17) && celd_session_relations (s)->n == 0);
   CHECK (celd_session_suggestions (s, NULL, &suggested) == CELD_OK && suggested->n == 3);
   CHECK (celd_session_paint_suggestions (s, NULL, &paint) == CELD_OK);
@@ -354,10 +354,10 @@ suggestions (void)
       settings.suggest = (CeldSuggest) k;
       CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
       CHECK (celd_session_set_relations (s, "", NULL) == CELD_OK);
-      CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK && celd_session_relations (s)->n == 3);
+      CHECK (celd_session_unexpanded_levels (s, NULL, &flat, NULL) == CELD_OK && celd_session_relations (s)->n == 3);
       CHECK (CELD_AT (&flat, 8, 8) < CELD_AT (&flat, 30, 17) && CELD_AT (&flat, 8, 8) > CELD_AT (&flat, 46, 2));
       CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff @0.01", NULL) == CELD_OK);
-      CHECK (celd_session_flat (s, NULL, &flat, NULL) == CELD_OK && celd_session_problems (s)->n == 0);
+      CHECK (celd_session_unexpanded_levels (s, NULL, &flat, NULL) == CELD_OK && celd_session_problems (s)->n == 0);
       CHECK (CELD_AT (&flat, 8, 8) > CELD_AT (&flat, 30, 17));
     }
   celd_session_free (s);

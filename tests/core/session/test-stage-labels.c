@@ -126,7 +126,7 @@ same_cycles (const CeldOrder *a, const CeldOrder *b)
     if (a->cycle[k].n != b->cycle[k].n || a->cycle[k].label != b->cycle[k].label ||
         memcmp (a->cycle[k].item, b->cycle[k].item, a->cycle[k].n * sizeof *a->cycle[k].item))
       return false;
-  return a->n_cycles == b->n_cycles && a->n_knots == b->n_knots;
+  return a->n_cycles == b->n_cycles && a->n_sccs == b->n_sccs;
 }
 
 static bool
@@ -284,7 +284,7 @@ finished (State *s)
   paint_box (s->scribbles, (CeldRect) { 4, 3, 40, 2 }, colours[1]);
   apply (session, s);
   CHECK (celd_session_suggestions (session, NULL, &suggested) == CELD_OK);
-  CHECK (celd_session_flat (session, NULL, &plane, NULL) == CELD_OK);
+  CHECK (celd_session_unexpanded_levels (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth_preview (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_shading (session, NULL, &plane, NULL) == CELD_OK);
@@ -296,7 +296,7 @@ finished (State *s)
 #define STAGE(name) (1u << STAGE_##name)
 #define DEPTHS      (STAGE (PREVIEW) | STAGE (DEPTH))
 #define FROM_LEVELS (STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
-#define FROM_ORDER  (STAGE (ORDER) | STAGE (FLAT) | STAGE (OWNERSHIP) | FROM_LEVELS)
+#define FROM_ORDER  (STAGE (ORDER) | STAGE (UNEXPANDED) | STAGE (OWNERSHIP) | FROM_LEVELS)
 #define FROM_LABELS (STAGE (LABELS) | STAGE (SUGGESTIONS) | FROM_ORDER)
 #define FROM_NODES  (STAGE (NODES) | STAGE (EXACT))
 #define FROM_INK    (STAGE (INK) | FROM_LABELS | STAGE (WEIGHTS) | FROM_NODES)
@@ -337,8 +337,8 @@ a_setting_redoes_what_reads_it (void)
   REDOES (settings.hardness = 1, FROM_LABELS);
   REDOES (settings.ink_threshold = 0.5f, FROM_LABELS);
   REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_ORDER | STAGE (EXACT));
-  REDOES (settings.encoding = CELD_ENCODING_RANK, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
-  REDOES (settings.near_level = 3, STAGE (FLAT) | FROM_LEVELS | STAGE (EXACT));
+  REDOES (settings.encoding = CELD_ENCODING_RANK, STAGE (UNEXPANDED) | FROM_LEVELS | STAGE (EXACT));
+  REDOES (settings.near_level = 3, STAGE (UNEXPANDED) | FROM_LEVELS | STAGE (EXACT));
   REDOES (settings.tolerance = 1e-3f, DEPTHS | STAGE (EXACT));
   REDOES (settings.anchors = CELD_ANCHORS_CORE, DEPTHS);
   REDOES (settings.bulge = 2, STAGE (NORMALS) | STAGE (SHADING));

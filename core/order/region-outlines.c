@@ -22,7 +22,7 @@ typedef struct
   const CeldLabels *labels;
   const CeldPlane  *ink;        /* may be NULL */
   size_t            n_labels;
-  CeldRims         *rims;
+  CeldRegionOutlines         *outlines;
 } Tracer;
 
 static uint32_t
@@ -42,7 +42,7 @@ paper_at (const Tracer *t, int x, int y)
 static CeldStatus
 read_surfaces (Tracer *t)
 {
-  CeldRims *r = t->rims;
+  CeldRegionOutlines *r = t->outlines;
   size_t   *all = celd_alloc0 (t->n_labels + 1, sizeof *all), *paper = celd_alloc0 (t->n_labels + 1, sizeof *paper);
 
   r->stride  = (size_t) r->width + 2;
@@ -79,7 +79,7 @@ static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
 
 static uint32_t *
-surface_of (const CeldRims *r, int x, int y)
+surface_of (const CeldRegionOutlines *r, int x, int y)
 {
   return &r->surface[(size_t) (y + 1) * r->stride + (size_t) (x + 1)];
 }
@@ -88,45 +88,45 @@ surface_of (const CeldRims *r, int x, int y)
 static uint32_t
 face (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
 {
-  int reach = THROUGH * t->rims->stroke + 2;
+  int reach = THROUGH * t->outlines->stroke + 2;
 
   for (int k = 0; k <= reach; k++, x += dx, y += dy)
     {
       uint32_t there;
 
-      if (x < 0 || y < 0 || x >= t->rims->width || y >= t->rims->height)
+      if (x < 0 || y < 0 || x >= t->outlines->width || y >= t->outlines->height)
         return CELD_FACES_FRAME;
       there = label_at (t, x, y);
       if (there && there != label)
         return there;
-      if (there && k && (*surface_of (t->rims, x, y) & ~SEEN) == label)
+      if (there && k && (*surface_of (t->outlines, x, y) & ~SEEN) == label)
         return 0;
     }
   return 0;
 }
 
 /* The place between the pixel of the surface at (x,y) and its neighbour. */
-static CeldRimPoint
+static CeldOutlinePoint
 place (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
 {
   int    u = x + dx, v = y + dy;
   double along = 0.5;
 
-  if (t->ink && u >= 0 && v >= 0 && u < t->rims->width && v < t->rims->height && paper_at (t, x, y) &&
+  if (t->ink && u >= 0 && v >= 0 && u < t->outlines->width && v < t->outlines->height && paper_at (t, x, y) &&
       !paper_at (t, u, v))
     {
       double in = (double) CELD_AT (t->ink, x, y), out = (double) CELD_AT (t->ink, u, v);
 
       along = in < 1 ? (in - 0.5) / (in - out) : 0.5 / (1 - out); /* NaN, and more than paper, are paper */
     }
-  return (CeldRimPoint) { (float) (x + 0.5 + along * dx), (float) (y + 0.5 + along * dy),
+  return (CeldOutlinePoint) { (float) (x + 0.5 + along * dx), (float) (y + 0.5 + along * dy),
                           face (t, label, u, v, dx, dy) };
 }
 
 static CeldStatus
-add_point (CeldRims *r, CeldRimPoint point)
+add_point (CeldRegionOutlines *r, CeldOutlinePoint point)
 {
-  CeldRimPoint *grown = celd_grow (r->point, r->n_points + 1, sizeof *grown);
+  CeldOutlinePoint *grown = celd_grow (r->point, r->n_points + 1, sizeof *grown);
 
   if (!grown)
     return CELD_NO_MEMORY;
@@ -138,9 +138,9 @@ add_point (CeldRims *r, CeldRimPoint point)
 /* Where a loop faces nothing for a short while, and the same label before and behind, it faces that, too: slanting ink
  * is wider than it is thick, and specks of ink lie in the way.  Longer stretches are lines inside the surface. */
 static void
-bridge (const CeldRims *r, const CeldRimLoop *loop)
+bridge (const CeldRegionOutlines *r, const CeldOutlineLoop *loop)
 {
-  CeldRimPoint *p = &r->point[loop->first];
+  CeldOutlinePoint *p = &r->point[loop->first];
   size_t        most = (size_t) (CELD_SHORTEST_MARK * r->stroke), start = 0;
 
   while (start < loop->n && !p[start].faces)
@@ -164,10 +164,10 @@ bridge (const CeldRims *r, const CeldRimLoop *loop)
 static CeldStatus
 follow (Tracer *t, uint32_t label, int x, int y)
 {
-  CeldRims    *r = t->rims;
-  CeldRimLoop  loop = { .first = r->n_points, .label = label }, *loops;
+  CeldRegionOutlines    *r = t->outlines;
+  CeldOutlineLoop  loop = { .first = r->n_points, .label = label }, *loops;
   int          at_x = x, at_y = y, heading = 0;
-  CeldRimPoint last;
+  CeldOutlinePoint last;
 
   do
     {
@@ -202,7 +202,7 @@ follow (Tracer *t, uint32_t label, int x, int y)
 static CeldStatus
 follow_all (Tracer *t, const CeldHost *host)
 {
-  CeldRims  *r = t->rims;
+  CeldRegionOutlines  *r = t->outlines;
   CeldStatus status = CELD_OK;
 
   for (int y = 0; y < r->height && status == CELD_OK; y++)
@@ -221,9 +221,9 @@ follow_all (Tracer *t, const CeldHost *host)
 }
 
 CeldStatus
-celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host, CeldRims *rims)
+celd_region_outlines_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host, CeldRegionOutlines *outlines)
 {
-  CeldRims   made = { .width = labels->width, .height = labels->height };
+  CeldRegionOutlines   made = { .width = labels->width, .height = labels->height };
   Tracer     t = { labels, ink, n_labels, &made };
   CeldStatus status;
 
@@ -233,17 +233,17 @@ celd_rims_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, 
   if (status == CELD_OK)
     status = follow_all (&t, host);
   if (status == CELD_OK)
-    *rims = made;
+    *outlines = made;
   else
-    celd_rims_clear (&made);
+    celd_region_outlines_clear (&made);
   return status;
 }
 
 void
-celd_rims_clear (CeldRims *rims)
+celd_region_outlines_clear (CeldRegionOutlines *outlines)
 {
-  celd_free (rims->surface);
-  celd_free (rims->point);
-  celd_free (rims->loop);
-  *rims = (CeldRims) { 0 };
+  celd_free (outlines->surface);
+  celd_free (outlines->point);
+  celd_free (outlines->loop);
+  *outlines = (CeldRegionOutlines) { 0 };
 }

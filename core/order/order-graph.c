@@ -179,31 +179,31 @@ celd_graph_add (CeldGraph *graph, uint32_t label)
 }
 
 void
-celd_index_clear (CeldIndex *index)
+celd_arc_index_clear (CeldArcIndex *index)
 {
   celd_free (index->first);
-  celd_free (index->way);
-  *index = (CeldIndex) { 0 };
+  celd_free (index->arc);
+  *index = (CeldArcIndex) { 0 };
 }
 
-CeldWay
-celd_graph_way (const CeldGraph *graph, size_t link, CeldSide to)
+CeldLinkArc
+celd_graph_arc (const CeldGraph *graph, size_t link, CeldSide to)
 {
   const size_t *f = &graph->first[2 * link + to];
 
-  return (CeldWay) { (uint32_t) link, !graph->equal[link] && f[1] - f[0] == 1 ? graph->end[f[0]] : CELD_ENDS };
+  return (CeldLinkArc) { (uint32_t) link, !graph->equal[link] && f[1] - f[0] == 1 ? graph->end[f[0]] : CELD_MANY_ENDS };
 }
 
 CeldStatus
-celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldIndex *index)
+celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldArcIndex *index)
 {
   size_t  *first = celd_alloc0 (graph->n_labels + 2, sizeof *first);
-  CeldWay *way = celd_alloc (graph->n_ends, sizeof *way);
+  CeldLinkArc *arc = celd_alloc (graph->n_ends, sizeof *arc);
 
-  *index = (CeldIndex) { first, way };
-  if (!first || !way)
+  *index = (CeldArcIndex) { first, arc };
+  if (!first || !arc)
     {
-      celd_index_clear (index);
+      celd_arc_index_clear (index);
       return CELD_NO_MEMORY;
     }
   /* Count into first[k + 2], add up, then place: each place moves first[k + 1] on to where label k ends. */
@@ -220,7 +220,7 @@ celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldIn
             if (pass == 0)
               first[graph->end[e] + 2]++;
             else
-              way[first[graph->end[e] + 1]++] = celd_graph_way (graph, i, side == CELD_NEARER ? CELD_FARTHER
+              arc[first[graph->end[e] + 1]++] = celd_graph_arc (graph, i, side == CELD_NEARER ? CELD_FARTHER
                                                                                               : CELD_NEARER);
         }
       for (size_t k = 2; pass == 0 && k < graph->n_labels + 2; k++)
@@ -261,4 +261,40 @@ celd_graph_clear (CeldGraph *graph)
   celd_free (graph->kept);
   celd_free (graph->equal);
   *graph = (CeldGraph) { 0 };
+}
+
+/* ------------------------------------------------------------------ classes of labels of equal depth */
+
+CeldStatus
+celd_equivalence_new (size_t n, CeldEquivalence *classes)
+{
+  *classes = (CeldEquivalence) { celd_alloc (n, sizeof (uint32_t)), celd_alloc (n, sizeof (uint32_t)) };
+  if (!classes->parent || !classes->next)
+    return CELD_NO_MEMORY;
+  celd_roots (classes->parent, n);
+  celd_roots (classes->next, n);
+  return CELD_OK;
+}
+
+void
+celd_equivalence_clear (CeldEquivalence *classes)
+{
+  celd_free (classes->parent);
+  celd_free (classes->next);
+  *classes = (CeldEquivalence) { 0 };
+}
+
+void
+celd_equivalence_join (CeldEquivalence *classes, uint32_t a, uint32_t b)
+{
+  uint32_t next;
+
+  a = celd_class_of (classes, a);
+  b = celd_class_of (classes, b);
+  if (a == b)
+    return;
+  celd_join (classes->parent, a, b);
+  next             = classes->next[a]; /* two rings become one */
+  classes->next[a] = classes->next[b];
+  classes->next[b] = next;
 }

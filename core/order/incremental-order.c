@@ -1,53 +1,53 @@
-/* Classes of labels in a sequence from far to near that every relation admitted so far respects.
+/* A topological order of classes of labels, from far to near, to which relations are added one by one.
  *
- * A relation whose ends stand right costs nothing.  Else one search goes upwards from its nearer side, through places
- * by rising number, another downwards from its farther side, by falling number, the one with less work behind it first,
- * until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If they meet, the
- * relation contradicts.  If not, what the first has passed below the crossing moves up to it, what the second has
- * passed above moves down, before the former: only classes between the ends of the relation move.
+ * A relation whose ends already stand in the right order costs nothing.  Otherwise one search goes up from its nearer
+ * side, by rising places, another down from its farther side, by falling places; the one that has done less work goes on
+ * until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If the searches meet, the
+ * relation contradicts those before.  If not, classes below the crossing that the first has reached move up to it, and
+ * classes above it that the second has reached move down to just below these; no class outside the relation's ends moves.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order/order.h"
 
-#define NOBODY UINT32_MAX /* a class that has joined another leaves its place empty */
+#define NO_CLASS UINT32_MAX /* at a place whose class has joined another one */
 
 /* ------------------------------------------------------------------ work space */
 
 void
-celd_sequence_clear (CeldSequence *s)
+celd_incremental_order_clear (CeldIncrementalOrder *s)
 {
-  celd_classes_clear (&s->classes);
+  celd_equivalence_clear (&s->classes);
   for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
     {
-      celd_index_clear (&s->way[to]);
+      celd_arc_index_clear (&s->arc[to]);
       celd_free (s->last[to]);
       celd_free (s->mark[to]);
     }
   celd_free (s->at);
   celd_free (s->place);
   celd_free (s->moved);
-  *s = (CeldSequence) { 0 };
+  *s = (CeldIncrementalOrder) { 0 };
 }
 
 CeldStatus
-celd_sequence_new (const CeldGraph *graph, CeldSequence *s)
+celd_incremental_order_new (const CeldGraph *graph, CeldIncrementalOrder *s)
 {
   size_t     n = graph->n_labels;
   CeldStatus status;
 
-  *s = (CeldSequence) { .graph = graph, .at = celd_alloc (n, sizeof *s->at), .place = celd_alloc (n, sizeof *s->place),
+  *s = (CeldIncrementalOrder) { .graph = graph, .at = celd_alloc (n, sizeof *s->at), .place = celd_alloc (n, sizeof *s->place),
                         .moved = celd_alloc (n, sizeof *s->moved) };
-  status = s->at && s->place && s->moved ? celd_classes_new (n, &s->classes) : CELD_NO_MEMORY;
+  status = s->at && s->place && s->moved ? celd_equivalence_new (n, &s->classes) : CELD_NO_MEMORY;
   for (int to = CELD_FARTHER; to <= CELD_NEARER && status == CELD_OK; to++)
     {
       s->last[to] = celd_alloc (n, sizeof *s->last[to]);
       s->mark[to] = celd_alloc0 (n, sizeof *s->mark[to]);
       status = s->last[to] && s->mark[to]
-             ? celd_graph_index (graph, to == CELD_NEARER ? CELD_FARTHER : CELD_NEARER, NULL, &s->way[to])
+             ? celd_graph_index (graph, to == CELD_NEARER ? CELD_FARTHER : CELD_NEARER, NULL, &s->arc[to])
              : CELD_NO_MEMORY;
       for (size_t k = 0; k < n && status == CELD_OK; k++)
-        s->last[to][k] = s->way[to].first[k];
+        s->last[to][k] = s->arc[to].first[k];
     }
   for (uint32_t k = 0; status == CELD_OK && k < n; k++)
     s->at[k] = s->place[k] = k;
@@ -58,7 +58,7 @@ celd_sequence_new (const CeldGraph *graph, CeldSequence *s)
 
 /* The places of the classes of end[first] .. end[last - 1]. */
 static void
-span_of (CeldSequence *s, size_t first, size_t last, uint32_t *least, uint32_t *most)
+span_of (CeldIncrementalOrder *s, size_t first, size_t last, uint32_t *least, uint32_t *most)
 {
   *least = UINT32_MAX;
   *most  = 0;
@@ -72,7 +72,7 @@ span_of (CeldSequence *s, size_t first, size_t last, uint32_t *least, uint32_t *
 }
 
 static bool
-mark_one (CeldSequence *s, CeldSide to, uint32_t label)
+mark_one (CeldIncrementalOrder *s, CeldSide to, uint32_t label)
 {
   uint32_t place = s->place[celd_class_of (&s->classes, label)];
 
@@ -85,7 +85,7 @@ mark_one (CeldSequence *s, CeldSide to, uint32_t label)
 /* Marks the places of the classes of end[first] .. end[last - 1] that are not out of the window; true if the other
  * search has been at one of them. */
 static bool
-mark (CeldSequence *s, CeldSide to, size_t first, size_t last)
+mark (CeldIncrementalOrder *s, CeldSide to, size_t first, size_t last)
 {
   bool met = false;
 
@@ -96,21 +96,21 @@ mark (CeldSequence *s, CeldSide to, size_t first, size_t last)
 
 /* Follows admitted inequalities from the class at a place to one side, and counts them; true if the searches meet. */
 static bool
-follow (CeldSequence *s, uint32_t place, CeldSide to, size_t *work)
+follow (CeldIncrementalOrder *s, uint32_t place, CeldSide to, size_t *work)
 {
   const CeldGraph *g = s->graph;
-  CeldWays         ways = celd_sequence_ways (s, to);
+  CeldLinkArcs         arcs = celd_incremental_order_arcs (s, to);
   bool             met = false;
   uint32_t         k = s->at[place];
 
   do
     {
-      for (const CeldWay *way = ways.way + ways.first[k]; way < ways.way + ways.last[k]; way++)
-        if (way->end != CELD_ENDS)
-          met |= mark_one (s, to, way->end);
-        else if (!g->equal[way->link])
-          met |= mark (s, to, g->first[2 * way->link + to], g->first[2 * way->link + to + 1]);
-      *work += ways.last[k] - ways.first[k];
+      for (const CeldLinkArc *arc = arcs.arc + arcs.first[k]; arc < arcs.arc + arcs.last[k]; arc++)
+        if (arc->end != CELD_MANY_ENDS)
+          met |= mark_one (s, to, arc->end);
+        else if (!g->equal[arc->link])
+          met |= mark (s, to, g->first[2 * arc->link + to], g->first[2 * arc->link + to + 1]);
+      *work += arcs.last[k] - arcs.first[k];
       k = s->classes.next[k];
     }
   while (k != s->at[place] && !met);
@@ -120,7 +120,7 @@ follow (CeldSequence *s, uint32_t place, CeldSide to, size_t *work)
 /* Goes through the window from both ends until the searches meet (false), or their places cross: from *crossing on up,
  * everything that leads to a mark downwards is marked, and so upwards below it. */
 static bool
-search (CeldSequence *s, uint32_t *crossing)
+search (CeldIncrementalOrder *s, uint32_t *crossing)
 {
   uint32_t up = s->window[0], down = s->window[1] + 1; /* places below `up` and from `down` on are done */
   size_t   work[2] = { 0 };
@@ -146,36 +146,36 @@ search (CeldSequence *s, uint32_t *crossing)
 
 /* Appends the classes at the places from `first` to before `end` that the search to a side has marked, or not. */
 static uint32_t
-gather (CeldSequence *s, uint32_t n, uint32_t first, uint32_t end, CeldSide to, bool marked)
+gather (CeldIncrementalOrder *s, uint32_t n, uint32_t first, uint32_t end, CeldSide to, bool marked)
 {
   for (uint32_t p = first; p < end; p++)
-    if (s->at[p] != NOBODY && (s->mark[to][p] == s->number) == marked)
+    if (s->at[p] != NO_CLASS && (s->mark[to][p] == s->number) == marked)
       s->moved[n++] = s->at[p];
   return n;
 }
 
-/* Gives the window its new sequence: what stays below the crossing, what moves down to it, the class `own` if that is
- * somebody, what moves up to it, what stays above; empty places come last. */
+/* Gives the window its new sequence: what stays below the crossing, what moves down to it, the class `own` unless
+ * it is NO_CLASS, what moves up to it, what stays above; empty places come last. */
 static void
-deal_places (CeldSequence *s, uint32_t crossing, uint32_t own)
+deal_places (CeldIncrementalOrder *s, uint32_t crossing, uint32_t own)
 {
   uint32_t first = s->window[0], end = s->window[1] + 1, n = gather (s, 0, first, crossing, CELD_NEARER, false);
 
   n = gather (s, n, crossing, end, CELD_FARTHER, true);
-  if (own != NOBODY)
+  if (own != NO_CLASS)
     s->moved[n++] = own;
   n = gather (s, n, first, crossing, CELD_NEARER, true);
   n = gather (s, n, crossing, end, CELD_FARTHER, false);
   for (uint32_t i = 0; i < end - first; i++)
     {
-      s->at[first + i] = i < n ? s->moved[i] : NOBODY;
+      s->at[first + i] = i < n ? s->moved[i] : NO_CLASS;
       if (i < n)
         s->place[s->moved[i]] = first + i;
     }
 }
 
 static bool
-admit_inequality (CeldSequence *s, const size_t *f)
+admit_inequality (CeldIncrementalOrder *s, const size_t *f)
 {
   uint32_t unused, crossing;
 
@@ -187,24 +187,24 @@ admit_inequality (CeldSequence *s, const size_t *f)
   mark (s, CELD_NEARER, f[1], f[2]);
   if (mark (s, CELD_FARTHER, f[0], f[1]) || !search (s, &crossing))
     return false;
-  deal_places (s, crossing, NOBODY);
+  deal_places (s, crossing, NO_CLASS);
   return true;
 }
 
 /* The classes become one, which has no place yet. */
 static uint32_t
-join_all (CeldSequence *s, const size_t *f)
+join_all (CeldIncrementalOrder *s, const size_t *f)
 {
   for (size_t e = f[0]; e < f[2]; e++)
-    s->at[s->place[celd_class_of (&s->classes, s->graph->end[e])]] = NOBODY;
+    s->at[s->place[celd_class_of (&s->classes, s->graph->end[e])]] = NO_CLASS;
   for (size_t e = f[0] + 1; e < f[2]; e++)
-    celd_classes_join (&s->classes, s->graph->end[e - 1], s->graph->end[e]);
+    celd_equivalence_join (&s->classes, s->graph->end[e - 1], s->graph->end[e]);
   return celd_class_of (&s->classes, s->graph->end[f[0]]);
 }
 
 /* Both searches begin at all classes, which become one at the crossing; all but one of their places stay empty. */
 static bool
-admit_equality (CeldSequence *s, const size_t *f)
+admit_equality (CeldIncrementalOrder *s, const size_t *f)
 {
   uint32_t crossing;
 
@@ -222,23 +222,23 @@ admit_equality (CeldSequence *s, const size_t *f)
 
 /* From now on searches take the link. */
 static void
-add_ways (CeldSequence *s, size_t link)
+add_arcs (CeldIncrementalOrder *s, size_t link)
 {
   const size_t *f = &s->graph->first[2 * link];
   bool          equal = s->graph->equal[link];
 
   for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
     for (size_t e = to == CELD_NEARER || equal ? f[0] : f[1]; e < (to == CELD_FARTHER || equal ? f[2] : f[1]); e++)
-      s->way[to].way[s->last[to][s->graph->end[e]]++] = celd_graph_way (s->graph, link, (CeldSide) to);
+      s->arc[to].arc[s->last[to][s->graph->end[e]]++] = celd_graph_arc (s->graph, link, (CeldSide) to);
 }
 
 bool
-celd_sequence_admit (CeldSequence *s, size_t link)
+celd_incremental_order_admit (CeldIncrementalOrder *s, size_t link)
 {
   const size_t *f = &s->graph->first[2 * link];
   bool          fits = s->graph->equal[link] ? admit_equality (s, f) : admit_inequality (s, f);
 
   if (fits)
-    add_ways (s, link);
+    add_arcs (s, link);
   return fits;
 }

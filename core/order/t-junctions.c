@@ -1,7 +1,7 @@
 /* The corners of outlines where three regions meet.
  *
  * Where one contour ends at another, the outline of the region on the far side of the bar of this T runs on as if there
- * were nothing; both others have a corner.  How sharply an outline turns is measured clear of the junction, where wide
+ * were nothing; both others have a corner.  How sharply an outline trials is measured clear of the junction, where wide
  * ink rounds it: a parabola is fitted to each arm and continued to the junction, so that a round bar has no corner.
  * An arm that the parabola does not fit is shortened, down to what still has a direction.
  *
@@ -24,20 +24,20 @@
 
 typedef struct
 {
-  const CeldRims *rims;
+  const CeldRegionOutlines *outlines;
   double          stroke;
   size_t         *first;        /* of cell k: where[first[k]] .. before where[first[k + 1]] */
   size_t         *where;        /* points by cell */
   uint32_t       *loop;         /* of each point */
   int             columns, rows;
-  CeldCornerSet  *corner;
+  CeldJunction  *corner;
   size_t          n;
 } Search;
 
 /* ------------------------------------------------------------------ looking up outlines */
 
 static size_t
-cell_of (const Search *s, CeldRimPoint p)
+cell_of (const Search *s, CeldOutlinePoint p)
 {
   int column = (int) p.x / CELL, row = (int) p.y / CELL;
 
@@ -49,7 +49,7 @@ cell_of (const Search *s, CeldRimPoint p)
 static CeldStatus
 sort_points (Search *s)
 {
-  const CeldRims *r = s->rims;
+  const CeldRegionOutlines *r = s->outlines;
   size_t          cells;
 
   s->columns = (r->width + CELL - 1) / CELL;
@@ -89,10 +89,10 @@ nearest (const Search *s, uint32_t label, double x, double y)
 
         for (size_t k = s->first[cell]; k < s->first[cell + 1]; k++)
           {
-            CeldRimPoint p = s->rims->point[s->where[k]];
+            CeldOutlinePoint p = s->outlines->point[s->where[k]];
             double       dx = (double) p.x - x, dy = (double) p.y - y;
 
-            if (dx * dx + dy * dy < least && s->rims->loop[s->loop[s->where[k]]].label == label)
+            if (dx * dx + dy * dy < least && s->outlines->loop[s->loop[s->where[k]]].label == label)
               {
                 least = dx * dx + dy * dy;
                 found = s->where[k];
@@ -141,8 +141,8 @@ solve (const double s[5], const double v[3], double c[3])
 static bool
 fit_arm (const Search *s, size_t i, bool back, double length, double *dx, double *dy)
 {
-  const CeldRimLoop  *loop = &s->rims->loop[s->loop[i]];
-  const CeldRimPoint *point = s->rims->point;
+  const CeldOutlineLoop  *loop = &s->outlines->loop[s->loop[i]];
+  const CeldOutlinePoint *point = s->outlines->point;
   double              gap = GAP * s->stroke + 1, at = 0, x0 = (double) point[i].x, y0 = (double) point[i].y;
   Sums                sums = { 0 };
   size_t              k = i - loop->first;
@@ -208,7 +208,7 @@ static CeldStatus
 add_junction (Search *s, uint32_t a, uint32_t b, uint32_t c, int x, int y)
 {
   uint32_t       low = a < b ? a : b, high = a < b ? b : a;
-  CeldCornerSet  corner = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } }, *grown;
+  CeldJunction  corner = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } }, *grown;
 
   corner.label[1] = c < low ? low : c > high ? high : c;
   if (is_known (s, corner.label, x, y))
@@ -264,10 +264,10 @@ search (Search *s, const CeldLabels *labels, size_t n_labels, const CeldHost *ho
 }
 
 CeldStatus
-celd_rim_corners_find (const CeldLabels *labels, size_t n_labels, const CeldRims *rims, const CeldHost *host,
-                       CeldCornerSet **corners, size_t *n)
+celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegionOutlines *outlines, const CeldHost *host,
+                       CeldJunction **corners, size_t *n)
 {
-  Search     s = { .rims = rims, .stroke = rims->stroke };
+  Search     s = { .outlines = outlines, .stroke = outlines->stroke };
   CeldStatus status = sort_points (&s);
 
   if (status == CELD_OK)
