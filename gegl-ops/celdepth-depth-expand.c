@@ -20,7 +20,7 @@ static const CeldSettingInfo result_row = {
 
 static const CeldSettingInfo layer_row = {
   .name = "layer", .label = "Layer", .type = CELD_SETTING_INTEGER, .offset = offsetof (CeldOwnValues, layer),
-  .least = 0, .most = G_MAXINT, .shown = { 0, 50, 1, 5 }, .when = "result {layer}",
+  .least = 0, .most = G_MAXINT, .shown = { 0, 50, 1, 5, .digits = 0 }, .when = "result {layer}",
   .help = "Which layer, starting with 0 for the farthest; layers beyond the nearest are empty. Each layer over the one "
           "before, they are the drawing again"
 };

@@ -145,6 +145,12 @@ init_operation (gpointer g_class, gpointer data)
   g_free (menu_label);
 }
 
+static void
+finalize_operation (gpointer g_class, gpointer data)
+{
+  g_free (((CeldOperationClass *) g_class)->row);
+}
+
 void
 celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *infos, gsize n)
 {
@@ -152,10 +158,11 @@ celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *i
   for (gsize i = 0; i < n; i++)
     {
       const GTypeInfo type = {
-        .class_size    = sizeof (CeldOperationClass),
-        .class_init    = init_operation,
-        .class_data    = infos[i],
-        .instance_size = sizeof (CeldOperation),
+        .class_size     = sizeof (CeldOperationClass),
+        .class_init     = init_operation,
+        .class_finalize = finalize_operation,
+        .class_data     = infos[i],
+        .instance_size  = sizeof (CeldOperation),
       };
       char *name = g_strdup_printf ("CeldOperation-%s", strchr (infos[i]->name, ':') + 1);
 

@@ -2,7 +2,8 @@
  *
  *   op.c             the frame round render
  *   op-class.c       the class: regions, and the classes of the operations
- *   op-properties.c  its properties, made from rows of the table of settings
+ *   op-properties.c  its properties and their values
+ *   op-specs.c       what hosts know of a property, by its row of the table of settings
  *   op-pads.c        its pads, and checks of what comes in
  *   op-messages.c    what the artist is told
  *   op-host.c        progress, threads and memory that last as long as a call
@@ -27,6 +28,11 @@ void celd_operation_install (CeldOperationClass *klass);
 void celd_operation_set_property (GObject *object, guint id, const GValue *value, GParamSpec *pspec);
 void celd_operation_get_property (GObject *object, guint id, GValue *value, GParamSpec *pspec);
 void celd_operation_clear_values (CeldOperation *self);
+
+/* ------------------------------------------------------------------ op-specs.c */
+
+/* A new specification: name, range, default, label and help for hosts. */
+GParamSpec *celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row);
 
 /* ------------------------------------------------------------------ op-pads.c */
 

@@ -301,7 +301,7 @@ static const CeldSettingInfo infos[] = {
 
   { .name = "toon-steps", .label = "Steps", INTEGER (toon_steps),
     .help = "The number of steps in toon shading",
-    .usual = 3, .least = 2, .most = 5, .shown = { 2, 5, 1, 2 }, .when = "light-model {toon}",
+    .usual = 3, .least = 2, .most = 5, .shown = { 2, 5, 1, 2, .digits = 0 }, .when = "light-model {toon}",
     .stages = READ_BY (SHADING) },
 
   { .name = "light", .label = "Light", CHOICE (light, CeldLight, lights),
@@ -435,7 +435,7 @@ static const CeldSettingInfo infos[] = {
 
   { .name = "most-vertices", .label = "Vertices", NUMBER (most_vertices),
     .help = "The largest number of vertices. The mesh becomes coarser rather than have more",
-    .usual = 1e6, .least = 1000, .most = 16e6, .shown = { 1000, 2e6, 1000, 1e5 } },
+    .usual = 1e6, .least = 1000, .most = 16e6, .shown = { 1000, 2e6, 1000, 1e5, .digits = 0 } },
 };
 
 const CeldSettingInfo *

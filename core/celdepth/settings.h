@@ -143,7 +143,7 @@ typedef struct
   {
     double                 least, most;   /* of a slider */
     double                 step, page;    /* small and large */
-    double                 gamma;         /* above 1: finer for small values */
+    double                 gamma;         /* above 1: finer for small values; 0: even */
     int                    digits;        /* behind the point */
   } shown;
   const char              *unit;          /* "degree", "mm", "relative-coordinate"; NULL: none */
