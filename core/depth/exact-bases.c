@@ -186,7 +186,7 @@ celd_bases_make (CeldHarmonicBases *bases, const uint32_t *node, uint32_t n_sets
       CeldHost  solving = celd_host_part (&share, host, from, from + 0.85 / (double) b->n_groups);
       CeldSolve one = { 0 };
 
-      status = celd_lap_solve_lanes (laplace, NULL, b->group[g], tolerance, 0, &solving, &one);
+      status = celd_lap_solve_lanes (laplace, NULL, b->group[g], tolerance, &solving, &one);
       if (status == CELD_OK)
         clean_group (b, g);
       celd_solve_join (&worst, &one);

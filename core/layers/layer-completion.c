@@ -312,7 +312,7 @@ solve_laplace (const CeldHost *host, Inpainting *fill)
   if (!status)
     status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, host, &laplace);
   if (!status)
-    status = celd_lap_solve_lanes (laplace, NULL, fill->value, INPAINT_TOLERANCE, 0, host, NULL);
+    status = celd_lap_solve_lanes (laplace, NULL, fill->value, INPAINT_TOLERANCE, host, NULL);
   celd_lap_free (laplace);
   celd_free (east);
   celd_free (south);

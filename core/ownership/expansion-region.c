@@ -46,7 +46,7 @@ typedef struct
   int32_t            *d1, *d2; /* D1 and D2, squared */
   int32_t            *near1, *near2; /* the nearest pixels, at distance D1 and D2 */
   float              *t;    /* thickness t of the contour */
-  float              *east, *south, *diagonal, *b; /* Laplace's equation for t */
+  float              *east, *south; /* Laplace's equation for t */
   int32_t            *stack;
   double              mean, most; /* of t on the axis; infinite without an axis */
 } ExpansionWindow;
@@ -125,11 +125,9 @@ open_window (ExpansionWindow *w)
   w->t = celd_alloc (w->pixels, sizeof *w->t);
   w->east = celd_alloc0 (w->pixels, sizeof *w->east);
   w->south = celd_alloc0 (w->pixels, sizeof *w->south);
-  w->diagonal = celd_alloc0 (w->pixels, sizeof *w->diagonal);
-  w->b = celd_alloc0 (w->pixels, sizeof *w->b);
   w->stack = celd_alloc (w->pixels, sizeof *w->stack);
   return w->front && w->farther && w->open && w->contour && w->axis && w->taken && w->d1 && w->d2 && w->near1 &&
-         w->near2 && w->t && w->east && w->south && w->diagonal && w->b && w->stack ? CELD_OK : CELD_NO_MEMORY;
+         w->near2 && w->t && w->east && w->south && w->stack ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
@@ -148,8 +146,6 @@ close_window (ExpansionWindow *w)
   celd_free (w->t);
   celd_free (w->east);
   celd_free (w->south);
-  celd_free (w->diagonal);
-  celd_free (w->b);
   celd_free (w->stack);
 }
 
@@ -286,10 +282,9 @@ propagate_thickness (ExpansionWindow *w, const CeldHost *host)
         w->east[p] = p % (size_t) w->width + 1 < (size_t) w->width && w->contour[p + 1];
         w->south[p] = p + (size_t) w->width < w->pixels && w->contour[p + (size_t) w->width];
       }
-  celd_lap_pin (w->width, w->height, w->axis, 1, w->t, w->east, w->south, w->diagonal, w->b);
-  status = celd_lap_setup (w->width, w->height, w->east, w->south, w->diagonal, NULL, &set_up, &laplace);
+  status = celd_lap_setup (w->width, w->height, w->east, w->south, NULL, w->axis, &set_up, &laplace);
   if (!status)
-    status = celd_lap_solve (laplace, 1, w->b, w->t, PROPAGATION_TOLERANCE, &solve, NULL);
+    status = celd_lap_solve (laplace, 1, NULL, w->t, PROPAGATION_TOLERANCE, &solve, NULL);
   celd_lap_free (laplace);
   return status;
 }

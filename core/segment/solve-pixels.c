@@ -228,7 +228,7 @@ celd_random_walker_solve (const CeldSegmentTask *task, const CeldHost *host, Cel
       CeldHost solving = celd_host_part (&part, host, from, to < 1 ? to : 1);
 
       start_lanes (&w, first);
-      status = celd_lap_solve_lanes (laplace, NULL, w.lane, WALKER_TOLERANCE, 0, &solving, NULL);
+      status = celd_lap_solve_lanes (laplace, NULL, w.lane, WALKER_TOLERANCE, &solving, NULL);
       keep_best (&w, first, labels->data);
     }
   for (size_t p = 0; p < w.n; p++)

@@ -1,8 +1,9 @@
 /* The one Laplacian solver: flexible conjugate gradients over the pixels, preconditioned by a multigrid cycle.
  *
  * Eq. (3), contour thickness (section 3.3), normals, heights and harmonic bases are all  A x = b  with a weighted graph
- * Laplacian.  The direction follows Polak and Ribiere, because the cycle is not linear.  Narrow or small grids are
- * eliminated directly instead.  Lanes, solutions on the same weights at once, share all reads of these.
+ * Laplacian.  The direction follows Polak and Ribiere, because the cycle is not linear.  Small grids are
+ * eliminated directly instead.  Lanes, solutions on the same
+ * weights at once, share all reads of these.
  *
  * When to stop: with weak links a residual of 1e-8 can hide an error of half the range.  The preconditioned residual z
  * is an estimate of the error itself, too small by at most the least eigenvalue of the preconditioned matrix, which
@@ -22,48 +23,6 @@
 #define RENEW        6          /* rounds after which the residual is made anew: what float loses in it misleads, ... */
 #define RENEW_WEAK   3          /* ... the more where weak links make much of it */
 #define SAFETY       1.7        /* of the estimated error, as the cycle is not quite linear; it was seen 1.6 short */
-
-/* ------------------------------------------------------------------ pinned pixels */
-
-/* The edge of weight *w between pixels i and j: what a fixed end says goes to the other end's equation. */
-static void
-pin_edge (size_t i, size_t j, float *w, size_t plane, const uint8_t *fixed, int nrhs, const float *value,
-          float *diagonal, float *b)
-{
-  size_t held = fixed[i] ? i : j, other = fixed[i] ? j : i;
-
-  if (!fixed[held])
-    return;
-  if (!fixed[other])
-    {
-      diagonal[other] += *w;
-      for (int k = 0; k < nrhs; k++)
-        b[(size_t) k * plane + other] += *w * value[(size_t) k * plane + held];
-    }
-  *w = 0;
-}
-
-void
-celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float *value,
-              float *east, float *south, float *diagonal, float *b)
-{
-  size_t w = (size_t) width, plane = w * (size_t) height;
-
-  for (size_t i = 0; i < plane; i++)
-    {
-      if (i % w + 1 < w)
-        pin_edge (i, i + 1, &east[i], plane, fixed, nrhs, value, diagonal, b);
-      if (i + w < plane)
-        pin_edge (i, i + w, &south[i], plane, fixed, nrhs, value, diagonal, b);
-    }
-  for (size_t i = 0; i < plane; i++)
-    if (fixed[i])
-      {
-        diagonal[i] = 1;
-        for (int k = 0; k < nrhs; k++)
-          b[(size_t) k * plane + i] = value[(size_t) k * plane + i];
-      }
-}
 
 /* ------------------------------------------------------------------ set-up */
 
@@ -189,14 +148,13 @@ judge (Lane *lane, int round, double tolerance, const CeldMeasure *m, int k, dou
 
 /* The rounds of the conjugate gradient. */
 static CeldStatus
-iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *solve)
+iterate (CeldSolution *s, double tolerance, Lane *lane, CeldSolve *solve)
 {
   double      done = 0, first = 0, alpha[CELD_LANES], beta[CELD_LANES];
   CeldMeasure m;
 
   int         renew = s->laplace->weak ? RENEW_WEAK : RENEW;
 
-  most = most && most < MOST_ROUNDS ? most : MOST_ROUNDS;
   celd_pixels_begin (s);
   for (int k = 0; k < s->lanes; k++)
     lane[k] = (Lane) { .error = 1 };
@@ -216,7 +174,7 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
           solve->error = fmax (solve->error, lane[k].error);
         }
       solve->converged = solve->error <= tolerance;
-      if (all || round == most)
+      if (all || round == MOST_ROUNDS)
         return CELD_OK;
 
       first = round <= 1 ? solve->error : first;
@@ -227,7 +185,7 @@ iterate (CeldSolution *s, double tolerance, int most, Lane *lane, CeldSolve *sol
 }
 
 static CeldStatus
-converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x, double tolerance, int most,
+converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean, float *x, double tolerance,
           const CeldHost *host, CeldSolve *solve)
 {
   CeldSolution s;
@@ -239,7 +197,7 @@ converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean,
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
-      status = iterate (&s, tolerance, most, lane, solve);
+      status = iterate (&s, tolerance, lane, solve);
       celd_pixels_deliver (&s);
     }
   celd_solution_free (&s);
@@ -251,7 +209,7 @@ converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean,
 
 /* One solution, or CELD_LANES of them. */
 static CeldStatus
-solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, int most, const CeldHost *host,
+solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, const CeldHost *host,
              CeldSolve *solve)
 {
   size_t     means = (size_t) l->n_floating + 1;
@@ -269,7 +227,7 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
   if (b_mean)
     celd_floating_means (l, lanes, b, b_mean);
   status = l->direct ? celd_direct_solve (l, lanes, b, b_mean, x)
-                     : converge (l, lanes, b, b_mean, x, tolerance, most, host, solve);
+                     : converge (l, lanes, b, b_mean, x, tolerance, host, solve);
   celd_floating_means (l, lanes, x, after);
   celd_floating_shift (l, lanes, before, after, x);
   celd_free (mean);
@@ -291,7 +249,7 @@ celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double
       size_t    offset = (size_t) k * n;
       CeldSolve one;
 
-      status = solve_lanes (laplace, 1, b ? b + offset : NULL, x + offset, tolerance, 0, &share, &one);
+      status = solve_lanes (laplace, 1, b ? b + offset : NULL, x + offset, tolerance, &share, &one);
       worst.converged  = worst.converged && one.converged;
       worst.iterations = one.iterations > worst.iterations ? one.iterations : worst.iterations;
       worst.error      = fmax (worst.error, one.error);
@@ -302,11 +260,11 @@ celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double
 }
 
 CeldStatus
-celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
+celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance,
                       const CeldHost *host, CeldSolve *solve)
 {
   CeldSolve  worst;
-  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, most, host, &worst);
+  CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, host, &worst);
 
   if (solve)
     *solve = worst;

@@ -16,11 +16,6 @@
  * keep the mean of their start. */
 typedef struct CeldLaplace CeldLaplace;
 
-/* Prescribes x_p = value_p where fixed_p: folds their couplings into diagonal and b and cuts the edges.
- * b and value hold nrhs planes one behind the other. */
-void celd_lap_pin (int width, int height, const uint8_t *fixed, int nrhs, const float *value,
-                   float *east, float *south, float *diagonal, float *b);
-
 /* Set-up once per weights; nothing is borrowed beyond it.  fixed (may be NULL): pixels whose x is prescribed
  * (Dirichlet), by the x that each solution starts from; there b and diagonal are not read.  diagonal may be NULL: 0. */
 CeldStatus celd_lap_setup (int width, int height, const float *east, const float *south, const float *diagonal,
@@ -31,10 +26,9 @@ CeldStatus celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float
                            const CeldHost *host, CeldSolve *solve);
 /* Solves for CELD_LANES right-hand sides at once, much faster than one by one: lane k of pixel p is at
  * p * CELD_LANES + k, in b (NULL: 0 everywhere) as in x; lanes that are 0 everywhere are done at once.
- * Stops when every lane is within the tolerance, or after `most` rounds (0: no limit), for a preview; solve (may be
- * NULL) has the worst lane. */
+ * Stops when every lane is within the tolerance; solve (may be NULL) has the worst lane. */
 #define CELD_LANES 8
-CeldStatus celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, int most,
+CeldStatus celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance,
                                  const CeldHost *host, CeldSolve *solve);
 void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
 

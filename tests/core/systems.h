@@ -43,10 +43,41 @@ system_free (System *s)
   free (s->x);
 }
 
+/* Cuts the edge of weight *w between pixels i and j if one is fixed: it holds the other at that one's value. */
+static inline void
+pin_edge (System *s, const uint8_t *fixed, const float *value, size_t i, size_t j, float *w)
+{
+  size_t held = fixed[i] ? i : j, other = fixed[i] ? j : i;
+
+  if (!fixed[held])
+    return;
+  if (!fixed[other])
+    {
+      s->diagonal[other] += *w;
+      s->b[other] += *w * value[held];
+    }
+  *w = 0;
+}
+
+/* Prescribes x = value where fixed, without the solver's help: folded into diagonal and b. */
 static inline void
 pin (System *s, const uint8_t *fixed, const float *value)
 {
-  celd_lap_pin (s->w, s->h, fixed, s->nrhs, value, s->east, s->south, s->diagonal, s->b);
+  size_t w = (size_t) s->w;
+
+  for (size_t i = 0; i < pixels (s); i++)
+    {
+      if (i % w + 1 < w)
+        pin_edge (s, fixed, value, i, i + 1, &s->east[i]);
+      if (i + w < pixels (s))
+        pin_edge (s, fixed, value, i, i + w, &s->south[i]);
+    }
+  for (size_t i = 0; i < pixels (s); i++)
+    if (fixed[i])
+      {
+        s->diagonal[i] = 1;
+        s->b[i] = value[i];
+      }
 }
 
 static inline CeldSolve
