@@ -1,30 +1,30 @@
-/* Passes of the Laplacian solver over the pixels, a strip of rows at a time, on the host's threads.
+/* The finest level of the Laplacian solver: passes over the pixels, by strips of rows on the host's threads.
  *
- * Black pixels touch red ones alone, so they are eliminated: the conjugate gradient runs over the red half, on the
- * Schur complement S, and a black value is made from its neighbours whenever it is needed.  The cycle relaxes red,
- * black, coarse correction, black, red.  What a pass sums up it sums row by row, so that the result does not depend on
- * threads.
+ * Red-black reduction: black pixels have edges to red ones alone, so they are eliminated.  The conjugate gradient runs
+ * over the red pixels, on the Schur complement S of the black ones, and the value of a black pixel is computed from its
+ * neighbours whenever it is needed.  The preconditioner relaxes red and black pixels, adds the coarse correction, and
+ * relaxes black and red ones.  Sums are kept row by row, so that the result does not depend on threads.
  *
- * Vectors are float.  S z is summed over differences from a neighbour, so that flat parts give next to nothing; what
- * rounding leaves in r all the same goes when r is made anew from x in double.
+ * Vectors are float.  S z is summed over differences from a neighbour, so that constant parts give next to nothing;
+ * rounding errors that gather in r go when r is computed anew from x in double (laplace-residual.c).
+ *
+ * Cost: nine passes a round, about 60 operations a pixel and lane, and the cycle (laplace-cycle.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "solve/laplace-private.h"
 #include "solve/laplace-rows.h"
-#include "solve/laplace.h"
 
 #include <math.h>
 
-#define STRETCH 1.2f /* of the coarse correction, which is too short where it is constant on aggregates */
-#define SUMS    4    /* kept of a row */
+#define STRETCH 1.2f /* factor of the coarse correction, too short as it is constant on aggregates; by the bench */
+#define SUMS    4    /* kept of each row */
 
-/* What the rows of a pass need. */
+/* A pass under way. */
 typedef struct
 {
-  CeldSolution    *s;
-  const CeldLevel *level;
-  float            alpha[CELD_LANES], beta[CELD_LANES];
+  CeldSolution        *s;
+  const CeldGridLevel *level;
+  float                alpha[CELD_LANES], beta[CELD_LANES];
 } Pass;
 
 /* ------------------------------------------------------------------ memory */
@@ -36,10 +36,11 @@ strips (const CeldLaplace *l)
 }
 
 CeldStatus
-celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldHost *host, CeldSolution *s)
+celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldHost *host,
+                   CeldSolution *s)
 {
-  const CeldLevel *level = &laplace->levels.level[0];
-  float          **vector[] = { &s->x, &s->r, &s->p, &s->q, &s->z, &s->t, &s->black };
+  const CeldGridLevel *level = &laplace->hierarchy.level[0];
+  float              **vector[] = { &s->x, &s->r, &s->p, &s->q, &s->z, &s->t, &s->black };
 
   *s = (CeldSolution) { .laplace = laplace, .host = host, .lanes = lanes, .b = b, .user = x };
   for (size_t v = 0; v < sizeof vector / sizeof *vector; v++)
@@ -48,7 +49,8 @@ celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float 
   s->row     = celd_alloc ((size_t) laplace->height, SUMS * CELD_LANES * sizeof *s->row);
   s->scratch = celd_alloc0 ((size_t) strips (laplace) * 3 * level->stride, (size_t) lanes * sizeof *s->scratch);
   s->side    = celd_alloc ((size_t) strips (laplace) * level->stride, (size_t) lanes * sizeof *s->side);
-  return s->row && s->scratch && s->side ? celd_coarse_new (&laplace->levels, lanes, host, &s->cycle) : CELD_NO_MEMORY;
+  return s->row && s->scratch && s->side ? celd_kcycle_new (&laplace->hierarchy, lanes, host, &s->cycle)
+                                         : CELD_NO_MEMORY;
 }
 
 void
@@ -64,7 +66,7 @@ celd_solution_free (CeldSolution *s)
   celd_free (s->row);
   celd_free (s->scratch);
   celd_free (s->side);
-  celd_coarse_free (&s->cycle);
+  celd_kcycle_free (&s->cycle);
 }
 
 /* ------------------------------------------------------------------ down: a step, and the first half of the cycle */
@@ -84,11 +86,11 @@ keep_largest (double *largest, const float *of, int lanes)
 CELD_INLINE void
 step_row (const Pass *pass, int y, int lanes)
 {
-  const CeldSolution *s = pass->s;
-  const CeldLevel    *level = pass->level;
-  CeldEight           alpha = LANES (pass->alpha), beta = LANES (pass->beta);
-  float               low[8], high[8];
-  double             *row = s->row + (size_t) y * SUMS * CELD_LANES;
+  const CeldSolution  *s = pass->s;
+  const CeldGridLevel *level = pass->level;
+  CeldEight            alpha = LANES (pass->alpha), beta = LANES (pass->beta);
+  float                low[8], high[8];
+  double              *row = s->row + (size_t) y * SUMS * CELD_LANES;
 
   for (int k = 0; k < 8; k++)
     low[k] = high[k] = -INFINITY;
@@ -113,12 +115,12 @@ step_row (const Pass *pass, int y, int lanes)
   keep_largest (row + CELD_LANES, high, lanes);
 }
 
-/* black = from red ones that are relaxed from 0 */
+/* black = relaxed from red pixels that are relaxed from 0 */
 CELD_INLINE void
 guess_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
-  const float     *r = pass->s->r, *inverse = level->inverse;
+  const CeldGridLevel *level = pass->level;
+  const float         *r = pass->s->r, *inverse = level->inverse;
 
   for (EACH_PLACE (level, y, i))
     {
@@ -133,12 +135,12 @@ guess_row (const Pass *pass, int y, int lanes)
     }
 }
 
-/* After black pixels only red ones have a residual, and that is what their neighbours pull. */
+/* Black pixels were relaxed last, so only red ones have a residual: what their black neighbours pull. */
 CELD_INLINE void
 restrict_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
-  float           *coarse = pass->s->cycle.vectors[1].b;
+  const CeldGridLevel *level = pass->level;
+  float               *coarse = pass->s->cycle.vectors[1].b;
 
   for (EACH_PLACE (level, y, i))
     {
@@ -154,11 +156,11 @@ ROW_PASS (pixels_restrict, restrict_row)
 
 /* ------------------------------------------------------------------ up: the second half, and S z */
 
-/* z = red ones relaxed from 0, and the coarse correction */
+/* z = red pixels relaxed from 0, plus the coarse correction */
 CELD_INLINE void
 correct_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel        *level = pass->level;
+  const CeldGridLevel    *level = pass->level;
   const CeldLevelVectors *next = &pass->s->cycle.vectors[1];
   const uint32_t         *coarser = level->coarser;
   const float            *r = pass->s->r;
@@ -176,7 +178,7 @@ correct_row (const Pass *pass, int y, int lanes)
 CELD_INLINE void
 relax_black_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
+  const CeldGridLevel *level = pass->level;
 
   for (EACH_PLACE (level, y, i))
     PUT (pass->s->black, i, WEIGHT (level->inverse + level->plane, i) * PULL_BLACK (level, y, i, pass->s->z));
@@ -185,19 +187,19 @@ relax_black_row (const Pass *pass, int y, int lanes)
 CELD_INLINE void
 relax_red_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
+  const CeldGridLevel *level = pass->level;
 
   for (EACH_PLACE (level, y, i))
     PUT (pass->s->z, i,
          WEIGHT (level->inverse, i) * (EIGHT (pass->s->r, i) + PULL_RED (level, y, i, pass->s->black)));
 }
 
-/* black = what black pixels have more than the red one of the same place */
+/* black = relaxed black pixels less the red one of the same place: differences, for S z */
 CELD_INLINE void
 rise_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
-  const float     *z = pass->s->z;
+  const CeldGridLevel *level = pass->level;
+  const float         *z = pass->s->z;
 
   for (EACH_PLACE (level, y, i))
     {
@@ -209,7 +211,7 @@ rise_row (const Pass *pass, int y, int lanes)
              (WEIGHT (level->far, beside) * (EIGHT (z, beside) - here) +
               WEIGHT (level->south, above) * (EIGHT (z, above) - here) +
               WEIGHT (level->north, below) * (EIGHT (z, below) - here) -
-              WEIGHT (level->sink + level->plane, i) * here));
+              WEIGHT (level->diagonal + level->plane, i) * here));
     }
 }
 
@@ -217,17 +219,17 @@ rise_row (const Pass *pass, int y, int lanes)
 CELD_INLINE void
 apply_row (const Pass *pass, int y, int lanes)
 {
-  const CeldLevel *level = pass->level;
-  const float     *z = pass->s->z, *black = pass->s->black;
-  CeldEight        zr = SPLAT (0), zq = SPLAT (0), zt = SPLAT (0);
-  float            largest[8] = { 0 };
-  double          *row = pass->s->row + (size_t) y * SUMS * CELD_LANES;
+  const CeldGridLevel *level = pass->level;
+  const float         *z = pass->s->z, *black = pass->s->black;
+  CeldEight            zr = SPLAT (0), zq = SPLAT (0), zt = SPLAT (0);
+  float                largest[8] = { 0 };
+  double              *row = pass->s->row + (size_t) y * SUMS * CELD_LANES;
 
   for (EACH_PLACE (level, y, i))
     {
       size_t    beside = i - (y & 1 ? -(size_t) 1 : 1), above = i - level->stride, below = i + level->stride;
       CeldEight here = EIGHT (z, i);
-      CeldEight t = WEIGHT (level->sink, i) * here - WEIGHT (level->near, i) * EIGHT (black, i) +
+      CeldEight t = WEIGHT (level->diagonal, i) * here - WEIGHT (level->near, i) * EIGHT (black, i) +
                     WEIGHT (level->far, i) * ((here - EIGHT (z, beside)) - EIGHT (black, beside)) +
                     WEIGHT (level->north, i) * ((here - EIGHT (z, above)) - EIGHT (black, above)) +
                     WEIGHT (level->south, i) * ((here - EIGHT (z, below)) - EIGHT (black, below));
@@ -264,7 +266,7 @@ ROW_PASS (pixels_apply, apply_row)
 static Pass
 pass_of (CeldSolution *s, const double *alpha, const double *beta)
 {
-  Pass pass = { .s = s, .level = &s->laplace->levels.level[0] };
+  Pass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
 
   for (int k = 0; k < s->lanes && alpha; k++)
     {
@@ -291,7 +293,7 @@ gather (const CeldSolution *s, int which, bool largest, double *result)
 }
 
 void
-celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m)
+celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldRoundMeasures *m)
 {
   Pass              pass = pass_of (s, alpha, beta);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
@@ -310,7 +312,7 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
   memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
   RUN_PASS (&pass, host, pixels_guess);
   RUN_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, pixels_restrict);
-  celd_coarse_solve (&s->cycle);
+  celd_kcycle_solve (&s->cycle);
   RUN_PASS (&pass, host, pixels_correct);
   RUN_PASS (&pass, host, pixels_relax_black);
   RUN_PASS (&pass, host, pixels_relax_red);

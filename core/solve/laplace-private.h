@@ -1,4 +1,13 @@
-/* What the laplace*.c share: the parts of the Laplacian solver.
+/* What the files of the Laplacian solver share.  In the order of a solution:
+ *
+ *   laplace-system.c       boundary conditions: the free pixels as a weighted graph
+ *   laplace-null-space.c   floating components
+ *   laplace-direct.c       elimination: of small systems, and of the coarsest level
+ *   laplace-hierarchy.c    set-up of the levels: laplace-dominance.c leaves out dominant nodes, laplace-aggregation.c
+ *                          and laplace-pairwise.c aggregate the others, laplace-galerkin.c sums up the coarse matrix
+ *   laplace.c              conjugate gradients and when they stop
+ *   laplace-pixels.c       the finest level, on the red pixels alone; laplace-residual.c its residual in double
+ *   laplace-cycle.c        the K-cycle over the coarse levels; laplace-smoother.c what it does on each
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,209 +16,259 @@
 
 #include "solve/laplace.h"
 
-/* ------------------------------------------------------------------ laplace-band.c: elimination of a narrow graph */
+#define CELD_STRIP 32 /* rows that one thread takes at a time; even, so that cells of 2 x 2 lie in one strip */
 
-/* Nodes 0 .. n-1, edges only between i and i+1 .. i+band. */
-typedef struct
-{
-  uint32_t n, band;
-  double  *weight;              /* of the edge from i to i+k: weight[i * band + k - 1]; later divided by pivot i */
-  double  *sink;                /* diagonal beyond the edge weights; later 1 / pivot, 0 for a floating node */
-} CeldBandMatrix;
-
-CeldStatus celd_band_new (uint32_t n, uint32_t band, CeldBandMatrix *matrix);   /* cleared; fill weight and sink */
-void       celd_band_eliminate (CeldBandMatrix *matrix);
-/* Right-hand sides in, solutions out; `lanes` numbers a node. */
-void       celd_band_solve (const CeldBandMatrix *matrix, int lanes, double *x);
-void       celd_band_clear (CeldBandMatrix *matrix);                            /* accepts a zeroed one */
-
-#define CELD_STRIP 32 /* rows that a thread takes; a multiple of what cells have, unless a level says otherwise */
-
-/* The bits of a number; positive ones are in the order of their bits, and loops over these are vectors'. */
+/* The bits of a float.  Positive floats are in the order of their bits, and loops over integers are vectorised. */
 typedef uint32_t CeldBits __attribute__ ((may_alias));
 
-/* ------------------------------------------------------------------ laplace-graph.c: aggregation */
+/* ------------------------------------------------------------------ a weighted graph: one level during set-up */
 
 #define CELD_NO_NODE UINT32_MAX
 
-/* A grid of cells, and nodes beside it.  Node y * width + x is the first one of its cell; what a wall parts from it in
- * the same cell is an extra node, from width * height.  Edges between first nodes of neighbouring cells are `east` and
- * `south`; those that an extra node has are listed, k's from start[k] to start[k+1]-1. */
+/* The matrix of a level as a graph: (A x)_i = diagonal_i x_i + sum over edges ij of w_ij (x_i - x_j).
+ *
+ * Node y * width + x is the grid node of its cell; on the finest level it is a pixel.  Where a cell has more than one
+ * aggregate, since a wall runs through it, the others are extra nodes, numbered from width * height on, row by row.
+ * Edges between the grid nodes of neighbouring cells are `east` and `south`.  Edges that have an extra node are listed:
+ * those of extra node k from start[k] to start[k + 1] - 1; an edge between two extra nodes is in both lists. */
 typedef struct
 {
   int       width, height;
-  int       doublings;          /* of cells since the graph before */
+  int       doublings;          /* a cell has 2^doublings x 2^doublings cells of the next finer graph */
   uint32_t  n_extra;
   float    *east, *south;
-  float    *sink;               /* of every node: diagonal beyond the edge weights */
-  uint32_t *cell;               /* of each extra node, row by row */
-  uint32_t *row_extra;          /* where the extra nodes of each row begin; NULL for pixels */
-  bool      weak;               /* of pixels: do weights differ very much? */
-  uint8_t  *part;               /* of each node: has what it belongs to more of them?  NULL: weights are alike */
+  float    *diagonal;           /* of each node: what its row has on the diagonal beyond its edge weights, >= 0 */
+  uint32_t *cell;               /* of each extra node */
+  uint32_t *row_extra;          /* the first extra node of each row, height + 1; NULL on the finest level */
+  bool      weak;               /* on the finest level: do weights differ by more than a factor of 1000? */
+  uint8_t  *divided;            /* of each node: is it one of several that a strong component is divided into?  NULL if
+                                 * weights do not differ by much */
   uint32_t *start, *neighbour;
   float    *weight;
-} CeldWeights;
+} CeldWeightedGraph;
 
-/* The next coarser graph; coarser[i]: what node i has become, CELD_NO_NODE for nodes without an edge and for those that
- * their sink holds, whose edges `fine` loses. */
-CeldStatus celd_weights_coarsen (CeldWeights *fine, const CeldHost *host, CeldWeights *coarse, uint32_t **coarser);
-void       celd_weights_clear (CeldWeights *graph);                           /* accepts a zeroed one */
+void celd_weighted_graph_clear (CeldWeightedGraph *graph);    /* accepts a zeroed one */
 
-/* ------------------------------------------------------------------ laplace-levels.c: what is solved on */
+/* laplace-aggregation.c: the next coarser graph.  coarser[i] is the aggregate of node i, CELD_NO_NODE for nodes without
+ * an edge and for dominant ones, whose edges `fine` loses.  The caller ends both with their clear and celd_free. */
+CeldStatus celd_coarsen (CeldWeightedGraph *fine, const CeldHost *host, CeldWeightedGraph *coarse, uint32_t **coarser);
 
-/* A graph laid out for red-black relaxation: first nodes of cells with x + y even are red.  Red ones come first, row by
- * row in `stride` places, the first of which and at least the last are empty, and so are the rows above and below; then
- * black ones alike; then extra ones.  Place j of a row is column 2 j or 2 j + 1.  What is empty has weight 0. */
+/* ------------------------------------------------------------------ a level, laid out for red-black Gauss-Seidel */
+
+/* Grid nodes with x + y even are red, the others black.  Vectors of a level have a place for each node: first the red
+ * ones, row by row, `stride` places a row, of which the first and at least the last are empty, as are the rows above
+ * and below the grid; then the black ones in the same layout; then the extra ones.  Place j of a row is column 2 j or 2
+ * j + 1.  Empty places have weight 0, so that no loop asks for the frame. */
 typedef struct
 {
   int       width, height, half; /* half: nodes of one colour in a row */
-  size_t    stride, plane;      /* plane: places of a colour */
+  size_t    stride, plane;      /* plane: places of one colour */
   uint32_t  n, n_extra;         /* n: all places */
-  float    *near, *far, *north, *south; /* edges of the red nodes: to the black one of the same place, beside it, ... */
-  float    *sink;
-  float    *inverse;            /* 1 / whole diagonal; 0 for empty places and floating nodes without an edge */
-  uint32_t *coarser;            /* its place on the next level, 0 for none; NULL on the last; of pixels only red ones */
+  float    *near, *far, *north, *south; /* edges of the red nodes: to the black node of the same place and of the one
+                                         * beside it in the row, and to those above and below */
+  float    *diagonal;           /* as in the graph */
+  float    *inverse;            /* 1 / (diagonal + sum of edge weights); 0 for empty places and floating single nodes */
+  uint32_t *coarser;            /* the place of the aggregate on the next level, 0 for none; NULL on the coarsest level;
+                                 * on the finest of red nodes only */
   uint32_t *start, *middle, *neighbour; /* edges of extra nodes; from `middle` on those to extra nodes after them */
   float    *weight;
-  uint32_t  red_links, links;   /* edges between first and extra nodes, by the first node, red ones first */
-  uint32_t *link_row;           /* where the links of each row begin, red rows first */
+  uint32_t  red_links, links;   /* edges between grid and extra nodes, sorted by grid node, the red ones first */
+  uint32_t *link_row;           /* the first link of each row, red rows before black ones */
   uint32_t *link_first, *link_extra;
   float    *link_weight;
-} CeldLevel;
+} CeldGridLevel;
+
+/* The place of a grid node. */
+static inline uint32_t
+celd_grid_place (const CeldGridLevel *level, int x, int y)
+{
+  return (uint32_t) (((x + y) & 1 ? level->plane : 0) + (size_t) (y + 1) * level->stride + (size_t) (x / 2) + 1);
+}
+
+/* The place of any node of the graph; 0, which is empty, for CELD_NO_NODE. */
+static inline uint32_t
+celd_node_place (const CeldGridLevel *level, uint32_t node)
+{
+  uint32_t w = (uint32_t) level->width, n = w * (uint32_t) level->height;
+
+  if (node == CELD_NO_NODE)
+    return 0;
+  return node < n ? celd_grid_place (level, (int) (node % w), (int) (node / w))
+                  : (uint32_t) (2 * level->plane) + node - n;
+}
+
+/* ------------------------------------------------------------------ laplace-direct.c: elimination in a band */
+
+/* A graph Laplacian of nodes 0 .. n - 1 with edges only between i and i + 1 .. i + band. */
+typedef struct
+{
+  uint32_t n, band;
+  double  *weight;              /* of the edge from i to i + k: weight[i * band + k - 1]; later divided by pivot i */
+  double  *diagonal;            /* beyond the edge weights; later 1 / pivot, 0 for the last node of what floats */
+} CeldBandMatrix;
+
+CeldStatus celd_band_new (uint32_t n, uint32_t band, CeldBandMatrix *matrix);   /* zero; fill weight and diagonal */
+void       celd_band_eliminate (CeldBandMatrix *matrix);
+/* Right-hand sides in, solutions out; node i has x[i * lanes] .. x[i * lanes + lanes - 1]. */
+void       celd_band_solve (const CeldBandMatrix *matrix, int lanes, double *x);
+void       celd_band_clear (CeldBandMatrix *matrix);                            /* accepts a zeroed one */
+
+/* The coarsest level, eliminated: *node has the place of each node of the matrix. */
+CeldStatus celd_eliminate_coarsest (const CeldWeightedGraph *graph, const CeldGridLevel *level, CeldBandMatrix *matrix,
+                                    uint32_t **node);
+
+/* ------------------------------------------------------------------ laplace-hierarchy.c: all levels */
 
 #define CELD_MAX_LEVELS 40
 
 typedef struct
 {
-  int       n;                  /* levels, the pixels among them; the last one is eliminated */
-  CeldLevel level[CELD_MAX_LEVELS];
-  CeldBandMatrix  bottom;             /* the last level */
-  uint32_t *bottom_node;        /* of each node of `bottom`: its place on the last level */
-} CeldLevels;
+  int            n;             /* levels, at least 2: level 0 is the finest, the pixels; the coarsest is eliminated */
+  CeldGridLevel  level[CELD_MAX_LEVELS];
+  CeldBandMatrix coarsest;
+  uint32_t      *coarsest_node; /* the place of each node of `coarsest` on the coarsest level */
+} CeldHierarchy;
 
-/* The place of a cell. */
-static inline uint32_t
-celd_level_place (const CeldLevel *level, int x, int y)
+/* graph: the finest level; it is used up, and still has to be cleared. */
+CeldStatus celd_hierarchy_new (CeldWeightedGraph *graph, const CeldHost *host, CeldHierarchy *hierarchy);
+void       celd_hierarchy_clear (CeldHierarchy *hierarchy);               /* accepts a zeroed one */
+
+/* ------------------------------------------------------------------ laplace-smoother.c: one coarse level */
+
+/* The vectors of a coarse level, `lanes` numbers a place. */
+typedef struct
 {
-  return (uint32_t) (((x + y) & 1 ? level->plane : 0) + (size_t) (y + 1) * level->stride + (size_t) (x / 2) + 1);
-}
+  float  *b, *x, *step, *image; /* right-hand side; the x of either step of the Krylov iteration; A x */
+  float   a[CELD_LANES], c[CELD_LANES]; /* the solution is a x + c step */
+  double *sum;                  /* workspace: CELD_SMOOTHER_SUMS sums of each row, of every lane */
+} CeldLevelVectors;
 
-/* graph: the pixels, without extra nodes; it is used up, and still has to be cleared. */
-CeldStatus celd_levels_new (CeldWeights *graph, const CeldHost *host, CeldLevels *levels);
-void       celd_levels_clear (CeldLevels *levels);                        /* accepts a zeroed one */
+#define CELD_SMOOTHER_SUMS 3
+
+/* One V-cycle's visit to a level. */
+typedef struct
+{
+  const CeldGridLevel *level;
+  const CeldHost      *host;    /* NULL where the level is too small to be worth threads */
+  int                  lanes;   /* 1 or CELD_LANES */
+  float               *b, *x, *image; /* image: A x of the grid nodes; NULL if it is not needed */
+  const float         *other;   /* NULL, or the x of the first step */
+  CeldLevelVectors    *next;    /* of the next coarser level */
+  float                a[CELD_LANES];
+  double              *sum;     /* of each row, as in CeldLevelVectors */
+} CeldSmootherPass;
+
+/* Relaxes x from 0 and restricts the residual to the next level's b, which is zero before. */
+void celd_smooth_down (CeldSmootherPass *pass);
+/* Adds the prolongation of the next level's solution to x and relaxes.  image: A x of the extra nodes; pass->image the
+ * same of the grid nodes.  xb = x b, xi = x A x, oi = other A x (0 without one), of every lane. */
+void celd_smooth_up (CeldSmootherPass *pass, float *image, double *xb, double *xi, double *oi);
+/* b -= a A x; before, after: b b, of every lane. */
+void celd_smooth_reduce (CeldSmootherPass *pass, double *before, double *after);
 
 /* ------------------------------------------------------------------ laplace-cycle.c: the coarse levels */
 
-/* The vectors of a level, `lanes` numbers a place. */
 typedef struct
 {
-  float  *b, *x, *step, *image; /* right-hand side; the two parts of the solution; A x */
-  float   a[CELD_LANES], c[CELD_LANES]; /* the solution is a x + c step */
-  double *sum;                  /* of each row */
-} CeldLevelVectors;
+  const CeldHierarchy *hierarchy;
+  const CeldHost      *host;
+  int                  lanes;   /* 1 or CELD_LANES */
+  CeldLevelVectors     vectors[CELD_MAX_LEVELS];
+  double              *coarsest; /* right-hand side and solution of the coarsest level */
+} CeldKCycle;
 
-typedef struct
-{
-  const CeldLevels *levels;
-  const CeldHost   *host;
-  int               lanes;      /* 1 or CELD_LANES */
-  CeldLevelVectors  vectors[CELD_MAX_LEVELS];
-  double           *bottom;     /* right-hand side and solution */
-} CeldCoarse;
-
-CeldStatus celd_coarse_new (const CeldLevels *levels, int lanes, const CeldHost *host, CeldCoarse *cycle);
-void       celd_coarse_free (CeldCoarse *cycle);                            /* accepts a zeroed one */
+CeldStatus celd_kcycle_new (const CeldHierarchy *hierarchy, int lanes, const CeldHost *host, CeldKCycle *cycle);
+void       celd_kcycle_free (CeldKCycle *cycle);                            /* accepts a zeroed one */
 /* a x + c step of vectors[1] becomes approximately the solution for its b, which is used up. */
-void       celd_coarse_solve (CeldCoarse *cycle);
+void       celd_kcycle_solve (CeldKCycle *cycle);
 
 /* ------------------------------------------------------------------ laplace.c: the system */
 
-/* The coupling of a free pixel with a fixed one. */
-typedef struct { uint32_t free, fixed; float weight; } CeldHeld;
+/* The edge between a free pixel and a fixed one. */
+typedef struct { uint32_t free, fixed; float weight; } CeldDirichletLink;
 
-/* Pixels first .. end-1 of a row, of a floating component from 1. */
-typedef struct { uint32_t first, end, component; } CeldFloating;
+/* Pixels first .. end - 1 of a row, which belong to a floating component, numbered from 1. */
+typedef struct { uint32_t first, end, component; } CeldFloatingRun;
 
 struct CeldLaplace
 {
-  int           width, height;
-  CeldHeld     *held;           /* in the order of the rows of the free pixels */
-  size_t       *held_row;       /* where the rows begin in `held` */
-  CeldFloating *floating;       /* in the order of the rows; NULL if none */
-  size_t       *floating_row;   /* where they begin */
-  size_t       *floating_size;  /* pixels of each floating component */
-  uint32_t      n_floating;
-  bool          weak;           /* do weights differ very much? */
-  bool          direct;         /* by elimination of `band`, without levels */
-  CeldBandMatrix      band;
-  uint8_t      *keep;           /* of each pixel, if direct: does nothing tell its x? */
-  CeldLevels    levels;
+  int                width, height;
+  CeldDirichletLink *held;      /* by the rows of the free pixels */
+  size_t            *held_row;  /* the first link of each row, height + 1 */
+  CeldFloatingRun   *floating;  /* by rows; NULL if nothing floats */
+  size_t            *floating_row;  /* the first one of each row, height + 1 */
+  size_t            *floating_size; /* pixels of each floating component */
+  uint32_t           n_floating;
+  bool               weak;      /* do weights differ by more than a factor of 1000? */
+  bool               direct;    /* small enough to be solved by elimination: `band` and `keep`, no hierarchy */
+  CeldBandMatrix     band;
+  uint8_t           *keep;      /* of each pixel: has it neither an edge nor a diagonal, so that x stays as it is? */
+  CeldHierarchy      hierarchy;
 };
 
-/* ------------------------------------------------------------------ laplace-system.c: what a caller asks for */
+/* laplace-system.c: the graph of the free pixels; `held`, `held_row` and `weak` of the system. */
+CeldStatus celd_system_read (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
+                             const CeldHost *host, CeldLaplace *laplace, CeldWeightedGraph *graph);
 
-/* The graph of the free pixels; `held`, `held_row` and `weak` of the system. */
-CeldStatus celd_system_copy (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
-                             const CeldHost *host, CeldLaplace *laplace, CeldWeights *graph);
-
-/* ------------------------------------------------------------------ laplace-direct.c: small systems */
-
-bool       celd_is_direct (const CeldWeights *pixels, bool weak);      /* is elimination worth while? */
-CeldStatus celd_direct_new (const CeldWeights *pixels, CeldLaplace *laplace);
-/* b may be NULL; b_mean: what to leave out of it in floating components, NULL if there are none. */
+/* laplace-direct.c: small systems.  b may be NULL; b_mean: the means to subtract from b in floating components, NULL if
+ * there are none. */
+bool       celd_is_direct (const CeldWeightedGraph *pixels, bool weak); /* is elimination worth while? */
+CeldStatus celd_direct_new (const CeldWeightedGraph *pixels, CeldLaplace *laplace);
 CeldStatus celd_direct_solve (const CeldLaplace *laplace, int lanes, const float *b, const double *b_mean, float *x);
 
-/* ------------------------------------------------------------------ laplace-floating.c: parts that nothing holds */
+/* ------------------------------------------------------------------ laplace-null-space.c: floating components */
 
 static inline size_t
-celd_floating_runs (const CeldLaplace *laplace)
+celd_null_space_runs (const CeldLaplace *laplace)
 {
   return laplace->n_floating ? laplace->floating_row[laplace->height] : 0;
 }
 
 /* Finds the floating components of more than one pixel. */
-CeldStatus celd_floating_find (const CeldWeights *pixels, CeldLaplace *laplace);
-/* Means of v over each, of every lane; mean has n_floating + 1 items a lane. */
-void       celd_floating_means (const CeldLaplace *laplace, int lanes, const float *v, double *mean);
-/* v += plus - minus of each pixel's component. */
-void       celd_floating_shift (const CeldLaplace *laplace, int lanes, const double *plus, const double *minus,
-                                float *v);
+CeldStatus celd_null_space_find (const CeldWeightedGraph *pixels, CeldLaplace *laplace);
+/* Means of v over each component, of every lane; mean has n_floating + 1 items a lane. */
+void       celd_null_space_means (const CeldLaplace *laplace, int lanes, const float *v, double *mean);
+/* v += plus - minus, the numbers of each pixel's component. */
+void       celd_null_space_shift (const CeldLaplace *laplace, int lanes, const double *plus, const double *minus,
+                                  float *v);
 
-/* ------------------------------------------------------------------ laplace-pixels.c: passes over the pixels */
+/* ------------------------------------------------------------------ laplace-pixels.c: the finest level */
 
-/* A solution on its way: vectors of the red pixels alone, as black ones follow from them. */
+/* One solution under way.  Its vectors have the red pixels alone, since black ones follow from them. */
 typedef struct
 {
   const CeldLaplace *laplace;
   const CeldHost    *host;
   int                lanes;
-  const float       *b;         /* the caller's, or NULL; and the caller's x */
-  const double      *b_mean;    /* of each floating component, NULL if there is none: to be left out */
-  float             *user;
+  const float       *b;         /* the caller's, or NULL */
+  const double      *b_mean;    /* mean of b over each floating component, to be subtracted; NULL if there is none */
+  float             *user;      /* the caller's x */
   float             *x, *r, *p, *q; /* solution, residual, direction, A p */
   float             *z, *t;     /* preconditioned residual, A z */
   float             *black;     /* workspace of the black pixels */
   double            *row;       /* sums of each row */
-  double            *scratch;   /* rows of each strip */
-  float             *side;      /* a row's right-hand side, of each strip */
-  CeldCoarse          cycle;
+  double            *scratch;   /* three rows for each strip */
+  float             *side;      /* one row's right-hand side for each strip */
+  CeldKCycle         cycle;
 } CeldSolution;
 
-/* What is measured of each lane: products of z, its largest size, extremes of x. */
+/* What a round measures, of each lane: products of z, its largest magnitude, extremes of x. */
 typedef struct
 {
   double zr[CELD_LANES], zq[CELD_LANES], zt[CELD_LANES], largest[CELD_LANES], low[CELD_LANES], high[CELD_LANES];
-} CeldMeasure;
+} CeldRoundMeasures;
 
 CeldStatus celd_solution_new (const CeldLaplace *laplace, int lanes, const float *b, float *x, const CeldHost *host,
                               CeldSolution *s);
 void       celd_solution_free (CeldSolution *s);                          /* accepts a zeroed one */
-/* laplace-residual.c: */
+/* One round of the conjugate gradient: unless alpha is NULL a step p = z + beta p, q = t + beta q, x += alpha p,
+ * r -= alpha q; if `fresh` r = b - A x anew; then z = about A^-1 r by one multigrid cycle, and t = A z. */
+void       celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh,
+                              CeldRoundMeasures *m);
+
+/* laplace-residual.c */
 void       celd_pixels_begin (CeldSolution *s);                           /* x from the caller's, r = b - A x */
 void       celd_pixels_refresh (CeldSolution *s);                         /* r = b - A x anew */
 void       celd_pixels_deliver (CeldSolution *s);                         /* the caller's x */
-/* A step, p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q, unless alpha is NULL; if `fresh`, r = b - A x
- * anew; then z = about A^-1 r and t = A z. */
-void       celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldMeasure *m);
 
 #endif

@@ -1,5 +1,5 @@
-/* Rows of a level's vectors, eight numbers at a time: eight places of one vector, or one place of CELD_LANES vectors.
- * Every function that uses them is compiled for both, `lanes` being a constant.
+/* Rows of a level's vectors, eight numbers at a time: eight places of one vector (lanes == 1), or one place of
+ * CELD_LANES vectors.  Every function that uses these macros is compiled for both, `lanes` being a constant in it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,7 +7,6 @@
 #define CELD_LAPLACE_ROWS_H
 
 #include "solve/laplace-private.h"
-#include "solve/laplace.h"
 
 #define CELD_INLINE static inline __attribute__ ((always_inline))
 
@@ -29,14 +28,14 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
   size_t i = (size_t) ((y) + 1) * (level)->stride + 1, end_ = i + (size_t) (level)->half; i < end_; \
   i += 8 / (size_t) lanes
 
-/* What the neighbours of the black places from i on pull, red ones being `red`, in row y. */
+/* Sum of weight times value over the red neighbours of the black places from i on, in row y. */
 #define PULL_BLACK(level, y, i, red) \
   (WEIGHT ((level)->near, i) * EIGHT (red, i) + \
    WEIGHT ((level)->far, (i) + ((y) & 1 ? -(size_t) 1 : 1)) * EIGHT (red, (i) + ((y) & 1 ? -(size_t) 1 : 1)) + \
    WEIGHT ((level)->south, (i) - (level)->stride) * EIGHT (red, (i) - (level)->stride) + \
    WEIGHT ((level)->north, (i) + (level)->stride) * EIGHT (red, (i) + (level)->stride))
 
-/* The same for red ones. */
+/* Sum of weight times value over the black neighbours of the red places from i on, in row y. */
 #define PULL_RED(level, y, i, black) \
   (WEIGHT ((level)->near, i) * EIGHT (black, i) + \
    WEIGHT ((level)->far, i) * EIGHT (black, (i) - ((y) & 1 ? -(size_t) 1 : 1)) + \
@@ -52,7 +51,7 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
       PUT (out, i, EIGHT (out, i) + SPLAT (w) * EIGHT (in, j)); \
   while (0)
 
-/* Adds `pull`, of the places from i on, to where they go on the coarser level. */
+/* Restriction: adds `pull` of the places from i on to their aggregates on the coarser level. */
 #define RESTRICT(level, i, pull, coarse) \
   do \
     if (lanes > 1) \
@@ -94,7 +93,7 @@ celd_row_pass (const CeldHost *host, int height, void (*body) (void *pass, int s
 
 /* Do strips of the level share coarse nodes?  Only if its cells join more rows than a strip has. */
 static inline bool
-celd_strips_share (const CeldLevel *level)
+celd_strips_share (const CeldGridLevel *level)
 {
   return level[1].height * (CELD_STRIP / 2) < level->height;
 }

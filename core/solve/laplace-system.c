@@ -1,24 +1,26 @@
-/* The pixels of a Laplacian system as a graph: what is fixed goes to the right-hand side.
+/* Boundary conditions of a Laplacian system: the free pixels as a weighted graph.
  *
- * An edge between a free and a fixed pixel is cut, and pulls at the free one: it adds to its diagonal and is noted.
- * What is not a positive number is no weight.
+ * An edge between a free and a fixed (Dirichlet) pixel is cut: its weight is added to the free one's diagonal, and it
+ * is noted, so that each solution adds weight times fixed value to the right-hand side.  Over the frame there are no
+ * edges (Neumann).  What is not a positive number is no weight.
+ *
+ * Cost: O(pixels), on the host's threads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "solve/laplace-private.h"
-#include "solve/laplace.h"
 
 #define NEAR_FIXED 0x80
-#define WEAK       1e-3f /* weights that differ by more than this are hard: where a drawing is all lines, say */
+#define WEAK       1e-3f /* least over largest weight, below which weights differ much; chosen by the bench */
 
 typedef struct
 {
-  const float   *east, *south, *diagonal;       /* the caller's */
-  const uint8_t *fixed;
-  CeldLaplace   *laplace;
-  CeldWeights   *graph;
-  uint8_t       *mark;                          /* of each strip: a row */
-  uint32_t      *least, *most;                  /* of each row: bits of its weights; those of `least` less 1 */
+  const float       *east, *south, *diagonal;   /* the caller's */
+  const uint8_t     *fixed;
+  CeldLaplace       *laplace;
+  CeldWeightedGraph *graph;
+  uint8_t           *mark;                      /* of each strip: a row */
+  uint32_t          *least, *most;              /* of each row: bits of its weights; those of `least` less 1 */
 } Copy;
 
 CELD_CLONES static void
@@ -67,14 +69,14 @@ mark_fixed (const Copy *c, int y, uint8_t *mark)
 
 /* The fixed neighbours of a free pixel, with a weight; returns how many. */
 static int
-find_held (const Copy *c, int x, int y, CeldHeld *held)
+find_held (const Copy *c, int x, int y, CeldDirichletLink *held)
 {
   int    w = c->laplace->width, h = c->laplace->height, n = 0;
   size_t p = (size_t) y * (size_t) w + (size_t) x;
 
 #define HOLD(is, q, weight) \
   if ((is) && c->fixed[q] && (weight) > 0) \
-    held[n++] = (CeldHeld) { (uint32_t) p, (uint32_t) (q), weight }
+    held[n++] = (CeldDirichletLink) { (uint32_t) p, (uint32_t) (q), weight }
   HOLD (y > 0, p - (size_t) w, c->south[p - (size_t) w]);
   HOLD (x > 0, p - 1, c->east[p - 1]);
   HOLD (x + 1 < w, p + 1, c->east[p]);
@@ -83,14 +85,14 @@ find_held (const Copy *c, int x, int y, CeldHeld *held)
   return n;
 }
 
-/* Cuts what is fixed off a row; how many edges held a free pixel goes to held_row of the next row. */
+/* Cuts the edges of fixed pixels in a row; counts those that have a free end in held_row of the next row. */
 static void
 cut_row (const Copy *c, int y, uint8_t *mark)
 {
-  CeldWeights *g = c->graph;
-  int          w = g->width;
-  size_t       i = (size_t) y * (size_t) w;
-  CeldHeld     held[4];
+  CeldWeightedGraph *g = c->graph;
+  int                w = g->width;
+  size_t             i = (size_t) y * (size_t) w;
+  CeldDirichletLink  held[4];
 
   mark_fixed (c, y, mark);
   for (int x = celd_next_marked (w, mark, 0); x < w; x = celd_next_marked (w, mark, x + 1))
@@ -99,9 +101,9 @@ cut_row (const Copy *c, int y, uint8_t *mark)
       int    n = c->fixed[p] ? 0 : find_held (c, x, y, held);
 
       if (c->fixed[p])
-        g->sink[p] = 0;
+        g->diagonal[p] = 0;
       for (int k = 0; k < n; k++)
-        g->sink[p] += held[k].weight;
+        g->diagonal[p] += held[k].weight;
       if (c->fixed[p] || (x + 1 < w && c->fixed[p + 1]))
         g->east[p] = 0;
       if (c->fixed[p] || (y + 1 < g->height && c->fixed[p + (size_t) w]))
@@ -113,10 +115,10 @@ cut_row (const Copy *c, int y, uint8_t *mark)
 static void
 copy_strip (void *data, int strip)
 {
-  const Copy  *c = data;
-  CeldWeights *g = c->graph;
-  size_t       w = (size_t) g->width;
-  int          end = (strip + 1) * CELD_STRIP < g->height ? (strip + 1) * CELD_STRIP : g->height;
+  const Copy        *c = data;
+  CeldWeightedGraph *g = c->graph;
+  size_t             w = (size_t) g->width;
+  int                end = (strip + 1) * CELD_STRIP < g->height ? (strip + 1) * CELD_STRIP : g->height;
 
   for (int y = strip * CELD_STRIP; y < end; y++)
     {
@@ -129,20 +131,20 @@ copy_strip (void *data, int strip)
       else
         memset (g->south + i, 0, w * sizeof *g->south);
       if (c->diagonal)
-        copy_weights (w, c->diagonal + i, g->sink + i);
+        copy_weights (w, c->diagonal + i, g->diagonal + i);
       else
-        memset (g->sink + i, 0, w * sizeof *g->sink);
+        memset (g->diagonal + i, 0, w * sizeof *g->diagonal);
       if (c->fixed)
         cut_row (c, y, c->mark + (size_t) strip * w);
       c->least[y] = UINT32_MAX;
       c->most[y]  = 0;
       measure_weights (w, (const CeldBits *) (g->east + i), &c->least[y], &c->most[y]);
       measure_weights (w, (const CeldBits *) (g->south + i), &c->least[y], &c->most[y]);
-      measure_weights (w, (const CeldBits *) (g->sink + i), &c->least[y], &c->most[y]);
+      measure_weights (w, (const CeldBits *) (g->diagonal + i), &c->least[y], &c->most[y]);
     }
 }
 
-/* Notes what holds the free pixels of a strip. */
+/* Notes the edges between free and fixed pixels of a strip. */
 static void
 hold_strip (void *data, int strip)
 {
@@ -153,7 +155,7 @@ hold_strip (void *data, int strip)
 
   for (int y = strip * CELD_STRIP; y < end; y++)
     {
-      CeldHeld *held = l->held + l->held_row[y];
+      CeldDirichletLink *held = l->held + l->held_row[y];
 
       if (l->held_row[y] == l->held_row[y + 1])
         continue;
@@ -183,18 +185,18 @@ differ (const Copy *c)
 }
 
 CeldStatus
-celd_system_copy (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
-                  const CeldHost *host, CeldLaplace *l, CeldWeights *g)
+celd_system_read (const float *east, const float *south, const float *diagonal, const uint8_t *fixed,
+                  const CeldHost *host, CeldLaplace *l, CeldWeightedGraph *g)
 {
   size_t     w = (size_t) l->width, h = (size_t) l->height, n = w * h, strips = (h + CELD_STRIP - 1) / CELD_STRIP;
   Copy       c = { east, south, diagonal, fixed, l, g, celd_alloc (strips, w), celd_alloc (h, sizeof *c.least),
                    celd_alloc (h, sizeof *c.most) };
   CeldStatus status = CELD_NO_MEMORY;
 
-  *g = (CeldWeights) { .width = l->width, .height = l->height, .east = celd_alloc (n, sizeof *g->east),
-                       .south = celd_alloc (n, sizeof *g->south), .sink = celd_alloc (n, sizeof *g->sink) };
+  *g = (CeldWeightedGraph) { .width = l->width, .height = l->height, .east = celd_alloc (n, sizeof *g->east),
+                       .south = celd_alloc (n, sizeof *g->south), .diagonal = celd_alloc (n, sizeof *g->diagonal) };
   l->held_row = celd_alloc0 (h + 1, sizeof *l->held_row);
-  if (!c.mark || !c.least || !c.most || !g->east || !g->south || !g->sink || !l->held_row)
+  if (!c.mark || !c.least || !c.most || !g->east || !g->south || !g->diagonal || !l->held_row)
     goto done;
   celd_parallel_for (host, (int) strips, copy_strip, &c);
   for (size_t y = 0; y < h; y++)

@@ -6,18 +6,18 @@
 #include "solve/laplace-private.h"
 #include "solve/laplace.h"
 
-typedef struct { CeldLevels levels; CeldCoarse cycle; LevelEdge *edge; const CeldLevel *level; float *b; } Grid;
+typedef struct { CeldHierarchy levels; CeldKCycle cycle; LevelEdge *edge; const CeldGridLevel *level; float *b; } Grid;
 
 /* What is solved is the first coarse level. */
 static Grid *
 grid_new (int width, int height, int lanes)
 {
   Grid     *g = calloc (1, sizeof *g);
-  CeldWeights graph = random_graph (width, height, 5);
+  CeldWeightedGraph graph = random_graph (width, height, 5);
 
-  CHECK (celd_levels_new (&graph, NULL, &g->levels) == CELD_OK);
-  celd_weights_clear (&graph);
-  CHECK (celd_coarse_new (&g->levels, lanes, NULL, &g->cycle) == CELD_OK);
+  CHECK (celd_hierarchy_new (&graph, NULL, &g->levels) == CELD_OK);
+  celd_weighted_graph_clear (&graph);
+  CHECK (celd_kcycle_new (&g->levels, lanes, NULL, &g->cycle) == CELD_OK);
   g->level = &g->levels.level[1];
   g->edge  = level_edges (g->level);
   g->b     = g->cycle.vectors[1].b;
@@ -27,8 +27,8 @@ grid_new (int width, int height, int lanes)
 static void
 grid_free (Grid *g)
 {
-  celd_coarse_free (&g->cycle);
-  celd_levels_clear (&g->levels);
+  celd_kcycle_free (&g->cycle);
+  celd_hierarchy_clear (&g->levels);
   free (g->edge);
   free (g);
 }
@@ -52,7 +52,7 @@ ask_for (Grid *g, const double *wanted, size_t k)
       sum[e->to] += e->weight * (wanted[e->to] - wanted[e->from]);
     }
   for (size_t i = 0; i < g->level->n; i++)
-    g->b[i * lanes + k] = (float) (sum[i] + (double) g->level->sink[i] * wanted[i]);
+    g->b[i * lanes + k] = (float) (sum[i] + (double) g->level->diagonal[i] * wanted[i]);
   free (sum);
 }
 
@@ -80,8 +80,8 @@ error_share (const Grid *g, const double *wanted, size_t k)
     }
   for (size_t i = 0; i < g->level->n; i++)
     {
-      error += (double) g->level->sink[i] * pow (ERROR (i), 2);
-      whole += (double) g->level->sink[i] * pow (wanted[i], 2);
+      error += (double) g->level->diagonal[i] * pow (ERROR (i), 2);
+      whole += (double) g->level->diagonal[i] * pow (wanted[i], 2);
     }
 #undef ERROR
   return sqrt (error / whole);
@@ -107,7 +107,7 @@ rough_and_smooth_errors_shrink_in_every_lane (void)
                 w[i] = !is_node (g, i) ? 0 : rough ? check_random (&state, 1000) / 1e3 : cos ((double) (k + i) / 3e3);
               ask_for (g, w, k);
             }
-          celd_coarse_solve (&g->cycle);
+          celd_kcycle_solve (&g->cycle);
           for (size_t k = 0; k < (size_t) lanes; k++)
             CHECK (error_share (g, wanted + k * g->level->n, k) < 0.5);
         }
@@ -127,7 +127,7 @@ a_small_grid_is_solved (void)
   for (size_t i = 0; i < g->level->n; i++)
     wanted[i] = is_node (g, i) ? (double) (i * i % 7) : 0;
   ask_for (g, wanted, 0);
-  celd_coarse_solve (&g->cycle);
+  celd_kcycle_solve (&g->cycle);
   NEAR (error_share (g, wanted, 0), 0, 1e-4);
   free (wanted);
   grid_free (g);
@@ -143,14 +143,14 @@ the_cycle_is_homogeneous_and_positive (void)
   uint32_t state = 11, wrong = 0;
   double   along = 0;
 
-  celd_coarse_solve (&g->cycle);
+  celd_kcycle_solve (&g->cycle);
   for (size_t i = 0; i < n; i++)
     {
       wrong += found (g, i, 0) != 0;
       if (is_node (g, i))
         g->b[i] = b[i] = (float) check_random (&state, 2001) / 1000 - 1;
     }
-  celd_coarse_solve (&g->cycle);
+  celd_kcycle_solve (&g->cycle);
   for (size_t i = 0; i < n; i++)
     once[i] = (float) found (g, i, 0);
   for (size_t i = 0; i < n; i++)
@@ -158,7 +158,7 @@ the_cycle_is_homogeneous_and_positive (void)
       along += (double) b[i] * (double) once[i];
       g->b[i] = 2 * b[i];
     }
-  celd_coarse_solve (&g->cycle);
+  celd_kcycle_solve (&g->cycle);
   for (size_t i = 0; i < n; i++)
     wrong += fabs (found (g, i, 0) - 2 * (double) once[i]) > 1e-4 * fabs ((double) once[i]) + 1e-6;
   NEAR (wrong, 0, 0);

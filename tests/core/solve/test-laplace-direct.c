@@ -35,7 +35,7 @@ random_graphs_agree_with_gauss (void)
 
   for (int round = 0; round < 20; round++)
     {
-      double   a[N][N] = { { 0 } }, b[N], x[N];
+      double         a[N][N] = { { 0 } }, b[N], x[N];
       CeldBandMatrix matrix;
 
       CHECK (celd_band_new (N, BAND, &matrix) == CELD_OK);
@@ -51,8 +51,8 @@ random_graphs_agree_with_gauss (void)
               a[i][i + k] -= w;
               a[i + k][i] -= w;
             }
-          matrix.sink[i] = 0.01 + check_random (&seed, 5);
-          a[i][i] += matrix.sink[i];
+          matrix.diagonal[i] = 0.01 + check_random (&seed, 5);
+          a[i][i] += matrix.diagonal[i];
           x[i] = b[i] = check_random (&seed, 100) - 50.;
         }
       celd_band_eliminate (&matrix);
@@ -69,10 +69,10 @@ static void
 weights_of_any_range_keep_their_precision (void)
 {
   CeldBandMatrix matrix;
-  double   drop = 0, x[6] = { 0 };
+  double         drop = 0, x[6] = { 0 };
 
   CHECK (celd_band_new (6, 1, &matrix) == CELD_OK);
-  matrix.sink[0] = 1;
+  matrix.diagonal[0] = 1;
   for (int i = 0; i < 5; i++)
     matrix.weight[i] = pow (10, i % 2 ? -6 * i : 6 * i);
   x[5] = 1; /* a unit current from the end to the held start */
@@ -91,13 +91,13 @@ static void
 a_floating_component_is_solved_with_its_last_node_at_zero (void)
 {
   CeldBandMatrix matrix;
-  double   x[5] = { 0 };
+  double         x[5] = { 0 };
 
   CHECK (celd_band_new (5, 2, &matrix) == CELD_OK);
   matrix.weight[0 * 2 + 1] = 1; /* 0 - 2 - 4 float, 1 - 3 is held at 3 */
   matrix.weight[2 * 2 + 1] = 0.5;
   matrix.weight[1 * 2 + 1] = 2;
-  matrix.sink[3] = 1;
+  matrix.diagonal[3] = 1;
   x[0] = 1;
   x[4] = -1;
   x[1] = 4;

@@ -1,13 +1,15 @@
-/* Floating components of a Laplacian system: those that no diagonal holds.
+/* The null space of a Laplacian system: floating components, which no diagonal and no fixed pixel holds.
  *
- * There the solution is known but for a constant, and exists only if the right-hand side sums to zero.  So the
- * residual is shifted to sum zero before, and the solution to the mean of its start after; single pixels need neither.
+ * There the solution is determined but for a constant, and exists only if the right-hand side sums to zero.  So the
+ * mean of the right-hand side is subtracted before a solution, and the solution shifted to the mean of its start after
+ * it. Single pixels need neither.
+ *
+ * Cost: O(pixels) by runs of pixels that edges join.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
 #include "solve/laplace-private.h"
-#include "solve/laplace.h"
 
 /* Runs of pixels in a row that edges join; a run ends where the next one begins. */
 typedef struct
@@ -27,7 +29,7 @@ mark_ends (size_t w, const float *east, uint8_t *mark)
 }
 
 static CeldStatus
-list_runs (const CeldWeights *g, Runs *runs, uint8_t *mark)
+list_runs (const CeldWeightedGraph *g, Runs *runs, uint8_t *mark)
 {
   int w = g->width;
 
@@ -62,7 +64,7 @@ leads_down (const float *south, uint32_t from, uint32_t to)
 
 /* Joins the runs of two rows, of which `below` is the lower one. */
 static void
-join_rows (const CeldWeights *g, Runs *runs, size_t below)
+join_rows (const CeldWeightedGraph *g, Runs *runs, size_t below)
 {
   uint32_t w = (uint32_t) g->width;
   size_t   a = runs->row[below - 1], b = runs->row[below];
@@ -81,7 +83,7 @@ join_rows (const CeldWeights *g, Runs *runs, size_t below)
 
 /* Lists the runs and joins those that edges join. */
 static CeldStatus
-join_runs (const CeldWeights *g, Runs *runs)
+join_runs (const CeldWeightedGraph *g, Runs *runs)
 {
   uint8_t   *mark = celd_alloc ((size_t) g->width, 1);
   uint32_t  *first;
@@ -107,7 +109,7 @@ join_runs (const CeldWeights *g, Runs *runs)
 
 /* Numbers the sets of several pixels without a diagonal: number[k] of run k, 0 for all others; returns how many. */
 static uint32_t
-number_runs (const CeldWeights *g, Runs *runs, uint32_t *number)
+number_runs (const CeldWeightedGraph *g, Runs *runs, uint32_t *number)
 {
   uint32_t count = 0;
 
@@ -116,7 +118,7 @@ number_runs (const CeldWeights *g, Runs *runs, uint32_t *number)
       uint32_t *held = &number[celd_root (runs->parent, (uint32_t) k)];
 
       for (size_t i = runs->first[k]; i < runs->first[k + 1] && !*held; i++)
-        *held = g->sink[i] > 0 ? CELD_NO_NODE : 0;
+        *held = g->diagonal[i] > 0 ? CELD_NO_NODE : 0;
     }
   for (size_t k = 0; k < runs->n; k++) /* a root comes before its members, and is numbered when it has a second pixel */
     {
@@ -151,7 +153,7 @@ keep_runs (const Runs *runs, const uint32_t *number, CeldLaplace *l)
   for (size_t k = 0; k < runs->n; k++)
     if (number[k])
       {
-        l->floating[kept++] = (CeldFloating) { runs->first[k], runs->first[k + 1], number[k] };
+        l->floating[kept++] = (CeldFloatingRun) { runs->first[k], runs->first[k + 1], number[k] };
         l->floating_row[runs->first[k] / w + 1]++;
         l->floating_size[number[k]] += runs->first[k + 1] - runs->first[k];
       }
@@ -161,7 +163,7 @@ keep_runs (const Runs *runs, const uint32_t *number, CeldLaplace *l)
 }
 
 CeldStatus
-celd_floating_find (const CeldWeights *pixels, CeldLaplace *l)
+celd_null_space_find (const CeldWeightedGraph *pixels, CeldLaplace *l)
 {
   Runs       runs   = { 0 };
   uint32_t  *number = NULL;
@@ -183,12 +185,12 @@ celd_floating_find (const CeldWeights *pixels, CeldLaplace *l)
 }
 
 void
-celd_floating_means (const CeldLaplace *l, int lanes, const float *v, double *mean)
+celd_null_space_means (const CeldLaplace *l, int lanes, const float *v, double *mean)
 {
   size_t many = (size_t) lanes;
 
   memset (mean, 0, ((size_t) l->n_floating + 1) * many * sizeof *mean);
-  for (size_t f = 0; f < celd_floating_runs (l); f++)
+  for (size_t f = 0; f < celd_null_space_runs (l); f++)
     for (size_t i = l->floating[f].first; i < l->floating[f].end; i++)
       for (size_t k = 0; k < many; k++)
         mean[l->floating[f].component * many + k] += (double) v[i * many + k];
@@ -198,11 +200,11 @@ celd_floating_means (const CeldLaplace *l, int lanes, const float *v, double *me
 }
 
 void
-celd_floating_shift (const CeldLaplace *l, int lanes, const double *plus, const double *minus, float *v)
+celd_null_space_shift (const CeldLaplace *l, int lanes, const double *plus, const double *minus, float *v)
 {
   size_t many = (size_t) lanes;
 
-  for (size_t f = 0; f < celd_floating_runs (l); f++)
+  for (size_t f = 0; f < celd_null_space_runs (l); f++)
     for (size_t i = l->floating[f].first; i < l->floating[f].end; i++)
       for (size_t k = 0; k < many; k++)
         {

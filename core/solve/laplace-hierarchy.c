@@ -1,7 +1,7 @@
-/* The levels of the Laplacian solver: the pixels and what they are coarsened to, laid out for the cycle.
+/* Set-up of the multigrid hierarchy of the Laplacian solver: graphs are coarsened until few nodes are left, and each is
+ * laid out for red-black Gauss-Seidel.
  *
- * Nearly all nodes are the first ones of their cells and make a plain grid, whose passes are plain loops over rows;
- * extra nodes, along walls, are few.
+ * Nearly all nodes are grid nodes, so that relaxation is plain loops over rows; extra nodes, along walls, are few.
  *
  * Cost: O(pixels).
  *
@@ -9,50 +9,38 @@
  */
 #include "solve/laplace-private.h"
 
-#define BOTTOM 60  /* nodes that are eliminated directly */
-#define UNIT   8   /* places in a row are a multiple of these, and as many empty ones */
+#define COARSEST 60 /* nodes of the level that is eliminated at most; chosen */
+#define UNIT     8  /* numbers in a vector register: places in a row are a multiple, and as many are empty */
 
 static void
-level_clear (CeldLevel *level)
+level_clear (CeldGridLevel *level)
 {
-  void *part[] = { level->near, level->far, level->north, level->south, level->sink, level->inverse, level->coarser,
+  void *part[] = { level->near, level->far, level->north, level->south, level->diagonal, level->inverse, level->coarser,
                    level->start, level->middle, level->neighbour, level->weight, level->link_row,
                    level->link_first, level->link_extra, level->link_weight };
 
   for (size_t i = 0; i < sizeof part / sizeof *part; i++)
     celd_free (part[i]);
-  *level = (CeldLevel) { 0 };
+  *level = (CeldGridLevel) { 0 };
 }
 
 void
-celd_levels_clear (CeldLevels *levels)
+celd_hierarchy_clear (CeldHierarchy *hierarchy)
 {
-  for (int l = 0; l < levels->n; l++)
-    level_clear (&levels->level[l]);
-  celd_band_clear (&levels->bottom);
-  celd_free (levels->bottom_node);
-  *levels = (CeldLevels) { 0 };
-}
-
-/* The place of a node of the graph; 0, which is empty, for none. */
-static uint32_t
-place_of (const CeldLevel *level, uint32_t node)
-{
-  uint32_t w = (uint32_t) level->width, n = w * (uint32_t) level->height;
-
-  if (node == CELD_NO_NODE)
-    return 0;
-  return node < n ? celd_level_place (level, (int) (node % w), (int) (node / w))
-                  : (uint32_t) (2 * level->plane) + node - n;
+  for (int l = 0; l < hierarchy->n; l++)
+    level_clear (&hierarchy->level[l]);
+  celd_band_clear (&hierarchy->coarsest);
+  celd_free (hierarchy->coarsest_node);
+  *hierarchy = (CeldHierarchy) { 0 };
 }
 
 /* ------------------------------------------------------------------ one level */
 
 /* A level of the graph's size, still without arrays. */
-static CeldLevel
-level_shape (const CeldWeights *g)
+static CeldGridLevel
+level_shape (const CeldWeightedGraph *g)
 {
-  CeldLevel level = { .width = g->width, .height = g->height, .half = (g->width + 1) / 2, .n_extra = g->n_extra };
+  CeldGridLevel level = { .width = g->width, .height = g->height, .half = (g->width + 1) / 2, .n_extra = g->n_extra };
 
   level.stride = (size_t) (level.half + UNIT - 1) / UNIT * UNIT + UNIT;
   level.plane  = level.stride * (size_t) (level.height + 2) + UNIT;
@@ -61,41 +49,41 @@ level_shape (const CeldWeights *g)
 }
 
 static CeldStatus
-level_new (const CeldWeights *g, CeldLevel *level)
+level_new (const CeldWeightedGraph *g, CeldGridLevel *level)
 {
   *level         = level_shape (g);
   level->near    = celd_alloc0 (level->plane, sizeof *level->near);
   level->far     = celd_alloc0 (level->plane, sizeof *level->far);
   level->north   = celd_alloc0 (level->plane, sizeof *level->north);
   level->south   = celd_alloc0 (level->plane, sizeof *level->south);
-  level->sink    = celd_alloc0 (level->n, sizeof *level->sink);
+  level->diagonal    = celd_alloc0 (level->n, sizeof *level->diagonal);
   level->inverse = celd_alloc0 (level->n, sizeof *level->inverse);
-  return level->near && level->far && level->north && level->south && level->sink && level->inverse ? CELD_OK
+  return level->near && level->far && level->north && level->south && level->diagonal && level->inverse ? CELD_OK
                                                                                                     : CELD_NO_MEMORY;
 }
 
 /* What the rows of a layout need. */
 typedef struct
 {
-  const CeldWeights *graph;
-  const uint32_t    *coarser;   /* of each node of the graph */
-  const CeldLevel   *next;
-  CeldLevel         *level;
-  int                doublings; /* to the next level */
-  bool               pixels;
-  uint32_t          *count;     /* of each row */
+  const CeldWeightedGraph *graph;
+  const uint32_t          *coarser; /* of each node of the graph */
+  const CeldGridLevel     *next;
+  CeldGridLevel           *level;
+  int                      doublings; /* to the next level */
+  bool                     pixels;
+  uint32_t                *count; /* of each row */
 } Layout;
 
 /* Nodes x = odd, odd + 2, ... of a row go to places 1, 2, ...: those whose sums they get in `inverse`. */
 CELD_CLONES static void
-lay_out_places (size_t w, size_t odd, const float *east, const float *south, const float *above, const float *sink,
+lay_out_places (size_t w, size_t odd, const float *east, const float *south, const float *above, const float *diagonal,
                 float *inverse, float *held, float *to_east, float *to_west, float *to_south, float *to_north)
 {
   for (size_t x = odd, at = 0; x < w; x += 2, at++)
     {
       float right = east[x], left = x ? east[x - 1] : 0, down = south[x], up = above ? above[x] : 0;
 
-      held[at]    = sink[x];
+      held[at]    = diagonal[x];
       inverse[at] = (up + left) + (right + down);
       if (!to_east)
         continue;
@@ -106,26 +94,27 @@ lay_out_places (size_t w, size_t odd, const float *east, const float *south, con
     }
 }
 
-/* The edges between first nodes, and the sums of each node's in `inverse`. */
+/* The edges between grid nodes, and their sum at each node in `inverse`. */
 static void
 lay_out_row (void *data, int y)
 {
-  const Layout      *o = data;
-  const CeldWeights *g = o->graph;
-  CeldLevel         *level = o->level;
-  size_t             w = (size_t) g->width, i = (size_t) y * w, at = (size_t) (y + 1) * level->stride + 1, odd = y & 1;
-  const float       *above = y ? g->south + i - w : NULL;
+  const Layout            *o = data;
+  const CeldWeightedGraph *g = o->graph;
+  CeldGridLevel           *level = o->level;
+  size_t                   w = (size_t) g->width, i = (size_t) y * w, odd = y & 1;
+  size_t                   at = (size_t) (y + 1) * level->stride + 1;
+  const float             *above = y ? g->south + i - w : NULL;
 
-  lay_out_places (w, odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + at, level->sink + at,
+  lay_out_places (w, odd, g->east + i, g->south + i, above, g->diagonal + i, level->inverse + at, level->diagonal + at,
                   (odd ? level->far : level->near) + at, (odd ? level->near : level->far) + at, level->south + at,
                   level->north + at);
-  lay_out_places (w, !odd, g->east + i, g->south + i, above, g->sink + i, level->inverse + level->plane + at,
-                  level->sink + level->plane + at, NULL, NULL, NULL, NULL);
+  lay_out_places (w, !odd, g->east + i, g->south + i, above, g->diagonal + i, level->inverse + level->plane + at,
+                  level->diagonal + level->plane + at, NULL, NULL, NULL, NULL);
 }
 
 /* Sorts the edges of an extra node k: those to extra nodes after it go to the end. */
 static void
-part_neighbours (CeldLevel *level, uint32_t k)
+part_neighbours (CeldGridLevel *level, uint32_t k)
 {
   uint32_t middle = level->start[k], self = (uint32_t) (2 * level->plane) + k;
 
@@ -143,9 +132,9 @@ part_neighbours (CeldLevel *level, uint32_t k)
   level->middle[k] = middle;
 }
 
-/* Lists the edges between first and extra nodes in the order of the first ones. */
+/* Lists the edges between grid and extra nodes in the order of the grid nodes. */
 static CeldStatus
-list_links (CeldLevel *level)
+list_links (CeldGridLevel *level)
 {
   uint32_t  first = (uint32_t) (2 * level->plane), rows = 2 * (uint32_t) level->height;
   uint32_t *begin = celd_alloc0 ((size_t) first + 1, sizeof *begin);
@@ -198,7 +187,7 @@ copy (const void *items, size_t n, size_t size)
 }
 
 static CeldStatus
-lay_out_extra (const CeldWeights *g, CeldLevel *level)
+lay_out_extra (const CeldWeightedGraph *g, CeldGridLevel *level)
 {
   uint32_t first = (uint32_t) (2 * level->plane), edges;
 
@@ -213,13 +202,13 @@ lay_out_extra (const CeldWeights *g, CeldLevel *level)
     return CELD_NO_MEMORY;
   for (uint32_t e = 0; e < edges; e++)
     {
-      level->neighbour[e] = place_of (level, level->neighbour[e]);
+      level->neighbour[e] = celd_node_place (level, level->neighbour[e]);
       level->red_links += level->neighbour[e] < level->plane;
       level->links += level->neighbour[e] < first;
     }
   for (uint32_t k = 0; k < g->n_extra; k++)
     {
-      level->sink[first + k] = g->sink[(size_t) g->width * (size_t) g->height + k];
+      level->diagonal[first + k] = g->diagonal[(size_t) g->width * (size_t) g->height + k];
       for (uint32_t e = level->start[k]; e < level->start[k + 1]; e++)
         level->inverse[first + k] += level->weight[e];
       part_neighbours (level, k);
@@ -229,13 +218,13 @@ lay_out_extra (const CeldWeights *g, CeldLevel *level)
 
 /* Sums of edges become inverse diagonals; returns how many nodes have an edge. */
 CELD_CLONES static uint32_t
-invert (size_t n, const float *sink, float *inverse)
+invert (size_t n, const float *diagonal, float *inverse)
 {
   uint32_t linked = 0;
 
   for (size_t i = 0; i < n; i++)
     {
-      float full = inverse[i] + sink[i];
+      float full = inverse[i] + diagonal[i];
 
       linked    += inverse[i] > 0;
       inverse[i] = full > 0 ? 1 / full : 0;
@@ -246,17 +235,17 @@ invert (size_t n, const float *sink, float *inverse)
 static void
 invert_row (void *data, int y)
 {
-  const Layout *o = data;
-  CeldLevel    *level = o->level;
-  size_t        at = (size_t) (y + 1) * level->stride, black = level->plane + at;
+  const Layout  *o = data;
+  CeldGridLevel *level = o->level;
+  size_t         at = (size_t) (y + 1) * level->stride, black = level->plane + at;
 
-  o->count[y] = invert (level->stride, level->sink + at, level->inverse + at) +
-                invert (level->stride, level->sink + black, level->inverse + black);
+  o->count[y] = invert (level->stride, level->diagonal + at, level->inverse + at) +
+                invert (level->stride, level->diagonal + black, level->inverse + black);
 }
 
 /* *linked: nodes that have an edge. */
 static CeldStatus
-lay_out (const CeldWeights *g, const CeldHost *host, CeldLevel *level, uint32_t *linked)
+lay_out (const CeldWeightedGraph *g, const CeldHost *host, CeldGridLevel *level, uint32_t *linked)
 {
   Layout     o = { .graph = g, .level = level, .count = celd_alloc ((size_t) g->height, sizeof *o.count) };
   CeldStatus status = level_new (g, level);
@@ -271,7 +260,7 @@ lay_out (const CeldWeights *g, const CeldHost *host, CeldLevel *level, uint32_t 
   if (status == CELD_OK)
     {
       celd_parallel_for (host, g->height, invert_row, &o);
-      *linked = invert (level->n_extra, level->sink + 2 * level->plane, level->inverse + 2 * level->plane);
+      *linked = invert (level->n_extra, level->diagonal + 2 * level->plane, level->inverse + 2 * level->plane);
       for (int y = 0; y < g->height; y++)
         *linked += o.count[y];
     }
@@ -279,29 +268,29 @@ lay_out (const CeldWeights *g, const CeldHost *host, CeldLevel *level, uint32_t 
   return status;
 }
 
-/* Where the first nodes of a row go on the next level; of pixels only red ones are asked for. */
+/* The aggregates of the grid nodes of a row; on the finest level of the red ones only. */
 static void
 lay_out_coarser_row (void *data, int y)
 {
-  const Layout   *o = data;
-  const CeldLevel *next = o->next;
-  uint32_t        w = (uint32_t) o->graph->width, cells = (uint32_t) next->width * (uint32_t) next->height;
-  uint32_t        first = (uint32_t) (y >> o->doublings) * (uint32_t) next->width;
-  const uint32_t *coarser = o->coarser + (size_t) y * w;
+  const Layout        *o = data;
+  const CeldGridLevel *next = o->next;
+  uint32_t             w = (uint32_t) o->graph->width, cells = (uint32_t) next->width * (uint32_t) next->height;
+  uint32_t             first = (uint32_t) (y >> o->doublings) * (uint32_t) next->width;
+  const uint32_t      *coarser = o->coarser + (size_t) y * w;
 
   for (uint32_t x = o->pixels ? y & 1 : 0; x < w; x += o->pixels ? 2 : 1)
     {
       uint32_t to = coarser[x] == CELD_NO_NODE ? 0
-                    : coarser[x] < cells ? celd_level_place (next, (int) (coarser[x] - first), y >> o->doublings)
+                    : coarser[x] < cells ? celd_grid_place (next, (int) (coarser[x] - first), y >> o->doublings)
                                          : (uint32_t) (2 * next->plane) + coarser[x] - cells;
 
-      o->level->coarser[celd_level_place (o->level, (int) x, y)] = to;
+      o->level->coarser[celd_grid_place (o->level, (int) x, y)] = to;
     }
 }
 
 static CeldStatus
-lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, const CeldHost *host,
-                 const CeldLevel *next, CeldLevel *level)
+lay_out_coarser (const CeldWeightedGraph *g, const uint32_t *coarser, int doublings, const CeldHost *host,
+                 const CeldGridLevel *next, CeldGridLevel *level)
 {
   uint32_t n = (uint32_t) g->width * (uint32_t) g->height;
   bool     pixels = !g->row_extra;
@@ -313,89 +302,43 @@ lay_out_coarser (const CeldWeights *g, const uint32_t *coarser, int doublings, c
     return CELD_NO_MEMORY;
   celd_parallel_for (host, g->height, lay_out_coarser_row, &o);
   for (uint32_t k = 0; k < g->n_extra; k++)
-    level->coarser[2 * level->plane + k] = place_of (next, coarser[n + k]);
+    level->coarser[2 * level->plane + k] = celd_node_place (next, coarser[n + k]);
   return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ the last level */
-
-static CeldStatus
-eliminate_last (const CeldWeights *g, const CeldLevel *last, CeldLevels *levels)
-{
-  uint32_t   n = (uint32_t) g->width * (uint32_t) g->height, all = n + g->n_extra, count = 0, band;
-  uint32_t  *number = celd_alloc (all, sizeof *number);
-  CeldBandMatrix  *bottom = &levels->bottom;
-  CeldStatus status = CELD_NO_MEMORY;
-
-  levels->bottom_node = celd_alloc (all, sizeof *levels->bottom_node);
-  if (!number || !levels->bottom_node)
-    goto done;
-  for (uint32_t i = 0; i < all; i++)
-    if (last->inverse[place_of (last, i)] > 0)
-      {
-        levels->bottom_node[count] = place_of (last, i);
-        number[i] = count++;
-      }
-  band   = count > 1 ? count - 1 : 1;
-  status = celd_band_new (count, band, bottom);
-  if (status != CELD_OK)
-    goto done;
-#define JOIN(i, j, w) bottom->weight[(size_t) number[i] * band + number[j] - number[i] - 1] = (double) (w)
-  for (uint32_t i = 0; i < n; i++)
-    {
-      if (i % (uint32_t) g->width + 1 < (uint32_t) g->width && g->east[i] > 0)
-        JOIN (i, i + 1, g->east[i]);
-      if (i + (uint32_t) g->width < n && g->south[i] > 0)
-        JOIN (i, i + (uint32_t) g->width, g->south[i]);
-    }
-  for (uint32_t k = 0; k < g->n_extra; k++)
-    for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
-      if (g->neighbour[e] < n + k)
-        JOIN (g->neighbour[e], n + k, g->weight[e]);
-#undef JOIN
-  for (uint32_t i = 0; i < all; i++)
-    if (last->inverse[place_of (last, i)] > 0)
-      bottom->sink[number[i]] = (double) g->sink[i];
-  celd_band_eliminate (bottom);
-
-done:
-  celd_free (number);
-  return status;
 }
 
 /* ------------------------------------------------------------------ all levels */
 
-/* The next graph, and the way there. */
+/* The next coarser graph takes the place of `graph`, whose layout gets its aggregates. */
 static CeldStatus
-coarsen (CeldWeights *graph, const CeldHost *host, CeldLevel *level)
+coarsen (CeldWeightedGraph *graph, const CeldHost *host, CeldGridLevel *level)
 {
-  CeldWeights coarse;
-  CeldLevel   next;
-  uint32_t   *coarser = NULL;
-  CeldStatus  status  = celd_weights_coarsen (graph, host, &coarse, &coarser);
+  CeldWeightedGraph coarse;
+  CeldGridLevel     next;
+  uint32_t         *coarser = NULL;
+  CeldStatus        status  = celd_coarsen (graph, host, &coarse, &coarser);
 
   if (status != CELD_OK)
     return status;
   next   = level_shape (&coarse);
   status = lay_out_coarser (graph, coarser, coarse.doublings, host, &next, level);
   celd_free (coarser);
-  celd_weights_clear (graph);
+  celd_weighted_graph_clear (graph);
   *graph = coarse;
   return status;
 }
 
 CeldStatus
-celd_levels_new (CeldWeights *graph, const CeldHost *host, CeldLevels *levels)
+celd_hierarchy_new (CeldWeightedGraph *graph, const CeldHost *host, CeldHierarchy *hierarchy)
 {
   bool       last = false;
   double     left = 1;          /* each level is about half of what is left */
   uint32_t   linked;
   CeldStatus status = CELD_OK;
 
-  *levels = (CeldLevels) { 0 };
+  *hierarchy = (CeldHierarchy) { 0 };
   while (status == CELD_OK && !last)
     {
-      CeldLevel *level = &levels->level[levels->n++];
+      CeldGridLevel *level = &hierarchy->level[hierarchy->n++];
 
       status = celd_progress (host, 1 - left);
       left  /= 2;
@@ -403,10 +346,11 @@ celd_levels_new (CeldWeights *graph, const CeldHost *host, CeldLevels *levels)
         status = lay_out (graph, host, level, &linked);
       if (status != CELD_OK)
         break;
-      last   = levels->n == CELD_MAX_LEVELS || (levels->n > 1 && linked <= BOTTOM);
-      status = last ? eliminate_last (graph, level, levels) : coarsen (graph, host, level);
+      last   = hierarchy->n == CELD_MAX_LEVELS || (hierarchy->n > 1 && linked <= COARSEST);
+      status = last ? celd_eliminate_coarsest (graph, level, &hierarchy->coarsest, &hierarchy->coarsest_node)
+                    : coarsen (graph, host, level);
     }
   if (status != CELD_OK)
-    celd_levels_clear (levels);
+    celd_hierarchy_clear (hierarchy);
   return status;
 }

@@ -4,20 +4,20 @@
  */
 #include "check.h"
 #include "base/unions.h"
-#include "solve/laplace-graph.h"
+#include "solve/laplace-aggregation.h"
 #include "solve/laplace-private.h"
 
 #include <math.h>
 
-/* A row of n nodes with these edges to the east; end with celd_weights_clear. */
-static CeldWeights
+/* A row of n nodes with these edges to the east; end with celd_weighted_graph_clear. */
+static CeldWeightedGraph
 row_of (int n, const float *edge)
 {
-  CeldWeights g = { .width = n, .height = 1 };
+  CeldWeightedGraph g = { .width = n, .height = 1 };
 
   g.east  = celd_alloc0 ((size_t) n, sizeof *g.east);
   g.south = celd_alloc0 ((size_t) n, sizeof *g.south);
-  g.sink  = celd_alloc0 ((size_t) n, sizeof *g.sink);
+  g.diagonal  = celd_alloc0 ((size_t) n, sizeof *g.diagonal);
   for (int i = 0; i + 1 < n; i++)
     g.east[i] = edge[i];
   return g;
@@ -36,52 +36,52 @@ sets (uint32_t *parent, int n)
 static void
 a_chain_halves (void)
 {
-  float       edge[9] = { 1, 1, 1, 1, 1, 1, 1, 1, 1 };
-  CeldWeights g = row_of (10, edge);
-  uint32_t    parent[10];
+  float             edge[9] = { 1, 1, 1, 1, 1, 1, 1, 1, 1 };
+  CeldWeightedGraph g = row_of (10, edge);
+  uint32_t          parent[10];
 
-  CHECK (celd_weights_pair (&g, 6, parent) == CELD_OK);
+  CHECK (celd_pairwise_aggregate (&g, 6, parent) == CELD_OK);
   CHECK (sets (parent, 10) == 5);
   for (uint32_t i = 0; i < 10; i++)
     CHECK (celd_root (parent, i) == i / 2 * 2);
-  celd_weights_clear (&g);
+  celd_weighted_graph_clear (&g);
 }
 
 /* 2 - 3 is weak beside the first pair, and strong beside all else that 2 and 3 have. */
 static void
 weights_count_beside_what_a_node_has (void)
 {
-  float       edge[5] = { 1, 1e-6f, 1e-3f, 1e-6f, 1 };
-  CeldWeights g = row_of (6, edge);
-  uint32_t    parent[6];
+  float             edge[5] = { 1, 1e-6f, 1e-3f, 1e-6f, 1 };
+  CeldWeightedGraph g = row_of (6, edge);
+  uint32_t          parent[6];
 
-  CHECK (celd_weights_pair (&g, 4, parent) == CELD_OK);
+  CHECK (celd_pairwise_aggregate (&g, 4, parent) == CELD_OK);
   for (uint32_t i = 0; i < 6; i++)
     CHECK (celd_root (parent, i) == i / 2 * 2);
-  celd_weights_clear (&g);
+  celd_weighted_graph_clear (&g);
 }
 
-/* Extra nodes 1 .. 8 that only node 0 holds all hang on it. */
+/* Extra nodes 1 .. 8, which have an edge to node 0 alone, all join it. */
 static void
-leaves_hang_on_a_hub (void)
+nodes_round_a_hub_join_it (void)
 {
-  CeldWeights g = row_of (1, NULL);
-  uint32_t    parent[9];
+  CeldWeightedGraph g = row_of (1, NULL);
+  uint32_t          parent[9];
 
   g.n_extra   = 8;
   g.start     = celd_alloc0 (9, sizeof *g.start);
   g.neighbour = celd_alloc0 (8, sizeof *g.neighbour);
   g.weight    = celd_alloc0 (8, sizeof *g.weight);
-  celd_free (g.sink);
-  g.sink = celd_alloc0 (9, sizeof *g.sink);
+  celd_free (g.diagonal);
+  g.diagonal = celd_alloc0 (9, sizeof *g.diagonal);
   for (uint32_t k = 0; k < 8; k++)
     {
       g.start[k + 1] = k + 1;
       g.weight[k]    = k % 2 ? 1e-6f : 1;
     }
-  CHECK (celd_weights_pair (&g, 5, parent) == CELD_OK);
+  CHECK (celd_pairwise_aggregate (&g, 5, parent) == CELD_OK);
   CHECK (sets (parent, 9) == 1);
-  celd_weights_clear (&g);
+  celd_weighted_graph_clear (&g);
 }
 
 /* Random weights over six orders of magnitude: aggregates are of a piece, no more than asked for, and never join what
@@ -95,19 +95,19 @@ aggregates_are_of_a_piece (void)
 
   for (int round = 0; round < 200; round++)
     {
-      float       edge[N];
-      uint32_t    parent[N], linked = 0;
-      CeldWeights g;
+      float             edge[N];
+      uint32_t          parent[N], linked = 0;
+      CeldWeightedGraph g;
 
       for (int i = 0; i < N; i++)
         edge[i] = check_random (&seed, 8) ? powf (10, -(float) check_random (&seed, 7)) : 0;
       g = row_of (N, edge);
       for (int i = 0; i < N; i++)
         {
-          g.sink[i] = check_random (&seed, 4) ? 0 : powf (10, -(float) check_random (&seed, 7));
+          g.diagonal[i] = check_random (&seed, 4) ? 0 : powf (10, -(float) check_random (&seed, 7));
           linked += g.east[i] > 0 || (i && g.east[i - 1] > 0);
         }
-      CHECK (celd_weights_pair (&g, linked * 6 / 10, parent) == CELD_OK);
+      CHECK (celd_pairwise_aggregate (&g, linked * 6 / 10, parent) == CELD_OK);
 
       uint32_t count = 0;
 
@@ -120,7 +120,7 @@ aggregates_are_of_a_piece (void)
           count += root == i && (g.east[i] > 0 || (i && g.east[i - 1] > 0));
         }
       CHECK (count <= linked * 6 / 10);
-      celd_weights_clear (&g);
+      celd_weighted_graph_clear (&g);
     }
 }
 
@@ -129,7 +129,7 @@ main (void)
 {
   RUN (a_chain_halves);
   RUN (weights_count_beside_what_a_node_has);
-  RUN (leaves_hang_on_a_hub);
+  RUN (nodes_round_a_hub_join_it);
   RUN (aggregates_are_of_a_piece);
   return DONE;
 }

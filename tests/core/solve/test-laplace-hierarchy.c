@@ -8,10 +8,10 @@
 enum { W = 150, H = 130 };
 
 /* Unit weights, a wall of weight `wall` right of column 70, all held weakly. */
-static CeldWeights
+static CeldWeightedGraph
 walled (float wall)
 {
-  CeldWeights g = random_graph (W, H, 1);
+  CeldWeightedGraph g = random_graph (W, H, 1);
 
   for (int i = 0; i < W * H; i++)
     {
@@ -22,20 +22,20 @@ walled (float wall)
 }
 
 static void
-levels_of (CeldWeights graph, CeldLevels *levels)
+levels_of (CeldWeightedGraph graph, CeldHierarchy *levels)
 {
-  CHECK (celd_levels_new (&graph, NULL, levels) == CELD_OK);
-  celd_weights_clear (&graph);
+  CHECK (celd_hierarchy_new (&graph, NULL, levels) == CELD_OK);
+  celd_weighted_graph_clear (&graph);
 }
 
 static void
 no_aggregate_reaches_over_a_wall_or_its_cell (void)
 {
-  CeldWeights graph = walled (1e-3f), coarse;
-  uint32_t *node = NULL;
-  int      *first = malloc (W * H * sizeof *first);
+  CeldWeightedGraph graph = walled (1e-3f), coarse;
+  uint32_t         *node = NULL;
+  int              *first = malloc (W * H * sizeof *first);
 
-  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+  CHECK (celd_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
   CHECK (coarse.width == W / 2 && coarse.height == H / 2 && coarse.n_extra == H / 2);
   for (int c = 0; c < W * H; c++)
     first[c] = -1;
@@ -48,8 +48,8 @@ no_aggregate_reaches_over_a_wall_or_its_cell (void)
       CHECK (i % W / 2 == *f % W / 2 && i / W / 2 == *f / W / 2);
       CHECK ((i % W > 70) == (*f % W > 70));
     }
-  celd_weights_clear (&graph);
-  celd_weights_clear (&coarse);
+  celd_weighted_graph_clear (&graph);
+  celd_weighted_graph_clear (&coarse);
   free (node);
   free (first);
 }
@@ -59,32 +59,33 @@ no_aggregate_reaches_over_a_wall_or_its_cell (void)
 static void
 check_leaf (float first, float second)
 {
-  enum { SIDE = 20, UPPER = 10 * SIDE + 10, LEAF = UPPER + 1, BELOW = UPPER + SIDE, OTHER = BELOW + 1, LONE = 8 * SIDE + 8 };
-  CeldWeights graph = random_graph (SIDE, SIDE, 1), coarse;
-  uint32_t   *node = NULL;
+  enum { SIDE = 20, UPPER = 10 * SIDE + 10, WEAK = UPPER + 1, BELOW = UPPER + SIDE, OTHER = BELOW + 1,
+         LONE = 8 * SIDE + 8 };
+  CeldWeightedGraph graph = random_graph (SIDE, SIDE, 1), coarse;
+  uint32_t         *node = NULL;
 
   for (int i = 0; i < SIDE * SIDE; i++)
     {
       graph.east[i]  = i % SIDE < SIDE - 1;
       graph.south[i] = i / SIDE < SIDE - 1;
-      graph.sink[i]  = 1e-6f;
+      graph.diagonal[i]  = 1e-6f;
     }
   graph.east[UPPER]  = first;
-  graph.south[LEAF]  = second;
-  graph.east[LEAF] = graph.south[LEAF - SIDE] = graph.east[BELOW] = 0;
+  graph.south[WEAK]  = second;
+  graph.east[WEAK] = graph.south[WEAK - SIDE] = graph.east[BELOW] = 0;
   graph.east[LONE] = graph.east[LONE - 1] = graph.south[LONE] = graph.south[LONE - SIDE] = 0;
-  CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
-  CHECK (coarse.width == SIDE / 2 && coarse.n_extra == 1); /* nothing has been paired up, only that cell has two nodes */
+  CHECK (celd_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+  CHECK (coarse.width == SIDE / 2 && coarse.n_extra == 1); /* no pairs; only that cell has two nodes */
   CHECK (node[UPPER] == node[BELOW] && node[UPPER] != node[OTHER]);
-  CHECK (node[LEAF] == node[first > second ? UPPER : OTHER]);
+  CHECK (node[WEAK] == node[first > second ? UPPER : OTHER]);
   CHECK (node[LONE] == CELD_NO_NODE && node[LONE + 1] == node[LONE + 1 + SIDE]);
-  celd_weights_clear (&graph);
-  celd_weights_clear (&coarse);
+  celd_weighted_graph_clear (&graph);
+  celd_weighted_graph_clear (&coarse);
   free (node);
 }
 
 static void
-a_leaf_hangs_on_what_holds_it_more (void)
+a_weakly_attached_node_joins_its_strongest_neighbour (void)
 {
   check_leaf (0.02f, 0.01f);
   check_leaf (0.01f, 0.02f);
@@ -92,22 +93,22 @@ a_leaf_hangs_on_what_holds_it_more (void)
 
 /* Nothing is lost or made up between the pixels and the levels: sums over what crosses aggregates. */
 static void
-weights_and_sinks_are_sums (void)
+weights_and_diagonals_are_sums (void)
 {
   static const float wall[] = { 0, 0.25f, 1 };
 
   for (size_t k = 0; k < 4; k++)
     {
-      CeldWeights  graph = k < 3 ? walled (wall[k]) : random_graph (W, H, 3), coarse;
-      CeldLevels levels;
-      uint32_t  *node = NULL;
-      double     sink = 0, crossing = 0, edges = 0;
+      CeldWeightedGraph graph = k < 3 ? walled (wall[k]) : random_graph (W, H, 3), coarse;
+      CeldHierarchy     levels;
+      uint32_t         *node = NULL;
+      double            diagonal = 0, crossing = 0, edges = 0;
       LevelEdge *edge;
 
-      CHECK (celd_weights_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
+      CHECK (celd_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
       for (int i = 0; i < W * H; i++)
         {
-          sink += (double) graph.sink[i];
+          diagonal += (double) graph.diagonal[i];
           if (i % W + 1 < W && node[i] != node[i + 1])
             crossing += (double) graph.east[i];
           if (i + W < W * H && node[i] != node[i + W])
@@ -118,27 +119,27 @@ weights_and_sinks_are_sums (void)
       for (const LevelEdge *e = edge; e->weight > 0; e++)
         edges += e->weight;
       for (uint32_t i = 0; i < levels.level[1].n; i++)
-        sink -= (double) levels.level[1].sink[i];
-      NEAR (sink, 0, 1e-5);
+        diagonal -= (double) levels.level[1].diagonal[i];
+      NEAR (diagonal, 0, 1e-5);
       NEAR (edges, crossing, 1e-2);
       for (uint32_t i = 0; i < levels.level[1].n_extra; i++)
         for (uint32_t e = levels.level[1].start[i]; e < levels.level[1].start[i + 1]; e++)
           CHECK ((levels.level[1].neighbour[e] > 2 * levels.level[1].plane + i) == (e >= levels.level[1].middle[i]));
       free (edge);
       free (node);
-      celd_weights_clear (&coarse);
-      celd_levels_clear (&levels);
+      celd_weighted_graph_clear (&coarse);
+      celd_hierarchy_clear (&levels);
     }
 }
 
-/* Every edge of the pixels is in its place, and the diagonal is the sum of a node's edges and sink. */
+/* Every edge of the pixels is in its place, and the diagonal is the sum of a node's edges and diagonal. */
 static void
 the_layout_keeps_the_graph (void)
 {
-  CeldWeights  graph = random_graph (37, 23, 8);
-  CeldLevels levels;
-  float     *east = malloc (37 * 23 * sizeof *east), *south = malloc (37 * 23 * sizeof *south);
-  double    *whole;
+  CeldWeightedGraph graph = random_graph (37, 23, 8);
+  CeldHierarchy     levels;
+  float            *east = malloc (37 * 23 * sizeof *east), *south = malloc (37 * 23 * sizeof *south);
+  double           *whole;
   LevelEdge *edge;
   uint32_t   found = 0;
 
@@ -157,7 +158,7 @@ the_layout_keeps_the_graph (void)
   for (int y = 0; y < 23; y++)
     for (int x = 0; x < 37; x++)
       {
-        size_t place = celd_level_place (&levels.level[0], x, y);
+        size_t place = celd_grid_place (&levels.level[0], x, y);
         int    i = y * 37 + x;
         double sum = (double) (x ? east[i - 1] : 0) + (double) (x < 36 ? east[i] : 0) +
                      (double) (y ? south[i - 37] : 0) + (double) (y < 22 ? south[i] : 0);
@@ -169,11 +170,11 @@ the_layout_keeps_the_graph (void)
   free (south);
   free (whole);
   free (edge);
-  celd_levels_clear (&levels);
+  celd_hierarchy_clear (&levels);
 }
 
 static uint32_t
-count_nodes (const CeldLevel *level)
+count_nodes (const CeldGridLevel *level)
 {
   uint32_t n = 0;
 
@@ -185,38 +186,38 @@ count_nodes (const CeldLevel *level)
 static void
 levels_become_small_quickly (void)
 {
-  CeldLevels levels;
+  CeldHierarchy levels;
 
   levels_of (walled (0), &levels);
   CHECK (levels.n >= 3);
   for (int l = 1; l < levels.n; l++)
     CHECK (count_nodes (&levels.level[l]) <= 0.6 * count_nodes (&levels.level[l - 1]));
-  CHECK (levels.bottom.n == count_nodes (&levels.level[levels.n - 1]) && levels.bottom.n <= 150);
-  celd_levels_clear (&levels);
+  CHECK (levels.coarsest.n == count_nodes (&levels.level[levels.n - 1]) && levels.coarsest.n <= 150);
+  celd_hierarchy_clear (&levels);
 }
 
 static void
 pixels_without_an_edge_are_left_out (void)
 {
-  CeldWeights  graph = random_graph (W, H, 1);
-  CeldLevels levels;
+  CeldWeightedGraph graph = random_graph (W, H, 1);
+  CeldHierarchy     levels;
 
   memset (graph.east, 0, W * H * sizeof (float));
   memset (graph.south, 0, W * H * sizeof (float));
   levels_of (graph, &levels);
-  CHECK (levels.n == 2 && levels.bottom.n == 0);
+  CHECK (levels.n == 2 && levels.coarsest.n == 0);
   for (int i = 0; i < W * H; i += 11)
     if ((i % W + i / W) % 2 == 0)
-      CHECK (levels.level[0].coarser[celd_level_place (&levels.level[0], i % W, i / W)] == 0);
-  celd_levels_clear (&levels);
+      CHECK (levels.level[0].coarser[celd_grid_place (&levels.level[0], i % W, i / W)] == 0);
+  celd_hierarchy_clear (&levels);
 }
 
 int
 main (void)
 {
   RUN (no_aggregate_reaches_over_a_wall_or_its_cell);
-  RUN (a_leaf_hangs_on_what_holds_it_more);
-  RUN (weights_and_sinks_are_sums);
+  RUN (a_weakly_attached_node_joins_its_strongest_neighbour);
+  RUN (weights_and_diagonals_are_sums);
   RUN (the_layout_keeps_the_graph);
   RUN (levels_become_small_quickly);
   RUN (pixels_without_an_edge_are_left_out);

@@ -1,34 +1,38 @@
-/* Aggregates of the Laplacian solver where cells do not help any more: pairs, and what hangs on them.
+/* Pairwise aggregation in the Laplacian solver, where cells leave too many nodes.
  *
- * Few nodes are left, of the most different sizes and weights, and cells that are large enough to join many of them
- * would join too much at once.  So the nodes pair up, each with the one that it moves with best, wherever that lies.
+ * Few nodes are left then, of very different sizes and weights, and cells that are large enough to join many of them
+ * would join too many at once.  So nodes are paired, each with the one that it moves with best, wherever that lies:
+ * pairwise aggregation by quality (A. Napov and Y. Notay, "An algebraic multigrid method with guaranteed convergence
+ * rate", SIAM J. Sci. Comput. 34, 2012, for pairs and plain Jacobi).  Two nodes of whole diagonals d, d', joined by an
+ * edge w, with diagonals s, s' beyond their edges, have the quality
  *
- * Two nodes of diagonals d, d' with the edge w and the sinks s, s' are one aggregate of quality
- * d d' / (d + d') / (w + s s' / (s + s')):  the most that relaxation has to reduce what is left between them, with all
- * other edges left out; 2 on a plain grid, 1 is best.  It bounds the condition of two levels [Napov and Notay, "An
- * algebraic multigrid method with guaranteed convergence rate", SIAM J. Sci. Comput. 34, 2012; theirs for pairs, with
- * plain Jacobi].  A node that finds no partner joins the aggregate of its best neighbour if that weighs much more: many
- * may hang on one, as each moves against it alone.
+ *   d d' / (d + d') / (w + s s' / (s + s')),
+ *
+ * the most that relaxation has to reduce of what is left between them when all other edges are left out; 2 on a plain
+ * grid, 1 is best.  It bounds the condition number of the two-level method.  A node without a partner joins the
+ * aggregate of its best neighbour if that one's diagonal is much larger; many may, since each moves against it alone.
+ *
+ * Without this the exact program takes up to 17 times as long and may miss its tolerance (bee, campfire at 0.25
+ * megapixels).  Cost: O(edges) for each doubling of the worst quality.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
-#include "solve/laplace-graph.h"
-#include "solve/laplace-private.h"
+#include "solve/laplace-aggregation.h"
 
-#define GOOD  4                 /* quality of a pair, at most */
-#define HEAVY 2                 /* times a node's diagonal: what it may hang on */
+#define GOOD  4                 /* quality of a pair at most, at first; chosen by the bench */
+#define HEAVY 2                 /* times a node's whole diagonal: of a node that it may join; chosen */
 
 /* All edges of each node: start[i] .. start[i + 1] - 1. */
 typedef struct
 {
-  const CeldWeights *graph;
-  uint32_t           n;
-  size_t            *start;
-  uint32_t          *neighbour;
-  float             *weight;
-  float             *diagonal;
-  uint8_t           *paired;
+  const CeldWeightedGraph *graph;
+  uint32_t                 n;
+  size_t                  *start;
+  uint32_t                *neighbour;
+  float                   *weight;
+  float                   *whole; /* diagonal of each node with its edges */
+  uint8_t                 *paired;
 } Links;
 
 typedef void See (Links *links, uint32_t i, uint32_t j, float w);
@@ -37,8 +41,8 @@ typedef void See (Links *links, uint32_t i, uint32_t j, float w);
 static void
 each_edge (Links *links, See *see)
 {
-  const CeldWeights *g = links->graph;
-  uint32_t           w = (uint32_t) g->width, n = celd_weights_cells (g);
+  const CeldWeightedGraph *g = links->graph;
+  uint32_t                 w = (uint32_t) g->width, n = celd_grid_nodes (g);
 
   for (uint32_t i = 0; i < n; i++)
     {
@@ -58,8 +62,8 @@ count_edge (Links *links, uint32_t i, uint32_t j, float w)
 {
   links->start[i + 2]++;
   links->start[j + 2]++;
-  links->diagonal[i] += w;
-  links->diagonal[j] += w;
+  links->whole[i] += w;
+  links->whole[j] += w;
 }
 
 static void
@@ -73,19 +77,19 @@ list_edge (Links *links, uint32_t i, uint32_t j, float w)
 }
 
 static CeldStatus
-links_new (const CeldWeights *graph, Links *links)
+links_new (const CeldWeightedGraph *graph, Links *links)
 {
-  uint32_t n = celd_weights_cells (graph) + graph->n_extra;
+  uint32_t n = celd_grid_nodes (graph) + graph->n_extra;
 
   *links = (Links) {
     .graph = graph, .n = n,
     .start = celd_alloc0 ((size_t) n + 2, sizeof *links->start),
-    .diagonal = celd_alloc (n, sizeof *links->diagonal),
+    .whole = celd_alloc (n, sizeof *links->whole),
     .paired = celd_alloc0 (n, 1),
   };
-  if (!links->start || !links->diagonal || !links->paired)
+  if (!links->start || !links->whole || !links->paired)
     return CELD_NO_MEMORY;
-  memcpy (links->diagonal, graph->sink, n * sizeof *links->diagonal);
+  memcpy (links->whole, graph->diagonal, n * sizeof *links->whole);
   each_edge (links, count_edge);
   for (uint32_t i = 0; i < n; i++)
     links->start[i + 2] += links->start[i + 1];
@@ -103,15 +107,15 @@ links_clear (Links *links)
   celd_free (links->start);
   celd_free (links->neighbour);
   celd_free (links->weight);
-  celd_free (links->diagonal);
+  celd_free (links->whole);
   celd_free (links->paired);
 }
 
 static double
 quality (const Links *links, uint32_t i, uint32_t j, float w)
 {
-  double d = (double) links->diagonal[i], e = (double) links->diagonal[j];
-  double s = (double) links->graph->sink[i], t = (double) links->graph->sink[j];
+  double d = (double) links->whole[i], e = (double) links->whole[j];
+  double s = (double) links->graph->diagonal[i], t = (double) links->graph->diagonal[j];
 
   return d * e / (d + e) / ((double) w + (s > 0 && t > 0 ? s * t / (s + t) : 0));
 }
@@ -120,7 +124,7 @@ quality (const Links *links, uint32_t i, uint32_t j, float w)
 static inline bool
 may_join (const Links *links, bool pairs, uint32_t i, uint32_t j)
 {
-  return pairs ? !links->paired[j] : links->diagonal[j] >= HEAVY * links->diagonal[i];
+  return pairs ? !links->paired[j] : links->whole[j] >= HEAVY * links->whole[i];
 }
 
 /* The neighbour that makes the best aggregate with i, of quality `good` at most; i itself if there is none. */
@@ -163,7 +167,7 @@ join_nodes (Links *links, bool pairs, double good, uint32_t *parent)
 }
 
 CeldStatus
-celd_weights_pair (const CeldWeights *graph, uint32_t most, uint32_t *parent)
+celd_pairwise_aggregate (const CeldWeightedGraph *graph, uint32_t most, uint32_t *parent)
 {
   Links      links;
   CeldStatus status = links_new (graph, &links);
@@ -172,7 +176,7 @@ celd_weights_pair (const CeldWeights *graph, uint32_t most, uint32_t *parent)
   for (uint32_t i = 0; i < links.n && status == CELD_OK; i++)
     {
       parent[i] = i;
-      count += links.diagonal[i] > graph->sink[i];
+      count += links.whole[i] > graph->diagonal[i];
     }
   for (double good = GOOD; status == CELD_OK && count > most && good < 1e12; good *= 4)
     {
