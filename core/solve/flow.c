@@ -1,22 +1,24 @@
-/* Exact minimum cut of a sparse graph by augmenting paths between two search trees, as in maxflow.c, after Y. Boykov
- * and V. Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision",
- * PAMI 2004.
+/* Exact minimum cut of a sparse graph by augmenting paths between two search trees: Y. Boykov and V. Kolmogorov, "An
+ * Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 2004.  maxflow.c is
+ * the same on all pixels of a grid.
  *
- * One tree grows from the nodes with excess, the other from those that lack something, along arcs that have something
- * left.  Where they meet, excess is moved from root to root; arcs that this fills up make orphans, which look for a new
+ * One tree grows from the nodes with an excess, the other from those with a deficit, along arcs with residual capacity.
+ * Where they meet, excess is moved from root to root; arcs that this saturates make orphans, which look for a new
  * parent in their tree or leave it.
  *
- * Choices: the tree with fewer active nodes grows first, all of these once round.  So the work is done near a few nodes
- * with excess, however large the rest of the graph is, which alpha-expansion (partition-expand.c) counts on; and what
- * the sink's tree could still gain is left alone once the source's is complete.  That one then holds all that excess
- * still reaches: the smallest source side of a least cut, which does not depend on the order of nodes and links.
+ * Choices: the tree with fewer active nodes grows first, all of these once round, so that the work is done near a few
+ * nodes with excess however large the rest of the graph is, which alpha-expansion (partition-expand.c) counts on; and
+ * the search ends as soon as the source tree is complete.  That one then holds all nodes that remaining excess reaches:
+ * the smallest source side of a minimum cut, which does not depend on the order of nodes and links.
+ *
+ * Cost: O(nodes near the cut) in practice; 24 bytes an arc, 48 a node.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "solve/flow.h"
 #include "solve/partition.h"
 
-#define NONE   UINT32_MAX       /* the parent of a root */
+#define NO_PARENT   UINT32_MAX       /* the parent of a root */
 #define ORPHAN (UINT32_MAX - 1)
 
 static void
@@ -149,7 +151,7 @@ celd_network_begin (CeldNetwork *network)
 void
 celd_network_root (CeldNetwork *network, uint32_t p)
 {
-  enter (network, network->node[p].excess > 0 ? CELD_SOURCE : CELD_SINK, p, NONE, 0, 1);
+  enter (network, network->node[p].excess > 0 ? CELD_SOURCE : CELD_SINK, p, NO_PARENT, 0, 1);
 }
 
 static void
@@ -161,21 +163,21 @@ make_orphan (CeldNetwork *network, uint32_t p)
 
 /* ------------------------------------------------------------------ augmentation */
 
-/* The least of `amount` and what the way between p and its root allows. */
+/* The least of `amount` and the residual capacities between p and its root. */
 static int64_t
 least_to_root (const CeldNetwork *network, int tree, uint32_t p, int64_t amount)
 {
   const CeldFlowNode *node = &network->node[p];
   int64_t             wanted;
 
-  for (; node->parent != NONE; node = &network->node[network->arc[node->parent].to])
+  for (; node->parent != NO_PARENT; node = &network->node[network->arc[node->parent].to])
     if (network->arc[node->parent].left[!tree] < amount)
       amount = network->arc[node->parent].left[!tree];
   wanted = tree == CELD_SOURCE ? node->excess : -node->excess;
   return wanted < amount ? wanted : amount;
 }
 
-/* Moves it along the arc, or against it for CELD_SINK. */
+/* Moves the amount along the arc, or against it for CELD_SINK. */
 static void
 move (CeldNetwork *network, int tree, CeldFlowArc *arc, int64_t amount)
 {
@@ -192,7 +194,7 @@ move_to_root (CeldNetwork *network, int tree, uint32_t p, int64_t amount)
 {
   CeldFlowNode *node = network->node;
 
-  while (node[p].parent != NONE)
+  while (node[p].parent != NO_PARENT)
     {
       CeldFlowArc *arc = &network->arc[node[p].parent];
 
@@ -231,7 +233,7 @@ distance_to_root (CeldNetwork *network, uint32_t p)
     {
       if (node[q].parent == ORPHAN)
         return 0;
-      if (node[q].parent != NONE)
+      if (node[q].parent != NO_PARENT)
         continue;
       node[q].stamp    = now;
       node[q].distance = 1;
@@ -266,7 +268,7 @@ release (CeldNetwork *network, uint32_t p)
         make_orphan (network, arc->to);
     }
   node->tree   = CELD_NO_TREE;
-  node->parent = NONE;
+  node->parent = NO_PARENT;
 }
 
 /* Gives the orphan p the neighbour of its tree that is nearest to the root for a parent. */

@@ -1,8 +1,8 @@
 /* Aggregation of the Laplacian solver's graphs: strong components within quadtree cells.
  *
  * A node of level l is one strongly connected component of the pixels in a cell of 2^l x 2^l pixels, so that no wall,
- * however thin, is averaged over.  An edge is strong if its weight is at least STRONG times that of the strongest edge
- * at either end (as in classical algebraic multigrid; Brandt, McCormick and Ruge 1984).  A weakly attached node, whose
+ * however thin, is averaged over.  An edge is strong if its weight is at least half that of the strongest edge at
+ * either end (as in classical algebraic multigrid; Brandt, McCormick and Ruge 1984).  A weakly attached node, whose
  * edges are all weak beside those of its strongest neighbour, joins that neighbour's aggregate and no other, as soon as
  * the whole strong component of that lies in one cell.  Where cells leave too many nodes, they are aggregated in pairs
  * instead (laplace-pairwise.c).  Nodes without an edge and dominant ones (laplace-dominance.c) have no aggregate:
@@ -17,7 +17,7 @@
 #include "base/unions.h"
 #include "solve/laplace-aggregation.h"
 
-#define STRONG      0.5f /* times the strongest edge at either end: a strong edge; chosen by the bench */
+#define STRONG_EDGE 0.5f /* times the strongest edge at either end: a strong edge; chosen by the bench */
 #define FEWER       0.6  /* aggregates for each node at most, or pairs are tried; chosen by the bench */
 #define WHOLE       15   /* doublings after which any cell is the whole picture: 2^15 > CELD_MAX_SIDE */
 
@@ -134,7 +134,7 @@ find_strongest (CeldAggregation *a)
 static inline bool
 is_weakly_attached (const CeldAggregation *a, uint32_t i)
 {
-  return a->best[i] < STRONG * a->best[a->link[i]];
+  return a->best[i] < STRONG_EDGE * a->best[a->link[i]];
 }
 
 static bool
@@ -165,7 +165,7 @@ must_wait (const CeldAggregation *a, uint32_t i)
 static inline bool
 join_edge (CeldAggregation *a, bool attach, uint32_t i, uint32_t j, float w)
 {
-  bool weak_i, weak_j, waits_i, waits_j, strong = w >= STRONG * a->most; /* at any two nodes */
+  bool weak_i, weak_j, waits_i, waits_j, strong = w >= STRONG_EDGE * a->most; /* at any two nodes */
 
   if (strong && w > 0 && !attach)
     celd_join (a->parent, i, j);
@@ -173,7 +173,7 @@ join_edge (CeldAggregation *a, bool attach, uint32_t i, uint32_t j, float w)
     return false;
   weak_i = is_weakly_attached (a, i);
   weak_j = is_weakly_attached (a, j);
-  strong = w >= STRONG * a->best[i] && w >= STRONG * a->best[j];
+  strong = w >= STRONG_EDGE * a->best[i] && w >= STRONG_EDGE * a->best[j];
   if (!attach)
     {
       if (!weak_i && !weak_j && strong)
@@ -241,7 +241,7 @@ mark_divided (CeldAggregation *a, const CeldNodeRange *nodes)
   const CeldWeightedGraph *g = a->graph;
   uint32_t                 w = (uint32_t) g->width, n = celd_grid_nodes (g), side = 1u << a->coarse->doublings;
 
-#define DIVIDES(weight) (g->divided[i] && (weight) > 0 && (weight) >= STRONG * a->best[i])
+#define DIVIDES(weight) (g->divided[i] && (weight) > 0 && (weight) >= STRONG_EDGE * a->best[i])
   for (uint32_t y = nodes->from; y < nodes->to; y++)
     for (uint32_t x = 0, i = y * w; x < w; x++, i++)
       if ((x % side == 0 && x > 0 && DIVIDES (g->east[i - 1])) || ((x + 1) % side == 0 && DIVIDES (g->east[i])) ||
@@ -272,8 +272,8 @@ mark_divided_by_extra (CeldAggregation *a)
 
         if (!(w > 0) || same_cell (a, i, j))
           continue;
-        a->divided[i] |= g->divided[i] && w >= STRONG * a->best[i];
-        a->divided[j] |= g->divided[j] && w >= STRONG * a->best[j];
+        a->divided[i] |= g->divided[i] && w >= STRONG_EDGE * a->best[i];
+        a->divided[j] |= g->divided[j] && w >= STRONG_EDGE * a->best[j];
       }
 }
 

@@ -113,14 +113,14 @@ celd_number_aggregates (CeldAggregation *a)
 /* ------------------------------------------------------------------ the coarse matrix */
 
 /* An edge from an extra node. */
-typedef struct { uint32_t from, to; float weight; } Edge;
+typedef struct { uint32_t from, to; float weight; } ExtraEdge;
 
 typedef struct
 {
   const CeldWeightedGraph *fine;
   const uint32_t          *coarser;
   CeldWeightedGraph       *coarse;
-  Edge                    *edge;
+  ExtraEdge                    *edge;
   size_t                   n;
 } Contraction;
 
@@ -192,14 +192,14 @@ static inline CeldStatus
 push_edge (Contraction *c, uint32_t i, uint32_t j, float w)
 {
   uint32_t n = celd_grid_nodes (c->coarse);
-  Edge    *edge;
+  ExtraEdge    *edge;
 
   if (i == j || i < n || i == CELD_NO_NODE || !(w > 0))
     return CELD_OK;
   if (!(edge = celd_grow (c->edge, c->n + 1, sizeof *edge)))
     return CELD_NO_MEMORY;
   c->edge         = edge;
-  c->edge[c->n++] = (Edge) { i - n, j, w };
+  c->edge[c->n++] = (ExtraEdge) { i - n, j, w };
   return CELD_OK;
 }
 

@@ -25,7 +25,7 @@ typedef struct
   CeldSolution        *s;
   const CeldGridLevel *level;
   float                alpha[CELD_LANES], beta[CELD_LANES];
-} Pass;
+} PixelPass;
 
 /* ------------------------------------------------------------------ memory */
 
@@ -84,7 +84,7 @@ keep_largest (double *largest, const float *of, int lanes)
 
 /* p = z + beta p, q = t + beta q, x += alpha p, r -= alpha q */
 CELD_INLINE void
-step_row (const Pass *pass, int y, int lanes)
+step_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldSolution  *s = pass->s;
   const CeldGridLevel *level = pass->level;
@@ -117,7 +117,7 @@ step_row (const Pass *pass, int y, int lanes)
 
 /* black = relaxed from red pixels that are relaxed from 0 */
 CELD_INLINE void
-guess_row (const Pass *pass, int y, int lanes)
+guess_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   const float         *r = pass->s->r, *inverse = level->inverse;
@@ -137,7 +137,7 @@ guess_row (const Pass *pass, int y, int lanes)
 
 /* Black pixels were relaxed last, so only red ones have a residual: what their black neighbours pull. */
 CELD_INLINE void
-restrict_row (const Pass *pass, int y, int lanes)
+restrict_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   float               *coarse = pass->s->cycle.vectors[1].b;
@@ -150,15 +150,15 @@ restrict_row (const Pass *pass, int y, int lanes)
     }
 }
 
-ROW_PASS (pixels_step, step_row)
-ROW_PASS (pixels_guess, guess_row)
-ROW_PASS (pixels_restrict, restrict_row)
+ROW_PASS (PixelPass, pixels_step, step_row)
+ROW_PASS (PixelPass, pixels_guess, guess_row)
+ROW_PASS (PixelPass, pixels_restrict, restrict_row)
 
 /* ------------------------------------------------------------------ up: the second half, and S z */
 
 /* z = red pixels relaxed from 0, plus the coarse correction */
 CELD_INLINE void
-correct_row (const Pass *pass, int y, int lanes)
+correct_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel    *level = pass->level;
   const CeldLevelVectors *next = &pass->s->cycle.vectors[1];
@@ -176,7 +176,7 @@ correct_row (const Pass *pass, int y, int lanes)
 }
 
 CELD_INLINE void
-relax_black_row (const Pass *pass, int y, int lanes)
+relax_black_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
 
@@ -185,7 +185,7 @@ relax_black_row (const Pass *pass, int y, int lanes)
 }
 
 CELD_INLINE void
-relax_red_row (const Pass *pass, int y, int lanes)
+relax_red_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
 
@@ -196,7 +196,7 @@ relax_red_row (const Pass *pass, int y, int lanes)
 
 /* black = relaxed black pixels less the red one of the same place: differences, for S z */
 CELD_INLINE void
-rise_row (const Pass *pass, int y, int lanes)
+rise_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   const float         *z = pass->s->z;
@@ -217,7 +217,7 @@ rise_row (const Pass *pass, int y, int lanes)
 
 /* t = S z, and sums */
 CELD_INLINE void
-apply_row (const Pass *pass, int y, int lanes)
+apply_row (const PixelPass *pass, int y, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   const float         *z = pass->s->z, *black = pass->s->black;
@@ -251,22 +251,22 @@ apply_row (const Pass *pass, int y, int lanes)
   keep_largest (row + 3 * CELD_LANES, largest, lanes);
 }
 
-ROW_PASS (pixels_correct, correct_row)
-ROW_PASS (pixels_relax_black, relax_black_row)
-ROW_PASS (pixels_relax_red, relax_red_row)
-ROW_PASS (pixels_rise, rise_row)
-ROW_PASS (pixels_apply, apply_row)
+ROW_PASS (PixelPass, pixels_correct, correct_row)
+ROW_PASS (PixelPass, pixels_relax_black, relax_black_row)
+ROW_PASS (PixelPass, pixels_relax_red, relax_red_row)
+ROW_PASS (PixelPass, pixels_rise, rise_row)
+ROW_PASS (PixelPass, pixels_apply, apply_row)
 
 /* ------------------------------------------------------------------ the passes */
 
-#define RUN_PASS(pass, host, name) \
+#define RUN_PIXEL_PASS(pass, host, name) \
   celd_row_pass (host, (pass)->level->height, (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass)
 
 /* A pass with these coefficients of a step, or without one. */
-static Pass
+static PixelPass
 pass_of (CeldSolution *s, const double *alpha, const double *beta)
 {
-  Pass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
+  PixelPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
 
   for (int k = 0; k < s->lanes && alpha; k++)
     {
@@ -295,13 +295,13 @@ gather (const CeldSolution *s, int which, bool largest, double *result)
 void
 celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldRoundMeasures *m)
 {
-  Pass              pass = pass_of (s, alpha, beta);
+  PixelPass              pass = pass_of (s, alpha, beta);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
   const CeldHost   *host = s->host;
 
   if (alpha)
     {
-      RUN_PASS (&pass, host, pixels_step);
+      RUN_PIXEL_PASS (&pass, host, pixels_step);
       gather (s, 0, true, m->low);
       gather (s, 1, true, m->high);
       for (int k = 0; k < s->lanes; k++)
@@ -310,14 +310,14 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
   if (fresh)
     celd_pixels_refresh (s);
   memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-  RUN_PASS (&pass, host, pixels_guess);
-  RUN_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, pixels_restrict);
+  RUN_PIXEL_PASS (&pass, host, pixels_guess);
+  RUN_PIXEL_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, pixels_restrict);
   celd_kcycle_solve (&s->cycle);
-  RUN_PASS (&pass, host, pixels_correct);
-  RUN_PASS (&pass, host, pixels_relax_black);
-  RUN_PASS (&pass, host, pixels_relax_red);
-  RUN_PASS (&pass, host, pixels_rise);
-  RUN_PASS (&pass, host, pixels_apply);
+  RUN_PIXEL_PASS (&pass, host, pixels_correct);
+  RUN_PIXEL_PASS (&pass, host, pixels_relax_black);
+  RUN_PIXEL_PASS (&pass, host, pixels_relax_red);
+  RUN_PIXEL_PASS (&pass, host, pixels_rise);
+  RUN_PIXEL_PASS (&pass, host, pixels_apply);
   gather (s, 0, false, m->zr);
   gather (s, 1, false, m->zq);
   gather (s, 2, false, m->zt);

@@ -18,7 +18,7 @@ typedef struct
   CeldSolution        *s;
   const CeldGridLevel *level;
   bool                 deliver; /* the result, rather than the residual */
-} Pass;
+} ResidualPass;
 
 /* ------------------------------------------------------------------ right-hand sides */
 
@@ -51,12 +51,12 @@ place_rhs_row (const CeldSolution *s, int y, int colour, float *out, int lanes)
 
 /* ------------------------------------------------------------------ rows */
 
-#define WIDE(v, i) __builtin_convertvector (EIGHT (v, i), Eight)
+#define WIDE_EIGHT(v, i) __builtin_convertvector (EIGHT (v, i), Eight)
 #define WIDE_WEIGHT(w, i) __builtin_convertvector (WEIGHT (w, i), Eight)
 
 /* The numbers of the black pixels of row y; nothing outside the picture.  b: workspace for their right-hand side. */
 CELD_INLINE void
-solve_black_row (const Pass *pass, int y, float *b, double *out, int lanes)
+solve_black_row (const ResidualPass *pass, int y, float *b, double *out, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   const float         *x = pass->s->x, *diagonal = level->diagonal + level->plane;
@@ -74,8 +74,9 @@ solve_black_row (const Pass *pass, int y, float *b, double *out, int lanes)
       Eight  near = WIDE_WEIGHT (level->near, i), far = WIDE_WEIGHT (level->far, beside);
       Eight  south = WIDE_WEIGHT (level->south, above), north = WIDE_WEIGHT (level->north, below);
       Eight  whole = WIDE_WEIGHT (diagonal, i) + near + far + south + north;
-      Eight  sum = WIDE (b, i - first) + near * WIDE (x, i) + far * WIDE (x, beside) + south * WIDE (x, above) +
-                  north * WIDE (x, below);
+      Eight  sum = WIDE_EIGHT (b, i - first) + near * WIDE_EIGHT (x, i) + far * WIDE_EIGHT (x, beside) +
+                   south * WIDE_EIGHT (x, above) +
+                   north * WIDE_EIGHT (x, below);
 
       for (int k = 0; k < 8; k++)
         whole[k] = whole[k] > 0 ? whole[k] : 1; /* the sum is 0 then */
@@ -85,7 +86,7 @@ solve_black_row (const Pass *pass, int y, float *b, double *out, int lanes)
 
 /* r of row y, from the black rows round it. */
 CELD_INLINE void
-residual_row (const Pass *pass, int y, const double *above, const double *here, const double *below, int lanes)
+residual_row (const ResidualPass *pass, int y, const double *above, const double *here, const double *below, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   const float         *x = pass->s->x;
@@ -96,8 +97,8 @@ residual_row (const Pass *pass, int y, const double *above, const double *here, 
   for (EACH_PLACE (level, y, i))
     {
       size_t at = i - first;
-      Eight  red = WIDE (x, i);
-      Eight  sum = WIDE (r, i) - WIDE_WEIGHT (level->diagonal, i) * red;
+      Eight  red = WIDE_EIGHT (x, i);
+      Eight  sum = WIDE_EIGHT (r, i) - WIDE_WEIGHT (level->diagonal, i) * red;
 
       sum += WIDE_WEIGHT (level->near, i) * (*(const Loose *) (here + at * many) - red);
       sum += WIDE_WEIGHT (level->far, i) * (*(const Loose *) (here + (at - (y & 1 ? -(size_t) 1 : 1)) * many) - red);
@@ -109,7 +110,7 @@ residual_row (const Pass *pass, int y, const double *above, const double *here, 
 
 /* The caller's row y. */
 CELD_INLINE void
-deliver_row (const Pass *pass, int y, const double *black, int lanes)
+deliver_row (const ResidualPass *pass, int y, const double *black, int lanes)
 {
   const CeldGridLevel *level = pass->level;
   size_t               first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
@@ -129,7 +130,7 @@ deliver_row (const Pass *pass, int y, const double *black, int lanes)
 CELD_INLINE void
 residual (void *data, int strip, int lanes)
 {
-  const Pass          *pass = data;
+  const ResidualPass          *pass = data;
   const CeldGridLevel *level = pass->level;
   size_t               size = level->stride * (size_t) lanes;
   double              *ring = pass->s->scratch + (size_t) strip * 3 * size;
@@ -155,7 +156,7 @@ residual (void *data, int strip, int lanes)
 CELD_INLINE void
 read_strip (void *data, int strip, int lanes)
 {
-  const Pass          *pass = data;
+  const ResidualPass          *pass = data;
   const CeldGridLevel *level = pass->level;
   size_t               many = (size_t) lanes, w = (size_t) level->width;
   int                  from = strip * CELD_STRIP, end = from + CELD_STRIP;
@@ -204,7 +205,7 @@ has_edge (const CeldGridLevel *level, size_t i)
 
 /* Pixels of row y without an edge: their residual goes at once.  Others have no coarser node either. */
 static void
-settle_row (const Pass *pass, int y)
+settle_row (const ResidualPass *pass, int y)
 {
   const CeldGridLevel *level = pass->level;
   float               *x = pass->s->x, *r = pass->s->r;
@@ -222,7 +223,7 @@ settle_row (const Pass *pass, int y)
 static void
 settle_strip (void *data, int strip)
 {
-  const Pass *pass = data;
+  const ResidualPass *pass = data;
   int         from = strip * CELD_STRIP, end = from + CELD_STRIP;
 
   for (int y = from; y < end && y < pass->level->height; y++)
@@ -232,7 +233,7 @@ settle_strip (void *data, int strip)
 /* ------------------------------------------------------------------ the passes */
 
 static void
-run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
+run (ResidualPass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
 {
   celd_row_pass (pass->s->host, pass->level->height, pass->s->lanes == 1 ? single : lanes, pass);
 }
@@ -240,13 +241,13 @@ run (Pass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pa
 void
 celd_pixels_refresh (CeldSolution *s)
 {
-  run (&(Pass) { .s = s, .level = &s->laplace->hierarchy.level[0] }, residual_single, residual_lanes);
+  run (&(ResidualPass) { .s = s, .level = &s->laplace->hierarchy.level[0] }, residual_single, residual_lanes);
 }
 
 void
 celd_pixels_begin (CeldSolution *s)
 {
-  Pass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
+  ResidualPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
 
   run (&pass, read_strip_single, read_strip_lanes);
   run (&pass, residual_single, residual_lanes);
@@ -256,5 +257,7 @@ celd_pixels_begin (CeldSolution *s)
 void
 celd_pixels_deliver (CeldSolution *s)
 {
-  run (&(Pass) { .s = s, .level = &s->laplace->hierarchy.level[0], .deliver = true }, residual_single, residual_lanes);
+  ResidualPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0], .deliver = true };
+
+  run (&pass, residual_single, residual_lanes);
 }

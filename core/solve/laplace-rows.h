@@ -70,9 +70,9 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
  * A pass takes every row once; its rows are independent of each other, so that strips of them go to the host's threads
  * and none can change the result. */
 
-/* Defines name_single and name_lanes, which take the rows of a strip: row (pass, y, lanes).  Names are unique in core:
- * clang makes what chooses between clones global. */
-#define ROW_PASS(name, row) \
+/* Defines name_single and name_lanes, which take the rows of a strip of a Pass: row (pass, y, lanes).  Names are unique
+ * in core, since clang makes the function that chooses between clones global. */
+#define ROW_PASS(Pass, name, row) \
   CELD_INLINE void name (void *data, int strip, int lanes) \
   { \
     Pass *p = data; \

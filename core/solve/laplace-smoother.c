@@ -14,8 +14,6 @@
  */
 #include "solve/laplace-rows.h"
 
-typedef CeldSmootherPass Pass;
-
 /* The numbers of the black nodes of a vector. */
 #define BLACK(v) ((v) + p->level->plane * (size_t) lanes)
 
@@ -23,7 +21,7 @@ typedef CeldSmootherPass Pass;
 
 /* Relaxes red nodes from x = 0, and black nodes from these. */
 CELD_INLINE void
-guess_row (const Pass *p, int y, int lanes)
+guess_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
 
@@ -44,7 +42,7 @@ guess_row (const Pass *p, int y, int lanes)
 
 /* Black nodes were relaxed last: what they pull at red ones is these ones' residual. */
 CELD_INLINE void
-restrict_row (const Pass *p, int y, int lanes)
+restrict_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
 
@@ -58,7 +56,7 @@ restrict_row (const Pass *p, int y, int lanes)
 
 /* x += prolongation of the next level's solution, at the places from .. to - 1 */
 CELD_INLINE void
-prolong (const Pass *p, size_t from, size_t to, int lanes)
+prolong (const CeldSmootherPass *p, size_t from, size_t to, int lanes)
 {
   const CeldLevelVectors *next = p->next;
   const uint32_t         *coarser = p->level->coarser;
@@ -72,7 +70,7 @@ prolong (const Pass *p, size_t from, size_t to, int lanes)
 }
 
 CELD_INLINE void
-prolong_row (const Pass *p, int y, int lanes)
+prolong_row (const CeldSmootherPass *p, int y, int lanes)
 {
   size_t first = (size_t) (y + 1) * p->level->stride + 1;
 
@@ -81,7 +79,7 @@ prolong_row (const Pass *p, int y, int lanes)
 
 /* What extra nodes add to the relaxed grid nodes of a row; from, to: links. */
 CELD_INLINE void
-add_links (const Pass *p, uint32_t from, uint32_t to, int lanes)
+add_links (const CeldSmootherPass *p, uint32_t from, uint32_t to, int lanes)
 {
   const CeldGridLevel *level = p->level;
 
@@ -91,7 +89,7 @@ add_links (const Pass *p, uint32_t from, uint32_t to, int lanes)
 }
 
 CELD_INLINE void
-relax_black_row (const Pass *p, int y, int lanes)
+relax_black_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
   size_t               row = (size_t) (level->height + y);
@@ -104,7 +102,7 @@ relax_black_row (const Pass *p, int y, int lanes)
 }
 
 CELD_INLINE void
-relax_red_row (const Pass *p, int y, int lanes)
+relax_red_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
 
@@ -117,7 +115,7 @@ relax_red_row (const Pass *p, int y, int lanes)
 /* image = A x of the black nodes; that of red nodes is b, since they were relaxed last.  Differences are taken first,
  * so that a constant x gives exactly 0.  Sums: x b, x A x, other A x. */
 CELD_INLINE void
-apply_row (const Pass *p, int y, int lanes)
+apply_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
   CeldEight            xb = SPLAT (0), xi = SPLAT (0), oi = SPLAT (0);
@@ -160,7 +158,7 @@ apply_row (const Pass *p, int y, int lanes)
 
 /* b -= a A x; sums: b b before and after. */
 CELD_INLINE void
-reduce_row (const Pass *p, int y, int lanes)
+reduce_row (const CeldSmootherPass *p, int y, int lanes)
 {
   const CeldGridLevel *level = p->level;
   CeldEight            a = LANES (p->a), rest = SPLAT (1) - a, before = SPLAT (0), after = SPLAT (0);
@@ -180,19 +178,19 @@ reduce_row (const Pass *p, int y, int lanes)
   celd_keep_sum (sum + CELD_LANES, &after, lanes);
 }
 
-ROW_PASS (smooth_guess, guess_row)
-ROW_PASS (smooth_restrict, restrict_row)
-ROW_PASS (smooth_prolong, prolong_row)
-ROW_PASS (smooth_relax_black, relax_black_row)
-ROW_PASS (smooth_relax_red, relax_red_row)
-ROW_PASS (smooth_apply, apply_row)
-ROW_PASS (smooth_reduce, reduce_row)
+ROW_PASS (CeldSmootherPass, smooth_guess, guess_row)
+ROW_PASS (CeldSmootherPass, smooth_restrict, restrict_row)
+ROW_PASS (CeldSmootherPass, smooth_prolong, prolong_row)
+ROW_PASS (CeldSmootherPass, smooth_relax_black, relax_black_row)
+ROW_PASS (CeldSmootherPass, smooth_relax_red, relax_red_row)
+ROW_PASS (CeldSmootherPass, smooth_apply, apply_row)
+ROW_PASS (CeldSmootherPass, smooth_reduce, reduce_row)
 
 /* ------------------------------------------------------------------ extra nodes */
 
 /* Relaxes extra node e, of its edges from .. to - 1. */
 CELD_INLINE void
-relax_extra (const Pass *p, size_t e, uint32_t from, uint32_t to, int lanes)
+relax_extra (const CeldSmootherPass *p, size_t e, uint32_t from, uint32_t to, int lanes)
 {
   const CeldGridLevel *level = p->level;
   size_t               at = 2 * level->plane + e;
@@ -218,7 +216,7 @@ relax_extra (const Pass *p, size_t e, uint32_t from, uint32_t to, int lanes)
 /* Relaxes extra nodes from 0, each after those before it, and restricts what they pull at nodes that were relaxed
  * before them. */
 CELD_INLINE void
-extra_down (const Pass *p, int lanes)
+extra_down (const CeldSmootherPass *p, int lanes)
 {
   const CeldGridLevel *level = p->level;
   const uint32_t      *extra = level->coarser + 2 * level->plane;
@@ -235,7 +233,7 @@ extra_down (const Pass *p, int lanes)
 
 /* Corrects extra nodes and the black nodes that they have edges to, and relaxes extra nodes. */
 CELD_INLINE void
-extra_up (const Pass *p, int lanes)
+extra_up (const CeldSmootherPass *p, int lanes)
 {
   const CeldGridLevel *level = p->level;
 
@@ -249,7 +247,7 @@ extra_up (const Pass *p, int lanes)
 
 /* image = A x of the extra nodes */
 CELD_INLINE void
-extra_apply (const Pass *p, float *image, int lanes)
+extra_apply (const CeldSmootherPass *p, float *image, int lanes)
 {
   const CeldGridLevel *level = p->level;
   const float         *x = p->x;
@@ -291,7 +289,7 @@ extra_dot (const CeldGridLevel *level, const float *a, const float *b, double *s
 
 /* b -= a image of the extra nodes */
 CELD_INLINE void
-extra_reduce (const Pass *p, int lanes)
+extra_reduce (const CeldSmootherPass *p, int lanes)
 {
   CeldEight a = LANES (p->a);
 
@@ -312,21 +310,21 @@ extra_reduce (const Pass *p, int lanes)
       name (__VA_ARGS__, CELD_LANES); \
   }
 
-BOTH_LANES (extra_down, (const Pass *p, int lanes), p)
-BOTH_LANES (extra_up, (const Pass *p, int lanes), p)
-BOTH_LANES (extra_apply, (const Pass *p, float *image, int lanes), p, image)
-BOTH_LANES (extra_reduce, (const Pass *p, int lanes), p)
+BOTH_LANES (extra_down, (const CeldSmootherPass *p, int lanes), p)
+BOTH_LANES (extra_up, (const CeldSmootherPass *p, int lanes), p)
+BOTH_LANES (extra_apply, (const CeldSmootherPass *p, float *image, int lanes), p, image)
+BOTH_LANES (extra_reduce, (const CeldSmootherPass *p, int lanes), p)
 BOTH_LANES (extra_dot, (const CeldGridLevel *level, const float *a, const float *b, double *sum, int lanes),
             level, a, b, sum)
 
 /* ------------------------------------------------------------------ the visit of a cycle */
 
-#define RUN_PASS(p, host, name) \
+#define RUN_SMOOTHER_PASS(p, host, name) \
   celd_row_pass (host, (p)->level->height, (p)->lanes == 1 ? name##_single : name##_lanes, p)
 
 /* Adds up what a pass has summed of each row. */
 static void
-sum_rows (const Pass *p, int which, double *sum)
+sum_rows (const CeldSmootherPass *p, int which, double *sum)
 {
   for (int k = 0; k < CELD_LANES; k++)
     sum[k] = 0;
@@ -339,19 +337,19 @@ void
 celd_smooth_down (CeldSmootherPass *p)
 {
   memset (p->next->b, 0, (size_t) p->level[1].n * (size_t) p->lanes * sizeof *p->next->b);
-  RUN_PASS (p, p->host, smooth_guess);
-  RUN_PASS (p, celd_strips_share (p->level) ? NULL : p->host, smooth_restrict);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_guess);
+  RUN_SMOOTHER_PASS (p, celd_strips_share (p->level) ? NULL : p->host, smooth_restrict);
   smooth_extra_down (p, p->lanes);
 }
 
 void
 celd_smooth_up (CeldSmootherPass *p, float *image, double *xb, double *xi, double *oi)
 {
-  RUN_PASS (p, p->host, smooth_prolong);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_prolong);
   smooth_extra_up (p, p->lanes);
-  RUN_PASS (p, p->host, smooth_relax_black);
-  RUN_PASS (p, p->host, smooth_relax_red);
-  RUN_PASS (p, p->host, smooth_apply);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_relax_black);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_relax_red);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_apply);
   sum_rows (p, 0, xb);
   sum_rows (p, 1, xi);
   sum_rows (p, 2, oi);
@@ -367,7 +365,7 @@ celd_smooth_up (CeldSmootherPass *p, float *image, double *xb, double *xi, doubl
 void
 celd_smooth_reduce (CeldSmootherPass *p, double *before, double *after)
 {
-  RUN_PASS (p, p->host, smooth_reduce);
+  RUN_SMOOTHER_PASS (p, p->host, smooth_reduce);
   sum_rows (p, 0, before);
   sum_rows (p, 1, after);
   smooth_extra_dot (p->level, p->b, p->b, before, p->lanes);

@@ -19,7 +19,7 @@
 
 #include <math.h>
 
-#define MOST_ROUNDS  200        /* then the error is reported as it is; chosen */
+#define MAX_CG_ROUNDS  200        /* then the error is reported as it is; chosen */
 #define RENEW        6          /* rounds after which the residual is computed anew in double; chosen by the bench */
 #define RENEW_WEAK   3          /* the same where weights differ much: rounding errors in it grow with the condition */
 #define SAFETY       1.7        /* factor of the estimated error, as the cycle is not linear: it was seen 1.6 short */
@@ -77,7 +77,7 @@ celd_lap_free (CeldLaplace *laplace)
 /* What is known of one lane. */
 typedef struct
 {
-  double alpha[MOST_ROUNDS], beta[MOST_ROUNDS];
+  double alpha[MAX_CG_ROUNDS], beta[MAX_CG_ROUNDS];
   double pq;                    /* of the last direction */
   double scale;                 /* range of x */
   double error;
@@ -174,7 +174,7 @@ iterate (CeldSolution *s, double tolerance, Lane *lane, CeldSolve *solve)
           solve->error = fmax (solve->error, lane[k].error);
         }
       solve->converged = solve->error <= tolerance;
-      if (all || round == MOST_ROUNDS)
+      if (all || round == MAX_CG_ROUNDS)
         return CELD_OK;
 
       first = round <= 1 ? solve->error : first;

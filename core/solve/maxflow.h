@@ -26,7 +26,7 @@ typedef struct
   const int32_t  *east, *south; /* V_pq > 0, as in celd_maxflow */
   const uint32_t *seed;         /* painted label of each pixel, 0 = none */
   const int32_t  *vote;         /* of label l: vote[l - 1], what one of its painted pixels costs with another label */
-  const uint32_t *order;        /* all labels, in the order in which they are told apart from the rest */
+  const uint32_t *order;        /* all labels, in the order in which they are separated from the rest */
   size_t          n_labels;     /* at least 1 */
 } CeldMultiway;
 

@@ -12,22 +12,22 @@
  * Only the last rule and the votes for alpha depend on alpha.  Without them the network is that of a label that has
  * neither nodes nor votes; its pseudo-flow is kept from one expansion to the next, so that only what borders on alpha
  * and what votes for it is new.  Nodes that are alpha stand for the source: all they have left flows to the neighbours,
- * and they are closed.  What was put on top for the votes is taken away in the end; a node that lacks it then is where
- * the same expansion finds it again.
+ * and they are closed.  What the votes for alpha added is taken away in the end; a node that has a
+ * deficit then is one that the same expansion finds again.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "solve/flow.h"
-#include "solve/partition-graph.h"
+#include "solve/partition-private.h"
 
 typedef struct
 {
   CeldPartitionGraph *graph;
-  int64_t  *held;           /* of each node: the votes for the label that it has */
-  int64_t  *wanted;         /* the votes for alpha, while it expands; else 0 */
-  uint32_t *loose;          /* nodes with an excess that is there without alpha; at first all nodes */
-  size_t    n_loose;
-  bool     *is_loose;
+  int64_t  *current;           /* of each node: the votes for the label that it has */
+  int64_t  *for_alpha;         /* the votes for alpha, while it expands; else 0 */
+  uint32_t *excess_node;          /* nodes whose excess does not come from alpha; at first all nodes */
+  size_t    n_excess;
+  bool     *is_listed;
 } Expansion;
 
 /* ------------------------------------------------------------------ the network without alpha */
@@ -39,19 +39,19 @@ lay_out (Expansion *e)
   CeldPartitionGraph *graph = e->graph;
 
   for (size_t i = 0; i < graph->of_rank[graph->n_ranks]; i++)
-    if (graph->ballot[i].rank == graph->rank[graph->ballot[i].node])
-      e->held[graph->ballot[i].node] = graph->ballot[i].cost;
+    if (graph->vote_sum[i].rank == graph->rank[graph->vote_sum[i].node])
+      e->current[graph->vote_sum[i].node] = graph->vote_sum[i].cost;
   for (uint32_t p = 0; p < graph->n; p++)
     {
       CeldFlowNode *node = &graph->network.node[p];
 
-      node->excess   = -2 * e->held[p];
-      e->is_loose[p] = true;
-      e->loose[e->n_loose++] = p;
+      node->excess   = -2 * e->current[p];
+      e->is_listed[p] = true;
+      e->excess_node[e->n_excess++] = p;
       for (uint32_t a = node->arc; a < node[1].arc; a++)
         {
           CeldFlowArc *arc = &graph->network.arc[a];
-          bool     same = graph->rank[arc->to] == graph->rank[p];
+          bool         same = graph->rank[arc->to] == graph->rank[p];
 
           arc->left[0] = arc->left[1] = same ? 2 * graph->cost[a] : graph->cost[a];
           node->excess += same ? 0 : graph->cost[a];
@@ -98,7 +98,7 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
   for (uint32_t a = node->arc; a < node[1].arc; a++)
     {
       CeldFlowArc *arc = &network->arc[a];
-      int64_t  cost = graph->cost[a];
+      int64_t      cost = graph->cost[a];
 
       if (graph->rank[arc->to] == alpha)
         widen (network, p, arc, cost);
@@ -111,14 +111,14 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
           widen (network, p, arc, -cost);
         }
     }
-  node->excess  += 2 * (e->held[p] - e->wanted[p]);
-  e->held[p]     = e->wanted[p];
+  node->excess  += 2 * (e->current[p] - e->for_alpha[p]);
+  e->current[p]     = e->for_alpha[p];
   graph->rank[p] = alpha;
 }
 
 /* ------------------------------------------------------------------ one expansion */
 
-/* Where an excess comes from alpha.  Nodes that lack something are left to be found: little borders on alpha. */
+/* Begins a search at p if it has an excess.  Nodes with a deficit are found by the search: few are beside alpha. */
 static void
 root (Expansion *e, uint32_t p)
 {
@@ -164,14 +164,14 @@ vote (Expansion *e, uint32_t alpha, int sign)
 
   for (size_t i = graph->of_rank[alpha]; i < graph->of_rank[alpha + 1]; i++)
     {
-      const CeldBallot *ballot = &graph->ballot[graph->by_rank[i]];
+      const CeldVoteSum *vote_sum = &graph->vote_sum[graph->by_rank[i]];
 
-      if (graph->rank[ballot->node] == alpha)
+      if (graph->rank[vote_sum->node] == alpha)
         continue;
-      graph->network.node[ballot->node].excess += 2 * sign * ballot->cost;
-      e->wanted[ballot->node] = ballot->cost;
+      graph->network.node[vote_sum->node].excess += 2 * sign * vote_sum->cost;
+      e->for_alpha[vote_sum->node] = vote_sum->cost;
       if (sign > 0)
-        root (e, ballot->node);
+        root (e, vote_sum->node);
     }
 }
 
@@ -179,34 +179,34 @@ static void
 forget_votes (Expansion *e, uint32_t alpha)
 {
   for (size_t i = e->graph->of_rank[alpha]; i < e->graph->of_rank[alpha + 1]; i++)
-    e->wanted[e->graph->ballot[e->graph->by_rank[i]].node] = 0;
+    e->for_alpha[e->graph->vote_sum[e->graph->by_rank[i]].node] = 0;
 }
 
 static void
-add_loose (Expansion *e, uint32_t p)
+list_excess (Expansion *e, uint32_t p)
 {
-  if (e->is_loose[p] || e->graph->network.node[p].excess <= 0)
+  if (e->is_listed[p] || e->graph->network.node[p].excess <= 0)
     return;
-  e->is_loose[p] = true;
-  e->loose[e->n_loose++] = p;
+  e->is_listed[p] = true;
+  e->excess_node[e->n_excess++] = p;
 }
 
-/* All that can have an excess now: nodes that had it and were closed, and nodes that took alpha.  Those beside them
- * have none: what flows to them along full links gets less by as much as keeping their label costs more. */
+/* Lists all nodes that can have an excess now: those that had one and were closed, and those that took alpha.  Their
+ * neighbours have none: the flow to them along saturated links falls by as much as keeping their label costs more. */
 static void
-find_loose (Expansion *e)
+list_all_excess (Expansion *e)
 {
   const CeldNetwork *network = &e->graph->network;
-  size_t             n = e->n_loose;
+  size_t             n = e->n_excess;
 
-  e->n_loose = 0;
+  e->n_excess = 0;
   for (size_t i = 0; i < n; i++)
     {
-      e->is_loose[e->loose[i]] = false;
-      add_loose (e, e->loose[i]);
+      e->is_listed[e->excess_node[i]] = false;
+      list_excess (e, e->excess_node[i]);
     }
   for (size_t i = 0; i < network->n_reached; i++)
-    add_loose (e, network->reached[i]);
+    list_excess (e, network->reached[i]);
 }
 
 /* *changed: did any node take the label? */
@@ -219,9 +219,9 @@ expand (Expansion *e, uint32_t alpha, const CeldHost *host, bool *changed)
   celd_network_begin (network);
   close_alpha (e, alpha);
   vote (e, alpha, 1);
-  for (size_t i = 0; i < e->n_loose; i++)
-    if (network->node[e->loose[i]].excess && network->node[e->loose[i]].tree == CELD_NO_TREE)
-      celd_network_root (network, e->loose[i]);
+  for (size_t i = 0; i < e->n_excess; i++)
+    if (network->node[e->excess_node[i]].excess && network->node[e->excess_node[i]].tree == CELD_NO_TREE)
+      celd_network_root (network, e->excess_node[i]);
   status = celd_network_drain (network, host);
   if (status != CELD_OK)
     return status;
@@ -230,7 +230,7 @@ expand (Expansion *e, uint32_t alpha, const CeldHost *host, bool *changed)
   for (size_t i = 0; i < network->n_reached; i++)
     take (e, network->reached[i], alpha);
   forget_votes (e, alpha);
-  find_loose (e);
+  list_all_excess (e);
   *changed = network->n_reached;
   return CELD_OK;
 }
@@ -243,11 +243,11 @@ celd_partition_expand (CeldPartitionGraph *graph, const CeldHost *host)
   size_t     settled = 0; /* labels in a row that could not expand */
   CeldStatus status = CELD_NO_MEMORY;
 
-  e.held     = celd_alloc0 (graph->n, sizeof *e.held);
-  e.wanted   = celd_alloc0 (graph->n, sizeof *e.wanted);
-  e.loose    = celd_alloc (graph->n, sizeof *e.loose);
-  e.is_loose = celd_alloc (graph->n, sizeof *e.is_loose);
-  if (!e.held || !e.wanted || !e.loose || !e.is_loose)
+  e.current     = celd_alloc0 (graph->n, sizeof *e.current);
+  e.for_alpha   = celd_alloc0 (graph->n, sizeof *e.for_alpha);
+  e.excess_node    = celd_alloc (graph->n, sizeof *e.excess_node);
+  e.is_listed = celd_alloc (graph->n, sizeof *e.is_listed);
+  if (!e.current || !e.for_alpha || !e.excess_node || !e.is_listed)
     goto done;
   lay_out (&e);
   status = celd_progress (host, 0); /* how often all labels have to be tried cannot be told */
@@ -264,9 +264,9 @@ celd_partition_expand (CeldPartitionGraph *graph, const CeldHost *host)
     }
 
 done:
-  celd_free (e.held);
-  celd_free (e.wanted);
-  celd_free (e.loose);
-  celd_free (e.is_loose);
+  celd_free (e.current);
+  celd_free (e.for_alpha);
+  celd_free (e.excess_node);
+  celd_free (e.is_listed);
   return status;
 }

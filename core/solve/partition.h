@@ -9,6 +9,8 @@
 
 /* The sum of all costs of a problem, terminals included, is at most 2^60: nothing overflows then. */
 
+#define CELD_MANY_LABELS 24 /* labels from which on a component is first cut between two halves of them; chosen */
+
 typedef struct { uint32_t a, b; int64_t cost; } CeldLink;           /* of different labels on the nodes a and b; > 0 */
 typedef struct { uint32_t node, label; int64_t cost; } CeldVote;    /* of another label than this on the node; > 0 */
 
@@ -20,11 +22,11 @@ typedef struct
   const CeldVote *vote;         /* any order; several for one node and label add up */
   size_t          n_votes;
   const uint32_t *fixed;        /* of node k: the label it must have, or 0; NULL: none must */
-  const uint32_t *order;        /* all labels, 1 .. n_labels, in the order in which they are told apart */
+  const uint32_t *order;        /* all labels, 1 .. n_labels, in the order in which they are separated */
   size_t          n_labels;     /* at least 1 */
 } CeldPartition;
 
-/* label[k] becomes the label of node k: the labels are told apart in turn by exact binary cuts as in celd_multiway,
+/* label[k] becomes the label of node k: the labels are separated in turn by exact binary cuts as in celd_multiway,
  * then alpha-expansion lowers the energy until no expansion does.  *energy and *greedy (may be NULL) are the energies
  * after and before expansion: energy <= greedy.  A connected part of the graph that no label reaches gets the first
  * label of the order.  The order of nodes, links and votes does not matter. */

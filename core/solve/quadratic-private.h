@@ -83,7 +83,8 @@ typedef struct
 } CeldTopologicalOrder;
 
 /* Fills them; false if there is a loop.  waits: n, work space. */
-bool celd_ranks_sort (CeldTopologicalOrder *ranks, size_t n, size_t m, const CeldInequality *inequality, uint32_t *waits);
+bool celd_ranks_sort (CeldTopologicalOrder *ranks, size_t n, size_t m, const CeldInequality *inequality,
+                      uint32_t *waits);
 
 /* Raises nodes until every inequality holds, from the back to the front: from 0, to the longest-path levels. */
 void celd_ranks_raise (const CeldTopologicalOrder *ranks, size_t n, const CeldInequality *inequality, double *u);

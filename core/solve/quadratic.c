@@ -28,11 +28,11 @@
 
 #include <math.h>
 
-#define MOST        1e30  /* of an entry of K */
+#define MAX_ENTRY        1e30  /* of an entry of K */
 #define FAR_GAP     1e12  /* most of a gap; its inverse the least */
 #define TINY_FLOW   1e-10 /* of a unit force, through a link: rounding */
 #define ROUNDING    1e-15 /* of u, relative */
-#define ROUNDS      10    /* of computing anew and going on */
+#define MAX_RESTARTS      10    /* of computing anew and going on */
 
 typedef struct
 {
@@ -50,7 +50,7 @@ static bool
 good_numbers (size_t n, const double *k, size_t m, const CeldInequality *inequality)
 {
   for (size_t i = 0; i < n * n; i++)
-    if (!(fabs (k[i]) <= MOST))
+    if (!(fabs (k[i]) <= MAX_ENTRY))
       return false;
   for (size_t i = 0; i < m; i++)
     if (inequality[i].a >= n || inequality[i].b >= n || inequality[i].a == inequality[i].b ||
@@ -336,7 +336,7 @@ solve (Program *q)
 {
   bool good = settle (q);
 
-  for (int round = 0; good && round < ROUNDS && q->steps < q->most_steps; round++)
+  for (int round = 0; good && round < MAX_RESTARTS && q->steps < q->most_steps; round++)
     {
       size_t p = choose (q);
 

@@ -5,27 +5,27 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef CELD_PARTITION_GRAPH_H
-#define CELD_PARTITION_GRAPH_H
+#ifndef CELD_PARTITION_PRIVATE_H
+#define CELD_PARTITION_PRIVATE_H
 
 #include "solve/flow.h"
 #include "solve/partition.h"
 
-typedef struct { uint32_t node, rank; int64_t cost; } CeldBallot;
+typedef struct { uint32_t node, rank; int64_t cost; } CeldVoteSum;
 
 typedef struct
 {
   size_t       n, n_ranks;
   CeldNetwork  network;
   int64_t     *cost;       /* of arc a: of different labels on its two nodes */
-  CeldBallot  *ballot;     /* votes by node, then by rank */
-  size_t      *of_node;    /* n + 1: those of node p are ballot[of_node[p]] .. */
-  uint32_t    *by_rank;    /* the ballots by rank, then by node */
+  CeldVoteSum  *vote_sum;     /* votes by node, then by rank */
+  size_t      *of_node;    /* n + 1: those of node p are vote_sum[of_node[p]] .. */
+  uint32_t    *by_rank;    /* the vote sums by rank, then by node */
   size_t      *of_rank;    /* n_ranks + 1 */
   uint32_t    *rank;       /* of each node: the answer */
 } CeldPartitionGraph;
 
-/* partition-graph.c.  The graph's nodes are those of the problem that are not fixed, in the same order. */
+/* partition.c.  The graph's nodes are those of the problem that are not fixed, in the same order. */
 CeldStatus celd_partition_graph_new (const CeldPartition *problem, CeldPartitionGraph *graph);
 void       celd_partition_graph_clear (CeldPartitionGraph *graph); /* accepts a zeroed one */
 
