@@ -312,7 +312,9 @@ typedef struct
   double    error;              /* how far it is from the surface at most, in pixels */
 } CeldReliefMesh;
 
-/* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone.  Replaces `mesh`. */
+/* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone, or for heights that are not finite
+ * or beyond CELD_MOST_HEIGHT; those of celd_relief are not.  Replaces `mesh`. */
+#define CELD_MOST_HEIGHT 1e12f /* pixels */
 CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host,
                                       CeldReliefMesh *mesh);
 CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */

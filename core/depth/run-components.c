@@ -125,8 +125,10 @@ celd_run_components_find (int width, int height, const float *level, const uint8
   uint8_t   *mark = celd_alloc ((size_t) width, 1);
   uint32_t  *parent = NULL;
   size_t     n = 0;
-  CeldStatus status = found.row && mark ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status;
 
+  found.run = celd_grow (NULL, 1, sizeof *found.run); /* an array even where all pixels are fixed */
+  status    = found.row && found.run && mark ? CELD_OK : CELD_NO_MEMORY;
   for (int y = 0; y < height && status == CELD_OK; y++)
     {
       status = y % 64 ? CELD_OK : celd_progress (host, (double) y / height);

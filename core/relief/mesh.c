@@ -243,12 +243,23 @@ make_mesh (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *hos
   return status;
 }
 
+static bool
+are_heights (const float *z, size_t n)
+{
+  for (size_t i = 0; i < n; i++)
+    if (!(fabsf (z[i]) <= CELD_MOST_HEIGHT))
+      return false;
+  return true;
+}
+
 CeldStatus
 celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host, CeldReliefMesh *mesh)
 {
   if (!relief->z || relief->width < 1 || relief->height < 1)
     return CELD_BAD_SIZE;
-  if (celd_settings_check (settings) != CELD_OK)
+  if (celd_settings_check (settings) != CELD_OK ||
+      !are_heights (relief->z, (size_t) relief->width * (size_t) relief->height) ||
+      !are_heights (relief->outline, (size_t) relief->width * (size_t) relief->height))
     return CELD_BAD_VALUE;
 
   CeldMeshPoints points = { .width = 0 };

@@ -10,19 +10,21 @@
 
 #include <math.h>
 
-#define MIN_STEP 0.5 /* fraction of the difference of depth that is kept at a cut, at least; chosen */
+#define MIN_STEP  0.5 /* fraction of the difference of depth that is kept at a cut, at least; chosen */
+#define MAX_DEPTH 1e6 /* as a multiple of all levels; chosen: heights stay within CELD_MOST_HEIGHT */
 
 typedef struct { float *z, *depth, *shift; CeldVectors normals; } ReliefPlanes;
 
-/* One unit of depth in pixels.  Levels have no scale of their own: their whole range is settings.relief_depth. */
+/* One unit of depth in pixels.  Levels have no scale of their own: their whole range is settings.relief_depth.  Given
+ * depth beyond MAX_DEPTH times that range is scaled down to it. */
 static double
-depth_scale (const CeldSurface *surface, const CeldSettings *settings)
+depth_scale (const CeldSurface *surface, const float *depth, const CeldSettings *settings)
 {
   size_t n = (size_t) surface->width * (size_t) surface->height;
   double most = 1;
 
   for (size_t p = 0; p < n; p++)
-    most = fmax (most, fabs ((double) surface->level[p]));
+    most = fmax (most, fmax (fabs ((double) surface->level[p]), fabs ((double) depth[p]) / MAX_DEPTH));
   return (double) settings->relief_depth * hypot (surface->width, surface->height) / most;
 }
 
@@ -78,7 +80,7 @@ make_relief (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *
              const CeldHost *host, ReliefPlanes *p, CeldRelief *relief)
 {
   size_t       n = (size_t) surface->width * (size_t) surface->height;
-  double       scale = depth_scale (surface, settings);
+  double       scale = depth_scale (surface, p->depth, settings);
   CeldHostPart part[2];
   CeldHost     rounding = celd_host_part (&part[0], host, 0, 0.4), ordering = celd_host_part (&part[1], host, 0.4, 1);
   CeldStatus   status = make_round (surface, ink, levels, settings, &rounding, p);

@@ -248,9 +248,27 @@ untouched_parts_are_not_solved (void)
   celd_smooth_state_clear (&smoother);
 }
 
+/* A picture without any part. */
+static void
+fixed_pixels_keep_their_levels (void)
+{
+  uint32_t seed = 9;
+  Picture  p = { 0 };
+  float    depth[N];
+
+  for (int i = 0; i < N; i++)
+    {
+      p.level[i] = (float) check_random (&seed, RANGE + 1);
+      p.fixed[i] = 1;
+    }
+  solve (&p, depth);
+  CHECK (!memcmp (depth, p.level, sizeof depth));
+}
+
 int
 main (void)
 {
+  RUN (fixed_pixels_keep_their_levels);
   RUN (depth_is_what_relaxation_finds);
   RUN (one_level_is_met_exactly);
   RUN (an_edit_solves_what_it_touches);

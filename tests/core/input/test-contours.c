@@ -246,6 +246,42 @@ line_layer (void)
          baked_alpha[80 * SIDE + 21] == 1);
 }
 
+/* Dark lines and chalk on a picture with alpha: strokes are painted in its luma, and alpha grows where ink needs it. */
+static void
+ink_over_alpha (void)
+{
+  for (int chalk = 0; chalk < 2; chalk++)
+    {
+      clear ();
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          alpha_of[i] = i % SIDE < 40 || i % SIDE >= 80 ? 1 : 0.5f;
+          luma_of[i] = chalk ? 1 - luma_of[i] : luma_of[i];
+        }
+      rectangle (24, 58, 72, 4, red);
+      rectangle (15, 20, 14, 20, green);
+      CHECK (bake (CELD_FOR_DEPTH, chalk ? CELD_INK_LIGHT : CELD_INK_DARK, true) == CELD_OK);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          int  x = i % SIDE, y = i / SIDE;
+          bool is_red = x >= 24 && x < 96 && y >= 58 && y < 62, is_green = x >= 15 && x < 29 && y >= 20 && y < 40;
+
+          if (is_red)
+            {
+              NEAR (baked_luma[i], chalk, 0.01);
+              NEAR (baked_alpha[i], 1, 0.01);
+            }
+          else if (is_green)
+            {
+              NEAR (baked_luma[i], !chalk, 0.01);
+              NEAR (baked_alpha[i], 1, 0);
+            }
+          else
+            CHECK (baked_luma[i] == luma_of[i] && baked_alpha[i] == alpha_of[i]);
+        }
+    }
+}
+
 /* Without alpha the commonest colour is none, even if it is red. */
 static void
 opaque_contours (void)
@@ -294,6 +330,7 @@ main (void)
   RUN (alpha_is_coverage);
   RUN (chalk);
   RUN (line_layer);
+  RUN (ink_over_alpha);
   RUN (opaque_contours);
   RUN (sizes);
   return DONE;

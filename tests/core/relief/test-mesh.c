@@ -341,6 +341,15 @@ hosts_can_cancel_and_bad_input_is_refused (void)
   draw_hills (5);
   CHECK (celd_relief_mesh (&relief, &s, &host, &m) == CELD_CANCELLED);
   CHECK (celd_relief_mesh (&none, &s, NULL, &m) == CELD_BAD_SIZE);
+  for (int k = 0; k < 3; k++)
+    {
+      const float bad[] = { NAN, INFINITY, -2 * CELD_MOST_HEIGHT };
+      float       good = relief.z[17];
+
+      relief.z[17] = bad[k];
+      CHECK (celd_relief_mesh (&relief, &s, NULL, &m) == CELD_BAD_VALUE);
+      relief.z[17] = good;
+    }
   s.mesh_size = 0;
   CHECK (celd_relief_mesh (&relief, &s, NULL, &m) == CELD_BAD_VALUE);
 }

@@ -327,6 +327,35 @@ numbers_that_are_none_do_no_harm (void)
     }
 }
 
+/* Depth that is finite makes heights that are, and a mesh of them, however large it is. */
+static void
+huge_depth_stays_finite (void)
+{
+  static const float huge[] = { 1e10f, 1e20f, -1e30f, 3.4e38f, -3.4e38f };
+
+  for (size_t k = 0; k < 4 * sizeof huge / sizeof *huge; k++)
+    {
+      Picture        p = picture (40, 30), depth = picture (40, 30);
+      CeldSettings   s = celd_settings ();
+      CeldReliefMesh mesh = { 0 };
+      float          value = huge[k / 4];
+
+      s.relief_from = k % 2 ? CELD_RELIEF_NORMALS : CELD_RELIEF_INFLATION;
+      s.relief_depth = 1;
+      put_ellipse (&p, 20, 15, 12, 9, k % 4 < 2 ? 1 : value);
+      put_ellipse (&depth, 20, 15, 12, 9, value);
+      make (&p, &s, &depth.levels);
+      for (int i = 0; i < 40 * 30; i++)
+        CHECK (fabsf (p.relief.z[i]) <= CELD_MOST_HEIGHT && fabsf (p.relief.outline[i]) <= CELD_MOST_HEIGHT);
+      CHECK (celd_relief_mesh (&p.relief, &s, NULL, &mesh) == CELD_OK);
+      for (size_t i = 0; i < 3 * mesh.vertices; i++)
+        CHECK (isfinite (mesh.place[i]) && isfinite (mesh.normal[i]));
+      celd_relief_mesh_clear (&mesh);
+      picture_free (&p);
+      picture_free (&depth);
+    }
+}
+
 static void
 one_pixel_will_do (void)
 {
@@ -370,6 +399,7 @@ main (void)
   RUN (what_is_nearer_stays_in_front);
   RUN (what_is_out_of_the_way_keeps_its_place);
   RUN (numbers_that_are_none_do_no_harm);
+  RUN (huge_depth_stays_finite);
   RUN (one_pixel_will_do);
   RUN (hosts_can_cancel_and_bad_input_is_refused);
   return DONE;

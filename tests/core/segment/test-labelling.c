@@ -208,6 +208,95 @@ others_are_apart (void)
   celd_patches_clear (&patches);
 }
 
+/* The rectangle round all pixels in which two pictures differ; empty where they do not. */
+static CeldRect
+box_of_differences (const uint32_t *a, const uint32_t *b)
+{
+  CeldRect box = { 0 };
+
+  for (int p = 0; p < 32; p++)
+    if (a[p] != b[p])
+      box = celd_rect_union (box, (CeldRect) { p % 8, p / 8, 1, 1 });
+  return box;
+}
+
+/* Patches at random over basins that keep their labels: each pixel has the last patch over it, or its basin's label; the
+ * rectangle is exactly that of what differs; and each label has as many pixels as are counted. */
+static void
+patches_at_random (void)
+{
+  static const uint32_t basin_of[32] = { 1, 1, 1, 1, 2, 2, 2, 2, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3,
+                                         3, 3, 3, 3, 3, 3, 3, 3 };
+  uint32_t seed = 5;
+  Picture  p;
+
+  picture_open (&p);
+  paint (&p, 1, 2, 3, NULL, 0);
+  for (int trial = 0; trial < 3000; trial++)
+    {
+      CeldPatch   patch[6];
+      size_t      n = check_random (&seed, 7), count[6] = { 0 };
+      uint32_t    wanted[32], before[32];
+      CeldRegion  item[5] = { { .area = 7 } };
+      CeldPalette palette = { item, 5 };
+      CeldRect    box;
+
+      memcpy (wanted, basin_of, sizeof wanted);
+      memcpy (before, p.labels.data, sizeof before);
+      for (size_t i = 0; i < n; i++)
+        {
+          int x = (int) check_random (&seed, 8), end = x + 1 + (int) check_random (&seed, (uint32_t) (8 - x));
+
+          patch[i] = (CeldPatch) { (int) check_random (&seed, 4), x, end, 1 + check_random (&seed, 5) };
+          for (int k = x; k < end; k++)
+            wanted[8 * patch[i].y + k] = patch[i].label;
+        }
+      paint (&p, 1, 2, 3, patch, n);
+      CHECK (!memcmp (wanted, p.labels.data, sizeof wanted));
+      box = box_of_differences (before, wanted);
+      changed_is (&p, box.x, box.y, box.width, box.height);
+      for (size_t i = 0; i < p.labelling.patches.n; i++)
+        CHECK (p.labelling.patches.item[i].x < p.labelling.patches.item[i].end);
+      CHECK (celd_labelling_measure (&p.labelling, &basins, &p.labels, &palette) == CELD_OK);
+      for (int k = 0; k < 32; k++)
+        count[wanted[k]]++;
+      for (uint32_t label = 1; label <= 5; label++)
+        {
+          const CeldRegion *region = &item[label - 1];
+
+          CHECK (region->area == count[label]);
+          CHECK (count[label] ? wanted[8 * region->y + region->x] == label : region->x == -1);
+        }
+    }
+  picture_close (&p);
+}
+
+/* A picture that replaces another at random: the rectangle is that of what differs. */
+static void
+whole_pictures_at_random (void)
+{
+  uint32_t seed = 6;
+  Picture  p;
+
+  picture_open (&p);
+  for (int trial = 0; trial < 500; trial++)
+    {
+      uint32_t   data[32];
+      CeldLabels whole = { 8, 4, 8, data };
+      CeldRect   box;
+
+      memcpy (data, p.labels.data, sizeof data);
+      for (uint32_t n = check_random (&seed, 5); n > 0; n--)
+        data[check_random (&seed, 32)] = 1 + check_random (&seed, 4);
+      box = box_of_differences (p.labels.data, data);
+      p.labelling.changed = (CeldRect) { 0 };
+      CHECK (celd_labelling_replace (&p.labelling, &basins, &whole, &p.labels) == CELD_OK);
+      CHECK (!memcmp (data, p.labels.data, sizeof data));
+      changed_is (&p, box.x, box.y, box.width, box.height);
+    }
+  picture_close (&p);
+}
+
 int
 main (void)
 {
@@ -219,5 +308,7 @@ main (void)
   RUN (a_whole_picture_replaces);
   RUN (runs_that_continue_one_another_are_one);
   RUN (others_are_apart);
+  RUN (patches_at_random);
+  RUN (whole_pictures_at_random);
   return DONE;
 }
