@@ -1,11 +1,11 @@
 /* The active inequalities of a quadratic program on a graph Laplacian, as a forest.
  *
- * An active inequality u_a = u_b + gap is a rigid link.  Independent links make a forest, so that which inequalities
- * depend on each other is read off a graph and never decided by rounding, and multipliers are what flows through the
- * trees, from the leaves to the roots.  A link more or less changes H (quadratic-matrix.c) by a matrix of rank one;
- * that subtracts, and is therefore checked, and H computed anew where digits have been lost.
+ * An active inequality u_a = u_b + gap is a rigid link.  Linearly independent links make a forest, so that dependence
+ * is read off a graph and never decided by rounding, and multipliers are flows through the trees, from the leaves to
+ * the roots.  One link more or less changes H (quadratic-matrix.c) by a matrix of rank one; such an update subtracts,
+ * so its accuracy is checked, and H is computed anew where digits have been lost.
  *
- * Cost: O(n) for trees and flows, O(n^2) for H.
+ * Cost: O(n) for trees and flows, O(n^2) for an update of H.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-#define AGREE 1e-6 /* relative difference of two ways to compute a curvature: more means that H is worn out */
+#define MAX_DISAGREEMENT 1e-6 /* relative difference of two curvatures, beyond which H is inaccurate; chosen */
 
 /* ------------------------------------------------------------------ trees */
 
@@ -39,7 +39,7 @@ list_links (const CeldForest *f, uint32_t *start, uint32_t *entry)
     }
 }
 
-/* Everything that hangs on `root`, breadth first, behind the `done` nodes that are in order already. */
+/* Adds the tree of `root` to the order, breadth first, behind the `done` nodes that are in it. */
 static size_t
 walk_tree (CeldForest *f, const uint32_t *start, const uint32_t *entry, uint32_t root, size_t done)
 {
@@ -133,7 +133,7 @@ celd_forest_add (CeldForest *f, uint32_t p, const double *z, double curvature)
   f->fresh = false;
 }
 
-/* Holds the body of node `end` there.  Motions of that body alone; others have none in its rows. */
+/* Holds the body of node `end` at that node: H then has motions of that body alone in its rows. */
 static void
 hold_at (CeldForest *f, uint32_t end)
 {
@@ -168,7 +168,7 @@ celd_forest_join (CeldForest *f, uint32_t p)
   f->fresh = false;
 }
 
-/* 1 for all nodes that hang on the link in this place, else 0. */
+/* 1 for all nodes below the link in this place, else 0. */
 static void
 mark_branch (const CeldForest *f, size_t place, double *mark)
 {
@@ -181,13 +181,13 @@ mark_branch (const CeldForest *f, size_t place, double *mark)
 }
 
 bool
-celd_forest_worn (const CeldForest *f, double curvature, const double *x, const double *force)
+celd_forest_is_inaccurate (const CeldForest *f, double curvature, const double *x, const double *force)
 {
   double energy = 0;
 
   for (size_t i = 0; i < f->n; i++)
     energy += x[i] * force[i];
-  return !f->fresh && !(fabs (energy - curvature) <= AGREE * energy);
+  return !f->fresh && !(fabs (energy - curvature) <= MAX_DISAGREEMENT * energy);
 }
 
 bool
@@ -214,7 +214,7 @@ celd_forest_drop (CeldForest *f, size_t place, double *way, double *force, doubl
       *curvature += way[i] * force[i];
     }
   celd_forest_force (f, way, force);
-  if (!(*curvature > 0) || celd_forest_worn (f, *curvature, way, force))
+  if (!(*curvature > 0) || celd_forest_is_inaccurate (f, *curvature, way, force))
     {
       *curvature = 0;
       return celd_forest_set_up (f);

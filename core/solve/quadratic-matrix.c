@@ -1,9 +1,10 @@
-/* The matrices of a quadratic program on a graph Laplacian: K, and H, which says what moves when forces pull.
+/* The matrices of a quadratic program on a graph Laplacian: K, and H, the motions that forces cause.
  *
- * Trees of rigid links move as one.  With trees as its nodes, the reduced matrix Z'KZ is a graph Laplacian again, and
- * H = Z (Z'KZ)^-1 Z', with one tree of each body held, is computed by eliminating tree after tree: weights to what is
- * left only ever grow, by w_ik w_jk / s_k, and pivots s_k are sums of weights.  Nothing is subtracted, so that H is
- * accurate entry by entry whatever the range of the weights (Grassmann, Taksar & Heyman 1985 do so with Markov chains).
+ * Trees of rigid links move as one.  With trees as its nodes the reduced matrix Z'KZ is a graph Laplacian again, and H
+ * = Z (Z'KZ)^-1 Z', with one tree of each body held, is computed by eliminating tree after tree: weights between the
+ * others only grow, by w_ik w_jk / s_k, and pivots s_k are sums of weights.  Nothing is subtracted, so that H is
+ * accurate entry by entry whatever the range of the weights (Grassmann, Taksar and Heyman 1985 do so with Markov
+ * chains).
  *
  * Cost: O(n^3) for H, O(n^2) for a force or a motion.
  *
@@ -14,7 +15,7 @@
 
 #include <math.h>
 
-#define TINY_WEIGHT 1e-14 /* share of the largest: less is no connection */
+#define TINY_WEIGHT 1e-14 /* share of the largest weight: less is no connection; some hundred units in the last place */
 
 /* ------------------------------------------------------------------ K */
 

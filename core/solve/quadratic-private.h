@@ -10,7 +10,8 @@
 #define CELD_NO_LINK UINT32_MAX
 
 /* Active inequalities hold with equality: they join nodes to trees that move as one, each node at a fixed offset from
- * the root of its tree.  Trees that K or a link joins are a body: its shape costs energy, moving all of it does not. */
+ * the root of its tree.  Trees that K or a link connects are a body: deforming it costs energy, a translation does
+ * not. */
 typedef struct
 {
   size_t                n, m;
@@ -59,7 +60,7 @@ void celd_forest_walk (CeldForest *forest);
  * The forces are used up. */
 void celd_forest_flow (const CeldForest *forest, double *force, double *r);
 
-/* Joins two bodies by inequality p: the one in front hangs on the other. */
+/* Joins two bodies by inequality p; they are one body from then on. */
 void celd_forest_join (CeldForest *forest, uint32_t p);
 
 /* Joins two trees of a body by inequality p, with z = H (e_a - e_b) and its curvature z_a - z_b. */
@@ -70,23 +71,23 @@ void celd_forest_add (CeldForest *forest, uint32_t p, const double *z, double cu
  * falls apart, and if H had to be computed anew (there is no way then).  False if K has a negative eigenvalue. */
 bool celd_forest_drop (CeldForest *forest, size_t place, double *way, double *force, double *curvature);
 
-/* Has H lost its digits?  For a motion x by H, its curvature, and force = K x. */
-bool celd_forest_worn (const CeldForest *forest, double curvature, const double *x, const double *force);
+/* Has H lost digits?  x is a motion by H, force = K x. */
+bool celd_forest_is_inaccurate (const CeldForest *forest, double curvature, const double *x, const double *force);
 
-/* ------------------------------------------------------------------ quadratic-ranks.c */
+/* ------------------------------------------------------------------ quadratic-order.c */
 
-/* Nodes in the order in which inequalities have them. */
+/* The nodes in topological order. */
 typedef struct
 {
   uint32_t *first, *item; /* the inequalities whose b is i: item[first[i]] .. before first[i + 1] */
   uint32_t *sorted;       /* nodes, every b before its a */
 } CeldTopologicalOrder;
 
-/* Fills them; false if there is a loop.  waits: n, work space. */
-bool celd_ranks_sort (CeldTopologicalOrder *ranks, size_t n, size_t m, const CeldInequality *inequality,
+/* Fills in the order; false if the inequalities close a cycle.  waits: workspace of n numbers. */
+bool celd_topological_sort (CeldTopologicalOrder *order, size_t n, size_t m, const CeldInequality *inequality,
                       uint32_t *waits);
 
-/* Raises nodes until every inequality holds, from the back to the front: from 0, to the longest-path levels. */
-void celd_ranks_raise (const CeldTopologicalOrder *ranks, size_t n, const CeldInequality *inequality, double *u);
+/* Raises u node by node, in topological order, until every inequality holds: from u = 0 to the longest-path levels. */
+void celd_raise_to_levels (const CeldTopologicalOrder *order, size_t n, const CeldInequality *inequality, double *u);
 
 #endif

@@ -1,24 +1,25 @@
 /* The quadratic program of a few nodes: min 1/2 u'Ku  subject to  u_a - u_b >= gap (eq. 1 and 2 of the paper, with the
  * pixels eliminated; K is a graph Laplacian).
  *
- * The dual active-set method (Goldfarb & Idnani, Math. Programming 27, 1983): u is always the least-energy point of the
- * inequalities that are active, all multipliers are >= 0, and a violated inequality is taken in by moving along
- * z = H (e_a - e_b) until it holds; on the way, active ones whose multiplier reaches 0 are let go.  The value of the
- * dual problem rises with every step, so that no active set comes back and the method ends (ties could hold it up: the
- * number of steps is limited).  Three things are particular here:
+ * The dual active-set method (D. Goldfarb and A. Idnani, Mathematical Programming 27, 1983): u is always the point of
+ * least energy on which the active inequalities hold with equality, and all multipliers are >= 0.  A violated
+ * inequality becomes active by moving along z = H (e_a - e_b) until it holds; on the way, active ones whose multiplier
+ * reaches 0 become inactive.  The dual value rises with every step, so that no active set comes back and the method
+ * ends (ties could hold it up: the number of steps is limited).  Three things are particular here:
  *
- * - active inequalities are links of a forest (quadratic-forest.c): dependence of constraints, the usual trouble of
- *   active sets, is a question of who is connected with whom;
- * - K does not tell where its components are: translations are free.  A violated inequality between two bodies moves
- *   one of them at no cost;
- * - a loop of inequalities is found beforehand by sorting, hence later there is always a step to make.
+ * - active inequalities are the links of a forest (quadratic-forest.c), so that linear dependence of constraints is a
+ *   question of connectivity and never of rounding;
+ * - K does not say where its components are: translations are free.  A violated inequality between two bodies moves one
+ *   of them at no cost;
+ * - a cycle of inequalities is found beforehand by topological sorting (quadratic-order.c), so that later on there is
+ *   always a step to take.
  *
- * It begins with the inequalities that hold the nodes at their longest-path levels, or with the last active set (warm),
- * and lets go first what pulls the wrong way.  Of several violated ones the one is taken in that raises the dual value
- * most.  At the end u and the multipliers are computed anew from the active set alone, and the method goes on if that
- * shows something that rounding had hidden.
+ * The method starts from the inequalities that hold the nodes at their longest-path levels, or from the last active set
+ * (warm), and first makes those inactive whose multiplier is negative.  Of several violated inequalities the one
+ * becomes active that raises the dual value most.  In the end u and the multipliers are computed anew from the active
+ * set alone, and the method goes on if that shows a violation that rounding had hidden.
  *
- * Cost: O(n^3) to begin and to end, O(n^2 + m) a step; 3 n^2 numbers.
+ * Cost: O(n^3) to begin and to end, O(n^2 + m) a step; memory 24 n^2 bytes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -28,20 +29,20 @@
 
 #include <math.h>
 
-#define MAX_ENTRY        1e30  /* of an entry of K */
-#define FAR_GAP     1e12  /* most of a gap; its inverse the least */
-#define TINY_FLOW   1e-10 /* of a unit force, through a link: rounding */
-#define ROUNDING    1e-15 /* of u, relative */
-#define MAX_RESTARTS      10    /* of computing anew and going on */
+#define MAX_ENTRY    1e30  /* largest entry of K; far from overflow when squared in sums */
+#define FAR_GAP      1e12  /* largest gap, and its inverse the smallest; chosen */
+#define TINY_FLOW    1e-10 /* share of a unit force: less through a link is rounding; chosen */
+#define ROUNDING     1e-15 /* relative error of u, a few units in the last place */
+#define MAX_RESTARTS 10    /* times that u is computed anew and the method goes on; chosen */
 
 typedef struct
 {
-  CeldForest forest;
-  double    *u, *z, *force, *r;        /* n each */
-  double    *y;                        /* m */
-  double     range;                    /* of u and offsets, to judge rounding by */
-  CeldTopologicalOrder  ranks;
-  int        steps, most_steps;
+  CeldForest           forest;
+  double              *u, *z, *force, *r; /* n each */
+  double              *y;             /* m multipliers */
+  double               range;         /* of u and offsets, to judge rounding by */
+  CeldTopologicalOrder topological;
+  int                  steps, most_steps;
 } Program;
 
 /* ------------------------------------------------------------------ the start */
@@ -68,7 +69,7 @@ start_links (Program *q, const double *y)
 
   for (size_t i = 0; i < f->n; i++)
     q->u[i] = 0;
-  celd_ranks_raise (&q->ranks, f->n, f->inequality, q->u);
+  celd_raise_to_levels (&q->topological, f->n, f->inequality, q->u);
   for (size_t i = 0; i < f->n; i++)
     q->range = fmax (q->range, q->u[i]);
   celd_roots (f->tree, f->n);
@@ -111,7 +112,7 @@ place_nodes (Program *q)
     }
 }
 
-/* The link that pulls the wrong way most, beyond what rounding of u may feign on either of its sides; or SIZE_MAX. */
+/* The link with the most negative multiplier that rounding of u on either of its sides cannot explain; or SIZE_MAX. */
 static size_t
 worst_link (Program *q)
 {
@@ -138,7 +139,7 @@ worst_link (Program *q)
   return worst;
 }
 
-/* Computes u and the multipliers anew, and lets links go that pull the wrong way. */
+/* Computes u and the multipliers anew, and makes inequalities inactive whose multiplier is negative. */
 static bool
 settle (Program *q)
 {
@@ -250,7 +251,7 @@ find_motion (Program *q, uint32_t p, double *curvature)
           q->z[i] = f->inverse[a * f->n + i] - f->inverse[b * f->n + i];
         *curvature = q->z[a] - q->z[b];
         celd_forest_force (f, q->z, q->force);
-        if (*curvature > 0 && !celd_forest_worn (f, *curvature, q->z, q->force))
+        if (*curvature > 0 && !celd_forest_is_inaccurate (f, *curvature, q->z, q->force))
           break;
         if (f->fresh || !celd_forest_set_up (f))
           return false;
@@ -383,7 +384,7 @@ lay_out (Program *q)
           q->u[i] += least[f->component[i]];
         }
     }
-  celd_ranks_raise (&q->ranks, f->n, f->inequality, q->u);
+  celd_raise_to_levels (&q->topological, f->n, f->inequality, q->u);
 }
 
 static CeldCertificate
@@ -424,7 +425,7 @@ share_out (Program *q, double *numbers, uint32_t *indices)
   size_t      n = f->n;
   double    **vector[] = { &f->offset, &f->row, &f->pull, &q->u, &q->z, &q->force, &q->r };
   uint32_t  **list[] = { &f->active, &f->order, &f->parent, &f->link, &f->tree, &f->component, &f->body,
-                             &q->ranks.sorted };
+                             &q->topological.sorted };
 
   f->weight  = numbers;
   f->inverse = numbers + n * n;
@@ -433,7 +434,7 @@ share_out (Program *q, double *numbers, uint32_t *indices)
     *vector[i] = numbers + (3 * n + i) * n;
   for (size_t i = 0; i < sizeof list / sizeof *list; i++)
     *list[i] = indices + i * n;
-  q->ranks.first = indices + 8 * n;
+  q->topological.first = indices + 8 * n;
   f->entry = indices + 9 * n + 1;
 }
 
@@ -451,13 +452,13 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
   numbers      = celd_alloc (3 * n + 7, n * sizeof (double));
   indices      = celd_alloc (13 * n + 4, sizeof (uint32_t));
   q.y          = celd_alloc0 (m, sizeof (double));
-  q.ranks.item = celd_alloc (m, sizeof (uint32_t));
-  if (numbers && indices && q.y && q.ranks.item)
+  q.topological.item = celd_alloc (m, sizeof (uint32_t));
+  if (numbers && indices && q.y && q.topological.item)
     {
       share_out (&q, numbers, indices);
       q.most_steps = (int) fmin (100 + 20 * ((double) n + (double) m), INT32_MAX);
       status = CELD_BAD_VALUE;
-      if (celd_ranks_sort (&q.ranks, n, m, inequality, q.forest.order))
+      if (celd_topological_sort (&q.topological, n, m, inequality, q.forest.order))
         {
           celd_forest_read (&q.forest, k);
           start_links (&q, warm ? y : NULL);
@@ -477,6 +478,6 @@ celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequ
   celd_free (numbers);
   celd_free (indices);
   celd_free (q.y);
-  celd_free (q.ranks.item);
+  celd_free (q.topological.item);
   return status;
 }
