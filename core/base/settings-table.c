@@ -157,7 +157,7 @@ static const CeldSettingInfo infos[] = {
     .help = "Ink at or below this value counts as fully inked (0 is ink, 1 is paper). Raise it if depth leaks through "
             "pale contours",
     .usual = 0.25, .least = 0, .most = 0.99, .shown = { 0, 0.6, 0.01, 0.05, .digits = 2 },
-    .stages = READ_BY (LABELS) | READ_BY (PREVIEW) | READ_BY (DEPTH) | READ_BY (NORMALS) },
+    .stages = READ_BY (LABELS) | READ_BY (NODES) | READ_BY (PREVIEW) | READ_BY (DEPTH) | READ_BY (NORMALS) },
 
   { .theme = "Regions",
     .name = "method", .label = "Method", CHOICE (method, CeldMethod, methods),
@@ -167,18 +167,18 @@ static const CeldSettingInfo infos[] = {
 
   { .name = "close-gaps", .label = "Close gaps", SWITCH (close_gaps),
     .help = "Closes gaps in contours from line end to line end, as a person would draw them",
-    .usual = true, .when = "method {basins}", .stages = READ_BY (LABELS) },
+    .usual = true, .when = "method {basins}", .stages = READ_BY (LABELS) | READ_BY (NODES) },
 
   { .name = "keep-necks", .label = "Keep necks", SWITCH (keep_necks),
     .help = "Lets a part keep the one colour scribbled in it, however narrow its neck. Otherwise the shorter boundary "
             "wins",
-    .usual = true, .when = "method {basins}", .stages = READ_BY (LABELS) },
+    .usual = true, .when = "method {basins}", .stages = READ_BY (LABELS) | READ_BY (NODES) },
 
   { .name = "hardness", .label = "Hardness", NUMBER (hardness),
     .help = "How strictly scribbles are obeyed. Soft scribbles may be sloppy, because the majority of the paint wins; "
             "at 1 every painted pixel is obeyed",
     .usual = 0.05, .least = 0.01, .most = 1, .shown = { 0.01, 1, 0.001, 0.1, .gamma = 2, .digits = 2 },
-    .stages = READ_BY (LABELS) },
+    .stages = READ_BY (LABELS) | READ_BY (NODES) },
 
   { .name = "flats", .label = "Scribbles are flat colours", SWITCH (flats),
     .help = "The scribbles layer is a finished flat colouring, in which each colour is a region",

@@ -33,7 +33,7 @@ typedef struct
 /* A result as the host had it last. */
 typedef struct { int width, height; size_t pixel; uint8_t *data; } Seen;
 
-enum { INK, LABELS, FLAT, LEVELS, OWNER, DEPTH, PREVIEW, NORMALS, SHADING, EXACT, RESULTS };
+enum { INK, LABELS, UNEXPANDED, LEVELS, OWNER, DEPTH, PREVIEW, NORMALS, SHADING, EXACT, RESULTS };
 
 static const uint8_t colours[8][3] = {
   { 230, 0, 0 }, { 0, 0, 230 }, { 0, 160, 0 }, { 200, 200, 0 }, { 255, 0, 0 }, { 0, 0, 255 }, { 0, 255, 0 },
@@ -325,7 +325,7 @@ ask (CeldSession *session, int result, Seen *seen, CeldRect *changed)
     {
     case INK: status = celd_session_ink (session, NULL, &plane, changed); break;
     case LABELS: status = celd_session_labels (session, NULL, &labels, changed); break;
-    case FLAT: status = celd_session_flat (session, NULL, &plane, changed); break;
+    case UNEXPANDED: status = celd_session_unexpanded_levels (session, NULL, &plane, changed); break;
     case LEVELS: status = celd_session_levels (session, NULL, &plane, changed); break;
     case OWNER: status = celd_session_ownership (session, NULL, &ownership, changed); break;
     case DEPTH: status = celd_session_depth (session, NULL, &plane, changed); break;

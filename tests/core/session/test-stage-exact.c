@@ -190,7 +190,6 @@ an_edit_redoes_what_reads_it (void)
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (NODES) && !MADE (EXACT));
   NEAR (ask (s, 10, 20), 1, 0);
   settings.bulge = 2;
-  settings.hardness = 1;
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (EXACT));
   settings.background = CELD_BACKGROUND_NONE;
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (WEIGHTS) && !MADE (NODES) && !MADE (EXACT));
@@ -198,6 +197,27 @@ an_edit_redoes_what_reads_it (void)
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (INK) && !MADE (WEIGHTS));
   NEAR (ask (s, 10, 20), 1, 0);
   CHECK (celd_session_exact_report (s)->sigma > 0);
+  celd_session_free (s);
+}
+
+/* A segmentation says which scribble is the background, so what changes regions may change that. */
+static void
+settings_of_regions_may_change_the_background (void)
+{
+  CeldSession *s = scene (true);
+  CeldSettings settings = s->settings;
+
+  for (int k = 0; k < 4; k++)
+    {
+      ask (s, 10, 20);
+      CHECK (MADE (NODES) && MADE (EXACT));
+      settings.hardness      = k == 0 ? 1 : settings.hardness;
+      settings.close_gaps    = k != 1 && settings.close_gaps;
+      settings.keep_necks    = k != 2 && settings.keep_necks;
+      settings.ink_threshold = k == 3 ? 0.5f : settings.ink_threshold;
+      CHECK (celd_session_set_settings (s, &settings) == CELD_OK && !MADE (NODES) && !MADE (EXACT));
+      check_fresh (s);
+    }
   celd_session_free (s);
 }
 
@@ -268,6 +288,7 @@ main (void)
   RUN (strokes_apart_are_both_behind);
   RUN (edits_answer_as_a_new_session);
   RUN (an_edit_redoes_what_reads_it);
+  RUN (settings_of_regions_may_change_the_background);
   RUN (virtual_contours_part_depth);
   RUN (contradictions_are_told);
   RUN (a_preview_is_near_the_depth);

@@ -332,10 +332,10 @@ a_setting_redoes_what_reads_it (void)
   REDOES (settings.ink = CELD_INK_DARK, FROM_INK);
   REDOES (settings.flats = true, STAGE (SCRIBBLES) | FROM_SEEDS);
   REDOES (settings.method = CELD_METHOD_EXACT, FROM_LABELS);
-  REDOES (settings.close_gaps = false, FROM_LABELS);
-  REDOES (settings.keep_necks = false, FROM_LABELS);
-  REDOES (settings.hardness = 1, FROM_LABELS);
-  REDOES (settings.ink_threshold = 0.5f, FROM_LABELS);
+  REDOES (settings.close_gaps = false, FROM_LABELS | FROM_NODES);
+  REDOES (settings.keep_necks = false, FROM_LABELS | FROM_NODES);
+  REDOES (settings.hardness = 1, FROM_LABELS | FROM_NODES);
+  REDOES (settings.ink_threshold = 0.5f, FROM_LABELS | FROM_NODES);
   REDOES (settings.arrow_style = CELD_ARROW_DOT, STAGE (RELATIONS) | FROM_ORDER | STAGE (EXACT));
   REDOES (settings.encoding = CELD_ENCODING_RANK, STAGE (UNEXPANDED) | FROM_LEVELS | STAGE (EXACT));
   REDOES (settings.near_level = 3, STAGE (UNEXPANDED) | FROM_LEVELS | STAGE (EXACT));
