@@ -13,10 +13,10 @@
 
 /* ------------------------------------------------------------------ memory.c */
 
-/* All allocation in core goes through these two; NULL when count x size overflows or is refused. */
+/* All allocation in core goes through these and celd_reserve (vector.h); NULL when count x size overflows or is
+ * refused. */
 void *celd_alloc (size_t count, size_t size);                 /* not cleared */
 void *celd_alloc0 (size_t count, size_t size);                /* cleared */
-void *celd_grow (void *items, size_t count, size_t size);     /* to `count` items, one more than before; doubles */
 void  celd_free (void *memory);                               /* accepts NULL */
 
 CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* not cleared; end with celd_free (data) */

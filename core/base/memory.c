@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
+#include "base/vector.h"
 
 #include <stdlib.h>
 
@@ -22,23 +23,29 @@ celd_alloc0 (size_t count, size_t size)
   return calloc (count ? count : 1, size ? size : 1);
 }
 
-/* The capacity is not stored: it is the next power of two, so that growing one by one stays linear. */
-void *
-celd_grow (void *items, size_t count, size_t size)
+bool
+celd_reserve (void *items, size_t count, size_t *capacity, size_t size)
 {
   size_t room = 8;
+  void  *grown;
 
-  if (items && (count <= 8 || ((count - 1) & (count - 2))))
-    return items; /* still fits the power of two of the item before */
+  if (count <= *capacity)
+    return true;
   while (room < count)
     {
       if (room > SIZE_MAX / 2)
-        return NULL;
+        return false;
       room *= 2;
     }
   if (size && room > SIZE_MAX / size)
-    return NULL;
-  return realloc (items, room * size);
+    return false;
+  memcpy (&grown, items, sizeof grown); /* pointers to objects have one representation */
+  grown = realloc (grown, room * size);
+  if (!grown)
+    return false;
+  memcpy (items, &grown, sizeof grown);
+  *capacity = room;
+  return true;
 }
 
 void
@@ -99,28 +106,15 @@ celd_ownership_clear (CeldOwnership *own)
 CeldStatus
 celd_problem_add (CeldProblems *problems, CeldProblem problem)
 {
-  CeldProblem *item;
-
   if (!problems)
     return CELD_OK;
-  item = celd_grow (problems->item, problems->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  problems->item = item;
-  item[problems->n++] = problem;
-  return CELD_OK;
+  return celd_append_uncounted (problems->item, problems->n, problem);
 }
 
 CeldStatus
 celd_relation_add (CeldRelations *relations, CeldRelation relation)
 {
-  CeldRelation *item = celd_grow (relations->item, relations->n + 1, sizeof *item);
-
-  if (!item)
-    return CELD_NO_MEMORY;
-  relations->item = item;
-  item[relations->n++] = relation;
-  return CELD_OK;
+  return celd_append_uncounted (relations->item, relations->n, relation);
 }
 
 void

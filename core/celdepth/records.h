@@ -167,38 +167,39 @@ typedef struct
 
 CELD_API void celd_exact_clear (CeldExact *exact);
 
-/* Whose each pixel is, with its ink.  The host gives three pictures of the drawing's size. */
+/* Contour ownership: which label each pixel belongs to, ink included.  The host provides three pictures of the
+ * drawing's size. */
 typedef struct
 {
-  CeldLabels owner;             /* the label whose area or ink the pixel is; where it has parts of two labels, as at an
-                                 * antialiased edge, the nearer one (of equal levels either) */
-  CeldLabels under;             /* the other one, which is seen beside the owner; = owner where there is but one */
-  CeldPlane  coverage;          /* how much of the pixel the owner covers, above 0; 1 where there is but one.
-                                 * Ink in the pixel is the owner's or, where that has none, under's. */
+  CeldLabels owner;             /* the label of the pixel's area or ink; of two labels in an antialiased pixel the
+                                 * nearer one (at equal levels either) */
+  CeldLabels under;             /* the other one of two labels; equal to owner where there is only one */
+  CeldPlane  coverage;          /* coverage of the pixel by the owner, above 0; 1 where there is only one label.  Ink
+                                 * in the pixel belongs to the owner, or else to `under`. */
 } CeldOwnership;
 
-/* A drawing cut into layers, one a region.  Layer 0 is the farthest; each over those before it, by the common `over`
- * on straight alpha, they are the drawing again. */
+/* A drawing cut into one layer for each region.  Layer 0 is the farthest; compositing the layers in their order by
+ * the usual `over`, with straight alpha, gives the drawing again. */
 typedef struct CeldLayers CeldLayers;
 
 typedef struct
 {
   uint32_t label;
   uint32_t level;
-  CeldRect box;                 /* outside it the layer is transparent; width 0: everywhere */
+  CeldRect box;                 /* the layer is transparent outside it; width 0: everywhere */
 } CeldLayer;
 
-/* What layers will be stored in, which counts for their composite. */
+/* The numbers that layers will be stored in; the layers are rounded so that their composite is right. */
 typedef enum
 {
   CELD_STORE_FLOAT,
-  CELD_STORE_8_BIT,             /* 255ths */
-  CELD_STORE_8_BIT_SRGB         /* linear light, as 255ths of its encoding as sRGB */
+  CELD_STORE_8_BIT,             /* 1/255 steps */
+  CELD_STORE_8_BIT_SRGB         /* linear light in 1/255 steps of its sRGB encoding */
 } CeldStore;
 
 CELD_API size_t           celd_layers_count (const CeldLayers *layers);
 CELD_API const CeldLayer *celd_layers_item  (const CeldLayers *layers, size_t layer);
-/* The layer's box as r,g,b,a with straight alpha: 4 x width x height numbers. */
+/* Writes the layer's box as r, g, b, a with straight alpha: 4 x width x height numbers. */
 CELD_API void             celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba);
 CELD_API void             celd_layers_free  (CeldLayers *layers);            /* accepts NULL */
 

@@ -233,55 +233,58 @@ CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
 
-/* A drawing that can be seen from the side (section 5, Figure 1g).  Nothing that it was made from is kept. */
+/* A drawing that can be viewed from other places (section 5, Figure 1g).  It keeps nothing that it was made from. */
 typedef struct CeldScene CeldScene;
 
-/* Of layers, each of which moves by its own depth, which goes on where it is hidden: completed ones leave no holes.
- * `ownership` is what they were cut by.  Views are in the colours that the layers were cut in. */
+/* A scene of layers, each of which moves by its own depth, which is interpolated where the layer is occluded.
+ * Completed layers leave no holes.  `ownership` is what they were cut by.  Views have the colours that the layers
+ * were cut in. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
                                           const CeldPlane *depth, const CeldHost *host, CeldScene **scene);
-/* The same from levels, expanded or not, each of which becomes a completed layer. */
+/* A scene of levels, expanded or not, each of which becomes a completed layer. */
 CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                           const CeldColours *art, CeldExpansion method, const CeldHost *host,
                                           CeldScene **scene);
-/* Of depth alone, from wherever: what comes into sight is filled from its farther side, in the colour of the paper
- * there, without its ink.  For views from the sides, no further than settings->disparity. */
+/* A scene of a depth map alone, of any origin: uncovered parts are filled from their farther side, in the colour of
+ * the paper there, without its ink.  For horizontal views with at most settings->disparity. */
 CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
                                          const CeldSettings *settings, const CeldHost *host, CeldScene **scene);
 CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
 
-/* Where it is seen from: x -1 the left eye, 1 the right one; y -1 as far above, 1 below; 0,0 the drawing as it is.
- * `squeeze` is how wide the picture looks, (0,1]: less than 1 when it is turned. */
+/* A place of the camera: x -1 for the left eye, 1 for the right one; y -1 as far above, 1 below; 0,0 gives the
+ * drawing itself.  `squeeze` is the apparent width of the picture, (0,1]: less than 1 when it is turned. */
 typedef struct { double x, y, squeeze; } CeldCamera;
 CELD_API CeldCamera celd_camera_eye (double eye);
-/* `frame` of `frames` of a path that ends where it begins. */
+/* The camera for `frame` of `frames` on a closed path. */
 CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
 
-/* A point of depth d moves by disparity / 2 of the width times d's distance from the screen, away from the camera. */
+/* Renders a view: a point of depth d moves away from the camera by disparity / 2 of the width, times its depth in
+ * front of the screen. */
 CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
                                      const CeldHost *host, CeldColours *view);
 
-/* How strong that will be for two eyes: disparities in front of and behind the screen, in shares of the width; whether
- * something in front of the screen is cut by the frame at the left or right, which the eyes cannot put together; and
- * whether on a screen of settings->screen_width the eyes would have to look apart. */
+/* Limits of comfort: disparity in front of and behind the screen, as fractions of the width; is something in front
+ * of the screen cut off by the left or right side of the frame, which the eyes cannot fuse; and would the eyes have
+ * to diverge on a screen of settings->screen_width? */
 typedef struct { double front, behind; bool cut_left, cut_right, diverges; } CeldComfort;
-#define CELD_STEREO_COMFORT (1.0 / 30) /* of the width: more disparity from front to back strains the eyes */
-#define CELD_EYE_DISTANCE   65.0       /* mm: more behind the screen, and the eyes look apart */
+#define CELD_STEREO_COMFORT (1.0 / 30) /* fraction of the width: more disparity from front to back strains the eyes */
+#define CELD_EYE_DISTANCE   65.0       /* mm: with more behind the screen the eyes diverge */
 CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
-/* What strains the eyes, in English sentences that say what to do, one a line, cut to `size` bytes; "" if nothing. */
+/* Describes what strains the eyes and how to avoid it, in one English sentence a line, cut to `size` bytes; "" if
+ * nothing does. */
 CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings, char *text,
                                          size_t size);
-/* Black bars at the left of the left view and the right of the right one, as wide as it takes to bring the frame before
- * what it cuts: a floating window.  Nothing where nothing is cut. */
+/* Draws a floating window: black bars at the left of the left view and at the right of the right one, just wide
+ * enough that the frame is in front of what it cuts off. */
 CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,
                                         CeldColours *right);
-/* Two views in one picture, whose size celd_stereo_size tells from theirs; anaglyphs for red glasses on the left and
- * cyan ones on the right, in linear light. */
+/* Packs two views into one picture of the size that celd_stereo_size computes; anaglyphs are for glasses with red on
+ * the left and cyan on the right, and in linear light. */
 CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);
 CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
                                       CeldColours *joined);
 
-/* A surface over the picture, in pixels; larger = nearer, depth 0 is at 0. */
+/* A surface over the picture, in pixels; larger = nearer, depth 0 has height 0. */
 #define CELD_CUT_RIGHT  1
 #define CELD_CUT_BELOW  2
 #define CELD_NEAR_RIGHT 4
@@ -290,30 +293,32 @@ typedef struct
 {
   int      width, height;
   float   *z;                   /* of each pixel */
-  float   *outline;             /* and where the surface would end in front of something behind it */
-  uint8_t *cut;                 /* of each pixel, towards which neighbours the surface does not go on, and which of them
-                                 * it is in front of */
+  float   *outline;             /* of each pixel; height of the outline if the surface ends there in front of
+                                 * something */
+  uint8_t *cut;                 /* of each pixel: bits for the neighbours towards which the surface is cut, and for
+                                 * those that the pixel is in front of */
 } CeldRelief;
 
-/* Each part as round as the bulge says, as far in front as its depth says, and farther where it would run through
- * something behind it; cut only where depth is.  `depth` is smooth; NULL: celd_smooth makes it.  Replaces `relief`. */
+/* Makes a relief: each part is inflated as the bulge says and placed at its depth, and moved forward where it would
+ * intersect what is behind it.  The surface is cut only at depth discontinuities.  `depth` is smooth depth; NULL:
+ * computed by celd_smooth.  Replaces `relief`. */
 CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                  const CeldSettings *settings, const CeldHost *host, CeldRelief *relief);
 CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
 
-/* Triangles over the picture, which has its middle at x = y = 0, and depth 0 at z = 0. */
+/* A triangle mesh over the picture, whose centre is at x = y = 0; depth 0 is at z = 0. */
 typedef struct
 {
   size_t    vertices, triangles;
   float    *place;              /* of each vertex x, y, z: to the right, up, to the viewer, in millimetres */
   float    *normal;             /* as many, unit length */
-  float    *art;                /* where it is in the picture: 0 .. 1 to the right and down */
+  float    *art;                /* of each vertex, its place in the picture: 0 .. 1 to the right and down */
   uint32_t *corner;             /* three vertices of each triangle, counter-clockwise seen from outside */
-  double    error;              /* how far it is from the surface at most, in pixels */
+  double    error;              /* largest distance to the surface, in pixels */
 } CeldReliefMesh;
 
-/* CELD_BAD_VALUE also if settings->most_vertices are too few for the borders alone, or for heights that are not finite
- * or beyond CELD_MOST_HEIGHT; those of celd_relief are not.  Replaces `mesh`. */
+/* Makes a mesh.  CELD_BAD_VALUE also if settings->most_vertices is too small for the cuts alone, or for heights that are
+ * not finite or beyond CELD_MOST_HEIGHT; those of celd_relief are not.  Replaces `mesh`. */
 #define CELD_MOST_HEIGHT 1e12f /* pixels */
 CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host,
                                       CeldReliefMesh *mesh);

@@ -64,6 +64,7 @@ typedef struct
   size_t       *row;            /* the runs of row y are run[row[y]] .. run[row[y+1] - 1], from left to right */
   CeldPixelRun *run;
   size_t        n;
+  size_t        run_capacity;
 } CeldRunComponents;
 
 /* Finds the components of the pixels that are not fixed (`fixed` NULL: of all), 4-connected across edges with v_pq > 0;

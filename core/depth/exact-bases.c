@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "depth/depth.h"
 #include "depth/exact.h"
 #include "solve/laplace.h"
@@ -22,15 +23,13 @@ celd_bases_grow (CeldHarmonicBases *b, size_t n_groups)
 {
   while (b->n_groups < n_groups)
     {
-      float **group = celd_grow (b->group, b->n_groups + 1, sizeof *group);
+      float *lanes = celd_alloc0 ((size_t) b->width * (size_t) b->height, CELD_LANES * sizeof *lanes);
 
-      if (!group)
-        return CELD_NO_MEMORY;
-      b->group = group;
-      group[b->n_groups] = celd_alloc0 ((size_t) b->width * (size_t) b->height, CELD_LANES * sizeof (float));
-      if (!group[b->n_groups])
-        return CELD_NO_MEMORY;
-      b->n_groups++;
+      if (!lanes || celd_append (b->group, b->n_groups, b->group_capacity, lanes) != CELD_OK)
+        {
+          celd_free (lanes);
+          return CELD_NO_MEMORY;
+        }
     }
   return CELD_OK;
 }
@@ -112,7 +111,7 @@ place_nodes (CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const 
   size_t     pixels = (size_t) b->width * (size_t) b->height;
   uint32_t   n = n_sets + (uint32_t) n_points, n_old = b->n;
   uint32_t  *start = celd_alloc0 ((size_t) n + 1, sizeof *start), *own = celd_alloc (pixels, sizeof *own);
-  size_t    *pixel = celd_grow (NULL, n_points, sizeof *pixel);
+  size_t    *pixel = celd_alloc (n_points, sizeof *pixel);
   Start      s = { b, start, n_old, n, celd_alloc ((size_t) b->height, ((size_t) n_old + 1) * sizeof (float)) };
   CeldStatus status = start && own && pixel && s.work ? celd_bases_grow (b, celd_bases_groups (n)) : CELD_NO_MEMORY;
 
@@ -126,6 +125,7 @@ place_nodes (CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const 
       celd_free (b->pixel);
       b->node   = own;
       b->pixel  = pixel;
+      b->pixel_capacity = n_points;
       b->n      = n;
       b->n_sets = n_sets;
       celd_parallel_for (host, b->height, start_row, &s);

@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "depth/depth.h"
 #include "depth/exact.h"
 #include "solve/laplace.h"
@@ -99,14 +100,8 @@ room_new (CeldHarmonicBases *b, size_t n_points, Room *room)
   };
   if (!room->basis || !room->stiffness || !room->share)
     return CELD_NO_MEMORY;
-  for (size_t i = b->n - b->n_sets + 1; i <= n - b->n_sets; i++)
-    {
-      size_t *pixel = celd_grow (b->pixel, i, sizeof *pixel);
-
-      if (!pixel)
-        return CELD_NO_MEMORY;
-      b->pixel = pixel;
-    }
+  if (!celd_reserve (&b->pixel, n - b->n_sets, &b->pixel_capacity, sizeof *b->pixel))
+    return CELD_NO_MEMORY;
   room->with = room->share + n;
   room->work = room->with + n;
   return celd_bases_grow (b, celd_bases_groups ((uint32_t) n));

@@ -15,6 +15,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "depth/exact.h"
 #include "image/image.h"
 #include "order/order.h"
@@ -41,6 +42,7 @@ typedef struct
   double         *stiffness;    /* between classes */
   double         *value, *u;    /* depths of classes and of nodes */
   CeldCertificate certificate;
+  size_t          point_capacity, inequality_capacity;
 } Problem;
 
 static void
@@ -78,19 +80,12 @@ find_term (CeldProgram *p, CeldTerm *term, size_t *pixel)
 static CeldStatus
 add_point (const CeldProgram *p, size_t pixel, Problem *q)
 {
-  size_t *point;
-
   if (p->nodes.data[pixel])
     return CELD_OK;
   for (size_t i = 0; i < q->n_points; i++)
     if (q->point[i] == pixel)
       return CELD_OK;
-  point = celd_grow (q->point, q->n_points + 1, sizeof *point);
-  if (!point)
-    return CELD_NO_MEMORY;
-  q->point = point;
-  point[q->n_points++] = pixel;
-  return CELD_OK;
+  return celd_append (q->point, q->n_points, q->point_capacity, pixel);
 }
 
 /* Relations between places that can be nodes, and those of them that are off every scribble. */
@@ -124,13 +119,11 @@ name_nodes (const CeldProgram *p, Problem *q)
 
   while (status == CELD_OK && q->palette.n < n)
     {
-      CeldRegion *item = celd_grow (q->palette.item, q->palette.n + 1, sizeof *item);
       size_t      pixel = p->bases.pixel[q->palette.n - p->bases.n_sets], w = (size_t) p->ink->width;
 
-      if (!item)
+      if (celd_append_uncounted (q->palette.item, q->palette.n,
+                                 (CeldRegion) { .x = (int) (pixel % w), .y = (int) (pixel / w), .area = 1 }) != CELD_OK)
         return CELD_NO_MEMORY;
-      q->palette.item = item;
-      item[q->palette.n++] = (CeldRegion) { .x = (int) (pixel % w), .y = (int) (pixel / w), .area = 1 };
     }
   return status;
 }
@@ -216,12 +209,9 @@ add_inequalities (const CeldProgram *p, size_t link, Problem *q)
   for (size_t near = f[1]; near < f[2]; near++)
     for (size_t far = f[0]; far < f[1] && !(weak && g->end[near] >= p->palette.n); far++)
       {
-        CeldInequality *item = celd_grow (q->inequality, q->n + 1, sizeof *item);
-
-        if (!item)
+        if (celd_append (q->inequality, q->n, q->inequality_capacity,
+                         (CeldInequality) { q->class[g->end[near]], q->class[g->end[far]], gap }) != CELD_OK)
           return CELD_NO_MEMORY;
-        q->inequality = item;
-        item[q->n++]  = (CeldInequality) { q->class[g->end[near]], q->class[g->end[far]], gap };
       }
   return CELD_OK;
 }

@@ -24,6 +24,7 @@ typedef struct
                                  * (k - 2) % CELD_LANES of pixel p in group[(k - 2) / CELD_LANES] */
   size_t       n_groups;
   double      *stiffness;       /* n x n: K_kl = sum over edges of w_pq (h_k(p) - h_k(q)) (h_l(p) - h_l(q)) */
+  size_t       pixel_capacity, group_capacity;
 } CeldHarmonicBases;
 
 /* Nodes for these pixels, all at once: bases and stiffness.  Whatever the tolerance, bases are exactly 1 and 0 on the

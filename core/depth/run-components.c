@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "depth/depth.h"
 
 /* ------------------------------------------------------------------ runs of a row */
@@ -35,13 +36,7 @@ is_free (const Joins *j, size_t pixel)
 static CeldStatus
 add_run (CeldRunComponents *components, size_t *n, int x, int end)
 {
-  CeldPixelRun *run = celd_grow (components->run, *n + 1, sizeof *run);
-
-  if (!run)
-    return CELD_NO_MEMORY;
-  run[(*n)++] = (CeldPixelRun) { x, end, 0 };
-  components->run  = run;
-  return CELD_OK;
+  return celd_append (components->run, *n, components->run_capacity, (CeldPixelRun) { x, end, 0 });
 }
 
 /* Ends a run where fixed pixels begin, and where a border is cut. */
@@ -127,8 +122,9 @@ celd_run_components_find (int width, int height, const float *level, const uint8
   size_t     n = 0;
   CeldStatus status;
 
-  found.run = celd_grow (NULL, 1, sizeof *found.run); /* an array even where all pixels are fixed */
-  status    = found.row && found.run && mark ? CELD_OK : CELD_NO_MEMORY;
+  /* A pointer even where all pixels are fixed. */
+  status = celd_reserve (&found.run, 1, &found.run_capacity, sizeof *found.run) && found.row && mark ? CELD_OK
+                                                                                                      : CELD_NO_MEMORY;
   for (int y = 0; y < height && status == CELD_OK; y++)
     {
       status = y % 64 ? CELD_OK : celd_progress (host, (double) y / height);

@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "image/image.h"
 
 #define ROWS 64 /* rows between two reports of progress */
@@ -16,19 +17,16 @@ typedef struct
 {
   uint32_t *parent;  /* of number k: parent[k] <= k; k itself for a root; number 0 is "no component" */
   size_t    n;       /* numbers given so far, with number 0 */
+  size_t    capacity;
 } Numbers;
 
 /* A number of its own; 0 if there is no memory.  (The very first number is 0, too.) */
 static uint32_t
 new_number (Numbers *numbers)
 {
-  uint32_t *parent = celd_grow (numbers->parent, numbers->n + 1, sizeof *parent);
+  uint32_t number = (uint32_t) numbers->n;
 
-  if (!parent)
-    return 0;
-  numbers->parent = parent;
-  parent[numbers->n] = (uint32_t) numbers->n;
-  return (uint32_t) numbers->n++;
+  return celd_append (numbers->parent, numbers->n, numbers->capacity, number) == CELD_OK ? number : 0;
 }
 
 /* First pass, row y: `row` gets a number for every pixel, after the row of numbers `above` (NULL for the first row). */

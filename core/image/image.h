@@ -45,7 +45,7 @@ CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, 
 CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldHost *host,
                                  CeldPalette *palette);
 
-/* A copy that celd_grow can make larger; makes the record. */
+/* Makes a copy; `copy` is overwritten. */
 CeldStatus celd_palette_copy (const CeldPalette *palette, CeldPalette *copy);
 
 /* The first opaque label of this colour, or of the nearest one that colour management may have made of it (2 of 255 a
@@ -91,7 +91,7 @@ CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, c
 /* ------------------------------------------------------------------ seed-rows.c */
 
 typedef struct { int x, end; uint32_t label; } CeldSeedRun;       /* pixels x .. end - 1; label > 0 */
-typedef struct { CeldSeedRun *run; size_t n; } CeldSeedRow;       /* from left to right, apart or of other labels */
+typedef struct { CeldSeedRun *run; size_t n, run_capacity; } CeldSeedRow;       /* from left to right, apart or of other labels */
 typedef struct { int width, height; CeldSeedRow *row; } CeldSeedRows;
 
 CeldStatus celd_seed_rows_new (int width, int height, CeldSeedRows *seeds);      /* without a seed */

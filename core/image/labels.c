@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 
 #include <stdlib.h>
@@ -93,22 +94,20 @@ number_regions (const CeldComponent *component, size_t n, CeldPalette *palette, 
     }
   for (size_t i = 0; i < n; i++)
     {
-      size_t      k = component[i].label - 1;
-      CeldRegion *item;
+      size_t     k = component[i].label - 1;
+      CeldRegion region;
 
       number[i] = component[i].label;
       if (k >= n_old || i == largest[k] || component[i].area < SPECK)
         continue;
-      item = celd_grow (palette->item, palette->n + 1, sizeof *item);
-      if (!item)
+      region       = palette->item[k];
+      region.seeds = 0;
+      if (celd_append_uncounted (palette->item, palette->n, region) != CELD_OK)
         {
           celd_free (largest);
           return CELD_NO_MEMORY;
         }
-      palette->item    = item;
-      item[palette->n] = item[k];
-      item[palette->n].seeds = 0;
-      number[i] = (uint32_t) ++palette->n;
+      number[i] = (uint32_t) palette->n;
     }
   celd_free (largest);
   return CELD_OK;
@@ -118,18 +117,12 @@ CeldStatus
 celd_palette_copy (const CeldPalette *palette, CeldPalette *copy)
 {
   *copy = (CeldPalette) { 0 };
-  for (size_t k = 0; k < palette->n; k++)
-    {
-      CeldRegion *item = celd_grow (copy->item, k + 1, sizeof *item);
-
-      if (!item)
-        {
-          celd_palette_clear (copy);
-          return CELD_NO_MEMORY;
-        }
-      copy->item = item;
-      item[copy->n++] = palette->item[k];
-    }
+  copy->item = celd_alloc (palette->n, sizeof *copy->item);
+  if (!copy->item)
+    return CELD_NO_MEMORY;
+  if (palette->n)
+    memcpy (copy->item, palette->item, palette->n * sizeof *copy->item);
+  copy->n = palette->n;
   return CELD_OK;
 }
 

@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 
 #include <string.h>
@@ -34,13 +35,7 @@ celd_seed_rows_clear (CeldSeedRows *seeds)
 static CeldStatus
 append (CeldSeedRow *row, CeldSeedRun run)
 {
-  CeldSeedRun *grown = celd_grow (row->run, row->n + 1, sizeof *grown);
-
-  if (!grown)
-    return CELD_NO_MEMORY;
-  row->run = grown;
-  row->run[row->n++] = run;
-  return CELD_OK;
+  return celd_append (row->run, row->n, row->run_capacity, run);
 }
 
 static CeldStatus
@@ -85,7 +80,7 @@ celd_seed_rows_copy (const CeldSeedRows *from, CeldSeedRows *seeds)
 
       if (!row->n)
         continue;
-      made.row[y].run = celd_grow (NULL, row->n, sizeof *row->run);
+      made.row[y].run = celd_alloc (row->n, sizeof *row->run);
       if (!made.row[y].run)
         status = CELD_NO_MEMORY;
       else
@@ -153,14 +148,8 @@ replace (CeldSeedRow *row, size_t first, size_t last, const CeldSeedRun *piece, 
 {
   size_t n = row->n - (last - first) + pieces;
 
-  for (size_t k = row->n + 1; k <= n; k++)
-    {
-      CeldSeedRun *grown = celd_grow (row->run, k, sizeof *grown);
-
-      if (!grown)
-        return CELD_NO_MEMORY;
-      row->run = grown;
-    }
+  if (!celd_reserve (&row->run, n, &row->run_capacity, sizeof *row->run))
+    return CELD_NO_MEMORY;
   if (row->n > last)
     memmove (row->run + first + pieces, row->run + last, (row->n - last) * sizeof *piece);
   if (pieces)

@@ -100,7 +100,7 @@ CeldStatus celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCro
 /* ------------------------------------------------------------------ crossing-strokes.c */
 
 /* Stroke k of a component has the pixels from first[k] to first[k + 1], numbered as in CeldArrowStroke. */
-typedef struct { uint32_t *pixel; size_t *first, n; } CeldCrossingStrokes;
+typedef struct { uint32_t *pixel; size_t *first, n; size_t pixel_capacity; } CeldCrossingStrokes;
 
 /* Takes a connected component apart where strokes cross; n = 0 if none do.  To be cleared by the caller. */
 CeldStatus celd_crossing_strokes_find (const CeldArrowStroke *component, CeldCrossingStrokes *strokes);

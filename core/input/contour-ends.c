@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "input/contours.h"
 
 #include <math.h>
@@ -101,6 +102,8 @@ is_rim (const Bake *b, int x, int y)
 static CeldStatus
 find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n)
 {
+  size_t capacity = 0;
+
   for (int y = 0; y < b->height; y++)
     {
       if (celd_progress (host, (double) y / b->height) != CELD_OK)
@@ -108,7 +111,6 @@ find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n
       for (int x = 0; x < b->width; x++)
         {
           End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->part, x, y) };
-          End *grown;
           int  met;
 
           if (!end.stroke || !is_rim (b, x, y) || !find_target (b, reach, &end))
@@ -117,11 +119,8 @@ find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n
           if (met > 1)
             continue;
           end.dab = met == 0;
-          grown = celd_grow (*ends, *n + 1, sizeof *grown);
-          if (!grown)
+          if (celd_append (*ends, *n, capacity, end) != CELD_OK)
             return CELD_NO_MEMORY;
-          *ends = grown;
-          grown[(*n)++] = end;
         }
     }
   return CELD_OK;

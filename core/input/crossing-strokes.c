@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "image/image.h"
 #include "input/arrows.h"
 
@@ -189,17 +190,14 @@ add_stroke (Pieces *p, uint32_t root, CeldCrossingStrokes *to)
     for (int x = 0; x < c->width; x++)
       {
         uint32_t  piece = CELD_AT (&p->pieces, x, y);
-        uint32_t *item;
 
         if (piece ? celd_root (p->parent, piece - 1) != root
                   : !c->painted[(size_t) y * (size_t) c->width + (size_t) x] ||
                     !crosses_at (p, root, (CeldPoint) { x + 0.5, y + 0.5 }))
           continue;
-        item = celd_grow (to->pixel, n + 1, sizeof *item);
-        if (!item)
+        if (celd_append (to->pixel, n, to->pixel_capacity,
+                         (uint32_t) ((size_t) (y + c->top + 1) * row + (size_t) (x + c->left + 1))) != CELD_OK)
           return CELD_NO_MEMORY;
-        to->pixel = item;
-        item[n++] = (uint32_t) ((size_t) (y + c->top + 1) * row + (size_t) (x + c->left + 1));
       }
   to->first[++to->n] = n;
   return CELD_OK;

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "input/arrows.h"
 
 #include <math.h>
@@ -132,6 +133,7 @@ gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
 {
   static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
   Circle              circle;
+  size_t              capacity = 0;
 
   for (int i = 0; i < SAMPLES; i++)
     {
@@ -153,12 +155,8 @@ gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
             best = one;
         if (best.bend < INFINITY)
           {
-            Candidate *item = celd_grow (*list, *n + 1, sizeof *item);
-
-            if (!item)
+            if (celd_append (*list, *n, capacity, best) != CELD_OK)
               return CELD_NO_MEMORY;
-            *list        = item;
-            item[(*n)++] = best;
           }
       }
   return CELD_OK;
@@ -191,20 +189,14 @@ celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCrossing **lis
 {
   Candidate    *candidates = NULL;
   CeldStrokeCrossing *found = NULL;
-  size_t        left = 0, taken = 0;
+  size_t        left = 0, taken = 0, capacity = 0;
   CeldStatus    status = gather (mask, &candidates, &left);
 
   while (left && status == CELD_OK)
     {
-      CeldStrokeCrossing *item = celd_grow (found, taken + 1, sizeof *item);
+      CeldStrokeCrossing best = take_best (candidates, &left);
 
-      if (!item)
-        status = CELD_NO_MEMORY;
-      else
-        {
-          found          = item;
-          found[taken++] = take_best (candidates, &left);
-        }
+      status = celd_append (found, taken, capacity, best);
     }
   celd_free (candidates);
   if (status != CELD_OK)

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "input/scribbles.h"
 
 #include <stdlib.h>
@@ -66,18 +67,16 @@ nearest_cluster (const CeldScribbleLayer *r, const int *channel)
 CeldStatus
 celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t id)
 {
-  CeldScribbleCluster   *grown = celd_grow (r->cluster, r->n_clusters + 1, sizeof *grown);
   const int *c = r->colour[id].channel;
   int        side = cell_side (r);
   size_t     cell = (size_t) ((c[0] / r->radius * side + c[1] / r->radius) * side + c[2] / r->radius);
 
-  if (!grown)
+  if (!celd_reserve_one (r->cluster, r->n_clusters, r->cluster_capacity))
     return CELD_NO_MEMORY;
-  r->cluster = grown;
-  grown[r->n_clusters] = (CeldScribbleCluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
+  r->cluster[r->n_clusters] = (CeldScribbleCluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
   if (id) /* transparent is near nothing */
     {
-      grown[r->n_clusters].next = r->head[cell];
+      r->cluster[r->n_clusters].next = r->head[cell];
       r->head[cell] = (uint32_t) r->n_clusters;
     }
   r->n_clusters++;

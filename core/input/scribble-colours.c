@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "input/scribbles.h"
 
 #include <math.h>
@@ -65,18 +66,15 @@ colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
 {
   uint32_t rgb = ((uint32_t) rgba[0] << 16) | ((uint32_t) rgba[1] << 8) | rgba[2];
   size_t   s;
-  CeldScribbleColour  *grown;
 
   if (2 * (r->n + 1) > r->slots && grow_slots (r) != CELD_OK)
     return 0;
   s = slot_of (r, rgb);
   if (r->slot[s])
     return r->slot[s];
-  grown = celd_grow (r->colour, r->n + 1, sizeof *grown);
-  if (!grown)
+  if (!celd_reserve_one (r->colour, r->n, r->colour_capacity))
     return 0;
-  r->colour = grown;
-  grown[r->n] = (CeldScribbleColour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
+  r->colour[r->n] = (CeldScribbleColour) { { rgba[0], rgba[1], rgba[2] }, 0, 0, 0, 0, CELD_NO_CLUSTER };
   r->slot[s] = (uint32_t) r->n;
   return (uint32_t) r->n++;
 }
@@ -256,8 +254,7 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   CeldStatus status;
   bool       smeared;
 
-  r->colour = celd_grow (NULL, 1, sizeof *r->colour);
-  if (!r->colour)
+  if (!celd_reserve (&r->colour, 1, &r->colour_capacity, sizeof *r->colour))
     return CELD_NO_MEMORY;
   r->colour[0] = (CeldScribbleColour) { { 0, 0, 0 }, 0, 0, 0, 0, 0 };
   r->n = 1;

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "input/scribble-loss.h"
 #include "input/scribbles.h"
 
@@ -135,13 +136,10 @@ take_piece (CeldLossStrokes *s, int x, int y)
 {
   CeldScribbleLayer *r = s->r;
   int      left = x / BLOCK * BLOCK, top = y / BLOCK * BLOCK, stack[BLOCK * BLOCK], n = 0;
-  CeldLossPiece   *grown = celd_grow (s->piece, s->n + 1, sizeof *grown);
 
-  if (!grown)
+  if (celd_append (s->piece, s->n, s->piece_capacity,
+                   (CeldLossPiece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) }) != CELD_OK)
     return CELD_NO_MEMORY;
-  s->piece = grown;
-  grown[s->n] = (CeldLossPiece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) };
-  s->n++;
   r->label[(size_t) y * (size_t) r->width + (size_t) x] = (uint32_t) s->n;
   stack[n++] = (y - top) * BLOCK + x - left;
   while (n)
@@ -184,18 +182,14 @@ find_contacts (CeldLossStrokes *s)
         {
           int      u = x + step[k][0], v = y + step[k][1];
           uint32_t a = r->label[(size_t) y * (size_t) r->width + (size_t) x], b;
-          CeldLossContact *grown;
 
           if (!a || u < 0 || u >= r->width || v >= r->height)
             continue;
           b = r->label[(size_t) v * (size_t) r->width + (size_t) u];
           if (!b || a == b)
             continue;
-          grown = celd_grow (s->contact, s->n_contacts + 1, sizeof *grown);
-          if (!grown)
+          if (celd_append (s->contact, s->n_contacts, s->contact_capacity, (CeldLossContact) { a - 1, b - 1, 0 }) != CELD_OK)
             return CELD_NO_MEMORY;
-          s->contact = grown;
-          s->contact[s->n_contacts++] = (CeldLossContact) { a - 1, b - 1, 0 };
         }
   return CELD_OK;
 }

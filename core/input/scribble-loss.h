@@ -35,6 +35,7 @@ typedef struct
   size_t   n;
   CeldLossContact *contact;
   size_t   n_contacts;
+  size_t   piece_capacity, contact_capacity;
 } CeldLossStrokes;
 
 /* Luma of a colour or a deficit. */

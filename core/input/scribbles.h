@@ -59,6 +59,7 @@ typedef struct
   CeldScribbleCluster         *cluster;
   size_t           n_clusters;
   uint32_t        *head;        /* first cluster in each cell of colour space */
+  size_t           colour_capacity, cluster_capacity;
 } CeldScribbleLayer;
 
 static inline int

@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "layers/layers.h"
 
@@ -78,13 +79,11 @@ trace_loop (Tracing *t, int x, int y)
 
   do
     {
-      CeldCrackEdge *grown = celd_grow (o->crack, o->n + 1, sizeof *grown);
       CeldVisibility beyond = celd_layer_visibility (t->layers, t->layer, x + left_x[d], y + left_y[d]);
 
-      if (!grown)
+      if (celd_append (o->crack, o->n, o->crack_capacity, (CeldCrackEdge) { x, y, beyond
+                                                                            == CELD_LAYER_OCCLUDED }) != CELD_OK)
         return CELD_NO_MEMORY;
-      o->crack = grown;
-      o->crack[o->n++] = (CeldCrackEdge) { x, y, beyond == CELD_LAYER_OCCLUDED };
       if (d == 0)
         *upper_side (t, x, y) = 1;
       x += step_x[d];
@@ -102,11 +101,8 @@ trace_loop (Tracing *t, int x, int y)
 static CeldStatus
 end_loop (CeldOutline *outline)
 {
-  size_t *grown = celd_grow (outline->loop, outline->n_loops + 2, sizeof *grown);
-
-  if (!grown)
+  if (!celd_reserve (&outline->loop, outline->n_loops + 2, &outline->loop_capacity, sizeof *outline->loop))
     return CELD_NO_MEMORY;
-  outline->loop = grown;
   outline->loop[++outline->n_loops] = outline->n;
   return CELD_OK;
 }
@@ -116,8 +112,7 @@ trace_all (Tracing *t)
 {
   CeldStatus status = CELD_OK;
 
-  t->outline->loop = celd_grow (NULL, 1, sizeof *t->outline->loop);
-  if (!t->outline->loop)
+  if (!celd_reserve (&t->outline->loop, 1, &t->outline->loop_capacity, sizeof *t->outline->loop))
     return CELD_NO_MEMORY;
   t->outline->loop[0] = 0;
   for (int y = t->box.y; y < t->box.y + t->box.height && !status; y++)
@@ -346,14 +341,13 @@ static CeldStatus
 add_gap (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t from,
          size_t length, CeldOutline *outline)
 {
-  CeldOutlineGap *grown = celd_grow (outline->gap, outline->n_gaps + 1, sizeof *grown), *gap;
+  CeldOutlineGap *gap;
   size_t          before = 1, after;
   CeldStatus      status;
 
-  if (!grown)
+  if (!celd_reserve_one (outline->gap, outline->n_gaps, outline->gap_capacity))
     return CELD_NO_MEMORY;
-  outline->gap = grown;
-  gap = &grown[outline->n_gaps];
+  gap = &outline->gap[outline->n_gaps];
   while (!crack_at (loop, from + loop->n - before - 1)->hidden)
     before++;
   after = piece_length (loop, from + length);

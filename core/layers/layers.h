@@ -82,11 +82,11 @@ typedef struct { CeldGapEnd in, out; } CeldOutlineGap;
 typedef struct
 {
   CeldCrackEdge  *crack;           /* of all loops in succession */
-  size_t          n;
+  size_t          n, crack_capacity;
   size_t         *loop;        /* index of the first crack edge of each loop, and n at the end */
-  size_t          n_loops;
+  size_t          n_loops, loop_capacity;
   CeldOutlineGap *gap;
-  size_t          n_gaps;
+  size_t          n_gaps, gap_capacity;
 } CeldOutline;
 
 /* Traces the outline of a layer.  Crack edges are `hidden` only where a gap replaces them; holes that nearer layers

@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "light/lumo.h"
 
@@ -156,7 +157,7 @@ look_at_edge (Creases *s, int x, int y, bool down)
   CeldLumo *l = s->lumo;
   size_t    i = celd_lumo_pixel (l, x, y);
   Flank     p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
-  CeldCrease  crease = { (uint32_t) i, down, false, 0, 0, { 0, 0 } }, *grown;
+  CeldCrease  crease = { (uint32_t) i, down, false, 0, 0, { 0, 0 } };
   double    nx, ny;
 
   if (!is_middle (s, &p, &q))
@@ -165,14 +166,9 @@ look_at_edge (Creases *s, int x, int y, bool down)
   crease.painted = strengths (s, &p, &q, nx, ny, crease.strength);
   if (!(crease.strength[0] > 0) && !(crease.strength[1] > 0))
     return CELD_OK;
-  grown = celd_grow (l->crease, l->n_creases + 1, sizeof *grown);
-  if (!grown)
-    return CELD_NO_MEMORY;
   crease.x  = (float) nx;
   crease.y  = (float) ny;
-  l->crease = grown;
-  l->crease[l->n_creases++] = crease;
-  return CELD_OK;
+  return celd_append (l->crease, l->n_creases, l->crease_capacity, crease);
 }
 
 /* Edges with ink at one end at least, within one level. */

@@ -11,6 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "depth/depth.h"
 #include "light/lumo.h"
 
@@ -67,13 +68,8 @@ outward (const Outlines *o, float near, int x, int y, int east, int south, doubl
 static CeldStatus
 add_constraint (CeldLumo *l, size_t pixel, double x, double y)
 {
-  CeldNormalConstraint *constraint = celd_grow (l->constraint, l->n_constraints + 1, sizeof *constraint);
-
-  if (!constraint)
-    return CELD_NO_MEMORY;
-  constraint[l->n_constraints++] = (CeldNormalConstraint) { pixel, (float) x, (float) y };
-  l->constraint = constraint;
-  return CELD_OK;
+  return celd_append (l->constraint, l->n_constraints, l->constraint_capacity,
+                      (CeldNormalConstraint) { pixel, (float) x, (float) y });
 }
 
 static uint32_t

@@ -43,6 +43,7 @@ typedef struct
   CeldNormalConstraint *constraint;  /* in any order; several of one pixel add up */
   size_t                n_constraints;
   float                *tilt;        /* n_x and n_y of each pixel, y up */
+  size_t                crease_capacity, constraint_capacity;
 } CeldLumo;
 
 static inline size_t

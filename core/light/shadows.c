@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "light/shadows.h"
 
@@ -22,7 +23,7 @@
 /* A level's matte in one cell. */
 typedef struct { uint32_t cell; uint8_t level; float matte; } Share;
 
-typedef struct { Share *item; size_t n; } Shares;
+typedef struct { Share *item; size_t n, item_capacity; } Shares;
 
 typedef struct
 {
@@ -65,13 +66,10 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
       }
   for (int i = 0; i < n; i++)
     {
-      Share *item = celd_grow (s->cover.item, s->cover.n + 1, sizeof *item);
-
-      if (!item)
+      if (celd_append (s->cover.item, s->cover.n, s->cover.item_capacity,
+                       (Share) { (uint32_t) row * (uint32_t) s->cells.width + (uint32_t) column, met[i],
+                                     (float) count[met[i]] / area }) != CELD_OK)
         return CELD_NO_MEMORY;
-      s->cover.item = item;
-      item[s->cover.n++] = (Share) { (uint32_t) row * (uint32_t) s->cells.width + (uint32_t) column, met[i],
-                                     (float) count[met[i]] / area };
       count[met[i]] = 0;
     }
   return CELD_OK;
@@ -149,16 +147,13 @@ gather_matte (const Stack *s, CeldRect bounds, const float *matte, uint8_t level
     for (int x = 0; x < bounds.width; x++)
       {
         float  value = matte[(size_t) y * (size_t) bounds.width + (size_t) x];
-        Share *item;
 
         if (value < FAINT)
           continue;
-        item = celd_grow (shares->item, shares->n + 1, sizeof *item);
-        if (!item)
+        if (celd_append (shares->item, shares->n, shares->item_capacity,
+                         (Share) { (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x),
+                                      level, value }) != CELD_OK)
           return CELD_NO_MEMORY;
-        shares->item = item;
-        item[shares->n++] = (Share) { (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x),
-                                      level, value };
       }
   return CELD_OK;
 }
@@ -197,7 +192,7 @@ static CeldStatus
 join_levels (Stack *s)
 {
   size_t cells = (size_t) s->cells.width * (size_t) s->cells.height;
-  Shares all = { NULL, 0 };
+  Shares all = { 0 };
 
   for (int k = 1; k < s->number.n; k++)
     all.n += s->blurred[k].n;
@@ -216,7 +211,7 @@ join_levels (Stack *s)
         memcpy (all.item + all.n, s->blurred[k].item, s->blurred[k].n * sizeof *all.item);
       all.n += s->blurred[k].n;
       celd_free (s->blurred[k].item);
-      s->blurred[k] = (Shares) { NULL, 0 };
+      s->blurred[k] = (Shares) { 0 };
     }
   sort_shares (&all, true, cells, s->first, s->share);
   celd_free (all.item);

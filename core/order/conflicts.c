@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "order/order.h"
 
 #include <stdlib.h>
@@ -23,15 +24,15 @@ typedef struct { int round; double weight; size_t relation; } Trial;
 static CeldStatus
 add_cycle (const CeldCycleSearch *s, size_t scc, CeldOrder *order)
 {
-  CeldCycle *cycles = celd_grow (order->cycle, order->n_cycles + 1, sizeof *cycles);
-  CeldStatus status;
+  CeldCycle  cycle = { 0 };
+  CeldStatus status = celd_cycle_search_cycle (s, &cycle);
 
-  if (!cycles)
-    return CELD_NO_MEMORY;
-  order->cycle = cycles;
-  status = celd_cycle_search_cycle (s, &cycles[order->n_cycles]);
-  if (status == CELD_OK)
-    cycles[order->n_cycles++].scc = scc;
+  cycle.scc = scc;
+  if (status != CELD_OK)
+    return status;
+  status = celd_append_uncounted (order->cycle, order->n_cycles, cycle);
+  if (status != CELD_OK)
+    celd_free (cycle.item);
   return status;
 }
 
@@ -225,16 +226,9 @@ describe_sccs (CeldCycleSearch *s, const CeldSccs *sccs, CeldOrder *order)
     if (sccs->link[i])
       {
         CeldScc *scc = &order->scc[sccs->link[i] - 1];
-        size_t   *item = celd_grow (scc->item, scc->n + 1, sizeof *item);
 
-        if (!item)
-          status = CELD_NO_MEMORY;
-        else
-          {
-            scc->item = item;
-            item[scc->n++] = i;
-            use[i] = true;
-          }
+        status = celd_append_uncounted (scc->item, scc->n, i);
+        use[i] = status == CELD_OK;
       }
   if (status == CELD_OK)
     status = find_newest_cycles (s, use, order);

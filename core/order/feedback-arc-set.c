@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "order/order.h"
 
 #include <math.h>
@@ -32,6 +33,7 @@ typedef struct
   size_t           n_blocks;
   double          *cost;        /* of a set of placed labels */
   uint32_t        *last;        /* the block of it that was placed last */
+  size_t           block_capacity;
 } Exact;
 
 static void
@@ -111,12 +113,8 @@ list_blocks (Exact *x)
   for (uint32_t set = 1; set < 1u << x->n; set++)
     if (!(set & (set - 1)) || (any && hangs_together (x, set)))
       {
-        uint32_t *block = celd_grow (x->block, x->n_blocks + 1, sizeof *block);
-
-        if (!block)
+        if (celd_append (x->block, x->n_blocks, x->block_capacity, set) != CELD_OK)
           return CELD_NO_MEMORY;
-        x->block = block;
-        block[x->n_blocks++] = set;
       }
   return CELD_OK;
 }

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "order/order.h"
 
@@ -169,13 +170,7 @@ add_background (const CeldPalette *palette, CeldGraph *graph)
 CeldStatus
 celd_graph_add (CeldGraph *graph, uint32_t label)
 {
-  uint32_t *end = celd_grow (graph->end, graph->n_ends + 1, sizeof *end);
-
-  if (!end)
-    return CELD_NO_MEMORY;
-  graph->end             = end;
-  end[graph->n_ends++] = label - 1;
-  return CELD_OK;
+  return celd_append (graph->end, graph->n_ends, graph->end_capacity, label - 1);
 }
 
 void

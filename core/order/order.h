@@ -35,6 +35,7 @@ typedef struct
   uint32_t            *end;   /* label - 1 */
   bool                *kept;  /* does link i count? */
   bool                *equal; /* is link i an equality? */
+  size_t               end_capacity;
 } CeldGraph;
 
 typedef enum { CELD_FARTHER, CELD_NEARER } CeldSide;
@@ -210,7 +211,7 @@ CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *pal
 
 /* A region split in two: x[0],y[0] is in the part that keeps the label, x[1],y[1] in the other. */
 typedef struct { uint32_t label, other; int x[2], y[2]; } CeldSplit;
-typedef struct { CeldSplit *item; size_t n; } CeldSplits;
+typedef struct { CeldSplit *item; size_t n, item_capacity; } CeldSplits;
 
 /* Splits regions of `labels` until no contradiction is left that a split can resolve; new labels are appended to the
  * palette.  After a failure labels and palette are undefined, but can be cleared. */

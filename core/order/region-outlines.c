@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "order/suggest.h"
 
@@ -126,13 +127,7 @@ place (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
 static CeldStatus
 add_point (CeldRegionOutlines *r, CeldOutlinePoint point)
 {
-  CeldOutlinePoint *grown = celd_grow (r->point, r->n_points + 1, sizeof *grown);
-
-  if (!grown)
-    return CELD_NO_MEMORY;
-  r->point = grown;
-  grown[r->n_points++] = point;
-  return CELD_OK;
+  return celd_append (r->point, r->n_points, r->point_capacity, point);
 }
 
 /* Where a loop faces nothing for a short while, and the same label before and behind, it faces that, too: slanting ink
@@ -164,8 +159,8 @@ bridge (const CeldRegionOutlines *r, const CeldOutlineLoop *loop)
 static CeldStatus
 follow (Tracer *t, uint32_t label, int x, int y)
 {
-  CeldRegionOutlines    *r = t->outlines;
-  CeldOutlineLoop  loop = { .first = r->n_points, .label = label }, *loops;
+  CeldRegionOutlines *r = t->outlines;
+  CeldOutlineLoop     loop = { .first = r->n_points, .label = label };
   int          at_x = x, at_y = y, heading = 0;
   CeldOutlinePoint last;
 
@@ -191,12 +186,7 @@ follow (Tracer *t, uint32_t label, int x, int y)
   for (size_t i = loop.first; i < r->n_points; last = r->point[i++])
     loop.length += hypot ((double) (r->point[i].x - last.x), (double) (r->point[i].y - last.y));
   bridge (r, &loop);
-  loops = celd_grow (r->loop, r->n_loops + 1, sizeof *loops);
-  if (!loops)
-    return CELD_NO_MEMORY;
-  r->loop = loops;
-  loops[r->n_loops++] = loop;
-  return CELD_OK;
+  return celd_append (r->loop, r->n_loops, r->loop_capacity, loop);
 }
 
 static CeldStatus

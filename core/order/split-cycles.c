@@ -14,6 +14,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "segment/segment.h"
@@ -292,34 +293,28 @@ take_side (Work *w, const Sheet *sheet, CeldSplits *splits)
 {
   size_t      n[2] = { count_side (sheet, 1), count_side (sheet, 0) };
   int         moves = n[1] <= n[0];
-  CeldRegion *item = celd_grow (w->palette->item, w->palette->n + 1, sizeof *item);
-  CeldSplit  *split;
+  CeldRegion  region = w->palette->item[sheet->label - 1], *rest;
   size_t      p = 0;
 
-  if (!item)
+  region.area  = n[moves];
+  region.seeds = 0;
+  region.x     = sheet->x[moves];
+  region.y     = sheet->y[moves];
+  if (!celd_reserve_one (splits->item, splits->n, splits->item_capacity) ||
+      celd_append_uncounted (w->palette->item, w->palette->n, region) != CELD_OK)
     return CELD_NO_MEMORY;
-  w->palette->item = item;
-  split = celd_grow (splits->item, splits->n + 1, sizeof *split);
-  if (!split)
-    return CELD_NO_MEMORY;
-  splits->item = split;
-  item[w->palette->n]       = item[sheet->label - 1];
-  item[w->palette->n].area  = n[moves];
-  item[w->palette->n].seeds = 0;
-  item[w->palette->n].x     = sheet->x[moves];
-  item[w->palette->n].y     = sheet->y[moves];
-  item[sheet->label - 1].area -= n[moves];
-  w->palette->n++;
+  rest        = &w->palette->item[sheet->label - 1];
+  rest->area -= n[moves];
   for (int y = 0; y < sheet->box.height; y++)
     for (int x = 0; x < sheet->box.width; x++, p++)
       if (sheet->way[0][p] != NOT_YET && sheet->side[p] == !moves)
         CELD_AT (w->labels, sheet->box.x + x, sheet->box.y + y) = (uint32_t) w->palette->n;
-  if (CELD_AT (w->labels, item[sheet->label - 1].x, item[sheet->label - 1].y) != sheet->label)
+  if (CELD_AT (w->labels, rest->x, rest->y) != sheet->label)
     {
-      item[sheet->label - 1].x = sheet->x[!moves];
-      item[sheet->label - 1].y = sheet->y[!moves];
+      rest->x = sheet->x[!moves];
+      rest->y = sheet->y[!moves];
     }
-  split[splits->n++] = (CeldSplit) { sheet->label, (uint32_t) w->palette->n, { sheet->x[!moves], sheet->x[moves] },
+  splits->item[splits->n++] = (CeldSplit) { sheet->label, (uint32_t) w->palette->n, { sheet->x[!moves], sheet->x[moves] },
                                      { sheet->y[!moves], sheet->y[moves] } };
   return CELD_OK;
 }

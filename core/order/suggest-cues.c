@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "order/suggest.h"
 
 #include <math.h>
@@ -34,6 +35,7 @@ typedef struct
   double            *rim;       /* of label l: length of its outlines that face something, rim[l] */
   double            *whole;     /* and of all its outlines */
   double            *frame;     /* and of those along the frame */
+  size_t             pair_capacity;
 } Gathering;
 
 /* ------------------------------------------------------------------ pairs by their labels */
@@ -74,12 +76,8 @@ find_pair (Gathering *g, uint32_t one, uint32_t other, Pair **pair, int *side)
   *side = one > other;
   if (!g->slot[k])
     {
-      Pair *grown = celd_grow (g->pair, g->n + 1, sizeof *grown);
-
-      if (!grown)
+      if (celd_append (g->pair, g->n, g->pair_capacity, (Pair) { .cues = { .a = a, .b = b } }) != CELD_OK)
         return CELD_NO_MEMORY;
-      g->pair = grown;
-      grown[g->n++] = (Pair) { .cues = { .a = a, .b = b } };
       g->slot[k] = (uint32_t) g->n;
       if (2 * g->n >= g->n_slots && grow_slots (g) != CELD_OK)
         return CELD_NO_MEMORY;

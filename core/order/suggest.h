@@ -34,6 +34,7 @@ typedef struct
   size_t        n_points;
   CeldOutlineLoop  *loop;
   size_t        n_loops;
+  size_t        point_capacity, loop_capacity;
 } CeldRegionOutlines;
 
 /* Labels above n_labels count as none.  ink may be NULL: then all is paper. */

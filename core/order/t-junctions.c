@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "order/suggest.h"
 
 #include <math.h>
@@ -32,6 +33,7 @@ typedef struct
   int             columns, rows;
   CeldJunction  *corner;
   size_t          n;
+  size_t          corner_capacity;
 } Search;
 
 /* ------------------------------------------------------------------ looking up outlines */
@@ -208,19 +210,14 @@ static CeldStatus
 add_junction (Search *s, uint32_t a, uint32_t b, uint32_t c, int x, int y)
 {
   uint32_t       low = a < b ? a : b, high = a < b ? b : a;
-  CeldJunction  corner = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } }, *grown;
+  CeldJunction  corner = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } };
 
   corner.label[1] = c < low ? low : c > high ? high : c;
   if (is_known (s, corner.label, x, y))
     return CELD_OK;
   for (int k = 0; k < 3; k++)
     corner.turn[k] = turn_at (s, nearest (s, corner.label[k], x, y));
-  grown = celd_grow (s->corner, s->n + 1, sizeof *grown);
-  if (!grown)
-    return CELD_NO_MEMORY;
-  s->corner = grown;
-  grown[s->n++] = corner;
-  return CELD_OK;
+  return celd_append (s->corner, s->n, s->corner_capacity, corner);
 }
 
 /* All threes among the four labels round a corner of pixels. */

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "ownership/contour-pens.h"
 
@@ -74,31 +75,20 @@ subpixel_point (const CeldPlane *ink, int x, int y, int u, int v)
                            .thickness = INFINITY, .paper = known ? y * ink->width + x : -1, .across = -1 };
 }
 
-static CeldStatus
-add_point (CeldContourEdges *e, CeldEdgePoint point)
-{
-  CeldEdgePoint *grown = celd_grow (e->point, e->n_points + 1, sizeof *grown);
-
-  if (!grown)
-    return CELD_NO_MEMORY;
-  e->point = grown;
-  grown[e->n_points++] = point;
-  return CELD_OK;
-}
-
 /* Follows the loop that includes the edge above the paper at (x,y). */
 static CeldStatus
 follow (EdgeTracer *t, int x, int y)
 {
   CeldContourEdges *e = t->edges;
-  CeldEdgeLoop      loop = { .first = e->n_points }, *loops;
+  CeldEdgeLoop      loop = { .first = e->n_points };
   int               at_x = x, at_y = y, heading = 0;
 
   do
     {
       int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
 
-      if (add_point (e, subpixel_point (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
+      if (celd_append (e->point, e->n_points, e->point_capacity,
+                       subpixel_point (t->ink, in_x, in_y, at_x + left_x[heading], at_y + left_y[heading])) != CELD_OK)
         return CELD_NO_MEMORY;
       if (heading == 0)
         *flags_at (t, in_x, in_y) |= FOLLOWED;
@@ -111,12 +101,7 @@ follow (EdgeTracer *t, int x, int y)
     }
   while (at_x != x || at_y != y || heading != 0);
   loop.n = e->n_points - loop.first;
-  loops  = celd_grow (e->loop, e->n_loops + 1, sizeof *loops);
-  if (!loops)
-    return CELD_NO_MEMORY;
-  e->loop = loops;
-  loops[e->n_loops++] = loop;
-  return CELD_OK;
+  return celd_append (e->loop, e->n_loops, e->loop_capacity, loop);
 }
 
 static CeldStatus

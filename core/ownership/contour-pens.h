@@ -38,9 +38,9 @@ typedef struct
 {
   int            width, height, stroke; /* stroke: the median line width in pixels, see celd_stroke_width */
   CeldEdgePoint *point;
-  size_t         n_points;
+  size_t         n_points, point_capacity;
   CeldEdgeLoop  *loop;
-  size_t         n_loops;
+  size_t         n_loops, loop_capacity;
 } CeldContourEdges;
 
 CeldStatus celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges);
@@ -185,7 +185,7 @@ int celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2]);
 /* ------------------------------------------------------------------ corrections.c */
 
 /* The pixels that corrections reassigned, in this order, with their former owners. */
-typedef struct { CeldPixelOwner *item; size_t n; } CeldReassigned;
+typedef struct { CeldPixelOwner *item; size_t n, capacity; } CeldReassigned;
 
 /* Gives the ink under strokes (0 = no stroke), and the pieces of line that they touch, to the strokes' labels.
  * Appends the reassigned pixels to `reassigned`, also when it fails. */

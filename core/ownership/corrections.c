@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/tiles.h"
+#include "base/vector.h"
 #include "image/image.h"
 #include "ownership/contour-pens.h"
 
@@ -32,17 +33,15 @@ static CeldStatus
 reassign (const Corrector *h, int x, int y, uint32_t to)
 {
   uint32_t       *owner = &CELD_AT (h->owner, x, y);
-  CeldPixelOwner *item;
+  CeldStatus      status;
 
   if (*owner == to)
     return CELD_OK;
-  item = celd_grow (h->reassigned->item, h->reassigned->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  h->reassigned->item = item;
-  item[h->reassigned->n++] = (CeldPixelOwner) { (int32_t) (y * h->ink->width + x), *owner };
-  *owner = to;
-  return CELD_OK;
+  status = celd_append (h->reassigned->item, h->reassigned->n, h->reassigned->capacity,
+                        (CeldPixelOwner) { (int32_t) (y * h->ink->width + x), *owner });
+  if (status == CELD_OK)
+    *owner = to;
+  return status;
 }
 
 /* Marks the tiles with strokes. */

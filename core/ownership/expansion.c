@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "ownership/expansion.h"
 
@@ -30,22 +31,16 @@ CeldStatus
 celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
 {
   uint32_t *rank = NULL;
-  size_t    found = 0, kept = 0;
+  size_t    found = 0, kept = 0, capacity = 0;
 
   for (int y = 0; y < ranks->height; y++)
     for (int x = 0; x < ranks->width; x++)
       if (x == 0 || CELD_AT (ranks, x, y) != CELD_AT (ranks, x - 1, y))
-        {
-          uint32_t *grown = celd_grow (rank, found + 1, sizeof *grown);
-
-          if (!grown)
-            {
-              celd_free (rank);
-              return CELD_NO_MEMORY;
-            }
-          rank = grown;
-          rank[found++] = CELD_AT (ranks, x, y);
-        }
+        if (celd_append (rank, found, capacity, CELD_AT (ranks, x, y)) != CELD_OK)
+          {
+            celd_free (rank);
+            return CELD_NO_MEMORY;
+          }
   qsort (rank, found, sizeof *rank, celd_compare_ranks);
   for (size_t i = 0; i < found; i++)
     if (i == 0 || rank[i] != rank[i - 1])

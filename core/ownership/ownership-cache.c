@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/tiles.h"
+#include "base/vector.h"
 #include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
 
@@ -51,22 +52,19 @@ claim_again (const CeldClaimMap *c, const CeldOwnershipInput *in, const bool *so
 
 /* ------------------------------------------------------------------ unclaimed ink */
 
-typedef struct { const CeldClaimMap *claims; CeldTiles *tiles; CeldPixelOwner *item; size_t n; } Unclaimed;
+typedef struct { const CeldClaimMap *claims; CeldTiles *tiles; CeldPixelOwner *item; size_t n, capacity; } Unclaimed;
 
 /* Queues the pixel if it is unclaimed and not in the queue yet. */
 static CeldStatus
 add_unclaimed (Unclaimed *unclaimed, int x, int y)
 {
   uint32_t       *owner = &CELD_AT (unclaimed->claims->owner, x, y);
-  CeldPixelOwner *item;
 
   if (CELD_AT (unclaimed->claims->excess, x, y) != INFINITY || *owner == CELD_OWNER_PENDING)
     return CELD_OK;
-  item = celd_grow (unclaimed->item, unclaimed->n + 1, sizeof *item);
-  if (!item)
+  if (celd_append (unclaimed->item, unclaimed->n, unclaimed->capacity,
+                   (CeldPixelOwner) { .pixel = (int32_t) (y * unclaimed->claims->ink->width + x) }) != CELD_OK)
     return CELD_NO_MEMORY;
-  unclaimed->item = item;
-  item[unclaimed->n++].pixel = (int32_t) (y * unclaimed->claims->ink->width + x);
   *owner = CELD_OWNER_PENDING;
   *celd_tile_of (unclaimed->tiles, x, y) |= CELD_TILE_COVERAGE;
   return CELD_OK;
@@ -103,7 +101,7 @@ find_unclaimed (Unclaimed *unclaimed)
 static CeldStatus
 spread_again (const CeldClaimMap *c, CeldTiles *tiles)
 {
-  Unclaimed  unclaimed = { c, tiles, NULL, 0 };
+  Unclaimed  unclaimed = { c, tiles, NULL, 0, 0 };
   CeldStatus status = find_unclaimed (&unclaimed);
 
   for (size_t i = 0; i < unclaimed.n; i++)

@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "relief/mesh.h"
 
 #include <math.h>
@@ -31,12 +32,11 @@ celd_mesh_add_vertex (CeldMeshBuilder *m, double x, double y, double z)
 CeldStatus
 celd_mesh_add_triangle (CeldMeshBuilder *m, uint32_t a, uint32_t b, uint32_t c)
 {
-  uint32_t *corner = celd_grow (m->mesh.corner, m->mesh.triangles + 1, 3 * sizeof *corner);
+  uint32_t *corner;
 
-  if (!corner)
+  if (!celd_reserve (&m->mesh.corner, m->mesh.triangles + 1, &m->triangle_capacity, 3 * sizeof *corner))
     return CELD_NO_MEMORY;
-  m->mesh.corner = corner;
-  corner += 3 * m->mesh.triangles++;
+  corner = m->mesh.corner + 3 * m->mesh.triangles++;
   corner[0] = a;
   corner[1] = b;
   corner[2] = c;

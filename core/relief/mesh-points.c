@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "relief/mesh.h"
 
 /* A corner and the four pixels round it; pixel -1 is outside the picture. */
@@ -157,23 +158,17 @@ is_cracked (const Corner *c)
 static CeldStatus
 add_corner (CeldMeshPoints *points, size_t place, const Corner *c)
 {
-  uint8_t part = 0;
-  float  *z;
+  uint8_t    part = 0;
+  CeldStatus status = CELD_OK;
 
   points->first[place]   = (uint32_t) points->n;
   points->cracked[place] = is_cracked (c);
   for (int k = 0; k < 4; k++)
     part = (uint8_t) (part | c->part[k] << 2 * k);
   points->part[place] = part;
-  for (int i = 0; i < c->parts; i++)
-    {
-      z = celd_grow (points->z, points->n + 1, sizeof *z);
-      if (!z)
-        return CELD_NO_MEMORY;
-      z[points->n++] = c->z[i];
-      points->z      = z;
-    }
-  return CELD_OK;
+  for (int i = 0; i < c->parts && status == CELD_OK; i++)
+    status = celd_append (points->z, points->n, points->capacity, c->z[i]);
+  return status;
 }
 
 CeldStatus

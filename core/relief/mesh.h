@@ -25,7 +25,7 @@ typedef struct
   uint8_t  *part;              /* of each corner: the parts that its four pixels belong to, two bits each */
   uint8_t  *cracked;            /* is there a cut at the corner? */
   float    *z;                  /* of each point */
-  size_t    n;
+  size_t    n, capacity;
 } CeldMeshPoints;
 
 CeldStatus celd_mesh_points_new (const CeldRelief *relief, const CeldHost *host, CeldMeshPoints *points);
@@ -81,6 +81,7 @@ typedef struct
   uint32_t             *bottom_vertex;  /* of each corner at the frame: its vertex at the bottom, from 1; 0: none yet */
   uint32_t              bottom_centre; /* vertex in the middle of the bottom */
   CeldReliefMesh        mesh;
+  size_t                triangle_capacity;
 } CeldMeshBuilder;
 
 CeldStatus celd_mesh_add_triangle (CeldMeshBuilder *builder, uint32_t a, uint32_t b, uint32_t c);

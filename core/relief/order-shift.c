@@ -12,6 +12,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "relief/relief.h"
 
 #include <math.h>
@@ -116,20 +117,14 @@ measure_tiles (const CeldSurface *s, CeldReliefTiles *tiles)
 
 /* Adds an edge between two tiles, to the last pair if that is the same. */
 static CeldStatus
-add_edge (CeldReliefTilePair **list, size_t *n, uint32_t a, uint32_t b)
+add_edge (CeldReliefTiles *tiles, uint32_t a, uint32_t b)
 {
-  CeldReliefTilePair *pair;
+  CeldReliefTilePair *last = tiles->links ? &tiles->link[tiles->links - 1] : NULL;
 
-  if (*n && (*list)[*n - 1].a == a && (*list)[*n - 1].b == b)
-    {
-      (*list)[*n - 1].edges += 1;
-      return CELD_OK;
-    }
-  pair = celd_grow (*list, *n + 1, sizeof *pair);
-  if (!pair)
-    return CELD_NO_MEMORY;
-  pair[(*n)++] = (CeldReliefTilePair) { .a = a, .b = b, .edges = 1 };
-  *list        = pair;
+  if (!last || last->a != a || last->b != b)
+    return celd_append (tiles->link, tiles->links, tiles->link_capacity,
+                        (CeldReliefTilePair) { .a = a, .b = b, .edges = 1 });
+  last->edges += 1;
   return CELD_OK;
 }
 
@@ -145,14 +140,14 @@ link_block (const CeldSurface *s, int x, int y, int end_x, int end_y, CeldRelief
       size_t p = (size_t) v * w + (size_t) end_x - 1;
 
       if (s->east[p] > 0)
-        status = add_edge (&tiles->link, &tiles->links, tiles->tile[p], tiles->tile[p + 1]);
+        status = add_edge (tiles, tiles->tile[p], tiles->tile[p + 1]);
     }
   for (int u = x; u < end_x && end_y < s->height && status == CELD_OK; u++)
     {
       size_t p = (size_t) (end_y - 1) * w + (size_t) u;
 
       if (s->south[p] > 0)
-        status = add_edge (&tiles->link, &tiles->links, tiles->tile[p], tiles->tile[p + w]);
+        status = add_edge (tiles, tiles->tile[p], tiles->tile[p + w]);
     }
   return status;
 }

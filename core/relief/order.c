@@ -11,6 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "relief/relief.h"
 
 #include <math.h>
@@ -29,7 +30,7 @@ typedef struct
   double              step;
   CeldReliefTiles     tiles;
   CeldReliefTilePair *cut;            /* sorted by a and b once they are merged */
-  size_t              cuts;
+  size_t              cuts, cut_capacity;
   const float        *shift;
   bool                holds;
   CeldStatus          status;
@@ -43,20 +44,12 @@ add_cut (void *data, size_t near, size_t far, bool right)
   Order              *o = data;
   double              ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
   uint32_t            a = o->tiles.tile[near], b = o->tiles.tile[far];
-  CeldReliefTilePair *cut;
 
   (void) right;
-  if (a == b || o->status != CELD_OK)
-    return;
-  cut = celd_grow (o->cut, o->cuts + 1, sizeof *cut);
-  if (!cut)
-    {
-      o->status = CELD_NO_MEMORY;
-      return;
-    }
-  cut[o->cuts++] = (CeldReliefTilePair) { .a = a, .b = b, .edges = 1,
-                                      .minimum = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) };
-  o->cut         = cut;
+  if (a != b && o->status == CELD_OK)
+    o->status = celd_append (o->cut, o->cuts, o->cut_capacity, (CeldReliefTilePair) {
+                               .a = a, .b = b, .edges = 1,
+                               .minimum = (float) (ahead - ((double) o->z[near] - (double) o->z[far])) });
 }
 
 static int

@@ -57,7 +57,7 @@ typedef struct
   float              *flat;     /* number of its flat pixels */
   float              *x, *y;    /* its centre */
   CeldReliefTilePair *link;           /* where the surface continues; a pair may occur several times */
-  size_t              links;
+  size_t              links, link_capacity;
 } CeldReliefTiles;
 
 CeldStatus celd_relief_tiles_new (const CeldSurface *surface, CeldReliefTiles *tiles);

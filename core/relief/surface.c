@@ -95,8 +95,8 @@ static CeldStatus
 heal_cut_ends (CeldSurface *s, Regions *r, const CeldHost *host)
 {
   CeldPixelLinks joined;
-  CeldStatus status = celd_pixel_links_new (s->width, s->height, s->east, s->south, &joined);
-  size_t     p = 0;
+  CeldStatus     status = celd_pixel_links_new (s->width, s->height, s->east, s->south, &joined);
+  size_t         p = 0;
 
   for (int y = 0; y < s->height && status == CELD_OK; y++)
     {

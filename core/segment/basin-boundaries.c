@@ -5,6 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
 
@@ -26,6 +27,7 @@ typedef struct
   Slot                  *slot;                 /* hash table by the two basins, open addressing */
   size_t                 n_slots;              /* a power of two, more than twice n */
   Slot                   recent[RECENT_SLOTS]; /* cache of slots used lately */
+  size_t                 boundary_capacity;
 } Boundaries;
 
 static Slot *
@@ -73,12 +75,10 @@ find_boundary (Boundaries *b, uint32_t first, uint32_t second)
       *recent = *slot;
       return &b->boundary[slot->boundary];
     }
-  boundary = celd_grow (b->boundary, b->n + 1, sizeof *boundary);
-  if (!boundary)
+  if (!celd_reserve_one (b->boundary, b->n, b->boundary_capacity))
     return NULL;
   *slot = *recent = (Slot) { least, most, b->n };
-  b->boundary = boundary;
-  boundary += b->n++;
+  boundary = &b->boundary[b->n++];
   *boundary = (CeldBasinBoundary) { .a = least, .b = most, .saddle = -1 };
   return boundary;
 }

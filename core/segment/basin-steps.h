@@ -75,6 +75,7 @@ typedef struct
   CeldBasinRun    *run;
   size_t           n_runs;
   bool             failed;  /* no memory */
+  size_t           maximum_capacity, stretch_capacity, run_capacity;
 } CeldWatershedBand;
 
 /* Workspace of one job. */

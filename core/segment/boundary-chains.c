@@ -9,6 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/bridges.h"
@@ -136,13 +137,7 @@ next_heading (const ChainTracer *t, CeldCorner corner, int heading, uint32_t lef
 static CeldStatus
 add_corner (CeldChains *chains, CeldCorner corner)
 {
-  CeldCorner *item = celd_grow (chains->corner, chains->n_corners + 1, sizeof *item);
-
-  if (!item)
-    return CELD_NO_MEMORY;
-  chains->corner = item;
-  item[chains->n_corners++] = corner;
-  return CELD_OK;
+  return celd_append (chains->corner, chains->n_corners, chains->corner_capacity, corner);
 }
 
 /* What a chain ends at in this corner. */
@@ -194,7 +189,7 @@ static CeldStatus
 trace (ChainTracer *t, int x, int y, bool south)
 {
   CeldChains *chains = t->chains;
-  CeldChain  *item, chain = { .first = chains->n_corners };
+  CeldChain   chain = { .first = chains->n_corners };
   CeldCorner  from = { x + !south, y + south }, to = { x + 1, y + 1 };
   int         heading = south ? 0 : 1;
   uint32_t    left, right, edge;
@@ -233,13 +228,10 @@ trace (ChainTracer *t, int x, int y, bool south)
   chain.end[1] = CELD_CHAIN_LOOP;
   if (status == CELD_OK && chain.end[0] != CELD_CHAIN_LOOP)
     status = follow (t, to, heading, left, right, edge, &chain.end[1], &chain.ink[1]);
-  item = status == CELD_OK ? celd_grow (chains->item, chains->n + 1, sizeof *item) : NULL;
-  if (!item)
+  if (status != CELD_OK)
     return CELD_NO_MEMORY;
-  chain.n      = chains->n_corners - chain.first;
-  chains->item = item;
-  item[chains->n++] = chain;
-  return CELD_OK;
+  chain.n = chains->n_corners - chain.first;
+  return celd_append (chains->item, chains->n, chains->item_capacity, chain);
 }
 
 /* ------------------------------------------------------------------ where to look for chains */

@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/bridges.h"
 
 #include <math.h>
@@ -46,6 +47,7 @@ struct CeldTipPairs
 
   CeldTipPair *pair;                      /* by cost */
   size_t       n, next, ready;            /* those before `ready` cost less than any pair of a later round */
+  size_t       pair_capacity;
 };
 
 /* ------------------------------------------------------------------ a pair */
@@ -149,13 +151,7 @@ lies_ahead (const CeldTip *tip, double x, double y, double radius)
 static CeldStatus
 add_pair (CeldTipPairs *s, CeldTipPair pair)
 {
-  CeldTipPair *grown = celd_grow (s->pair, s->n + 1, sizeof *grown);
-
-  if (!grown)
-    return CELD_NO_MEMORY;
-  s->pair       = grown;
-  grown[s->n++] = pair;
-  return CELD_OK;
+  return celd_append (s->pair, s->n, s->pair_capacity, pair);
 }
 
 /* A quick test: may two ends of a far round be a pair? */

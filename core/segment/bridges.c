@@ -8,6 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/bridges.h"
@@ -42,17 +43,13 @@ static CeldStatus
 add_pixel (BridgeBuilder *b, CeldBridge *bridge, int x, int y)
 {
   CeldBridges     *all = b->bridges;
-  CeldBridgePixel *pixel;
 
   if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height || !celd_is_paper (CELD_AT (b->ink, x, y)))
     return CELD_OK;
   if (bridge->n && all->pixel[all->n_pixels - 1].x == x && all->pixel[all->n_pixels - 1].y == y)
     return CELD_OK;
-  pixel = celd_grow (all->pixel, all->n_pixels + 1, sizeof *pixel);
-  if (!pixel)
+  if (celd_append (all->pixel, all->n_pixels, all->pixel_capacity, (CeldBridgePixel) { x, y }) != CELD_OK)
     return CELD_NO_MEMORY;
-  all->pixel = pixel;
-  pixel[all->n_pixels++] = (CeldBridgePixel) { x, y };
   bridge->n++;
   return CELD_OK;
 }
@@ -92,7 +89,7 @@ build (BridgeBuilder *b, const CeldTipPair *pair)
   CeldLineEnd from = end_of (&b->tip[pair->a]), to = end_of (&b->tip[pair->b]);
   CeldPlace   place[CELD_CURVE_PLACES];
   size_t      n = celd_curve_draw (&from, &to, place);
-  CeldBridge  bridge = { b->bridges->n_pixels, 0, 0 }, *item;
+  CeldBridge  bridge = { b->bridges->n_pixels, 0, 0 };
   bool        open = true;
   CeldStatus  status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
 
@@ -101,11 +98,8 @@ build (BridgeBuilder *b, const CeldTipPair *pair)
       b->bridges->n_pixels = bridge.first;
       return status;
     }
-  item = celd_grow (b->bridges->item, b->bridges->n + 1, sizeof *item);
-  if (!item)
+  if (celd_append (b->bridges->item, b->bridges->n, b->bridges->item_capacity, bridge) != CELD_OK)
     return CELD_NO_MEMORY;
-  b->bridges->item = item;
-  item[b->bridges->n++] = bridge;
   b->taken[pair->a] = b->taken[pair->b] = true;
   return CELD_OK;
 }

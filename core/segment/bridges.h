@@ -45,6 +45,7 @@ typedef struct
   size_t           n;
   CeldBridgePixel *pixel;       /* of all bridges, one after the other */
   size_t           n_pixels;
+  size_t           item_capacity, pixel_capacity;
 } CeldBridges;
 
 /* Finds bridges between line ends that point to each other with nothing but paper between them; each end has one at

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/closures.h"
 #include "segment/labelling.h"
@@ -116,12 +117,10 @@ add_crossings (CeldRedrawing *r, CeldPlace p, CeldPlace q)
   for (int y = (int) ceil (top - 0.5); y + 0.5 < bottom; y++)
     {
       double           x = p.x + (y + 0.5 - p.y) * (q.x - p.x) / (q.y - p.y);
-      CeldRowCrossing *item = celd_grow (r->crossing, r->n_crossings + 1, sizeof *item);
 
-      if (!item)
+      if (celd_append (r->crossing, r->n_crossings, r->crossing_capacity,
+                       (CeldRowCrossing) { y, p.y < q.y ? 1 : -1, x }) != CELD_OK)
         return CELD_NO_MEMORY;
-      r->crossing = item;
-      item[r->n_crossings++] = (CeldRowCrossing) { y, p.y < q.y ? 1 : -1, x };
     }
   return CELD_OK;
 }
@@ -265,28 +264,20 @@ static CeldStatus
 keep_relabelled (CeldRedrawing *r)
 {
   CeldClosurePatches  done = { r->patches.n, r->patches.n, { INT32_MAX, INT32_MAX }, { 0, 0 } };
-  CeldClosurePatches *item = celd_grow (r->done, r->n_done + 1, sizeof *item);
 
-  if (!item)
-    return CELD_NO_MEMORY;
-  r->done = item;
   for (size_t i = 0; i < r->relabelled.n; i++)
     {
-      CeldPatch *patch = celd_grow (r->patches.item, r->patches.n + 1, sizeof *patch);
+      const CeldPatch *patch = &r->relabelled.item[i];
 
-      if (!patch)
+      if (celd_append (r->patches.item, r->patches.n, r->patches.item_capacity, *patch) != CELD_OK)
         return CELD_NO_MEMORY;
-      r->patches.item = patch;
-      patch += r->patches.n++;
-      *patch = r->relabelled.item[i];
       done.least.x = patch->x < done.least.x ? patch->x : done.least.x;
       done.least.y = patch->y < done.least.y ? patch->y : done.least.y;
       done.most.x  = patch->end > done.most.x ? patch->end : done.most.x;
       done.most.y  = patch->y > done.most.y ? patch->y : done.most.y;
     }
   done.last = r->patches.n;
-  item[r->n_done++] = done;
-  return CELD_OK;
+  return celd_append (r->done, r->n_done, r->done_capacity, done);
 }
 
 CeldStatus

@@ -14,6 +14,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/closures.h"
 #include "segment/task.h"
 
@@ -98,20 +99,17 @@ celd_curve_draw (const CeldLineEnd *from, const CeldLineEnd *to, CeldPlace place
 static CeldStatus
 add_closure (const CeldChain *chain, const CeldPlace *place, size_t n, CeldClosures *closures)
 {
-  CeldClosure *item = celd_grow (closures->item, closures->n + 1, sizeof *item);
-  CeldPlace   *copy = celd_alloc (n, sizeof *copy);
+  CeldPlace *copy = celd_alloc (n, sizeof *copy);
+  CeldStatus status;
 
-  if (item)
-    closures->item = item;
-  if (!item || !copy)
-    {
-      celd_free (copy);
-      return CELD_NO_MEMORY;
-    }
+  if (!copy)
+    return CELD_NO_MEMORY;
   for (size_t i = 0; i < n; i++)
     copy[i] = place[i];
-  item[closures->n++] = (CeldClosure) { copy, n, chain->left, chain->right };
-  return CELD_OK;
+  status = celd_append_uncounted (closures->item, closures->n, (CeldClosure) { copy, n, chain->left, chain->right });
+  if (status != CELD_OK)
+    celd_free (copy);
+  return status;
 }
 
 /* Adds the old boundary, reduced to its bends. */

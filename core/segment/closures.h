@@ -40,6 +40,7 @@ typedef struct
   size_t      n;
   CeldCorner *corner;           /* of all chains, one after the other */
   size_t      n_corners;
+  size_t      item_capacity, corner_capacity;
 } CeldChains;
 
 /* Finds every chain that crosses a boundary of basins with different labels, or the outline of a patch; makes the
@@ -116,6 +117,7 @@ typedef struct
   CeldClosurePatches    *done;
   size_t                 n_done;
   CeldPatches            patches;
+  size_t                 crossing_capacity, done_capacity;
 } CeldRedrawing;
 
 void celd_redrawing_clear (CeldRedrawing *redrawing);           /* accepts a zeroed record */

@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/splits.h"
@@ -110,13 +111,7 @@ inspect (const CeldCutGraph *graph, int x, int y, int right, int bottom)
 static CeldStatus
 add_node (CeldCutGraph *graph, CeldCutNode node)
 {
-  CeldCutNode *grown = celd_grow (graph->node, graph->n + 1, sizeof *grown);
-
-  if (!grown)
-    return CELD_NO_MEMORY;
-  graph->node = grown;
-  graph->node[graph->n++] = node;
-  return CELD_OK;
+  return celd_append (graph->node, graph->n, graph->node_capacity, node);
 }
 
 /* Sets the kind of each pixel inside: pixels of one node are of one kind. */
@@ -237,22 +232,17 @@ static CeldStatus
 add_link (CeldCutGraph *graph, uint32_t a, uint32_t b, int32_t cost)
 {
   uint32_t *recent = &graph->recent[(a * 31u + b) % CELD_RECENT_LINKS];
-  CeldLink *grown;
-  bool     *uncertain;
 
   if (*recent < graph->n_links && graph->link[*recent].a == a && graph->link[*recent].b == b)
     {
       graph->link[*recent].cost += cost;
       return CELD_OK;
     }
-  grown = celd_grow (graph->link, graph->n_links + 1, sizeof *grown);
-  graph->link = grown ? grown : graph->link;
-  uncertain = celd_grow (graph->uncertain, graph->n_links + 1, sizeof *uncertain);
-  graph->uncertain = uncertain ? uncertain : graph->uncertain;
-  if (!grown || !uncertain)
+  if (!celd_reserve_one (graph->link, graph->n_links, graph->link_capacity) ||
+      !celd_reserve_one (graph->uncertain, graph->n_links, graph->uncertain_capacity))
     return CELD_NO_MEMORY;
-  grown[graph->n_links] = (CeldLink) { a, b, cost };
-  uncertain[graph->n_links] = is_uncertain (&graph->node[a], &graph->node[b]);
+  graph->link[graph->n_links] = (CeldLink) { a, b, cost };
+  graph->uncertain[graph->n_links] = is_uncertain (&graph->node[a], &graph->node[b]);
   *recent = (uint32_t) graph->n_links++;
   return CELD_OK;
 }

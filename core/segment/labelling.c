@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/basins.h"
 #include "segment/labelling.h"
 
@@ -20,12 +21,7 @@ celd_patch_add (CeldPatches *patches, CeldPatch patch)
       item->end = patch.end; /* extends the last patch */
       return CELD_OK;
     }
-  item = celd_grow (patches->item, patches->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  patches->item = item;
-  item[patches->n++] = patch;
-  return CELD_OK;
+  return celd_append (patches->item, patches->n, patches->item_capacity, patch);
 }
 
 void

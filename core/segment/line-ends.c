@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/bridges.h"
 #include "segment/closures.h"
@@ -42,6 +43,7 @@ typedef struct
   size_t           n_tips;
   uint32_t        *latest;      /* of each cell: the last tip found there, or NO_TIP */
   int              columns, rows;
+  size_t           corner_capacity, tip_capacity, before_capacity;
 } LineEndSearch;
 
 /* ------------------------------------------------------------------ outlines */
@@ -99,12 +101,8 @@ follow (LineEndSearch *s, int x, int y)
   s->n = 0;
   do
     {
-      CeldCorner *grown = celd_grow (s->corner, s->n + 1, sizeof *grown);
-
-      if (!grown)
+      if (celd_append (s->corner, s->n, s->corner_capacity, at) != CELD_OK)
         return CELD_NO_MEMORY;
-      s->corner = grown;
-      grown[s->n++] = at;
       if (heading == 0)
         *mask_at (s, at.x, at.y) |= PIXEL_FOLLOWED;
       at.x += step_x[heading];
@@ -165,19 +163,14 @@ is_known (const LineEndSearch *s, CeldTip end, double width)
 static CeldStatus
 add_tip (LineEndSearch *s, CeldTip end)
 {
-  uint32_t *latest = latest_at (s, end), *before = celd_grow (s->before, s->n_tips + 1, sizeof *before);
-  CeldTip  *tip;
+  uint32_t *latest = latest_at (s, end);
 
-  if (!before)
+  if (!celd_reserve_one (s->before, s->n_tips, s->before_capacity) ||
+      !celd_reserve_one (s->tip, s->n_tips, s->tip_capacity))
     return CELD_NO_MEMORY;
-  s->before = before;
-  tip       = celd_grow (s->tip, s->n_tips + 1, sizeof *tip);
-  if (!tip)
-    return CELD_NO_MEMORY;
-  s->tip            = tip;
-  before[s->n_tips] = *latest;
-  tip[s->n_tips]    = end;
-  *latest           = (uint32_t) s->n_tips++;
+  s->before[s->n_tips] = *latest;
+  s->tip[s->n_tips]    = end;
+  *latest              = (uint32_t) s->n_tips++;
   return CELD_OK;
 }
 

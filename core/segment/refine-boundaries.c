@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/labelling.h"
@@ -21,7 +22,7 @@
 /* The first edge of a segment: between (x,y) and the pixel below, the segment going right; or between (x,y) and the
  * pixel to the right, the segment going down. */
 typedef struct { int x, y; bool south; } BoundarySegment;
-typedef struct { BoundarySegment *item; size_t n; } BoundarySegments;
+typedef struct { BoundarySegment *item; size_t n, item_capacity; } BoundarySegments;
 
 /* ------------------------------------------------------------------ pixels */
 
@@ -71,8 +72,6 @@ same_segment (const CeldLabels *l, int x, int y, int x2, int y2, bool south)
 static CeldStatus
 add_segment (const CeldLabels *l, int x, int y, bool south, BoundarySegments *edges)
 {
-  BoundarySegment *item;
-
   if (!is_edge (l, x, y, south))
     return CELD_OK;
   while (same_segment (l, x, y, x - south, y - !south, south))
@@ -87,12 +86,7 @@ add_segment (const CeldLabels *l, int x, int y, bool south, BoundarySegments *ed
       if (last->x == x && last->y == y && last->south == south)
         return CELD_OK;
     }
-  item = celd_grow (edges->item, edges->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  edges->item = item;
-  item[edges->n++] = (BoundarySegment) { x, y, south };
-  return CELD_OK;
+  return celd_append (edges->item, edges->n, edges->item_capacity, (BoundarySegment) { x, y, south });
 }
 
 /* All runs of the picture. */

@@ -3,6 +3,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/refinement.h"
@@ -15,7 +16,7 @@
 #define MOST_GAP_PIXELS (1 << 18) /* pixels of a window: larger ones are no gaps (chosen) */
 
 typedef struct { int left, top, right, bottom; } GapBox;  /* inclusive */
-typedef struct { GapBox *item; size_t n; } GapBoxes;
+typedef struct { GapBox *item; size_t n, item_capacity; } GapBoxes;
 
 /* A window as a graph: a node per pixel; neighbours outside become data costs. */
 typedef struct
@@ -59,12 +60,9 @@ celd_refinement_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
 CeldStatus
 celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t label)
 {
-  uint32_t *changed = celd_grow (s->changed, s->n_changed + 1, sizeof *changed);
-
-  if (!changed)
+  if (celd_append (s->changed, s->n_changed, s->changed_capacity,
+                   (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x) != CELD_OK)
     return CELD_NO_MEMORY;
-  s->changed = changed;
-  changed[s->n_changed++] = (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x;
   CELD_AT (s->labels, x, y) = label;
   return CELD_OK;
 }
@@ -75,8 +73,6 @@ celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t lab
 static CeldStatus
 add_gap (int x, int y, GapBoxes *boxes)
 {
-  GapBox *item;
-
   for (size_t i = 0; i < boxes->n; i++)
     {
       GapBox *b = &boxes->item[i];
@@ -87,12 +83,7 @@ add_gap (int x, int y, GapBoxes *boxes)
       *b = (GapBox) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
       return CELD_OK;
     }
-  item = celd_grow (boxes->item, boxes->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  boxes->item = item;
-  item[boxes->n++] = (GapBox) { x, y, x, y };
-  return CELD_OK;
+  return celd_append (boxes->item, boxes->n, boxes->item_capacity, (GapBox) { x, y, x, y });
 }
 
 /* Is the edge a boundary across paper? */

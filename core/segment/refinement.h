@@ -15,6 +15,7 @@ typedef struct
   int32_t               *to_paper; /* of each pixel: squared distance to paper */
   uint32_t              *changed;  /* indices of changed pixels, in any order and number */
   size_t                 n_changed;
+  size_t                 changed_capacity;
 } CeldBoundaryRefinement;
 
 /* refine-gaps.c: V_pq of (x,y) and the pixel below (south) or to the right. */

@@ -10,6 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/basins.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
@@ -30,6 +31,7 @@ typedef struct
   CeldLink              *link;
   CeldVote              *vote;
   size_t                 n_links, n_votes;
+  size_t                 vote_capacity;
 } Graph;
 
 static CeldStatus
@@ -186,7 +188,6 @@ gather_data_costs (Graph *g)
       int32_t                vote = celd_task_data_cost (g->task, piece->label);
       uint32_t               node = g->node[piece->basin];
       int64_t                cost = (int64_t) vote * (int64_t) informative_pixels (basins, piece);
-      CeldVote              *votes;
 
       if (vote == CELD_HARD || !cost)
         continue;
@@ -195,11 +196,8 @@ gather_data_costs (Graph *g)
           g->vote[g->n_votes - 1].cost += cost;
           continue;
         }
-      votes = celd_grow (g->vote, g->n_votes + 1, sizeof *votes);
-      if (!votes)
+      if (celd_append (g->vote, g->n_votes, g->vote_capacity, (CeldVote) { node, piece->label, cost }) != CELD_OK)
         return CELD_NO_MEMORY;
-      g->vote = votes;
-      votes[g->n_votes++] = (CeldVote) { node, piece->label, cost };
     }
   return CELD_OK;
 }

@@ -102,6 +102,7 @@ typedef struct
   bool          *uncertain;     /* of each link: is the exact place of a cut through it open? */
   size_t         n_links;
   uint32_t      *recent;        /* cache of links by pair */
+  size_t         node_capacity, link_capacity, uncertain_capacity;
 } CeldCutGraph;
 
 /* The index of pixel (x,y) in a tight plane. */

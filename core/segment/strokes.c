@@ -15,6 +15,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/task.h"
@@ -97,12 +98,7 @@ add_piece (CeldStrokePiece piece, bool first, CeldStrokes *strokes)
       last->paper += piece.paper;
       return CELD_OK;
     }
-  last = celd_grow (strokes->piece, strokes->n_pieces + 1, sizeof *last);
-  if (!last)
-    return CELD_NO_MEMORY;
-  strokes->piece = last;
-  last[strokes->n_pieces++] = piece;
-  return CELD_OK;
+  return celd_append (strokes->piece, strokes->n_pieces, strokes->piece_capacity, piece);
 }
 
 static CeldStatus
@@ -193,12 +189,9 @@ add_part (uint32_t part, const size_t *sorted, size_t n, size_t *in_part, CeldSt
 
       if (!in_part[piece->stroke])
         {
-          CeldStrokeOverlap *overlap = celd_grow (strokes->overlap, strokes->n + 1, sizeof *overlap);
-
-          if (!overlap)
+          if (celd_append (strokes->overlap, strokes->n, strokes->overlap_capacity,
+                           (CeldStrokeOverlap) { part, piece->label, piece->stroke, 0, false }) != CELD_OK)
             return CELD_NO_MEMORY;
-          strokes->overlap = overlap;
-          overlap[strokes->n++] = (CeldStrokeOverlap) { part, piece->label, piece->stroke, 0, false };
         }
       in_part[piece->stroke] += piece->paper;
     }

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
@@ -28,12 +29,8 @@
 CeldStatus
 celd_task_add_label (CeldSegmentTask *task, CeldRegion region, uint32_t *label)
 {
-  CeldRegion *item = celd_grow (task->palette.item, task->palette.n + 1, sizeof *item);
-
-  if (!item)
+  if (celd_append_uncounted (task->palette.item, task->palette.n, region) != CELD_OK)
     return CELD_NO_MEMORY;
-  task->palette.item = item;
-  item[task->palette.n++] = region;
   *label = (uint32_t) task->palette.n;
   return CELD_OK;
 }

@@ -28,6 +28,7 @@ typedef struct
   size_t             n_strokes;
   CeldStrokeOverlap *overlap;   /* by part, label, stroke; ink alone (part 0) is left out */
   size_t             n;
+  size_t             piece_capacity, overlap_capacity;
 } CeldStrokes;
 
 typedef struct

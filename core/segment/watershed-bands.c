@@ -6,6 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
 
@@ -197,13 +198,9 @@ start_row (const CeldWatershed *a, int y, uint8_t *step, CeldWatershedBand *band
   for (int x = celd_next_marked (a->width, step, 0); x < a->width; x = celd_next_marked (a->width, step, x + 1))
     if (step[x] == STEP_NONE)
       {
-        uint32_t *maximum = celd_grow (band->maximum, band->n + 1, sizeof *maximum);
-
-        if (!maximum)
-          return false;
-        band->maximum = maximum;
         lead[x] = CELD_LEAD_MAXIMUM | (uint32_t) (2 * band->n);
-        maximum[band->n++] = (uint32_t) (y * a->width + x);
+        if (celd_append (band->maximum, band->n, band->maximum_capacity, (uint32_t) (y * a->width + x)) != CELD_OK)
+          return false;
       }
   return true;
 }
@@ -231,12 +228,10 @@ note_stretches (int width, const uint32_t *lead, uint8_t *begins, CeldWatershedB
   mark_stretches (width, lead, begins);
   for (int x = 0; x < width; x = celd_next_marked (width, begins, x + 1))
     {
-      CeldLeadStretch *stretch = celd_grow (band->stretch, n + 1, sizeof *stretch);
+      bool varies = x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x];
 
-      if (!stretch)
+      if (celd_append (band->stretch, n, band->stretch_capacity, (CeldLeadStretch) { x, varies, lead[x] }) != CELD_OK)
         return false;
-      band->stretch = stretch;
-      stretch[n++] = (CeldLeadStretch) { x, x + 1 < width && !begins[x + 1] && lead[x + 1] != lead[x], lead[x] };
     }
   band->row[row + 1] = n;
   return true;

@@ -13,6 +13,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
 
@@ -90,16 +91,9 @@ lead_edges (const CeldWatershed *a)
 static bool
 add_run (CeldWatershedBand *band, size_t row, int x, uint32_t basin)
 {
-  CeldBasinRun *run;
-
   if (band->n_runs > row && band->run[band->n_runs - 1].basin == basin)
     return true;
-  run = celd_grow (band->run, band->n_runs + 1, sizeof *run);
-  if (!run)
-    return false;
-  band->run = run;
-  run[band->n_runs++] = (CeldBasinRun) { x, basin };
-  return true;
+  return celd_append (band->run, band->n_runs, band->run_capacity, (CeldBasinRun) { x, basin }) == CELD_OK;
 }
 
 /* Finds the runs of a band; basins->row gets their places within the band. */

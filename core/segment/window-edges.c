@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/task.h"
@@ -18,12 +19,7 @@ celd_window_graph_add_data_cost (CeldWindowGraph *graph, uint32_t node, uint32_t
       last->cost += cost;
       return CELD_OK;
     }
-  last = celd_grow (graph->vote, graph->n_votes + 1, sizeof *last);
-  if (!last)
-    return CELD_NO_MEMORY;
-  graph->vote = last;
-  last[graph->n_votes++] = (CeldVote) { node, label, cost };
-  return CELD_OK;
+  return celd_append (graph->vote, graph->n_votes, graph->vote_capacity, (CeldVote) { node, label, cost });
 }
 
 /* ------------------------------------------------------------------ single edges */
@@ -110,12 +106,7 @@ add_edge (CeldWindowGraph *graph, uint32_t a, uint32_t b, int x, int y, bool sou
       last->cost += cost;
       return CELD_OK;
     }
-  last = celd_grow (graph->link, graph->n_links + 1, sizeof *last);
-  if (!last)
-    return CELD_NO_MEMORY;
-  graph->link = last;
-  last[graph->n_links++] = (CeldLink) { a, b, cost };
-  return CELD_OK;
+  return celd_append (graph->link, graph->n_links, graph->link_capacity, (CeldLink) { a, b, cost });
 }
 
 /* ------------------------------------------------------------------ all edges */

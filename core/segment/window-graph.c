@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "segment/basins.h"
 #include "segment/task.h"
 #include "segment/windows.h"
@@ -36,14 +37,9 @@ static CeldStatus
 add_node (CeldWindowBuilder *b, uint32_t present, uint32_t *node)
 {
   CeldWindowGraph *graph = b->graph;
-  uint32_t        *grown = celd_grow (graph->present, graph->n + 1, sizeof *grown);
 
-  if (!grown)
-    return CELD_NO_MEMORY;
-  graph->present = grown;
-  *node = (uint32_t) graph->n++;
-  grown[*node] = present & CELD_PART_LABELS;
-  return CELD_OK;
+  *node = (uint32_t) graph->n;
+  return celd_append (graph->present, graph->n, graph->present_capacity, present & CELD_PART_LABELS);
 }
 
 /* Is pixel (i,j) of a block of the same node as its neighbour (x,y)?  `first`: the block's first pixel.  Nodes other
@@ -97,14 +93,13 @@ split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint3
 {
   CeldWindowGraph *graph = b->graph;
   size_t           stride = (size_t) celd_window_width (graph), area = (size_t) 1 << 2 * graph->shift;
-  uint32_t        *detail = celd_grow (graph->detail, graph->n_details + 1, area * sizeof *detail);
+  uint32_t        *detail;
   CeldStatus       status = CELD_OK;
 
-  if (!detail)
+  if (!celd_reserve (&graph->detail, graph->n_details + 1, &graph->detail_capacity, area * sizeof *detail))
     return CELD_NO_MEMORY;
-  graph->detail = detail;
   *block = CELD_PART_MIXED | (uint32_t) graph->n_details;
-  detail += graph->n_details++ * area;
+  detail = graph->detail + graph->n_details++ * area;
   memset (detail, 0xff, area * sizeof *detail); /* fixed where the block is clipped */
   join_pixels (b, first, w, h, square);
   for (int y = 0; y < h; y++)

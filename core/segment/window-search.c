@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/task.h"
@@ -34,6 +35,7 @@ typedef struct
   PaintCluster          *cluster;
   size_t                 n_clusters;
   uint32_t              *group;      /* of each basin: a disjoint-set forest of groups */
+  size_t                 run_capacity;
 } WindowSearch;
 
 /* ------------------------------------------------------------------ misplaced paint */
@@ -55,13 +57,7 @@ celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint)
 static CeldStatus
 add_run (WindowSearch *search, MisplacedRun run)
 {
-  MisplacedRun *runs = celd_grow (search->run, search->n_runs + 1, sizeof *runs);
-
-  if (!runs)
-    return CELD_NO_MEMORY;
-  search->run = runs;
-  runs[search->n_runs++] = run;
-  return CELD_OK;
+  return celd_append (search->run, search->n_runs, search->run_capacity, run);
 }
 
 static CeldStatus

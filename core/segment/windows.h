@@ -53,6 +53,7 @@ struct CeldWindowGraph
   CeldLink              *link;
   CeldVote              *vote;
   size_t                 n_links, n_votes;
+  size_t                 detail_capacity, present_capacity, link_capacity, vote_capacity;
 };
 
 /* Contracts the window to a graph: pixels of the basins with free[basin] == id become nodes, all others are fixed to

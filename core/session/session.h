@@ -31,7 +31,7 @@
 typedef struct { int y, x, end; } CeldStrokeSpan;
 
 /* One stroke that the host put over the scribbles layer; its spans are owned. */
-typedef struct { uint32_t id; int x, y; uint8_t colour[3]; CeldStrokeSpan *span; size_t n; } CeldStroke;
+typedef struct { uint32_t id; int x, y; uint8_t colour[3]; CeldStrokeSpan *span; size_t n, span_capacity; } CeldStroke;
 
 /* All planes, labels and records are owned by the session unless noted, and tight (stride = width). */
 struct CeldSession
@@ -88,6 +88,7 @@ struct CeldSession
   CeldExact      exact;
 
   CeldProblems   all_problems;                 /* gathered by celd_session_problems */
+  size_t         stroke_capacity;
 };
 
 /* ------------------------------------------------------------------ state.c */
@@ -126,7 +127,7 @@ bool celd_session_relation_keeps_labels (const CeldSession *session, const CeldR
 
 /* ------------------------------------------------------------------ strokes.c */
 
-/* Paints the strokes over the seeds and adds their colours to the palette, whose items were allocated by celd_grow.
+/* Paints the strokes over the seeds and adds their colours to the palette.
  * After a failure the contents of both are undefined, but they can be cleared. */
 CeldStatus celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRows *seeds, CeldPalette *palette);
 

@@ -8,6 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "depth/exact.h"
 #include "image/image.h"
 #include "session/session.h"
@@ -40,7 +41,6 @@ find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldH
   CeldSettings plain = *settings;
   CeldLabels   labels = { 0 };
   CeldPalette  found = { 0 };
-  CeldRegion  *item;
   CeldStatus   status = celd_labels_new (ink->width, ink->height, &labels);
 
   plain.method = CELD_METHOD_BASINS;
@@ -53,14 +53,9 @@ find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldH
   for (size_t k = palette->n; k < found.n && status == CELD_OK; k++)
     if (found.item[k].background)
       {
-        item   = celd_grow (palette->item, palette->n + 1, sizeof *item);
-        status = CELD_NO_MEMORY;
-        if (item)
-          {
-            palette->item = item;
-            item[palette->n++] = found.item[k];
-            status = seed_frame (ink, &labels, (uint32_t) k + 1, (uint32_t) palette->n, seeds);
-          }
+        status = celd_append_uncounted (palette->item, palette->n, found.item[k]);
+        if (status == CELD_OK)
+          status = seed_frame (ink, &labels, (uint32_t) k + 1, (uint32_t) palette->n, seeds);
       }
   celd_free (labels.data);
   celd_palette_clear (&found);

@@ -7,6 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "image/image.h"
 #include "session/session.h"
 
@@ -21,19 +22,14 @@ read_spans (const CeldMask *mask, CeldStroke *stroke)
   for (int y = 0; y < mask->height; y++)
     for (int x = 0, end; x < mask->width; x = end + 1)
       {
-        CeldStrokeSpan *span;
-
         while (x < mask->width && !CELD_AT (mask, x, y))
           x++;
         for (end = x; end < mask->width && CELD_AT (mask, end, y); end++)
           ;
         if (x == end)
           break;
-        span = celd_grow (stroke->span, stroke->n + 1, sizeof *span);
-        if (!span)
+        if (celd_append (stroke->span, stroke->n, stroke->span_capacity, (CeldStrokeSpan) { y, x, end }) != CELD_OK)
           return CELD_NO_MEMORY;
-        stroke->span = span;
-        span[stroke->n++] = (CeldStrokeSpan) { y, x, end };
       }
   return CELD_OK;
 }
@@ -55,13 +51,9 @@ place_stroke (CeldSession *s, const CeldStroke *made)
 
   if (!stroke)
     {
-      CeldStroke *grown = celd_grow (s->stroke, s->n_strokes + 1, sizeof *grown);
-
-      if (!grown)
+      if (celd_append (s->stroke, s->n_strokes, s->stroke_capacity, (CeldStroke) { 0 }) != CELD_OK)
         return CELD_NO_MEMORY;
-      s->stroke = grown;
-      stroke = &grown[s->n_strokes++];
-      stroke->span = NULL;
+      stroke = &s->stroke[s->n_strokes - 1];
     }
   celd_free (stroke->span);
   *stroke = *made;
@@ -71,7 +63,7 @@ place_stroke (CeldSession *s, const CeldStroke *made)
 CeldStatus
 celd_session_put_stroke (CeldSession *session, uint32_t id, int x, int y, const CeldMask *mask, const uint8_t colour[3])
 {
-  CeldStroke made = { id, x, y, { colour[0], colour[1], colour[2] }, NULL, 0 };
+  CeldStroke made = { id, x, y, { colour[0], colour[1], colour[2] }, NULL, 0, 0 };
   CeldStatus status;
 
   if (!id)
@@ -112,18 +104,13 @@ celd_session_remove_stroke (CeldSession *session, uint32_t id)
 static CeldStatus
 find_label (const uint8_t colour[3], CeldPalette *palette, uint32_t *label)
 {
-  CeldRegion *item;
-
   *label = celd_palette_find (palette, colour);
   if (*label)
     return CELD_OK;
-  item = celd_grow (palette->item, palette->n + 1, sizeof *item);
-  if (!item)
-    return CELD_NO_MEMORY;
-  palette->item = item;
-  item[palette->n++] = (CeldRegion) {
+  if (celd_append_uncounted (palette->item, palette->n, (CeldRegion) {
     .colour = { colour[0], colour[1], colour[2], 255 }, .origin = CELD_FROM_SCRIBBLE
-  };
+  }) != CELD_OK)
+    return CELD_NO_MEMORY;
   *label = (uint32_t) palette->n;
   return CELD_OK;
 }

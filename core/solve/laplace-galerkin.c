@@ -11,6 +11,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "solve/laplace-aggregation.h"
 
 /* ------------------------------------------------------------------ numbers of the aggregates */
@@ -120,8 +121,9 @@ typedef struct
   const CeldWeightedGraph *fine;
   const uint32_t          *coarser;
   CeldWeightedGraph       *coarse;
-  ExtraEdge                    *edge;
+  ExtraEdge               *edge;
   size_t                   n;
+  size_t                   edge_capacity;
 } Contraction;
 
 /* ------------------------------------------------------------------ edges of grid nodes */
@@ -192,15 +194,10 @@ static inline CeldStatus
 push_edge (Contraction *c, uint32_t i, uint32_t j, float w)
 {
   uint32_t n = celd_grid_nodes (c->coarse);
-  ExtraEdge    *edge;
 
   if (i == j || i < n || i == CELD_NO_NODE || !(w > 0))
     return CELD_OK;
-  if (!(edge = celd_grow (c->edge, c->n + 1, sizeof *edge)))
-    return CELD_NO_MEMORY;
-  c->edge         = edge;
-  c->edge[c->n++] = (ExtraEdge) { i - n, j, w };
-  return CELD_OK;
+  return celd_append (c->edge, c->n, c->edge_capacity, (ExtraEdge) { i - n, j, w });
 }
 
 /* The edges of a grid node that has become an extra one. */
@@ -314,7 +311,7 @@ celd_galerkin (const CeldWeightedGraph *fine, const uint32_t *coarser, const Cel
 {
   uint32_t    n = celd_grid_nodes (coarse);
   uint32_t   *place = celd_alloc ((size_t) n + coarse->n_extra, sizeof *place);
-  Contraction c = { fine, coarser, coarse, NULL, 0 };
+  Contraction c = { fine, coarser, coarse, NULL, 0, 0 };
   CeldStatus  status = CELD_NO_MEMORY;
 
   coarse->east  = celd_alloc0 (n, sizeof *coarse->east);

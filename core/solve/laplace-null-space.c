@@ -9,6 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
+#include "base/vector.h"
 #include "solve/laplace-private.h"
 
 /* Runs of pixels in a row that edges join; a run ends where the next one begins. */
@@ -18,6 +19,7 @@ typedef struct
   uint32_t *parent;             /* the set of runs to which it belongs */
   size_t   *row;                /* where the runs of each row begin */
   size_t    n;
+  size_t    first_capacity;
 } Runs;
 
 /* Marks the pixels that no edge joins with the next one, which is so in the last column. */
@@ -41,12 +43,8 @@ list_runs (const CeldWeightedGraph *g, Runs *runs, uint8_t *mark)
       mark_ends ((size_t) w, g->east + i, mark);
       for (int x = 0; x < w; x = celd_next_marked (w, mark, x) + 1)
         {
-          uint32_t *first = celd_grow (runs->first, runs->n + 1, sizeof *first);
-
-          if (!first)
+          if (celd_append (runs->first, runs->n, runs->first_capacity, (uint32_t) (i + (size_t) x)) != CELD_OK)
             return CELD_NO_MEMORY;
-          runs->first = first;
-          first[runs->n++] = (uint32_t) (i + (size_t) x);
         }
     }
   runs->row[g->height] = runs->n;
@@ -86,7 +84,6 @@ static CeldStatus
 join_runs (const CeldWeightedGraph *g, Runs *runs)
 {
   uint8_t   *mark = celd_alloc ((size_t) g->width, 1);
-  uint32_t  *first;
   CeldStatus status = CELD_NO_MEMORY;
 
   runs->row = celd_alloc ((size_t) g->height + 1, sizeof *runs->row);
@@ -95,12 +92,12 @@ join_runs (const CeldWeightedGraph *g, Runs *runs)
   celd_free (mark);
   if (status != CELD_OK)
     return status;
-  first        = celd_grow (runs->first, runs->n + 1, sizeof *first);
-  runs->first  = first ? first : runs->first;
-  runs->parent = celd_alloc (runs->n, sizeof *runs->parent);
-  if (!first || !runs->parent)
+  if (!celd_reserve_one (runs->first, runs->n, runs->first_capacity))
     return CELD_NO_MEMORY;
-  first[runs->n] = (uint32_t) g->width * (uint32_t) g->height;
+  runs->parent = celd_alloc (runs->n, sizeof *runs->parent);
+  if (!runs->parent)
+    return CELD_NO_MEMORY;
+  runs->first[runs->n] = (uint32_t) g->width * (uint32_t) g->height;
   celd_roots (runs->parent, runs->n);
   for (size_t y = 1; y < (size_t) g->height; y++)
     join_rows (g, runs, y);

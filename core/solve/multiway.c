@@ -12,6 +12,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
@@ -34,6 +35,7 @@ typedef struct
   PixelComponent    *todo;
   size_t    n_todo;
   size_t    decided, total;
+  size_t    todo_capacity;
 } Solver;
 
 /* The label whose hard seed p is, or 0. */
@@ -155,7 +157,7 @@ find_components (Solver *s, const PixelComponent *old)
     for (int x = old->left; x <= old->right; x++)
       {
         size_t p = (size_t) y * (size_t) s->problem->width + (size_t) x, n, reached;
-        PixelComponent  component = *old, *todo;
+        PixelComponent component = *old;
 
         if (s->component[p] != old->id)
           continue;
@@ -167,11 +169,8 @@ find_components (Solver *s, const PixelComponent *old)
             continue;
           }
         component.mid = middle_rank (s, &component, reached);
-        todo = celd_grow (s->todo, s->n_todo + 1, sizeof *todo);
-        if (!todo)
+        if (celd_append (s->todo, s->n_todo, s->todo_capacity, component) != CELD_OK)
           return CELD_NO_MEMORY;
-        s->todo = todo;
-        todo[s->n_todo++] = component;
       }
   return CELD_OK;
 }

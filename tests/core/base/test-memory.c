@@ -3,14 +3,13 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "base/base.h"
+#include "base/vector.h"
 
 static void
 sizes_do_not_overflow (void)
 {
   CHECK (!celd_alloc (SIZE_MAX / 2, 3));
   CHECK (!celd_alloc0 (SIZE_MAX / 2, 3));
-  CHECK (!celd_grow (NULL, SIZE_MAX / 2, 4));
 }
 
 static void
@@ -24,21 +23,34 @@ nothing_is_something (void)
   celd_free (NULL);
 }
 
+static void
+refused_growth_changes_nothing (void)
+{
+  uint32_t *item = NULL;
+  size_t    n = 0, capacity = 0;
+
+  CHECK (celd_append (item, n, capacity, 5) == CELD_OK && n == 1 && capacity >= 1);
+  CHECK (!celd_reserve (&item, SIZE_MAX / 2, &capacity, sizeof *item));
+  CHECK (!celd_reserve (&item, SIZE_MAX, &capacity, 1));
+  CHECK (item[0] == 5 && n == 1 && capacity < 100);
+  celd_free (item);
+}
+
 /* Also where a list got shorter in between, as lists of strokes and relations do. */
 static void
 lists_keep_what_they_hold (void)
 {
   uint32_t random = 5, *item = NULL;
-  size_t   n = 0;
+  size_t   n = 0, capacity = 0;
 
   for (int step = 0; step < 20000; step++)
     if (n && check_random (&random, 3) == 0)
       n -= check_random (&random, (uint32_t) n);
     else
       {
-        item = celd_grow (item, n + 1, sizeof *item);
-        item[n] = (uint32_t) n * 7;
-        n++;
+        uint32_t value = (uint32_t) n * 7;
+
+        CHECK (celd_append (item, n, capacity, value) == CELD_OK);
         CHECK (item[0] == 0 && item[n / 2] == n / 2 * 7);
       }
   celd_free (item);
@@ -87,6 +99,7 @@ main (void)
 {
   RUN (sizes_do_not_overflow);
   RUN (nothing_is_something);
+  RUN (refused_growth_changes_nothing);
   RUN (lists_keep_what_they_hold);
   RUN (new_pictures);
   RUN (records_end_twice);

@@ -1,4 +1,4 @@
-/* How much of each pixel lies inside directed edges: against areas that geometry knows.
+/* Coverage inside directed edges, compared with areas known from geometry.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -90,7 +90,7 @@ holes_are_empty_and_overlaps_count_once (void)
   celd_free (cover.sum);
 }
 
-/* The whole of a star-shaped polygon, whatever its corners. */
+/* The total coverage of a star-shaped polygon equals its area. */
 static void
 areas_add_up (void)
 {

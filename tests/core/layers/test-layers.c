@@ -1,4 +1,4 @@
-/* Layers: that they make the drawing again, that their colours at edges are their own, and what completes them.
+/* Layers: their composite is the drawing, edges have each layer's own colours, and hidden parts are completed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -49,7 +49,7 @@ whole_pixels_stay_as_they_are (void)
   layer_scene_close (&s);
 }
 
-/* Black ink of the front one, half of a pixel, before blue: each gets its own colour. */
+/* Black ink of the front layer covers half a pixel of blue: each layer gets its own colour. */
 static void
 an_edge_is_told_apart (void)
 {
@@ -88,7 +88,7 @@ an_edge_is_told_apart (void)
     }
 }
 
-/* Ink on a transparent layer: the front one keeps it, and nothing is left behind. */
+/* Ink on a transparent layer: the front layer keeps it, and nothing stays behind. */
 static void
 transparent_paper_stays_transparent (void)
 {
@@ -121,7 +121,7 @@ transparent_paper_stays_transparent (void)
   layer_scene_close (&s);
 }
 
-/* A line too thin for a pixel of its own: it still is the dark part, and the paper behind it stays white. */
+/* A line thinner than a pixel stays dark, and the paper behind it stays white. */
 static void
 thin_ink_stays_ink (void)
 {
@@ -285,7 +285,7 @@ threads_make_no_difference (void)
 
 /* ------------------------------------------------------------------ hidden parts */
 
-/* How well the layer's alpha is that of the shape. */
+/* Compares the layer's alpha with the shape. */
 static double
 overlap (const LayerScene *s, const float *canvas, LayerShare shape)
 {
@@ -341,7 +341,7 @@ a_disc_is_round_behind_a_board (void)
   layer_scene_close (&s);
 }
 
-/* Both pieces of a limb are one again behind what crosses it; and nothing comes out at its sides. */
+/* Both pieces of a limb are joined behind what crosses it, and nothing sticks out at its sides. */
 static double post (double x, double y) { return share_of (fmin (fmin (x - 45, 70 - x), fmin (y - 4, 60 - y))); }
 
 static void
@@ -363,7 +363,7 @@ a_limb_runs_on_behind_a_post (void)
   layer_scene_close (&s);
 }
 
-/* A ramp of colour with a hole: what solves Laplace's equation in it is the ramp. */
+/* A ramp of colour with a hole: Laplace's equation gives the ramp. */
 static double window (double x, double y) { return share_of (14 - hypot (x - 30, y - 30)); }
 
 static void
@@ -387,7 +387,7 @@ colours_run_on_across_a_hole (void)
     for (int x = 0; x < 60; x++)
       {
         NEAR (canvas[4 * (y * 60 + x) + 3], 1, 1e-5);
-        /* A pixel of the rim has the mean of those outside it. */
+        /* A pixel at the boundary has the mean of its neighbours outside. */
         NEAR (canvas[4 * (y * 60 + x)], x / 60.0, 1.5 / 60);
         NEAR (canvas[4 * (y * 60 + x) + 1], y / 60.0, 1.5 / 60);
       }
@@ -396,7 +396,7 @@ colours_run_on_across_a_hole (void)
   layer_scene_close (&s);
 }
 
-/* Where both have one level nobody knows what is behind. */
+/* At equal levels it is unknown which one continues: nothing is completed. */
 static void
 equals_hide_nothing (void)
 {

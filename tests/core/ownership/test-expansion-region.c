@@ -1,4 +1,4 @@
-/* The ink that one region takes, on sheets with known contours.
+/* Expansion of one region into the ink of known contours.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 
 /* Digits are levels, '#' is free ink. */
 static CeldExpansionState
-sheet_open (const CeldLabels *levels)
+open_picture (const CeldLabels *levels)
 {
   int       w = levels->width, h = levels->height;
   size_t    n = (size_t) w * (size_t) h;
@@ -35,12 +35,12 @@ sheet_open (const CeldLabels *levels)
   return s;
 }
 
-/* Expands level k; the sheet must then be as wanted. */
+/* Expands level k and compares the picture with `wanted`. */
 static void
-expand (const char *const *sheet, uint32_t k, const char *const *wanted)
+expand (const char *const *picture, uint32_t k, const char *const *wanted)
 {
-  CeldLabels levels = art_labels (sheet);
-  CeldExpansionState  s = sheet_open (&levels);
+  CeldLabels levels = art_labels (picture);
+  CeldExpansionState  s = open_picture (&levels);
 
   CHECK (celd_expand_region (&s, k, NULL) == CELD_OK);
   NEAR (differing (&levels, wanted), 0, 0);
@@ -52,54 +52,54 @@ expand (const char *const *sheet, uint32_t k, const char *const *wanted)
 static void
 the_whole_line_goes_to_the_nearer_region (void)
 {
-  static const char *const sheet[] = { "222####111", "222####111", "222####111", "222####111", NULL };
+  static const char *const picture[] = { "222####111", "222####111", "222####111", "222####111", NULL };
   static const char *const wanted[] = { "2222222111", "2222222111", "2222222111", "2222222111", NULL };
 
-  expand (sheet, 2, wanted);
+  expand (picture, 2, wanted);
 }
 
-/* The line between two farther regions that ends at the region's outline is theirs. */
+/* The line between two farther regions that ends at the region's outline stays free. */
 static void
 a_line_that_branches_off_stays_free (void)
 {
-  static const char *const sheet[] = {
+  static const char *const picture[] = {
     "333333333333", "333333333333", "############", "############", "11111##22222", "11111##22222", "11111##22222", NULL
   };
   static const char *const wanted[] = {
     "333333333333", "333333333333", "333333333333", "333333333333", "11111##22222", "11111##22222", "11111##22222", NULL
   };
 
-  expand (sheet, 3, wanted);
+  expand (picture, 3, wanted);
 }
 
-/* And what a nearer region, which had its turn, left over. */
+/* So does what a nearer region, which is expanded already, has left over. */
 static void
 a_detail_without_a_farther_region_is_taken_whole (void)
 {
-  static const char *const sheet[] = { "1111111", "1222221", "122##21", "122##21", "1222221", "1111111", NULL };
+  static const char *const picture[] = { "1111111", "1222221", "122##21", "122##21", "1222221", "1111111", NULL };
   static const char *const wanted[] = { "1111111", "1222221", "1222221", "1222221", "1222221", "1111111", NULL };
   static const char *const nearer[] = { "333##22", "333##22", NULL };
   static const char *const taken[] = { "3332222", "3332222", NULL };
 
-  expand (sheet, 2, wanted);
+  expand (picture, 2, wanted);
   expand (nearer, 2, taken);
 }
 
-/* Where all others had their turn, nobody is left to share the contour with. */
+/* Where all other regions are expanded already, the whole contour is taken. */
 static void
 nearer_regions_are_nobody (void)
 {
-  static const char *const sheet[] = { "22222222", "########", "########", "333##333", NULL };
+  static const char *const picture[] = { "22222222", "########", "########", "333##333", NULL };
   static const char *const wanted[] = { "22222222", "22222222", "22222222", "33322333", NULL };
 
-  expand (sheet, 2, wanted);
+  expand (picture, 2, wanted);
 }
 
-/* The inside of the blot is farther from the region than the line below is thick, but no other region touches it. */
+/* The inside of the blot is farther from the region than the line below is thick, but touches no other region. */
 static void
 a_small_gap_is_filled (void)
 {
-  static const char *const sheet[] = {
+  static const char *const picture[] = {
     "222222222222222222222222222222", "222#######22222222222222222222", "222#######22222222222222222222",
     "222#######222222##############", "222#######222222##############", "222#######222222##############",
     "222#######222222##############", "222#######222222##############", "222222#222222222##############",
@@ -107,8 +107,8 @@ a_small_gap_is_filled (void)
     "##############################", "111111111111111111111111111111", "111111111111111111111111111111",
     "111111111111111111111111111111", NULL
   };
-  CeldLabels levels = art_labels (sheet);
-  CeldExpansionState  s = sheet_open (&levels);
+  CeldLabels levels = art_labels (picture);
+  CeldExpansionState  s = open_picture (&levels);
   int        free_pixels = 0;
 
   CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
@@ -124,22 +124,22 @@ a_small_gap_is_filled (void)
 static void
 ink_that_is_not_connected_stays_free (void)
 {
-  static const char *const sheet[] = { "22##11##11", "22##11##11", "22##11##11", NULL };
+  static const char *const picture[] = { "22##11##11", "22##11##11", "22##11##11", NULL };
   static const char *const wanted[] = { "222211##11", "222211##11", "222211##11", NULL };
 
-  expand (sheet, 2, wanted);
-  expand (wanted, 3, wanted); /* a level that is nowhere */
+  expand (picture, 2, wanted);
+  expand (wanted, 3, wanted); /* a level without pixels */
 }
 
-/* What lies elsewhere on the sheet, and where the region lies on it, changes nothing. */
+/* Other contents of the picture, and the region's place in it, have no influence. */
 static void
 only_the_region_s_surroundings_matter (void)
 {
   enum { SIDE = 40, AT = 13 };
-  static const char *const sheet[] = {
+  static const char *const picture[] = {
     "1111111111", "11#####111", "1#22222#11", "1#22222#11", "1#22222#11", "11#####111", "1111111111", NULL
   };
-  CeldLabels small = art_labels (sheet), large = { SIDE, SIDE, SIDE, malloc (SIDE * SIDE * sizeof (uint32_t)) };
+  CeldLabels small = art_labels (picture), large = { SIDE, SIDE, SIDE, malloc (SIDE * SIDE * sizeof (uint32_t)) };
   int        wrong = 0, taken = 0;
 
   for (int i = 0; i < SIDE * SIDE; i++)
@@ -149,7 +149,7 @@ only_the_region_s_surroundings_matter (void)
       CELD_AT (&large, AT + x, AT + y) = CELD_AT (&small, x, y);
   for (int i = 0; i < 2; i++)
     {
-      CeldExpansionState s = sheet_open (i ? &large : &small);
+      CeldExpansionState s = open_picture (i ? &large : &small);
 
       CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
       free (s.distance_in_ink);
@@ -171,13 +171,13 @@ only_the_region_s_surroundings_matter (void)
 static void
 a_cancelled_region_takes_nothing (void)
 {
-  static const char *const sheet[] = { "222####111", "222####111", NULL };
-  CeldLabels levels = art_labels (sheet);
-  CeldExpansionState  s = sheet_open (&levels);
+  static const char *const picture[] = { "222####111", "222####111", NULL };
+  CeldLabels levels = art_labels (picture);
+  CeldExpansionState  s = open_picture (&levels);
   CeldHost   host = { .progress = check_refuse };
 
   CHECK (celd_expand_region (&s, 2, &host) == CELD_CANCELLED);
-  NEAR (differing (&levels, sheet), 0, 0);
+  NEAR (differing (&levels, picture), 0, 0);
   free (levels.data);
   free (s.distance_in_ink);
   free (s.box);

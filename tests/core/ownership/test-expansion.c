@@ -1,4 +1,4 @@
-/* Who owns the ink: known answers on small pictures, and facts that hold for any picture.
+/* Depth expansion: known answers on small pictures, and properties of any picture.
  *
  * In the pictures '#' is ink; letters and digits are the paper of that rank.  Before expansion ink has the rank of the
  * paper to its left (or above), as if the segmentation had cut at its far side.
@@ -55,7 +55,7 @@ expect (const char *const *rows, const char *const *wanted)
     for (int x = 0; x < w.width; x++)
       fputc ("0ABCDEFGHIJ"[CELD_AT (&p.expanded, x, y) % 11], stderr);
 
-  /* What was given to its owner stays there. */
+  /* Expanding again changes nothing. */
   CHECK (celd_expand (&p.ink, &p.expanded, NULL, &p.expanded) == CELD_OK);
   CHECK (memcmp (p.expanded.data, w.data, n * sizeof *w.data) == 0);
   picture_free (&p);
@@ -148,7 +148,7 @@ details_stay_inside (void)
   expect (rows, wanted);
 }
 
-/* Ink between equal ranks stays; a border on paper stays where it is. */
+/* Ink between equal ranks keeps its rank; boundaries on paper do not move. */
 static void
 equal_ranks_and_virtual_borders (void)
 {
@@ -205,7 +205,7 @@ black_region_keeps_its_ink (void)
     }
 }
 
-/* Coarse cells of paper of five ranks, and lines and dots of ink; stride beyond the width, some NaN. */
+/* Coarse cells of paper of five ranks with lines and dots of ink; the stride exceeds the width, and some ink is NaN. */
 #define SIDE 40
 
 static void
@@ -243,7 +243,7 @@ touches_other_rank (const CeldPlane *ink, const CeldLabels *ranks, const CeldLab
   return false;
 }
 
-/* Ink that touches the paper of one rank alone has that rank in the end. */
+/* Ink that touches paper of one rank only gets that rank. */
 static void
 check_lonely_ink (const CeldPlane *ink, const CeldLabels *ranks, const CeldLabels *expanded)
 {
@@ -337,7 +337,7 @@ progress_rises_and_cancel_changes_nothing (void)
   picture_free (&p);
 }
 
-/* Levels of every sign and size move as their ranks would. */
+/* Levels of any sign and size are expanded like ranks in the same order. */
 static void
 levels_are_expanded_as_ranks (void)
 {
@@ -348,7 +348,7 @@ levels_are_expanded_as_ranks (void)
 
   for (int i = 0; i < 30; i++)
     {
-      ranks.data[i]  = i % 10 < 3 ? 1 : i % 10 < 7 ? 0 : 2; /* both borders lie in ink */
+      ranks.data[i]  = i % 10 < 3 ? 1 : i % 10 < 7 ? 0 : 2; /* both boundaries lie in ink */
       levels.data[i] = odd[ranks.data[i]];
     }
   CHECK (celd_expand (&ink, &ranks, NULL, &ranks) == CELD_OK);

@@ -1,4 +1,4 @@
-/* Ownership kept between edits: after any edit it is what it would be from the beginning, and says where it changed.
+/* The cache of contour ownership: after any edit it equals a computation from scratch, and reports where it changed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -29,15 +29,15 @@ page_new (uint32_t *seed, Page *page)
   blobs_new (WIDTH, HEIGHT, &page->blobs);
   for (int k = 0; k < 7; k++)
     blobs_add (&page->blobs, seed, pen, 0.01 * check_random (seed, 30));
-  for (int y = BLACK_Y; y < BLACK_END_Y; y++) /* an area that no pen explains */
+  for (int y = BLACK_Y; y < BLACK_END_Y; y++) /* an area of ink that no pen explains */
     for (int x = BLACK_X; x < BLACK_END_X; x++)
       CELD_AT (&page->blobs.ink, x, y) = 0;
-  for (int y = 0; y < 60; y++) /* grey paper, of which neighbours have a share */
+  for (int y = 0; y < 60; y++) /* grey paper, of which neighbours have a part */
     for (int x = 220; x < WIDTH; x++)
       CELD_AT (&page->blobs.ink, x, y) = 0.6f + 0.1f * (float) check_random (seed, 4);
   CHECK (celd_labels_new (WIDTH, HEIGHT, &page->corrections) == CELD_OK);
   page->corrected = false;
-  page->n         = page->blobs.n + 1; /* one has nothing */
+  page->n         = page->blobs.n + 1; /* one label has no pixels */
   memcpy (page->level, page->blobs.level, page->blobs.n * sizeof *page->level);
   page->level[page->n - 1] = 3;
 }
@@ -64,7 +64,7 @@ any_label (uint32_t *seed, const Page *page)
   return 1 + check_random (seed, (uint32_t) page->n);
 }
 
-/* One label becomes another within a rectangle, or all labels do; returns the rectangle. */
+/* Replaces a label by another within a rectangle or everywhere; returns the rectangle. */
 static CeldRect
 change_labels (uint32_t *seed, Page *page)
 {
@@ -88,7 +88,7 @@ fill (Page *page, int x, int y, int end_x, int end_y, uint32_t label)
   return (CeldRect) { x, y, end_x - x, end_y - y };
 }
 
-/* A label that is black throughout, up to borders of tiles, or has been, with paper far away. */
+/* A label that is wholly ink, up to tile boundaries, or was before, with paper far away. */
 static CeldRect
 change_black (uint32_t *seed, Page *page)
 {
@@ -128,7 +128,7 @@ change_corrections (uint32_t *seed, Page *page)
       CELD_AT (&page->corrections, x, y) = label;
 }
 
-/* A label more, or less; strokes in its colour go with it.  Returns where labels change. */
+/* Adds or removes a label; strokes in its colour go with it.  Returns where labels change. */
 static CeldRect
 change_number (uint32_t *seed, Page *page)
 {
@@ -164,7 +164,7 @@ same_pixel (const CeldOwnership *a, const CeldOwnership *b, int p)
          a->coverage.data[p] == b->coverage.data[p];
 }
 
-/* The record is what celd_own says, and differs from the old one in `changed` alone, up to its borders. */
+/* The record equals that of celd_own, and differs from the old one within `changed` only, tightly. */
 static void
 check_record (const Page *page, const CeldOwnership *own, const CeldOwnership *old, CeldRect changed)
 {
@@ -267,7 +267,7 @@ ask_session (CeldSession *session, const State *state, uint8_t *corrections, boo
   return celd_session_ownership (session, NULL, own, changed);
 }
 
-/* The levels after it, and where they differ from the old ones, which become the new. */
+/* The levels after it, and where they differ from the old ones, which are replaced. */
 static void
 compare_levels (CeldSession *edited, CeldSession *fresh, float *old)
 {
@@ -285,7 +285,7 @@ compare_levels (CeldSession *edited, CeldSession *fresh, float *old)
   memcpy (old, a.data, W * H * sizeof (float));
 }
 
-/* An edited session says what a new one does. */
+/* An edited session equals a new one. */
 static void
 sessions_come_to_the_same (void)
 {
@@ -332,7 +332,7 @@ refuse (void *host, double done)
   return done < 0.4;
 }
 
-/* What is cancelled leaves the record as it was, and the next time everything is made anew. */
+/* Cancelling leaves the record unchanged, and the next update starts from scratch. */
 static void
 cancelled_edits_do_no_harm (void)
 {

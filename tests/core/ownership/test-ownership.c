@@ -1,4 +1,4 @@
-/* Whose the ink is: drawings with known owners, known answers on small pictures, and facts that hold for any picture.
+/* Contour ownership: drawings with known owners, known answers on small pictures, and properties of any picture.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -61,7 +61,7 @@ pens_beat_thickness (void)
 
 /* ------------------------------------------------------------------ known answers */
 
-/* '#' is ink, letters paper of that label; labels in alphabetical order are from back to front. */
+/* '#' is ink, letters are paper of that label; labels in alphabetical order are from back to front. */
 static void
 expect (const char *const *rows, const char *const *wanted, CeldExpansion method)
 {
@@ -135,7 +135,7 @@ a_black_patch_keeps_its_ink (void)
   celd_free (labels.data);
 }
 
-/* A line of three quarters of a pixel's ink on a bright page: the nearer label has the ink's share of its pixels. */
+/* A line with three quarters of a pixel of ink on a bright page: the coverage of the nearer label is the ink's. */
 static void
 edges_are_shared (void)
 {
@@ -163,8 +163,7 @@ edges_are_shared (void)
   celd_free (labels.data);
 }
 
-/* A bar of ink between two regions runs against another line: a dot of the farther region's colour takes the bar
- * alone. */
+/* A bar of ink between two regions meets another line: a dot of the farther region's colour takes the bar alone. */
 static void
 a_stroke_gives_a_piece_of_line (void)
 {
@@ -198,8 +197,8 @@ a_stroke_gives_a_piece_of_line (void)
 
 /* ------------------------------------------------------------------ any picture */
 
-/* Blocks of ink and labels, in which now and then a level gets ink that is not connected with its labels: the same comes
- * out in place. */
+/* Blocks of ink and labels, where a level sometimes gets ink that is not connected with its labels: the result in
+ * place is the same. */
 static void
 in_place_it_is_the_same (void)
 {
@@ -235,7 +234,7 @@ in_place_it_is_the_same (void)
   celd_free (labels.data);
 }
 
-/* Paper keeps its label, ink gets one that there is, and shares are shares. */
+/* Paper keeps its label, ink gets an existing one, and coverage is within (0,1]. */
 static void
 paper_stays (void)
 {

@@ -1,4 +1,4 @@
-/* Meshes of reliefs: how near they are, that they cover the picture once, and that bodies are closed.
+/* Meshes of reliefs: their error, that they cover the picture once, and that solids are closed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -32,7 +32,7 @@ make (const CeldSettings *s)
   return mesh;
 }
 
-/* Hills without a crack. */
+/* Hills without a cut. */
 static void
 draw_hills (uint32_t seed)
 {
@@ -45,7 +45,7 @@ draw_hills (uint32_t seed)
     }
 }
 
-/* Cuts everywhere: of a few heights, so that many are the same. */
+/* Cuts everywhere, with so few heights that many are equal. */
 static void
 draw_shards (uint32_t seed, uint32_t heights, uint32_t share)
 {
@@ -61,7 +61,7 @@ draw_shards (uint32_t seed, uint32_t heights, uint32_t share)
     }
 }
 
-/* Height of the surface at the corner (x,y) where there are no cracks. */
+/* Height of the surface at the corner (x,y) where there are no cuts. */
 static double
 corner_height (int x, int y)
 {
@@ -85,7 +85,7 @@ area (const float *a, const float *b, double x, double y)
   return ((double) a[0] - x) * ((double) b[1] - y) - ((double) b[0] - x) * ((double) a[1] - y);
 }
 
-/* How far triangle i is from the corners of pixels that it covers; its area is added up. */
+/* Distance of triangle i to the corners of pixels that it covers; its area is added up. */
 static double
 look_at (const CeldReliefMesh *m, size_t i, double *sum)
 {
@@ -181,7 +181,7 @@ cracks_have_two_sides (void)
   celd_relief_mesh_clear (&m);
 }
 
-/* ------------------------------------------------------------------ bodies */
+/* ------------------------------------------------------------------ solids */
 
 typedef struct { uint32_t from, to; } Way;
 
@@ -195,7 +195,7 @@ compare_ways (const void *first, const void *second)
   return (a->to > b->to) - (a->to < b->to);
 }
 
-/* Vertices at the same place get the same number, as in a file without numbers. */
+/* Gives vertices at the same place the same number, as in an STL file. */
 static void
 number_places (const CeldReliefMesh *m, uint32_t *number)
 {
@@ -209,7 +209,7 @@ number_places (const CeldReliefMesh *m, uint32_t *number)
     }
 }
 
-/* Is every edge that one triangle has the other way round in just one other? */
+/* Does every edge occur exactly once in each direction? */
 static bool
 is_closed (const CeldReliefMesh *m, const uint32_t *number)
 {

@@ -1,4 +1,4 @@
-/* Relief: discs and ellipses are spheres and ellipsoids, no seam where depth goes on, what is nearer stays in front.
+/* Relief: discs and ellipses become spheres and ellipsoids, smooth where depth is smooth, and the depth order holds.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -27,7 +27,7 @@ picture_free (Picture *p)
   celd_relief_clear (&p->relief);
 }
 
-/* An ellipse before everything that is there, in a contour of its own. */
+/* An ellipse in front of everything else, with a contour of its own. */
 static void
 put_ellipse (Picture *p, double x0, double y0, double a, double b, float level)
 {
@@ -57,8 +57,8 @@ z_at (const Picture *p, int x, int y)
   return (double) p->relief.z[(size_t) y * (size_t) p->width + (size_t) x];
 }
 
-/* Mean difference from the ellipsoid of inflation, and that of the tops, as shares of its height, which is `top` for
- * bulge 1. */
+/* Mean difference from the ellipsoid of inflation, and the difference of the tops, relative to its height, which is
+ * `top` for bulge 1. */
 static void
 compare_ellipsoid (const Picture *p, double x0, double y0, double a, double b, double base, double bulge, double mean,
                    double tops)
@@ -124,7 +124,7 @@ an_ellipse_is_an_ellipsoid (void)
     }
 }
 
-/* By way of normals, whose slopes have to end at the outline. */
+/* From normals, whose slopes have to end at the outline. */
 static void
 normals_make_a_sphere_too (void)
 {
@@ -176,7 +176,7 @@ ranks_are_as_good_as_levels (void)
   picture_free (&q);
 }
 
-/* ------------------------------------------------------------------ borders */
+/* ------------------------------------------------------------------ boundaries */
 
 /* A pillow of two levels, with ink between them above y = 60 only. */
 static Picture
@@ -208,7 +208,7 @@ there_is_no_seam_where_depth_goes_on (void)
       double behind = z_at (&p, 81, y) - z_at (&p, 80, y);
 
       CHECK (!(p.relief.cut[y * 160 + 79] & CELD_CUT_RIGHT));
-      NEAR (across, (before + behind) / 2, 0.02); /* as the slope on both sides, which is 0.3 to 0.6 */
+      NEAR (across, (before + behind) / 2, 0.02); /* the slope on both sides is 0.3 to 0.6 */
     }
   for (int y = 20; y < 50; y++)
     {
@@ -219,7 +219,7 @@ there_is_no_seam_where_depth_goes_on (void)
   picture_free (&p);
 }
 
-/* The farther side goes on behind the nearer one: no slope across the border, although it bulges. */
+/* The farther side continues behind the nearer one: inflated, but without a slope across the boundary. */
 static void
 only_the_nearer_side_bends (void)
 {
@@ -243,7 +243,7 @@ only_the_nearer_side_bends (void)
   picture_free (&p);
 }
 
-/* How far the nearer side of a cut lies behind the other at worst, in pixels. */
+/* How far the nearer side of a cut is behind the other at worst, in pixels. */
 static double
 worst_order (const Picture *p)
 {
@@ -285,7 +285,7 @@ what_is_nearer_stays_in_front (void)
     }
 }
 
-/* Where nothing runs through anything, nothing is moved. */
+/* Where nothing intersects, nothing is shifted. */
 static void
 what_is_out_of_the_way_keeps_its_place (void)
 {

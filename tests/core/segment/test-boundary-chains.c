@@ -108,7 +108,7 @@ an_island_of_a_patch_is_a_loop (void)
 {
   static const char *const art[] = { "AAAAAA", "AABBAA", "AABBAA", "AAAAAA", NULL };
   static CeldPatch         item[] = { { 1, 2, 4, 2 }, { 2, 2, 4, 2 } };
-  CeldPatches              windows = { item, 2 };
+  CeldPatches              windows = { item, 2, 0 };
   Scene                    s;
   CeldChains               chains;
 

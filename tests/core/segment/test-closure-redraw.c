@@ -109,7 +109,7 @@ static void
 islands_and_rims_of_patches (void)
 {
   static CeldPatch island[] = { { 20, 20, 30, 2 }, { 21, 20, 30, 2 } }, side[] = { { 31, 33, 67, 1 } };
-  CeldPatches      windows = { island, 2 };
+  CeldPatches      windows = { island, 2, 0 };
   Scene            s;
 
   scene_open (60, 60, &s);
@@ -122,7 +122,7 @@ islands_and_rims_of_patches (void)
   scene_close (&s);
 
   draw_detour (&s); /* basins of one label on both sides: only the patch says that there is a boundary */
-  windows = (CeldPatches) { side, 1 };
+  windows = (CeldPatches) { side, 1, 0 };
   CHECK (scene_find (&s, &windows) == CELD_OK);
   NEAR (s.closures.n, 1, 0);
   scene_close (&s);

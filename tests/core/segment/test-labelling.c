@@ -34,7 +34,7 @@ static void
 paint (Picture *p, uint32_t a, uint32_t b, uint32_t c, CeldPatch *patch, size_t n)
 {
   uint32_t     *label = celd_alloc (3, sizeof *label);
-  CeldPatches   patches = { patch, n };
+  CeldPatches   patches = { patch, n, 0 };
   CeldLabelling old;
 
   label[0] = a, label[1] = b, label[2] = c;

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
 #include "check.h"
 #include "image/image.h"
 #include "session/session.h"
@@ -26,10 +27,8 @@ layer_of (const char *const *rows)
     most = labels.data[i] > most ? labels.data[i] : most;
   CHECK (celd_seed_rows_read (&labels, &layer.seeds) == CELD_OK);
   for (uint32_t k = 1; k <= most; k++)
-    {
-      layer.palette.item = celd_grow (layer.palette.item, k, sizeof *layer.palette.item);
-      layer.palette.item[layer.palette.n++] = (CeldRegion) { .colour = { (uint8_t) (10 * k), 0, 0, 255 } };
-    }
+    CHECK (celd_append_uncounted (layer.palette.item, layer.palette.n,
+                                  (CeldRegion) { .colour = { (uint8_t) (10 * k), 0, 0, 255 } }) == CELD_OK);
   free (labels.data);
   return layer;
 }

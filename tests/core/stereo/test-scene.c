@@ -1,4 +1,4 @@
-/* Scenes from the side: how far what moves, what comes into sight, of layers and of depth alone.
+/* Views of scenes of layers and of depth alone: how far things move, and what is uncovered.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,9 +7,9 @@
 
 enum { W = 80, H = 30 };
 
-/* A sheet (label 2, depth 1) from x = 30 to 49 with an outline, before paper of depth 0; random greys on both. */
+/* A board (label 2, depth 1) from x = 30 to 49 with an outline, in front of paper of depth 0; random greys on both. */
 static LayerScene
-draw_sheet (CeldPlane *depth)
+draw_board (CeldPlane *depth)
 {
   LayerScene s = layer_scene (W, H);
   uint32_t   seed = 5;
@@ -18,12 +18,12 @@ draw_sheet (CeldPlane *depth)
   for (int y = 0; y < H; y++)
     for (int x = 0; x < W; x++)
       {
-        bool  sheet = x >= 30 && x < 50 && y >= 6 && y < 24, line = sheet && (x < 32 || x >= 48 || y < 8 || y >= 22);
-        float grey = line ? 0 : (sheet ? 0.3f : 0.7f) + 0.25f * (float) check_random (&seed, 1000) / 1000;
+        bool  board = x >= 30 && x < 50 && y >= 6 && y < 24, line = board && (x < 32 || x >= 48 || y < 8 || y >= 22);
+        float grey = line ? 0 : (board ? 0.3f : 0.7f) + 0.25f * (float) check_random (&seed, 1000) / 1000;
 
-        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = sheet ? 2 : 1;
+        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = board ? 2 : 1;
         CELD_AT (&s.ink, x, y) = !line;
-        CELD_AT (depth, x, y) = sheet;
+        CELD_AT (depth, x, y) = board;
         for (int c = 0; c < 3; c++)
           art_at (&s, x, y)[c] = grey;
       }
@@ -47,7 +47,7 @@ new_colours (int width, int height)
   return (CeldColours) { width, height, (size_t) width, calloc (n, sizeof (float)) };
 }
 
-/* A view with so many pixels between depth 1 and 0. */
+/* A view with that many pixels of disparity between depth 1 and 0. */
 static CeldColours
 look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, double convergence, const CeldHost *host)
 {
@@ -65,12 +65,12 @@ look (const LayerScene *s, const CeldPlane *depth, double eye, double pixels, do
   return view;
 }
 
-/* Crossed disparity: what is nearer lies further to the right for the left eye, by half of what was asked for. */
+/* Crossed disparity: nearer things lie further to the right for the left eye, by half of the disparity. */
 static void
-sheets_move_by_what_is_asked_for (void)
+boards_move_by_what_is_asked_for (void)
 {
   CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
+  LayerScene s = draw_board (&depth);
 
   for (int eye = -1; eye <= 1; eye += 2)
     {
@@ -80,10 +80,10 @@ sheets_move_by_what_is_asked_for (void)
       for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++)
           {
-            bool sheet = x - moved >= 30 && x - moved < 50 && y >= 6 && y < 24;
+            bool board = x - moved >= 30 && x - moved < 50 && y >= 6 && y < 24;
             bool hidden = x >= 30 && x < 50 && y >= 6 && y < 24;
 
-            if (sheet)
+            if (board)
               NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x - moved, y)[0], 1e-5);
             else if (!hidden)
               NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x, y)[0], 1e-5);
@@ -95,12 +95,12 @@ sheets_move_by_what_is_asked_for (void)
   layer_scene_close (&s);
 }
 
-/* What comes into sight is paper, not a ghost of the outline that was before it. */
+/* Uncovered pixels are paper, not a ghost of the outline. */
 static void
 what_comes_into_sight_is_paper (void)
 {
   CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
+  LayerScene  s = draw_board (&depth);
   CeldColours view = look (&s, &depth, -1, 16, 0, NULL);
 
   for (int y = 6; y < 24; y++)
@@ -122,10 +122,10 @@ disparity_is_right_between_pixels (void)
   for (int y = 0; y < H; y++)
     for (int x = 0; x < W; x++)
       {
-        bool sheet = x >= 20 && x < 60;
+        bool board = x >= 20 && x < 60;
 
-        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = sheet ? 2 : 1;
-        CELD_AT (&depth, x, y) = sheet;
+        CELD_AT (&s.own.owner, x, y) = CELD_AT (&s.own.under, x, y) = board ? 2 : 1;
+        CELD_AT (&depth, x, y) = board;
         for (int c = 0; c < 3; c++)
           art_at (&s, x, y)[c] = x == 39 || x == 40 ? 0 : x == 38 || x == 41 ? 0.5f : 1;
       }
@@ -148,12 +148,12 @@ disparity_is_right_between_pixels (void)
   layer_scene_close (&s);
 }
 
-/* One depth everywhere, and no disparity, and the eye in the middle: the art. */
+/* One depth everywhere, no disparity, or the eye in the middle: the art. */
 static void
 without_depth_views_are_the_art (void)
 {
   CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
+  LayerScene s = draw_board (&depth);
 
   for (int way = 0; way < 3; way++)
     {
@@ -170,12 +170,12 @@ without_depth_views_are_the_art (void)
   layer_scene_close (&s);
 }
 
-/* The depth on the screen stays where it is; paper beyond the frame goes on. */
+/* What has the depth of the screen does not move; paper continues beyond the frame. */
 static void
 convergence_says_what_stays (void)
 {
   CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
+  LayerScene  s = draw_board (&depth);
   CeldColours view = look (&s, &depth, 1, 12, 1, NULL);
 
   for (int y = 6; y < 24; y++)
@@ -193,12 +193,12 @@ convergence_says_what_stays (void)
   layer_scene_close (&s);
 }
 
-/* A slope stretches without cracks, and folds without losing what is near. */
+/* A slope stretches without holes, and folds without losing its nearer parts. */
 static void
 slopes_have_no_cracks (void)
 {
   CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
+  LayerScene s = draw_board (&depth);
 
   for (int i = 0; i < W * H; i++)
     depth.data[i] = (float) (i % W) / W;
@@ -218,7 +218,7 @@ static void
 the_order_of_jobs_does_not_matter (void)
 {
   CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
+  LayerScene  s = draw_board (&depth);
   CeldHost    backwards = { NULL, check_backwards, NULL };
   CeldColours one = look (&s, &depth, 0.7, 9, 0.4, NULL), other = look (&s, &depth, 0.7, 9, 0.4, &backwards);
 
@@ -231,12 +231,12 @@ the_order_of_jobs_does_not_matter (void)
 
 /* ------------------------------------------------------------------ the camera */
 
-/* Down and up as left and right: the same with rows and columns exchanged. */
+/* Vertical views equal horizontal ones with rows and columns exchanged. */
 static void
 cameras_move_up_and_down (void)
 {
   CeldPlane   depth;
-  LayerScene  s = draw_sheet (&depth);
+  LayerScene  s = draw_board (&depth);
   CeldLayers *layers = cut (&s);
   CeldScene  *scene = NULL;
   CeldColours view = new_colours (W, H);
@@ -250,10 +250,10 @@ cameras_move_up_and_down (void)
     for (int x = 0; x < W; x++)
       {
         int  from_x = x + 2, from_y = y - 4;
-        bool sheet = from_x >= 30 && from_x < 50 && from_y >= 6 && from_y < 24;
+        bool board = from_x >= 30 && from_x < 50 && from_y >= 6 && from_y < 24;
         bool hidden = x >= 30 && x < 50 && y >= 6 && y < 24;
 
-        if (sheet)
+        if (board)
           NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, from_x, from_y)[0], 1e-5);
         else if (!hidden)
           NEAR (CELD_RGBA (&view, x, y)[0], art_at (&s, x, y)[0], 1e-5);
@@ -268,7 +268,7 @@ cameras_move_up_and_down (void)
   layer_scene_close (&s);
 }
 
-/* Half as wide about the middle, without depth; beyond the frame the paper goes on. */
+/* Half as wide about the middle, without depth; paper continues beyond the frame. */
 static void
 what_is_turned_is_narrow (void)
 {
@@ -304,7 +304,8 @@ what_is_turned_is_narrow (void)
 
 /* ------------------------------------------------------------------ depth alone */
 
-/* A box of depth 1 before paper of depth 0, with flat colours and an antialiased outline: left edge at x = 30.3. */
+/* A box of depth 1 in front of paper of depth 0, with flat colours and an antialiased outline: left edge at x =
+ * 30.3. */
 static LayerScene
 draw_box (CeldPlane *depth)
 {
@@ -340,8 +341,8 @@ look_at_depth (const LayerScene *s, const CeldPlane *depth, CeldCamera camera, d
   return view;
 }
 
-/* From the front it is the art; from the side the box has moved, with its soft edges, and where it was there is paper
- * and nothing of its line. */
+/* From the front it is the art; from the side the box has moved with its antialiased edges, and leaves paper without
+ * its line. */
 static void
 depth_alone_leaves_no_ghost (void)
 {
@@ -396,12 +397,12 @@ depth_alone_moves_by_what_is_asked_for (void)
   layer_scene_close (&s);
 }
 
-/* Depth of all kinds, and noise for art: nothing is left open, from wherever it is seen. */
+/* Depth of all kinds, and noise as art: no view has holes. */
 static void
 depth_alone_leaves_no_holes (void)
 {
   CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
+  LayerScene s = draw_board (&depth);
   uint32_t   seed = 11;
 
   for (int round = 0; round < 12; round++)
@@ -431,7 +432,7 @@ depth_alone_leaves_no_holes (void)
   layer_scene_close (&s);
 }
 
-/* Any width and height, of several bands of rows: without depth they are the art, both ways. */
+/* Any width and height, several bands of rows: without depth both ways give the art. */
 static void
 odd_sizes_are_fine (void)
 {
@@ -462,12 +463,12 @@ odd_sizes_are_fine (void)
     }
 }
 
-/* One depth everywhere: both eyes see the art, bit by bit the same. */
+/* One depth everywhere: both eyes see the art, bit for bit. */
 static void
 constant_depth_is_flat (void)
 {
   CeldPlane  depth;
-  LayerScene s = draw_sheet (&depth);
+  LayerScene s = draw_board (&depth);
 
   for (int i = 0; i < W * H; i++)
     depth.data[i] = 0.37f;
@@ -492,7 +493,7 @@ static void
 bad_input_is_refused (void)
 {
   CeldPlane    depth;
-  LayerScene   s = draw_sheet (&depth);
+  LayerScene   s = draw_board (&depth);
   CeldColours  view = new_colours (W, H);
   CeldSettings settings = celd_settings ();
   CeldLayers  *layers = cut (&s);
@@ -564,7 +565,7 @@ a_scene_of_depth_can_be_cancelled (void)
 int
 main (void)
 {
-  RUN (sheets_move_by_what_is_asked_for);
+  RUN (boards_move_by_what_is_asked_for);
   RUN (what_comes_into_sight_is_paper);
   RUN (disparity_is_right_between_pixels);
   RUN (without_depth_views_are_the_art);

@@ -1,4 +1,4 @@
-/* Two eyes: what strains them, the floating window, camera paths, and two views in one picture.
+/* Stereo comfort, the floating window, camera paths, and frame packing.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -17,9 +17,9 @@ new_colours (int width, int height)
   return (CeldColours) { width, height, (size_t) width, calloc (n, sizeof (float)) };
 }
 
-/* A sheet of depth 1 from x = 30 to 49 before paper of depth 0. */
+/* A board of depth 1 from x = 30 to 49 in front of paper of depth 0. */
 static CeldPlane
-sheet_depth (void)
+board_depth (void)
 {
   CeldPlane depth;
 
@@ -33,7 +33,7 @@ sheet_depth (void)
 static void
 comfort_is_told (void)
 {
-  CeldPlane    depth = sheet_depth ();
+  CeldPlane    depth = board_depth ();
   CeldSettings settings = celd_settings ();
   CeldComfort  comfort;
 
@@ -65,7 +65,7 @@ comfort_is_told (void)
   free (depth.data);
 }
 
-/* Every reason to worry is named with what to do, in as much room as there is. */
+/* Every warning says what to do, within the room there is. */
 static void
 comfort_is_put_in_words (void)
 {
@@ -88,12 +88,12 @@ comfort_is_put_in_words (void)
   CHECK (strlen (little) == sizeof little - 1);
 }
 
-/* Bars only where something is cut, as wide as its disparity, one at the left of the left view, one at the right of the
- * right one; the last pixel by its share. */
+/* Bars appear only where something is cut off, as wide as its disparity: at the left of the left view and at the
+ * right of the right one; the last pixel is partly covered. */
 static void
 windows_float_before_what_they_cut (void)
 {
-  CeldPlane    depth = sheet_depth ();
+  CeldPlane    depth = board_depth ();
   CeldColours  view[2] = { new_colours (W, H), new_colours (W, H) };
   CeldSettings settings = celd_settings ();
 
@@ -120,7 +120,7 @@ windows_float_before_what_they_cut (void)
   free (view[1].data);
 }
 
-/* Every path ends where it begins, by small steps, and goes as far as both eyes. */
+/* Every path is closed, moves in small steps, and extends as far as both eyes. */
 static void
 paths_are_closed (void)
 {
@@ -148,9 +148,9 @@ paths_are_closed (void)
       }
 }
 
-/* ------------------------------------------------------------------ two views in one picture */
+/* ------------------------------------------------------------------ frame packing */
 
-/* White and greys look through glasses as they are; each glass sees its own eye's view. */
+/* White and greys are preserved by anaglyphs; each glass shows its own eye's view. */
 static void
 glasses_keep_white_and_greys (void)
 {
@@ -182,7 +182,7 @@ the_left_view_is_red (void)
     }
 }
 
-/* Where one eye sees nothing of a transparent drawing, the other's view is as opaque as it was. */
+/* Where one view is transparent, the other one's is as opaque as before. */
 static void
 glasses_see_through_what_is_transparent (void)
 {
