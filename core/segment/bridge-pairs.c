@@ -27,7 +27,6 @@
 
 #define SECTORS 16 /* of directions (chosen) */
 #define BACK    2  /* sectors: two ends that turn by at most 20 degrees each face each other within 40 */
-#define PI      3.14159265358979
 
 struct CeldTipPairs
 {
@@ -96,7 +95,7 @@ cell_along (double distance, double side, int n)
 static int
 sector_of (double dx, double dy)
 {
-  return cell_along (atan2 (dy, dx) + PI, 2 * PI / SECTORS, SECTORS);
+  return cell_along (atan2 (dy, dx) + CELD_PI, 2 * CELD_PI / SECTORS, SECTORS);
 }
 
 static size_t

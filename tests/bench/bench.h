@@ -41,7 +41,7 @@ typedef enum
 {
   PART_READ,      /* scribbles as painted -> seeds */
   PART_BUILD,     /* basins */
-  PART_STAINS,
+  PART_SPILLS,
   PART_BACKGROUND,
   PART_GRAPH,
   PART_PARTITION, /* of PART_GRAPH, and wherever else a graph is parted */

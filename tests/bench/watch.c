@@ -74,7 +74,7 @@ __wrap_celd_maxflow (int width, int height, const int32_t *east, const int32_t *
 /* ------------------------------------------------------------------ steps of the engine */
 
 const char *const part_name[N_PARTS] = {
-  "read", "build", "stains", "background", "graph", "partition", "windows", "closures", "painting", "report"
+  "read", "build", "spills", "background", "graph", "partition", "windows", "closures", "painting", "report"
 };
 double part_seconds[N_PARTS];
 
@@ -103,7 +103,7 @@ STEP (PART_READ, celd_scribbles_read,
       (scribbles, settings, host, seeds, palette))
 STEP (PART_BUILD, celd_basins_new,
       (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins), (ink, threshold, host, basins))
-STEP (PART_STAINS, celd_spills_remove, (const CeldHost *host, CeldSegmentTask *task), (host, task))
+STEP (PART_SPILLS, celd_spills_remove, (const CeldHost *host, CeldSegmentTask *task), (host, task))
 STEP (PART_BACKGROUND, celd_background_seed, (const CeldHost *host, CeldSegmentTask *task), (host, task))
 STEP (PART_GRAPH, celd_basin_graph_solve, (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label),
       (task, host, label))
