@@ -12,7 +12,6 @@
 
 #include <math.h>
 
-#define PI          3.14159265358979
 #define ARMS        4
 #define SAMPLES     256  /* on a circle, at most */
 #define MOST_BEND   0.6  /* radians that a stroke may turn at a crossing */
@@ -77,8 +76,8 @@ find_arcs (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, doub
         continue;
       if (arcs == ARMS)
         return false;
-      middle[arcs] = PI * (start + i - 1) / n;
-      wide[arcs++] = 2 * PI * (i - start) / n;
+      middle[arcs] = CELD_PI * (start + i - 1) / n;
+      wide[arcs++] = 2 * CELD_PI * (i - start) / n;
     }
   return arcs == ARMS;
 }
@@ -87,7 +86,7 @@ find_arcs (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, doub
 static double
 bend_between (double a, double b)
 {
-  return fabs (PI - fmod (fabs (b - a), 2 * PI));
+  return fabs (CELD_PI - fmod (fabs (b - a), 2 * CELD_PI));
 }
 
 /* Is there a crossing of strokes on a circle? */
@@ -106,7 +105,7 @@ look_round (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, dou
   for (int i = 0; i < ARMS; i++)
     {
       x->arm[i]     = (CeldPoint) { centre.x + radius * cos (middle[i]), centre.y + radius * sin (middle[i]) };
-      x->breadth[i] = 2 * radius * sin (fmin (PI, wide[i]) / 2);
+      x->breadth[i] = 2 * radius * sin (fmin (CELD_PI, wide[i]) / 2);
       if (!is_way (c, centre, middle[i], 0, radius) || !goes_on (c, centre, middle[i], radius))
         return false;
     }
@@ -137,8 +136,8 @@ gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
 
   for (int i = 0; i < SAMPLES; i++)
     {
-      circle.x[i] = cos (2 * PI * i / SAMPLES);
-      circle.y[i] = sin (2 * PI * i / SAMPLES);
+      circle.x[i] = cos (2 * CELD_PI * i / SAMPLES);
+      circle.y[i] = sin (2 * CELD_PI * i / SAMPLES);
     }
 
   for (int y = 1; y + 1 < c->height; y++)

@@ -11,7 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define PI        3.14159265358979323846
 #define STRAIGHT  0.25          /* radians: how far the bar of a T may seem to turn */
 #define DOUBT     0.03          /* of what a clear junction says */
 #define DOUBT_UNCLEAR 0.2       /* and of any other */
@@ -133,7 +132,7 @@ turning (const CeldRegionOutlines *outlines, const CeldOutlineLoop *loop, const 
 
           area += (double) p->x * (double) q->y - (double) q->x * (double) p->y;
         }
-      return area > 0 ? 2 * PI : -2 * PI;
+      return area > 0 ? 2 * CELD_PI : -2 * CELD_PI;
     }
   for (size_t k = 0; k < run->n && at <= run->length - step / 2; k++)
     {
@@ -285,7 +284,7 @@ is_clear (const CeldJunction *corner)
       sum     += (double) corner->turn[k]; /* NaN is not clear */
       corners += corner->turn[k] > (float) STRAIGHT;
     }
-  return fabs (sum - PI) < 2 * STRAIGHT && corners >= 2;
+  return fabs (sum - CELD_PI) < 2 * STRAIGHT && corners >= 2;
 }
 
 /* How likely it is that an outline that trials so much at a junction is the bar of a T, not to scale. */
@@ -324,7 +323,7 @@ compactness (const Gathering *g, uint32_t label)
 {
   double whole = g->whole[label];
 
-  return whole > 0 ? fmin (1, 4 * PI * (double) g->palette->item[label - 1].area / (whole * whole)) : 1;
+  return whole > 0 ? fmin (1, 4 * CELD_PI * (double) g->palette->item[label - 1].area / (whole * whole)) : 1;
 }
 
 /* How far a region is all along the frame, as a background is: 0 if it has no more than half of it. */
