@@ -1,4 +1,4 @@
-/* Memory, pixel access, and the progress and threads that the host lends: what every file of core uses.
+/* Memory, access to pixels, progress and threads: what every file of core uses.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,7 +9,8 @@
 
 #include <string.h>
 
-#define CELD_PI 3.14159265358979323846
+#define CELD_PI      3.14159265358979323846
+#define CELD_RADIANS (CELD_PI / 180) /* in a degree */
 
 /* ------------------------------------------------------------------ memory.c */
 
@@ -19,39 +20,42 @@ void *celd_alloc (size_t count, size_t size);                 /* not cleared */
 void *celd_alloc0 (size_t count, size_t size);                /* cleared */
 void  celd_free (void *memory);                               /* accepts NULL */
 
-CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);     /* not cleared; end with celd_free (data) */
-CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);  /* cleared */
-CeldStatus celd_mask_new (int width, int height, CeldMask *mask);        /* cleared */
+/* New tight pictures (stride = width), owned by the caller, who frees .data with celd_free.  width and height > 0. */
+CeldStatus celd_plane_new (int width, int height, CeldPlane *plane);       /* uninitialised */
+CeldStatus celd_labels_new (int width, int height, CeldLabels *labels);    /* all 0 */
+CeldStatus celd_mask_new (int width, int height, CeldMask *mask);          /* all 0 */
 
-CeldStatus celd_ownership_new (int width, int height, CeldOwnership *own); /* labels cleared, coverage not */
-void       celd_ownership_clear (CeldOwnership *own);                     /* also what was made by half */
+CeldStatus celd_ownership_new (int width, int height, CeldOwnership *own); /* labels 0, coverage uninitialised */
+void       celd_ownership_clear (CeldOwnership *own);                      /* accepts a zeroed record */
 
-CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem); /* problems NULL: nothing to do */
+/* Append one record.  Without a list of problems (NULL) nothing is to be reported, and the answer is CELD_OK. */
+CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem);
 CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 
+/* Whether two ends of relations name the same colour or the same point. */
 static inline bool
 celd_term_same (const CeldTerm *a, const CeldTerm *b)
 {
   return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
 }
 
-/* ------------------------------------------------------------------ views */
+/* ------------------------------------------------------------------ pictures */
 
-/* The pixel (x,y) of any view that has one element a pixel. */
+/* Pixel (x,y) of any picture with one element a pixel. */
 #define CELD_AT(view, x, y) ((view)->data[(size_t) (y) * (view)->stride + (size_t) (x)])
 
-/* First byte or float of the pixel (x,y) of a CeldPaint or CeldColours. */
+/* Pointer to the four components of pixel (x,y) of a CeldPaint or CeldColours. */
 #define CELD_RGBA(view, x, y) ((view)->data + 4 * ((size_t) (y) * (view)->stride + (size_t) (x)))
 
-/* First float of the pixel (x,y) of a CeldVectors. */
+/* Pointer to the three components of pixel (x,y) of a CeldVectors. */
 #define CELD_XYZ(view, x, y) ((view)->data + 3 * ((size_t) (y) * (view)->stride + (size_t) (x)))
 
-/* Are both views present, of a legal size, and equally large? */
+/* Whether two pictures have data, equal sizes, and sides of 1 .. CELD_MAX_SIDE pixels. */
 #define CELD_SAME_SIZE(a, b) \
   ((a)->data && (b)->data && (a)->width == (b)->width && (a)->height == (b)->height && \
    (a)->width > 0 && (a)->height > 0 && (a)->width <= CELD_MAX_SIDE && (a)->height <= CELD_MAX_SIDE)
 
-/* The smallest rectangle round both; one of width 0 is none. */
+/* The bounding box of two rectangles; one of width 0 is empty. */
 static inline CeldRect
 celd_rect_union (CeldRect a, CeldRect b)
 {
@@ -68,9 +72,9 @@ celd_rect_union (CeldRect a, CeldRect b)
 
 /* ------------------------------------------------------------------ vectors */
 
-/* Before a static function, a plain loop over pixels: compiled for wider vectors too, and chosen when the library is
- * loaded.  Its name is unique in core, and it is called in its own file: clang makes the chosen one global under
- * another name.  The resolver runs before sanitizers are ready. */
+/* In front of a static function that is a plain loop over pixels: compiles it for wider vectors as well; the version is
+ * chosen when the library is loaded.  The function's name must be unique in core, since clang makes a global symbol of
+ * it, and it must be called in its own file only.  Off with sanitizers, which are not ready when the choice is made. */
 #if defined __has_feature
 #if __has_feature (address_sanitizer) || __has_feature (undefined_behavior_sanitizer) \
   || __has_feature (thread_sanitizer)
@@ -88,14 +92,14 @@ celd_rect_union (CeldRect a, CeldRect b)
 #endif
 #endif
 
-/* Fetches what will be read soon. */
+/* A hint that memory will be read soon. */
 #if defined __GNUC__
 #define CELD_PREFETCH(address) __builtin_prefetch (address)
 #else
 #define CELD_PREFETCH(address) ((void) (address))
 #endif
 
-/* The first of the bytes x .. n - 1 that has its top bit set; n if none has. */
+/* The index of the first of the bytes x .. n - 1 whose top bit is set; n if there is none. */
 static inline int
 celd_next_marked (int n, const uint8_t *byte, int x)
 {
@@ -118,20 +122,23 @@ celd_next_marked (int n, const uint8_t *byte, int x)
   return x;
 }
 
-/* ------------------------------------------------------------------ progress and threads (host.c) */
+/* ------------------------------------------------------------------ host.c: progress and threads */
 
-/* The part [from,to] of a longer run, as a run of its own: `part` must outlive it.  With from = to it reports no
- * progress, but cancels and lends threads: for short steps, of which several may share it. */
+/* A host for a step that is the part [from,to] of a longer work with the host `whole`: its progress 0 .. 1 is reported
+ * as from .. to.  `part` is storage that must live as long as the host returned.  With from = to the step reports no
+ * progress of its own, but can still be cancelled and use threads; several short steps may share such a host. */
 typedef struct { const CeldHost *whole; double from, to; } CeldHostPart;
 CeldHost celd_host_part (CeldHostPart *part, const CeldHost *whole, double from, double to);
 
-/* Reports progress; CELD_CANCELLED when the host wants to stop. */
+/* Reports that the fraction `done` in [0,1] is finished; CELD_CANCELLED if the host wants to stop, else CELD_OK. */
 CeldStatus celd_progress (const CeldHost *host, double done);
 
-/* body (data, 0 .. n-1), on the host's threads if it lends any. */
+/* Calls body (data, i) for all i = 0 .. n-1, in any order and on the host's threads if it lends any; returns when all
+ * calls have. */
 void celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, int i), void *data);
 
-/* n jobs in rounds of at most `at_once`, which is the part [from,to] of the run: body (data, i) is job *first + i. */
+/* Runs n jobs in rounds of at most `at_once`, with a report of progress in [from,to] after each round; in a round,
+ * body (data, i) is to do job *first + i.  CELD_CANCELLED as celd_progress. */
 CeldStatus celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data,
                                  int *first, double from, double to);
 

@@ -1,4 +1,4 @@
-/* Progress, cancel and threads, as far as the host lends them.
+/* Progress, cancel and threads: calls of the functions that the host lends, or substitutes without a host.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -44,8 +44,8 @@ celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, int i)
 }
 
 CeldStatus
-celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data, int *first,
-                      double from, double to)
+celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data,
+                      int *first, double from, double to)
 {
   CeldStatus status = CELD_OK;
 

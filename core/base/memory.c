@@ -1,4 +1,4 @@
-/* Allocation with overflow checks, and the ends of the records of celdepth.h.
+/* Allocation with overflow checks; making, growing and clearing the records of celdepth.h.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

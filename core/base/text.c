@@ -1,7 +1,7 @@
-/* What the readers of relations share.
+/* Reading numbers and reporting errors, for the readers of relations and paths.
  *
- * Numbers are read without the C library, whose decimal point depends on the locale.  Digits are gathered in a mantissa
- * that stays exact, and scaled once, so that plain decimals are correctly rounded.
+ * Numbers are read without the C library, whose decimal point depends on the locale.  Digits are collected in an exact
+ * mantissa that is scaled once, so that plain decimals are correctly rounded.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,8 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define LARGEST       1e9
-#define MOST_EXPONENT 400 /* beyond, every number is 0 or too large */
+#define LARGEST_NUMBER 1e9 /* and more is refused: far outside any drawing */
+#define MOST_EXPONENT  400 /* a larger one makes any number 0 or too large */
 
 void
 celd_text_advance (CeldReader *r)
@@ -39,7 +39,7 @@ celd_text_skip_line_end (CeldReader *r)
     r->line++;
 }
 
-/* Bytes of the character at `text`, 0 where it is not well-formed UTF-8. */
+/* The number of bytes of the UTF-8 character at `text`; 0 if it is malformed. */
 static size_t
 character_length (const char *text)
 {
@@ -80,7 +80,7 @@ celd_text_is_digit (char c)
   return c >= '0' && c <= '9';
 }
 
-/* The power of ten behind an "e"; 0 if there is none, and then nothing is read. */
+/* Reads "e" and an exponent; returns 0 and reads nothing if there is none. */
 static int
 read_exponent (CeldReader *r)
 {
@@ -114,11 +114,11 @@ celd_text_number (CeldReader *r, bool svg, const char *expected, double *number)
   if (negative || (svg && *r->at == '+'))
     celd_text_advance (r);
   for (; celd_text_is_digit (*r->at); celd_text_advance (r), any = true)
-    if ((mantissa = mantissa * 10 + (*r->at - '0')) >= LARGEST)
+    if ((mantissa = mantissa * 10 + (*r->at - '0')) >= LARGEST_NUMBER)
       return celd_text_refuse (&start, "a smaller number");
   if (*r->at == '.')
     for (celd_text_advance (r); celd_text_is_digit (*r->at); celd_text_advance (r), any = true)
-      if (mantissa < LARGEST * 1e5 && divisor < 1e15) /* later decimals are below the precision of the result */
+      if (mantissa < LARGEST_NUMBER * 1e5 && divisor < 1e15) /* later decimals are below the precision of the result */
         {
           mantissa = mantissa * 10 + (*r->at - '0');
           divisor *= 10;
@@ -129,5 +129,7 @@ celd_text_number (CeldReader *r, bool svg, const char *expected, double *number)
   exponent = svg ? read_exponent (r) : 0;
   if (exponent)
     *number *= pow (10, exponent);
-  return fabs (*number) < LARGEST ? CELD_OK : celd_text_refuse (&start, "a smaller number"); /* 0 * infinity, too */
+  if (!(fabs (*number) < LARGEST_NUMBER)) /* also refuses 0 * infinity */
+    return celd_text_refuse (&start, "a smaller number");
+  return CELD_OK;
 }

@@ -1,4 +1,4 @@
-/* A byte for each square of a picture.
+/* One byte of marks for each square tile of a picture.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,11 +7,11 @@
 
 #include "base/base.h"
 
-#define CELD_TILE 16 /* pixels a side */
+#define CELD_TILE 16 /* pixels a side (chosen) */
 
 typedef struct { int across, down; uint8_t *at; } CeldTiles;
 
-/* All 0; end with celd_free (at). */
+/* Tiles that cover the picture, all marks 0; the caller frees `at` with celd_free. */
 static inline CeldStatus
 celd_tiles_new (int width, int height, CeldTiles *tiles)
 {
@@ -20,17 +20,17 @@ celd_tiles_new (int width, int height, CeldTiles *tiles)
   return tiles->at ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* The tile of pixel (x,y). */
+/* The marks of the tile of pixel (x,y). */
 static inline uint8_t *
 celd_tile_of (const CeldTiles *tiles, int x, int y)
 {
   return &tiles->at[(size_t) (y / CELD_TILE) * (size_t) tiles->across + (size_t) (x / CELD_TILE)];
 }
 
-/* Tiles left .. right, top .. bottom; none where right < left. */
+/* Tiles left .. right, top .. bottom, inclusive; none if right < left. */
 typedef struct { int left, top, right, bottom; } CeldTileSpan;
 
-/* Those that a box of places touches. */
+/* The tiles that a box of places, in pixels, touches. */
 static inline CeldTileSpan
 celd_tile_span (const CeldTiles *tiles, float left, float top, float right, float bottom)
 {
@@ -44,7 +44,7 @@ celd_tile_span (const CeldTiles *tiles, float left, float top, float right, floa
   };
 }
 
-/* Has any of them one of the bits? */
+/* Whether any tile of the span has any of these bits set. */
 static inline bool
 celd_tiles_any (const CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
 {
@@ -55,7 +55,7 @@ celd_tiles_any (const CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
   return false;
 }
 
-/* Gives the bits to all of them. */
+/* Sets these bits in all tiles of the span. */
 static inline void
 celd_tiles_mark (CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
 {
@@ -64,7 +64,7 @@ celd_tiles_mark (CeldTiles *tiles, CeldTileSpan span, uint8_t bits)
       tiles->at[(size_t) y * (size_t) tiles->across + (size_t) x] |= bits;
 }
 
-/* The pixels of a tile. */
+/* The pixels of tile (tile_x,tile_y), cut to the picture of this size. */
 static inline CeldRect
 celd_tile_rect (int tile_x, int tile_y, int width, int height)
 {

@@ -1,7 +1,7 @@
-/* Sets of numbered things that are joined: union-find with path halving.
+/* Disjoint sets of the numbers 0 .. n-1: union-find with path halving.
  *
- * parent[k] = k to begin with.  Of two sets that join, the smaller root stays one, so that a root comes before all of
- * its members; parents always come before their children.
+ * The sets are stored as one array, parent[k].  Of two joined sets the smaller root becomes the root of both, so a root
+ * is the smallest number of its set, and parent[k] <= k.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* n sets of one. */
+/* n sets of one number each. */
 static inline void
 celd_roots (uint32_t *parent, size_t n)
 {
@@ -21,7 +21,7 @@ celd_roots (uint32_t *parent, size_t n)
     parent[k] = (uint32_t) k;
 }
 
-/* The representative of the set in which k is. */
+/* The root of the set that k is in; shortens paths on the way. */
 static inline uint32_t
 celd_root (uint32_t *parent, uint32_t k)
 {
@@ -30,7 +30,7 @@ celd_root (uint32_t *parent, uint32_t k)
   return k;
 }
 
-/* Joins the sets of a and b. */
+/* Makes one set of those of a and b. */
 static inline void
 celd_join (uint32_t *parent, uint32_t a, uint32_t b)
 {

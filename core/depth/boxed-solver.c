@@ -7,7 +7,7 @@
 #include "depth/depth.h"
 #include "solve/laplace.h"
 
-#define SLACK 4096 /* pixels that merging two boxes may waste: setting up a box costs about as much (chosen) */
+#define BOX_SLACK 4096 /* pixels that merging two boxes may waste: setting up a box costs about as much (chosen) */
 
 /* ------------------------------------------------------------------ groups of boxes */
 
@@ -36,7 +36,7 @@ merge_groups (size_t n_boxes, uint32_t *group, CeldRect *bounds, size_t *n)
 {
   for (size_t a = 0; a < *n; a++)
     for (size_t b = a + 1; b < *n; b++)
-      if (waste (bounds[a], bounds[b]) <= SLACK)
+      if (waste (bounds[a], bounds[b]) <= BOX_SLACK)
         {
           bounds[a] = celd_rect_union (bounds[a], bounds[b]);
           bounds[b] = bounds[--*n];
@@ -62,7 +62,7 @@ celd_boxes_group (const CeldRect *box, size_t n, uint32_t *group, CeldRect bound
       for (size_t g = 1; g < groups; g++)
         if (waste (bounds[g], box[k]) < waste (bounds[best], box[k]))
           best = g;
-      if (groups < CELD_MOST_GROUPS && (!groups || waste (bounds[best], box[k]) > SLACK))
+      if (groups < CELD_MOST_GROUPS && (!groups || waste (bounds[best], box[k]) > BOX_SLACK))
         bounds[best = groups++] = box[k];
       bounds[best] = celd_rect_union (bounds[best], box[k]);
       group[k]     = (uint32_t) best;

@@ -1,11 +1,11 @@
-/* What holds a region without an anchor: its inner core, the pixels that lie at least half as deep inside it as its
- * deepest pixel.  Distances count from the region's border, not from the frame.
+/* Cores: what keeps a region without an anchor at its level.
  *
- * Specks are not held: they would stand out as spikes.  Beside given anchors, the core is for regions that have none:
- * one pixel of a gap in its contour would give the whole of such a region its neighbour's depth.
+ * The core of a region are the pixels at least half as far from its boundary as its innermost pixel is.  The edge of
+ * the picture does not count as boundary.  Without a core a gap of one pixel in its contour would give such a region
+ * the depth of its neighbour.  Specks get none, since they would stand out as spikes.
  *
- * A core depends on nothing but its region's pixels, for on the way to a border pixel of another region lies one of its
- * own that is nearer.  So regions can be measured in any box that they lie in, and only those that changed have to be.
+ * A core depends only on its region's own pixels: the boundary pixels of the region are nearer than any of another
+ * region.  So regions can be measured in any box that contains them, and only those that changed have to be.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,18 +14,18 @@
 
 typedef struct
 {
-  int          width, height;
-  const float *level;
-  CeldRunComponents    regions;
-  CeldRect    *box;             /* of each region that is to be measured; width 0: the others */
-  int32_t     *deepest;         /* of each region: squared distance of its deepest pixel */
-  uint32_t    *group;
-  uint8_t     *fixed;
+  int               width, height;
+  const float      *level;
+  CeldRunComponents regions;
+  CeldRect         *box;             /* of each region whose core is to be found; width 0 for the others */
+  int32_t          *deepest;         /* of each region: squared distance of its innermost pixel */
+  uint32_t         *group;
+  uint8_t          *fixed;
 } Cores;
 
 /* ------------------------------------------------------------------ which regions */
 
-/* What is known of a region without looking at its distances. */
+/* A region: whether it has an anchor (held), a changed pixel, a core before. */
 typedef struct { size_t area; bool held, changed, had_core; } Region;
 
 static void
@@ -35,8 +35,8 @@ look_at_regions (const Cores *c, const uint8_t *changed, const uint8_t *last, Re
     for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
       {
         const CeldPixelRun *s = &c->regions.run[i];
-        Region            *r = &region[s->component];
-        const size_t       first = (size_t) y * (size_t) c->width + (size_t) s->x, n = (size_t) (s->end - s->x);
+        Region             *r = &region[s->component];
+        const size_t        first = (size_t) y * (size_t) c->width + (size_t) s->x, n = (size_t) (s->end - s->x);
 
         r->area    += n;
         r->held     = r->held || memchr (c->fixed + first, CELD_ANCHOR, n);
@@ -45,7 +45,7 @@ look_at_regions (const Cores *c, const uint8_t *changed, const uint8_t *last, Re
       }
 }
 
-/* Cores that are as they were are taken over; boxes of the regions whose cores have to be found. */
+/* Copies cores that cannot have changed; finds the boxes of the regions whose cores are to be found. */
 static void
 take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *last)
 {
@@ -53,8 +53,8 @@ take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *la
     for (size_t i = c->regions.row[y]; i < c->regions.row[y + 1]; i++)
       {
         const CeldPixelRun *s = &c->regions.run[i];
-        const Region      *r = &region[s->component];
-        const size_t       first = (size_t) y * (size_t) c->width;
+        const Region       *r = &region[s->component];
+        const size_t        first = (size_t) y * (size_t) c->width;
 
         if (r->held || r->area < speck)
           continue;
@@ -67,7 +67,7 @@ take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *la
 
 /* ------------------------------------------------------------------ distances in a box */
 
-/* Does the pixel (x,y) lie beside another region? */
+/* Whether the pixel (x,y) is beside another region. */
 static bool
 on_border (const Cores *c, int x, int y)
 {
@@ -82,7 +82,7 @@ on_border (const Cores *c, int x, int y)
   CELD_EACH_RUN (&(c)->regions, (bounds).y, (bounds).y + (bounds).height, y, s) \
     if ((c)->group[s->component] == (g))
 
-/* The cores of one group's regions. */
+/* Finds the cores of one group's regions. */
 static CeldStatus
 measure (const Cores *c, uint32_t g, CeldRect box, const CeldHost *host)
 {
@@ -139,7 +139,8 @@ mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last,
   for (size_t g = 0; g < groups && status == CELD_OK; g++)
     {
       CeldHostPart part;
-      CeldHost share = celd_host_part (&part, host, (double) g / (double) groups, (double) (g + 1) / (double) groups);
+      double       from = (double) g / (double) groups, to = (double) (g + 1) / (double) groups;
+      CeldHost     share = celd_host_part (&part, host, from, to);
 
       status = measure (c, (uint32_t) g, bounds[g], &share);
     }
@@ -154,10 +155,10 @@ CeldStatus
 celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
                  const uint8_t *last, const CeldHost *host, uint8_t *fixed)
 {
-  Cores      c = { .width = width, .height = height, .level = level, .fixed = fixed };
-  CeldHostPart   part[2];
-  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), measuring = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus status  = celd_run_components_find (width, height, level, NULL, NULL, &finding, &c.regions);
+  Cores        c = { .width = width, .height = height, .level = level, .fixed = fixed };
+  CeldHostPart part[2];
+  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.3), measuring = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus   status  = celd_run_components_find (width, height, level, NULL, NULL, &finding, &c.regions);
 
   if (status == CELD_OK)
     status = mark_cores (&c, speck, changed, last, &measuring);

@@ -186,11 +186,9 @@ typedef struct
   const CeldMask     *anchors;  /* NULL: none */
   const CeldSettings *settings;
   int                 radius;   /* celd_edge_radius of the ink */
-  size_t              speck;    /* least pixels of a region that is held by its core */
+  size_t              speck;    /* least pixels of a region that is held by its core, as CELD_SPECK */
   const float        *last;     /* the depth that the state belongs to; NULL: none */
 } CeldSmoothInput;
-
-#define CELD_SPECK 16           /* pixels, for CeldSmoothInput; chosen, as in celd_separate */
 
 /* Smooth depth as celd_smooth; makes the plane.  `state` (may be NULL) remembers what it was made from: the next time,
  * depth stays bit by bit the same in components that nothing changed, and starts from the last depth elsewhere. */

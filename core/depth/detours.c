@@ -1,13 +1,13 @@
-/* Is there a short way round the end of a cut?  A cut that ends nearby parts nothing.
+/* Whether a short detour leads around a cut.  A cut that ends nearby separates nothing.
  *
- * Whole rows of a small window are filled at once, a bit a pixel.
+ * Flood fill in a small window, with one bit for each pixel, so that a whole row is filled at once.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "depth/depth.h"
 
-#define REACH  7 /* pixels that the way may go away from the cut */
-#define WINDOW (2 * REACH + 1)
+#define DETOUR_RADIUS 7 /* pixels that a detour may leave the cut (chosen) */
+#define WINDOW        (2 * DETOUR_RADIUS + 1)
 
 /* ------------------------------------------------------------------ bits */
 
@@ -50,20 +50,20 @@ celd_pixel_links_clear (CeldPixelLinks *joined)
   celd_free (joined->south);
 }
 
-/* ------------------------------------------------------------------ ways */
+/* ------------------------------------------------------------------ detours */
 
-/* The bits of the pixels x - REACH .. x + REACH of row y; 0 outside the picture. */
+/* The bits of pixels x - DETOUR_RADIUS .. x + DETOUR_RADIUS of row y; 0 outside the picture. */
 static inline uint32_t
 window_row (const CeldPixelLinks *g, const uint64_t *bits, int x, int y)
 {
   const uint64_t *row = bits + (size_t) y * g->words;
-  int             from = x - REACH, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
+  int             from = x - DETOUR_RADIUS, word = from >= 0 ? from / 64 : -1, shift = from - 64 * word;
   uint64_t        low = word >= 0 ? row[word] : 0, high = (size_t) (word + 1) < g->words ? row[word + 1] : 0;
 
   return (uint32_t) ((low >> shift) | (shift ? high << (64 - shift) : 0)) & ((1u << WINDOW) - 1);
 }
 
-/* What of a row can be reached from what is seen of it. */
+/* Extends the filled pixels of a row along its links. */
 static inline uint32_t
 spread (uint32_t seen, uint32_t east)
 {
@@ -84,13 +84,13 @@ celd_has_detour (const CeldPixelLinks *g, int x, int y, bool down)
 
   for (int r = 0; r < WINDOW; r++)
     {
-      int  v = y + r - REACH;
+      int  v = y + r - DETOUR_RADIUS;
       bool inside = v >= 0 && v < g->height;
 
       east[r]  = inside ? window_row (g, g->east, x, v) & ((1u << (WINDOW - 1)) - 1) : 0;
       south[r] = inside && r + 1 < WINDOW ? window_row (g, g->south, x, v) : 0;
     }
-  seen[REACH] = 1u << REACH;
+  seen[DETOUR_RADIUS] = 1u << DETOUR_RADIUS;
   while (grown)
     {
       grown = false;
@@ -101,11 +101,11 @@ celd_has_detour (const CeldPixelLinks *g, int x, int y, bool down)
 
           now |= r > 0 ? seen[r - 1] & south[r - 1] : 0;
           now |= r + 1 < WINDOW ? seen[r + 1] & south[r] : 0;
-          now   = now == seen[r] && r != REACH ? now : spread (now, east[r]);
+          now   = now == seen[r] && r != DETOUR_RADIUS ? now : spread (now, east[r]);
           grown = grown || now != seen[r];
           seen[r] = now;
         }
-      if (down ? seen[REACH + 1] >> REACH & 1 : seen[REACH] >> (REACH + 1) & 1)
+      if (down ? seen[DETOUR_RADIUS + 1] >> DETOUR_RADIUS & 1 : seen[DETOUR_RADIUS] >> (DETOUR_RADIUS + 1) & 1)
         return true;
     }
   return false;

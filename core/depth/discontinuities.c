@@ -1,17 +1,17 @@
-/* Where depth is cut: the weights of eq. (3).
+/* Depth discontinuities: the weights v_pq of eq. (3).
  *
- * The paper takes v_pq = I_p where levels differ.  On antialiased ink that leaks along the whole contour, more so once
- * ink belongs to its owner and the border runs along the ink's edge; so v_pq is the least ink around p and q, as far as
- * half a stroke is wide, and exactly 0 where that is full ink.  A closed contour then cuts, whether levels are expanded
- * or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a virtual contour gives
- * a smooth transition.
+ * The paper sets v_pq = I_p where levels differ.  With antialiased ink depth then leaks along whole contours, even more
+ * after expansion, when the boundary runs along the edge of the ink.  So here v_pq is the least ink within half a
+ * stroke width of p and q, and exactly 0 where that is full ink.  Then a closed contour is a discontinuity whether
+ * levels are expanded or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a
+ * virtual contour gives a smooth transition.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "depth/depth.h"
 #include "image/image.h"
 
-#define LARGEST_RADIUS 12 /* pixels: half a stroke at most, for solid areas are none */
+#define LARGEST_RADIUS 12 /* pixels: half the width of the widest stroke; wider ink is an area (chosen) */
 
 int
 celd_edge_radius (int stroke)
@@ -21,8 +21,8 @@ celd_edge_radius (int stroke)
   return reach < 1 ? 1 : reach > LARGEST_RADIUS ? LARGEST_RADIUS : reach;
 }
 
-/* Least ink of the pixels x0 .. x1, y0 .. y1 that lie in the picture, or any at or below the threshold; NaN reads as
- * paper. */
+/* The least ink of the pixels x0 .. x1, y0 .. y1 in the picture, or any value at or below the threshold if there is
+ * one; NaN reads as paper. */
 static float
 least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
 {
@@ -38,14 +38,14 @@ least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
 float
 celd_discontinuity_weight (const CeldDepthEdges *b, int x, int y, int right, int down)
 {
-  float least = least_ink (b, x, y, x + right, y + down); /* enough on closed contours */
+  float least = least_ink (b, x, y, x + right, y + down); /* usually decides on closed contours */
 
   if (least > b->threshold)
     least = least_ink (b, x - b->radius, y - b->radius, x + right + b->radius, y + down + b->radius);
   return least <= b->threshold ? 0 : least;
 }
 
-/* 1 where two rows of levels are equal, else marked for a closer look. */
+/* Sets weights to 1 where two rows of levels are equal, and marks the others. */
 CELD_CLONES static void
 compare_levels (const float *restrict a, const float *restrict b, int n, float *restrict weight,
                 uint8_t *restrict differs)
@@ -70,9 +70,9 @@ celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, c
                     float *east, float *south)
 {
   CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)) };
-  size_t     w = (size_t) ink->width;
-  uint8_t   *differs = celd_alloc (w, 1);
-  CeldStatus status = differs ? CELD_OK : CELD_NO_MEMORY;
+  size_t         w = (size_t) ink->width;
+  uint8_t       *differs = celd_alloc (w, 1);
+  CeldStatus     status = differs ? CELD_OK : CELD_NO_MEMORY;
 
   for (int y = 0; y < ink->height && status == CELD_OK; y++, level += w, east += w, south += w)
     {

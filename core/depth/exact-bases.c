@@ -1,11 +1,11 @@
 /* Harmonic bases of the nodes: all the Laplacian solutions that the exact program needs.
  *
- * One set-up and n - 1 solutions, CELD_LANES at a time, for n nodes.  After that values, inequalities and equalities
- * of nodes change without a solution, and single pixels become nodes and stop being nodes with one or none
- * (program-nodes.c).
+ * For n nodes: one set-up and n - 1 solutions, CELD_LANES at a time.  After that the values of nodes, inequalities and
+ * equalities can change without another solution.  A single pixel becomes a node with one solution and stops being one
+ * with none (exact-nodes.c).
  *
- * Memory: 4 bytes a pixel for each node but one, in steps of CELD_LANES, and 4 for the node of each pixel; the solver's
- * own is given back as soon as the bases are made.
+ * Memory: 4 bytes per pixel for each node but one, in steps of CELD_LANES, and 4 for the node of each pixel; the memory
+ * of the solver is freed as soon as the bases are made.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +14,7 @@
 #include "depth/exact.h"
 #include "solve/laplace.h"
 
-#define BAND 16 /* rows that one thread composes at once */
+#define BAND_ROWS 16 /* rows of a job when depth is composed */
 
 /* ------------------------------------------------------------------ lanes */
 
@@ -56,7 +56,7 @@ celd_bases_clear (CeldHarmonicBases *bases)
 
 /* ------------------------------------------------------------------ all nodes at once */
 
-/* From which old node each new one starts: the one that had its first pixel of any; 0 = none. */
+/* Chooses the old node that each new one starts from: that of the first pixel that was in one; 0 if there is none. */
 static void
 find_starts (const CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
              uint32_t *start)
@@ -70,20 +70,20 @@ find_starts (const CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, 
 
 typedef struct
 {
-  CeldHarmonicBases      *bases;
-  const uint32_t *start;        /* of each new node */
-  uint32_t        n_old, n_new;
-  float          *work;         /* of each row: the old bases of a pixel */
+  CeldHarmonicBases *bases;
+  const uint32_t    *start;        /* of each new node */
+  uint32_t           n_old, n_new;
+  float             *work;         /* of each row: room for the old bases of a pixel */
 } Start;
 
-/* Bases that are exact on the nodes and the old ones elsewhere, in the order of the new ones. */
+/* Fills in the start: exact on the nodes, elsewhere the old bases in the order of the new nodes. */
 static void
 start_row (void *data, int y)
 {
-  Start     *s = data;
+  Start             *s = data;
   CeldHarmonicBases *b = s->bases;
-  size_t     w = (size_t) b->width, first = (size_t) y * w;
-  float     *old = s->work + (size_t) y * ((size_t) s->n_old + 1);
+  size_t             w = (size_t) b->width, first = (size_t) y * w;
+  float             *old = s->work + (size_t) y * ((size_t) s->n_old + 1);
 
   for (size_t p = first; p < first + w; p++)
     {
@@ -103,7 +103,7 @@ start_row (void *data, int y)
     }
 }
 
-/* Takes over the nodes; the bases are what a solution starts from. */
+/* Sets the nodes; bases become the start of the solutions. */
 static CeldStatus
 place_nodes (CeldHarmonicBases *b, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
              const CeldHost *host)
@@ -155,7 +155,7 @@ celd_bases_set_up (const CeldHarmonicBases *b, const CeldHost *host, CeldLaplace
   return status;
 }
 
-/* What a solution leaves a little outside [0,1] goes back; nodes are exact. */
+/* Clamps the solutions to [0,1], and makes them exact on the nodes. */
 static void
 clean_group (const CeldHarmonicBases *b, size_t group)
 {
@@ -170,21 +170,22 @@ CeldStatus
 celd_bases_make (CeldHarmonicBases *bases, const uint32_t *node, uint32_t n_sets, const size_t *point, size_t n_points,
                  double tolerance, const CeldHost *host, CeldSolve *solve)
 {
-  CeldHarmonicBases   *b = bases;
-  CeldLaplace *laplace = NULL;
-  CeldSolve    worst = { .converged = true };
-  CeldHostPart     part[2];
-  CeldHost     setting_up = celd_host_part (&part[0], host, 0, 0.1), summing = celd_host_part (&part[1], host, 0.95, 1);
-  CeldStatus   status = place_nodes (b, node, n_sets, point, n_points, host);
+  CeldHarmonicBases *b = bases;
+  CeldLaplace       *laplace = NULL;
+  CeldSolve          worst = { .converged = true };
+  CeldHostPart       part[2];
+  CeldHost           setting_up = celd_host_part (&part[0], host, 0, 0.1);
+  CeldHost           summing = celd_host_part (&part[1], host, 0.95, 1);
+  CeldStatus         status = place_nodes (b, node, n_sets, point, n_points, host);
 
   if (status == CELD_OK && b->n_groups)
     status = celd_bases_set_up (b, &setting_up, &laplace);
   for (size_t g = 0; g < b->n_groups && status == CELD_OK; g++)
     {
-      double    from = 0.1 + 0.85 * (double) g / (double) b->n_groups;
-      CeldHostPart  share;
-      CeldHost  solving = celd_host_part (&share, host, from, from + 0.85 / (double) b->n_groups);
-      CeldSolve one = { 0 };
+      double       from = 0.1 + 0.85 * (double) g / (double) b->n_groups;
+      CeldHostPart share;
+      CeldHost     solving = celd_host_part (&share, host, from, from + 0.85 / (double) b->n_groups);
+      CeldSolve    one = { 0 };
 
       status = celd_lap_solve_lanes (laplace, NULL, b->group[g], tolerance, &solving, &one);
       if (status == CELD_OK)
@@ -206,12 +207,12 @@ celd_bases_make (CeldHarmonicBases *bases, const uint32_t *node, uint32_t n_sets
 typedef struct
 {
   const CeldHarmonicBases *bases;
-  CeldPlane       *depth;
-  float           *value;       /* of each lane: u_k - u_1 */
-  float            base, low, high;
+  CeldPlane               *depth;
+  float                   *value;       /* of each lane: u_k - u_1 */
+  float                    base, low, high;
 } Composition;
 
-/* row[x] += sum over the lanes of a group. */
+/* row[x] += sum over the lanes of a group of basis times value. */
 CELD_CLONES static void
 add_group (int n, const float *restrict h, const float *restrict value, float *restrict row)
 {
@@ -226,10 +227,10 @@ add_group (int n, const float *restrict h, const float *restrict value, float *r
 static void
 compose_band (void *data, int band)
 {
-  const Composition *c = data;
-  const CeldHarmonicBases   *b = c->bases;
+  const Composition       *c = data;
+  const CeldHarmonicBases *b = c->bases;
 
-  for (int y = band * BAND; y < b->height && y < (band + 1) * BAND; y++)
+  for (int y = band * BAND_ROWS; y < b->height && y < (band + 1) * BAND_ROWS; y++)
     {
       float *row = &CELD_AT (c->depth, 0, y);
 
@@ -257,7 +258,7 @@ celd_bases_compose (const CeldHarmonicBases *bases, const double *u, const CeldH
       c.low  = (float) u[k] < c.low ? (float) u[k] : c.low;
       c.high = (float) u[k] > c.high ? (float) u[k] : c.high;
     }
-  celd_parallel_for (host, (bases->height + BAND - 1) / BAND, compose_band, &c);
+  celd_parallel_for (host, (bases->height + BAND_ROWS - 1) / BAND_ROWS, compose_band, &c);
   celd_free (c.value);
   return CELD_OK;
 }

@@ -1,16 +1,16 @@
-/* What the exact program keeps between edits: weights of the drawing, nodes, bases and stiffness.
+/* What the exact program keeps between edits: weights, nodes, bases and stiffness.
  *
- * Another drawing forgets everything; other scribbles are solved from the bases that there are; a new end of a relation
- * off every scribble takes one solution; everything else none.  Ends that no relation has any more stay, as they move
- * freely and may come back, until there are MOST_SPARE of them.
+ * Another drawing invalidates everything; for other scribbles the solver starts from the present bases; a relation with
+ * a new end off every scribble takes one solution; all other edits take none.  Ends that no relation uses any more stay
+ * nodes, without effect on depth, in case they are used again, until there are more than MOST_SPARE of them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "depth/exact.h"
 #include "image/image.h"
 
-#define MOST_ADDED    8 /* more new points at once: as well solve for all nodes, CELD_LANES at a time */
-#define MOST_SPARE    8
+#define MOST_ADDED 8 /* new points at once; for more it takes no longer to solve for all nodes, CELD_LANES at a time */
+#define MOST_SPARE 8 /* points that no relation uses (chosen) */
 
 CeldProgram *
 celd_program_new (void)
@@ -18,7 +18,7 @@ celd_program_new (void)
   return celd_alloc0 (1, sizeof (CeldProgram));
 }
 
-/* Everything but the weights. */
+/* Frees everything but the weights. */
 static void
 forget_nodes (CeldProgram *p)
 {
@@ -49,7 +49,7 @@ celd_program_free (CeldProgram *program)
   celd_free (program);
 }
 
-/* ------------------------------------------------------------------ what the artist changes */
+/* ------------------------------------------------------------------ drawing and scribbles */
 
 CeldStatus
 celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host)
@@ -76,7 +76,7 @@ celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, const CeldSett
   return CELD_OK;
 }
 
-/* A tight copy; what is no label is none. */
+/* A tight copy; numbers that are no labels become 0. */
 static CeldStatus
 copy_seeds (const CeldLabels *seeds, size_t n_labels, CeldLabels *nodes)
 {
@@ -146,7 +146,7 @@ celd_program_find (CeldProgram *program, double x, double y, size_t *pixel)
   return true;
 }
 
-/* Bases for the scribbles and those points that are on none. */
+/* Makes all bases: for the scribbles, and for the points that are on none. */
 static CeldStatus
 make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldHost *host)
 {
@@ -170,13 +170,13 @@ make_all (CeldProgram *p, const size_t *point, size_t n_points, double tolerance
   return status;
 }
 
-/* Lets go of the oldest points that are not wanted, as far as they are too many. */
+/* Removes the oldest unused points if there are too many. */
 static CeldStatus
 drop_spare (CeldProgram *p, const size_t *point, size_t n_points)
 {
   CeldHarmonicBases *b = &p->bases;
-  bool      *wanted = celd_alloc0 ((size_t) b->n + 1, sizeof *wanted);
-  size_t     spare = 0;
+  bool              *wanted = celd_alloc0 ((size_t) b->n + 1, sizeof *wanted);
+  size_t             spare = 0;
 
   if (!wanted)
     return CELD_NO_MEMORY;
@@ -195,7 +195,7 @@ drop_spare (CeldProgram *p, const size_t *point, size_t n_points)
   return CELD_OK;
 }
 
-/* Bases for these new points beside those that there are. */
+/* Adds bases for new points. */
 static CeldStatus
 add_points (CeldProgram *p, const size_t *point, size_t n_points, double tolerance, const CeldHost *host)
 {

@@ -1,8 +1,8 @@
-/* Single pixels that become nodes, and stop being nodes, of the bases that there are (program-bases.c).
+/* Adding single pixels to the nodes, and removing them, without making all bases anew (exact-bases.c).
  *
- * A pixel p becomes a node of its own with one solution g of  L g = 1 at p, 0 on the nodes:  h_p = g / g(p), and every
- * other basis gives up its share, h_k - h_k(p) h_p.  It stops being one with none: its basis goes to the others in the
- * proportion of their stiffness, so that the result is harmonic at p again.
+ * To add pixel p takes one solution g of  L g = 1 at p, 0 on the nodes.  Then  h_p = g / g(p)  and every other basis
+ * becomes  h_k - h_k(p) h_p.  To remove it takes none: its basis is distributed to the others in proportion to their
+ * stiffness, so that they are harmonic at p again.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,10 +11,10 @@
 #include "depth/exact.h"
 #include "solve/laplace.h"
 
-/* ------------------------------------------------------------------ one more node */
+/* ------------------------------------------------------------------ adding a node */
 
-/* The basis of node n + 1 at pixel p from g, the answer to a source there that knows the nodes of the set-up: those
- * that were added since have what it takes to make it 0 on them, too. */
+/* Turns g, the solution for a source at p, into the basis of node n + 1.  g is 0 on the nodes of the set-up; the bases
+ * of nodes that were added since are used to make it 0 there, too. */
 static void
 make_basis (const CeldHarmonicBases *b, size_t p, float *g)
 {
@@ -36,7 +36,8 @@ make_basis (const CeldHarmonicBases *b, size_t p, float *g)
   g[p] = 1;
 }
 
-/* K' of the bases h_k - a_k h and h, from the energies of h with the others and its own; a_k = h_k (p). */
+/* The stiffness of the bases h_k - a_k h and h, a_k = h_k (p), from the energies of h with the others and with
+ * itself. */
 static void
 extend_stiffness (const CeldHarmonicBases *b, const double *a, const double *with, double own, double *k)
 {
@@ -50,7 +51,7 @@ extend_stiffness (const CeldHarmonicBases *b, const double *a, const double *wit
   k[n * m + n] = own;
 }
 
-/* The other bases give up their share, and the new one takes its lane. */
+/* Subtracts a_k times the new basis from the others, and stores it in its lane. */
 static void
 give_up_shares (const CeldHarmonicBases *b, const double *a, const float *basis)
 {
@@ -73,11 +74,11 @@ give_up_shares (const CeldHarmonicBases *b, const double *a, const float *basis)
     }
 }
 
-/* Memory for more nodes, so that nothing fails while they are put in. */
+/* Memory for all new nodes, so that nothing can fail once the first is inserted. */
 typedef struct
 {
   float  *basis;                /* a plane for each */
-  double *stiffness;            /* the matrices one after the other */
+  double *stiffness;            /* one matrix after the other */
   double *share, *with, *work;
 } Room;
 
@@ -107,7 +108,7 @@ room_new (CeldHarmonicBases *b, size_t n_points, Room *room)
   return celd_bases_grow (b, celd_bases_groups ((uint32_t) n));
 }
 
-/* Node n + 1 at pixel p, with the basis in g; k: for its stiffness. */
+/* Inserts node n + 1 at pixel p with the basis g; k is room for the new stiffness matrix. */
 static void
 insert (CeldHarmonicBases *b, size_t p, const float *g, const CeldHost *host, Room *room, double *k)
 {
@@ -128,7 +129,7 @@ insert (CeldHarmonicBases *b, size_t p, const float *g, const CeldHost *host, Ro
   b->node[p] = ++b->n;
 }
 
-/* The answers to sources at the points. */
+/* Solves for a source at each of the points. */
 static CeldStatus
 solve_points (const CeldHarmonicBases *b, const size_t *point, size_t n_points, double tolerance, const CeldHost *host,
               float *g, CeldSolve *solve)
@@ -136,16 +137,16 @@ solve_points (const CeldHarmonicBases *b, const size_t *point, size_t n_points, 
   size_t       pixels = (size_t) b->width * (size_t) b->height;
   float       *source = celd_alloc0 (pixels, sizeof *source);
   CeldLaplace *laplace = NULL;
-  CeldHostPart     part;
+  CeldHostPart part;
   CeldHost     setting_up = celd_host_part (&part, host, 0, 0.3);
   CeldStatus   status = source ? celd_bases_set_up (b, &setting_up, &laplace) : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < n_points && status == CELD_OK; i++, g += pixels)
     {
-      CeldHostPart  share;
-      CeldHost  solving = celd_host_part (&share, host, 0.3 + 0.7 * (double) i / (double) n_points,
-                                         0.3 + 0.7 * (double) (i + 1) / (double) n_points);
-      CeldSolve one = { 0 };
+      CeldHostPart share;
+      CeldHost     solving = celd_host_part (&share, host, 0.3 + 0.7 * (double) i / (double) n_points,
+                                            0.3 + 0.7 * (double) (i + 1) / (double) n_points);
+      CeldSolve    one = { 0 };
 
       memset (g, 0, pixels * sizeof *g);
       source[point[i]] = 1;
@@ -163,10 +164,10 @@ celd_bases_add (CeldHarmonicBases *bases, const size_t *point, size_t n_points, 
                 CeldSolve *solve)
 {
   CeldHarmonicBases *b = bases;
-  size_t     pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
-  Room       room;
-  double    *k, *old = b->stiffness;
-  CeldStatus status = room_new (b, n_points, &room);
+  size_t             pixels = (size_t) b->width * (size_t) b->height, n = b->n + n_points;
+  Room               room;
+  double            *k, *old = b->stiffness;
+  CeldStatus         status = room_new (b, n_points, &room);
 
   solve->converged = true;
   if (status == CELD_OK)
@@ -192,9 +193,9 @@ celd_bases_add (CeldHarmonicBases *bases, const size_t *point, size_t n_points, 
   return status;
 }
 
-/* ------------------------------------------------------------------ one node less */
+/* ------------------------------------------------------------------ removing a node */
 
-/* Its basis goes to the others: the sum of their values that makes it harmonic there. */
+/* Distributes the basis of a node to the others, in the proportions that make the result harmonic there. */
 static void
 hand_over_basis (const CeldHarmonicBases *b, uint32_t node)
 {
@@ -219,7 +220,8 @@ hand_over_basis (const CeldHarmonicBases *b, uint32_t node)
     }
 }
 
-/* K without the node, whose value is what costs least; row and column of the last node move to its place. */
+/* Eliminates the node from the stiffness matrix (its value minimises the energy); the last row and column take its
+ * place. */
 static void
 reduce_stiffness (CeldHarmonicBases *b, uint32_t node)
 {
@@ -242,8 +244,8 @@ void
 celd_bases_drop (CeldHarmonicBases *bases, uint32_t node)
 {
   CeldHarmonicBases *b = bases;
-  size_t     pixels = (size_t) b->width * (size_t) b->height, *pixel = &b->pixel[node - b->n_sets - 1];
-  float     *to = celd_bases_lane (b, node), *last = celd_bases_lane (b, b->n);
+  size_t             pixels = (size_t) b->width * (size_t) b->height, *pixel = &b->pixel[node - b->n_sets - 1];
+  float             *to = celd_bases_lane (b, node), *last = celd_bases_lane (b, b->n);
 
   hand_over_basis (b, node);
   reduce_stiffness (b, node);

@@ -1,16 +1,17 @@
-/* Exact depth, eq. (1) and (2): the depth of least energy that keeps every equality and inequality.
+/* The exact program, eq. (1) and (2): the depth of least energy that satisfies all equalities and inequalities.
  *
- * The paper gives this program up because an active-set method takes tens of seconds for small pictures.  All pixels
- * but those that relations name follow from these harmonically, so the program is one of a node a scribble, and of
- * one an end of a relation off every scribble: bases (program-bases.c) and stiffness (program-stiffness.c) once, then
- * a dense dual active set (quadratic.c) takes microseconds, and the depth is a sum of bases.  Equalities merge nodes.
+ * The paper abandons this quadratic program because an active-set method takes tens of seconds on small pictures.  But
+ * all pixels follow harmonically from those that relations name, so it can be reduced to a program with one variable
+ * for each node: a scribble, or an end of a relation off every scribble.  Harmonic bases (exact-bases.c) and their
+ * stiffness matrix (exact-stiffness.c) are made once; then a dense dual active-set method (solve/quadratic.c) takes
+ * microseconds, and depth is a sum of bases.  Equalities merge nodes.
  *
- * It has no solution only if inequalities go round in a circle between the same nodes, which is found on the graph of
- * the nodes, as in the fast route (links.c, conflicts.c).  A circle between regions, by different points of them, has
- * one: the regions bend.
+ * The program is infeasible only if inequalities form a cycle between the same nodes.  Cycles are found on the graph of
+ * nodes, and reported, as for the depth order (order/).  A cycle between regions, through different points of them, is
+ * feasible: depth varies within the regions.
  *
- * Beyond the paper: gaps of relations are factors of its epsilon; the background lies weakly behind every other
- * scribble. Points count as they are there: an end of a relation on the background is not in front of it.
+ * Beyond the paper: the gap of a relation is a factor of the paper's epsilon; the background lies weakly behind every
+ * other scribble.  Points keep their place: an end of a relation on the background is not in front of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,18 +24,18 @@
 
 #include <math.h>
 
-#define LEAST_GAP   1e-6 /* of one relation */
-#define LARGEST_GAP 1000
+#define LEAST_RELATION_GAP   1e-6 /* of one relation, as a factor of epsilon (chosen) */
+#define LARGEST_RELATION_GAP 1000
 
 /* The relations between nodes. */
 typedef struct
 {
-  CeldRelations   relations;    /* points on ink moved beside it */
-  size_t         *point;        /* pixels off every scribble; grown one by one */
+  CeldRelations   relations;    /* points on ink are moved beside it */
+  size_t         *point;        /* pixels off every scribble */
   size_t          n_points;
-  CeldPalette     palette;      /* of all nodes, points without a colour */
+  CeldPalette     palette;      /* of all nodes; points have no colour */
   CeldGraph       graph;
-  CeldOrder       order;        /* cycles alone */
+  CeldOrder       order;        /* only its cycles are used */
   uint32_t       *class;        /* of each node: nodes of equal depth, from 0 */
   size_t          n_classes;
   CeldInequality *inequality;   /* between classes */
@@ -62,7 +63,7 @@ problem_clear (Problem *q)
 
 /* ------------------------------------------------------------------ nodes */
 
-/* Does the term name a node, or a pixel that can be one?  Moves it off the ink. */
+/* Whether a relation's end names a node or a pixel that can become one.  Moves it off the ink. */
 static bool
 find_term (CeldProgram *p, CeldTerm *term, size_t *pixel)
 {
@@ -88,7 +89,7 @@ add_point (const CeldProgram *p, size_t pixel, Problem *q)
   return celd_append (q->point, q->n_points, q->point_capacity, pixel);
 }
 
-/* Relations between places that can be nodes, and those of them that are off every scribble. */
+/* Copies the relations, with ends moved off the ink, and lists the ends that are off every scribble. */
 static CeldStatus
 find_points (CeldProgram *p, const CeldRelations *relations, Problem *q)
 {
@@ -130,7 +131,7 @@ name_nodes (const CeldProgram *p, Problem *q)
 
 /* ------------------------------------------------------------------ relations between nodes */
 
-/* What was told of nodes is told of labels; points have none. */
+/* Replaces numbers of nodes in problems by labels; points have none. */
 static void
 rename_labels (const CeldProgram *p, size_t first, CeldProblems *problems)
 {
@@ -155,15 +156,15 @@ report_cycles (const CeldLabels *nodes, const Problem *q, CeldProblems *problems
   return status;
 }
 
-/* The relations that can hold together. */
+/* Chooses the relations that can hold together; reports cycles. */
 static CeldStatus
 settle_relations (const CeldProgram *p, const CeldSettings *settings, const CeldHost *host, Problem *q,
                   CeldProblems *problems)
 {
   const CeldHarmonicBases *b = &p->bases;
-  CeldLabels       nodes = { b->width, b->height, (size_t) b->width, b->node };
-  size_t           before = problems ? problems->n : 0;
-  CeldStatus       status = celd_graph_new (&nodes, &q->palette, &q->relations, NULL, &q->graph, problems);
+  CeldLabels               nodes = { b->width, b->height, (size_t) b->width, b->node };
+  size_t                   before = problems ? problems->n : 0;
+  CeldStatus               status = celd_graph_new (&nodes, &q->palette, &q->relations, NULL, &q->graph, problems);
 
   if (status != CELD_OK)
     return status;
@@ -172,7 +173,7 @@ settle_relations (const CeldProgram *p, const CeldSettings *settings, const Celd
   return status == CELD_OK ? report_cycles (&nodes, q, problems) : status;
 }
 
-/* Numbers the classes of nodes that equalities make one. */
+/* Numbers the classes of nodes that equalities merge. */
 static CeldStatus
 merge_nodes (const CeldProgram *p, Problem *q)
 {
@@ -196,7 +197,7 @@ merge_nodes (const CeldProgram *p, Problem *q)
   return CELD_OK;
 }
 
-/* The inequalities of a link: each nearer node before each farther one. */
+/* Adds the inequalities of a link: each of its nearer nodes in front of each farther one. */
 static CeldStatus
 add_inequalities (const CeldProgram *p, size_t link, Problem *q)
 {
@@ -205,7 +206,7 @@ add_inequalities (const CeldProgram *p, size_t link, Problem *q)
   bool             weak = link == g->relations->n;
   double           gap  = weak ? 1 : g->relations->item[link].gap;
 
-  gap = gap > 0 ? fmin (fmax (gap, LEAST_GAP), LARGEST_GAP) : 1; /* NaN: 1 */
+  gap = gap > 0 ? fmin (fmax (gap, LEAST_RELATION_GAP), LARGEST_RELATION_GAP) : 1; /* NaN: 1 */
   for (size_t near = f[1]; near < f[2]; near++)
     for (size_t far = f[0]; far < f[1] && !(weak && g->end[near] >= p->palette.n); far++)
       {
@@ -238,7 +239,7 @@ solve_program (const CeldProgram *p, Problem *q)
   return status;
 }
 
-/* Depths of nodes from the least one on; *range is how far they go.  Nodes that other paint hides do not count. */
+/* Shifts depths such that the least is 0; *range becomes the largest.  Nodes hidden by other paint are ignored. */
 static void
 shift_depths (size_t n, const CeldPalette *palette, double *u, double *range)
 {
@@ -255,7 +256,7 @@ shift_depths (size_t n, const CeldPalette *palette, double *u, double *range)
   *range = high - low;
 }
 
-/* As the settings ask for it. */
+/* Depth in the encoding of the settings. */
 static double
 encode (double depth, double range, const CeldSettings *s)
 {
@@ -277,9 +278,9 @@ worst_violation (const Problem *q)
   return worst;
 }
 
-/* Everything there is to tell; takes the cycles and strong components. */
+/* Fills in the report; moves the cycles there. */
 static CeldStatus
-tell (const CeldProgram *p, Problem *q, CeldExact *exact)
+write_report (const CeldProgram *p, Problem *q, CeldExact *exact)
 {
   size_t    n = p->bases.n;
   CeldNode *node = celd_alloc (n, sizeof *node);
@@ -298,7 +299,7 @@ tell (const CeldProgram *p, Problem *q, CeldExact *exact)
   return CELD_OK;
 }
 
-/* The depths of the nodes as they leave, and then of all pixels. */
+/* Encodes the depths of the nodes, and composes those of all pixels. */
 static CeldStatus
 compose (const CeldProgram *p, Problem *q, double range, const CeldSettings *settings, const CeldHost *host,
          CeldPlane *depth)
@@ -314,11 +315,12 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
 {
   CeldProgram *p = program;
   Problem      q = { 0 };
-  CeldExact    told = { 0 };
+  CeldExact    report = { 0 };
   size_t       before = problems ? problems->n : 0, painted = 0;
   double       range = 0;
-  CeldHostPart     part[2];
-  CeldHost     placing = celd_host_part (&part[0], host, 0, 0.97), ordering = celd_host_part (&part[1], host, 0.97, 0.98);
+  CeldHostPart part[2];
+  CeldHost     placing = celd_host_part (&part[0], host, 0, 0.97);
+  CeldHost     ordering = celd_host_part (&part[1], host, 0.97, 0.98);
   CeldStatus   status = find_points (p, relations, &q);
 
   for (size_t k = 0; k < p->palette.n; k++)
@@ -341,7 +343,7 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
   if (status == CELD_OK)
     {
       shift_depths (p->bases.n, &q.palette, q.u, &range);
-      status = tell (p, &q, &told);
+      status = write_report (p, &q, &report);
     }
   if (status == CELD_OK && !p->solve.converged)
     status = celd_problem_add (problems, (CeldProblem) {
@@ -353,12 +355,12 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
   if (status == CELD_OK && exact)
     {
       celd_exact_clear (exact);
-      *exact = told;
-      told   = (CeldExact) { 0 };
+      *exact = report;
+      report   = (CeldExact) { 0 };
     }
   if (status != CELD_OK && problems)
     problems->n = before;
-  celd_exact_clear (&told);
+  celd_exact_clear (&report);
   problem_clear (&q);
   return status;
 }
@@ -369,11 +371,12 @@ celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalet
                   CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
 {
   const CeldRelations none = { 0 };
-  CeldProgram *program;
-  CeldHostPart     part[3];
-  CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.04), reading = celd_host_part (&part[1], host, 0.04, 0.05);
-  CeldHost     solving  = celd_host_part (&part[2], host, 0.05, 1);
-  CeldStatus   status;
+  CeldProgram        *program;
+  CeldHostPart        part[3];
+  CeldHost            weighing = celd_host_part (&part[0], host, 0, 0.04);
+  CeldHost            reading = celd_host_part (&part[1], host, 0.04, 0.05);
+  CeldHost            solving  = celd_host_part (&part[2], host, 0.05, 1);
+  CeldStatus          status;
 
   if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, depth))
     return CELD_BAD_SIZE;

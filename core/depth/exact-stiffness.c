@@ -1,28 +1,30 @@
-/* Energies of pairs of bases: the program on nodes instead of pixels.
+/* The stiffness matrix: energies of pairs of bases, which make the program one on nodes instead of pixels.
  *
- * With d = sum of u_k h_k the energy of eq. (2) is 1/2 u'Ku, K_kl = h_k' L h_l.  K is summed over the edges (Ritz),
- * not over the flux at the nodes: then it is the energy of the bases as they are, and what the solver missed counts
- * to second order.  That of node 1, which is not kept, follows from the others, as the bases are 1 together.
+ * With d = sum of u_k h_k the energy of eq. (2) is 1/2 u'Ku, K_kl = h_k' L h_l.  K is summed over the edges (Ritz), not
+ * over the flux at the nodes: then it is exactly the energy of the bases as they were solved, and their error raises
+ * the result only to second order.  Row 1, whose basis is not stored, follows from the others, as all bases add up to
+ * 1.
  *
- * Cost: for each edge the square of the number of bases, in blocks of CELD_LANES x CELD_LANES; bases that are constant
- * along a piece of a row cost nothing there.  Sums go by bands of rows, the same for any number of threads.
+ * Cost: for each edge the square of the number of bases, in blocks of CELD_LANES x CELD_LANES; a group of bases that is
+ * constant along a piece of a row costs nothing there.  Sums are by fixed bands of rows, so the result does not depend
+ * on the number of threads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "depth/exact.h"
 #include "solve/laplace.h"
 
-#define BANDS  8   /* at most */
-#define PIECE  64  /* pixels of a row at once */
+#define BANDS  8   /* of rows */
+#define PIECE  64  /* pixels of a row that are processed at once */
 #define SQUARE (CELD_LANES * CELD_LANES)
 
 typedef struct
 {
   const CeldHarmonicBases *bases;
-  double          *sum;     /* of each band: its n_groups x n_groups blocks of SQUARE */
-  double          *work;    /* of each band: differences of a piece, plain and weighted, of each group */
-  bool            *steep;   /* of each band and group: does it differ along the piece? */
-} Sums;
+  double                  *sum;     /* of each band: its n_groups x n_groups blocks of SQUARE */
+  double                  *work;    /* of each band: differences of a piece, plain and weighted, of each group */
+  bool                    *steep;   /* of each band and group: whether it is not constant along the piece */
+} StiffnessSums;
 
 /* block_ij += sum over edges of a_i b_j. */
 CELD_CLONES static void
@@ -42,7 +44,7 @@ add_products (int n, const double *restrict a, const double *restrict b, double 
     }
 }
 
-/* Differences of the bases of a group over n edges, whose other ends are `next` pixels on; true if there are any. */
+/* Differences of the bases of a group over n edges to the pixels `next` further on; returns whether any is not 0. */
 CELD_CLONES static bool
 take_differences (int n, size_t next, const float *restrict h, const float *restrict weight, double *restrict plain,
                   double *restrict weighted)
@@ -62,15 +64,15 @@ take_differences (int n, size_t next, const float *restrict h, const float *rest
   return any > 0;
 }
 
-/* A piece of a row, the edges in one direction. */
+/* Adds the edges of a piece of a row in one direction. */
 static void
-add_piece (Sums *s, int band, size_t p, int n, size_t next, const float *weight)
+add_piece (StiffnessSums *s, int band, size_t p, int n, size_t next, const float *weight)
 {
   const CeldHarmonicBases *b      = s->bases;
-  size_t           groups = b->n_groups, piece = PIECE * CELD_LANES;
-  double          *work = s->work + (size_t) band * groups * 2 * piece;
-  double          *sum = s->sum + (size_t) band * groups * groups * SQUARE;
-  bool            *steep = s->steep + (size_t) band * groups;
+  size_t                   groups = b->n_groups, piece = PIECE * CELD_LANES;
+  double                  *work = s->work + (size_t) band * groups * 2 * piece;
+  double                  *sum = s->sum + (size_t) band * groups * groups * SQUARE;
+  bool                    *steep = s->steep + (size_t) band * groups;
 
   for (size_t g = 0; g < groups; g++)
     {
@@ -86,10 +88,10 @@ add_piece (Sums *s, int band, size_t p, int n, size_t next, const float *weight)
 static void
 add_band (void *data, int band)
 {
-  Sums            *s = data;
+  StiffnessSums           *s = data;
   const CeldHarmonicBases *b = s->bases;
-  int64_t          h = b->height;
-  int              first = (int) (h * band / BANDS), end = (int) (h * (band + 1) / BANDS), w = b->width;
+  int64_t                  h = b->height;
+  int                      first = (int) (h * band / BANDS), end = (int) (h * (band + 1) / BANDS), w = b->width;
 
   for (int y = first; y < end; y++)
     for (int x = 0; x < w; x += PIECE)
@@ -105,9 +107,9 @@ add_band (void *data, int band)
       }
 }
 
-/* The blocks of all bands become the matrix. */
+/* Sums the blocks of all bands into the matrix. */
 static void
-collect (const Sums *s, double *k)
+collect (const StiffnessSums *s, double *k)
 {
   size_t n = s->bases->n, groups = s->bases->n_groups;
 
@@ -124,7 +126,7 @@ collect (const Sums *s, double *k)
       }
 }
 
-/* Rows and columns of node 1, so that constants have no energy. */
+/* Fills in row and column 1, such that constants have no energy. */
 static void
 complete (size_t n, double *k)
 {
@@ -143,13 +145,13 @@ complete (size_t n, double *k)
 CeldStatus
 celd_stiffness (CeldHarmonicBases *bases, const CeldHost *host)
 {
-  size_t     groups = bases->n_groups;
-  Sums       s = {
+  size_t        groups = bases->n_groups;
+  StiffnessSums s = {
     bases, celd_alloc0 (BANDS * groups * groups, SQUARE * sizeof (double)),
     celd_alloc (BANDS * groups, 2 * PIECE * CELD_LANES * sizeof (double)), celd_alloc (BANDS * groups, sizeof (bool)),
   };
-  double    *k = celd_alloc (bases->n, bases->n * sizeof *k);
-  CeldStatus status = s.sum && s.work && s.steep && k ? celd_progress (host, 0) : CELD_NO_MEMORY;
+  double       *k = celd_alloc (bases->n, bases->n * sizeof *k);
+  CeldStatus    status = s.sum && s.work && s.steep && k ? celd_progress (host, 0) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     {
@@ -169,7 +171,8 @@ celd_stiffness (CeldHarmonicBases *bases, const CeldHost *host)
 
 /* ------------------------------------------------------------------ one more basis */
 
-typedef struct { const CeldHarmonicBases *bases; const float *basis; double *sum; } Products; /* of each band: n_lanes + 1 */
+/* `sum` has a number for each lane, and one more, of each band. */
+typedef struct { const CeldHarmonicBases *bases; const float *basis; double *sum; } Products;
 
 static void
 add_edge (const Products *s, size_t p, size_t q, double weight, double *sum)
@@ -189,11 +192,11 @@ add_edge (const Products *s, size_t p, size_t q, double weight, double *sum)
 static void
 multiply_band (void *data, int band)
 {
-  const Products  *s = data;
+  const Products          *s = data;
   const CeldHarmonicBases *b = s->bases;
-  size_t           w = (size_t) b->width, h = (size_t) b->height, from = (size_t) band;
-  size_t           p = w * (h * from / BANDS), end = w * (h * (from + 1) / BANDS);
-  double          *sum = s->sum + (size_t) band * (b->n_groups * CELD_LANES + 1);
+  size_t                   w = (size_t) b->width, h = (size_t) b->height, from = (size_t) band;
+  size_t                   p = w * (h * from / BANDS), end = w * (h * (from + 1) / BANDS);
+  double                  *sum = s->sum + (size_t) band * (b->n_groups * CELD_LANES + 1);
 
   for (; p < end; p++)
     {

@@ -83,7 +83,7 @@ static void
 join_row (const Joins *j, const CeldRunComponents *components, int y, uint32_t *parent)
 {
   const CeldPixelRun *s = components->run;
-  size_t             a = components->row[y - 1], b = components->row[y];
+  size_t              a = components->row[y - 1], b = components->row[y];
 
   while (a < components->row[y] && b < components->row[y + 1])
     {
@@ -115,12 +115,12 @@ CeldStatus
 celd_run_components_find (int width, int height, const float *level, const uint8_t *fixed, const CeldDepthEdges *edges,
                  const CeldHost *host, CeldRunComponents *components)
 {
-  Joins      j = { level, fixed, edges };
-  CeldRunComponents  found = { .width = width, .height = height, .row = celd_alloc0 ((size_t) height + 1, sizeof (size_t)) };
-  uint8_t   *mark = celd_alloc ((size_t) width, 1);
-  uint32_t  *parent = NULL;
-  size_t     n = 0;
-  CeldStatus status;
+  Joins             j = { level, fixed, edges };
+  CeldRunComponents found = { width, height, celd_alloc0 ((size_t) height + 1, sizeof (size_t)), NULL, 0 };
+  uint8_t          *mark = celd_alloc ((size_t) width, 1);
+  uint32_t         *parent = NULL;
+  size_t            n = 0;
+  CeldStatus        status;
 
   /* A pointer even where all pixels are fixed. */
   status = celd_reserve (&found.run, 1, &found.run_capacity, sizeof *found.run) && found.row && mark ? CELD_OK

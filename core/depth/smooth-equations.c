@@ -20,16 +20,16 @@ typedef struct
   float    least, most;         /* of these levels */
   float    low, high;           /* of the levels of the fixed pixels that border it; low > high: there are none */
   bool     changed;             /* some equation is new */
-} Extent;
+} ComponentExtent;
 
 typedef struct
 {
   const CeldSmoothEquations *equations;
   CeldRunComponents          components;
-  Extent                    *extent;
+  ComponentExtent           *extent;
   CeldRect                  *bounds;    /* of each component that is to be solved; width 0: it is not */
   float                     *depth;
-} Work;
+} SmoothWork;
 
 static size_t
 pixel_at (const CeldSmoothEquations *e, int x, int y)
@@ -42,7 +42,7 @@ pixel_at (const CeldSmoothEquations *e, int x, int y)
 /* Considers the edge between the fixed pixel p and the component: that of pixel (x,y) and its right or lower
  * neighbour. */
 static inline void
-add_fixed (const CeldSmoothEquations *e, Extent *extent, size_t p, int x, int y, int right)
+add_fixed (const CeldSmoothEquations *e, ComponentExtent *extent, size_t p, int x, int y, int right)
 {
   float level = e->level[p];
 
@@ -57,7 +57,7 @@ add_fixed (const CeldSmoothEquations *e, Extent *extent, size_t p, int x, int y,
 
 /* Considers all fixed pixels around a run. */
 static void
-add_fixed_around (const CeldSmoothEquations *e, const CeldPixelRun *s, int y, Extent *extent)
+add_fixed_around (const CeldSmoothEquations *e, const CeldPixelRun *s, int y, ComponentExtent *extent)
 {
   size_t w = (size_t) e->width, p = pixel_at (e, s->x, y);
 
@@ -75,13 +75,13 @@ add_fixed_around (const CeldSmoothEquations *e, const CeldPixelRun *s, int y, Ex
 }
 
 static void
-find_fixed (const Work *work)
+find_fixed (const SmoothWork *work)
 {
   const CeldSmoothEquations *e = work->equations;
   const CeldRunComponents   *c = &work->components;
 
   for (size_t k = 0; k < c->n; k++)
-    work->extent[k] = (Extent) { .low = INFINITY, .high = -INFINITY, .least = INFINITY, .most = -INFINITY,
+    work->extent[k] = (ComponentExtent) { .low = INFINITY, .high = -INFINITY, .least = INFINITY, .most = -INFINITY,
                                  .changed = !e->changed };
   if (e->changed)
     CELD_EACH_RUN (c, 0, e->height, y, s)
@@ -95,23 +95,23 @@ find_fixed (const Work *work)
 /* ------------------------------------------------------------------ components of one depth */
 
 static bool
-is_free (const Extent *extent)
+is_free (const ComponentExtent *extent)
 {
   return extent->low > extent->high;
 }
 
 static bool
-is_solved (const Extent *extent)
+is_solved (const ComponentExtent *extent)
 {
   return extent->changed && extent->low < extent->high;
 }
 
 static void
-measure_components (const Work *work)
+measure_components (const SmoothWork *work)
 {
   CELD_EACH_RUN (&work->components, 0, work->equations->height, y, s)
     {
-      Extent *extent = &work->extent[s->component];
+      ComponentExtent *extent = &work->extent[s->component];
 
       if (is_solved (extent))
         celd_box_add_run (&work->bounds[s->component], s, y);
@@ -130,7 +130,7 @@ measure_components (const Work *work)
 }
 
 static float
-constant_depth (const Extent *extent)
+constant_depth (const ComponentExtent *extent)
 {
   if (!is_free (extent))
     return extent->low;
@@ -139,7 +139,7 @@ constant_depth (const Extent *extent)
 
 /* Depth of the fixed pixels, and of the components that are not solved. */
 static void
-fill_constant (const Work *work)
+fill_constant (const SmoothWork *work)
 {
   const CeldSmoothEquations *e = work->equations;
   size_t                     n = (size_t) e->width * (size_t) e->height;
@@ -147,7 +147,7 @@ fill_constant (const Work *work)
   memcpy (work->depth, e->level, n * sizeof *e->level);
   CELD_EACH_RUN (&work->components, 0, e->height, y, s)
     {
-      const Extent *extent = &work->extent[s->component];
+      const ComponentExtent *extent = &work->extent[s->component];
       size_t        p = pixel_at (e, s->x, y), end = pixel_at (e, s->end, y);
 
       if (!extent->changed)
@@ -195,7 +195,7 @@ write_run (const CeldSmoothEquations *e, const CeldPixelRun *s, int y, size_t i,
 
 /* The least and largest level of the fixed pixels that border any component of the box. */
 static void
-find_range (const Work *work, const CeldBox *box, float *low, float *high)
+find_range (const SmoothWork *work, const CeldBox *box, float *low, float *high)
 {
   *low  = INFINITY;
   *high = -INFINITY;
@@ -211,7 +211,7 @@ find_range (const Work *work, const CeldBox *box, float *low, float *high)
 static double
 write_box (const void *data, CeldBox *box)
 {
-  const Work                *work = data;
+  const SmoothWork          *work = data;
   const CeldSmoothEquations *e = work->equations;
   float                      low, high;
 
@@ -223,7 +223,7 @@ write_box (const void *data, CeldBox *box)
     }
   CELD_EACH_BOX_RUN (box, y, s)
     {
-      const Extent *extent = &work->extent[s->component];
+      const ComponentExtent *extent = &work->extent[s->component];
 
       for (int x = s->x; x < s->end; x++)
         {
@@ -241,13 +241,13 @@ write_box (const void *data, CeldBox *box)
 static void
 read_box (void *data, const CeldBox *box, CeldSolve *solve)
 {
-  const Work                *work = data;
+  const SmoothWork          *work = data;
   const CeldSmoothEquations *e = work->equations;
   float                      low, high;
 
   CELD_EACH_BOX_RUN (box, y, s)
     {
-      const Extent *extent = &work->extent[s->component];
+      const ComponentExtent *extent = &work->extent[s->component];
 
       for (int x = s->x; x < s->end; x++)
         work->depth[pixel_at (e, x, y)] = fminf (fmaxf (box->x[celd_box_pixel (box, x, y)], extent->low), extent->high);
@@ -262,7 +262,7 @@ CeldStatus
 celd_smooth_equations_solve (const CeldSmoothEquations *equations, const CeldHost *host, float *depth,
                              CeldSolve *solve)
 {
-  Work         work = { .equations = equations, .depth = depth };
+  SmoothWork   work = { .equations = equations, .depth = depth };
   CeldHostPart part[2];
   CeldHost     finding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
   CeldStatus   status = celd_run_components_find (equations->width, equations->height, equations->level,

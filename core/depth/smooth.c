@@ -1,8 +1,9 @@
-/* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors (the paper's U_o).
+/* Smooth depth, eq. (3): minimize  sum v_pq (d_p - d_q)^2  with d = level at the anchors, the Dirichlet constraints
+ * (the paper's U_o).
  *
- * Where depth is cut is in depth-weights.c, what holds a region without an anchor in depth-cores.c, and how the rest
- * follows in depth-solve.c.  Here is what they work on, and what an edit changed of it: a pixel's equation is new if
- * its level, a neighbour's level, whether one of them is fixed, or the ink round them changed.
+ * The weights v_pq are in discontinuities.c, constraints for regions without an anchor in cores.c, the solution in
+ * smooth-equations.c.  This file is the step, and finds what an edit changed: a pixel's equation is new if its level, a
+ * neighbour's level, whether one of them is fixed, or the ink around them has changed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -27,7 +28,7 @@ celd_depth_levels (const CeldPlane *levels, float *level)
       {
         float d = CELD_AT (levels, x, y);
 
-        *level++ = isfinite (d) ? d + 0.f : isfinite (least) ? least : 0; /* + 0 makes -0 the same level as 0 */
+        *level++ = isfinite (d) ? d + 0.f : isfinite (least) ? least : 0; /* + 0 turns -0 into 0 */
       }
 }
 
@@ -35,7 +36,7 @@ CeldStatus
 celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
                     CeldComponent **list, size_t *n)
 {
-  CeldLabels bits; /* every distinct level as a label */
+  CeldLabels bits; /* the bits of each level as a label */
   CeldStatus status = celd_labels_new (width, height, &bits);
 
   if (status == CELD_OK)
@@ -47,7 +48,7 @@ celd_depth_regions (int width, int height, const float *level, const CeldHost *h
   return status;
 }
 
-/* ------------------------------------------------------------------ what is new */
+/* ------------------------------------------------------------------ changed equations */
 
 /* Marks the pixel and its four neighbours. */
 static void
@@ -98,7 +99,7 @@ mark_fixed (const CeldSmoothState *old, const uint8_t *fixed, uint8_t *changed)
     }
 }
 
-/* Everything whose weights may have seen the new ink. */
+/* Marks all pixels whose weights may depend on new ink. */
 static void
 mark_ink (const CeldSmoothState *old, uint8_t *changed)
 {
@@ -113,14 +114,14 @@ mark_ink (const CeldSmoothState *old, uint8_t *changed)
 
 /* ------------------------------------------------------------------ the step */
 
-/* What the step has to do with. */
+/* The planes of the step. */
 typedef struct
 {
   int      width, height;
   float   *level, *depth;
-  uint8_t *fixed, *changed;     /* changed NULL: all is new */
+  uint8_t *fixed, *changed;     /* changed NULL: all equations are new */
   double   range;
-} Planes;
+} SmoothPlanes;
 
 static void
 read_anchors (const CeldMask *anchors, uint8_t *fixed)
@@ -143,9 +144,9 @@ range_of (const float *level, size_t n)
   return (double) high - (double) low;
 }
 
-/* Is what is kept worth comparing with?  Not if it was made less exactly, or cut elsewhere. */
+/* Whether the last depth can be used: not if it was solved less exactly, or with other weights. */
 static bool
-is_of_use (const CeldSmoothState *old, const CeldSmoothInput *s, const Planes *p)
+is_of_use (const CeldSmoothState *old, const CeldSmoothInput *s, const SmoothPlanes *p)
 {
   return old && old->level && s->last && old->width == p->width && old->height == p->height &&
          old->threshold == s->settings->ink_threshold && old->radius == s->radius &&
@@ -153,11 +154,11 @@ is_of_use (const CeldSmoothState *old, const CeldSmoothInput *s, const Planes *p
 }
 
 static CeldStatus
-planes_new (const CeldSmoothState *old, const CeldSmoothInput *s, Planes *p)
+planes_new (const CeldSmoothState *old, const CeldSmoothInput *s, SmoothPlanes *p)
 {
   size_t n;
 
-  *p = (Planes) { .width = s->levels->width, .height = s->levels->height };
+  *p = (SmoothPlanes) { .width = s->levels->width, .height = s->levels->height };
   n  = (size_t) p->width * (size_t) p->height;
   p->level = celd_alloc (n, sizeof *p->level);
   p->depth = celd_alloc (n, sizeof *p->depth);
@@ -177,9 +178,9 @@ planes_new (const CeldSmoothState *old, const CeldSmoothInput *s, Planes *p)
   return CELD_OK;
 }
 
-/* The smoother takes the planes that it keeps. */
+/* Moves the planes to keep into the state. */
 static void
-remember (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldSolve *solve, Planes *p)
+remember (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldSolve *solve, SmoothPlanes *p)
 {
   celd_smooth_state_clear (smoother);
   *smoother = (CeldSmoothState) { p->width, p->height, p->level, p->fixed, s->settings->ink_threshold,
@@ -193,10 +194,10 @@ CeldStatus
 celd_smooth_update (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldHost *host, CeldPlane *depth,
                    CeldSolve *solve)
 {
-  CeldHostPart   part[2];
-  CeldHost   holding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
-  Planes     p;
-  CeldStatus status = planes_new (smoother, s, &p);
+  CeldHostPart part[2];
+  CeldHost     holding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);
+  SmoothPlanes p;
+  CeldStatus   status = planes_new (smoother, s, &p);
 
   if (status == CELD_OK && (!s->anchors || s->settings->hold_rest))
     status = celd_cores_mark (p.width, p.height, p.level, s->speck, p.changed, p.changed ? smoother->fixed : NULL,
@@ -241,9 +242,9 @@ celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anch
              const CeldHost *host, CeldPlane *depth, CeldSolve *solve)
 {
   CeldSmoothInput smoothing = { ink, levels, anchors, settings, 0, CELD_SPECK, NULL };
-  CeldPlane     made = { 0 };
-  CeldSolve     how;
-  CeldStatus    status;
+  CeldPlane       made = { 0 };
+  CeldSolve       how;
+  CeldStatus      status;
 
   if (!CELD_SAME_SIZE (ink, levels) || !CELD_SAME_SIZE (ink, depth) || (anchors && !CELD_SAME_SIZE (ink, anchors)))
     return CELD_BAD_SIZE;

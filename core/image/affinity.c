@@ -1,18 +1,18 @@
-/* The weights of eq. (1), as in [Gra06]:  w_pq = exp (-(I_p - I_q)^2 / sigma), least a floor.
+/* The weights of eq. (1), as in [Gra06]:  w_pq = exp (-(I_p - I_q)^2 / sigma), but at least a floor.
  *
  * The paper calls sigma "a mean contrast of edges".  We take the mean of (I_p - I_q)^2 over all pairs of neighbours of
- * the ink, whether they differ or not.  Then a step of the whole contrast weighs next to nothing and a contour is as
- * good as closed, as in the fast route; over the pairs alone that differ the mean would be some 0.2, an antialiased
- * contour would weigh 0.3, and depth would leak through every one.  (It would also be the noise of a scan that decides
- * which pairs differ.)  Where nothing differs every weight is 1.
+ * the ink, whether they differ or not.  Then a step of full contrast has almost no weight, so that a contour is as good
+ * as closed, as in smooth depth.  Over only the pairs that differ the mean would be about 0.2, an antialiased contour
+ * would have a weight of 0.3, and depth would leak through all contours; besides, the noise of a scan would decide
+ * which pairs differ.  Without any difference all weights are 1.
  *
- * In the weight itself I_p - I_q is the contrast round the pair: the range of ink within the 3 x 3 pixels round p, or
- * round q if that is less.  Taken of the two pixels alone, antialiasing undoes it: along a line that is nearly level,
- * ink fades into paper in dozens of tiny steps, a way round every large one, which lets more through than all the rest
- * of a drawing's outlines.  Being the lesser of the two, it leaves the paper beside a line with the paper.
+ * In the weight itself I_p - I_q is the contrast around the pair: the range of ink within the 3 x 3 pixels around p, or
+ * around q if that is less.  The difference of the two pixels alone fails with antialiasing: along a nearly horizontal
+ * line ink fades into paper in dozens of tiny steps, and these paths around the large steps leak more than all other
+ * contours.  The lesser of the two ranges keeps the paper beside a line connected with the paper.
  *
- * Weights below about 1e-16 would be lost beside 1, hence the floor: the program is exact for the weights with it.  It
- * also joins all pixels, so that the solution is unique but for a constant.
+ * Weights below about 1e-16 would be lost beside 1, hence the floor; the program is exact for weights with the floor.
+ * It also connects all pixels, so that the solution is unique up to a constant.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,9 +23,9 @@
 typedef struct
 {
   const CeldPlane *ink;
-  float           *contrast;       /* round each pixel */
+  float           *contrast;       /* around each pixel */
   float           *east, *south;
-  double          *sum;            /* of the squared differences of each row, and to the next */
+  double          *sum;            /* of the squared differences in each row, and to the next */
   double           scale;          /* 1 / sigma, 0 if nothing differs */
   float            floor;
 } Affinities;
@@ -38,22 +38,22 @@ ink_at (const CeldPlane *ink, int x, int y)
   return isfinite (value) ? value : 1;
 }
 
-typedef struct { float low, high; } Range;
+typedef struct { float low, high; } InkRange;
 
-static Range
-join (Range a, Range b)
+static InkRange
+join (InkRange a, InkRange b)
 {
-  return (Range) { a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high };
+  return (InkRange) { a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high };
 }
 
-/* Of three pixels, one above the other, as far as they are in the picture. */
-static Range
+/* The range of a pixel and its upper and lower neighbours, as far as they are in the picture. */
+static InkRange
 column (const CeldPlane *ink, int x, int y)
 {
   float here = ink_at (ink, x, y), above = y > 0 ? ink_at (ink, x, y - 1) : here;
   float below = y + 1 < ink->height ? ink_at (ink, x, y + 1) : here;
 
-  return join ((Range) { here, here }, join ((Range) { above, above }, (Range) { below, below }));
+  return join ((InkRange) { here, here }, join ((InkRange) { above, above }, (InkRange) { below, below }));
 }
 
 static void
@@ -62,15 +62,15 @@ measure_row (void *data, int y)
   Affinities      *a = data;
   const CeldPlane *ink = a->ink;
   float           *contrast = a->contrast + (size_t) y * (size_t) ink->width;
-  Range            left = column (ink, 0, y), middle = left, right;
+  InkRange         left = column (ink, 0, y), middle = left, right;
   double           sum = 0;
 
   for (int x = 0; x < ink->width; x++)
     {
-      bool  east = x + 1 < ink->width, south = y + 1 < ink->height;
-      float here = ink_at (ink, x, y);
-      float to_east = east ? ink_at (ink, x + 1, y) - here : 0, to_south = south ? ink_at (ink, x, y + 1) - here : 0;
-      Range whole;
+      bool     east = x + 1 < ink->width, south = y + 1 < ink->height;
+      float    here = ink_at (ink, x, y);
+      float    to_east = east ? ink_at (ink, x + 1, y) - here : 0, to_south = south ? ink_at (ink, x, y + 1) - here : 0;
+      InkRange whole;
 
       right       = east ? column (ink, x + 1, y) : middle;
       whole       = join (join (left, middle), right);

@@ -1,4 +1,4 @@
-/* Wide Gaussians over a picture; see blur.h.
+/* Wide Gaussian blurs on a coarse grid: mean values of square cells are blurred, and interpolated between cells.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#define FINEST 2   /* a cell is at most this share of the deviation */
-#define REACH  3.2 /* of a Gaussian, in deviations */
+#define FINEST 2   /* cells in a deviation, at least (chosen: the error stays invisible) */
+#define KERNEL_DEVIATIONS  3.2 /* at which a Gaussian is cut off (chosen) */
 
 CeldBlurGrid
 celd_cells (int width, int height, double deviation)
@@ -24,12 +24,12 @@ celd_cells (int width, int height, double deviation)
 CeldStatus
 celd_kernel_new (const CeldBlurGrid *cells, double deviation, double shift, CeldKernel *kernel)
 {
-  /* A box of n pixels spreads by (n^2 - 1) / 12, reading between two of them by (n^2 - 1) / 6 in the mean. */
+  /* Averaging n pixels adds (n^2 - 1) / 12 to the variance, linear interpolation (n^2 - 1) / 6 in the mean. */
   double side = cells->side, spread = deviation * deviation - (side * side - 1) / 4;
   double s = sqrt (fmax (spread, 0.01)) / side, centre = shift / side, sum = 0;
-  int    last = (int) ceil (centre + REACH * s);
+  int    last = (int) ceil (centre + KERNEL_DEVIATIONS * s);
 
-  kernel->first  = (int) floor (centre - REACH * s);
+  kernel->first  = (int) floor (centre - KERNEL_DEVIATIONS * s);
   kernel->n      = last - kernel->first + 1;
   kernel->weight = celd_alloc ((size_t) kernel->n, sizeof *kernel->weight);
   if (!kernel->weight)
@@ -72,7 +72,7 @@ celd_between_rows (const CeldBlurGrid *cells)
   return between (cells->picture_height, cells->side, cells->height);
 }
 
-/* i, thrown back at both ends of 0 .. n-1 as often as need be. */
+/* i, mirrored at both ends of 0 .. n-1 as often as needed. */
 static int
 mirror (int i, int n)
 {
@@ -81,7 +81,7 @@ mirror (int i, int n)
   return i;
 }
 
-/* A row of values, by the kernel. */
+/* Blurs one row of values. */
 static void
 blur_row (const CeldKernel *kernel, int width, const float *from, float *to)
 {

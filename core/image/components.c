@@ -1,9 +1,9 @@
 /* Connected components of equal labels.
  *
  * Two passes after Rosenfeld and Pfaltz, "Sequential operations in digital picture processing", 1966: pixels take the
- * number of a neighbour above or to the left, and numbers that meet are united (union-find; the smaller number is the
- * root, so components come out in the reading order of their first pixels); then numbers are resolved.
- * Linear time for all practical purposes; one number a pixel of workspace.
+ * number of a neighbour above or to the left, and numbers that meet are joined (union-find; the smaller number becomes
+ * the root, so components are in the reading order of their first pixels); then numbers are resolved.  Practically
+ * linear time; one number per pixel of work space.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "image/image.h"
 
-#define ROWS 64 /* rows between two reports of progress */
+#define ROWS_PER_REPORT 64 /* rows between two reports of progress */
 
 typedef struct
 {
@@ -20,7 +20,7 @@ typedef struct
   size_t    capacity;
 } Numbers;
 
-/* A number of its own; 0 if there is no memory.  (The very first number is 0, too.) */
+/* A new number; 0 if there is no memory, but also the very first time. */
 static uint32_t
 new_number (Numbers *numbers)
 {
@@ -29,7 +29,7 @@ new_number (Numbers *numbers)
   return celd_append (numbers->parent, numbers->n, numbers->capacity, number) == CELD_OK ? number : 0;
 }
 
-/* First pass, row y: `row` gets a number for every pixel, after the row of numbers `above` (NULL for the first row). */
+/* First pass: numbers the pixels of row y; `above` has the numbers of the row above (NULL in the first row). */
 static CeldStatus
 number_row (const CeldLabels *labels, uint32_t none, bool diagonal, int y, const uint32_t *above, uint32_t *row,
             Numbers *numbers)
@@ -54,7 +54,7 @@ number_row (const CeldLabels *labels, uint32_t none, bool diagonal, int y, const
              : 0;
       if (!row[x] && !(row[x] = new_number (numbers)))
         return CELD_NO_MEMORY;
-      /* What the row above has united already needs no second time. */
+      /* Numbers that are neighbours in the row above have been joined there. */
       if (west && north && !north_west)
         celd_join (numbers->parent, row[x], above[x]);
       if (north_east && !north && (west || north_west))
@@ -75,20 +75,20 @@ number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const Cel
       uint32_t *row = number + (size_t) y * w;
 
       status = number_row (labels, none, diagonal, y, y ? row - w : NULL, row, numbers);
-      if (!status && y % ROWS == 0)
+      if (!status && y % ROWS_PER_REPORT == 0)
         status = celd_progress (host, 0.6 * y / labels->height);
     }
   return status;
 }
 
-/* Turns parents into component numbers 1 .. n without holes; returns n. */
+/* Turns parents into consecutive component numbers 1 .. n; returns n. */
 static size_t
 resolve_numbers (Numbers *numbers)
 {
   uint32_t *parent = numbers->parent, n = 0;
 
   for (size_t k = 1; k < numbers->n; k++)
-    parent[k] = parent[k] == k ? ++n : parent[parent[k]]; /* what is below k is resolved already */
+    parent[k] = parent[k] == k ? ++n : parent[parent[k]]; /* smaller numbers are resolved already */
   return n;
 }
 
@@ -104,7 +104,7 @@ add_pixel (CeldComponent *c, uint32_t label, int x, int y)
   c->bottom = y;
 }
 
-/* Second pass: nothing can fail from here on, so `components` may be the labels themselves. */
+/* Second pass.  It cannot fail, so `components` may alias the labels. */
 static void
 write_components (const CeldLabels *labels, const uint32_t *number, const Numbers *numbers,
                   CeldLabels *components, CeldComponent *list)

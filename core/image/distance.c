@@ -2,23 +2,23 @@
  *
  * After Meijster, Roerdink and Hesselink, "A general algorithm for computing distance transforms in linear time", 2000:
  * a vertical pass gives each pixel the distance g to the nearest inside pixel of its own column; then in each row the
- * squared distance at x is the lower envelope of the parabolas (x - i)^2 + g(i)^2, found with integers alone.
- * The vertical pass streams along rows.  An inside pixel hides everything behind it from the rest of its row, so
- * each gap between inside pixels has an envelope of its own, and inside pixels cost next to nothing.
+ * squared distance at x is the lower envelope of the parabolas (x - i)^2 + g(i)^2, found with integers alone.  The
+ * vertical pass runs along rows for the cache's sake.  In a row nothing beyond an inside pixel can be nearer than that
+ * pixel, so each gap between inside pixels has its own envelope, and inside pixels cost almost nothing.
  *
- * Squares stay below 2 * CELD_MAX_SIDE^2 = 8e8 and are exact in int32_t.  O(pixels) time; three rows of workspace
- * a job.
+ * Squares stay below 2 * CELD_MAX_SIDE^2 = 8e8 and are exact in int32_t.  O(pixels) time; three rows of work space per
+ * job.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 
-#define NONE (1 << 20)   /* a column distance from here on means that the column has no inside pixel */
-#define STRIP 256        /* columns a job of the vertical pass */
-#define BAND 16          /* rows a job of the horizontal pass */
-#define JOBS 16          /* jobs between two reports of progress */
+#define NO_SITE (1 << 20)   /* a column distance from here on means that the column has no inside pixel */
+#define COLUMNS_PER_JOB 256        /* columns a job of the vertical pass */
+#define ROWS_PER_JOB 16          /* rows a job of the horizontal pass */
+#define JOBS_PER_ROUND 16          /* jobs between two reports of progress */
 
-typedef struct { int site, from; } Arc; /* the parabola of column `site` is the lowest one from column `from` on */
+typedef struct { int site, from; } EnvelopeArc; /* the parabola of column `site` is lowest from column `from` on */
 
 typedef struct
 {
@@ -27,16 +27,17 @@ typedef struct
   int32_t       *squared;   /* g after the vertical pass, squared distances in the end */
   int32_t       *nearest;   /* NULL if not asked for */
   int32_t       *column;    /* for each job a copy of a row of g */
-  Arc           *envelope;  /* for each job the lower envelope of a gap */
+  EnvelopeArc   *envelope;  /* for each job the lower envelope of a gap */
   int            first;     /* the first strip or band of this round of jobs */
 } Transform;
 
-/* g for one strip of columns: down the picture, then up again. */
+/* Computes g for one strip of columns: down the picture, then up again. */
 static void
 measure_columns (void *data, int job)
 {
   const Transform *t = data;
-  int              left = (t->first + job) * STRIP, right = left + STRIP < t->width ? left + STRIP : t->width;
+  int              left = (t->first + job) * COLUMNS_PER_JOB, beyond = left + COLUMNS_PER_JOB;
+  int              right = beyond < t->width ? beyond : t->width;
   size_t           w = (size_t) t->width;
 
   for (int y = 0; y < t->height; y++)
@@ -46,7 +47,7 @@ measure_columns (void *data, int job)
 
       if (y == 0)
         for (int x = left; x < right; x++)
-          g[x] = inside[x] ? 0 : NONE;
+          g[x] = inside[x] ? 0 : NO_SITE;
       else
         for (int x = left; x < right; x++)
           g[x] = inside[x] ? 0 : g[x - (ptrdiff_t) w] + 1;
@@ -66,9 +67,9 @@ parabola (const int32_t *g, int site, int x)
   return (x - site) * (x - site) + g[site] * g[site];
 }
 
-/* The lower envelope over the columns from .. to; returns its number of arcs. */
+/* Finds the lower envelope over the columns from .. to; returns the number of arcs. */
 static int
-find_envelope (const int32_t *g, int from, int to, Arc *arc)
+find_envelope (const int32_t *g, int from, int to, EnvelopeArc *arc)
 {
   int n = 0;
 
@@ -76,7 +77,7 @@ find_envelope (const int32_t *g, int from, int to, Arc *arc)
     {
       int begin = from;
 
-      if (g[u] >= NONE)
+      if (g[u] >= NO_SITE)
         continue;
       while (n > 0 && parabola (g, arc[n - 1].site, arc[n - 1].from) > parabola (g, u, arc[n - 1].from))
         n--;
@@ -87,12 +88,12 @@ find_envelope (const int32_t *g, int from, int to, Arc *arc)
           begin = 1 + ((u - i) * (u + i) + g[u] * g[u] - g[i] * g[i]) / (2 * (u - i));
         }
       if (begin <= to)
-        arc[n++] = (Arc) { u, begin };
+        arc[n++] = (EnvelopeArc) { u, begin };
     }
   return n;
 }
 
-/* Index of the pixel that g of (x,y) leads to. */
+/* The index of the inside pixel at the distance g above or below (x,y). */
 static int32_t
 column_end (const Transform *t, int x, int y, int g)
 {
@@ -101,9 +102,9 @@ column_end (const Transform *t, int x, int y, int g)
   return (int32_t) (above ? y - g : y + g) * t->width + x;
 }
 
-/* The distances in row y of the columns from .. to, which only the inside pixels of these columns reach. */
+/* Computes the distances in row y of the columns from .. to, from the column distances there. */
 static void
-measure_gap (const Transform *t, int y, const int32_t *g, int from, int to, Arc *arc)
+measure_gap (const Transform *t, int y, const int32_t *g, int from, int to, EnvelopeArc *arc)
 {
   int      n = find_envelope (g, from, to, arc);
   int32_t *squared = t->squared + (size_t) y * (size_t) t->width;
@@ -130,7 +131,7 @@ measure_gap (const Transform *t, int y, const int32_t *g, int from, int to, Arc 
 }
 
 static void
-measure_row (const Transform *t, int y, int32_t *g, Arc *arc)
+measure_row (const Transform *t, int y, int32_t *g, EnvelopeArc *arc)
 {
   int w = t->width, last = 0; /* the last inside pixel, or the first column */
 
@@ -151,7 +152,8 @@ static void
 measure_rows (void *data, int job)
 {
   const Transform *t = data;
-  int              top = (t->first + job) * BAND, end = top + BAND < t->height ? top + BAND : t->height;
+  int              top = (t->first + job) * ROWS_PER_JOB, beyond = top + ROWS_PER_JOB;
+  int              end = beyond < t->height ? beyond : t->height;
 
   for (int y = top; y < end; y++)
     measure_row (t, y, t->column + (size_t) job * (size_t) t->width, t->envelope + (size_t) job * (size_t) t->width);
@@ -165,13 +167,15 @@ transform (int width, int height, const uint8_t *inside, const CeldHost *host, i
 
   if (width < 1 || height < 1 || width > CELD_MAX_SIDE || height > CELD_MAX_SIDE)
     return CELD_BAD_SIZE;
-  t.column = celd_alloc ((size_t) width * JOBS, sizeof *t.column);
-  t.envelope = celd_alloc ((size_t) width * JOBS, sizeof *t.envelope);
+  t.column = celd_alloc ((size_t) width * JOBS_PER_ROUND, sizeof *t.column);
+  t.envelope = celd_alloc ((size_t) width * JOBS_PER_ROUND, sizeof *t.envelope);
   if (!t.column || !t.envelope)
     goto done;
-  status = celd_parallel_rounds (host, (width + STRIP - 1) / STRIP, JOBS, measure_columns, &t, &t.first, 0, 0.4);
+  status = celd_parallel_rounds (host, (width + COLUMNS_PER_JOB - 1) / COLUMNS_PER_JOB, JOBS_PER_ROUND, measure_columns,
+                                 &t, &t.first, 0, 0.4);
   if (!status)
-    status = celd_parallel_rounds (host, (height + BAND - 1) / BAND, JOBS, measure_rows, &t, &t.first, 0.4, 1);
+    status = celd_parallel_rounds (host, (height + ROWS_PER_JOB - 1) / ROWS_PER_JOB, JOBS_PER_ROUND, measure_rows,
+                                   &t, &t.first, 0.4, 1);
 done:
   celd_free (t.column);
   celd_free (t.envelope);

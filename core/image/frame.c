@@ -1,13 +1,13 @@
-/* The paper along the frame of a picture, by which the background is known.
+/* The paper along the edge of a picture, by which the background is recognised.
  *
- * That is the paper among the outermost pixels.  Where the artist has drawn a frame over them, which leaves less than a
- * tenth of them paper, it is the paper next to that frame from inside.
+ * That is the paper among the outermost pixels.  If less than a tenth of them is paper, the artist has drawn a frame
+ * there, and it is the paper just inside that frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 
-typedef struct { int x, y, dx, dy; } Step; /* an outermost pixel, and the way inwards */
+typedef struct { int x, y, dx, dy; } Step; /* an outermost pixel, and the direction inwards */
 
 static Step
 outermost (int width, int height, size_t i)
@@ -23,7 +23,7 @@ outermost (int width, int height, size_t i)
   return (Step) { width - 1, (int) (i - 2 * w - h), -1, 0 };
 }
 
-/* Lists the first paper on the way inwards from each outermost pixel, at most `reach` pixels in. */
+/* Lists the first paper inwards from each outermost pixel, at most `reach` pixels away; returns how many there are. */
 static size_t
 look_inwards (const CeldPlane *ink, int width, int height, int reach, size_t *pixel)
 {

@@ -1,4 +1,4 @@
-/* Pictures: ink and paper, label pictures, distances, connected components, blur.
+/* Operations on pictures: ink and paper, label pictures, distances, connected components, seeds, blur.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,61 +7,68 @@
 
 #include "base/base.h"
 
-/* ------------------------------------------------------------------ paper.c: what a drawing was made with */
+#define CELD_SPECK 16 /* pixels: smaller regions do not stand on their own (chosen) */
 
-/* The mode that CELD_INK_AUTO stands for; any other mode itself, but for CELD_INK_ALPHA of an opaque picture. */
+/* ------------------------------------------------------------------ paper.c: the kind of drawing, and its paper */
+
+/* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
 CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
 
-/* One value a pixel, 1 = bright paper, 0 = full ink, in a mode that is not CELD_INK_AUTO; of the drawing's size. */
+/* Brightness of each pixel as if drawn dark on white, 1 = white paper, 0 = full ink.  `mode` as returned by
+ * celd_ink_mode; `value` has the drawing's size. */
 void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);
 
-/* The level of the paper round each pixel, on the scale of the values, > 0. */
+/* The brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
 CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 
-/* ------------------------------------------------------------------ ink as the regions see it */
+/* ------------------------------------------------------------------ ink and paper */
 
-/* Is this value of ink paper rather than ink?  NaN is. */
+/* Whether a value of ink (0 = ink, 1 = paper) is paper; NaN is. */
 static inline bool
 celd_is_paper (float ink)
 {
   return !(ink < 0.5f);
 }
 
-/* stroke-width.c: the median length of the runs of ink along rows and columns, in pixels; 0 without ink, at most 256.
- * Solid black areas hardly count. */
+/* stroke-width.c: the median length of the runs of ink along rows and columns, in pixels: 1 .. 256, or 0 without ink.
+ * Solid areas have few runs and hardly influence it. */
 int celd_stroke_width (const CeldPlane *ink);
 
-/* Moves (*x,*y) to the nearest paper, itself if it is paper; false if there is none within `reach` pixels. */
+/* stroke-width.c: moves (*x,*y) to the nearest paper, at most `reach` pixels away; it stays if it is paper.  False, and
+ * unchanged, if there is none. */
 bool celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y);
 
-/* frame.c: the paper pixels along the frame, as y * width + x (ink NULL: all outermost pixels); corners may come twice.
- * `stroke` is the width of the drawing's strokes; 0: it is measured if need be.  End with celd_free. */
+/* frame.c: lists the paper pixels along the edge of the picture, as y * width + x (ink NULL: all outermost pixels);
+ * corners may be listed twice.  `stroke` is the width of the drawing's strokes; 0: it is measured if needed.  The
+ * caller frees *pixel with celd_free. */
 CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n);
 
 /* ------------------------------------------------------------------ labels.c */
 
-/* Fills in the area of each label and a pixel of it as far as can be from ink (may be NULL) and other labels; -1,-1 for
- * labels without a pixel. */
+/* Sets area and (x,y) of each label in the palette: its number of pixels, and the pixel farthest from ink (may be NULL)
+ * and other labels; -1,-1 for labels without a pixel. */
 CeldStatus celd_palette_measure (const CeldLabels *labels, const CeldPlane *ink, const CeldHost *host,
                                  CeldPalette *palette);
 
 /* Makes a copy; `copy` is overwritten. */
 CeldStatus celd_palette_copy (const CeldPalette *palette, CeldPalette *copy);
 
-/* The first opaque label of this colour, or of the nearest one that colour management may have made of it (2 of 255 a
- * channel); 0 if there is none. */
+/* The label with this colour; if there is none, the one with the nearest colour that differs by at most 2 of 255 per
+ * channel, as after colour management; 0 if there is none.  Ignores transparent colours. */
 uint32_t celd_palette_find (const CeldPalette *palette, const uint8_t colour[3]);
 
 /* ------------------------------------------------------------------ distance.c: exact Euclidean distance transform */
 
-/* squared[p] = squared distance from the centre of p to the centre of the nearest pixel q with inside (q) != 0;
- * INT32_MAX if there is none.  Tight planes of width x height; their content is undefined after a cancel. */
+/* squared[p] = squared distance, in pixels, between the centres of p and of the nearest pixel q with inside[q] != 0;
+ * INT32_MAX if there is none.  Tight planes of width x height; after a failure `squared` is undefined. */
 CeldStatus celd_distance (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared);
-/* The same, and the index y * width + x of that nearest pixel (ties: any, but always the same one); -1 if none. */
+/* Also sets nearest[p] to the index y * width + x of that pixel; -1 if there is none.  Ties are resolved in the same
+ * way every time. */
 CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const CeldHost *host, int32_t *squared,
                          int32_t *nearest);
-/* signed-distance.c: of paper the squared distance to the nearest ink, of ink minus that to the nearest paper.  One
- * tight plane of the size of the ink, which decides by celd_is_paper; INT32_MAX and -INT32_MAX where there is none. */
+/* signed-distance.c: for paper the squared distance to the nearest ink, for ink minus that to the nearest paper, as
+ * celd_is_paper tells them apart; INT32_MAX and -INT32_MAX where there is none.  A tight plane of the size of the
+ * ink. */
 CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squared);
 
 /* ------------------------------------------------------------------ components.c: connected components */
@@ -74,17 +81,17 @@ typedef struct
   size_t   area;
 } CeldComponent;
 
-/* 4- or 8-connected components of equal labels.  Pixels of label `none` (pass UINT32_MAX for no such label) get
- * component 0; others 1 .. n in reading order of their first pixel.  *list has n items, item k-1 is component k;
- * end it with celd_free.  `components` may alias `labels`. */
+/* Finds the 4-connected (with `diagonal` 8-connected) components of equal labels.  Pixels of label `none` (UINT32_MAX:
+ * no such label) get component 0, others 1 .. n in reading order of the component's first pixel.  *list has n items,
+ * item k-1 for component k; the caller frees it with celd_free.  `components` may alias `labels`. */
 CeldStatus celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const CeldHost *host,
                             CeldLabels *components, CeldComponent **list, size_t *n);
 
-/* ------------------------------------------------------------------ affinity.c: the weights of edges */
+/* ------------------------------------------------------------------ affinity.c: edge weights of eq. (1) */
 
-/* The weights w_pq of eq. (1), least `floor`, for celd_lap_setup: tight planes of the size of the ink, zero where the
- * picture ends.  I_p - I_q is the contrast round p or round q, 3 x 3 pixels, whichever is less; sigma is `contrast`
- * times the mean of the plain (I_p - I_q)^2 over all pairs of neighbours, as *mean tells. */
+/* The weights w_pq = exp (-(I_p - I_q)^2 / sigma) of eq. (1), at least `floor`, for celd_lap_setup: tight planes of the
+ * size of the ink, 0 where the picture ends.  I_p - I_q is here the contrast within 3 x 3 pixels around p or q,
+ * whichever is less.  sigma is `contrast` times *mean, the mean of the squared differences of neighbouring pixels. */
 CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, const CeldHost *host,
                             float *east, float *south, double *mean);
 
@@ -94,46 +101,46 @@ typedef struct { int x, end; uint32_t label; } CeldSeedRun;       /* pixels x ..
 typedef struct { CeldSeedRun *run; size_t n, run_capacity; } CeldSeedRow;       /* from left to right, apart or of other labels */
 typedef struct { int width, height; CeldSeedRow *row; } CeldSeedRows;
 
-CeldStatus celd_seed_rows_new (int width, int height, CeldSeedRows *seeds);      /* without a seed */
+CeldStatus celd_seed_rows_new (int width, int height, CeldSeedRows *seeds);      /* without seeds */
 void       celd_seed_rows_clear (CeldSeedRows *seeds);                           /* accepts a zeroed record */
 
 CeldStatus celd_seed_rows_read (const CeldLabels *labels, CeldSeedRows *seeds);  /* makes the record */
 CeldStatus celd_seed_rows_copy (const CeldSeedRows *from, CeldSeedRows *seeds);     /* makes the record */
-void       celd_seed_rows_write (const CeldSeedRows *seeds, CeldLabels *labels); /* of the same size; 0 elsewhere */
+void       celd_seed_rows_write (const CeldSeedRows *seeds, CeldLabels *labels); /* of equal size; 0 elsewhere */
 
-/* The pixels x .. end - 1 of row y, cut to the picture, take a label; label 0 takes them back. */
+/* Gives the pixels x .. end - 1 of row y, as far as they are in the picture, a label; label 0 erases. */
 CeldStatus celd_seed_rows_paint (CeldSeedRows *seeds, int y, int x, int end, uint32_t label);
 
-/* The label of a pixel, 0 without a seed. */
+/* The label of a pixel in the picture; 0 if it is no seed. */
 uint32_t celd_seed_rows_at (const CeldSeedRows *seeds, int x, int y);
 
-/* ------------------------------------------------------------------ blur.c */
+/* ------------------------------------------------------------------ blur.c: wide Gaussians on a grid of cells */
 
 typedef struct
 {
   int picture_width, picture_height;
-  int side;                        /* of a cell in pixels, a power of two; those at the right and bottom are cut off */
+  int side;                        /* of a cell in pixels, a power of two; cells at the right and bottom may be cut */
   int width, height;               /* in cells */
 } CeldBlurGrid;
 
-/* Weights of the cells first .. first + n - 1 to the right of one; they add up to 1. */
+/* Weights of the cells at the offsets first .. first + n - 1; they add up to 1. */
 typedef struct { int first, n; float *weight; } CeldKernel;
 
-/* Where a column (or row) of pixels lies between cells: (1 - share) of one and share of the other. */
+/* Linear interpolation of a column (or row) of pixels between cells: (1 - share) of `one` plus share of `other`. */
 typedef struct { int one, other; float share; } CeldBetween;
 
-/* Cells for a Gaussian of this deviation in pixels, > 0. */
+/* The grid for a Gaussian of this standard deviation in pixels, > 0. */
 CeldBlurGrid celd_cells (int width, int height, double deviation);
 
-/* Centred `shift` pixels to the right; end with celd_free (weight). */
+/* A Gaussian centred `shift` pixels to the right (or below); `weight` is freed by the caller with celd_free. */
 CeldStatus celd_kernel_new (const CeldBlurGrid *cells, double deviation, double shift, CeldKernel *kernel);
 
-/* The picture's columns between the cells' columns, and the same for rows; NULL: no memory. */
+/* How each column, or row, of the picture is interpolated; freed by the caller with celd_free; NULL: no memory. */
 CeldBetween *celd_between_columns (const CeldBlurGrid *cells);
 CeldBetween *celd_between_rows    (const CeldBlurGrid *cells);
 
-/* width x height values by one kernel along rows and one along columns, mirrored at the edges; `scratch` is as
- * large. */
+/* Blurs width x height values in place, with one kernel along rows and one along columns, mirrored at the edges;
+ * `scratch` has room for as many. */
 void celd_blur (const CeldKernel *along, const CeldKernel *down, int width, int height, float *value, float *scratch);
 
 #endif

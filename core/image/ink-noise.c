@@ -1,4 +1,4 @@
-/* The noise of a drawing on paper: its grain, the echoes of a lossy picture, and a filter against the former.
+/* The noise of a drawing on paper: grain, compression artefacts, and a filter against grain.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,13 +6,11 @@
 
 #include <math.h>
 
-#define BINS 256
-#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
 
 float
 celd_ink_noise (const CeldPlane *contrast, int step)
 {
-  size_t of[BANKS][BINS] = { { 0 } }, all = 0, below = 0;
+  size_t of[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } }, all = 0, below = 0;
   int    bin = 0;
 
   for (int y = 0; y < contrast->height; y++)
@@ -22,22 +20,23 @@ celd_ink_noise (const CeldPlane *contrast, int step)
 
         if (celd_most (celd_most (c[-step], c[0]), c[step]) >= 0.25f)
           continue;
-        of[x % BANKS][(int) celd_least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, BINS - 1)]++;
+        of[x % CELD_INK_BANKS][(int) celd_least (fabsf (c[-step] - 2 * c[0] + c[step]) * 1024, CELD_INK_BINS - 1)]++;
         all++;
       }
-  for (int k = 1; k < BANKS; k++)
-    for (int i = 0; i < BINS; i++)
+  for (int k = 1; k < CELD_INK_BANKS; k++)
+    for (int i = 0; i < CELD_INK_BINS; i++)
       of[0][i] += of[k][i];
-  while (bin < BINS - 1 && 2 * (below += of[0][bin]) < all)
+  while (bin < CELD_INK_BINS - 1 && 2 * (below += of[0][bin]) < all)
     bin++;
-  return (float) bin / 1024 / (0.6745f * 2.4495f); /* median to deviation; the three taps have root of squares sqrt 6 */
+  /* 0.6745 is the median of |x| for a unit normal distribution, 2.4495 the norm of (1 -2 1). */
+  return (float) bin / 1024 / (0.6745f * 2.4495f);
 }
 
 float
 celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
 {
-  size_t of[BINS] = { 0 }, all = 0, above = 0;
-  int    bin = BINS - 1;
+  size_t of[CELD_INK_BINS] = { 0 }, all = 0, above = 0;
+  int    bin = CELD_INK_BINS - 1;
 
   for (int y = 1; y < contrast->height - 1; y++)
     for (int x = 1; x < contrast->width - 1; x++)
@@ -48,12 +47,12 @@ celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
         beside = celd_most (beside, celd_most (celd_most (c[1], down[-1]), celd_most (down[0], down[1])));
         if (CELD_AT (around, x, y) < 0.7f * dark || celd_most (beside, c[0]) > 0.25f * dark)
           continue;
-        of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (BINS - 1))]++;
+        of[(int) (0.5f * fabsf (c[-1] - 2 * c[0] + c[1]) * (CELD_INK_BINS - 1))]++;
         all++;
       }
   while (bin > 0 && 10 * (above += of[bin]) < all)
     bin--;
-  return (float) bin / (BINS - 1);
+  return (float) bin / (CELD_INK_BINS - 1);
 }
 
 void

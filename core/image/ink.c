@@ -16,41 +16,41 @@
 #include <math.h>
 #include <string.h>
 
-#define BINS 256
-#define FAINTEST 0.05f        /* least contrast of a stroke; yellow on white has 0.07 */
-#define NOISELESS 0.003f      /* noise below this is rounding to 8 bits */
-#define NEAR 5                /* pixels: a pale line this near to a dark one may be the tip of an antialiased wedge */
-#define NEAR_NOISY 2          /* pixels: as far as the core of a pencil line is from its rim */
-#define STRIP 16              /* columns: a strip is a line of the cache wide */
-#define PASSES 16             /* over the picture, of about the same length */
+#define FAINTEST 0.05f        /* least contrast of a stroke (chosen; yellow on white has 0.07) */
+#define NOISELESS 0.003f      /* noise below this comes from rounding to 8 bits */
+#define NEAR_CLEAN 5          /* pixels: a pale line so near to a dark one may be its antialiased tip (chosen) */
+#define NEAR_NOISY 2          /* pixels from the core of a pencil line to its edge (chosen) */
+#define CACHE_COLUMNS 16              /* columns of a strip: a cache line of floats */
+#define INK_PASSES 16             /* over the picture in the longest case, of about the same duration: for progress */
 
 typedef struct
 {
   const CeldHost *host;
-  int            passes;        /* done so far */
-  size_t         pixels;
-  int            widest;        /* half width of the widest stroke */
-  CeldPlane      contrast;      /* against the paper: 0 .. 1 */
-  CeldPlane      area;          /* contrast without strokes: the grey opening */
-  CeldPlane      level;         /* contrast of the dark core of the stroke here; 0 = not known */
-  CeldPlane      spare;
-  float         *lines;         /* for least_along_rows and least_along_columns */
-  float          noise;         /* of the paper */
-  bool           noisy;         /* by more than rounding */
-  float          faintest;      /* least contrast of a stroke */
-  float          dark;          /* contrast of the dark strokes */
-} Work;
+  int             passes;        /* finished so far */
+  size_t          pixels;
+  int             widest;        /* half width of the widest stroke */
+  CeldPlane       contrast;      /* against the paper: 0 .. 1 */
+  CeldPlane       area;          /* contrast without strokes: its grey opening */
+  CeldPlane       level;         /* contrast of the dark core of the stroke at the pixel; 0: unknown */
+  CeldPlane       spare;
+  float          *lines;         /* work space of least_along_rows and least_along_columns */
+  float           noise;         /* of the paper */
+  bool            noisy;         /* by more than rounding */
+  float           faintest;      /* least contrast of a stroke */
+  float           dark;          /* contrast of the dark strokes */
+} InkWork;
 
-/* One more pass over the picture is done, of the PASSES that the longest way takes. */
+/* Reports that one more pass over the picture is finished. */
 static CeldStatus
-pass_done (Work *w)
+pass_done (InkWork *w)
 {
-  return celd_progress (w->host, (double) ++w->passes / PASSES);
+  return celd_progress (w->host, (double) ++w->passes / INK_PASSES);
 }
 
 /* ------------------------------------------------------------------ grey morphology with square windows */
 
-/* Each element becomes the least of those at most `radius` away along its row; `line` has room for width + 2 radius. */
+/* Replaces each element by the least of those at most `radius` away in its row; `line` has room for width + 2
+ * radius. */
 static void
 least_along_rows (CeldPlane *plane, int radius, float *line)
 {
@@ -71,15 +71,15 @@ least_along_rows (CeldPlane *plane, int radius, float *line)
     }
 }
 
-/* The same along columns, STRIP of them at a time; `lines` has room for STRIP (height + 2 radius). */
+/* Does that within columns, CACHE_COLUMNS at a time; `lines` has room for CACHE_COLUMNS (height + 2 radius). */
 static void
 least_along_columns (CeldPlane *plane, int radius, float *lines)
 {
   int window = 2 * radius + 1, span;
 
-  for (int left = 0; left < plane->width; left += STRIP)
+  for (int left = 0; left < plane->width; left += CACHE_COLUMNS)
     {
-      size_t breadth = plane->width - left < STRIP ? (size_t) (plane->width - left) : STRIP;
+      size_t breadth = plane->width - left < CACHE_COLUMNS ? (size_t) (plane->width - left) : CACHE_COLUMNS;
       size_t edge = (size_t) radius * breadth, n = (size_t) plane->height * breadth + 2 * edge;
 
       for (size_t i = 0; i < edge; i++)
@@ -101,7 +101,7 @@ least_along_columns (CeldPlane *plane, int radius, float *lines)
 }
 
 static CeldStatus
-erode (Work *w, CeldPlane *plane, int radius)
+erode (InkWork *w, CeldPlane *plane, int radius)
 {
   CeldStatus status;
 
@@ -123,7 +123,7 @@ negate (CeldPlane *plane)
 }
 
 static CeldStatus
-dilate (Work *w, CeldPlane *plane, int radius)
+dilate (InkWork *w, CeldPlane *plane, int radius)
 {
   CeldStatus status;
 
@@ -135,19 +135,19 @@ dilate (Work *w, CeldPlane *plane, int radius)
 
 /* ------------------------------------------------------------------ ink */
 
-/* The contrast that a fiftieth of the inked pixels exceed, exact where these have one value; 1 if there is no ink. */
+/* The contrast that 2 % of the inked pixels exceed, exact if these have one value; 1 if there is no ink. */
 static float
 dark_level (const CeldPlane *contrast, float faintest)
 {
-  size_t of[BINS] = { 0 }, all = 0, above = 0;
-  double sum[BINS] = { 0 };
-  int    bin = BINS - 1;
+  size_t of[CELD_INK_BINS] = { 0 }, all = 0, above = 0;
+  double sum[CELD_INK_BINS] = { 0 };
+  int    bin = CELD_INK_BINS - 1;
 
   for (int y = 0; y < contrast->height; y++)
     for (int x = 0; x < contrast->width; x++)
       {
         float c = CELD_AT (contrast, x, y);
-        int   i = (int) (c * (BINS - 1) + 0.5f);
+        int   i = (int) (c * (CELD_INK_BINS - 1) + 0.5f);
 
         if (c < faintest)
           continue;
@@ -163,13 +163,13 @@ dark_level (const CeldPlane *contrast, float faintest)
 }
 
 static CeldStatus
-start_work (int width, int height, Work *w)
+start_work (int width, int height, InkWork *w)
 {
   int shorter = width < height ? width : height, longer = width < height ? height : width;
 
   w->pixels = (size_t) width * (size_t) height;
   w->widest = shorter / 32 > 12 ? shorter / 32 : 12;
-  w->lines = celd_alloc (STRIP * ((size_t) longer + 2 * (size_t) w->widest), sizeof *w->lines);
+  w->lines = celd_alloc (CACHE_COLUMNS * ((size_t) longer + 2 * (size_t) w->widest), sizeof *w->lines);
   if (!w->lines || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
       celd_plane_new (width, height, &w->area) != CELD_OK || celd_plane_new (width, height, &w->level) != CELD_OK)
     return CELD_NO_MEMORY;
@@ -177,7 +177,7 @@ start_work (int width, int height, Work *w)
 }
 
 static void
-end_work (Work *w)
+end_work (InkWork *w)
 {
   celd_free (w->contrast.data);
   celd_free (w->area.data);
@@ -186,9 +186,9 @@ end_work (Work *w)
   celd_free (w->lines);
 }
 
-/* Reflectance against the paper, as a contrast. */
+/* 1 - reflectance relative to the paper. */
 static CeldStatus
-measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
+measure_contrast (InkWork *w, const CeldDrawing *drawing, CeldInkMode mode)
 {
   CeldStatus status;
 
@@ -201,9 +201,9 @@ measure_contrast (Work *w, const CeldDrawing *drawing, CeldInkMode mode)
   return status == CELD_OK ? pass_done (w) : status;
 }
 
-/* The largest noise at the scales from step to 16 pixels. */
+/* Sets w->noise to the largest at the scales step, 4 step, ... up to 16 pixels. */
 static CeldStatus
-measure_noise (Work *w, int step)
+measure_noise (InkWork *w, int step)
 {
   CeldStatus status = CELD_OK;
 
@@ -215,11 +215,11 @@ measure_noise (Work *w, int step)
   return status;
 }
 
-/* Grain, and blotches up to 16 pixels across, go; strokes stay.  The paper's level is that of its light grain, so that
- * paper has a contrast of about the noise.  What counts from here on is the noise that smoothing leaves: of grain a
- * quarter, of blotches all. */
+/* Removes grain, and stains up to 16 pixels across, but no strokes.  The paper level is that of its light grain, so
+ * paper has a contrast of about the noise.  Afterwards w->noise is what smoothing leaves: a quarter of grain, all of
+ * stains. */
 static CeldStatus
-quieten (Work *w)
+quieten (InkWork *w)
 {
   CeldStatus status = measure_noise (w, 1);
   float      zero;
@@ -230,22 +230,23 @@ quieten (Work *w)
   celd_ink_smooth (&w->contrast, &w->spare);
   celd_ink_smooth (&w->contrast, &w->spare);
   zero = celd_least (2 * w->noise, 0.5f);
-  status = measure_noise (w, 4); /* wider than the filter, for noise that it has smeared has small differences */
+  status = measure_noise (w, 4); /* scales wider than the filter: noise that it has smeared has small differences */
   for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
     w->contrast.data[i] = celd_most (w->contrast.data[i] - zero, 0) / (1 - zero);
   return status == CELD_OK ? pass_done (w) : status;
 }
 
-/* How dark is ink?  In a noisy drawing the darkest is well above the noise, so that empty paper stays empty. */
+/* Finds w->faintest and w->dark.  In a noisy drawing ink must be well above the noise, so that empty paper stays
+ * empty. */
 static CeldStatus
-measure_ink (Work *w)
+measure_ink (InkWork *w)
 {
   CeldStatus status;
 
   w->faintest = celd_most (FAINTEST, 8 * w->noise);
   w->dark = dark_level (&w->contrast, w->faintest);
   memcpy (w->level.data, w->contrast.data, w->pixels * sizeof (float));
-  status = dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR);
+  status = dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR_CLEAN);
   if (status != CELD_OK)
     return status;
   if (w->noisy)
@@ -256,11 +257,11 @@ measure_ink (Work *w)
   else
     w->faintest = celd_most (w->faintest, 6 * celd_ink_echo (&w->contrast, &w->level, w->dark));
   if (w->dark > 0.9f && !w->noisy)
-    w->dark = 1; /* black lines of a pixel or less are not quite black anywhere */
+    w->dark = 1; /* black lines of a pixel or less are nowhere quite black */
   return CELD_OK;
 }
 
-/* Is the pixel inside a stroke, not on its antialiased rim: do the 3x3 pixels round it differ by a tenth at most? */
+/* Whether the pixel is inside a stroke, not on its antialiased edge: its 3x3 neighbours differ by a tenth at most. */
 static bool
 is_solid (const CeldPlane *contrast, int x, int y)
 {
@@ -273,10 +274,10 @@ is_solid (const CeldPlane *contrast, int x, int y)
   return true;
 }
 
-/* Does a pixel show how dark its stroke is?  Without noise a grey one may be the rim of a black stroke, unless it is
- * inside a grey stroke, or fainter than a rim whose stroke is that near.  `around` is the largest contrast near. */
+/* Whether a pixel shows how dark its stroke is.  Without noise a grey one may be the antialiased edge of a black
+ * stroke, unless it is inside a grey stroke, or nothing dark is near.  `around` is the largest contrast near it. */
 static bool
-shows_level (const Work *w, int x, int y, float around)
+shows_level (const InkWork *w, int x, int y, float around)
 {
   float c = CELD_AT (&w->contrast, x, y);
 
@@ -285,9 +286,9 @@ shows_level (const Work *w, int x, int y, float around)
   return around < 0.45f * w->dark || (c < 0.75f * w->dark && is_solid (&w->contrast, x, y));
 }
 
-/* Keeps in level the pixels that show how dark their stroke is.  Are there strokes paler than ink is? */
+/* Keeps in w->level the pixels that show how dark their stroke is; returns whether some strokes are pale. */
 static bool
-find_levels (Work *w)
+find_levels (InkWork *w)
 {
   bool pale = false;
 
@@ -302,9 +303,9 @@ find_levels (Work *w)
   return pale;
 }
 
-/* Fills in area, and level on the whole breadth of each stroke. */
+/* Fills in w->area, and w->level over the full width of each stroke. */
 static CeldStatus
-spread_levels (Work *w)
+spread_levels (InkWork *w)
 {
   CeldStatus status;
 
@@ -315,13 +316,13 @@ spread_levels (Work *w)
   for (size_t i = 0; i < w->pixels; i++)
     if (w->contrast.data[i] - w->area.data[i] < celd_most (w->faintest, 0.5f * w->contrast.data[i]))
       w->level.data[i] = 0;
-  return status == CELD_OK ? dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR) : status;
+  return status == CELD_OK ? dilate (w, &w->level, w->noisy ? NEAR_NOISY : NEAR_CLEAN) : status;
 }
 
 static void
-write_ink (const Work *w, bool pale, CeldPlane *ink)
+write_ink (const InkWork *w, bool pale, CeldPlane *ink)
 {
-  float full = w->noisy ? 0.8f : 1; /* share of its level at which a stroke is all ink: grain may not pierce it */
+  float full = w->noisy ? 0.8f : 1; /* share of its level from which a stroke is full ink, in spite of grain */
 
   for (int y = 0; y < ink->height; y++)
     for (int x = 0; x < ink->width; x++)
@@ -329,7 +330,7 @@ write_ink (const Work *w, bool pale, CeldPlane *ink)
         size_t i = (size_t) y * (size_t) ink->width + (size_t) x;
         float  c = w->contrast.data[i], share = c / w->dark;
 
-        if (pale && w->level.data[i] > 0 && c <= 1.05f * w->level.data[i]) /* else the rim of a darker stroke beside */
+        if (pale && w->level.data[i] > 0 && c <= 1.05f * w->level.data[i]) /* not the edge of a darker stroke */
           share = celd_most (share, (c - w->area.data[i]) / (full * w->level.data[i]));
         CELD_AT (ink, x, y) = 1 - celd_least (share, 1);
       }
@@ -338,7 +339,7 @@ write_ink (const Work *w, bool pale, CeldPlane *ink)
 CeldStatus
 celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink)
 {
-  Work       w = { .host = host };
+  InkWork    w = { .host = host };
   bool       pale = false;
   CeldStatus status;
 

@@ -1,4 +1,4 @@
-/* Label pictures: as colours and back, each region on its own, what is known of each label, which is the background.
+/* Label pictures: to colours and back, separating regions of one label, measuring labels, finding the background.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,12 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SPECK        16   /* smaller regions do not stand on their own */
-#define COLOUR_ERROR 2    /* of 255; what colour management does to an opaque colour */
+#define COLOUR_ERROR 2 /* of 255 per channel: how far colour management may change an opaque colour */
 
-/* ------------------------------------------------------------------ area and place of each label */
+/* ------------------------------------------------------------------ area and position of each label */
 
-/* Ink, pixels beside another label, and the outermost ones: everything else is inside its region. */
+/* Whether a pixel is ink, beside another label, or outermost in the picture. */
 static bool
 on_border (const CeldLabels *labels, const CeldPlane *ink, int x, int y)
 {
@@ -73,9 +72,9 @@ done:
   return status;
 }
 
-/* ------------------------------------------------------------------ each region on its own */
+/* ------------------------------------------------------------------ separating the regions of a label */
 
-/* The label that each component shall have: the largest of a label and specks keep it, the others get new ones. */
+/* Chooses the label of each component: the largest one of a label, and specks, keep it; others get new labels. */
 static CeldStatus
 number_regions (const CeldComponent *component, size_t n, CeldPalette *palette, uint32_t *number)
 {
@@ -98,7 +97,7 @@ number_regions (const CeldComponent *component, size_t n, CeldPalette *palette, 
       CeldRegion region;
 
       number[i] = component[i].label;
-      if (k >= n_old || i == largest[k] || component[i].area < SPECK)
+      if (k >= n_old || i == largest[k] || component[i].area < CELD_SPECK)
         continue;
       region       = palette->item[k];
       region.seeds = 0;
@@ -134,7 +133,7 @@ celd_separate (const CeldHost *host, CeldLabels *labels, CeldPalette *palette)
   uint32_t      *number = NULL;
   CeldPalette    made = { 0 };
   size_t         n = 0;
-  CeldHostPart       part[2];
+  CeldHostPart   part[2];
   CeldHost       first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus     status;
 
@@ -175,7 +174,7 @@ done:
   return status;
 }
 
-/* ------------------------------------------------------------------ as colours */
+/* ------------------------------------------------------------------ labels to colours */
 
 CeldStatus
 celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPaint *paint)
@@ -194,11 +193,11 @@ celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPai
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ and back */
+/* ------------------------------------------------------------------ colours to labels */
 
-/* The distinct colours of a picture, found by hashing with open addressing. */
-typedef struct { uint32_t key, label; size_t area; } Colour; /* key: 0xAARRGGBB; label 0: the slot is free */
-typedef struct { Colour *slot; size_t room, n; } Colours;
+/* The distinct colours of a picture: a hash table with open addressing. */
+typedef struct { uint32_t key, label; size_t area; } PaintColour; /* key: 0xAARRGGBB; label 0: the slot is free */
+typedef struct { PaintColour *slot; size_t room, n; } PaintColours;
 
 static uint32_t
 colour_key (const uint8_t *rgba)
@@ -208,8 +207,8 @@ colour_key (const uint8_t *rgba)
   return UINT32_C (0xff000000) | (uint32_t) rgba[0] << 16 | (uint32_t) rgba[1] << 8 | rgba[2];
 }
 
-static Colour *
-find_slot (const Colours *colours, uint32_t key)
+static PaintColour *
+find_slot (const PaintColours *colours, uint32_t key)
 {
   uint32_t hash = key * UINT32_C (2654435769); /* its high bits depend on all bits of the key, its low bits do not */
   size_t   i = (hash ^ hash >> 16) & (colours->room - 1);
@@ -219,11 +218,11 @@ find_slot (const Colours *colours, uint32_t key)
   return &colours->slot[i];
 }
 
-/* Room for one more at a load of at most one half. */
+/* Grows the table, so that with one more colour it is at most half full. */
 static CeldStatus
-make_room (Colours *colours)
+make_room (PaintColours *colours)
 {
-  Colours more = { NULL, colours->room ? 2 * colours->room : 256, colours->n };
+  PaintColours more = { NULL, colours->room ? 2 * colours->room : 256, colours->n };
 
   if (colours->room > 2 * colours->n)
     return CELD_OK;
@@ -238,32 +237,32 @@ make_room (Colours *colours)
   return CELD_OK;
 }
 
-/* Numbers the colours by first appearance. */
+/* Numbers the colours in the order of their first pixels. */
 static CeldStatus
-read_colours (const CeldPaint *paint, Colours *colours, uint32_t *label)
+read_colours (const CeldPaint *paint, PaintColours *colours, uint32_t *label)
 {
   for (int y = 0; y < paint->height; y++)
     for (int x = 0; x < paint->width; x++)
       {
-        uint32_t key = colour_key (CELD_RGBA (paint, x, y));
-        Colour  *colour;
+        uint32_t     key = colour_key (CELD_RGBA (paint, x, y));
+        PaintColour *colour;
 
         if (make_room (colours) != CELD_OK)
           return CELD_NO_MEMORY;
         colour = find_slot (colours, key);
         if (!colour->label)
-          *colour = (Colour) { key, (uint32_t) ++colours->n, 0 };
+          *colour = (PaintColour) { key, (uint32_t) ++colours->n, 0 };
         colour->area++;
         *label++ = colour->label;
       }
   return CELD_OK;
 }
 
-/* Falling area, then first appearance; the transparent background last. */
+/* Orders by falling area, then by first pixel; the transparent background comes last. */
 static int
 compare_colours (const void *a, const void *b)
 {
-  const Colour *p = a, *q = b;
+  const PaintColour *p = a, *q = b;
 
   if (!p->key != !q->key)
     return p->key ? -1 : 1;
@@ -272,9 +271,9 @@ compare_colours (const void *a, const void *b)
   return p->label < q->label ? -1 : 1;
 }
 
-/* Sorted colours become a palette; number[l] is the final label of the colour that first was l. */
+/* Makes a palette of sorted colours; number[l] becomes the final label of the colour with the preliminary label l. */
 static void
-name_colours (const Colour *colour, size_t n, CeldRegion *item, uint32_t *number)
+name_colours (const PaintColour *colour, size_t n, CeldRegion *item, uint32_t *number)
 {
   for (size_t i = 0; i < n; i++)
     {
@@ -289,9 +288,9 @@ name_colours (const Colour *colour, size_t n, CeldRegion *item, uint32_t *number
     }
 }
 
-/* Closes the gaps between the slots in use. */
+/* Moves the slots in use to the front. */
 static void
-pack (Colours *colours)
+pack (PaintColours *colours)
 {
   size_t n = 0;
 
@@ -303,11 +302,11 @@ pack (Colours *colours)
 CeldStatus
 celd_labels_read (const CeldPaint *paint, CeldLabels *labels, CeldPalette *palette)
 {
-  Colours     colours = { 0 };
-  CeldLabels  made = { 0 };
-  CeldPalette named = { 0 };
-  uint32_t   *number = NULL;
-  CeldStatus  status;
+  PaintColours colours = { 0 };
+  CeldLabels   made = { 0 };
+  CeldPalette  named = { 0 };
+  uint32_t    *number = NULL;
+  CeldStatus   status;
 
   if (!CELD_SAME_SIZE (paint, labels))
     return CELD_BAD_SIZE;
@@ -345,7 +344,7 @@ done:
 
 /* ------------------------------------------------------------------ the background */
 
-/* The largest difference of a channel. */
+/* The largest difference of any channel. */
 static int
 colour_error (const uint8_t a[3], const uint8_t b[3])
 {
@@ -376,7 +375,7 @@ celd_palette_find (const CeldPalette *palette, const uint8_t colour[3])
   return label;
 }
 
-/* The label that most of the paper along the frame has. */
+/* The most frequent label of the paper along the picture's edge. */
 static CeldStatus
 frame_label (const CeldLabels *labels, const CeldPlane *ink, size_t n_labels, uint32_t *label)
 {

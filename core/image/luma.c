@@ -1,5 +1,5 @@
-/* Luma of encoded colours, by the weights of Rec. 709: what a drawing is read with.  Hosts have other greys at hand
- * (babl's Y' is encoded luminance, much lighter for strong colours); that all read the same ink, all ask here.
+/* Luma of encoded colours, with the weights of Rec. 709: what ink is measured in.  All hosts use this function, because
+ * their own greys differ (babl's Y' is encoded luminance, much lighter for saturated colours).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

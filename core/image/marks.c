@@ -1,5 +1,5 @@
-/* Marks on a picture that show an artist where to look: a ring in red with a white rim, which is legible on ink, on
- * paper and on colours, and a dot at the place itself.
+/* Marks that show an artist where problems are: a red ring with a white rim, which is visible on ink, paper and
+ * colours, and a dot at the place itself.  The sizes are chosen.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,19 +8,19 @@
 #include <math.h>
 
 #define LEAST_RADIUS 5.0        /* pixels */
-#define SHARE        60.0       /* the radius in a picture whose shorter side is so many times as long */
-#define LINE         0.3        /* width of the ring's line, by its radius */
-#define RIM          0.2        /* and of the white on either side */
-#define DOT          0.2        /* radius of the dot */
+#define SIDE_PER_RADIUS        60.0       /* shorter side of the picture divided by the radius */
+#define LINE         0.3        /* width of the ring's line, in radii */
+#define RIM          0.2        /* width of the white on either side, in radii */
+#define DOT          0.2        /* radius of the dot, in radii */
 
-/* How much of a pixel lies within a band: `outside` is the distance of its centre from the band's edge. */
+/* Coverage of a pixel whose centre is `outside` pixels beyond the edge of a shape. */
 static double
 cover (double outside)
 {
   return fmax (0, fmin (1, 0.5 - outside));
 }
 
-/* One colour over a pixel of straight alpha. */
+/* Draws a colour over a pixel with straight alpha. */
 static void
 blend (uint8_t *rgba, const uint8_t colour[3], double opacity)
 {
@@ -56,7 +56,7 @@ void
 celd_problems_paint (const CeldProblems *problems, CeldPaint *paint)
 {
   int    side = paint->width < paint->height ? paint->width : paint->height;
-  double radius = fmax (LEAST_RADIUS, side / SHARE);
+  double radius = fmax (LEAST_RADIUS, side / SIDE_PER_RADIUS);
 
   for (size_t i = 0; i < problems->n; i++)
     if (problems->item[i].x >= 0 && problems->item[i].y >= 0)

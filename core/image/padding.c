@@ -1,11 +1,11 @@
-/* Colours under transparency, for textures: a game engine blends neighbouring pixels, and what lies beside the edge of
- * a sprite must look like the sprite.
+/* Colours under transparent pixels, for textures: game engines blend neighbouring pixels, so the colour just outside
+ * the edge of a sprite must be that of the sprite.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 
-#define SOLID 0.5f /* alpha from which a pixel's colour counts */
+#define SOLID_ALPHA 0.5f /* alpha from which a pixel's colour is used (chosen) */
 
 static void
 pad_pixel (const CeldColours *picture, int64_t most, const float blank[3], int32_t squared, int32_t nearest,
@@ -14,7 +14,7 @@ pad_pixel (const CeldColours *picture, int64_t most, const float blank[3], int32
   const float *from = CELD_RGBA (picture, nearest < 0 ? 0 : nearest % picture->width,
                                  nearest < 0 ? 0 : nearest / picture->width);
 
-  if (rgba[3] >= SOLID)
+  if (rgba[3] >= SOLID_ALPHA)
     return;
   if (nearest >= 0 && squared <= most)
     memcpy (rgba, from, 3 * sizeof *rgba);
@@ -39,7 +39,7 @@ celd_pad_colours (int reach, const float blank[3], const CeldHost *host, CeldCol
     {
       for (int y = 0; y < picture->height; y++)
         for (int x = 0; x < picture->width; x++)
-          solid[i++] = CELD_RGBA (picture, x, y)[3] >= SOLID;
+          solid[i++] = CELD_RGBA (picture, x, y)[3] >= SOLID_ALPHA;
       status = celd_nearest (picture->width, picture->height, solid, host, squared, nearest);
     }
   i = 0;

@@ -1,22 +1,21 @@
-/* What a drawing was made with: dark lines, chalk or a transparent layer; and how light its paper is.
+/* The kind of drawing (dark lines, chalk, or lines on a transparent layer), and how light its paper is.
  *
- * `auto` takes a layer of which little is opaque, and that little is thin and of one tone, for lines on a transparent
- * layer; and a picture whose frame is mostly dark, and which is mostly dark, for chalk.  Anything else is dark on
- * light, so that solid black areas stay ink while paper has the frame.
+ * Automatic detection: a layer of which little is opaque, and that little is thin and of one tone, has lines on a
+ * transparent layer; a picture that is mostly dark, along its edge as well, is chalk.  Everything else is dark on
+ * light, so solid black areas stay ink as long as most of the edge is paper.
  *
- * The paper level is a high quantile in each tile; tiles without paper (solid ink) are filled in from those around;
- * between the tiles it is bilinear.  White paper comes out as exactly 1.  Cost: O(pixels).
+ * The paper level is a high quantile in each tile; tiles without paper (solid ink) are filled in from their neighbours;
+ * between tiles it is interpolated bilinearly.  White paper has a level of exactly 1.  Cost: O(pixels).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
+#include "image/ink.h"
 
 #include <math.h>
 #include <string.h>
 
-#define BINS 256
-#define BANKS 4               /* histograms taken in turn: the same count twice running would have to wait for itself */
-#define DARKEST 1e-3f         /* no paper is darker, so that values can be divided by it */
+#define DARKEST 1e-3f /* least paper level: values are divided by it */
 
 /* ------------------------------------------------------------------ one value a pixel */
 
@@ -44,8 +43,8 @@ paper_value (const CeldDrawing *drawing, CeldInkMode mode, int x, int y)
   return mode == CELD_INK_ALPHA ? 1 - alpha : mode == CELD_INK_LIGHT ? 1 - luma * alpha : 1 - (1 - luma) * alpha;
 }
 
-/* Lines on a transparent layer: most of it is transparent, what is not is thin, and inside a line there is no contrast
- * as there is between the outline and the fill of a sprite. */
+/* Lines on a transparent layer: most of it is transparent, the rest is thin, and there is no contrast inside it as
+ * there is between the outline and the fill of a sprite. */
 static bool
 is_line_layer (const CeldDrawing *drawing)
 {
@@ -74,32 +73,32 @@ is_line_layer (const CeldDrawing *drawing)
   return opaque < 0.6 * width * height && inside < 0.15 * outline && 2 * opaque < 0.06 * side * outline;
 }
 
-/* Chalk on dark paper: dark is the frame, and dark is most of the picture; dark and light part half way between the
- * darkest and the lightest that there is. */
+/* Chalk on dark paper: most of the picture, and most of its edge, is darker than the middle between the darkest and the
+ * lightest half per cent. */
 static bool
 is_chalk (const CeldDrawing *drawing)
 {
   int    width = drawing->luma.width, height = drawing->luma.height, band = 1 + (width < height ? width : height) / 50;
-  size_t of[BINS] = { 0 }, frame[BINS] = { 0 }, all = (size_t) width * (size_t) height, framed = 0;
+  size_t of[CELD_INK_BINS] = { 0 }, frame[CELD_INK_BINS] = { 0 }, all = (size_t) width * (size_t) height, framed = 0;
   size_t below = 0, dark = 0, dark_frame = 0, tail = all / 200;
-  int    low = 0, high = BINS - 1;
+  int    low = 0, high = CELD_INK_BINS - 1;
 
   for (int y = 0; y < height; y++)
     for (int x = 0; x < width; x++)
       {
-        int  bin = (int) (paper_value (drawing, CELD_INK_DARK, x, y) * (BINS - 1) + 0.5f);
+        int  bin = (int) (paper_value (drawing, CELD_INK_DARK, x, y) * (CELD_INK_BINS - 1) + 0.5f);
         bool on_frame = x < band || y < band || x >= width - band || y >= height - band;
 
         of[bin]++;
         frame[bin] += on_frame;
         framed += on_frame;
       }
-  for (below = of[0]; below <= tail && low < BINS - 1; below += of[++low])
+  for (below = of[0]; below <= tail && low < CELD_INK_BINS - 1; below += of[++low])
     ;
-  for (below = of[BINS - 1]; below <= tail && high > 0; below += of[--high])
+  for (below = of[CELD_INK_BINS - 1]; below <= tail && high > 0; below += of[--high])
     ;
-  if (high - low < BINS / 16)
-    return low + high < BINS - 1;
+  if (high - low < CELD_INK_BINS / 16)
+    return low + high < CELD_INK_BINS - 1;
   for (int i = 0; 2 * i <= low + high; i++)
     {
       dark += of[i];
@@ -119,7 +118,7 @@ has_transparency (const CeldDrawing *drawing)
   return false;
 }
 
-/* An opaque picture has no lines in its alpha, whatever was asked for. */
+/* An opaque picture has no lines in its alpha, so CELD_INK_ALPHA is treated as CELD_INK_AUTO then. */
 CeldInkMode
 celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode)
 {
@@ -145,28 +144,28 @@ celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value)
 
 typedef struct { int side, width, height; float *level, *spare; } Tiles;
 
-/* The commonest value among the lightest fifth of a tile's pixels, edges left out; 0 if all of it is edges. */
+/* The most frequent value among the lightest fifth of a tile's pixels, without edges; 0 if there are only edges. */
 static float
 upper_value (const CeldPlane *value, int left, int top, int side)
 {
-  unsigned of[BANKS][BINS] = { { 0 } }, all = 0, above = 0;
-  double   sum[BANKS][BINS] = { { 0 } };
-  int      bin = BINS - 1, fullest;
+  unsigned of[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } }, all = 0, above = 0;
+  double   sum[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } };
+  int      bin = CELD_INK_BINS - 1, fullest;
 
   for (int y = top; y < top + side && y < value->height; y++)
     for (int x = left; x < left + side && x < value->width; x++)
       {
         float v = CELD_AT (value, x, y);
-        int   i = (int) (v * (BINS - 1) + 0.5f);
+        int   i = (int) (v * (CELD_INK_BINS - 1) + 0.5f);
 
         if (fabsf (v - CELD_AT (value, x > 0 ? x - 1 : 0, y)) > 0.06f)
           continue;
-        of[x % BANKS][i]++;
-        sum[x % BANKS][i] += v;
+        of[x % CELD_INK_BANKS][i]++;
+        sum[x % CELD_INK_BANKS][i] += v;
         all++;
       }
-  for (int k = 1; k < BANKS; k++)
-    for (int i = 0; i < BINS; i++)
+  for (int k = 1; k < CELD_INK_BANKS; k++)
+    for (int i = 0; i < CELD_INK_BINS; i++)
       {
         of[0][i] += of[k][i];
         sum[0][i] += sum[k][i];
@@ -181,8 +180,8 @@ upper_value (const CeldPlane *value, int left, int top, int side)
   return (float) (sum[0][fullest] / of[0][fullest]);
 }
 
-/* Keeps the tiles whose level can be reached from the brightest in small steps, as shadows and vignettes can; sets the
- * others, inside solid ink, to 0. */
+/* Keeps the tiles whose level can be reached from the brightest tiles in small steps, as in shadows and vignettes; sets
+ * the others, which are inside solid ink, to 0. */
 static void
 drop_inked_tiles (Tiles *t)
 {
@@ -218,7 +217,7 @@ drop_inked_tiles (Tiles *t)
   memcpy (t->level, t->spare, (size_t) t->width * (size_t) t->height * sizeof *t->level);
 }
 
-/* Mean of the known tiles among the 3x3 round (x,y), 0 if none is known. */
+/* Mean of the known tiles among the 3x3 around (x,y); 0 if none is known. */
 static float
 mean_around (const Tiles *t, int x, int y)
 {
@@ -234,7 +233,7 @@ mean_around (const Tiles *t, int x, int y)
   return n > 0 ? sum / n : 0;
 }
 
-/* Fills unknown tiles ring by ring. */
+/* Fills in unknown tiles from known neighbours until none is left. */
 static void
 fill_tiles (Tiles *t)
 {
@@ -256,7 +255,7 @@ fill_tiles (Tiles *t)
     }
 }
 
-/* Evens out the tiles' levels; a steady slope stays one, at the frame too. */
+/* Smooths the tiles' levels; linear slopes stay as they are, also at the picture's edge. */
 static void
 smooth_tiles (Tiles *t)
 {
@@ -277,8 +276,8 @@ smooth_tiles (Tiles *t)
       }
 }
 
-/* Of `n` tiles in a row, the first of the two that a pixel lies between, and how far it is on the way to the second;
- * beyond the middle of the outermost tiles the slope goes on. */
+/* The first of the two tiles, of `n` in a row, between whose middles a pixel lies; *share is the weight of the second,
+ * outside [0,1] beyond the middles of the outermost tiles: there the slope continues. */
 static int
 tile_before (int pixel, int side, int n, float *share)
 {
@@ -291,7 +290,7 @@ tile_before (int pixel, int side, int n, float *share)
   return tile;
 }
 
-/* Between the middles of tiles, and beyond those of the outermost; the levels of one row of pixels go to spare. */
+/* Interpolates bilinearly between the middles of tiles; the levels of one row of pixels are kept in t->spare. */
 static void
 interpolate_tiles (const Tiles *t, CeldPlane *paper)
 {

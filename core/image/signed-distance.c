@@ -1,12 +1,12 @@
-/* The distances of paper to ink and of ink to paper at once, with a sign.
+/* Signed distances: of paper to ink, positive, and of ink to paper, negative, at once.
  *
  * As distance.c, after Meijster, Roerdink and Hesselink 2000: column distances, here positive on paper and negative in
- * ink, then the lower envelope of the parabolas (x - u)^2 + g(u)^2 along each row.  A stretch of paper within a row
- * ends at ink and a stretch of ink at paper, so that each has an envelope of its own.  Since all parabolas are equally
- * wide, the envelope is the lower convex hull of the points (u, u^2 + g(u)^2): most columns are sifted out by comparing
- * each with a few neighbours, many at a time, and the hull of the others is found from left to right (Andrew 1979).
+ * ink, then the lower envelope of the parabolas (x - u)^2 + g(u)^2 along each row.  A run of paper ends at ink and a
+ * run of ink at paper, so each run has its own envelope.  All parabolas are equally wide, so the envelope is the lower
+ * convex hull of the points (u, u^2 + g(u)^2): most columns are ruled out by comparing each with a few neighbours,
+ * which vector instructions do for many at once; the hull of the others is found from left to right (Andrew 1979).
  *
- * O(pixels) time; some rows a job of workspace.
+ * O(pixels) time; some rows of work space per job.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,31 +14,31 @@
 
 #include <stdlib.h>
 
-#define NONE    (1 << 20) /* a column distance from here on: there is none */
-#define WIDE    4096      /* columns a job of the vertical pass */
-#define BAND    16        /* rows a job of the horizontal pass */
-#define JOBS    16        /* jobs at once */
-#define BEYOND  8         /* columns that may be looked at, or written, beyond both ends of a row */
-#define TALL    (1 << 25) /* a square that stands for all larger ones when sites are sifted */
-#define SHORT   (1 << 20) /* sites with larger squares are not sifted */
+#define NO_SIGN_CHANGE    (1 << 20) /* a column distance from here on: there is none */
+#define SIGNED_COLUMNS    4096      /* columns a job of the vertical pass */
+#define SIGNED_ROWS    16        /* rows a job of the horizontal pass */
+#define SIGNED_JOBS    16        /* jobs at once */
+#define MARGIN  8         /* columns that may be looked at, or written, beyond both ends of a row */
+#define LARGEST_SQUARE    (1 << 25) /* a square that stands for all larger ones when sites are sifted */
+#define SIFTED_SQUARE   (1 << 20) /* sites with larger squares are not sifted */
 
 typedef struct { int column; int32_t f; } Site; /* f: squares of the column and of its column distance */
 
-/* What a job works with, by column. */
+/* The work space of one job, by column. */
 typedef struct
 {
-  int32_t *height;    /* squares of the column distances, TALL at most; BEYOND more at both ends */
-  int32_t *result;    /* BEYOND more */
+  int32_t *height;    /* squares of the column distances, LARGEST_SQUARE at most; MARGIN more at both ends */
+  int32_t *result;    /* MARGIN more */
   uint8_t *keep;      /* may this be a site? */
   uint8_t *change;    /* 0x80: the next one has another sign */
   Site    *site;      /* two more */
-} Desk;
+} JobSpace;
 
 typedef struct
 {
   const CeldPlane *ink;
   int32_t         *squared;   /* signed column distances, then signed squares */
-  Desk             desk[JOBS];
+  JobSpace         space[SIGNED_JOBS];
   int              first;
 } Signed;
 
@@ -67,17 +67,17 @@ step_up (int n, const int32_t *restrict below, int32_t *restrict g)
     }
 }
 
-/* As measure_columns. */
+/* The vertical pass, as measure_columns in distance.c. */
 static void
 measure_signed_columns (void *data, int job)
 {
   const Signed *t = data;
-  int           w = t->ink->width, h = t->ink->height, left = (t->first + job) * WIDE;
-  int           n = left + WIDE < w ? WIDE : w - left;
+  int           w = t->ink->width, h = t->ink->height, left = (t->first + job) * SIGNED_COLUMNS;
+  int           n = left + SIGNED_COLUMNS < w ? SIGNED_COLUMNS : w - left;
   int32_t      *g = t->squared + left;
 
   for (int x = 0; x < n; x++)
-    g[x] = celd_is_paper (CELD_AT (t->ink, left + x, 0)) ? NONE : -NONE;
+    g[x] = celd_is_paper (CELD_AT (t->ink, left + x, 0)) ? NO_SIGN_CHANGE : -NO_SIGN_CHANGE;
   for (int y = 1; y < h; y++)
     step_down (n, &CELD_AT (t->ink, left, y), g + (size_t) (y - 1) * (size_t) w, g + (size_t) y * (size_t) w);
   for (int y = h - 2; y >= 0; y--)
@@ -88,17 +88,17 @@ CELD_CLONES static void
 prepare_row (int w, const int32_t *restrict g, int32_t *restrict height, uint8_t *restrict change)
 {
   for (int x = 0; x < w; x++)
-    height[x] = abs (g[x]) < 5792 ? g[x] * g[x] : TALL; /* 5792^2 is just below TALL */
+    height[x] = abs (g[x]) < 5792 ? g[x] * g[x] : LARGEST_SQUARE; /* 5792^2 is just below LARGEST_SQUARE */
   for (int x = 0; x + 1 < w; x++)
     change[x] = (uint8_t) ((g[x] ^ g[x + 1]) < 0 ? 0x80 : 0);
   change[w - 1] = 0x80;
 }
 
-/* Is the parabola of column u nowhere below both those of u - a and u + b? */
+/* Whether the parabola of column x is nowhere below both those of x - a and x + b. */
 #define HIDDEN(a, b) (b * (height[x - a] - h) + a * (height[x + b] - h) + a * b * (a + b) <= 0)
 
-/* Most parabolas are hidden by two others a few columns away.  (On the other side of a change of sign a square is not
- * that of a site, but no less.) */
+/* Most parabolas are hidden by two others a few columns away.  (Beyond a change of sign a square is not that of a site,
+ * but it is no less, so nothing is ruled out wrongly.) */
 CELD_CLONES static void
 sift_sites (int w, const int32_t *restrict height, uint8_t *restrict keep)
 {
@@ -108,7 +108,7 @@ sift_sites (int w, const int32_t *restrict height, uint8_t *restrict keep)
       bool    hidden = HIDDEN (1, 1) | HIDDEN (1, 2) | HIDDEN (2, 1) | HIDDEN (1, 4) | HIDDEN (4, 1) | HIDDEN (3, 3) |
                        HIDDEN (1, 8) | HIDDEN (8, 1);
 
-      keep[x] = !(hidden & (h < SHORT));
+      keep[x] = !(hidden & (h < SIFTED_SQUARE));
     }
 }
 
@@ -133,7 +133,7 @@ find_hull (const int32_t *row, int w, const uint8_t *keep, int left, int end, Si
       int     u = site[i].column;
       int32_t g = u < left || u >= end ? 0 : row[u], f;
 
-      if (abs (g) >= NONE)
+      if (abs (g) >= NO_SIGN_CHANGE)
         continue;
       f = u * u + g * g;
       while (kept > 1 && (int64_t) (site[kept - 1].f - site[kept - 2].f) * (u - site[kept - 1].column) >=
@@ -165,8 +165,8 @@ draw_arcs (const Site *site, int n, int left, int end, int32_t *restrict result)
 
       stop = k + 1 < n ? find_begin (site + k + 1) : end;
       stop = stop < begin ? begin : stop > end ? end : stop;
-      for (int x = begin; x < stop; x += BEYOND)
-        for (int i = 0; i < BEYOND; i++)
+      for (int x = begin; x < stop; x += MARGIN)
+        for (int i = 0; i < MARGIN; i++)
           result[x + i] = (x + i - u) * (x + i - u) + h;
     }
 }
@@ -179,55 +179,56 @@ set_signs (int w, const int32_t *restrict result, int32_t *restrict row)
 }
 
 static void
-measure_signed_row (int32_t *row, int w, const Desk *desk)
+measure_signed_row (int32_t *row, int w, const JobSpace *space)
 {
-  prepare_row (w, row, desk->height + BEYOND, desk->change);
-  sift_sites (w, desk->height + BEYOND, desk->keep);
+  prepare_row (w, row, space->height + MARGIN, space->change);
+  sift_sites (w, space->height + MARGIN, space->keep);
   for (int left = 0, end; left < w; left = end)
     {
-      end = celd_next_marked (w, desk->change, left) + 1;
-      draw_arcs (desk->site, find_hull (row, w, desk->keep, left, end, desk->site), left, end, desk->result);
+      end = celd_next_marked (w, space->change, left) + 1;
+      draw_arcs (space->site, find_hull (row, w, space->keep, left, end, space->site), left, end, space->result);
     }
-  set_signs (w, desk->result, row);
+  set_signs (w, space->result, row);
 }
 
 static void
 measure_signed_rows (void *data, int job)
 {
   const Signed *t = data;
-  int           h = t->ink->height, top = (t->first + job) * BAND, end = top + BAND < h ? top + BAND : h;
+  int           h = t->ink->height, top = (t->first + job) * SIGNED_ROWS;
+  int           end = top + SIGNED_ROWS < h ? top + SIGNED_ROWS : h;
 
   for (int y = top; y < end; y++)
-    measure_signed_row (t->squared + (size_t) y * (size_t) t->ink->width, t->ink->width, &t->desk[job]);
+    measure_signed_row (t->squared + (size_t) y * (size_t) t->ink->width, t->ink->width, &t->space[job]);
 }
 
 /* ------------------------------------------------------------------ all of it */
 
 static bool
-desk_new (int width, Desk *desk)
+space_new (int width, JobSpace *space)
 {
   size_t w = (size_t) width;
 
-  *desk = (Desk) {
-    .height = celd_alloc (w + 2 * BEYOND, sizeof *desk->height),
-    .result = celd_alloc (w + BEYOND, sizeof *desk->result),
+  *space = (JobSpace) {
+    .height = celd_alloc (w + 2 * MARGIN, sizeof *space->height),
+    .result = celd_alloc (w + MARGIN, sizeof *space->result),
     .keep   = celd_alloc (w, 1),
     .change = celd_alloc (w, 1),
-    .site   = celd_alloc (w + 2, sizeof *desk->site),
+    .site   = celd_alloc (w + 2, sizeof *space->site),
   };
-  for (size_t i = 0; desk->height && i < BEYOND; i++)
-    desk->height[i] = desk->height[w + BEYOND + i] = TALL;
-  return desk->height && desk->result && desk->keep && desk->change && desk->site;
+  for (size_t i = 0; space->height && i < MARGIN; i++)
+    space->height[i] = space->height[w + MARGIN + i] = LARGEST_SQUARE;
+  return space->height && space->result && space->keep && space->change && space->site;
 }
 
 static void
-desk_clear (Desk *desk)
+space_clear (JobSpace *space)
 {
-  celd_free (desk->height);
-  celd_free (desk->result);
-  celd_free (desk->keep);
-  celd_free (desk->change);
-  celd_free (desk->site);
+  celd_free (space->height);
+  celd_free (space->result);
+  celd_free (space->keep);
+  celd_free (space->change);
+  celd_free (space->site);
 }
 
 CeldStatus
@@ -238,13 +239,15 @@ celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squar
 
   if (!CELD_SAME_SIZE (ink, ink))
     return CELD_BAD_SIZE;
-  for (int i = 0; i < JOBS; i++)
-    status = desk_new (ink->width, &t.desk[i]) ? status : CELD_NO_MEMORY;
+  for (int i = 0; i < SIGNED_JOBS; i++)
+    status = space_new (ink->width, &t.space[i]) ? status : CELD_NO_MEMORY;
   if (!status)
-    status = celd_parallel_rounds (host, (ink->width + WIDE - 1) / WIDE, JOBS, measure_signed_columns, &t, &t.first, 0, 0.4);
+    status = celd_parallel_rounds (host, (ink->width + SIGNED_COLUMNS - 1) / SIGNED_COLUMNS, SIGNED_JOBS,
+                                   measure_signed_columns, &t, &t.first, 0, 0.4);
   if (!status)
-    status = celd_parallel_rounds (host, (ink->height + BAND - 1) / BAND, JOBS, measure_signed_rows, &t, &t.first, 0.4, 1);
-  for (int i = 0; i < JOBS; i++)
-    desk_clear (&t.desk[i]);
+    status = celd_parallel_rounds (host, (ink->height + SIGNED_ROWS - 1) / SIGNED_ROWS, SIGNED_JOBS,
+                                   measure_signed_rows, &t, &t.first, 0.4, 1);
+  for (int i = 0; i < SIGNED_JOBS; i++)
+    space_clear (&t.space[i]);
   return status;
 }

@@ -1,4 +1,4 @@
-/* How wide the strokes of a drawing are, and what a point on one of them means: the paper beside it.
+/* The width of a drawing's strokes, and the paper nearest to a point on a stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,17 +6,17 @@
 
 #include <string.h>
 
-#define LONGEST_RUN 256  /* pixels; longer runs count as this long */
-#define STRIP       4096
+#define LONGEST_RUN   256  /* pixels; longer runs count as this long (chosen) */
+#define STRIP_COLUMNS       4096
 
-/* Columns that are gone through at once, row by row, so that the drawing is read once. */
+/* A strip of columns, processed row by row, so that the drawing is read once for runs along rows and columns. */
 typedef struct
 {
   const CeldPlane *ink;
   int              left, width;
-  uint8_t          inked[2][STRIP + 1];   /* a row and the one above; the last one is paper */
-  int              begin[STRIP];          /* of each column: the row where its last run began */
-  size_t          *runs;                  /* by length */
+  uint8_t          inked[2][STRIP_COLUMNS + 1];   /* the current row and the one above; the last element is paper */
+  int              begin[STRIP_COLUMNS];          /* of each column: the row in which its last run began */
+  size_t          *runs;                  /* the number of runs of each length */
 } Strip;
 
 CELD_CLONES static void
@@ -26,7 +26,7 @@ read_row (const float *restrict ink, int n, uint8_t *restrict inked)
     inked[x] = !celd_is_paper (ink[x]);
 }
 
-/* The first place from x on where two rows differ. */
+/* The first index from x on where two rows differ; n if they do not. */
 static inline int
 next_difference (const uint8_t *a, const uint8_t *b, int x, int n)
 {
@@ -50,7 +50,7 @@ count_run (const Strip *s, int length)
   s->runs[length < LONGEST_RUN ? length : LONGEST_RUN]++;
 }
 
-/* How far a run of row y goes on from the end of the strip, as far as that matters. */
+/* How many pixels a run of row y continues beyond the end of the strip, at most LONGEST_RUN. */
 static int
 length_beyond (const Strip *s, int y)
 {
@@ -61,7 +61,7 @@ length_beyond (const Strip *s, int y)
   return n;
 }
 
-/* The runs of a row that begin in the strip. */
+/* Counts the runs of row y that begin in the strip. */
 static void
 count_along_row (const Strip *s, int y, const uint8_t *inked)
 {
@@ -75,7 +75,7 @@ count_along_row (const Strip *s, int y, const uint8_t *inked)
     }
 }
 
-/* The runs of the columns that end above row y, and those that begin there. */
+/* Counts the vertical runs that end above row y, and notes those that begin in it. */
 static void
 count_down_columns (Strip *s, int y, const uint8_t *inked, const uint8_t *above)
 {
@@ -90,7 +90,8 @@ count_down_columns (Strip *s, int y, const uint8_t *inked, const uint8_t *above)
 static void
 count_strip (const CeldPlane *ink, int left, size_t runs[LONGEST_RUN + 1])
 {
-  Strip s = { .ink = ink, .left = left, .width = ink->width - left < STRIP ? ink->width - left : STRIP, .runs = runs };
+  int   width = ink->width - left < STRIP_COLUMNS ? ink->width - left : STRIP_COLUMNS;
+  Strip s = { .ink = ink, .left = left, .width = width, .runs = runs };
 
   for (int y = 0; y < ink->height; y++)
     {
@@ -98,7 +99,7 @@ count_strip (const CeldPlane *ink, int left, size_t runs[LONGEST_RUN + 1])
       count_along_row (&s, y, s.inked[y & 1]);
       count_down_columns (&s, y, s.inked[y & 1], s.inked[~y & 1]);
     }
-  memset (s.inked[ink->height & 1], 0, STRIP);
+  memset (s.inked[ink->height & 1], 0, STRIP_COLUMNS);
   count_down_columns (&s, ink->height, s.inked[ink->height & 1], s.inked[~ink->height & 1]);
 }
 
@@ -108,7 +109,7 @@ celd_stroke_width (const CeldPlane *ink)
   size_t runs[LONGEST_RUN + 1] = { 0 }, all = 0, below = 0;
   int    width = 0;
 
-  for (int left = 0; left < ink->width; left += STRIP)
+  for (int left = 0; left < ink->width; left += STRIP_COLUMNS)
     count_strip (ink, left, runs);
   for (int i = 1; i <= LONGEST_RUN; i++)
     all += runs[i];

@@ -1,6 +1,7 @@
-/* Depth enhancement (section 5, Figures 1d and 5c): what is near stands out against what is behind it, by the stack of
- * blurred regions (shadows.c) or by depth-buffer unsharp masking [LCD06]: with D the distance from the viewer, pixels
- * change by strength (G D - D), which is darker behind a border of depth and lighter before it.
+/* Depth enhancement (section 5, Figures 1d and 5c): near regions stand out against those behind them, either by the
+ * shadows of a stack of regions (shadows.c) or by unsharp masking of the depth buffer [LCD06]: with D the distance from
+ * the viewer and G a Gaussian, brightness changes by strength (G D - D), which darkens the farther side of a depth
+ * discontinuity and lightens the nearer one.
  *
  *   [LCD06]  T. Luft, C. Colditz, O. Deussen: Image Enhancement by Unsharp Masking the Depth Buffer.  SIGGRAPH 2006.
  *
@@ -19,10 +20,10 @@ typedef struct
   CeldPlane       *change;
   CeldBlurGrid        cells;
   CeldBetween     *column, *row;
-  float           *mean;           /* of each cell, blurred */
+  float           *mean;           /* mean depth of each cell, blurred */
   float            least, range;   /* of depth */
   float            strength;
-  bool             darken;         /* only */
+  bool             darken;         /* never lighten */
 } Unsharp;
 
 static void
@@ -150,7 +151,7 @@ celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const Cel
 
 /* ------------------------------------------------------------------ the change on colours */
 
-/* Lighter colours are brighter ones, so that ink stays ink; none becomes brighter than white. */
+/* Scales the value, so that black ink stays black; it becomes no brighter than white. */
 static float
 changed (float value, float change)
 {

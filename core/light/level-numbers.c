@@ -1,4 +1,4 @@
-/* Levels as depth enhancement reads them, and the numbers of those that there are.
+/* The range of levels, and numbers for the distinct ones.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,7 +18,7 @@ celd_level_range (const CeldPlane *levels, float *least, float *most)
 
 /* ------------------------------------------------------------------ numbers */
 
-/* The place of a value among the known ones, or where it would stand. */
+/* The index of a value in the sorted list, or where to insert it. */
 static int
 find_value (const CeldLevelNumbers *numbers, float value)
 {
@@ -36,7 +36,7 @@ find_value (const CeldLevelNumbers *numbers, float value)
   return low;
 }
 
-/* All values that there are; false if they are too many. */
+/* Lists all distinct values; false if there are too many. */
 static bool
 list_values (const CeldPlane *levels, CeldLevelNumbers *numbers)
 {
@@ -65,7 +65,7 @@ list_values (const CeldPlane *levels, CeldLevelNumbers *numbers)
   return true;
 }
 
-/* Of too many values, as many evenly spread ones. */
+/* Replaces too many values by evenly spaced ones. */
 static void
 spread_values (const CeldPlane *levels, CeldLevelNumbers *numbers)
 {

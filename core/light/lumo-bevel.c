@@ -1,7 +1,7 @@
-/* Bent along outlines only: at a distance of the bevel's width from its own outlines a part is flat.
+/* Bevels: a region bends along its own outlines only, and is flat farther away from them than the width of the bevel.
  *
- * The nearest hold of each pixel is handed on from pixel to pixel, but not across cuts, so that what lies nearer does
- * not count for what runs on under it.  Rows down and up, until nothing changes.
+ * Each pixel takes the nearest constraint of its neighbours, but not across cuts, so that outlines of nearer regions do
+ * not bend what continues behind them.  Rows are swept down and up until nothing changes.
  *
  *   [Dan80]  P.-E. Danielsson: Euclidean Distance Mapping.  Computer Graphics and Image Processing 14, 1980.
  *
@@ -11,33 +11,34 @@
 
 #include <math.h>
 
-#define MOST_ROUNDS 16          /* down and up; a spiral has more turns than anyone draws */
-#define NONE        UINT32_MAX
+#define MOST_SWEEPS 16          /* down and up (chosen: only spirals of more turns need more) */
+#define NO_CONSTRAINT        UINT32_MAX
 
 typedef struct { CeldLumo *lumo; uint32_t *nearest; int64_t far; bool changed; } Bevel;
 
 static int64_t
-squared (const Bevel *b, size_t pixel, uint32_t hold)
+squared (const Bevel *b, size_t pixel, uint32_t constraint)
 {
   size_t  w = (size_t) b->lumo->width;
-  int64_t dx = (int64_t) (pixel % w) - (int64_t) (hold % w), dy = (int64_t) (pixel / w) - (int64_t) (hold / w);
+  int64_t dx = (int64_t) (pixel % w) - (int64_t) (constraint % w);
+  int64_t dy = (int64_t) (pixel / w) - (int64_t) (constraint / w);
 
   return dx * dx + dy * dy;
 }
 
-/* Is the hold that a neighbour has nearer than its own, and within reach? */
+/* Takes over the constraint of the neighbour `from` if it is nearer than the present one, and near enough to matter. */
 static void
 take (Bevel *b, size_t pixel, size_t from, float weight)
 {
-  uint32_t hold = b->nearest[from];
+  uint32_t constraint = b->nearest[from];
   int64_t  distance;
 
-  if (!(weight > 0) || hold == NONE || hold == b->nearest[pixel])
+  if (!(weight > 0) || constraint == NO_CONSTRAINT || constraint == b->nearest[pixel])
     return;
-  distance = squared (b, pixel, hold);
-  if (distance > b->far || (b->nearest[pixel] != NONE && distance >= squared (b, pixel, b->nearest[pixel])))
+  distance = squared (b, pixel, constraint);
+  if (distance > b->far || (b->nearest[pixel] != NO_CONSTRAINT && distance >= squared (b, pixel, b->nearest[pixel])))
     return;
-  b->nearest[pixel] = hold;
+  b->nearest[pixel] = constraint;
   b->changed        = true;
 }
 
@@ -63,7 +64,7 @@ spread (Bevel *b, const CeldHost *host)
   CeldStatus status = CELD_OK;
 
   b->changed = true;
-  for (int round = 0; b->changed && round < MOST_ROUNDS && status == CELD_OK; round++)
+  for (int round = 0; b->changed && round < MOST_SWEEPS && status == CELD_OK; round++)
     {
       b->changed = false;
       for (int y = 0; y < height; y++)
@@ -84,7 +85,7 @@ flatten (const Bevel *b, double width)
     {
       double t = 1, tilt;
 
-      if (b->nearest[i] != NONE)
+      if (b->nearest[i] != NO_CONSTRAINT)
         t = fmin (1, (sqrt ((double) squared (b, i, b->nearest[i])) + 0.5) / width);
       tilt = 1 - t * t * (3 - 2 * t);
       b->lumo->tilt[2 * i]     *= (float) tilt;
@@ -108,7 +109,7 @@ celd_lumo_bevel (CeldLumo *l, const CeldHost *host)
   width = fmax (width, 1);
   b.far = (int64_t) (width * width) + 1;
   for (size_t i = 0; i < n; i++)
-    b.nearest[i] = NONE;
+    b.nearest[i] = NO_CONSTRAINT;
   for (size_t k = 0; k < l->n_constraints; k++)
     b.nearest[l->constraint[k].pixel] = (uint32_t) l->constraint[k].pixel;
   status = spread (&b, host);

@@ -1,12 +1,12 @@
-/* Strokes inside a part: wrinkles, folds, creases, which need not end what they are drawn on.
+/* Creases: strokes inside a region, such as wrinkles and folds, along which its surface may bend.
  *
- * By themselves they do nothing.  Quilted, both sides of their middle bend away from it as in a crease of a quilt, or of
- * smooth depth that differs there the higher side alone; what is flat behind everything stays so.  Painted hints come
- * before that, as in [Joh02]: white beside a line makes its side bend ("over"), black lets it run on ("under"), grey
- * bends both sides; at outlines, too.
+ * By default they do not.  With settings->quilt both sides of the stroke's middle bend away from it, like a seam of a
+ * quilt, or only the higher side if smooth depth differs there; flat regions stay flat.  Painted hints take precedence,
+ * as in [Joh02], also at outlines: white beside a line makes that side bend ("over"), black lets it continue ("under"),
+ * grey bends both sides.
  *
- * The middle of a stroke runs where the nearest paper changes from one side to the other: on the medial axis.  Its
- * direction comes from the second moments of the ink under a Gaussian.  What is wider than two strokes is an area.
+ * The middle of a stroke is its medial axis: where the nearest paper changes from one side to the other.  Its direction
+ * comes from the second moments of the ink under a Gaussian.  Ink wider than two strokes is an area and has none.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,15 +16,15 @@
 
 #include <math.h>
 
-#define REACH     5     /* pixels of ink round an edge that tell the direction of the stroke */
-#define SPREAD    2.0   /* deviation of the Gaussian in pixels */
-#define TURN      0.25  /* cosine between the ways to both sides' paper, at most */
-#define SLIGHT    0.005f /* difference of smooth depth, as a share of its range, that is none */
-#define NEAR_LINE 3     /* pixels beyond the stroke where hints are looked for */
+#define STROKE_RADIUS     5     /* pixels around an edge whose ink gives the direction (chosen) */
+#define STROKE_DEVIATION    2.0   /* of the Gaussian, in pixels (chosen) */
+#define LARGEST_COSINE      0.25  /* between the directions to the paper of both sides (chosen) */
+#define SLIGHT    0.005f /* difference of depth that is ignored, as a share of its range (chosen) */
+#define NEAR_LINE 3     /* pixels beyond the stroke within which hints count (chosen) */
 
 typedef struct { CeldLumo *lumo; int32_t *nearest; float slight; } Creases;
 
-/* A pixel of a stroke, or beside it, and the way to its paper. */
+/* A pixel of a stroke, or beside it, with the vector to its nearest paper and that pixel's index. */
 typedef struct { int x, y, dx, dy; size_t paper; } Flank;
 
 /* ------------------------------------------------------------------ hints */
@@ -61,7 +61,8 @@ flank_of (const Creases *s, int x, int y)
   return (Flank) { x, y, (int) (paper % (size_t) l->width) - x, (int) (paper / (size_t) l->width) - y, paper };
 }
 
-/* Do two neighbours belong to two sides of one stroke?  Of a stroke one pixel wide the other may be its paper. */
+/* Whether two neighbours are on different sides of a stroke's middle.  If the stroke is one pixel wide, one of the two
+ * may be paper. */
 static bool
 is_middle (const Creases *s, const Flank *p, const Flank *q)
 {
@@ -74,24 +75,24 @@ is_middle (const Creases *s, const Flank *p, const Flank *q)
   if (!(a > 0) && !(b > 0))
     return false;
   if (a > 0 && b > 0)
-    return p->dx * q->dx + p->dy * q->dy < TURN * a * b;
+    return p->dx * q->dx + p->dy * q->dy < LARGEST_COSINE * a * b;
   return a > 0 ? p->dx * (q->x - p->x) + p->dy * (q->y - p->y) < 0 : q->dx * (p->x - q->x) + q->dy * (p->y - q->y) < 0;
 }
 
-/* The unit vector across the stroke at the middle of two pixels, from the first to the second, y down. */
+/* The unit vector across the stroke midway between two pixels, towards the second one's side; y down. */
 static void
 across (const CeldLumo *l, const Flank *p, const Flank *q, double *nx, double *ny)
 {
   double cx = 0.5 * (p->x + q->x), cy = 0.5 * (p->y + q->y), sum = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
   double rx = q->x + q->dx - p->x - p->dx, ry = q->y + q->dy - p->y - p->dy, r = hypot (rx, ry), angle, dot;
 
-  for (int y = p->y - REACH; y <= p->y + REACH; y++)
-    for (int x = p->x - REACH; x <= p->x + REACH; x++)
+  for (int y = p->y - STROKE_RADIUS; y <= p->y + STROKE_RADIUS; y++)
+    for (int x = p->x - STROKE_RADIUS; x <= p->x + STROKE_RADIUS; x++)
       if (x >= 0 && y >= 0 && x < l->width && y < l->height && CELD_AT (l->ink, x, y) < 1)
         {
           double dx = x - cx, dy = y - cy;
           double weight = (1 - fmax (0, (double) CELD_AT (l->ink, x, y))) *
-                          exp (-0.5 * (dx * dx + dy * dy) / (SPREAD * SPREAD));
+                          exp (-0.5 * (dx * dx + dy * dy) / (STROKE_DEVIATION * STROKE_DEVIATION));
 
           sum += weight;
           mx += weight * dx;
@@ -113,14 +114,14 @@ across (const CeldLumo *l, const Flank *p, const Flank *q, double *nx, double *n
     }
 }
 
-/* ------------------------------------------------------------------ what bends */
+/* ------------------------------------------------------------------ how much the sides bend */
 
-/* How much both sides bend; is that painted? */
+/* Sets how much both sides bend; returns whether hints say so. */
 static bool
 strengths (const Creases *s, const Flank *p, const Flank *q, double nx, double ny, float strength[2])
 {
   const CeldLumo *l = s->lumo;
-  CeldLumoHint        side[2] = { CELD_UNPAINTED, CELD_UNPAINTED };
+  CeldLumoHint    side[2] = { CELD_UNPAINTED, CELD_UNPAINTED };
   double          mx = 0.5 * (p->x + q->x) + 0.5, my = 0.5 * (p->y + q->y) + 0.5;
 
   if (l->hints)
@@ -171,7 +172,7 @@ look_at_edge (Creases *s, int x, int y, bool down)
   return celd_append (l->crease, l->n_creases, l->crease_capacity, crease);
 }
 
-/* Edges with ink at one end at least, within one level. */
+/* Considers all edges within one level that have ink at one end at least. */
 static CeldStatus
 find_creases (Creases *s, const CeldHost *host)
 {
@@ -221,14 +222,14 @@ slight_difference (const CeldPlane *depth)
 CeldStatus
 celd_lumo_creases (CeldLumo *l, const CeldHost *host)
 {
-  size_t     n = (size_t) l->width * (size_t) l->height, i = 0;
+  size_t       n = (size_t) l->width * (size_t) l->height, i = 0;
   Creases      s = { .lumo = l };
-  CeldHostPart   part[2];
-  CeldHost   measuring = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 1);
-  uint8_t   *paper = NULL;
-  int32_t   *squared = NULL;
-  bool       any = false;
-  CeldStatus status;
+  CeldHostPart part[2];
+  CeldHost     measuring = celd_host_part (&part[0], host, 0, 0.5), finding = celd_host_part (&part[1], host, 0.5, 1);
+  uint8_t     *paper = NULL;
+  int32_t     *squared = NULL;
+  bool         any = false;
+  CeldStatus   status;
 
   if (!(l->settings->quilt > 0) && !l->hints)
     return CELD_OK;

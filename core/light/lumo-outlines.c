@@ -1,13 +1,14 @@
-/* Which sides of which edges bend, and where to.
+/* Outlines: the constraints on normals.
  *
- * At a depth discontinuity the nearer side ends: there its normal lies in the picture and points outward.  The farther
- * side goes on behind and gets nothing, unless a painted hint says otherwise.  Virtual borders neither cut nor give
- * normals; nor do their ends, where they run into the ink of another contour: both sides of an outline must be apart
- * all around.  What has no outline of its own faces the viewer: the paper stays flat behind a figure, also where a gap
- * in the figure's contour joins both.
+ * At a depth discontinuity the nearer region ends, so its normal lies in the picture plane and points outward.  The
+ * farther region continues behind it and is not constrained, unless a painted hint says so.  Virtual contours neither
+ * cut the surface nor constrain normals; nor do their ends, where they meet the ink of another contour: a discontinuity
+ * counts only if no short detour leads around it.  A region without an outline of its own faces the viewer, so that the
+ * paper stays flat behind a figure, even where a gap in the figure's contour connects the two.
  *
- * The direction of an outline comes from the first moment of the matte "at least as near" under a Gaussian round the
- * edge's middle: steps of pixels average out, and the outline goes on straight where something nearer hides it.
+ * The direction of an outline comes from the first moment, under a Gaussian around the middle of the edge, of the
+ * pixels that are at least as near: this averages out pixel steps, and continues the outline straight where it is
+ * hidden.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,15 +19,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define REACH  7      /* pixels round an edge that tell its direction */
-#define SPREAD 2.75   /* deviation of the Gaussian in pixels */
+#define OUTLINE_RADIUS  7      /* pixels around an edge that give its direction (chosen) */
+#define OUTLINE_DEVIATION 2.75   /* of the Gaussian, in pixels (chosen) */
 
 typedef struct
 {
-  CeldLumo  *lumo;
+  CeldLumo      *lumo;
   CeldPixelLinks links;
-  uint8_t   *front, *behind;    /* of each region: has it an outline, is it behind one? */
-  double     gauss[2 * REACH + 2][2 * REACH + 2]; /* by half pixels: [i] is at i/2 */
+  uint8_t       *front, *behind;    /* of each region: whether it has an outline; whether it is behind one */
+  double         gauss[2 * OUTLINE_RADIUS + 2][2 * OUTLINE_RADIUS + 2]; /* at distances of half pixels: [i] is i/2 */
 } Outlines;
 
 /* ------------------------------------------------------------------ directions */
@@ -37,18 +38,18 @@ clamp (int x, int size)
   return x < 0 ? 0 : x < size ? x : size - 1;
 }
 
-/* From the part of level `near` outwards, y down, at the edge from (x,y) to (x+east,y+south). */
+/* The unit vector, y down, that points out of the region of level `near` at the edge from (x,y) to (x+east,y+south). */
 static void
 outward (const Outlines *o, float near, int x, int y, int east, int south, double *nx, double *ny)
 {
   const CeldLumo *l = o->lumo;
   double          mx = 0, my = 0, length;
 
-  for (int v = y - REACH + south; v <= y + REACH; v++)
+  for (int v = y - OUTLINE_RADIUS + south; v <= y + OUTLINE_RADIUS; v++)
     {
       const float *row = l->level + celd_lumo_pixel (l, 0, clamp (v, l->height));
 
-      for (int u = x - REACH + east; u <= x + REACH; u++)
+      for (int u = x - OUTLINE_RADIUS + east; u <= x + OUTLINE_RADIUS; u++)
         if (row[clamp (u, l->width)] >= near)
           {
             int    du = 2 * (u - x) - east, dv = 2 * (v - y) - south; /* half pixels from the edge's middle */
@@ -63,7 +64,7 @@ outward (const Outlines *o, float near, int x, int y, int east, int south, doubl
   *ny    = length > 0 ? -my / length : 0;
 }
 
-/* ------------------------------------------------------------------ holds */
+/* ------------------------------------------------------------------ constraints */
 
 static CeldStatus
 add_constraint (CeldLumo *l, size_t pixel, double x, double y)
@@ -78,16 +79,16 @@ region_of (const CeldLumo *l, size_t pixel)
   return celd_lumo_component (l, &l->regions, pixel);
 }
 
-/* A depth discontinuity: its nearer side bends, unless hints say otherwise. */
+/* A depth discontinuity: constrains its nearer side, unless hints say otherwise. */
 static CeldStatus
 constrain_edge (Outlines *o, int x, int y, bool down)
 {
-  CeldLumo  *l = o->lumo;
-  size_t     p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
-  size_t     near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
-  CeldLumoHint   over = CELD_UNPAINTED, under = CELD_UNPAINTED;
-  double     nx, ny;
-  CeldStatus status = CELD_OK;
+  CeldLumo    *l = o->lumo;
+  size_t       p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
+  size_t       near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
+  CeldLumoHint over = CELD_UNPAINTED, under = CELD_UNPAINTED;
+  double       nx, ny;
+  CeldStatus   status = CELD_OK;
 
   if (celd_has_detour (&o->links, x, y, down))
     return CELD_OK;
@@ -143,7 +144,7 @@ is_open (const Outlines *o, const CeldCrease *crease)
   return celd_has_detour (&o->links, (int) (crease->pixel % w), (int) (crease->pixel / w), crease->down);
 }
 
-/* Strokes that are painted to bend are outlines of their region. */
+/* Creases that were painted count as outlines of their region. */
 static void
 mark_painted_creases (Outlines *o)
 {
@@ -152,7 +153,7 @@ mark_painted_creases (Outlines *o)
       o->front[region_of (o->lumo, o->lumo->crease[i].pixel)] = 1;
 }
 
-/* Both sides of strokes inside a part. */
+/* Constrains both sides of creases. */
 static CeldStatus
 constrain_creases (Outlines *o)
 {
@@ -162,7 +163,7 @@ constrain_creases (Outlines *o)
   for (size_t i = 0; i < l->n_creases && status == CELD_OK; i++)
     {
       const CeldCrease *crease = &l->crease[i];
-      size_t          p = crease->pixel, q = p + (crease->down ? (size_t) l->width : 1);
+      size_t            p = crease->pixel, q = p + (crease->down ? (size_t) l->width : 1);
 
       if (l->flat[region_of (l, p)] || is_open (o, crease))
         continue;
@@ -177,7 +178,7 @@ constrain_creases (Outlines *o)
   return status;
 }
 
-/* Where the frame cuts off what is not flat. */
+/* Constrains the regions that are not flat along the edge of the picture. */
 static CeldStatus
 constrain_frame (CeldLumo *l)
 {
@@ -208,19 +209,19 @@ outlines_new (CeldLumo *l, Outlines *o)
   o->behind = celd_alloc0 (l->regions.n + 1, 1);
   if (!o->front || !o->behind || celd_pixel_links_new (l->width, l->height, l->east, l->south, &o->links) != CELD_OK)
     return CELD_NO_MEMORY;
-  for (int i = 0; i < 2 * REACH + 2; i++)
-    for (int j = 0; j < 2 * REACH + 2; j++)
-      o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (SPREAD * SPREAD));
+  for (int i = 0; i < 2 * OUTLINE_RADIUS + 2; i++)
+    for (int j = 0; j < 2 * OUTLINE_RADIUS + 2; j++)
+      o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (OUTLINE_DEVIATION * OUTLINE_DEVIATION));
   return CELD_OK;
 }
 
 CeldStatus
 celd_lumo_outlines (CeldLumo *l, const CeldHost *host)
 {
-  Outlines   o = { 0 };
-  CeldHostPart   part[2];
-  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.3), holding = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus status = celd_run_components_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
+  Outlines     o = { 0 };
+  CeldHostPart part[2];
+  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.3), holding = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus   status = celd_run_components_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
 
   if (status != CELD_OK)
     return status;

@@ -20,9 +20,9 @@
 
 #include <math.h>
 
-#define COUPLING  2.f  /* weight between a pixel and its outline: 1 / distance, half a pixel */
-#define FLAT      1.f  /* weight that draws a pixel of a flat region towards the viewer (chosen) */
-#define TOLERANCE 2e-3 /* largest error of n_x and n_y as a share of their range: less than a step of 8 bits */
+#define OUTLINE_WEIGHT  2.f  /* weight between a pixel and its outline: 1 / distance, half a pixel */
+#define FLAT_WEIGHT      1.f  /* weight that draws a pixel of a flat region towards the viewer (chosen) */
+#define NORMALS_TOLERANCE 2e-3 /* largest error of n_x and n_y as a share of their range: less than a step of 8 bits */
 
 /* ------------------------------------------------------------------ weights */
 
@@ -50,7 +50,7 @@ typedef struct
   CeldLumo         *lumo;
   CeldRunComponents components;  /* of what the weights connect */
   CeldRect         *bounds;      /* of each component that has a constraint; width 0 for the others */
-} Work;
+} NormalsWork;
 
 static bool
 is_inside (const CeldRect *rect, int x, int y)
@@ -62,7 +62,7 @@ is_inside (const CeldRect *rect, int x, int y)
 static double
 write_box (const void *data, CeldBox *box)
 {
-  const CeldLumo *l = ((const Work *) data)->lumo;
+  const CeldLumo *l = ((const NormalsWork *) data)->lumo;
   CeldRect        rect = box->rect;
 
   CELD_EACH_BOX_RUN (box, y, s)
@@ -75,7 +75,7 @@ write_box (const void *data, CeldBox *box)
   CELD_EACH_RUN (&l->regions, rect.y, rect.y + rect.height, y, s)
     if (l->flat[s->component])
       for (int x = s->x > rect.x ? s->x : rect.x; x < s->end && x < rect.x + rect.width; x++)
-        box->diagonal[celd_box_pixel (box, x, y)] = FLAT;
+        box->diagonal[celd_box_pixel (box, x, y)] = FLAT_WEIGHT;
   for (size_t k = 0; k < l->n_constraints; k++)
     {
       const CeldNormalConstraint *c = &l->constraint[k];
@@ -85,17 +85,17 @@ write_box (const void *data, CeldBox *box)
       if (!is_inside (&rect, x, y))
         continue;
       i = celd_box_pixel (box, x, y);
-      box->diagonal[i]   += COUPLING;
-      box->b[i]          += COUPLING * c->x;
-      box->b[box->n + i] += COUPLING * c->y;
+      box->diagonal[i]   += OUTLINE_WEIGHT;
+      box->b[i]          += OUTLINE_WEIGHT * c->x;
+      box->b[box->n + i] += OUTLINE_WEIGHT * c->y;
     }
-  return TOLERANCE;
+  return NORMALS_TOLERANCE;
 }
 
 static void
 read_box (void *data, const CeldBox *box, CeldSolve *solve)
 {
-  const CeldLumo *l = ((const Work *) data)->lumo;
+  const CeldLumo *l = ((const NormalsWork *) data)->lumo;
 
   (void) solve;
   CELD_EACH_BOX_RUN (box, y, s)
@@ -112,7 +112,7 @@ read_box (void *data, const CeldBox *box, CeldSolve *solve)
 }
 
 static CeldStatus
-find_bounds (Work *work)
+find_bounds (NormalsWork *work)
 {
   const CeldLumo          *l = work->lumo;
   const CeldRunComponents *c = &work->components;
@@ -137,7 +137,7 @@ find_bounds (Work *work)
 static CeldStatus
 interpolate (CeldLumo *l, const CeldHost *host)
 {
-  Work         work = { .lumo = l };
+  NormalsWork  work = { .lumo = l };
   CeldSolve    solve;
   CeldHostPart part[2];
   CeldHost     finding = celd_host_part (&part[0], host, 0, 0.1), solving = celd_host_part (&part[1], host, 0.1, 1);
@@ -200,13 +200,13 @@ celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPl
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
 
-  CeldLumo   l = { .ink = ink, .depth = depth, .hints = hints, .settings = settings,
-                   .width = ink->width, .height = ink->height };
+  CeldLumo     l = { .ink = ink, .depth = depth, .hints = hints, .settings = settings,
+                     .width = ink->width, .height = ink->height };
   CeldHostPart part[5];
-  CeldHost   weighing = celd_host_part (&part[0], host, 0, 0.1), cutting = celd_host_part (&part[1], host, 0.1, 0.2);
-  CeldHost   holding = celd_host_part (&part[2], host, 0.2, 0.3), solving = celd_host_part (&part[3], host, 0.3, 0.9);
-  CeldHost   bevelling = celd_host_part (&part[4], host, 0.9, 1);
-  CeldStatus status = weigh (&l, levels, &weighing);
+  CeldHost     weighing = celd_host_part (&part[0], host, 0, 0.1), cutting = celd_host_part (&part[1], host, 0.1, 0.2);
+  CeldHost     holding = celd_host_part (&part[2], host, 0.2, 0.3), solving = celd_host_part (&part[3], host, 0.3, 0.9);
+  CeldHost     bevelling = celd_host_part (&part[4], host, 0.9, 1);
+  CeldStatus   status = weigh (&l, levels, &weighing);
 
   if (status == CELD_OK)
     status = celd_lumo_creases (&l, &cutting);

@@ -1,12 +1,12 @@
-/* Light on normals (section 5, Figure 1f), in linear light: what it leaves of the art, and what shines on top.
+/* Shading by light on normals (section 5, Figure 1f), in linear light: a factor for the art, and gloss on top of it.
  *
- * With n the normal, l the way to the light, v = (0,0,1) the way to the viewer and h halfway between:
+ * With n the normal, l the direction to the light, v = (0,0,1) that to the viewer and h halfway between them:
  *   Lambert        max (0, n . l)
  *   half Lambert   (1/2 + 1/2 n . l)^2                  [MFE07]
- *   toon           Lambert in steps as large as each other, with edges one pixel wide
- *   matcap         the picture of a lit ball, at the place that has this normal
- *   gloss          s max (0, n . h)^e where n . l > 0 [Bli77], and r (1 - n_z)^g along rims; in toon shading both are
- *                  either there or not
+ *   toon           Lambert in equal steps, with edges one pixel wide
+ *   matcap         the picture of a lit ball, read where the ball has this normal
+ *   gloss          s max (0, n . h)^e where n . l > 0 [Bli77], and r (1 - n_z)^g along rims; in toon shading both
+ *                  are either on or off
  *
  *   [Bli77]  J. F. Blinn: Models of Light Reflection for Computer Synthesized Pictures.  SIGGRAPH 1977.
  *   [MFE07]  J. Mitchell, M. Francke, D. Eng: Illustrative Rendering in Team Fortress 2.  NPAR 2007.
@@ -17,8 +17,7 @@
 
 #include <math.h>
 
-#define RADIANS (3.14159265358979323846 / 180)
-#define STEEP   1e-6 /* change of brightness from pixel to pixel that counts as none */
+#define STEEP   1e-6 /* change of brightness between pixels that counts as none (chosen) */
 
 typedef struct { double x, y, z; } Vector;
 
@@ -28,13 +27,13 @@ typedef struct
   const CeldPlane    *ink;         /* NULL: none */
   const CeldColours  *matcap;
   const CeldSettings *settings;
-  Vector              light, half; /* of a light far away */
-  Vector              place;       /* of a near one, in pixels */
+  Vector              light, half; /* unit vectors, of a distant light */
+  Vector              place;       /* of a near light, in pixels */
   CeldColours        *tone;
   CeldPlane          *gloss;
 } Scene;
 
-/* ------------------------------------------------------------------ where the light is */
+/* ------------------------------------------------------------------ position of the light */
 
 static Vector
 unit (Vector v)
@@ -53,7 +52,7 @@ halfway (Vector light)
 static Scene
 scene (const CeldVectors *normals, const CeldSettings *s)
 {
-  double azimuth = (double) s->light_azimuth * RADIANS, elevation = (double) s->light_elevation * RADIANS;
+  double azimuth = (double) s->light_azimuth * CELD_RADIANS, elevation = (double) s->light_elevation * CELD_RADIANS;
   double w = normals->width, h = normals->height;
   Scene  made = { .normals = normals, .settings = s };
 
@@ -71,11 +70,11 @@ light_at (const Scene *s, int x, int y)
   return unit ((Vector) { s->place.x - x - 0.5, y + 0.5 - s->place.y, s->place.z });
 }
 
-/* ------------------------------------------------------------------ what one pixel gets */
+/* ------------------------------------------------------------------ light on one pixel */
 
 typedef double (*Measure) (const Scene *s, int x, int y);
 
-/* In [0,1]; not a number is unlit. */
+/* In [0,1]; a NaN normal is unlit. */
 static double
 lambert (const Scene *s, int x, int y)
 {
@@ -114,9 +113,9 @@ half_lambert (const Scene *s, int x, int y)
   return lit > 0 ? fmin (lit * lit, 1) : 0;
 }
 
-/* ------------------------------------------------------------------ bands */
+/* ------------------------------------------------------------------ toon steps */
 
-/* The smaller change of the two to both sides: beyond an outline there is another surface. */
+/* The smaller of the changes to the two neighbours along (dx,dy): on one side there may be another surface. */
 static double
 change_along (const Scene *s, Measure measure, double here, int x, int y, int dx, int dy)
 {
@@ -128,7 +127,7 @@ change_along (const Scene *s, Measure measure, double here, int x, int y, int dx
   return back || on ? fmin (before, after) : 0;
 }
 
-/* `measure` in so many steps from 0 to 1, each edge as wide as a pixel. */
+/* `measure` quantised to so many steps from 0 to 1, with edges as wide as a pixel. */
 static double
 bands (const Scene *s, Measure measure, int steps, int x, int y)
 {
@@ -166,7 +165,7 @@ gloss_at (const Scene *s, int x, int y)
 
 /* ------------------------------------------------------------------ matcap */
 
-/* Between four pixels, by their alpha. */
+/* Bilinear interpolation, weighted by alpha; black where all is transparent. */
 static void
 sample (const CeldColours *picture, double u, double v, float rgb[3])
 {
@@ -191,7 +190,7 @@ sample (const CeldColours *picture, double u, double v, float rgb[3])
     rgb[c] = sum > 0 ? (float) (colour[c] / sum) : 0;
 }
 
-/* Not a number faces the viewer. */
+/* A NaN normal counts as facing the viewer. */
 static void
 matcap_at (const Scene *s, int x, int y, float rgb[3])
 {
@@ -203,7 +202,7 @@ matcap_at (const Scene *s, int x, int y, float rgb[3])
 
 /* ------------------------------------------------------------------ */
 
-/* Ink does not shine, so that lines stay lines; not a number is paper. */
+/* How much a pixel can shine: ink does not, so that lines stay visible; NaN reads as paper. */
 static double
 paper_at (const Scene *s, int x, int y)
 {
@@ -252,7 +251,7 @@ celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours 
   return CELD_OK;
 }
 
-/* c becomes c t, and what is missing to white is filled by g. */
+/* Replaces each colour c by  (1 - g) c t + g  with tone t and gloss g. */
 CeldStatus
 celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours)
 {

@@ -1,12 +1,12 @@
 /* A stack of regions with blurred boundaries, back to front (section 5, Figures 1d and 5c).
  *
- * Each level k is drawn opaque over those behind it, and first takes light from them: by the share
- * strength s(k,j) A_k of level j, where A_k is the level's matte under a Gaussian, moved away from the light, and s
- * tells how far k is before j.  What is left of the light of a pixel of level j is then the product of
- * 1 - strength s A_k over all k before j: no picture has to be drawn over another.
+ * Each level k is drawn opaque over those behind it, and first takes the fraction  strength s(k,j) A_k  of the light of
+ * each level j behind it.  A_k is the level's matte blurred by a Gaussian and moved away from the light; s grows with
+ * the distance in depth between k and j.  So a pixel of level j keeps the product of  1 - strength s A_k  over all
+ * nearer k, and no picture has to be drawn over another.
  *
- * Mattes are blurred on cells (blur.h), each within its own bounds; a cell then knows the few levels near it, and a
- * pixel reads its light between four cells.
+ * Mattes are blurred on cells (image/blur.c), each within its own bounding box.  Each cell then lists the few levels
+ * near it, and the light of a pixel is interpolated between four cells.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,16 +14,14 @@
 #include "image/image.h"
 #include "light/shadows.h"
 
-
 #include <stdlib.h>
 
-#define FAINT       (1.0f / 1024)    /* a matte below this counts as none */
-#define RADIANS     (3.14159265358979323846 / 180)
+#define FAINT_MATTE       (1.0f / 1024)    /* a smaller matte is ignored (chosen) */
 
 /* A level's matte in one cell. */
-typedef struct { uint32_t cell; uint8_t level; float matte; } Share;
+typedef struct { uint32_t cell; uint8_t level; float matte; } LevelShare;
 
-typedef struct { Share *item; size_t n, item_capacity; } Shares;
+typedef struct { LevelShare *item; size_t n, item_capacity; } LevelShares;
 
 typedef struct
 {
@@ -31,21 +29,21 @@ typedef struct
   const CeldSettings *settings;
   CeldPlane          *change;
   CeldLevelNumbers    number;
-  float               full;                /* from this difference on shadows are full */
+  float               full;                /* difference of levels from which shadows are full */
 
-  CeldBlurGrid           cells;
-  CeldKernel          along, down;
-  CeldBetween        *column, *row;
-  Shares              cover;               /* before the blur, by cell */
-  Shares              blurred[CELD_MOST_LEVELS];
-  CeldStatus          status[CELD_MOST_LEVELS];
-  size_t             *first;               /* of each cell's shares, and one more; its levels rise */
-  Share              *share;
+  CeldBlurGrid cells;
+  CeldKernel   along, down;
+  CeldBetween *column, *row;
+  LevelShares  cover;               /* before the blur, by cell */
+  LevelShares  blurred[CELD_MOST_LEVELS];
+  CeldStatus   status[CELD_MOST_LEVELS];
+  size_t      *first;               /* of each cell, and one more: its first share; ordered by rising level */
+  LevelShare  *share;
 } Stack;
 
-/* ------------------------------------------------------------------ mattes, as cells see them */
+/* ------------------------------------------------------------------ mattes on cells */
 
-/* The levels within one cell, each with its share of the cell's pixels. */
+/* Appends the levels within one cell, each with the fraction of the cell's pixels that have it. */
 static CeldStatus
 cover_cell (Stack *s, int column, int row, uint32_t *count)
 {
@@ -67,7 +65,7 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
   for (int i = 0; i < n; i++)
     {
       if (celd_append (s->cover.item, s->cover.n, s->cover.item_capacity,
-                       (Share) { (uint32_t) row * (uint32_t) s->cells.width + (uint32_t) column, met[i],
+                       (LevelShare) { (uint32_t) row * (uint32_t) s->cells.width + (uint32_t) column, met[i],
                                      (float) count[met[i]] / area }) != CELD_OK)
         return CELD_NO_MEMORY;
       count[met[i]] = 0;
@@ -87,10 +85,9 @@ cover_cells (Stack *s)
   return status;
 }
 
-/* Sorts shares by cell or by level, keeping their order otherwise;
- * those of key i become first[i] .. first[i + 1] - 1. */
+/* Stable counting sort by cell or by level; the shares of key i become to[first[i]] .. to[first[i + 1] - 1]. */
 static void
-sort_shares (const Shares *from, bool by_cell, size_t keys, size_t *first, Share *to)
+sort_shares (const LevelShares *from, bool by_cell, size_t keys, size_t *first, LevelShare *to)
 {
   memset (first, 0, (keys + 1) * sizeof *first);
   for (size_t i = 0; i < from->n; i++)
@@ -105,9 +102,9 @@ sort_shares (const Shares *from, bool by_cell, size_t keys, size_t *first, Share
 
 /* ------------------------------------------------------------------ mattes, blurred */
 
-typedef struct { Stack *stack; const Share *share; const size_t *first; } Blurring;
+typedef struct { Stack *stack; const LevelShare *share; const size_t *first; } Blurring;
 
-/* low .. high with as many cells on either side as a kernel reads to either, within the picture. */
+/* Extends low .. high on both sides by the number of cells that the kernel reaches, within the picture. */
 static void
 widen (const CeldKernel *kernel, int cells, int *low, int *high)
 {
@@ -118,10 +115,9 @@ widen (const CeldKernel *kernel, int cells, int *low, int *high)
   *high = *high < cells ? *high : cells - 1;
 }
 
-/* Bounds of a level with all that its shadow reaches: what the blur reads beyond them is empty, or beyond the
- * picture. */
+/* The bounding box, in cells, of a level and its shadow: the blur reads only empty cells outside it. */
 static CeldRect
-shadow_bounds (const Stack *s, const Share *share, size_t n)
+shadow_bounds (const Stack *s, const LevelShare *share, size_t n)
 {
   int left = s->cells.width, right = -1, top = s->cells.height, bottom = -1;
 
@@ -139,37 +135,37 @@ shadow_bounds (const Stack *s, const Share *share, size_t n)
   return (CeldRect) { left, top, right - left + 1, bottom - top + 1 };
 }
 
-/* What is not faint of a blurred matte. */
+/* Lists the cells of a blurred matte that are not faint. */
 static CeldStatus
-gather_matte (const Stack *s, CeldRect bounds, const float *matte, uint8_t level, Shares *shares)
+gather_matte (const Stack *s, CeldRect bounds, const float *matte, uint8_t level, LevelShares *shares)
 {
   for (int y = 0; y < bounds.height; y++)
     for (int x = 0; x < bounds.width; x++)
       {
         float  value = matte[(size_t) y * (size_t) bounds.width + (size_t) x];
 
-        if (value < FAINT)
+        if (value < FAINT_MATTE)
           continue;
         if (celd_append (shares->item, shares->n, shares->item_capacity,
-                         (Share) { (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x),
+                         (LevelShare) { (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x),
                                       level, value }) != CELD_OK)
           return CELD_NO_MEMORY;
       }
   return CELD_OK;
 }
 
-/* The farthest level casts no shadow. */
+/* Blurs level i + 1: the farthest level, 0, casts no shadow. */
 static void
 blur_level (void *data, int i)
 {
-  const Blurring *b = data;
-  Stack          *s = b->stack;
-  int             level = i + 1;
-  const Share    *share = b->share + b->first[level];
-  size_t          n = b->first[level + 1] - b->first[level];
-  CeldRect        bounds = shadow_bounds (s, share, n);
-  size_t          area = (size_t) bounds.width * (size_t) bounds.height;
-  float          *matte = celd_alloc0 (area, sizeof *matte), *scratch = celd_alloc (area, sizeof *scratch);
+  const Blurring   *b = data;
+  Stack            *s = b->stack;
+  int               level = i + 1;
+  const LevelShare *share = b->share + b->first[level];
+  size_t            n = b->first[level + 1] - b->first[level];
+  CeldRect          bounds = shadow_bounds (s, share, n);
+  size_t            area = (size_t) bounds.width * (size_t) bounds.height;
+  float            *matte = celd_alloc0 (area, sizeof *matte), *scratch = celd_alloc (area, sizeof *scratch);
 
   s->status[level] = matte && scratch ? CELD_OK : CELD_NO_MEMORY;
   for (size_t k = 0; s->status[level] == CELD_OK && k < n; k++)
@@ -187,12 +183,12 @@ blur_level (void *data, int i)
   celd_free (scratch);
 }
 
-/* All levels' blurred mattes in one list by cell, their levels rising. */
+/* Makes one list of all blurred mattes, by cell and then by level. */
 static CeldStatus
 join_levels (Stack *s)
 {
   size_t cells = (size_t) s->cells.width * (size_t) s->cells.height;
-  Shares all = { 0 };
+  LevelShares all = { 0 };
 
   for (int k = 1; k < s->number.n; k++)
     all.n += s->blurred[k].n;
@@ -211,7 +207,7 @@ join_levels (Stack *s)
         memcpy (all.item + all.n, s->blurred[k].item, s->blurred[k].n * sizeof *all.item);
       all.n += s->blurred[k].n;
       celd_free (s->blurred[k].item);
-      s->blurred[k] = (Shares) { 0 };
+      s->blurred[k] = (LevelShares) { 0 };
     }
   sort_shares (&all, true, cells, s->first, s->share);
   celd_free (all.item);
@@ -221,10 +217,10 @@ join_levels (Stack *s)
 static CeldStatus
 blur_mattes (Stack *s, const CeldHost *host)
 {
-  size_t     first[CELD_MOST_LEVELS + 1];
-  Share     *share = celd_alloc (s->cover.n, sizeof *share);
-  Blurring   blurring = { s, share, first };
-  CeldStatus status;
+  size_t      first[CELD_MOST_LEVELS + 1];
+  LevelShare *share = celd_alloc (s->cover.n, sizeof *share);
+  Blurring    blurring = { s, share, first };
+  CeldStatus  status;
 
   if (!share)
     return CELD_NO_MEMORY;
@@ -239,7 +235,7 @@ blur_mattes (Stack *s, const CeldHost *host)
 
 /* ------------------------------------------------------------------ light */
 
-/* What is left of the light of a level in a cell. */
+/* The fraction of its light that a level keeps in a cell. */
 static float
 light_in_cell (const Stack *s, size_t cell, uint8_t level)
 {
@@ -291,7 +287,7 @@ static CeldStatus
 prepare (Stack *s, double deviation)
 {
   int    width = s->levels->width, height = s->levels->height;
-  double azimuth = (double) s->settings->light_azimuth * RADIANS;
+  double azimuth = (double) s->settings->light_azimuth * CELD_RADIANS;
   double distance = (double) s->settings->shadow_offset * hypot (width, height);
 
   s->cells  = celd_cells (width, height, deviation);

@@ -1,4 +1,4 @@
-/* What depth enhancement (enhance.c, enhance-layer.c) shares with the stack of shadows (shadows.c, shadow-levels.c).
+/* What depth enhancement (enhance.c) shares with the stack of shadows (shadows.c, level-numbers.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* A pixel's level or depth; what is not a number is 0. */
+/* The level or depth of a pixel; NaN and infinity read as 0. */
 static inline float
 celd_level_at (const CeldPlane *levels, int x, int y)
 {
@@ -18,23 +18,26 @@ celd_level_at (const CeldPlane *levels, int x, int y)
   return isfinite (level) ? level : 0;
 }
 
+/* The least and largest of these levels. */
 void celd_level_range (const CeldPlane *levels, float *least, float *most);
 
-#define CELD_MOST_LEVELS 256 /* levels beyond are put together with their neighbours */
+#define CELD_MOST_LEVELS 256 /* distinct levels; more are rounded to so many evenly spaced ones (they fit a byte) */
+
+/* The distinct levels of a picture, numbered from the farthest. */
 
 typedef struct
 {
   int      n;
   float    value[CELD_MOST_LEVELS];  /* of each level, rising */
-  float    least, step;              /* of values put together; step 0: they are not */
-  uint8_t *level;                    /* of each pixel; end with celd_free */
+  float    least, step;              /* of evenly spaced levels; step 0: values are exact */
+  uint8_t *level;                    /* number of each pixel, tight; freed by the caller */
 } CeldLevelNumbers;
 
-/* `numbers` is all 0 before. */
+/* Fills in a zeroed record. */
 CeldStatus celd_level_numbers (const CeldPlane *levels, CeldLevelNumbers *numbers);
 
-/* Soft shadows that nearer levels cast on farther ones: of each pixel, the negative share of light that they take.
- * `deviation` in pixels, > 0. */
+/* Soft shadows of nearer levels on farther ones: change = - the fraction of light that they take, in [-1,0].
+ * `deviation` of the blur in pixels, > 0; `change` has the size of `levels`. */
 CeldStatus celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldHost *host,
                          CeldPlane *change);
 

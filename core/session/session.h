@@ -27,6 +27,8 @@
 #include "ownership/ownership.h"
 #include "segment/segment.h"
 
+#define CELD_PREVIEW_TOLERANCE 1e-3f /* of a preview's depth, as a share of its range: hardly visible (chosen) */
+
 /* Pixels x .. end - 1 of row y, relative to the stroke's position. */
 typedef struct { int y, x, end; } CeldStrokeSpan;
 

@@ -14,7 +14,6 @@
 #include <math.h>
 
 #define SIDE              4      /* pixels of a block of the preview */
-#define PREVIEW_TOLERANCE 1e-3f  /* what can be seen */
 #define END_RADIUS        2.0    /* pixels round a relation's end that keep its level */
 
 /* What is made from the old ink has to be looked at where the new one differs. */
@@ -175,10 +174,10 @@ measure_edge_radius (CeldSession *s)
 CeldStatus
 celd_make_depth (CeldSession *s, const CeldHost *host)
 {
-  Anchors       anchors = { .session = s, .side = 1 };
+  Anchors         anchors = { .session = s, .side = 1 };
   CeldSmoothInput smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
-  CeldStatus    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
+  CeldStatus      status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
 
   if (status == CELD_OK)
     {
@@ -247,12 +246,12 @@ sample_levels (const CeldSession *s, CeldPlane *levels)
 CeldStatus
 celd_make_preview (CeldSession *s, const CeldHost *host)
 {
-  CeldPlane     levels = { 0 };
-  Anchors       anchors = { .session = s, .side = SIDE, .levels = &levels };
-  CeldSettings  settings = s->settings;
+  CeldPlane       levels = { 0 };
+  Anchors         anchors = { .session = s, .side = SIDE, .levels = &levels };
+  CeldSettings    settings = s->settings;
   CeldSmoothInput smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
                               .speck = CELD_SPECK / (SIDE * SIDE) };
-  CeldStatus    status = s->preview_ink.data ? CELD_OK : pool_ink (celd_session_split_ink (s), &s->preview_ink);
+  CeldStatus      status = s->preview_ink.data ? CELD_OK : pool_ink (celd_session_split_ink (s), &s->preview_ink);
 
   if (status == CELD_OK)
     status = celd_plane_new (s->preview_ink.width, s->preview_ink.height, &levels);
@@ -262,7 +261,7 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
     {
       measure_edge_radius (s);
       smoothing.radius    = s->edge_radius / SIDE;
-      settings.tolerance = fmaxf (settings.tolerance, PREVIEW_TOLERANCE);
+      settings.tolerance = fmaxf (settings.tolerance, CELD_PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);
       status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, host, &s->preview_state, &s->preview);

@@ -15,7 +15,6 @@
 
 #include <string.h>
 
-#define PREVIEW_TOLERANCE 1e-3f
 
 /* ------------------------------------------------------------------ the background */
 
@@ -79,9 +78,9 @@ static CeldStatus
 set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
            CeldPalette *palette, CeldProgram *program)
 {
-  CeldHostPart   part[2];
-  CeldHost   finding = celd_host_part (&part[0], host, 0, 0.6), setting = celd_host_part (&part[1], host, 0.6, 1);
-  CeldStatus status = CELD_OK;
+  CeldHostPart part[2];
+  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.6), setting = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus   status = CELD_OK;
 
   if (palette->n && settings->background != CELD_BACKGROUND_NONE)
     status = find_background (ink, settings, &finding, seeds, palette);
@@ -199,7 +198,7 @@ solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlan
   CeldHost      nodes = celd_host_part (&part[0], host, 0, 0.1), solving = celd_host_part (&part[1], host, 0.1, 1);
   CeldStatus    status = program ? celd_labels_new (ink->width, ink->height, &seeds) : CELD_NO_MEMORY;
 
-  settings.tolerance = settings.tolerance < PREVIEW_TOLERANCE ? PREVIEW_TOLERANCE : settings.tolerance;
+  settings.tolerance = settings.tolerance < CELD_PREVIEW_TOLERANCE ? CELD_PREVIEW_TOLERANCE : settings.tolerance;
   if (status == CELD_OK)
     status = celd_palette_copy (&s->seed_palette, &palette);
   if (status == CELD_OK)
