@@ -1,6 +1,6 @@
-/* The stages of a session: what can be made, each from earlier ones only.
+/* The stages of a session, each made from earlier ones only.
  *
- * Settings name the stages that read them; how a stage is made is the session's business.
+ * The table of settings names the stages that a setting invalidates; session/stages.c makes them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -9,22 +9,22 @@
 
 typedef enum
 {
-  STAGE_RELATIONS, /* the text's, the path's, the layer's and the single ones, in one list */
-  STAGE_INK,       /* for segmentation and for depth */
-  STAGE_SCRIBBLES, /* the layer's seeds */
-  STAGE_SEEDS,     /* the same under the single strokes */
+  STAGE_RELATIONS,   /* all of the artist's in one list: text, path, painted arrows, single ones */
+  STAGE_INK,         /* for segmentation, and for depth */
+  STAGE_SCRIBBLES,   /* the seeds of the scribbles layer */
+  STAGE_SEEDS,       /* with the single strokes over them */
   STAGE_LABELS,
   STAGE_SUGGESTIONS,
   STAGE_ORDER,
-  STAGE_UNEXPANDED,
-  STAGE_OWNERSHIP, /* whose the ink is */
-  STAGE_LEVELS,
-  STAGE_PREVIEW,   /* of depth */
+  STAGE_UNEXPANDED,  /* levels before expansion */
+  STAGE_OWNERSHIP,
+  STAGE_LEVELS,      /* after expansion */
+  STAGE_PREVIEW,     /* of smooth depth */
   STAGE_DEPTH,
   STAGE_NORMALS,
   STAGE_SHADING,
-  STAGE_WEIGHTS,   /* of the exact program */
-  STAGE_NODES,     /* the scribbles as it has them */
+  STAGE_WEIGHTS,     /* of the exact program */
+  STAGE_NODES,       /* of the exact program: the scribbles */
   STAGE_EXACT,
   N_STAGES
 } CeldStage;

@@ -70,12 +70,12 @@ number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const Cel
   size_t     w = (size_t) labels->width;
   CeldStatus status = new_number (numbers) == 0 && numbers->n ? CELD_OK : CELD_NO_MEMORY;
 
-  for (int y = 0; y < labels->height && !status; y++)
+  for (int y = 0; y < labels->height && status == CELD_OK; y++)
     {
       uint32_t *row = number + (size_t) y * w;
 
       status = number_row (labels, none, diagonal, y, y ? row - w : NULL, row, numbers);
-      if (!status && y % ROWS_PER_REPORT == 0)
+      if (status == CELD_OK && y % ROWS_PER_REPORT == 0)
         status = celd_progress (host, 0.6 * y / labels->height);
     }
   return status;
@@ -137,12 +137,12 @@ celd_components (const CeldLabels *labels, uint32_t none, bool diagonal, const C
   if (!number)
     goto done;
   status = number_pixels (labels, none, diagonal, host, number, &numbers);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   count = resolve_numbers (&numbers);
   found = celd_alloc0 (count, sizeof *found);
   status = found ? celd_progress (host, 0.7) : CELD_NO_MEMORY;
-  if (status)
+  if (status != CELD_OK)
     goto done;
   write_components (labels, number, &numbers, components, found);
   *list = found;

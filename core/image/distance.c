@@ -173,7 +173,7 @@ transform (int width, int height, const uint8_t *inside, const CeldHost *host, i
     goto done;
   status = celd_parallel_rounds (host, (width + COLUMNS_PER_JOB - 1) / COLUMNS_PER_JOB, JOBS_PER_ROUND, measure_columns,
                                  &t, &t.first, 0, 0.4);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_parallel_rounds (host, (height + ROWS_PER_JOB - 1) / ROWS_PER_JOB, JOBS_PER_ROUND, measure_rows,
                                    &t, &t.first, 0.4, 1);
 done:

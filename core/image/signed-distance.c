@@ -241,10 +241,10 @@ celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squar
     return CELD_BAD_SIZE;
   for (int i = 0; i < SIGNED_JOBS; i++)
     status = space_new (ink->width, &t.space[i]) ? status : CELD_NO_MEMORY;
-  if (!status)
+  if (status == CELD_OK)
     status = celd_parallel_rounds (host, (ink->width + SIGNED_COLUMNS - 1) / SIGNED_COLUMNS, SIGNED_JOBS,
                                    measure_signed_columns, &t, &t.first, 0, 0.4);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_parallel_rounds (host, (ink->height + SIGNED_ROWS - 1) / SIGNED_ROWS, SIGNED_JOBS,
                                    measure_signed_rows, &t, &t.first, 0.4, 1);
   for (int i = 0; i < SIGNED_JOBS; i++)

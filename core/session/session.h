@@ -154,7 +154,7 @@ CeldStatus celd_make_suggestions (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_order       (CeldSession *session, const CeldHost *host);
 
 /* stage-levels.c */
-CeldStatus celd_make_unexpanded      (CeldSession *session, const CeldHost *host);
+CeldStatus celd_make_unexpanded (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_ownership (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_levels    (CeldSession *session, const CeldHost *host);
 

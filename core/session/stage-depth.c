@@ -1,6 +1,6 @@
 /* Smooth depth in a session, and a preview of it at a quarter of the width and height.
  *
- * The preview needs no expansion: it works on flat levels, of which each block of pixels takes one, and on the least
+ * The preview needs no expansion: it works on unexpanded levels, one for each block of pixels, and on the least
  * ink of each block, so that thin contours stay closed.  Both keep what they were made from, and solve again only what
  * an edit touched.
  *

@@ -25,7 +25,7 @@ static const struct
   [STAGE_LABELS]      = { celd_make_labels,      0.09 },
   [STAGE_SUGGESTIONS] = { celd_make_suggestions, 0.05 },
   [STAGE_ORDER]       = { celd_make_order,       0.02 },
-  [STAGE_UNEXPANDED]        = { celd_make_unexpanded,        0.01 },
+  [STAGE_UNEXPANDED]  = { celd_make_unexpanded,  0.01 },
   [STAGE_OWNERSHIP]   = { celd_make_ownership,   0.20 },
   [STAGE_LEVELS]      = { celd_make_levels,      0.01 },
   [STAGE_PREVIEW]     = { celd_make_preview,     0.02 },
