@@ -1,6 +1,6 @@
 /* Records that travel between the steps: palette, relations, problems, orders, reports, layers, meshes.
  *
- * Part of celdepth.h, which says what values and who owns what.
+ * Part of celdepth.h, which states the conventions of values, ownership and errors.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,6 +1,7 @@
-/* The steps, in the order of the route.
+/* The single steps of the method, in their order: ink, scribbles and relations, segmentation, order, contour ownership,
+ * depth, normals and light, enhancement, stereo, relief.
  *
- * Part of celdepth.h, which says what values and who owns what.
+ * Part of celdepth.h, which states the conventions of values, ownership and errors.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,11 +14,13 @@
 extern "C" {
 #endif
 
-/* Luma, and alpha if it is not NULL, of n pixels R'G'B'A with the values of sRGB: a drawing as every host reads it. */
+/* Computes luma, and alpha if it is not NULL, of n pixels R'G'B'A of sRGB in [0,1].  All hosts use this function, so
+ * that they all read the same ink. */
 CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
 
-/* Line art of a drawing: composited on paper, polarity resolved, contrast normalised against the paper around
- * (uneven paper and grey pencil become ink 0 and paper 1).  `ink` may not alias the drawing. */
+/* Line art of a drawing: composited on paper, with its polarity found, and its contrast normalised against the paper
+ * around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and may not alias
+ * it. */
 CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink);
 
 /* Virtual contours (section 4): red strokes become ink, blue strokes ink for segmentation only, green strokes paper;
@@ -27,9 +30,9 @@ CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPa
                                         CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
 
 /* Scribbles as an artist paints them -> seed labels (0 where nothing is painted) and the palette of their colours,
- * origin CELD_FROM_SCRIBBLE, by falling painted area.  Alpha below one half is none; in a picture without alpha the
- * commonest colour is none (not with settings->flats); mixed colours of fringes are no label.
- * No paint at all is CELD_OK with an empty palette. */
+ * origin CELD_FROM_SCRIBBLE, by falling painted area.  Pixels with alpha below one half are not painted; nor is the
+ * most frequent colour in a picture without alpha (unless settings->flats).  Mixed colours at the edges of strokes do
+ * not make labels.  A picture without paint gives CELD_OK and an empty palette. */
 CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host,
                                          CeldLabels *seeds, CeldPalette *palette);
 
@@ -57,17 +60,17 @@ CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds,
 /* Draws the closures over whatever is in the picture: an opaque line about as wide as `width`, antialiased, in red. */
 CELD_API void celd_closures_paint (const CeldClosures *closures, double width, CeldPaint *paint);
 
-/* Makes each connected region of a label a label of its own, in place (same_colour = separate).  Specks smaller than
- * 16 pixels stay with the largest region of their colour. */
+/* Gives each connected region of a label a label of its own, in place (same_colour = separate); the largest region
+ * keeps its label, and so do specks of fewer than 16 pixels.  The palette is extended, and area, x, y filled in. */
 CELD_API CeldStatus celd_separate (const CeldHost *host, CeldLabels *labels, CeldPalette *palette);
 
-/* Labels as colours, and back.  Reading: every distinct opaque colour is a label, in the order of falling area;
- * transparent pixels are the background that celdepth added. */
+/* Paints labels in their colours, and reads them back.  When reading, every distinct opaque colour is a label, in the
+ * order of falling area; transparent pixels are the background that celdepth added. */
 CELD_API CeldStatus celd_labels_paint (const CeldLabels *labels, const CeldPalette *palette, CeldPaint *paint);
 CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels, CeldPalette *palette);
 
-/* The scribble, if any, whose label owns most paper along the frame is the background (settings->background), marked in
- * the palette.  For label pictures read back by celd_labels_read; ink may be NULL. */
+/* Marks the background in the palette as settings->background says; by default it is the label that has most of the
+ * paper along the edge of the picture.  For label pictures read by celd_labels_read; ink may be NULL. */
 CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
                                           CeldPalette *palette);
 
@@ -78,8 +81,8 @@ CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPl
 CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                   const CeldHost *host, CeldRelations *suggested);
 
-/* The same from a picture of depth, such as a depth estimator makes, in any unit, larger = nearer; not a number is
- * unknown.  The confidence compares the difference of two regions' medians with the spread inside them. */
+/* Suggestions from a depth picture, for example of a depth estimator, in any unit, larger = nearer; NaN is unknown.
+ * The confidence compares the difference of two regions' medians with the spread inside them. */
 CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                              const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested);
 
@@ -107,8 +110,8 @@ CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *pal
                                 const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
                                 CeldOrder *order, CeldProblems *problems);
 
-/* Levels as they leave, as settings->encoding says: a level's height in gaps of one relation, of `levels` in all (one
- * more than the largest height); and a level of an order. */
+/* Levels in the encoding of the settings: of a height in gaps of one relation, where `levels` is one more than the
+ * largest height; and of a level of an order. */
 CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
 CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
 
@@ -163,72 +166,71 @@ CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane
                                            CeldExpansion method, CeldStore store, bool complete, const CeldHost *host,
                                            CeldLayers **layers);
 
-/* Smooth depth, eq. (3).  Levels, expanded or not; `anchors` keep their level, with hold_rest (or NULL) the inner core
- * of each region without one, too; an edge is cut where levels differ and the least ink within half a stroke of its two
- * pixels is at or below ink_threshold, so virtual borders stay smooth; components without an anchor keep their level.
- * A result that misses the tolerance is delivered; *solve (may be NULL) says so.  `depth` may alias `levels`. */
+/* Smooth depth, eq. (3), from levels, expanded or not.  Anchors, the pixels that `anchors` marks (the paper's U_o),
+ * keep their level; with settings->hold_rest, or if `anchors` is NULL, so does the core of each region without one.
+ * Depth is discontinuous where levels differ and the least ink within half a stroke width is at or below ink_threshold,
+ * so it is smooth across virtual contours.  Components without an anchor keep their level.  A result that misses the
+ * tolerance is delivered all the same, and *solve (may be NULL) says so.  `depth` may alias `levels`. */
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
                                  const CeldSettings *settings, const CeldHost *host, CeldPlane *depth, CeldSolve *solve);
 
-/* The exact program, eq. (1) and (2): of all depths that keep the relations the one of least energy
- * sum w_pq (d_p - d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the
- * contrast in the 3 x 3 pixels round p or q, whichever is less, sigma is contrast times the mean of (I_p - I_q)^2;
- * `ink` is that for depth.
- * Each scribble moves as one (with same_colour = separate each of its strokes); an end of a relation off every scribble
- * is a pixel of its own, so that regions bend where relations go round in a circle between different points of them.
- * Equalities are exact, gaps may be fractions; a circle between the same nodes is reported, and its lightest and then
- * latest relation left out.  Scribbles that the palette marks as background lie behind every other scribble unless
- * relations say otherwise.
- * `depth` leaves as settings->encoding says; with CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are
- * appended, *exact is replaced; these two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and
- * relations. */
+/* The exact program, eq. (1) and (2): of all depths that satisfy the relations the one of least energy sum w_pq (d_p -
+ * d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the contrast in the 3 x 3 pixels
+ * around p or q, whichever is less, sigma is contrast times the mean of (I_p - I_q)^2; `ink` is that for depth.  All
+ * pixels of a scribble have one depth (with same_colour = separate those of each of its strokes).  The end of a
+ * relation off every scribble is a node of one pixel, so depth varies within regions if relations form a cycle through
+ * different points of them.  Equalities are exact, and gaps may be fractions.  A cycle between the same nodes is
+ * reported, and its lightest relation, of equal ones the latest, left out.  Scribbles that the palette marks as
+ * background lie behind all others unless relations say otherwise.  `depth` has the encoding of the settings; with
+ * CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are appended, *exact is replaced; these two and the
+ * relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and relations. */
 CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
                                       const CeldRelations *relations, const CeldSettings *settings,
                                       const CeldHost *host, CeldPlane *depth, CeldExact *exact,
                                       CeldProblems *problems);
 
-/* Lumo normals [Joh02] (section 5), over/under aware: at a depth discontinuity only the nearer side bends; a region
- * without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
+/* Lumo normals [Joh02] (section 5), with depth discontinuities: there only the nearer side bends; a region without
+ * an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldHost *host, CeldVectors *normals);
 
-/* The same with what an artist adds; NULL: nothing.  Of a stroke inside a part the side that `depth` has higher bends,
- * if settings->quilt lets strokes bend at all; of strokes and outlines that paint in `hints` lies beside, white bends
- * its side, black does not, grey bends both. */
+/* celd_normals with additional input, NULL: none.  Strokes inside a region bend the surface as settings->quilt says,
+ * with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take precedence: white bends
+ * that side, black does not, grey bends both. */
 CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                          const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
                                          CeldVectors *normals);
 
-/* Light on normals by the settings, linear: `tone`, by which art is multiplied, and how much of what is then missing to
- * white the `gloss` of highlights and rims adds; what is `ink` (may be NULL) does not shine.  `matcap` is the picture
+/* Light on normals by the settings, in linear light: art is multiplied by `tone`, and then blended towards white by the
+ * `gloss` of highlights and rims, in [0,1]; pixels that are `ink` (may be NULL) have no gloss.  `matcap` is the picture
  * of a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE
  * without. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
                                 const CeldSettings *settings, const CeldHost *host, CeldColours *tone,
                                 CeldPlane *gloss);
-/* Such light on art; and the gloss as a white layer to put over the art multiplied by the tone. */
+/* Applies tone and gloss to art in place; and makes the gloss a white layer to put over art multiplied by the tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
 CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
 
-/* The same light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
+/* Shading: that light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
-/* Under transparency, as far as `reach` pixels from what is opaque by half at least, the colour of the nearest such
- * pixel; farther away `blank` where the picture has no alpha at all.  Alpha stays: a game engine that blends
- * neighbours then finds no seam. */
+/* Fills in colours of transparent pixels, so that a game engine which blends neighbouring pixels shows no seams: pixels
+ * with alpha below one half get the colour of the nearest other pixel, up to `reach` pixels away; beyond that, fully
+ * transparent ones get `blank`.  Alpha stays. */
 CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldHost *host, CeldColours *picture);
 
-/* Depth enhancement (section 5, Figures 1d and 5c): the share of light that is taken from the art, or added, from -1
- * (black) over 0 (nothing) to 1 (twice as bright), linear.  `levels` are expanded; for the stack at most 256 of them
- * are told apart.  Not a number reads as 0.  CELD_BAD_VALUE for bad settings. */
+/* Depth enhancement (section 5, Figures 1d and 5c): the relative change of brightness in linear light, from -1 (black)
+ * over 0 (none) to 1 (twice as bright).  `levels` are expanded; the stack distinguishes at most 256 of them.  NaN reads
+ * as 0. */
 CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                   CeldPlane *change);
-/* Ambient occlusion: the share of light that the stack leaves, from 1 (all) down to 1 - shadow_strength, without an
- * offset whatever the settings say. */
+/* Ambient occlusion: the fraction of light that the stack of shadows leaves, from 1 - shadow_strength to 1, always
+ * without an offset. */
 CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                     CeldPlane *occlusion);
-/* Such a change applied to art; what it takes, as a black layer to put over the art; and applied to a grey picture of
- * the levels, the nearest white: what an artist sees of depth while drawing (Figure 5c).  Linear light. */
+/* Applies such a change to art in place; makes its shadows a black layer to put over art; and applies it to a grey
+ * picture of the levels, the nearest white, which shows depth while drawing (Figure 5c).  All in linear light. */
 CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);

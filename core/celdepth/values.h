@@ -1,6 +1,6 @@
-/* What every function takes: answers, progress, pictures.
+/* Status, progress, threads and pictures.
  *
- * Part of celdepth.h, which says what values and who owns what.
+ * Part of celdepth.h, which states the conventions of values, ownership and errors.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,7 +23,7 @@ extern "C" {
 
 #define CELD_MAX_SIDE 20000 /* squared distances stay exact in int32_t up to here */
 
-/* ------------------------------------------------------------------ answers, progress, threads */
+/* ------------------------------------------------------------------ status, progress, threads */
 
 typedef enum
 {
@@ -31,38 +31,44 @@ typedef enum
   CELD_CANCELLED,         /* CeldHost.progress returned false */
   CELD_NO_MEMORY,         /* an allocation failed, or a size would overflow */
   CELD_BAD_SIZE,          /* a picture is empty, too large, or sizes differ */
-  CELD_BAD_VALUE,         /* a setting is outside its range */
+  CELD_BAD_VALUE,         /* a setting or another argument is outside its range */
   CELD_BAD_RELATION,      /* relations text or path data cannot be read: see CeldTextError */
-  CELD_NOTHING_TO_GO_BY   /* neither a scribble nor an arrow */
+  CELD_NOTHING_TO_GO_BY   /* there is neither a scribble nor an arrow */
 } CeldStatus;
 
 /* One plain English sentence for a status; static storage. */
 CELD_API const char *celd_status_text (CeldStatus status);
 
-/* What the host lends to a long call: progress, a way to cancel, and threads.  NULL instead of a CeldHost, or NULL
- * members: no progress, not to be cancelled, one thread.  Results do not depend on `each`. */
+/* What the calling program lends to a long call: progress with a way to cancel, and threads.  Without a CeldHost
+ * (NULL), or with NULL members, there are no reports, no cancel, and one thread.  Results do not depend on `each`. */
 typedef struct
 {
-  bool (*progress) (void *data, double done);      /* done in [0,1], never falling; false cancels */
-  void (*each) (void *data, int n, void (*body) (void *body_data, int i), void *body_data); /* body for 0 .. n-1 in any
-                                                                                             * order, all before it returns */
-  void *data;                                      /* for the two functions */
+  /* Is told how much is done, in [0,1], never falling; returns false to cancel. */
+  bool (*progress) (void *data, double done);
+  /* Calls body (body_data, i) for i = 0 .. n-1, in any order and on any threads; returns when all calls have. */
+  void (*each) (void *data, int n, void (*body) (void *body_data, int i), void *body_data);
+  void *data;                                      /* passed to both functions */
 } CeldHost;
 
-/* ------------------------------------------------------------------ borrowed pictures; the stride counts pixels */
+/* ------------------------------------------------------------------ pictures
+ *
+ * Views: the caller owns the data.  Pixel (x,y) is element y * stride + x, times the components of a pixel; the stride
+ * counts pixels and is at least the width. */
 
-typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* one float a pixel */
-typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* one label or rank a pixel */
-typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* one byte a pixel, 0 = no */
-typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A, straight alpha */
-typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x,y,z a pixel */
-typedef struct { int width, height; size_t stride; float    *data; } CeldColours; /* R,G,B,A, straight alpha */
+typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* a number per pixel */
+typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* a label or rank per pixel */
+typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* a byte per pixel, 0 = no */
+typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A of sRGB, straight alpha */
+typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x, y, z */
+typedef struct { int width, height; size_t stride; float    *data; } CeldColours; /* R, G, B, A, straight alpha */
 
+/* A rectangle of pixels; empty if its width is 0. */
 typedef struct { int x, y, width, height; } CeldRect;
 
 /* A drawing: luma, and alpha where it has one (data NULL = opaque).  NaN reads as paper. */
 typedef struct { CeldPlane luma, alpha; } CeldDrawing;
 
+/* What ink is for: blue virtual contours count for segmentation only (section 4). */
 typedef enum { CELD_FOR_SEGMENTATION, CELD_FOR_DEPTH } CeldPurpose;
 
 #ifdef __cplusplus
