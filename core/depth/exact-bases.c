@@ -14,7 +14,7 @@
 #include "depth/exact.h"
 #include "solve/laplace.h"
 
-#define BAND_ROWS 16 /* rows of a job when depth is composed */
+#define COMPOSED_ROWS 16 /* rows of a job when depth is composed */
 
 /* ------------------------------------------------------------------ lanes */
 
@@ -230,7 +230,7 @@ compose_band (void *data, int band)
   const Composition       *c = data;
   const CeldHarmonicBases *b = c->bases;
 
-  for (int y = band * BAND_ROWS; y < b->height && y < (band + 1) * BAND_ROWS; y++)
+  for (int y = band * COMPOSED_ROWS; y < b->height && y < (band + 1) * COMPOSED_ROWS; y++)
     {
       float *row = &CELD_AT (c->depth, 0, y);
 
@@ -258,7 +258,7 @@ celd_bases_compose (const CeldHarmonicBases *bases, const double *u, const CeldH
       c.low  = (float) u[k] < c.low ? (float) u[k] : c.low;
       c.high = (float) u[k] > c.high ? (float) u[k] : c.high;
     }
-  celd_parallel_for (host, (bases->height + BAND_ROWS - 1) / BAND_ROWS, compose_band, &c);
+  celd_parallel_for (host, (bases->height + COMPOSED_ROWS - 1) / COMPOSED_ROWS, compose_band, &c);
   celd_free (c.value);
   return CELD_OK;
 }

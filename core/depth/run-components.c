@@ -116,7 +116,9 @@ celd_run_components_find (int width, int height, const float *level, const uint8
                  const CeldHost *host, CeldRunComponents *components)
 {
   Joins             j = { level, fixed, edges };
-  CeldRunComponents found = { width, height, celd_alloc0 ((size_t) height + 1, sizeof (size_t)), NULL, 0 };
+  CeldRunComponents found = {
+    .width = width, .height = height, .row = celd_alloc0 ((size_t) height + 1, sizeof (size_t))
+  };
   uint8_t          *mark = celd_alloc ((size_t) width, 1);
   uint32_t         *parent = NULL;
   size_t            n = 0;

@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "image/image.h"
 
-#define ROWS_PER_REPORT 64 /* rows between two reports of progress */
+#define NUMBERED_ROWS 64 /* rows between two reports of progress */
 
 typedef struct
 {
@@ -75,7 +75,7 @@ number_pixels (const CeldLabels *labels, uint32_t none, bool diagonal, const Cel
       uint32_t *row = number + (size_t) y * w;
 
       status = number_row (labels, none, diagonal, y, y ? row - w : NULL, row, numbers);
-      if (status == CELD_OK && y % ROWS_PER_REPORT == 0)
+      if (status == CELD_OK && y % NUMBERED_ROWS == 0)
         status = celd_progress (host, 0.6 * y / labels->height);
     }
   return status;

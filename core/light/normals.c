@@ -20,7 +20,7 @@
 
 #include <math.h>
 
-#define OUTLINE_WEIGHT  2.f  /* weight between a pixel and its outline: 1 / distance, half a pixel */
+#define NORMAL_AT_OUTLINE  2.f  /* weight between a pixel and its outline: 1 / distance, half a pixel */
 #define FLAT_WEIGHT      1.f  /* weight that draws a pixel of a flat region towards the viewer (chosen) */
 #define NORMALS_TOLERANCE 2e-3 /* largest error of n_x and n_y as a share of their range: less than a step of 8 bits */
 
@@ -85,9 +85,9 @@ write_box (const void *data, CeldBox *box)
       if (!is_inside (&rect, x, y))
         continue;
       i = celd_box_pixel (box, x, y);
-      box->diagonal[i]   += OUTLINE_WEIGHT;
-      box->b[i]          += OUTLINE_WEIGHT * c->x;
-      box->b[box->n + i] += OUTLINE_WEIGHT * c->y;
+      box->diagonal[i]   += NORMAL_AT_OUTLINE;
+      box->b[i]          += NORMAL_AT_OUTLINE * c->x;
+      box->b[box->n + i] += NORMAL_AT_OUTLINE * c->y;
     }
   return NORMALS_TOLERANCE;
 }
