@@ -27,6 +27,7 @@ typedef struct
   const char  *text, *path, *relation[RELATIONS];
   struct { bool on; int x, y, width, height; uint8_t colour[3]; } stroke[STROKES];
   uint32_t     latest[STROKES]; /* strokes by when they were painted first */
+  uint32_t     newest;          /* relation, by when it was put last: of equally heavy ones a later one gives way */
   CeldSettings settings;
 } Host;
 
@@ -201,9 +202,9 @@ tell_all (CeldSession *session, Host *h)
   for (uint32_t k = STROKES; k-- > 0;)
     if (h->stroke[h->latest[k]].on)
       tell_stroke (session, h, h->latest[k]);
-  for (uint32_t i = 0; i < RELATIONS; i++)
-    if (h->relation[i])
-      tell_relation (session, h, i);
+  for (uint32_t k = 1; k <= RELATIONS; k++)
+    if (h->relation[(h->newest + k) % RELATIONS])
+      tell_relation (session, h, (h->newest + k) % RELATIONS);
 }
 
 /* A stroke that comes anew lies above the others; one that is changed stays where it is. */
@@ -272,6 +273,8 @@ edit_relation (CeldSession *session, Host *h, FuzzInput *input)
     h->relation[i] = "3,3 > 20,20";
   if (was_there || h->relation[i])
     tell_relation (session, h, i);
+  if (h->relation[i])
+    h->newest = i;
 }
 
 static void
