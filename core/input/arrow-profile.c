@@ -18,7 +18,7 @@
 #define MOST_RISE    0.25 /* of a later piece above an earlier one: a share of the whole fall, */
 #define LAST_RISE    0.12 /* the same of the last two: the weak end is the weakest of all */
 #define NOISE        0.05 /* and of the largest value */
-#define SHORTEST     6    /* pixels */
+#define SHORTEST_PROFILE 6 /* pixels */
 #define TELLING      64   /* opacity of pieces whose colour can be told */
 #define OTHER_COLOUR 60   /* of 255: colours of two strokes differ by more, */
 #define OTHER_COSINE 0.978 /* or their differences from the paper are not parallel */
@@ -232,7 +232,7 @@ celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldAr
   int       n = (int) fmax (4, fmin (MOST_PIECES, length / 4));
   CeldPoint first, end;
 
-  if (length < SHORTEST)
+  if (length < SHORTEST_PROFILE)
     return false;
   measure (stroke, layer, CELD_ARROW_TAPER, 0, n, widths);
   for (int i = 0; i < n; i++)

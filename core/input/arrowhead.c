@@ -14,9 +14,9 @@
 
 #define EXTREMITIES  4   /* tail, tip and two barbs */
 #define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
-#define EVEN         2.2 /* largest ratio of widths along a shaft: pens start thin */
+#define EVEN_WIDTH 2.2 /* largest ratio of widths along a shaft: pens start thin */
 #define THICK_START  1.4 /* largest ratio of the width near the tail to that in the middle: more is another head */
-#define SHORTEST     6   /* pixels */
+#define SHORTEST_SHAFT 6 /* pixels */
 #define TURNS        3   /* of the axis towards the tip */
 
 /* Part of a stroke seen along an axis: s forwards, v sideways, from an origin. */
@@ -146,7 +146,7 @@ is_even (const CeldArrowStroke *stroke, double w, double end)
   for (double d = 0; d < fmin (end - run, 8 * w); d += 0.5)
     if (celd_stroke_mean_width (stroke, d, d + run) > THICK_START * b + 0.8)
       return false;
-  return fmax (a, fmax (b, c)) < EVEN * fmin (a, fmin (b, c));
+  return fmax (a, fmax (b, c)) < EVEN_WIDTH * fmin (a, fmin (b, c));
 }
 
 /* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
@@ -285,7 +285,7 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
 
   celd_stroke_follow (stroke, &tail, 1);
   length = celd_stroke_length (stroke);
-  if (length < SHORTEST)
+  if (length < SHORTEST_SHAFT)
     return false;
   w   = celd_stroke_mean_width (stroke, 1, 0.5 * length);
   end = shaft_end (stroke, w);

@@ -16,7 +16,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define VIVID 0.3f      /* least difference of the largest and the smallest channel of a stroke's colour */
+#define VIVID_CONTOUR 0.3f /* least difference of the largest and the smallest channel of a stroke's colour */
 #define ALONG 3         /* a stroke runs along ink that it covers for so many of its widths */
 
 /* ------------------------------------------------------------------ strokes */
@@ -28,7 +28,7 @@ kind_of_colour (const uint8_t *rgba)
   int   high = r > g ? (r > b ? r : b) : g > b ? g : b, low = r < g ? (r < b ? r : b) : g < b ? g : b;
   float range = (float) (high - low), hue;
 
-  if (range < VIVID * 255)
+  if (range < VIVID_CONTOUR * 255)
     return NOTHING;
   if (high == r)
     hue = 60 * (float) (g - b) / range;

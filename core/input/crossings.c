@@ -19,7 +19,7 @@
 #define BEYOND      1.5  /* arms reach on to so many radii */
 
 /* A possible crossing, and how far its strokes are from straight. */
-typedef struct { CeldStrokeCrossing crossing; double bend; } Candidate;
+typedef struct { CeldStrokeCrossing crossing; double bend; } CrossingCandidate;
 
 /* Points of the circle of radius 1. */
 typedef struct { double x[SAMPLES], y[SAMPLES]; } Circle;
@@ -91,7 +91,7 @@ bend_between (double a, double b)
 
 /* Is there a crossing of strokes on a circle? */
 static bool
-look_round (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, Candidate *found)
+look_round (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, CrossingCandidate *found)
 {
   double        middle[ARMS], wide[ARMS];
   CeldStrokeCrossing *x = &found->crossing;
@@ -128,7 +128,7 @@ is_inmost (const CeldStrokeMask *c, size_t p)
 }
 
 static CeldStatus
-gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
+gather (const CeldStrokeMask *c, CrossingCandidate **list, size_t *n)
 {
   static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
   Circle              circle;
@@ -144,7 +144,7 @@ gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
     for (int x = 1; x + 1 < c->width; x++)
       {
         size_t    p = (size_t) y * (size_t) c->width + (size_t) x;
-        Candidate best = { .bend = INFINITY }, one;
+        CrossingCandidate best = { .bend = INFINITY }, one;
 
         if (!c->painted[p] || !is_inmost (c, p))
           continue;
@@ -163,7 +163,7 @@ gather (const CeldStrokeMask *c, Candidate **list, size_t *n)
 
 /* Takes the straightest candidate and drops those that overlap it. */
 static CeldStrokeCrossing
-take_best (Candidate *list, size_t *n)
+take_best (CrossingCandidate *list, size_t *n)
 {
   size_t       best = 0, kept = 0;
   CeldStrokeCrossing x;
@@ -186,7 +186,7 @@ take_best (Candidate *list, size_t *n)
 CeldStatus
 celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCrossing **list, size_t *n)
 {
-  Candidate    *candidates = NULL;
+  CrossingCandidate    *candidates = NULL;
   CeldStrokeCrossing *found = NULL;
   size_t        left = 0, taken = 0, capacity = 0;
   CeldStatus    status = gather (mask, &candidates, &left);

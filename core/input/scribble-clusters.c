@@ -14,14 +14,14 @@
 #include <stdlib.h>
 
 #define SATELLITE 40    /* a rim is no farther than this from the colour of its stroke */
-#define MANY 4096       /* clusters: more than these are a photograph, where nothing has a rim */
+#define MANY_CLUSTERS 4096 /* clusters: more than these are a photograph, where nothing has a rim */
 
-typedef struct { uint32_t solid, id; } Candidate;
+typedef struct { uint32_t solid, id; } ClusterCandidate;
 
 static int
 by_falling_solid (const void *a, const void *b)
 {
-  const Candidate *p = a, *q = b;
+  const ClusterCandidate *p = a, *q = b;
 
   if (p->solid != q->solid)
     return p->solid < q->solid ? 1 : -1;
@@ -219,7 +219,7 @@ is_paper (const CeldScribbleLayer *r, const CeldScribbleColour *c)
 CeldStatus
 celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
 {
-  Candidate *candidate = celd_alloc (r->n, sizeof *candidate);
+  ClusterCandidate *candidate = celd_alloc (r->n, sizeof *candidate);
   size_t     cells = (size_t) cell_side (r) * (size_t) cell_side (r) * (size_t) cell_side (r), n = 0;
   CeldStatus status = CELD_NO_MEMORY;
 
@@ -230,7 +230,7 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     r->head[i] = CELD_NO_CLUSTER;
   for (size_t i = 1; i < r->n; i++)
     if (r->colour[i].solid)
-      candidate[n++] = (Candidate) { r->colour[i].solid, (uint32_t) i };
+      candidate[n++] = (ClusterCandidate) { r->colour[i].solid, (uint32_t) i };
   qsort (candidate, n, sizeof *candidate, by_falling_solid);
 
   status = celd_scribble_cluster_add (r, r->paper);
@@ -241,7 +241,7 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     r->colour[i].cluster = is_paper (r, &r->colour[i]) ? 0 : nearest_cluster (r, r->colour[i].channel);
   if (status == CELD_OK)
     tally_clusters (r);
-  if (status == CELD_OK && r->n_clusters <= MANY)
+  if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
       status = absorb_satellites (r);
       tally_clusters (r);

@@ -9,9 +9,9 @@
  */
 #include "input/scribbles.h"
 
-#define REACH 3         /* pixels: strokes touch across an antialiased rim */
+#define OVERLAP_DISTANCE 3 /* pixels: strokes touch across an antialiased rim */
 #define EXACT 6         /* how far a mixture is from where it is expected, at most */
-#define MANY 1024       /* labels: more than these are no strokes */
+#define MANY_OVERLAPS 1024 /* labels: more than these are no strokes */
 
 /* The label at a pixel, counted from 1; 0 for anything else. */
 static uint32_t
@@ -22,16 +22,17 @@ label_at (const CeldScribbleLayer *r, const uint32_t *number, size_t i)
   return k == CELD_NO_CLUSTER ? 0 : number[k];
 }
 
-/* touch[a * n + b]: how often labels a and b face each other across REACH pixels. */
+/* touch[a * n + b]: how often labels a and b face each other across OVERLAP_DISTANCE pixels. */
 static void
 count_touches (const CeldScribbleLayer *r, const uint32_t *number, uint32_t *touch, size_t n)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
       for (int i = 0; i < 2; i++)
-        if (x + (i ? 0 : REACH) < r->width && y + (i ? REACH : 0) < r->height)
+        if (x + (i ? 0 : OVERLAP_DISTANCE) < r->width && y + (i ? OVERLAP_DISTANCE : 0) < r->height)
           {
-            size_t   p = (size_t) y * (size_t) r->width + (size_t) x, q = p + (i ? REACH * (size_t) r->width : REACH);
+            size_t   p = (size_t) y * (size_t) r->width + (size_t) x;
+            size_t   q = p + (i ? OVERLAP_DISTANCE * (size_t) r->width : OVERLAP_DISTANCE);
             uint32_t a = label_at (r, number, p), b = label_at (r, number, q);
 
             touch[a * n + b] += a != b;
@@ -113,7 +114,7 @@ celd_scribble_overlaps (CeldScribbleLayer *r)
         number[k] = (uint32_t) n++;
       }
   status = CELD_OK;
-  if (n <= 3 || n > MANY)
+  if (n <= 3 || n > MANY_OVERLAPS)
     goto done;
   touch = celd_alloc0 (n * n, sizeof *touch);
   if (!touch)

@@ -20,7 +20,7 @@
 #define ALIKE 30        /* pieces as near as this are of one stroke */
 #define SCRAP 80        /* pixels: a smaller piece that touches a stroke may be a scrap of it, ... */
 #define SCRAP_OFF 130   /* ... the farther off in colour the smaller it is */
-#define SAME 24         /* strokes as near as this have one label, ... */
+#define SAME_COLOUR 24 /* strokes as near as this have one label, ... */
 #define SPECK 60        /* ... those of fewer pixels as far off as this, too, in part */
 #define MANY 4096       /* strokes that may found a label: the others are specks */
 
@@ -177,7 +177,7 @@ gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
   for (size_t i = 0; i < n; i++)
     {
       uint32_t k = candidate[i].stroke, found = k;
-      double   small = candidate[i].all < SPECK ? 1 - candidate[i].all / SPECK : 0, least = SAME * (1 + small);
+      double   small = candidate[i].all < SPECK ? 1 - candidate[i].all / SPECK : 0, least = SAME_COLOUR * (1 + small);
 
       for (size_t j = 0; j < n_labels; j++)
         if (distance (&s->piece[k], &s->piece[label[j]]) < least)

@@ -17,14 +17,14 @@ typedef struct
   const CeldGraph  *graph;
   CeldLabels        part;       /* connected regions; data NULL: not found yet */
   int               stroke;     /* width in pixels; 0: not measured yet */
-} Picture;
+} LabelledPicture;
 
 /* One end of a relation: its label, and a pixel of that label. */
 typedef struct { uint32_t label; int x, y; } Place;
 
 /* False if the end is no point of the drawing. */
 static bool
-find_place (Picture *picture, size_t link, CeldSide side, Place *place)
+find_place (LabelledPicture *picture, size_t link, CeldSide side, Place *place)
 {
   const CeldGraph    *g = picture->graph;
   const CeldRelation *relation = &g->relations->item[link];
@@ -43,7 +43,7 @@ find_place (Picture *picture, size_t link, CeldSide side, Place *place)
 }
 
 static CeldStatus
-find_parts (Picture *picture)
+find_parts (LabelledPicture *picture)
 {
   CeldComponent *list = NULL;
   size_t         n;
@@ -57,7 +57,7 @@ find_parts (Picture *picture)
 
 /* Do the relations i and j meet in two regions of a label that do not touch?  Tells of it in `cycle`. */
 static CeldStatus
-look_between (Picture *picture, size_t i, size_t j, CeldCycle *cycle)
+look_between (LabelledPicture *picture, size_t i, size_t j, CeldCycle *cycle)
 {
   const CeldGraph *g = picture->graph;
   CeldStatus       status = CELD_OK;
@@ -88,7 +88,7 @@ CeldStatus
 celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                      const CeldGraph *graph, CeldOrder *order)
 {
-  Picture    picture = { .labels = labels, .ink = ink, .graph = graph };
+  LabelledPicture    picture = { .labels = labels, .ink = ink, .graph = graph };
   CeldStatus status = CELD_OK;
 
   for (size_t k = 0; k < order->n_cycles && status == CELD_OK; k++)

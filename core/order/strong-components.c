@@ -20,10 +20,10 @@ typedef struct
   bool            *open;    /* is its component not complete yet? */
   uint32_t        *path, *stack; /* from the start to the node at hand; nodes whose component is not complete */
   size_t           n_path, n_stack, found;
-} Walk;
+} SccWalk;
 
 static void
-walk_end (Walk *w)
+walk_end (SccWalk *w)
 {
   celd_arc_index_clear (&w->down);
   celd_free (w->number);
@@ -35,11 +35,11 @@ walk_end (Walk *w)
 }
 
 static CeldStatus
-walk_new (const CeldGraph *g, Walk *w)
+walk_new (const CeldGraph *g, SccWalk *w)
 {
   size_t n = g->n_labels + g->n_links;
 
-  *w = (Walk) {
+  *w = (SccWalk) {
     .graph = g,
     .number = celd_alloc0 (n, sizeof (uint32_t)), .low = celd_alloc (n, sizeof (uint32_t)),
     .cursor = celd_alloc (n, sizeof (size_t)), .open = celd_alloc0 (n, sizeof (bool)),
@@ -51,7 +51,7 @@ walk_new (const CeldGraph *g, Walk *w)
 
 /* The nodes that steps from a node lead to: where they begin and end in down.link or in graph->end. */
 static void
-steps_from (const Walk *w, size_t node, size_t *first, size_t *last)
+steps_from (const SccWalk *w, size_t node, size_t *first, size_t *last)
 {
   const CeldGraph *g = w->graph;
 
@@ -70,7 +70,7 @@ steps_from (const Walk *w, size_t node, size_t *first, size_t *last)
 }
 
 static void
-enter (Walk *w, size_t node)
+enter (SccWalk *w, size_t node)
 {
   size_t last;
 
@@ -84,7 +84,7 @@ enter (Walk *w, size_t node)
 /* All that lies on the stack from the node on is one component: gives it the next number if there is an inequality
  * in it. */
 static void
-close_component (Walk *w, size_t node, CeldSccs *sccs)
+close_component (SccWalk *w, size_t node, CeldSccs *sccs)
 {
   const CeldGraph *g = w->graph;
   size_t           from = w->n_stack;
@@ -112,7 +112,7 @@ close_component (Walk *w, size_t node, CeldSccs *sccs)
 
 /* Goes on with the node at the end of the path: one step, or back. */
 static void
-go_on (Walk *w, CeldSccs *sccs)
+go_on (SccWalk *w, CeldSccs *sccs)
 {
   const CeldGraph *g = w->graph;
   size_t           node = w->path[w->n_path - 1], first, last;
@@ -167,7 +167,7 @@ celd_sccs_clear (CeldSccs *sccs)
 CeldStatus
 celd_sccs_find (const CeldGraph *graph, CeldSccs *sccs)
 {
-  Walk       walk;
+  SccWalk       walk;
   CeldStatus status = walk_new (graph, &walk);
 
   *sccs = (CeldSccs) { celd_alloc0 (graph->n_labels, sizeof (uint32_t)),

@@ -14,7 +14,7 @@
 #define STRAIGHT  0.25          /* radians: how far the bar of a T may seem to turn */
 #define DOUBT     0.03          /* of what a clear junction says */
 #define DOUBT_UNCLEAR 0.2       /* and of any other */
-#define SHORTEST  1.0           /* stroke widths of a border */
+#define SHORTEST_SIDE 1.0 /* stroke widths of a border */
 #define ROUND     0.3           /* radians: a border that trials as much as this is hardly straight */
 #define STEP      1.5           /* stroke widths between places at which a border's turning is measured */
 #define PLACES    5             /* along a run of border, at which a place for an arrow's end is looked for */
@@ -216,7 +216,7 @@ gather_run (Gathering *g, const CeldOutlineLoop *loop, const Run *run)
     return status;
   pair->facing[side] += run->length;
   pair->turn[side]   += turning (g->outlines, loop, run);
-  if (run->length >= SHORTEST * g->outlines->stroke)
+  if (run->length >= SHORTEST_SIDE * g->outlines->stroke)
     for (size_t k = 0; k < PLACES; k++)
       try_place (g, loop, run, run->first + (2 * k + 1) * run->n / (2 * PLACES), side, pair);
   return CELD_OK;
@@ -368,7 +368,7 @@ list_pairs (Gathering *g, CeldPairCues **pairs, size_t *n)
   for (size_t i = 0; i < g->n; i++)
     {
       finish_pair (g, &g->pair[i]);
-      if (g->pair[i].depth > 0 && g->pair[i].cues.length >= SHORTEST * g->outlines->stroke)
+      if (g->pair[i].depth > 0 && g->pair[i].cues.length >= SHORTEST_SIDE * g->outlines->stroke)
         list[found++] = g->pair[i].cues;
     }
   qsort (list, found, sizeof *list, compare_pairs);

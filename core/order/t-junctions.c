@@ -15,8 +15,8 @@
 #include <math.h>
 
 #define CELL     16             /* pixels: side of the cells in which outlines are looked up */
-#define REACH    4.0            /* stroke widths from a junction to the outlines round it, at most */
-#define SAME     2.0            /* stroke widths: junctions of the same regions as close as this are one */
+#define JUNCTION_RADIUS 4.0 /* stroke widths from a junction to the outlines round it, at most */
+#define SAME_PLACE 2.0 /* stroke widths: junctions of the same regions as close as this are one */
 #define GAP      0.75           /* stroke widths round the corner that are not looked at */
 #define ARM      4.0            /* stroke widths of an arm */
 #define SHORTEST 1.5
@@ -79,7 +79,7 @@ sort_points (Search *s)
 static size_t
 nearest (const Search *s, uint32_t label, double x, double y)
 {
-  double reach = REACH * s->stroke + 4, least = reach * reach;
+  double reach = JUNCTION_RADIUS * s->stroke + 4, least = reach * reach;
   int    left = (int) fmax (0, (x - reach) / CELL), top = (int) fmax (0, (y - reach) / CELL);
   int    right = (int) fmin (s->columns - 1, (x + reach) / CELL), bottom = (int) fmin (s->rows - 1, (y + reach) / CELL);
   size_t found = SIZE_MAX;
@@ -197,7 +197,7 @@ turn_at (const Search *s, size_t i)
 static bool
 is_known (const Search *s, const uint32_t label[3], double x, double y)
 {
-  double near = SAME * s->stroke + 2;
+  double near = SAME_PLACE * s->stroke + 2;
 
   for (size_t k = s->n; k-- > 0 && (double) s->corner[k].y > y - near;)
     if (!memcmp (s->corner[k].label, label, sizeof s->corner[k].label) &&
