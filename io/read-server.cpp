@@ -19,11 +19,14 @@
 #include <unistd.h>
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-#define SANITIZED 1
+#define CELD_SANITIZED true
 #elif defined __has_feature
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SANITIZED 1
+#define CELD_SANITIZED true
 #endif
+#endif
+#ifndef CELD_SANITIZED
+#define CELD_SANITIZED false
 #endif
 
 // ------------------------------------------------------------------ limits of a worker
@@ -48,21 +51,17 @@ memory_used ()
   return data * uint64_t (sysconf (_SC_PAGESIZE));
 }
 
-// Beyond what is used now.  Address sanitizer's own memory has no bounds.
+// Limits memory to what is used now and so much more; not with a sanitizer, whose own memory cannot be bounded.
 static void
 limit_memory (uint64_t more)
 {
-#ifndef SANITIZED
   const uint64_t used = memory_used ();
   rlimit         limit;
 
-  if (!used || getrlimit (RLIMIT_DATA, &limit))
+  if (CELD_SANITIZED || !used || getrlimit (RLIMIT_DATA, &limit))
     return;
   limit.rlim_cur = std::min<rlim_t> (used + more, limit.rlim_max);
   setrlimit (RLIMIT_DATA, &limit);
-#else
-  (void) more;
-#endif
 }
 
 // ------------------------------------------------------------------ answers
