@@ -155,7 +155,7 @@ profile_of (const PictureFile &file, size_t part)
   // The layers of a PSD share the profile of the file, which OpenImageIO hangs on some parts only.
   for (size_t i : { part, size_t (0) })
     if (const auto *profile = file.parts.at (i).spec.find_attribute ("ICCProfile"))
-      return std::string (static_cast<const char *> (profile->data ()), profile->datasize ());
+      return std::string (static_cast<const char *> (profile->data ()), size_t (profile->datasize ()));
   return "";
 }
 
