@@ -22,7 +22,7 @@ from damage import damaged  # noqa: E402
 from pictures import HEIGHT, WIDTH, drawing, scribbles, write_psd  # noqa: E402
 
 READER = os.environ['READ_PICTURES']
-MOST_MEMORY = 1600  # MB that a process takes: 1024 for opening, 256 for reading, the program itself
+MOST_MEMORY = float(os.environ['MOST_MEMORY'])  # MB of a process: 1024 for opening, 256 for reading, the program itself
 MOST_SECONDS = 200  # for one file, on a machine that is busy
 
 
