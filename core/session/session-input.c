@@ -1,4 +1,5 @@
-/* What the host sets in a session.  Hosts set everything again at each preview: what is as it was changes nothing.
+/* The settings, pictures and relations that a host sets in a session.  Hosts set all of them again for each preview, so
+ * values equal to the current ones leave all results valid.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,7 +8,7 @@
 
 #include <string.h>
 
-/* Do the rows of two pictures hold the same?  No picture is the same as no picture. */
+/* Whether `height` rows of `row` bytes are equal; NULL is equal to NULL alone.  Strides in bytes. */
 static bool
 same_rows (const void *a, size_t a_stride, const void *b, size_t b_stride, int height, size_t row)
 {
@@ -49,9 +50,11 @@ same_relations (const CeldRelations *a, const CeldRelations *b)
   return a->n == b->n;
 }
 
-/* The stages that read what differs: by the table, and where it depends on what a setting was or is. */
+/* The stages that a change of settings from a to b invalidates, as bits: by the table of settings, and two cases that
+ * depend on values.  Only splitting on contradictions concerns the labels; the random walker reads the settings of the
+ * weights. */
 static unsigned
-stages_of_changes (const CeldSettings *a, const CeldSettings *b)
+changed_stages (const CeldSettings *a, const CeldSettings *b)
 {
   unsigned               stages = 0;
   size_t                 n;
@@ -67,7 +70,6 @@ stages_of_changes (const CeldSettings *a, const CeldSettings *b)
   return stages;
 }
 
-/* Each stage that reads a setting forgets its result; what is made from it goes with it. */
 CeldStatus
 celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
 {
@@ -76,12 +78,12 @@ celd_session_set_settings (CeldSession *session, const CeldSettings *settings)
 
   if (status != CELD_OK)
     return status;
-  stages = stages_of_changes (&session->settings, settings);
+  stages = changed_stages (&session->settings, settings);
   for (int stage = 0; stage < N_STAGES; stage++)
     if (stages & 1u << stage)
-      celd_session_forget (session, (CeldStage) stage);
+      celd_session_invalidate (session, (CeldStage) stage);
   if (stages & 1u << STAGE_OWNERSHIP)
-    celd_session_forget_ownership (session);
+    celd_session_discard_ownership (session);
   session->settings = *settings;
   return CELD_OK;
 }
@@ -96,7 +98,7 @@ copy_plane (const CeldPlane *from, CeldPlane *to)
   return status;
 }
 
-/* The layers have the drawing's size, so they go when another size comes. */
+/* Frees the layers, which must have the drawing's size. */
 static void
 clear_layers (CeldSession *s)
 {
@@ -136,12 +138,12 @@ celd_session_set_drawing (CeldSession *session, const CeldDrawing *drawing)
   celd_free (session->drawing.luma.data);
   celd_free (session->drawing.alpha.data);
   session->drawing = copy;
-  celd_session_forget (session, STAGE_INK);
+  celd_session_invalidate (session, STAGE_INK);
   return CELD_OK;
 }
 
 static CeldStatus
-set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage first_touched)
+set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage stage)
 {
   CeldPaint copy = { 0 };
 
@@ -163,7 +165,7 @@ set_layer (CeldSession *s, const CeldPaint *from, CeldPaint *layer, CeldStage fi
     return CELD_OK;
   celd_free (layer->data);
   *layer = copy;
-  celd_session_forget (s, first_touched);
+  celd_session_invalidate (s, stage);
   return CELD_OK;
 }
 
@@ -201,28 +203,28 @@ celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth)
     return status;
   celd_free (session->hint.data);
   session->hint = copy;
-  celd_session_forget (session, STAGE_SUGGESTIONS);
+  celd_session_invalidate (session, STAGE_SUGGESTIONS);
   if (session->settings.suggest != CELD_SUGGEST_OFF)
-    celd_session_forget (session, STAGE_ORDER);
+    celd_session_invalidate (session, STAGE_ORDER);
   return CELD_OK;
 }
 
-/* What a reader makes of a text (NULL: nothing) becomes `known`. */
+/* Replaces `current` by the relations parsed from a text; NULL is an empty text. */
 static CeldStatus
 set_text (CeldSession *session, CeldStatus (*parse) (const char *text, CeldRelations *relations, CeldTextError *error),
-          const char *text, CeldRelations *known, CeldTextError *error)
+          const char *text, CeldRelations *current, CeldTextError *error)
 {
   CeldRelations relations = { 0 };
   CeldStatus    status = parse (text ? text : "", &relations, error);
 
-  if (status != CELD_OK || same_relations (&relations, known))
+  if (status != CELD_OK || same_relations (&relations, current))
     {
       celd_relations_clear (&relations);
       return status;
     }
-  celd_relations_clear (known);
-  *known = relations;
-  celd_session_forget (session, STAGE_RELATIONS);
+  celd_relations_clear (current);
+  *current = relations;
+  celd_session_invalidate (session, STAGE_RELATIONS);
   return CELD_OK;
 }
 
@@ -232,7 +234,7 @@ celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections
   const uint8_t *old = session->corrections.data;
   CeldStatus     status = set_layer (session, corrections, &session->corrections, STAGE_OWNERSHIP);
 
-  session->new_corrections |= session->corrections.data != old;
+  session->changed_corrections |= session->corrections.data != old;
   return status;
 }
 
@@ -248,7 +250,7 @@ celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextErr
   return set_text (session, celd_arrow_path_parse, path, &session->path, error);
 }
 
-/* Without the relations of one id among the first `end`; how many there were. */
+/* Removes the relations of one id among the first `end`, and returns their number. */
 static size_t
 drop_relations (CeldRelations *relations, uint32_t id, size_t end)
 {
@@ -265,7 +267,7 @@ drop_relations (CeldRelations *relations, uint32_t id, size_t end)
   return n - kept;
 }
 
-/* Takes over `added`, with nothing of the same id before. */
+/* Appends `added`, all of this id, and removes earlier relations of the id. */
 static CeldStatus
 append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
 {
@@ -280,7 +282,7 @@ append_single (CeldSession *s, uint32_t id, const CeldRelations *added)
       return status;
     }
   drop_relations (&s->single, id, before);
-  celd_session_forget (s, STAGE_RELATIONS);
+  celd_session_invalidate (s, STAGE_RELATIONS);
   return CELD_OK;
 }
 
@@ -306,6 +308,6 @@ celd_session_remove_relation (CeldSession *session, uint32_t id)
 {
   if (!drop_relations (&session->single, id, session->single.n))
     return CELD_BAD_VALUE;
-  celd_session_forget (session, STAGE_RELATIONS);
+  celd_session_invalidate (session, STAGE_RELATIONS);
   return CELD_OK;
 }

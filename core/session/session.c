@@ -1,4 +1,4 @@
-/* What the host asks of a session.  What it sets is in session-input.c; how results are made in stages.c.
+/* The results that a host asks a session for.  session-input.c has what it sets, stages.c how results are made.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,14 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-#define THINNEST 2 /* pixels: a closure that can be seen, and that nothing leaks past when it is a virtual contour */
-#define SLENDER  0.6 /* stroke widths: an arrow beside the drawing's lines */
+#define LEAST_WIDTH 2   /* pixels, of painted closures and arrows: visible, and tight as a virtual contour (chosen) */
+#define ARROW_WIDTH 0.6 /* stroke widths, of painted arrows: thinner than the drawing's lines (chosen) */
 
-/* ------------------------------------------------------------------ asking */
-
-/* Makes a stage and hands over what the host has not seen of it. */
+/* Makes a stage and reports where its result has changed since the host last got it. */
 static CeldStatus
-ask (CeldSession *s, CeldStage stage, const CeldHost *host, CeldRect *changed)
+get_stage (CeldSession *s, CeldStage stage, const CeldHost *host, CeldRect *changed)
 {
   CeldStatus status;
 
@@ -33,27 +31,35 @@ ask (CeldSession *s, CeldStage stage, const CeldHost *host, CeldRect *changed)
   return status;
 }
 
+/* Makes a stage whose result is a plane of the session, and reports changes. */
+static CeldStatus
+get_plane (CeldSession *s, CeldStage stage, const CeldHost *host, const CeldPlane *result, CeldPlane *plane,
+           CeldRect *changed)
+{
+  CeldStatus status = get_stage (s, stage, host, changed);
+
+  if (status == CELD_OK)
+    *plane = *result;
+  return status;
+}
+
 CeldStatus
 celd_session_ink (CeldSession *session, const CeldHost *host, CeldPlane *ink, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_INK, host, changed);
-
-  if (status == CELD_OK)
-    *ink = session->ink;
-  return status;
+  return get_plane (session, STAGE_INK, host, &session->ink, ink, changed);
 }
 
 CeldStatus
 celd_session_labels (CeldSession *session, const CeldHost *host, CeldLabels *labels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_LABELS, host, changed);
+  CeldStatus status = get_stage (session, STAGE_LABELS, host, changed);
 
   if (status == CELD_OK)
     *labels = *celd_session_current_labels (session);
   return status;
 }
 
-/* The rectangle of the labels stays to be asked for. */
+/* Does not report changes of the labels: celd_session_labels still will. */
 CeldStatus
 celd_session_closures (CeldSession *session, const CeldHost *host, const CeldClosures **closures)
 {
@@ -62,6 +68,13 @@ celd_session_closures (CeldSession *session, const CeldHost *host, const CeldClo
   if (status == CELD_OK)
     *closures = celd_segmenter_closures (session->segmenter);
   return status;
+}
+
+static void
+make_transparent (CeldPaint *paint)
+{
+  for (int y = 0; y < paint->height; y++)
+    memset (CELD_RGBA (paint, 0, y), 0, 4 * (size_t) paint->width);
 }
 
 CeldStatus
@@ -76,26 +89,25 @@ celd_session_paint_closures (CeldSession *session, const CeldHost *host, CeldPai
   status = celd_session_closures (session, host, &closures);
   if (status != CELD_OK)
     return status;
-  for (int y = 0; y < paint->height; y++)
-    memset (CELD_RGBA (paint, 0, y), 0, 4 * (size_t) paint->width);
+  make_transparent (paint);
   width = celd_stroke_width (&session->ink);
-  celd_closures_paint (closures, width < THINNEST ? THINNEST : width, paint);
+  celd_closures_paint (closures, width < LEAST_WIDTH ? LEAST_WIDTH : width, paint);
   return CELD_OK;
 }
 
 CeldStatus
 celd_session_suggestions (CeldSession *session, const CeldHost *host, const CeldRelations **suggested)
 {
-  CeldStatus status = ask (session, STAGE_SUGGESTIONS, host, NULL);
+  CeldStatus status = get_stage (session, STAGE_SUGGESTIONS, host, NULL);
 
   if (status == CELD_OK)
     *suggested = &session->suggested;
   return status;
 }
 
-/* Without those about the background, which is behind everything as it is. */
+/* The suggestions but those about the background, which is behind all other regions anyway. */
 static CeldStatus
-choose_arrows (const CeldSession *session, CeldRelations *arrows)
+select_arrows (const CeldSession *session, CeldRelations *arrows)
 {
   const CeldLabels *labels = celd_session_current_labels (session);
   CeldStatus        status = CELD_OK;
@@ -116,18 +128,19 @@ celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, Celd
 {
   const CeldRelations *suggested;
   CeldRelations        arrows = { 0 };
+  double               width;
   CeldStatus           status;
 
   if (!CELD_SAME_SIZE (&session->drawing.luma, paint))
     return CELD_BAD_SIZE;
   status = celd_session_suggestions (session, host, &suggested);
   if (status == CELD_OK)
-    status = choose_arrows (session, &arrows);
+    status = select_arrows (session, &arrows);
   if (status == CELD_OK)
     {
-      for (int y = 0; y < paint->height; y++)
-        memset (CELD_RGBA (paint, 0, y), 0, 4 * (size_t) paint->width);
-      status = celd_relations_paint (&arrows, fmax (THINNEST, SLENDER * celd_stroke_width (&session->ink)), paint);
+      make_transparent (paint);
+      width  = fmax (LEAST_WIDTH, ARROW_WIDTH * celd_stroke_width (&session->ink));
+      status = celd_relations_paint (&arrows, width, paint);
     }
   celd_relations_clear (&arrows);
   return status;
@@ -136,7 +149,7 @@ celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, Celd
 CeldStatus
 celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder **order)
 {
-  CeldStatus status = ask (session, STAGE_ORDER, host, NULL);
+  CeldStatus status = get_stage (session, STAGE_ORDER, host, NULL);
 
   if (status == CELD_OK)
     *order = &session->order;
@@ -146,25 +159,21 @@ celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder 
 CeldStatus
 celd_session_unexpanded_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_UNEXPANDED, host, changed);
-
-  if (status == CELD_OK)
-    *levels = session->unexpanded;
-  return status;
+  return get_plane (session, STAGE_UNEXPANDED, host, &session->unexpanded, levels, changed);
 }
 
 CeldStatus
 celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_OWNERSHIP, host, changed);
+  CeldStatus status = get_stage (session, STAGE_OWNERSHIP, host, changed);
 
   if (status == CELD_OK)
     *ownership = session->ownership;
   return status;
 }
 
-/* The label of the background if it lies behind all others; 0 if there is none, or a relation says that something is
- * behind it. */
+/* The label of the background if it is at the farthest level; 0 if there is none, or if relations put something behind
+ * it. */
 static uint32_t
 background_label (const CeldSession *s)
 {
@@ -174,7 +183,7 @@ background_label (const CeldSession *s)
   return 0;
 }
 
-/* Layers are large and seldom asked for, so the session does not keep them. */
+/* Layers are large and rarely needed, so the session does not keep them. */
 CeldStatus
 celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, const CeldHost *host,
                      CeldLayers **layers)
@@ -193,37 +202,25 @@ celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, co
 CeldStatus
 celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_LEVELS, host, changed);
-
-  if (status == CELD_OK)
-    *levels = session->levels;
-  return status;
+  return get_plane (session, STAGE_LEVELS, host, &session->levels, levels, changed);
 }
 
 CeldStatus
 celd_session_depth_preview (CeldSession *session, const CeldHost *host, CeldPlane *quarter, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_PREVIEW, host, changed);
-
-  if (status == CELD_OK)
-    *quarter = session->preview;
-  return status;
+  return get_plane (session, STAGE_PREVIEW, host, &session->preview, quarter, changed);
 }
 
 CeldStatus
 celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_DEPTH, host, changed);
-
-  if (status == CELD_OK)
-    *depth = session->depth;
-  return status;
+  return get_plane (session, STAGE_DEPTH, host, &session->depth, depth, changed);
 }
 
 CeldStatus
 celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *normals, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_NORMALS, host, changed);
+  CeldStatus status = get_stage (session, STAGE_NORMALS, host, changed);
 
   if (status == CELD_OK)
     *normals = session->normals;
@@ -233,21 +230,13 @@ celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *n
 CeldStatus
 celd_session_shading (CeldSession *session, const CeldHost *host, CeldPlane *shading, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_SHADING, host, changed);
-
-  if (status == CELD_OK)
-    *shading = session->shading;
-  return status;
+  return get_plane (session, STAGE_SHADING, host, &session->shading, shading, changed);
 }
 
 CeldStatus
 celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed)
 {
-  CeldStatus status = ask (session, STAGE_EXACT, host, changed);
-
-  if (status == CELD_OK)
-    *depth = session->exact_depth;
-  return status;
+  return get_plane (session, STAGE_EXACT, host, &session->exact_depth, depth, changed);
 }
 
 CeldStatus

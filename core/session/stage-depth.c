@@ -1,8 +1,8 @@
-/* Smooth depth in a session, and a preview of it at a quarter of the width and height.
+/* Stages made from levels: smooth depth, its preview at a quarter of the width and height, normals, shading.
  *
- * The preview needs no expansion: it works on unexpanded levels, one for each block of pixels, and on the least
- * ink of each block, so that thin contours stay closed.  Both keep what they were made from, and solve again only what
- * an edit touched.
+ * The preview needs no expansion: it uses unexpanded levels, one for each block of pixels, and the minimum of the ink
+ * in each block, so that thin contours stay closed.  Depth and preview keep what they were made from, and solve again
+ * only the connected components that an edit touched.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,16 +13,18 @@
 
 #include <math.h>
 
-#define SIDE              4      /* pixels of a block of the preview */
-#define END_RADIUS        2.0    /* pixels round a relation's end that keep its level */
+#define BLOCK_SIDE 4   /* pixels: width and height of a block of the preview (chosen: 1/16 of the work) */
+#define END_RADIUS 2.0 /* pixels round a relation's end that are anchors (chosen) */
 
-/* What is made from the old ink has to be looked at where the new one differs. */
+#define BLOCKS(pixels) (((pixels) + BLOCK_SIDE - 1) / BLOCK_SIDE)
+
+/* Discards what depends on the ink for depth, and marks for both states of smooth depth where the new ink differs. */
 static void
-change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
+note_ink_change (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
 {
   CeldRect changed = celd_changed_rect (old->data, new->data, new->width, new->height, sizeof *new->data);
-  CeldRect blocks = { changed.x / SIDE, changed.y / SIDE, (changed.x + changed.width + SIDE - 1) / SIDE,
-                      (changed.y + changed.height + SIDE - 1) / SIDE };
+  CeldRect blocks = { changed.x / BLOCK_SIDE, changed.y / BLOCK_SIDE, BLOCKS (changed.x + changed.width),
+                      BLOCKS (changed.y + changed.height) };
 
   if (!changed.width)
     return;
@@ -30,16 +32,16 @@ change_ink (CeldSession *s, const CeldPlane *old, const CeldPlane *new)
   blocks.height -= blocks.y;
   celd_free (s->preview_ink.data);
   s->preview_ink = (CeldPlane) { 0 };
-  s->edge_radius     = 0;
-  celd_session_forget_ownership (s);
-  s->smooth_state.new_ink         = celd_rect_union (s->smooth_state.new_ink, changed);
+  s->edge_radius = 0;
+  celd_session_discard_ownership (s);
+  s->smooth_state.new_ink  = celd_rect_union (s->smooth_state.new_ink, changed);
   s->preview_state.new_ink = celd_rect_union (s->preview_state.new_ink, blocks);
 }
 
 void
-celd_session_note_depth_ink (CeldSession *s, const CeldPlane *ink)
+celd_session_invalidate_depth_ink (CeldSession *s, const CeldPlane *ink)
 {
-  change_ink (s, celd_session_depth_ink (s), ink);
+  note_ink_change (s, celd_session_depth_ink (s), ink);
 }
 
 void
@@ -47,7 +49,7 @@ celd_session_set_split_ink (CeldSession *s, CeldPlane *split_ink)
 {
   if (!s->split_ink.data && !split_ink->data)
     return;
-  change_ink (s, celd_session_split_ink (s), split_ink->data ? split_ink : celd_session_depth_ink (s));
+  note_ink_change (s, celd_session_split_ink (s), split_ink->data ? split_ink : celd_session_depth_ink (s));
   celd_free (s->split_ink.data);
   s->split_ink = *split_ink;
   *split_ink = (CeldPlane) { 0 };
@@ -55,7 +57,8 @@ celd_session_set_split_ink (CeldSession *s, CeldPlane *split_ink)
 
 /* ------------------------------------------------------------------ anchors */
 
-/* A mark for each block of side x side pixels.  Where blocks are more than pixels, `levels` becomes what is marked. */
+/* Collects anchors, in a mask of blocks of side x side pixels.  With side above 1, a block's entry of `levels` becomes
+ * the level of the anchor in it.  n counts anchors. */
 typedef struct { const CeldSession *session; int side; CeldMask mask; CeldPlane *levels; size_t n; } Anchors;
 
 /* The level of a pixel before expansion. */
@@ -78,39 +81,40 @@ mark (Anchors *a, int x, int y)
   *here = 1;
 }
 
-/* The pixels round an arrow's end. */
+/* Marks the pixels within END_RADIUS of a relation's end, if this is a point of the picture. */
 static void
 mark_end (Anchors *a, const CeldTerm *end)
 {
-  int reach = (int) END_RADIUS, width = a->session->ink.width, height = a->session->ink.height;
+  int radius = (int) END_RADIUS, width = a->session->ink.width, height = a->session->ink.height;
 
   if (end->by_colour || !(end->x >= 0 && end->y >= 0 && end->x < width && end->y < height))
     return;
-  for (int y = (int) end->y - reach; y <= (int) end->y + reach; y++)
-    for (int x = (int) end->x - reach; x <= (int) end->x + reach; x++)
+  for (int y = (int) end->y - radius; y <= (int) end->y + radius; y++)
+    for (int x = (int) end->x - radius; x <= (int) end->x + radius; x++)
       if (x >= 0 && y >= 0 && x < width && y < height && hypot (x + 0.5 - end->x, y + 0.5 - end->y) <= END_RADIUS)
         mark (a, x, y);
 }
 
-/* Is the pixel in a region that was split?  Its strokes may lie on both sides of the new border. */
+/* Whether the pixel's region was split.  Its strokes, which may lie on both sides of the new boundary, are no
+ * anchors. */
 static bool
-is_split (const CeldSession *s, int x, int y)
+in_split_region (const CeldSession *s, int x, int y)
 {
   return s->splits.n && celd_splits_have (&s->splits, CELD_AT (celd_session_current_labels (s), x, y));
 }
 
-/* What is painted. */
+/* Marks the seeds of regions that are not split; with side above 1 one pixel for each block. */
 static void
 mark_seeds (Anchors *a, const CeldSeedRows *seeds)
 {
   for (int y = 0; y < seeds->height; y++)
     for (size_t i = 0; i < seeds->row[y].n; i++)
       for (int x = seeds->row[y].run[i].x; x < seeds->row[y].run[i].end; x = (x / a->side + 1) * a->side)
-        if (!is_split (a->session, x, y))
+        if (!in_split_region (a->session, x, y))
           mark (a, x, y);
 }
 
-/* What a split region bends between. */
+/* Marks the two places between which the depth of a split region changes. */
 static void
 mark_splits (Anchors *a, const CeldSplits *splits)
 {
@@ -119,7 +123,7 @@ mark_splits (Anchors *a, const CeldSplits *splits)
       mark_end (a, &(CeldTerm) { .x = splits->item[i].x[k] + 0.5, .y = splits->item[i].y[k] + 0.5 });
 }
 
-/* The paper's U_o; n stays 0 if there is none, as for CELD_ANCHORS_CORE. */
+/* Marks the anchors that the settings ask for, the paper's U_o; none for CELD_ANCHORS_CORE. */
 static void
 choose_anchors (Anchors *a)
 {
@@ -140,9 +144,9 @@ choose_anchors (Anchors *a)
       }
 }
 
-/* ------------------------------------------------------------------ depth */
+/* ------------------------------------------------------------------ smooth depth */
 
-/* Makes a stage's plane and what is kept beside it; both or none of the two. */
+/* Makes the plane of a stage and its state; a failure leaves both as they were. */
 static CeldStatus
 smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothInput *smoothing, const CeldHost *host,
         CeldSmoothState *state, CeldPlane *plane)
@@ -190,23 +194,22 @@ celd_make_depth (CeldSession *s, const CeldHost *host)
   return status;
 }
 
-/* ------------------------------------------------------------------ its preview */
+/* ------------------------------------------------------------------ preview */
 
 CELD_CLONES static void
-keep_least (const float *restrict ink, int n, float *restrict least)
+take_minimum (const float *restrict ink, int n, float *restrict least)
 {
   for (int x = 0; x < n; x++)
     least[x] = ink[x] < least[x] ? ink[x] : least[x];
 }
 
-/* The least ink of each block; NaN reads as paper. */
+/* The minimum of the ink in each block; NaN reads as paper. */
 static CeldStatus
-pool_ink (const CeldPlane *ink, CeldPlane *blocks)
+reduce_ink (const CeldPlane *ink, CeldPlane *blocks)
 {
   float     *least = celd_alloc ((size_t) ink->width, sizeof *least);
   CeldPlane  made = { 0 };
-  CeldStatus status = least ? celd_plane_new ((ink->width + SIDE - 1) / SIDE, (ink->height + SIDE - 1) / SIDE, &made)
-                            : CELD_NO_MEMORY;
+  CeldStatus status = least ? celd_plane_new (BLOCKS (ink->width), BLOCKS (ink->height), &made) : CELD_NO_MEMORY;
 
   for (int y = 0; y < made.height && status == CELD_OK; y++)
     {
@@ -214,12 +217,12 @@ pool_ink (const CeldPlane *ink, CeldPlane *blocks)
 
       for (int x = 0; x < ink->width; x++)
         least[x] = 1;
-      for (int v = y * SIDE; v < ink->height && v < (y + 1) * SIDE; v++)
-        keep_least (&CELD_AT (ink, 0, v), ink->width, least);
+      for (int v = y * BLOCK_SIDE; v < ink->height && v < (y + 1) * BLOCK_SIDE; v++)
+        take_minimum (&CELD_AT (ink, 0, v), ink->width, least);
       for (int x = 0; x < made.width; x++)
         out[x] = 1;
       for (int x = 0; x < ink->width; x++)
-        out[x / SIDE] = least[x] < out[x / SIDE] ? least[x] : out[x / SIDE];
+        out[x / BLOCK_SIDE] = least[x] < out[x / BLOCK_SIDE] ? least[x] : out[x / BLOCK_SIDE];
     }
   celd_free (least);
   if (status == CELD_OK)
@@ -227,7 +230,7 @@ pool_ink (const CeldPlane *ink, CeldPlane *blocks)
   return status;
 }
 
-/* The level in the middle of each block. */
+/* The unexpanded level of each block's central pixel. */
 static void
 sample_levels (const CeldSession *s, CeldPlane *levels)
 {
@@ -236,7 +239,7 @@ sample_levels (const CeldSession *s, CeldPlane *levels)
   for (int y = 0; y < levels->height; y++)
     for (int x = 0; x < levels->width; x++)
       {
-        int u = x * SIDE + SIDE / 2, v = y * SIDE + SIDE / 2;
+        int u = x * BLOCK_SIDE + BLOCK_SIDE / 2, v = y * BLOCK_SIDE + BLOCK_SIDE / 2;
 
         CELD_AT (levels, x, y) = unexpanded_level (s, u < labels->width ? u : labels->width - 1,
                                              v < labels->height ? v : labels->height - 1);
@@ -247,11 +250,11 @@ CeldStatus
 celd_make_preview (CeldSession *s, const CeldHost *host)
 {
   CeldPlane       levels = { 0 };
-  Anchors         anchors = { .session = s, .side = SIDE, .levels = &levels };
+  Anchors         anchors = { .session = s, .side = BLOCK_SIDE, .levels = &levels };
   CeldSettings    settings = s->settings;
   CeldSmoothInput smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
-                              .speck = CELD_SPECK / (SIDE * SIDE) };
-  CeldStatus      status = s->preview_ink.data ? CELD_OK : pool_ink (celd_session_split_ink (s), &s->preview_ink);
+                              .speck = CELD_SPECK / (BLOCK_SIDE * BLOCK_SIDE) };
+  CeldStatus      status = s->preview_ink.data ? CELD_OK : reduce_ink (celd_session_split_ink (s), &s->preview_ink);
 
   if (status == CELD_OK)
     status = celd_plane_new (s->preview_ink.width, s->preview_ink.height, &levels);
@@ -260,7 +263,7 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
   if (status == CELD_OK)
     {
       measure_edge_radius (s);
-      smoothing.radius    = s->edge_radius / SIDE;
+      smoothing.radius    = s->edge_radius / BLOCK_SIDE;
       settings.tolerance = fmaxf (settings.tolerance, CELD_PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);
@@ -268,5 +271,43 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
     }
   celd_free (levels.data);
   celd_free (anchors.mask.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ normals and shading */
+
+CeldStatus
+celd_make_normals (CeldSession *s, const CeldHost *host)
+{
+  int         w = s->levels.width, h = s->levels.height;
+  CeldVectors normals = { w, h, (size_t) w, celd_alloc ((size_t) w * (size_t) h, 3 * sizeof (float)) };
+  CeldStatus  status = CELD_NO_MEMORY;
+
+  if (normals.data)
+    status = celd_normals (celd_session_split_ink (s), &s->levels, &s->settings, host, &normals);
+  if (status != CELD_OK)
+    {
+      celd_free (normals.data);
+      return status;
+    }
+  celd_session_add_change (s, STAGE_NORMALS,
+                           celd_changed_rect (s->normals.data, normals.data, w, h, 3 * sizeof (float)));
+  celd_free (s->normals.data);
+  s->normals = normals;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_shading (CeldSession *s, const CeldHost *host)
+{
+  CeldPlane  shading;
+  CeldStatus status = celd_plane_new (s->normals.width, s->normals.height, &shading);
+
+  (void) host;
+  if (status == CELD_OK)
+    status = celd_shade (&s->normals, &s->settings, &shading);
+  if (status == CELD_OK)
+    celd_session_replace_plane (s, STAGE_SHADING, &s->shading, &shading);
+  celd_free (shading.data);
   return status;
 }

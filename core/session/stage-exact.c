@@ -1,10 +1,10 @@
-/* The exact program as stages of a session: weights of the drawing, nodes of the scribbles, depth.
+/* The exact program, eq. (1) and (2), as stages of a session: weights of the drawing, nodes of the scribbles, depth.
  *
- * Which scribble is the background is decided as in the fast route, by a segmentation with the scribbles alone; if none
- * is, the paper along the frame becomes a node of its own behind all others.  So it does not depend on relations, and a
- * new relation costs the quadratic program and a sum of bases.
+ * A segmentation by the scribbles alone finds the background scribble; if there is none, the paper along the frame
+ * becomes a node of its own behind all others.  Nodes so do not depend on relations, and a new relation costs only the
+ * quadratic program and a sum of harmonic bases.
  *
- * A preview is the exact depth of a picture of half the size: a quarter of the work.
+ * The preview is exact depth at half the width and height: a quarter of the work.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,10 +15,9 @@
 
 #include <string.h>
 
-
 /* ------------------------------------------------------------------ the background */
 
-/* The paper along the frame that has label `from` becomes a scribble of label `to`. */
+/* Makes seeds of label `to` of the paper along the frame that has label `from` and no seed. */
 static CeldStatus
 seed_frame (const CeldPlane *ink, const CeldLabels *labels, uint32_t from, uint32_t to, CeldLabels *seeds)
 {
@@ -32,7 +31,7 @@ seed_frame (const CeldPlane *ink, const CeldLabels *labels, uint32_t from, uint3
   return status;
 }
 
-/* Marks the background in the palette, or adds it to palette and seeds, which are tight. */
+/* Marks the background scribble in the palette, or adds a background to palette and seeds (tight). */
 static CeldStatus
 find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
                  CeldPalette *palette)
@@ -73,7 +72,7 @@ celd_make_weights (CeldSession *s, const CeldHost *host)
   return celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, host);
 }
 
-/* Seeds and their palette with the background, for a program. */
+/* Adds the background to seeds and palette, and gives both to the program. */
 static CeldStatus
 set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
            CeldPalette *palette, CeldProgram *program)
@@ -185,7 +184,7 @@ halve_relations (const CeldRelations *relations, CeldRelations *half)
   return status;
 }
 
-/* Depth of half the size. */
+/* Exact depth at half the width and height; `ink` and `depth` have that size, and `ink` is overwritten. */
 static CeldStatus
 solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlane *depth)
 {

@@ -1,7 +1,6 @@
-/* The stages of a session up to the labels.
+/* Relations, ink and labels in a session.
  *
- * What is slow happens once a drawing: the segmenter keeps its basins.  What happens once a layer: reading scribbles.
- * A single stroke costs the runs of seeds, and what the segmenter repaints.
+ * The segmenter keeps the basins of a drawing; after an edit it labels only those again that the edit concerns.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -24,48 +23,48 @@ append_relations (CeldRelations *to, const CeldRelations *from)
   return status;
 }
 
-/* Do two relations say the same of the labels? */
+/* Whether two relations mean the same for labels and order; their weights, gaps and sources may differ. */
 static bool
-same_ends (const CeldRelation *a, const CeldRelation *b)
+same_meaning (const CeldRelation *a, const CeldRelation *b)
 {
   return a->equal == b->equal && celd_term_same (&a->nearer, &b->nearer) && celd_term_same (&a->farther, &b->farther);
 }
 
-/* No relation contradicts others, on labels that none has split. */
+/* Finds out whether the relations contradict each other on the current labels, of which none is split. */
 static CeldStatus
-agree (const CeldSession *s, const CeldRelations *relations, bool *agreed)
+check_cycles (const CeldSession *s, const CeldRelations *relations, bool *acyclic)
 {
   CeldGraph  graph = { 0 };
-  CeldSccs  sccs = { 0 };
+  CeldSccs   sccs = { 0 };
   CeldStatus status = celd_graph_new (celd_session_current_labels (s), &s->palette, relations, &s->ink, &graph, NULL);
 
   if (status == CELD_OK)
     status = celd_sccs_find (&graph, &sccs);
-  *agreed = status == CELD_OK && !sccs.n;
+  *acyclic = status == CELD_OK && !sccs.n;
   celd_sccs_clear (&sccs);
   celd_graph_clear (&graph);
   return status;
 }
 
-/* Would the labels be as they are with these relations in place of the present ones?  They say something of labels
- * where they make regions or split them: few do. */
+/* Finds out whether the labels would stay as they are with these relations instead of the current ones: only relations
+ * that seed regions or split them change labels. */
 static CeldStatus
 keep_labels (const CeldSession *s, const CeldRelations *relations, bool *kept)
 {
   const CeldRelations *old = &s->relations;
-  bool                 bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT;
+  bool                 split = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT;
   size_t               same = 0;
 
   *kept = false;
-  while (same < old->n && same < relations->n && same_ends (&old->item[same], &relations->item[same]))
+  while (same < old->n && same < relations->n && same_meaning (&old->item[same], &relations->item[same]))
     same++;
-  if (same < celd_segmenter_effective_relations (s->segmenter) || (bend && s->splits.n))
+  if (same < celd_segmenter_effective_relations (s->segmenter) || (split && s->splits.n))
     return CELD_OK;
   for (size_t i = same; i < relations->n; i++)
     if (!celd_session_relation_keeps_labels (s, &relations->item[i]))
       return CELD_OK;
   *kept = true;
-  return bend ? agree (s, relations, kept) : CELD_OK;
+  return split ? check_cycles (s, relations, kept) : CELD_OK;
 }
 
 CeldStatus
@@ -91,7 +90,7 @@ celd_make_relations (CeldSession *s, const CeldHost *host)
       s->relations = all;
       s->problems[STAGE_RELATIONS] = problems;
       if (!kept)
-        celd_session_forget (s, STAGE_LABELS);
+        celd_session_invalidate (s, STAGE_LABELS);
       return CELD_OK;
     }
   celd_relations_clear (&all);
@@ -101,7 +100,7 @@ celd_make_relations (CeldSession *s, const CeldHost *host)
 
 /* ------------------------------------------------------------------ ink */
 
-/* Ink for one purpose: the contours are baked into a copy of the drawing first. */
+/* Makes the ink for one purpose, with the virtual contours drawn into a copy of the drawing. */
 static CeldStatus
 make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldHost *host, CeldPlane *ink)
 {
@@ -129,9 +128,9 @@ make_ink_for (CeldSession *s, CeldPurpose purpose, const CeldHost *host, CeldPla
   return status;
 }
 
-/* The old ink stays with the segmenter until that has had the new one; ink that is as it was makes no work at all. */
+/* Replaces the ink, unless the new one equals it.  The old ink remains as segmenter_ink if the segmenter uses it. */
 static void
-take_ink (CeldSession *s, CeldPlane *ink)
+replace_ink (CeldSession *s, CeldPlane *ink)
 {
   CeldRect changed = celd_changed_rect (s->ink.data, ink->data, ink->width, ink->height, sizeof (float));
 
@@ -160,8 +159,8 @@ celd_make_ink (CeldSession *s, const CeldHost *host)
     }
   if (status == CELD_OK)
     {
-      celd_session_note_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
-      take_ink (s, &ink);
+      celd_session_invalidate_depth_ink (s, depth_ink.data ? &depth_ink : &ink);
+      replace_ink (s, &ink);
       celd_free (s->depth_ink.data);
       s->depth_ink = depth_ink;
       depth_ink.data = NULL;
@@ -171,87 +170,28 @@ celd_make_ink (CeldSession *s, const CeldHost *host)
   return status;
 }
 
-/* ------------------------------------------------------------------ seeds */
-
-CeldStatus
-celd_make_scribbles (CeldSession *s, const CeldHost *host)
-{
-  int          w = s->drawing.luma.width, h = s->drawing.luma.height;
-  CeldLabels   labels = { 0 };
-  CeldSeedRows seeds = { 0 };
-  CeldPalette  palette = { 0 };
-  CeldStatus   status;
-
-  if (s->scribbles.data)
-    {
-      status = celd_labels_new (w, h, &labels);
-      if (status == CELD_OK)
-        status = celd_scribbles_read (&s->scribbles, &s->settings, host, &labels, &palette);
-      if (status == CELD_OK)
-        status = celd_seed_rows_read (&labels, &seeds);
-    }
-  else
-    status = celd_seed_rows_new (w, h, &seeds);
-  celd_free (labels.data);
-  if (status != CELD_OK)
-    {
-      celd_palette_clear (&palette);
-      return status;
-    }
-  celd_seed_rows_clear (&s->layer_seeds);
-  celd_palette_clear (&s->layer_palette);
-  s->layer_seeds   = seeds;
-  s->layer_palette = palette;
-  return CELD_OK;
-}
-
-CeldStatus
-celd_make_seeds (CeldSession *s, const CeldHost *host)
-{
-  CeldSeedRows seeds = { 0 };
-  CeldPalette  palette = { 0 };
-  CeldStatus   status = celd_seed_rows_copy (&s->layer_seeds, &seeds);
-
-  if (status == CELD_OK)
-    status = celd_palette_copy (&s->layer_palette, &palette);
-  if (status == CELD_OK && s->n_strokes)
-    status = celd_strokes_compose (s->stroke, s->n_strokes, &seeds, &palette);
-  if (status == CELD_OK)
-    status = celd_progress (host, 1);
-  if (status != CELD_OK)
-    {
-      celd_seed_rows_clear (&seeds);
-      celd_palette_clear (&palette);
-      return status;
-    }
-  celd_seed_rows_clear (&s->seeds);
-  celd_palette_clear (&s->seed_palette);
-  s->seeds        = seeds;
-  s->seed_palette = palette;
-  return CELD_OK;
-}
-
 /* ------------------------------------------------------------------ labels */
 
-/* Tells the segmenter where the ink differs from what it knows.  What it knows after a failure, nobody knows. */
+/* Gives the segmenter the ink, and where this differs from its last ink.  After a failure the segmenter has to be given
+ * all of it again. */
 static CeldStatus
-tell_ink (CeldSession *s, const CeldHost *host)
+update_segmenter_ink (CeldSession *s, const CeldHost *host)
 {
-  bool       renew = s->segmenter_ink.data && s->segmenter_threshold == s->settings.ink_threshold &&
-                     s->segmenter_bridged == s->settings.close_gaps;
+  bool       update = s->segmenter_ink.data && s->segmenter_threshold == s->settings.ink_threshold &&
+                     s->segmenter_close_gaps == s->settings.close_gaps;
   CeldRect   changed = { 0 };
   CeldStatus status;
 
-  if (renew && s->segmenter_ink.data == s->ink.data)
+  if (update && s->segmenter_ink.data == s->ink.data)
     return CELD_OK;
-  if (renew)
+  if (update)
     changed = celd_changed_rect (s->segmenter_ink.data, s->ink.data, s->ink.width, s->ink.height, sizeof (float));
-  status = celd_segmenter_set_ink (s->segmenter, &s->ink, renew ? &changed : NULL, &s->settings, host);
+  status = celd_segmenter_set_ink (s->segmenter, &s->ink, update ? &changed : NULL, &s->settings, host);
   if (s->segmenter_ink.data != s->ink.data)
     celd_free (s->segmenter_ink.data);
   s->segmenter_ink = status == CELD_OK ? s->ink : (CeldPlane) { 0 };
   s->segmenter_threshold = s->settings.ink_threshold;
-  s->segmenter_bridged   = s->settings.close_gaps;
+  s->segmenter_close_gaps   = s->settings.close_gaps;
   return status;
 }
 
@@ -269,62 +209,62 @@ prepare_segmenter (CeldSession *s, const CeldHost *host)
       if (status != CELD_OK)
         return status;
     }
-  return tell_ink (s, host);
+  return update_segmenter_ink (s, host);
 }
 
-/* What the segmenter does not do of its own: labels NULL where the settings ask for nothing of it, or where no
- * contradiction needs it. */
-typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane split_ink; } Parted;
+/* Labels after regions were separated (same_colour) and split (on_cycle), with the splits and the ink for depth without
+ * their boundaries.  data NULL: equal to the segmenter's labels, and to the ink for depth. */
+typedef struct { CeldLabels labels; CeldSplits splits; CeldPlane split_ink; } Divided;
 
 static void
-parted_clear (Parted *parted)
+divided_clear (Divided *divided)
 {
-  celd_free (parted->labels.data);
-  celd_free (parted->splits.item);
-  celd_free (parted->split_ink.data);
+  celd_free (divided->labels.data);
+  celd_free (divided->splits.item);
+  celd_free (divided->split_ink.data);
 }
 
-/* Splits regions where relations contradict, and takes the ink off the new borders. */
+/* Splits regions where relations contradict each other, and erases the ink along the new boundaries. */
 static CeldStatus
-split (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted *parted)
+split_regions (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Divided *divided)
 {
   const CeldPlane *ink = celd_session_depth_ink (s);
-  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, host, &parted->labels, palette,
-                                               &parted->splits);
+  CeldStatus       status = celd_cycles_split (&s->relations, &s->ink, &s->settings, host, &divided->labels, palette,
+                                               &divided->splits);
 
-  if (status == CELD_OK && parted->splits.n)
-    status = celd_plane_new (ink->width, ink->height, &parted->split_ink);
-  if (status == CELD_OK && parted->splits.n)
+  if (status == CELD_OK && divided->splits.n)
+    status = celd_plane_new (ink->width, ink->height, &divided->split_ink);
+  if (status == CELD_OK && divided->splits.n)
     {
-      memcpy (parted->split_ink.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
-      celd_splits_erase (&parted->splits, &parted->labels, celd_stroke_width (ink), &parted->split_ink);
+      memcpy (divided->split_ink.data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
+      celd_splits_erase (&divided->splits, &divided->labels, celd_stroke_width (ink), &divided->split_ink);
     }
   return status;
 }
 
-/* The labels of the segmenter with each region on its own, or with regions split where relations contradict. */
+/* Separates and splits regions of the segmenter's labels, as the settings say. */
 static CeldStatus
-part (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Parted *parted)
+divide_regions (const CeldSession *s, const CeldHost *host, CeldPalette *palette, Divided *divided)
 {
-  bool         apart = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
-  bool         bend = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
-  CeldLabels  *labels = &parted->labels;
+  bool         separate = s->settings.same_colour == CELD_SAME_COLOUR_SEPARATE;
+  bool         split = s->settings.on_cycle == CELD_ON_CYCLE_SPLIT && s->relations.n;
+  CeldLabels  *labels = &divided->labels;
   CeldHostPart halves[2];
-  CeldHost     first = celd_host_part (&halves[0], host, 0, bend ? 0.5 : 1);
-  CeldHost     second = celd_host_part (&halves[1], host, apart ? 0.5 : 0, 1);
+  CeldHost     first = celd_host_part (&halves[0], host, 0, split ? 0.5 : 1);
+  CeldHost     second = celd_host_part (&halves[1], host, separate ? 0.5 : 0, 1);
   CeldStatus   status;
 
-  if (!apart && !bend)
+  if (!separate && !split)
     return CELD_OK;
   status = celd_labels_new (s->segmented.width, s->segmented.height, labels);
   if (status != CELD_OK)
     return status;
   memcpy (labels->data, s->segmented.data, (size_t) labels->width * (size_t) labels->height * sizeof *labels->data);
-  if (apart)
+  if (separate)
     status = celd_separate (&first, labels, palette);
-  if (status == CELD_OK && bend)
-    status = split (s, &second, palette, parted);
-  if (status == CELD_OK && !apart && !parted->splits.n)
+  if (status == CELD_OK && split)
+    status = split_regions (s, &second, palette, divided);
+  if (status == CELD_OK && !separate && !divided->splits.n)
     {
       celd_free (labels->data);
       *labels = (CeldLabels) { 0 };
@@ -345,25 +285,25 @@ report_splits (const CeldSplits *splits, CeldProblems *problems)
 }
 
 static void
-see_labels (CeldSession *s, CeldRect changed)
+add_label_change (CeldSession *s, CeldRect changed)
 {
   celd_session_add_change (s, STAGE_LABELS, changed);
-  s->new_labels = celd_rect_union (s->new_labels, changed);
+  s->changed_labels = celd_rect_union (s->changed_labels, changed);
 }
 
-/* The segmenter paints in place and says where; only where regions stand or stood on their own, pictures have to be
- * compared. */
+/* The segmenter changes its labels in place and reports where.  Where regions are, or were, separated or split, the old
+ * labels are compared with the new ones. */
 CeldStatus
 celd_make_labels (CeldSession *s, const CeldHost *host)
 {
   CeldHostPart parts[3];
-  CeldHost     tell = celd_host_part (&parts[0], host, 0, 0.5), solve = celd_host_part (&parts[1], host, 0.5, 0.9);
+  CeldHost     update = celd_host_part (&parts[0], host, 0, 0.5), solve = celd_host_part (&parts[1], host, 0.5, 0.9);
   CeldHost     last = celd_host_part (&parts[2], host, 0.9, 1);
-  Parted       parted = { 0 };
+  Divided      divided = { 0 };
   CeldPalette  palette = { 0 };
   CeldProblems problems = { 0 };
   CeldRect     changed = { 0 };
-  CeldStatus   status = prepare_segmenter (s, &tell);
+  CeldStatus   status = prepare_segmenter (s, &update);
 
   if (status == CELD_OK)
     status = celd_palette_copy (&s->seed_palette, &palette);
@@ -371,31 +311,31 @@ celd_make_labels (CeldSession *s, const CeldHost *host)
     status = celd_segmenter_solve (s->segmenter, &s->seeds, &s->relations, &s->settings, &solve, &palette, &problems,
                                    &s->segmented, &changed);
   if (status == CELD_OK && !s->separated.data)
-    see_labels (s, changed);
+    add_label_change (s, changed);
   if (status == CELD_OK)
-    status = part (s, &last, &palette, &parted);
+    status = divide_regions (s, &last, &palette, &divided);
   if (status == CELD_OK)
-    status = report_splits (&parted.splits, &problems);
+    status = report_splits (&divided.splits, &problems);
   if (status != CELD_OK)
     {
-      celd_session_forget_ownership (s); /* what was painted before it failed, nobody knows */
-      parted_clear (&parted);
+      celd_session_discard_ownership (s); /* the segmenter may have changed labels before it failed */
+      divided_clear (&divided);
       celd_palette_clear (&palette);
       celd_problems_clear (&problems);
       return status;
     }
-  if (parted.labels.data || s->separated.data)
-    see_labels (s, celd_changed_rect (celd_session_current_labels (s)->data,
-                                    parted.labels.data ? parted.labels.data : s->segmented.data,
+  if (divided.labels.data || s->separated.data)
+    add_label_change (s, celd_changed_rect (celd_session_current_labels (s)->data,
+                                    divided.labels.data ? divided.labels.data : s->segmented.data,
                                     s->segmented.width, s->segmented.height, sizeof (uint32_t)));
-  celd_session_set_split_ink (s, &parted.split_ink);
+  celd_session_set_split_ink (s, &divided.split_ink);
   celd_free (s->separated.data);
   celd_free (s->splits.item);
   celd_palette_clear (&s->palette);
   celd_problems_clear (&s->problems[STAGE_LABELS]);
-  s->new_corrections |= s->corrections.data != NULL; /* they are read by the palette */
-  s->separated = parted.labels;
-  s->splits    = parted.splits;
+  s->changed_corrections |= s->corrections.data != NULL; /* they are read by the palette */
+  s->separated = divided.labels;
+  s->splits    = divided.splits;
   s->palette   = palette;
   s->problems[STAGE_LABELS] = problems;
   return CELD_OK;

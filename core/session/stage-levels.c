@@ -1,24 +1,24 @@
-/* Levels in a session: those of the regions, whose the ink is, and the levels that come of it.
+/* Levels in a session: before expansion, contour ownership, and levels after expansion.
  *
- * Most strokes and relations only say what is so already: then labels, ink and ranks are as they were, and so is
- * whose the ink is.  Otherwise, with outlines, only what an edit touches is looked at again (ownership-cache.c).
+ * Many strokes and relations leave labels, ink and order levels as they were; then the ownership stays, too.  Otherwise
+ * ownership by outlines is updated where the edit matters (ownership/ownership-cache.c), and by thickness made again.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "ownership/ownership.h"
 #include "session/session.h"
 
-/* The level of each label as it leaves. */
+/* The level of each label in the encoding of the settings.  The caller frees the list. */
 static CeldStatus
-list_values (const CeldSession *s, float **list)
+list_label_levels (const CeldSession *s, float **list)
 {
-  float *value = celd_alloc (s->order.n, sizeof *value);
+  float *label_level = celd_alloc (s->order.n, sizeof *label_level);
 
-  if (!value)
+  if (!label_level)
     return CELD_NO_MEMORY;
   for (size_t k = 0; k < s->order.n; k++)
-    value[k] = celd_order_value (&s->order, s->order.level[k], &s->settings);
-  *list = value;
+    label_level[k] = celd_order_value (&s->order, s->order.level[k], &s->settings);
+  *list = label_level;
   return CELD_OK;
 }
 
@@ -26,9 +26,9 @@ CeldStatus
 celd_make_unexpanded (CeldSession *s, const CeldHost *host)
 {
   const CeldLabels *labels = celd_session_current_labels (s);
-  float            *value = NULL;
+  float            *label_level = NULL;
   CeldPlane         unexpanded = { 0 };
-  CeldStatus        status = list_values (s, &value);
+  CeldStatus        status = list_label_levels (s, &label_level);
 
   (void) host;
   if (status == CELD_OK)
@@ -36,17 +36,17 @@ celd_make_unexpanded (CeldSession *s, const CeldHost *host)
   if (status == CELD_OK)
     {
       for (size_t p = 0; p < (size_t) unexpanded.width * (size_t) unexpanded.height; p++)
-        unexpanded.data[p] = value[labels->data[p] - 1];
+        unexpanded.data[p] = label_level[labels->data[p] - 1];
       celd_session_replace_plane (s, STAGE_UNEXPANDED, &s->unexpanded, &unexpanded);
     }
-  celd_free (value);
+  celd_free (label_level);
   celd_free (unexpanded.data);
   return status;
 }
 
-/* ------------------------------------------------------------------ whose the ink is */
+/* ------------------------------------------------------------------ contour ownership */
 
-/* The labels of the artist's strokes over ink; none without such a layer. */
+/* Reads the labels of the corrections layer; labels->data stays NULL without such a layer. */
 static CeldStatus
 read_corrections (const CeldSession *s, CeldLabels *labels)
 {
@@ -60,7 +60,7 @@ read_corrections (const CeldSession *s, CeldLabels *labels)
   return status;
 }
 
-/* Takes the new one, and says where it differs from the old. */
+/* Replaces the ownership, taking over the new one, and reports where it differs from the old one. */
 static void
 replace_ownership (CeldSession *s, CeldOwnership *new)
 {
@@ -68,24 +68,24 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
   int                  w = new->owner.width, h = new->owner.height;
   CeldRect             owner = celd_changed_rect (old->owner.data, new->owner.data, w, h, sizeof (uint32_t));
   CeldRect             under = celd_changed_rect (old->under.data, new->under.data, w, h, sizeof (uint32_t));
-  CeldRect             share = celd_changed_rect (old->coverage.data, new->coverage.data, w, h, sizeof (float));
+  CeldRect             coverage = celd_changed_rect (old->coverage.data, new->coverage.data, w, h, sizeof (float));
 
-  celd_session_add_change (s, STAGE_OWNERSHIP, celd_rect_union (celd_rect_union (owner, under), share));
-  celd_session_forget_values (s);
+  celd_session_add_change (s, STAGE_OWNERSHIP, celd_rect_union (celd_rect_union (owner, under), coverage));
+  celd_session_discard_label_levels (s);
   celd_ownership_clear (&s->ownership);
   s->ownership = *new;
   *new = (CeldOwnership) { 0 };
 }
 
-/* From the beginning. */
+/* Makes the ownership from scratch. */
 static CeldStatus
-make_anew (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
+make_ownership (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
 {
   CeldOwnership own = { 0 };
   CeldStatus    status = celd_ownership_new (input->ink->width, input->ink->height, &own);
 
   if (status == CELD_OK && s->settings.expansion == CELD_EXPANSION_OUTLINES)
-    status = celd_ownership_cache_make (input, host, &s->owners, &own);
+    status = celd_ownership_cache_make (input, host, &s->ownership_cache, &own);
   else if (status == CELD_OK)
     status = celd_own (input->ink, input->labels, input->level, input->n, input->corrections, s->settings.expansion,
                        host, &own);
@@ -96,79 +96,81 @@ make_anew (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host
 }
 
 static CeldStatus
-renew (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
+update_ownership (CeldSession *s, const CeldOwnershipInput *input, const CeldHost *host)
 {
   CeldRect   changed;
-  CeldStatus status = celd_ownership_cache_update (input, s->new_labels, host, &s->owners, &s->ownership, &changed);
+  CeldStatus status = celd_ownership_cache_update (input, s->changed_labels, host, &s->ownership_cache, &s->ownership,
+                                                   &changed);
 
   if (status == CELD_OK)
     {
       celd_session_add_change (s, STAGE_OWNERSHIP, changed);
-      s->new_owners = celd_rect_union (s->new_owners, changed);
+      s->changed_ownership = celd_rect_union (s->changed_ownership, changed);
     }
   return status;
 }
 
-/* The ranks that the ownership has now. */
+/* Records what the ownership was made from; takes over the list of levels. */
 static void
-keep_ranks (CeldSession *s, uint32_t *rank)
+record_levels (CeldSession *s, uint32_t *level)
 {
-  memcpy (rank, s->order.level, s->order.n * sizeof *rank);
-  celd_free (s->owned_level);
-  s->owned_level    = rank;
-  s->n_owned = s->order.n;
-  s->new_labels      = (CeldRect) { 0 };
-  s->new_corrections = false;
+  memcpy (level, s->order.level, s->order.n * sizeof *level);
+  celd_free (s->ownership_level);
+  s->ownership_level     = level;
+  s->n_ownership_levels  = s->order.n;
+  s->changed_labels      = (CeldRect) { 0 };
+  s->changed_corrections = false;
 }
 
 CeldStatus
 celd_make_ownership (CeldSession *s, const CeldHost *host)
 {
-  CeldLabels      corrections = { 0 };
+  CeldLabels         corrections = { 0 };
   CeldOwnershipInput input = { celd_session_split_ink (s), celd_session_current_labels (s), NULL, s->order.level,
-                            s->order.n };
-  uint32_t       *rank;
-  CeldStatus      status;
+                               s->order.n };
+  uint32_t          *level;
+  CeldStatus         status;
 
-  if (s->owned_level && s->n_owned == s->order.n &&
-      !memcmp (s->owned_level, s->order.level, s->order.n * sizeof *s->owned_level) && !s->new_labels.width &&
-      !s->new_corrections)
+  if (!s->changed_labels.width && !s->changed_corrections && s->ownership_level &&
+      s->n_ownership_levels == s->order.n &&
+      !memcmp (s->ownership_level, s->order.level, s->order.n * sizeof *s->ownership_level))
     return CELD_OK;
-  rank   = celd_alloc (s->order.n, sizeof *rank);
-  status = rank ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
+  level  = celd_alloc (s->order.n, sizeof *level);
+  status = level ? read_corrections (s, &corrections) : CELD_NO_MEMORY;
   if (corrections.data)
     input.corrections = &corrections;
   if (status == CELD_OK)
-    status = s->owned_level && s->owners.level ? renew (s, &input, host) : make_anew (s, &input, host);
+    status = s->ownership_level && s->ownership_cache.level ? update_ownership (s, &input, host)
+                                                            : make_ownership (s, &input, host);
   if (status == CELD_OK)
-    keep_ranks (s, rank);
+    record_levels (s, level);
   else
     {
-      celd_session_forget_ownership (s);
-      celd_free (rank);
+      celd_session_discard_ownership (s);
+      celd_free (level);
     }
   celd_free (corrections.data);
   return status;
 }
 
-/* ------------------------------------------------------------------ after it */
+/* ------------------------------------------------------------------ levels after expansion */
 
-/* That of the label which covers more of the pixel. */
+/* The level of the label that covers more of the pixel. */
 static float
-level_at (const CeldOwnership *own, const float *value, int x, int y)
+level_at (const CeldOwnership *own, const float *label_level, int x, int y)
 {
-  return value[CELD_AT (CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
+  return label_level[CELD_AT (CELD_AT (&own->coverage, x, y) >= 0.5f ? &own->owner : &own->under, x, y) - 1];
 }
 
 static CeldStatus
-make_all_levels (CeldSession *s, const float *value, const CeldHost *host)
+make_all_levels (CeldSession *s, const float *label_level, const CeldHost *host)
 {
   CeldPlane  levels;
   CeldStatus status = celd_plane_new (s->ownership.owner.width, s->ownership.owner.height, &levels);
 
   for (int y = 0; status == CELD_OK && y < levels.height; y++)
     for (int x = 0; x < levels.width; x++)
-      CELD_AT (&levels, x, y) = level_at (&s->ownership, value, x, y);
+      CELD_AT (&levels, x, y) = level_at (&s->ownership, label_level, x, y);
   if (status == CELD_OK)
     status = celd_progress (host, 1);
   if (status == CELD_OK)
@@ -177,16 +179,16 @@ make_all_levels (CeldSession *s, const float *value, const CeldHost *host)
   return status;
 }
 
-/* Where owners are new. */
+/* Updates levels where the ownership has changed. */
 static void
-renew_levels (CeldSession *s, const float *value)
+update_levels (CeldSession *s, const float *label_level)
 {
-  CeldRect r = s->new_owners, changed = { 0 };
+  CeldRect r = s->changed_ownership, changed = { 0 };
 
   for (int y = r.y; y < r.y + r.height; y++)
     for (int x = r.x; x < r.x + r.width; x++)
       {
-        float level = level_at (&s->ownership, value, x, y);
+        float level = level_at (&s->ownership, label_level, x, y);
 
         if (CELD_AT (&s->levels, x, y) != level)
           changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
@@ -195,28 +197,29 @@ renew_levels (CeldSession *s, const float *value)
   celd_session_add_change (s, STAGE_LEVELS, changed);
 }
 
-/* Labels that were not there before, or are not there any more, have new owners. */
+/* An update needs equal levels of the labels that were there before and still are; where labels were added or removed,
+ * the ownership has changed. */
 CeldStatus
 celd_make_levels (CeldSession *s, const CeldHost *host)
 {
-  size_t     both = s->order.n < s->n_values ? s->order.n : s->n_values;
-  float     *value = NULL;
-  CeldStatus status = list_values (s, &value);
+  size_t     both = s->order.n < s->n_label_levels ? s->order.n : s->n_label_levels;
+  float     *label_level = NULL;
+  CeldStatus status = list_label_levels (s, &label_level);
 
   if (status != CELD_OK)
     return status;
-  if (s->value && !memcmp (s->value, value, both * sizeof *value))
-    renew_levels (s, value);
+  if (s->label_level && !memcmp (s->label_level, label_level, both * sizeof *label_level))
+    update_levels (s, label_level);
   else
-    status = make_all_levels (s, value, host);
+    status = make_all_levels (s, label_level, host);
   if (status == CELD_OK)
     {
-      celd_free (s->value);
-      s->value      = value;
-      s->n_values   = s->order.n;
-      s->new_owners = (CeldRect) { 0 };
-      value         = NULL;
+      celd_free (s->label_level);
+      s->label_level       = label_level;
+      s->n_label_levels    = s->order.n;
+      s->changed_ownership = (CeldRect) { 0 };
+      label_level          = NULL;
     }
-  celd_free (value);
+  celd_free (label_level);
   return status;
 }

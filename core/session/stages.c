@@ -1,4 +1,4 @@
-/* The stages of the paper's method as a session makes them: each from earlier ones, and only what is missing.
+/* The stages of the paper's method in a session: each is made from earlier ones, and only when it is not valid.
  *
  *   drawing, contours ----> ink ------.--------------.----------------.
  *   scribbles, strokes -> seeds -> labels -> order -> unexpanded levels, levels -+-> preview of depth, depth
@@ -6,8 +6,8 @@
  *
  *   ink -> weights -> nodes (of the seeds) -> exact depth (with the relations)
  *
- * What a stage needs stands in state.c; how it is made in the file stage-*.c that this table names.  A stage writes
- * into new memory and replaces the old result only when it succeeds.
+ * The table in state.c says which stages one needs; the table below names the function that makes it, in a file
+ * stage-*.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,7 +16,7 @@
 static const struct
 {
   CeldStatus (*make) (CeldSession *session, const CeldHost *host);
-  double     share; /* of the time of all stages on a typical drawing, for progress */
+  double     share; /* of the time of all stages but STAGE_EXACT on a typical drawing, for progress (tests/bench) */
 } stages[N_STAGES] = {
   [STAGE_RELATIONS]   = { celd_make_relations,   0.02 },
   [STAGE_INK]         = { celd_make_ink,         0.09 },
@@ -37,10 +37,11 @@ static const struct
   [STAGE_EXACT]       = { celd_make_exact,       2.00 },
 };
 
-/* What has to be made before a stage, although not every change of it makes the stage invalid: relations forget the
- * labels themselves where these depend on them, and the order is made from suggestions if the settings say so. */
+/* The stages that have to be valid before `stage` is made, as bits.  They are those that it is made from, and two more
+ * that do not always make it invalid: celd_make_relations decides whether new relations change the labels, and the
+ * order uses suggestions only if the settings say so. */
 static unsigned
-precedes (const CeldSession *session, CeldStage stage)
+prerequisites (const CeldSession *session, CeldStage stage)
 {
   unsigned before = celd_stage_needs (stage);
 
@@ -51,31 +52,31 @@ precedes (const CeldSession *session, CeldStage stage)
   return before;
 }
 
-/* The stages that are to be made, or may turn out to be. */
+/* The stages that are invalid, or may become so when their prerequisites are made. */
 static unsigned
-open_stages (const CeldSession *session)
+outdated_stages (const CeldSession *session)
 {
-  unsigned open = 0;
+  unsigned outdated = 0;
 
   for (int s = 0; s < N_STAGES; s++)
-    if (!session->valid[s] || (precedes (session, (CeldStage) s) & open))
-      open |= 1u << s;
-  return open;
+    if (!session->valid[s] || (prerequisites (session, (CeldStage) s) & outdated))
+      outdated |= 1u << s;
+  return outdated;
 }
 
-/* A stage is preceded by earlier ones only, so one pass backwards finds all that are wanted. */
+/* Prerequisites are earlier stages, so one pass backwards finds all stages that are wanted. */
 CeldStatus
 celd_session_make (CeldSession *session, CeldStage stage, const CeldHost *host)
 {
-  unsigned   wanted = 1u << stage, open = open_stages (session);
+  unsigned   wanted = 1u << stage, outdated = outdated_stages (session);
   double     total = 0, done = 0;
   CeldStatus status = CELD_OK;
 
   for (int s = N_STAGES - 1; s >= 0; s--)
     if (wanted & (1u << s))
       {
-        wanted |= precedes (session, (CeldStage) s);
-        total += open & (1u << s) ? stages[s].share : 0;
+        wanted |= prerequisites (session, (CeldStage) s);
+        total += outdated & (1u << s) ? stages[s].share : 0;
       }
   for (int s = 0; s < N_STAGES && status == CELD_OK; s++)
     if ((wanted & (1u << s)) && !session->valid[s])

@@ -1,7 +1,5 @@
 /* The state of a session: creating, clearing and freeing it, which results are valid, and where they have changed
- * since the host last asked for them.
- *
- * Everything else in this folder uses this file; it calls none of the others.
+ * since the host last got them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -38,32 +36,32 @@ celd_stage_needs (CeldStage stage)
 }
 
 void
-celd_session_forget (CeldSession *session, CeldStage stage)
+celd_session_invalidate (CeldSession *session, CeldStage stage)
 {
-  unsigned gone = 1u << stage;
+  unsigned invalid = 1u << stage;
 
   for (int s = 0; s < N_STAGES; s++)
     {
-      if (needs[s] & gone)
-        gone |= 1u << s;
-      if (gone & (1u << s))
+      if (needs[s] & invalid)
+        invalid |= 1u << s;
+      if (invalid & (1u << s))
         session->valid[s] = false;
     }
 }
 
 void
-celd_session_forget_ownership (CeldSession *session)
+celd_session_discard_ownership (CeldSession *session)
 {
-  celd_free (session->owned_level);
-  session->owned_level = NULL;
-  celd_ownership_cache_clear (&session->owners);
+  celd_free (session->ownership_level);
+  session->ownership_level = NULL;
+  celd_ownership_cache_clear (&session->ownership_cache);
 }
 
 void
-celd_session_forget_values (CeldSession *session)
+celd_session_discard_label_levels (CeldSession *session)
 {
-  celd_free (session->value);
-  session->value = NULL;
+  celd_free (session->label_level);
+  session->label_level = NULL;
 }
 
 /* ------------------------------------------------------------------ changes */
@@ -71,9 +69,9 @@ celd_session_forget_values (CeldSession *session)
 CeldRect
 celd_changed_rect (const void *old, const void *new, int width, int height, size_t pixel)
 {
-  CeldRect      all = { 0, 0, width, height }, found = { 0 };
+  CeldRect       all = { 0, 0, width, height }, found = { 0 };
   const uint8_t *a = old, *b = new;
-  size_t        row = (size_t) width * pixel;
+  size_t         row = (size_t) width * pixel;
 
   if (!old)
     return all;
@@ -135,7 +133,7 @@ celd_session_relation_keeps_labels (const CeldSession *session, const CeldRelati
   return celd_segmenter_is_redundant (session->segmenter, relation, &session->settings, &session->segmented);
 }
 
-/* ------------------------------------------------------------------ the object */
+/* ------------------------------------------------------------------ creating and freeing */
 
 CeldSession *
 celd_session_new (void)
@@ -148,13 +146,14 @@ celd_session_new (void)
 }
 
 void
-celd_session_clear_results (CeldSession *session)
+celd_session_clear_results (CeldSession *s)
 {
-  CeldSession *s = session;
+  CeldPlane *plane[] = { &s->ink, &s->depth_ink, &s->split_ink, &s->segmenter_ink, &s->unexpanded, &s->levels,
+                         &s->preview, &s->preview_ink, &s->depth, &s->shading, &s->exact_preview, &s->exact_depth };
 
-  celd_session_forget (s, STAGE_RELATIONS);
-  celd_session_forget (s, STAGE_INK);
-  celd_session_forget (s, STAGE_SCRIBBLES);
+  celd_session_invalidate (s, STAGE_RELATIONS);
+  celd_session_invalidate (s, STAGE_INK);
+  celd_session_invalidate (s, STAGE_SCRIBBLES);
   for (int i = 0; i < N_STAGES; i++)
     {
       celd_problems_clear (&s->problems[i]);
@@ -169,41 +168,32 @@ celd_session_clear_results (CeldSession *session)
   celd_seed_rows_clear (&s->layer_seeds);
   celd_seed_rows_clear (&s->seeds);
   celd_order_clear (&s->order);
-  celd_segmenter_free (s->segmenter);
-  celd_program_free (s->program);
   celd_palette_clear (&s->exact_palette);
   celd_exact_clear (&s->exact);
-  if (s->segmenter_ink.data != s->ink.data)
-    celd_free (s->segmenter_ink.data);
-  celd_free (s->ink.data);
-  celd_free (s->depth_ink.data);
-  celd_free (s->segmented.data);
-  celd_free (s->separated.data);
-  celd_free (s->unexpanded.data);
-  celd_free (s->levels.data);
-  celd_session_forget_ownership (s);
-  celd_session_forget_values (s);
-  celd_ownership_clear (&s->ownership);
-  celd_free (s->preview.data);
-  celd_free (s->depth.data);
-  celd_free (s->preview_ink.data);
-  celd_free (s->split_ink.data);
-  celd_free (s->splits.item);
   celd_smooth_state_clear (&s->smooth_state);
   celd_smooth_state_clear (&s->preview_state);
-  celd_free (s->shading.data);
-  celd_free (s->exact_preview.data);
-  celd_free (s->exact_depth.data);
+  celd_session_discard_ownership (s);
+  celd_session_discard_label_levels (s);
+  celd_ownership_clear (&s->ownership);
+  celd_segmenter_free (s->segmenter);
+  celd_program_free (s->program);
+  celd_free (s->splits.item);
+  celd_free (s->segmented.data);
+  celd_free (s->separated.data);
   celd_free (s->normals.data);
+  if (s->segmenter_ink.data == s->ink.data)
+    s->segmenter_ink = (CeldPlane) { 0 };
+  for (size_t i = 0; i < sizeof plane / sizeof *plane; i++)
+    {
+      celd_free (plane[i]->data);
+      *plane[i] = (CeldPlane) { 0 };
+    }
   s->segmenter   = NULL;
   s->program     = NULL;
   s->edge_radius = 0;
-  s->segmenter_ink = s->ink = s->depth_ink = s->preview_ink = s->split_ink = (CeldPlane) { 0 };
-  s->splits = (CeldSplits) { 0 };
-  s->unexpanded = s->levels = s->preview = s->depth = s->shading = (CeldPlane) { 0 };
+  s->splits      = (CeldSplits) { 0 };
   s->segmented = s->separated = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };
-  s->exact_preview = s->exact_depth = (CeldPlane) { 0 };
 }
 
 void

@@ -1,9 +1,9 @@
-/* Single strokes of the host over the scribbles layer: an artist's last strokes, which come and go one by one.
+/* Seeds in a session: of the scribbles layer, which is read once, and of single strokes over it, which a host adds,
+ * replaces and removes one by one.
  *
- * A stroke is kept as spans, so that all of them can be painted anew, over a copy of the layer's seeds, after every
- * edit: O(runs of seeds), and the result depends on what there is now, not on how it came about.  A stroke has the
- * label of the layer whose colour it has; other colours follow in the order in which they first appear.  A label of
- * which no pixel is left does not count.
+ * After an edit all strokes are painted again over a copy of the layer's seeds, in O(runs of seeds), so that the result
+ * does not depend on the order of edits.  A stroke gets the layer's label of its colour; colours that the layer lacks
+ * get further labels in the order of their first strokes.  Labels that other strokes cover completely are removed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,9 +13,9 @@
 
 #include <string.h>
 
-/* ------------------------------------------------------------------ setting */
+/* ------------------------------------------------------------------ adding and removing */
 
-/* The painted pixels of a mask. */
+/* Appends the pixels of a mask that are not 0, as spans. */
 static CeldStatus
 read_spans (const CeldMask *mask, CeldStroke *stroke)
 {
@@ -43,7 +43,7 @@ find_stroke (CeldSession *s, uint32_t id)
   return NULL;
 }
 
-/* A new one lies above the others; one of the same id takes the old one's place among them. */
+/* Replaces the stroke of the same id, or adds the new one above all others. */
 static CeldStatus
 place_stroke (CeldSession *s, const CeldStroke *made)
 {
@@ -78,7 +78,7 @@ celd_session_put_stroke (CeldSession *session, uint32_t id, int x, int y, const 
       celd_free (made.span);
       return status;
     }
-  celd_session_forget (session, STAGE_SEEDS);
+  celd_session_invalidate (session, STAGE_SEEDS);
   return CELD_OK;
 }
 
@@ -94,13 +94,13 @@ celd_session_remove_stroke (CeldSession *session, uint32_t id)
   celd_free (stroke->span);
   memmove (stroke, stroke + 1, behind * sizeof *stroke);
   session->n_strokes--;
-  celd_session_forget (session, STAGE_SEEDS);
+  celd_session_invalidate (session, STAGE_SEEDS);
   return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ composing */
 
-/* The label of a colour, a new one if the palette has none. */
+/* Finds the label of a colour; adds one to the palette if it has none. */
 static CeldStatus
 find_label (const uint8_t colour[3], CeldPalette *palette, uint32_t *label)
 {
@@ -115,7 +115,7 @@ find_label (const uint8_t colour[3], CeldPalette *palette, uint32_t *label)
   return CELD_OK;
 }
 
-/* A stroke may lie anywhere, so places are counted in 64 bits until they are cut to the picture. */
+/* Strokes may extend beyond the picture by any distance: 64 bits until they are clipped, so that nothing overflows. */
 static CeldStatus
 paint_stroke (const CeldStroke *stroke, uint32_t label, CeldSeedRows *seeds)
 {
@@ -135,9 +135,9 @@ paint_stroke (const CeldStroke *stroke, uint32_t label, CeldSeedRows *seeds)
   return status;
 }
 
-/* Counts each label's pixels; (x,y) is the middle of its longest run, whose length goes to area for the time being. */
+/* Counts each label's seeds; (x,y) becomes the middle of its longest run, whose length `area` holds meanwhile. */
 static void
-survey (const CeldSeedRows *seeds, CeldPalette *palette)
+measure_labels (const CeldSeedRows *seeds, CeldPalette *palette)
 {
   for (size_t k = 0; k < palette->n; k++)
     palette->item[k].seeds = palette->item[k].area = 0;
@@ -160,9 +160,9 @@ survey (const CeldSeedRows *seeds, CeldPalette *palette)
     palette->item[k].area = 0;
 }
 
-/* Labels without a seed go; the others close up. */
+/* Removes labels without a seed, and renumbers the others. */
 static CeldStatus
-drop_covered (CeldSeedRows *seeds, CeldPalette *palette)
+remove_covered (CeldSeedRows *seeds, CeldPalette *palette)
 {
   uint32_t *number = celd_alloc0 (palette->n, sizeof *number);
   size_t    kept = 0;
@@ -198,6 +198,66 @@ celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRows *seeds, C
     }
   if (status != CELD_OK)
     return status;
-  survey (seeds, palette);
-  return drop_covered (seeds, palette);
+  measure_labels (seeds, palette);
+  return remove_covered (seeds, palette);
+}
+
+/* ------------------------------------------------------------------ the stages */
+
+CeldStatus
+celd_make_scribbles (CeldSession *s, const CeldHost *host)
+{
+  int          w = s->drawing.luma.width, h = s->drawing.luma.height;
+  CeldLabels   labels = { 0 };
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status;
+
+  if (s->scribbles.data)
+    {
+      status = celd_labels_new (w, h, &labels);
+      if (status == CELD_OK)
+        status = celd_scribbles_read (&s->scribbles, &s->settings, host, &labels, &palette);
+      if (status == CELD_OK)
+        status = celd_seed_rows_read (&labels, &seeds);
+    }
+  else
+    status = celd_seed_rows_new (w, h, &seeds);
+  celd_free (labels.data);
+  if (status != CELD_OK)
+    {
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->layer_seeds);
+  celd_palette_clear (&s->layer_palette);
+  s->layer_seeds   = seeds;
+  s->layer_palette = palette;
+  return CELD_OK;
+}
+
+CeldStatus
+celd_make_seeds (CeldSession *s, const CeldHost *host)
+{
+  CeldSeedRows seeds = { 0 };
+  CeldPalette  palette = { 0 };
+  CeldStatus   status = celd_seed_rows_copy (&s->layer_seeds, &seeds);
+
+  if (status == CELD_OK)
+    status = celd_palette_copy (&s->layer_palette, &palette);
+  if (status == CELD_OK && s->n_strokes)
+    status = celd_strokes_compose (s->stroke, s->n_strokes, &seeds, &palette);
+  if (status == CELD_OK)
+    status = celd_progress (host, 1);
+  if (status != CELD_OK)
+    {
+      celd_seed_rows_clear (&seeds);
+      celd_palette_clear (&palette);
+      return status;
+    }
+  celd_seed_rows_clear (&s->seeds);
+  celd_palette_clear (&s->seed_palette);
+  s->seeds        = seeds;
+  s->seed_palette = palette;
+  return CELD_OK;
 }
