@@ -8,7 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "light/shadows.h"
+#include "light/light.h"
 
 #define FAR_GREY 0.3f /* encoded grey of the farthest level in a view: darker paper would hide shadows on it (chosen) */
 
@@ -18,7 +18,7 @@ typedef struct
 {
   const CeldPlane *depth;
   CeldPlane       *change;
-  CeldBlurGrid        cells;
+  CeldBlurGrid     cells;
   CeldBetween     *column, *row;
   float           *mean;           /* mean depth of each cell, blurred */
   float            least, range;   /* of depth */

@@ -12,9 +12,7 @@
  */
 #include "base/vector.h"
 #include "image/image.h"
-#include "light/lumo.h"
-
-#include <math.h>
+#include "light/light.h"
 
 #define STROKE_RADIUS     5     /* pixels around an edge whose ink gives the direction (chosen) */
 #define STROKE_DEVIATION    2.0   /* of the Gaussian, in pixels (chosen) */

@@ -13,10 +13,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "depth/depth.h"
-#include "light/lumo.h"
+#include "light/light.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #define OUTLINE_RADIUS  7      /* pixels around an edge that give its direction (chosen) */

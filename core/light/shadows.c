@@ -12,11 +12,19 @@
  */
 #include "base/vector.h"
 #include "image/image.h"
-#include "light/shadows.h"
+#include "light/light.h"
 
-#include <stdlib.h>
+#define MOST_LEVELS 256             /* distinct levels; more are rounded to so many evenly spaced ones (they fit a byte) */
+#define FAINT_MATTE (1.0f / 1024)   /* a smaller matte is ignored (chosen) */
 
-#define FAINT_MATTE       (1.0f / 1024)    /* a smaller matte is ignored (chosen) */
+/* The distinct levels of a picture, numbered from the farthest. */
+typedef struct
+{
+  int      n;
+  float    value[MOST_LEVELS];  /* of each level, rising */
+  float    least, step;         /* of evenly spaced levels; step 0: values are exact */
+  uint8_t *level;               /* number of each pixel, tight */
+} LevelNumbers;
 
 /* A level's matte in one cell. */
 typedef struct { uint32_t cell; uint8_t level; float matte; } LevelShare;
@@ -28,22 +36,106 @@ typedef struct
   const CeldPlane    *levels;
   const CeldSettings *settings;
   CeldPlane          *change;
-  CeldLevelNumbers    number;
+  LevelNumbers        number;
   float               full;                /* difference of levels from which shadows are full */
 
   CeldBlurGrid cells;
   CeldKernel   along, down;
   CeldBetween *column, *row;
-  LevelShares  cover;               /* before the blur, by cell */
-  LevelShares  blurred[CELD_MOST_LEVELS];
-  CeldStatus   status[CELD_MOST_LEVELS];
-  size_t      *first;               /* of each cell, and one more: its first share; ordered by rising level */
+  LevelShares  matte[MOST_LEVELS];  /* of each level, by cell; blurred in the end */
+  CeldStatus   status[MOST_LEVELS]; /* of the blur of each level */
+  size_t      *first;               /* of each cell: its first share, ordered by rising level; and the ends */
   LevelShare  *share;
 } Stack;
 
+/* ------------------------------------------------------------------ numbers of levels */
+
+/* The index of a value in the sorted list, or where to insert it. */
+static int
+find_value (const LevelNumbers *numbers, float value)
+{
+  int low = 0, high = numbers->n;
+
+  while (low < high)
+    {
+      int middle = (low + high) / 2;
+
+      if (numbers->value[middle] < value)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+  return low;
+}
+
+/* Lists all distinct values; false if there are too many. */
+static bool
+list_values (const CeldPlane *levels, LevelNumbers *numbers)
+{
+  float last = NAN;
+
+  numbers->n = 0;
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        float value = celd_level_at (levels, x, y);
+        int   place;
+
+        if (value == last)
+          continue;
+        last  = value;
+        place = find_value (numbers, value);
+        if (place < numbers->n && numbers->value[place] == value)
+          continue;
+        if (numbers->n == MOST_LEVELS)
+          return false;
+        memmove (numbers->value + place + 1, numbers->value + place,
+                 (size_t) (numbers->n - place) * sizeof *numbers->value);
+        numbers->value[place] = value;
+        numbers->n++;
+      }
+  return true;
+}
+
+/* Replaces too many values by evenly spaced ones. */
+static void
+spread_values (const CeldPlane *levels, LevelNumbers *numbers)
+{
+  float most;
+
+  celd_level_range (levels, &numbers->least, &most);
+  numbers->step = most / (MOST_LEVELS - 1) - numbers->least / (MOST_LEVELS - 1);
+  numbers->n    = MOST_LEVELS;
+  for (int k = 0; k < MOST_LEVELS; k++)
+    numbers->value[k] = numbers->least + (float) k * numbers->step;
+}
+
+/* Fills in a zeroed record. */
+static CeldStatus
+number_levels (const CeldPlane *levels, LevelNumbers *numbers)
+{
+  size_t n = 0;
+
+  numbers->level = celd_alloc ((size_t) levels->width * (size_t) levels->height, 1);
+  if (!numbers->level)
+    return CELD_NO_MEMORY;
+  if (!list_values (levels, numbers))
+    spread_values (levels, numbers);
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        float value = celd_level_at (levels, x, y);
+
+        numbers->level[n++] = numbers->step > 0
+          ? (uint8_t) fminf ((value - numbers->least) / numbers->step + 0.5f, MOST_LEVELS - 1)
+          : (uint8_t) find_value (numbers, value);
+      }
+  return CELD_OK;
+}
+
 /* ------------------------------------------------------------------ mattes on cells */
 
-/* Appends the levels within one cell, each with the fraction of the cell's pixels that have it. */
+/* Adds a cell to the mattes of the levels within it, each with the fraction of the cell's pixels that have it. */
 static CeldStatus
 cover_cell (Stack *s, int column, int row, uint32_t *count)
 {
@@ -51,7 +143,7 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
   int     right = (column + 1) * side < width ? (column + 1) * side : width;
   int     bottom = (row + 1) * side < s->levels->height ? (row + 1) * side : s->levels->height;
   float   area = (float) ((right - column * side) * (bottom - row * side));
-  uint8_t met[CELD_MOST_LEVELS];
+  uint8_t met[MOST_LEVELS];
   int     n = 0;
 
   for (int y = row * side; y < bottom; y++)
@@ -64,9 +156,11 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
       }
   for (int i = 0; i < n; i++)
     {
-      if (celd_append (s->cover.item, s->cover.n, s->cover.item_capacity,
+      LevelShares *matte = &s->matte[met[i]];
+
+      if (celd_append (matte->item, matte->n, matte->item_capacity,
                        (LevelShare) { (uint32_t) row * (uint32_t) s->cells.width + (uint32_t) column, met[i],
-                                     (float) count[met[i]] / area }) != CELD_OK)
+                                      (float) count[met[i]] / area }) != CELD_OK)
         return CELD_NO_MEMORY;
       count[met[i]] = 0;
     }
@@ -76,7 +170,7 @@ cover_cell (Stack *s, int column, int row, uint32_t *count)
 static CeldStatus
 cover_cells (Stack *s)
 {
-  uint32_t   count[CELD_MOST_LEVELS] = { 0 };
+  uint32_t   count[MOST_LEVELS] = { 0 };
   CeldStatus status = CELD_OK;
 
   for (int row = 0; row < s->cells.height; row++)
@@ -85,24 +179,7 @@ cover_cells (Stack *s)
   return status;
 }
 
-/* Stable counting sort by cell or by level; the shares of key i become to[first[i]] .. to[first[i + 1] - 1]. */
-static void
-sort_shares (const LevelShares *from, bool by_cell, size_t keys, size_t *first, LevelShare *to)
-{
-  memset (first, 0, (keys + 1) * sizeof *first);
-  for (size_t i = 0; i < from->n; i++)
-    first[(by_cell ? from->item[i].cell : from->item[i].level) + 1]++;
-  for (size_t k = 0; k < keys; k++)
-    first[k + 1] += first[k];
-  for (size_t i = 0; i < from->n; i++)
-    to[first[by_cell ? from->item[i].cell : from->item[i].level]++] = from->item[i];
-  memmove (first + 1, first, keys * sizeof *first);
-  first[0] = 0;
-}
-
 /* ------------------------------------------------------------------ mattes, blurred */
-
-typedef struct { Stack *stack; const LevelShare *share; const size_t *first; } Blurring;
 
 /* Extends low .. high on both sides by the number of cells that the kernel reaches, within the picture. */
 static void
@@ -117,19 +194,16 @@ widen (const CeldKernel *kernel, int cells, int *low, int *high)
 
 /* The bounding box, in cells, of a level and its shadow: the blur reads only empty cells outside it. */
 static CeldRect
-shadow_bounds (const Stack *s, const LevelShare *share, size_t n)
+shadow_bounds (const Stack *s, const LevelShares *shares)
 {
-  int left = s->cells.width, right = -1, top = s->cells.height, bottom = -1;
+  CeldRect box = { 0 };
 
-  for (size_t i = 0; i < n; i++)
-    {
-      int x = (int) (share[i].cell % (uint32_t) s->cells.width), y = (int) (share[i].cell / (uint32_t) s->cells.width);
+  for (size_t i = 0; i < shares->n; i++)
+    box = celd_rect_union (box, (CeldRect) { (int) (shares->item[i].cell % (uint32_t) s->cells.width),
+                                             (int) (shares->item[i].cell / (uint32_t) s->cells.width), 1, 1 });
 
-      left   = x < left ? x : left;
-      right  = x > right ? x : right;
-      top    = y < top ? y : top;
-      bottom = y > bottom ? y : bottom;
-    }
+  int left = box.x, right = box.x + box.width - 1, top = box.y, bottom = box.y + box.height - 1;
+
   widen (&s->along, s->cells.width, &left, &right);
   widen (&s->down, s->cells.height, &top, &bottom);
   return (CeldRect) { left, top, right - left + 1, bottom - top + 1 };
@@ -139,94 +213,76 @@ shadow_bounds (const Stack *s, const LevelShare *share, size_t n)
 static CeldStatus
 gather_matte (const Stack *s, CeldRect bounds, const float *matte, uint8_t level, LevelShares *shares)
 {
+  shares->n = 0;
   for (int y = 0; y < bounds.height; y++)
     for (int x = 0; x < bounds.width; x++)
       {
-        float  value = matte[(size_t) y * (size_t) bounds.width + (size_t) x];
+        float      value = matte[(size_t) y * (size_t) bounds.width + (size_t) x];
+        uint32_t   cell = (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x);
+        LevelShare share = { cell, level, value };
 
-        if (value < FAINT_MATTE)
-          continue;
-        if (celd_append (shares->item, shares->n, shares->item_capacity,
-                         (LevelShare) { (uint32_t) (bounds.y + y) * (uint32_t) s->cells.width + (uint32_t) (bounds.x + x),
-                                      level, value }) != CELD_OK)
+        if (value >= FAINT_MATTE && celd_append (shares->item, shares->n, shares->item_capacity, share) != CELD_OK)
           return CELD_NO_MEMORY;
       }
   return CELD_OK;
 }
 
-/* Blurs level i + 1: the farthest level, 0, casts no shadow. */
+/* Blurs level i + 1, if it has pixels: the farthest level, 0, casts no shadow. */
 static void
 blur_level (void *data, int i)
 {
-  const Blurring   *b = data;
-  Stack            *s = b->stack;
-  int               level = i + 1;
-  const LevelShare *share = b->share + b->first[level];
-  size_t            n = b->first[level + 1] - b->first[level];
-  CeldRect          bounds = shadow_bounds (s, share, n);
-  size_t            area = (size_t) bounds.width * (size_t) bounds.height;
-  float            *matte = celd_alloc0 (area, sizeof *matte), *scratch = celd_alloc (area, sizeof *scratch);
+  Stack       *s = data;
+  int          level = i + 1;
+  LevelShares *shares = &s->matte[level];
+  CeldRect     bounds = shadow_bounds (s, shares);
+  size_t       area = shares->n ? (size_t) bounds.width * (size_t) bounds.height : 0;
+  float       *matte = celd_alloc0 (area, sizeof *matte), *scratch = celd_alloc (area, sizeof *scratch);
 
   s->status[level] = matte && scratch ? CELD_OK : CELD_NO_MEMORY;
-  for (size_t k = 0; s->status[level] == CELD_OK && k < n; k++)
+  for (size_t k = 0; s->status[level] == CELD_OK && k < shares->n; k++)
     {
-      uint32_t x = share[k].cell % (uint32_t) s->cells.width, y = share[k].cell / (uint32_t) s->cells.width;
+      uint32_t cell = shares->item[k].cell, x = cell % (uint32_t) s->cells.width, y = cell / (uint32_t) s->cells.width;
 
-      matte[(y - (size_t) bounds.y) * (size_t) bounds.width + x - (size_t) bounds.x] = share[k].matte;
+      matte[(y - (size_t) bounds.y) * (size_t) bounds.width + x - (size_t) bounds.x] = shares->item[k].matte;
     }
-  if (s->status[level] == CELD_OK)
+  if (s->status[level] == CELD_OK && shares->n)
     {
       celd_blur (&s->along, &s->down, bounds.width, bounds.height, matte, scratch);
-      s->status[level] = gather_matte (s, bounds, matte, (uint8_t) level, &s->blurred[level]);
+      s->status[level] = gather_matte (s, bounds, matte, (uint8_t) level, shares);
     }
   celd_free (matte);
   celd_free (scratch);
 }
 
-/* Makes one list of all blurred mattes, by cell and then by level. */
+/* Makes one list of all blurred mattes, by cell and then by level: a counting sort. */
 static CeldStatus
 join_levels (Stack *s)
 {
-  size_t cells = (size_t) s->cells.width * (size_t) s->cells.height;
-  LevelShares all = { 0 };
+  size_t cells = (size_t) s->cells.width * (size_t) s->cells.height, n = 0;
 
   for (int k = 1; k < s->number.n; k++)
-    all.n += s->blurred[k].n;
-  all.item = celd_alloc (all.n, sizeof *all.item);
-  s->first = celd_alloc (cells + 1, sizeof *s->first);
-  s->share = celd_alloc (all.n, sizeof *s->share);
-  if (!all.item || !s->first || !s->share)
-    {
-      celd_free (all.item);
-      return CELD_NO_MEMORY;
-    }
-  all.n = 0;
+    n += s->matte[k].n;
+  s->first = celd_alloc0 (cells + 2, sizeof *s->first);
+  s->share = celd_alloc (n, sizeof *s->share);
+  if (!s->first || !s->share)
+    return CELD_NO_MEMORY;
   for (int k = 1; k < s->number.n; k++)
-    {
-      if (s->blurred[k].n)
-        memcpy (all.item + all.n, s->blurred[k].item, s->blurred[k].n * sizeof *all.item);
-      all.n += s->blurred[k].n;
-      celd_free (s->blurred[k].item);
-      s->blurred[k] = (LevelShares) { 0 };
-    }
-  sort_shares (&all, true, cells, s->first, s->share);
-  celd_free (all.item);
+    for (size_t i = 0; i < s->matte[k].n; i++)
+      s->first[s->matte[k].item[i].cell + 2]++;
+  for (size_t cell = 0; cell < cells; cell++)
+    s->first[cell + 2] += s->first[cell + 1];
+  for (int k = 1; k < s->number.n; k++)
+    for (size_t i = 0; i < s->matte[k].n; i++)
+      s->share[s->first[s->matte[k].item[i].cell + 1]++] = s->matte[k].item[i];
   return CELD_OK;
 }
 
 static CeldStatus
 blur_mattes (Stack *s, const CeldHost *host)
 {
-  size_t      first[CELD_MOST_LEVELS + 1];
-  LevelShare *share = celd_alloc (s->cover.n, sizeof *share);
-  Blurring    blurring = { s, share, first };
-  CeldStatus  status;
+  CeldStatus status;
 
-  if (!share)
-    return CELD_NO_MEMORY;
-  sort_shares (&s->cover, false, CELD_MOST_LEVELS, first, share);
-  celd_parallel_for (host, s->number.n - 1, blur_level, &blurring);
-  celd_free (share);
+  celd_parallel_for (host, s->number.n - 1, blur_level, s);
   status = celd_progress (host, 0.5);
   for (int k = 1; k < s->number.n && status == CELD_OK; k++)
     status = s->status[k];
@@ -281,8 +337,6 @@ light_row (void *data, int y)
     }
 }
 
-/* ------------------------------------------------------------------ */
-
 static CeldStatus
 prepare (Stack *s, double deviation)
 {
@@ -298,20 +352,19 @@ prepare (Stack *s, double deviation)
       celd_kernel_new (&s->cells, deviation, distance * cos (azimuth), &s->along) != CELD_OK ||
       celd_kernel_new (&s->cells, deviation, -distance * sin (azimuth), &s->down) != CELD_OK)
     return CELD_NO_MEMORY;
-  return celd_level_numbers (s->levels, &s->number);
+  return number_levels (s->levels, &s->number);
 }
 
 static void
 clear (Stack *s)
 {
-  for (int k = 0; k < CELD_MOST_LEVELS; k++)
-    celd_free (s->blurred[k].item);
+  for (int k = 0; k < MOST_LEVELS; k++)
+    celd_free (s->matte[k].item);
   celd_free (s->number.level);
   celd_free (s->along.weight);
   celd_free (s->down.weight);
   celd_free (s->column);
   celd_free (s->row);
-  celd_free (s->cover.item);
   celd_free (s->first);
   celd_free (s->share);
 }

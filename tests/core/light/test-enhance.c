@@ -342,6 +342,22 @@ one_pixel_will_do (void)
     }
 }
 
+/* Smooth depth has more values than the stack distinguishes, and here many of the evenly spaced ones have no pixel. */
+static void
+long_pictures_of_smooth_depth_with_a_gap_have_shadows (void)
+{
+  enum { LONG = 2000, LOW = 8 };
+  static float depth[LONG * LOW], to[LONG * LOW];
+  CeldPlane    from = { LONG, LOW, LONG, depth }, result = { LONG, LOW, LONG, to };
+  CeldSettings s = celd_settings ();
+
+  for (int i = 0; i < LONG * LOW; i++)
+    depth[i] = (i % LONG < LONG / 2 ? 0 : 1) + 0.1f * (float) (i % LONG) / LONG;
+  CHECK (celd_enhance (&from, &s, NULL, &result) == CELD_OK);
+  CHECK (to[LONG / 2 - 1] < -0.1f);
+  NEAR (to[LONG - 1], 0, 0.01);
+}
+
 int
 main (void)
 {
@@ -359,5 +375,6 @@ main (void)
   RUN (the_view_is_brighter_where_it_is_nearer);
   RUN (occlusion_is_what_the_stack_leaves);
   RUN (one_pixel_will_do);
+  RUN (long_pictures_of_smooth_depth_with_a_gap_have_shadows);
   return DONE;
 }

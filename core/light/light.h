@@ -1,11 +1,22 @@
-/* What the files of Lumo normals share; normals.c is the step, and lists the files in their order.
+/* Normals and light: what the files of this theme share.
+ *
+ *   normals.c        the step of Lumo normals [Joh02], and bevels
+ *   lumo-creases.c   strokes inside a region, along which it may bend
+ *   lumo-outlines.c  what outlines constrain normals to
+ *   shade.c          light on normals
+ *   enhance.c        depth enhancement
+ *   shadows.c        its soft shadows
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef CELD_LUMO_H
-#define CELD_LUMO_H
+#ifndef CELD_LIGHT_H
+#define CELD_LIGHT_H
 
 #include "depth/depth.h"
+
+#include <math.h>
+
+/* ------------------------------------------------------------------ Lumo normals */
 
 /* What n_x and n_y of a pixel beside an outline are drawn to; y up. */
 typedef struct { size_t pixel; float x, y; } CeldNormalConstraint;
@@ -76,8 +87,33 @@ CeldStatus celd_lumo_creases (CeldLumo *lumo, const CeldHost *host);
 /* lumo-outlines.c: finds the regions, which of them are flat, and all constraints. */
 CeldStatus celd_lumo_outlines (CeldLumo *lumo, const CeldHost *host);
 
-/* lumo-bevel.c: fades the tilt out with the distance from a region's own outlines, to nothing at settings->bevel times
- * the picture's diagonal; does nothing for a bevel of 0. */
-CeldStatus celd_lumo_bevel (CeldLumo *lumo, const CeldHost *host);
+/* ------------------------------------------------------------------ depth enhancement */
+
+/* The level or depth of a pixel; NaN and infinity read as 0. */
+static inline float
+celd_level_at (const CeldPlane *levels, int x, int y)
+{
+  float level = CELD_AT (levels, x, y);
+
+  return isfinite (level) ? level : 0;
+}
+
+/* The least and largest of these levels. */
+static inline void
+celd_level_range (const CeldPlane *levels, float *least, float *most)
+{
+  *least = *most = celd_level_at (levels, 0, 0);
+  for (int y = 0; y < levels->height; y++)
+    for (int x = 0; x < levels->width; x++)
+      {
+        *least = fminf (*least, celd_level_at (levels, x, y));
+        *most  = fmaxf (*most, celd_level_at (levels, x, y));
+      }
+}
+
+/* Soft shadows of nearer levels on farther ones: change = - the fraction of light that they take, in [-1,0].
+ * `deviation` of the blur in pixels, > 0; `change` has the size of `levels`. */
+CeldStatus celd_shadows (const CeldPlane *levels, double deviation, const CeldSettings *settings, const CeldHost *host,
+                         CeldPlane *change);
 
 #endif
