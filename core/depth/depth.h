@@ -48,10 +48,6 @@ CeldStatus celd_depth_weights (const CeldPlane *ink, const float *level, float t
 /* Copies levels to a tight plane of finite numbers: NaN and infinity read as the farthest level, -0 as 0. */
 void celd_depth_levels (const CeldPlane *levels, float *level);
 
-/* The connected regions of one level; results as of celd_components. */
-CeldStatus celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
-                               CeldComponent **list, size_t *n);
-
 /* ------------------------------------------------------------------ run-components.c */
 
 /* Pixels x .. end - 1 of a row, each connected to the next. */

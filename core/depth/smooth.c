@@ -32,22 +32,6 @@ celd_depth_levels (const CeldPlane *levels, float *level)
       }
 }
 
-CeldStatus
-celd_depth_regions (int width, int height, const float *level, const CeldHost *host, CeldLabels *regions,
-                    CeldComponent **list, size_t *n)
-{
-  CeldLabels bits; /* the bits of each level as a label */
-  CeldStatus status = celd_labels_new (width, height, &bits);
-
-  if (status == CELD_OK)
-    {
-      memcpy (bits.data, level, (size_t) width * (size_t) height * sizeof *level);
-      status = celd_components (&bits, UINT32_MAX, false, host, regions, list, n);
-    }
-  celd_free (bits.data);
-  return status;
-}
-
 /* ------------------------------------------------------------------ changed equations */
 
 /* Marks the pixel and its four neighbours. */

@@ -65,36 +65,6 @@ whole_box (const Completion *part)
   return clip (part->layers, box, 1);
 }
 
-static void
-cover_outline (const CeldOutline *outline, CeldCoverage *sum)
-{
-  for (size_t l = 0; l < outline->n_loops; l++)
-    for (size_t i = outline->loop[l]; i < outline->loop[l + 1]; i++)
-      if (!outline->crack[i].hidden)
-        {
-          const CeldCrackEdge *from = &outline->crack[i];
-          const CeldCrackEdge *to = &outline->crack[i + 1 < outline->loop[l + 1] ? i + 1 : outline->loop[l]];
-
-          celd_coverage_edge (sum, from->x, from->y, to->x, to->y);
-        }
-}
-
-static void
-cover_curves (const Completion *part, CeldCoverage *sum)
-{
-  for (size_t i = 0; i < part->n_curves; i++)
-    {
-      int    steps = celd_curve_steps (&part->curve[i]);
-      double x = part->curve[i].x[0], y = part->curve[i].y[0], to_x, to_y;
-
-      for (int k = 1; k <= steps; k++, x = to_x, y = to_y)
-        {
-          celd_curve_at (&part->curve[i], (double) k / steps, &to_x, &to_y);
-          celd_coverage_edge (sum, x, y, to_x, to_y);
-        }
-    }
-}
-
 /* Clears the coverage of pixels that are not occluded, and counts the others. */
 static void
 keep_hidden (Completion *part)
@@ -111,22 +81,6 @@ keep_hidden (Completion *part)
 }
 
 static CeldStatus
-cover_shape (const CeldOutline *outline, Completion *part)
-{
-  CeldCoverage sum;
-  CeldStatus   status = celd_coverage_new (part->box, &sum);
-
-  if (status)
-    return status;
-  cover_outline (outline, &sum);
-  cover_curves (part, &sum);
-  celd_coverage_finish (&sum);
-  part->coverage = sum.sum;
-  keep_hidden (part);
-  return CELD_OK;
-}
-
-static CeldStatus
 cover_everything (Completion *part)
 {
   size_t pixels;
@@ -138,7 +92,6 @@ cover_everything (Completion *part)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < pixels; i++)
     part->coverage[i] = 1;
-  keep_hidden (part);
   return CELD_OK;
 }
 
@@ -410,8 +363,10 @@ celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const Ce
     {
       celd_layer_curves (layers, layer, &outline, part.curve);
       part.box = whole_box (&part);
-      status = cover_shape (&outline, &part);
+      status = celd_coverage_of_outline (part.box, &outline, part.curve, &part.coverage);
     }
+  if (!status)
+    keep_hidden (&part);
   if (!status && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
       (status = inpaint (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
     status = keep_pixels (&part, &fill);

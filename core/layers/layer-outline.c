@@ -20,27 +20,6 @@
 #define WIDTH_SAMPLES        9  /* places at which the line's width is measured; chosen */
 #define MAX_LINE_WIDTH       64 /* pixels; thicker ink is no line; chosen */
 
-CeldVisibility
-celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y)
-{
-  size_t           p = (size_t) y * (size_t) layers->width + (size_t) x, place;
-  const CeldBlend *blend;
-
-  if (x < 0 || y < 0 || x >= layers->width || y >= layers->height)
-    return CELD_LAYER_ABSENT;
-  place = layers->place[p];
-  if (place == layer)
-    return CELD_LAYER_VISIBLE;
-  if (place < layers->n)
-    return layers->item[place].level > layers->item[layer].level && layers->art[4 * p + 3] >= 1 ? CELD_LAYER_OCCLUDED
-                                                                                                 : CELD_LAYER_ABSENT;
-  blend = &layers->blend[place - layers->n];
-  if (blend->layer[1] == layer || (blend->layer[0] == layer && blend->coverage >= 0.5f))
-    return CELD_LAYER_VISIBLE;
-  return layers->item[blend->layer[1]].level > layers->item[layer].level && blend->colour[1][3] >= 1
-           ? CELD_LAYER_OCCLUDED : CELD_LAYER_ABSENT;
-}
-
 /* ------------------------------------------------------------------ tracing */
 
 /* Directions: 0 right, 1 down, 2 left, 3 up. */

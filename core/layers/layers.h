@@ -3,8 +3,7 @@
  *   layers.c            assigns pixels to layers, also for pictures of levels; layers as pictures
  *   layer-unmixing.c    colours of two layers that share a pixel; rounding to stored values
  *   layer-outline.c     traces the outline of a layer and its occluded gaps
- *   layer-curves.c      closes gaps by curves
- *   layer-coverage.c    coverage of pixels by a polygon
+ *   layer-shape.c       where a layer is visible; curves that close its gaps; the pixels that its outline covers
  *   layer-completion.c  hidden parts of a layer, their colours and their line
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -57,12 +56,6 @@ CeldStatus celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const Ce
 
 /* ------------------------------------------------------------------ layer-outline.c */
 
-typedef enum { CELD_LAYER_ABSENT, CELD_LAYER_VISIBLE, CELD_LAYER_OCCLUDED } CeldVisibility;
-
-/* The state of a pixel, inside or outside the picture, for one layer: the layer is visible there (by half at least),
- * is absent, or may be there but is occluded by an opaque layer of a nearer level. */
-CeldVisibility celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y);
-
 /* A crack edge: a side of a pixel, from corner (x,y) to the corner of the next one; the layer is on its right. */
 typedef struct { int x, y; bool hidden; } CeldCrackEdge;
 
@@ -95,7 +88,13 @@ CeldStatus celd_layer_outline (const CeldLayers *layers, size_t layer, const Cel
                                CeldOutline *outline);
 void celd_outline_clear (CeldOutline *outline);
 
-/* ------------------------------------------------------------------ layer-curves.c */
+/* ------------------------------------------------------------------ layer-shape.c */
+
+typedef enum { CELD_LAYER_ABSENT, CELD_LAYER_VISIBLE, CELD_LAYER_OCCLUDED } CeldVisibility;
+
+/* The state of a pixel, inside or outside the picture, for one layer: the layer is visible there (by half at least),
+ * is absent, or may be there but is occluded by an opaque layer of a nearer level. */
+CeldVisibility celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y);
 
 /* A cubic Bezier curve, and width and colour of the line at its two ends. */
 typedef struct { double x[4], y[4], width[2]; float colour[2][4]; } CeldGapCurve;
@@ -108,8 +107,6 @@ void celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y);
 /* A number of steps with which each is about a pixel long at most. */
 int celd_curve_steps (const CeldGapCurve *curve);
 
-/* ------------------------------------------------------------------ layer-coverage.c */
-
 /* An accumulator of directed edges, and then the coverage of each pixel by what is on their right. */
 typedef struct { CeldRect box; float *sum; } CeldCoverage;
 
@@ -117,6 +114,11 @@ CeldStatus celd_coverage_new (CeldRect box, CeldCoverage *coverage);      /* sum
 void celd_coverage_edge (CeldCoverage *coverage, double x, double y, double to_x, double to_y);
 /* Turns sum[] into coverage, a plane of the box without padding. */
 void celd_coverage_finish (CeldCoverage *coverage);
+
+/* The coverage of each pixel of the box by what the outline encloses, its gaps closed by one curve each; a plane to be
+ * freed with celd_free. */
+CeldStatus celd_coverage_of_outline (CeldRect box, const CeldOutline *outline, const CeldGapCurve *curve,
+                                     float **coverage);
 
 /* ------------------------------------------------------------------ layer-completion.c */
 

@@ -7,7 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "relief/mesh.h"
+#include "relief/relief.h"
 
 #include <math.h>
 

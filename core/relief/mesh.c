@@ -1,13 +1,13 @@
 /* A relief as a triangle mesh (section 5, Figure 1h).
  *
  * Vertices lie at corners of pixels, two or more where the surface is cut.  Each square of the quadtree
- * (mesh-simplification.c) is a fan round its centre through all vertices on its boundary, its own and its neighbours',
+ * (mesh-surface.c) is a fan round its centre through all vertices on its boundary, its own and its neighbours',
  * so that the mesh has no T-junctions.  Squares are flat within half of the permitted error, and fans then within all
  * of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "relief/mesh.h"
+#include "relief/relief.h"
 
 #include <math.h>
 

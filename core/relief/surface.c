@@ -49,6 +49,7 @@ join_regions (const CeldSurface *s, Regions *r)
     }
 }
 
+/* Regions are the connected components of pixels of one level, whose bits are their label. */
 static CeldStatus
 regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
 {
@@ -56,7 +57,10 @@ regions_new (const CeldSurface *s, const CeldHost *host, Regions *r)
   CeldStatus     status = celd_labels_new (s->width, s->height, &r->region);
 
   if (status == CELD_OK)
-    status = celd_depth_regions (s->width, s->height, s->level, host, &r->region, &list, &r->n);
+    {
+      memcpy (r->region.data, s->level, (size_t) s->width * (size_t) s->height * sizeof *s->level);
+      status = celd_components (&r->region, UINT32_MAX, false, host, &r->region, &list, &r->n);
+    }
   celd_free (list);
   if (status != CELD_OK)
     return status;

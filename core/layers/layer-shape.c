@@ -1,15 +1,20 @@
-/* Curves that complete an outline where a nearer layer occludes it.
+/* The shape of a layer: where it is visible, absent or occluded, the curves that complete its outline where a nearer layer
+ * occludes it, and the coverage of pixels by what the closed outline encloses.
  *
- * Two edges that disappear behind a shape are seen as one if a smooth curve without an inflection can join them (P.  J.
- * Kellman and T.  F.  Shipley, A theory of visual interpolation in object perception, Cognitive Psychology 23, 1991).
- * Each gap is closed by a cubic Bezier curve from the point where the outline disappears to the point where it
- * reappears, with the directions measured there.  Its handles have the length of those of a circular arc, 2/3 d / (1 +
- * cos), so that equal turns give an arc and no curve extends far beyond its ends.  Ends that no such curve can join are
- * joined by a straight line.  Where a curve would leave the occluding layer, its handles are shortened until it does
- * not.  An unreliable direction is replaced by the mirror image of the other end's, as on an arc.
+ * Two edges that disappear behind a shape are seen as one if a smooth curve without an inflection can join them (P. J.
+ * Kellman and T. F. Shipley, A theory of visual interpolation in object perception, Cognitive Psychology 23, 1991).  Each
+ * gap is closed by a cubic Bezier curve from the point where the outline disappears to the point where it reappears, with
+ * the directions measured there.  Its handles have the length of those of a circular arc, 2/3 d / (1 + cos), so that equal
+ * turns give an arc and no curve extends far beyond its ends.  Ends that no such curve can join are joined by a straight
+ * line.  Where a curve would leave the occluding layer, its handles are shortened until it does not.  An unreliable
+ * direction is replaced by the mirror image of the other end's, as on an arc.
  *
  * The two sides of a limb that passes behind something reappear on its other side: two gaps exchange their ends if both
  * outlines become straighter, and the new curves stay occluded.
+ *
+ * Coverage is the exact area to the right of directed edges, accumulated along rows.  An edge that goes up by h through a
+ * pixel adds h to everything beyond it in the row, and one that goes down subtracts h, so that the sum along a row is the
+ * winding number.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -23,8 +28,33 @@
                                                * as an inflection; chosen */
 #define MAX_EXCHANGE_TURN   (CELD_PI / 4)     /* largest turn at the ends of a curve between two gaps; chosen */
 #define MAX_EXCHANGE_LENGTH 5                 /* largest length of such a curve, in lengths of the longer gap; chosen */
-#define CURVE_SAMPLES       64
-#define TENSIONS            8
+#define CURVE_SAMPLES       64                /* places where a curve is tested; chosen */
+#define TENSIONS            8                 /* lengths of handles that are tried; chosen */
+
+/* ------------------------------------------------------------------ visibility */
+
+CeldVisibility
+celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y)
+{
+  size_t           p = (size_t) y * (size_t) layers->width + (size_t) x, place;
+  const CeldBlend *blend;
+
+  if (x < 0 || y < 0 || x >= layers->width || y >= layers->height)
+    return CELD_LAYER_ABSENT;
+  place = layers->place[p];
+  if (place == layer)
+    return CELD_LAYER_VISIBLE;
+  if (place < layers->n)
+    return layers->item[place].level > layers->item[layer].level && layers->art[4 * p + 3] >= 1 ? CELD_LAYER_OCCLUDED
+                                                                                                 : CELD_LAYER_ABSENT;
+  blend = &layers->blend[place - layers->n];
+  if (blend->layer[1] == layer || (blend->layer[0] == layer && blend->coverage >= 0.5f))
+    return CELD_LAYER_VISIBLE;
+  return layers->item[blend->layer[1]].level > layers->item[layer].level && blend->colour[1][3] >= 1
+           ? CELD_LAYER_OCCLUDED : CELD_LAYER_ABSENT;
+}
+
+/* ------------------------------------------------------------------ one curve */
 
 void
 celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y)
@@ -48,8 +78,6 @@ celd_curve_steps (const CeldGapCurve *curve)
     length += hypot (curve->x[i] - curve->x[i - 1], curve->y[i] - curve->y[i - 1]);
   return 2 + (int) (1.5 * length); /* a cubic is at most 3/2 as fast as its control polygon is long */
 }
-
-/* ------------------------------------------------------------------ one curve */
 
 /* Angle from the first direction to the second, in (-pi,pi]. */
 static double
@@ -195,4 +223,129 @@ celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *ou
         if (is_possible (layers, layer, &curve[i]))
           break;
       }
+}
+
+/* ------------------------------------------------------------------ coverage */
+
+CeldStatus
+celd_coverage_new (CeldRect box, CeldCoverage *coverage)
+{
+  /* rows have one more number, for what lies beyond their end */
+  *coverage = (CeldCoverage) { box, celd_alloc0 ((size_t) (box.width + 1) * (size_t) box.height,
+                                                 sizeof *coverage->sum) };
+  return coverage->sum ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* Adds a piece of height h within one row and one column, whose middle is at x. */
+static void
+add_piece (CeldCoverage *coverage, int row, double x, double h)
+{
+  float *sum    = coverage->sum + (size_t) row * (size_t) (coverage->box.width + 1);
+  int    column = (int) floor (x);
+
+  if (column < 0)
+    sum[0] -= (float) h;
+  else if (column < coverage->box.width)
+    {
+      double left = x - column;
+
+      sum[column]     -= (float) (h * (1 - left));
+      sum[column + 1] -= (float) (h * left);
+    }
+}
+
+/* Adds a piece within one row, cut at the boundaries of columns. */
+static void
+add_row (CeldCoverage *coverage, int row, double x, double y, double to_x, double to_y)
+{
+  while (y != to_y)
+    {
+      double next_column = to_x > x ? floor (x) + 1 : ceil (x) - 1, next_y = to_y, next_x = to_x;
+
+      if (to_x > x ? next_column < to_x : to_x < x && next_column > to_x)
+        {
+          next_x = next_column;
+          next_y = y + (to_y - y) * (next_column - x) / (to_x - x);
+        }
+      add_piece (coverage, row, (x + next_x) / 2, next_y - y);
+      x = next_x;
+      y = next_y;
+    }
+}
+
+void
+celd_coverage_edge (CeldCoverage *coverage, double x, double y, double to_x, double to_y)
+{
+  double slope = to_y != y ? (to_x - x) / (to_y - y) : 0;
+  double first = fmin (y, to_y) - coverage->box.y, last = fmax (y, to_y) - coverage->box.y;
+
+  for (int row = (int) fmax (floor (first), 0); row < coverage->box.height && row < last; row++)
+    {
+      double top = fmax (first, row), bottom = fmin (last, row + 1);
+      double a = y < to_y ? top : bottom, b = y < to_y ? bottom : top; /* in the edge's direction */
+
+      add_row (coverage, row, x + slope * (a + coverage->box.y - y) - coverage->box.x, a,
+               x + slope * (b + coverage->box.y - y) - coverage->box.x, b);
+    }
+}
+
+void
+celd_coverage_finish (CeldCoverage *coverage)
+{
+  const float *from = coverage->sum;
+  float       *to = coverage->sum;
+
+  for (int y = 0; y < coverage->box.height; y++, from++)
+    {
+      double winding = 0;
+
+      for (int x = 0; x < coverage->box.width; x++)
+        {
+          winding += (double) *from++;
+          *to++ = (float) fmin (fmax (winding, 0), 1);
+        }
+    }
+}
+
+static void
+cover_outline (const CeldOutline *outline, CeldCoverage *sum)
+{
+  for (size_t l = 0; l < outline->n_loops; l++)
+    for (size_t i = outline->loop[l]; i < outline->loop[l + 1]; i++)
+      if (!outline->crack[i].hidden)
+        {
+          const CeldCrackEdge *from = &outline->crack[i];
+          const CeldCrackEdge *to = &outline->crack[i + 1 < outline->loop[l + 1] ? i + 1 : outline->loop[l]];
+
+          celd_coverage_edge (sum, from->x, from->y, to->x, to->y);
+        }
+}
+
+static void
+cover_curve (const CeldGapCurve *curve, CeldCoverage *sum)
+{
+  int    steps = celd_curve_steps (curve);
+  double x = curve->x[0], y = curve->y[0], to_x, to_y;
+
+  for (int k = 1; k <= steps; k++, x = to_x, y = to_y)
+    {
+      celd_curve_at (curve, (double) k / steps, &to_x, &to_y);
+      celd_coverage_edge (sum, x, y, to_x, to_y);
+    }
+}
+
+CeldStatus
+celd_coverage_of_outline (CeldRect box, const CeldOutline *outline, const CeldGapCurve *curve, float **coverage)
+{
+  CeldCoverage sum;
+  CeldStatus   status = celd_coverage_new (box, &sum);
+
+  if (status != CELD_OK)
+    return status;
+  cover_outline (outline, &sum);
+  for (size_t i = 0; i < outline->n_gaps; i++)
+    cover_curve (&curve[i], &sum);
+  celd_coverage_finish (&sum);
+  *coverage = sum.sum;
+  return CELD_OK;
 }
