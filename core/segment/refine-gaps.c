@@ -6,10 +6,10 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
+#include "segment/pixel-graph.h"
 #include "segment/refinement.h"
 #include "segment/task.h"
-#include "solve/maxflow.h"
-#include "solve/partition.h"
+#include "segment/windows.h"
 
 #define GAP_DISTANCE    3         /* pixels between boundaries across paper that share a window (chosen) */
 #define GAP_MARGIN      6         /* pixels round a gap, besides a stroke width and half the gap (chosen) */
@@ -17,19 +17,6 @@
 
 typedef struct { int left, top, right, bottom; } GapBox;  /* inclusive */
 typedef struct { GapBox *item; size_t n, item_capacity; } GapBoxes;
-
-/* A window as a graph: a node per pixel; neighbours outside become data costs. */
-typedef struct
-{
-  GapBox    box;
-  size_t    n, n_links, n_votes;
-  CeldLink *link;
-  CeldVote *vote;
-  uint32_t *fixed, *present, *label;
-  uint32_t *global, *local;     /* label of the picture by number in the window, from 0; and the inverse, from 1 */
-  uint32_t *order;
-  size_t    n_labels;
-} GapWindow;
 
 static int
 least (int a, int b)
@@ -108,171 +95,57 @@ find_gaps (const CeldBoundaryRefinement *s, GapBoxes *boxes)
   return status;
 }
 
-/* The window of a gap. */
-static GapBox
+/* The window of a gap, with the pixels around it that stay as they are. */
+static CeldRect
 widen (const CeldBoundaryRefinement *s, GapBox b)
 {
-  int margin = GAP_MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2;
+  int margin = GAP_MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2 + 1;
+  int left = most (b.left - margin, 0), top = most (b.top - margin, 0);
 
-  return (GapBox) { most (b.left - margin, 0), most (b.top - margin, 0),
-                 least (b.right + margin, s->labels->width - 1), least (b.bottom + margin, s->labels->height - 1) };
-}
-
-/* ------------------------------------------------------------------ the graph of a window */
-
-static bool
-inside (const GapBox *b, int x, int y)
-{
-  return x >= b->left && x <= b->right && y >= b->top && y <= b->bottom;
-}
-
-/* The number of a label in the window. */
-static uint32_t
-local_label (GapWindow *window, uint32_t label)
-{
-  if (!window->local[label])
-    {
-      window->global[window->n_labels] = label;
-      window->local[label] = (uint32_t) ++window->n_labels;
-    }
-  return window->local[label];
-}
-
-static void
-add_edge (const CeldBoundaryRefinement *s, GapWindow *window, uint32_t node, int x, int y, int x2, int y2)
-{
-  int     w = window->box.right - window->box.left + 1;
-  bool    south = x == x2;
-  int32_t cost;
-
-  if (x2 < 0 || y2 < 0 || x2 >= s->labels->width || y2 >= s->labels->height)
-    return;
-  if (!inside (&window->box, x2, y2))
-    {
-      cost = celd_refinement_cost (s, least (x, x2), least (y, y2), south);
-      window->vote[window->n_votes++] = (CeldVote) { node, local_label (window, CELD_AT (s->labels, x2, y2)), cost };
-    }
-  else if (x2 > x || y2 > y)
-    {
-      cost = celd_refinement_cost (s, x, y, south);
-      window->link[window->n_links++] = (CeldLink) { node, node + (uint32_t) (south ? w : 1), cost };
-    }
-}
-
-static void
-add_pixel (const CeldBoundaryRefinement *s, GapWindow *window, uint32_t node, int x, int y)
-{
-  uint32_t seed = celd_seed_rows_at (&s->task->seeds, x, y);
-  int32_t  vote = seed ? celd_task_data_cost (s->task, seed) : 0;
-
-  window->present[node] = local_label (window, CELD_AT (s->labels, x, y));
-  window->fixed[node]   = vote == CELD_HARD ? local_label (window, seed) : 0;
-  if (seed && vote != CELD_HARD)
-    window->vote[window->n_votes++] = (CeldVote) { node, local_label (window, seed), vote };
-  add_edge (s, window, node, x, y, x + 1, y);
-  add_edge (s, window, node, x, y, x, y + 1);
-  add_edge (s, window, node, x, y, x - 1, y);
-  add_edge (s, window, node, x, y, x, y - 1);
-}
-
-static CeldStatus
-window_new (const CeldBoundaryRefinement *s, GapBox box, GapWindow *window)
-{
-  size_t   w = (size_t) (box.right - box.left + 1), h = (size_t) (box.bottom - box.top + 1), n = w * h;
-  size_t   n_labels = s->task->palette.n;
-  uint32_t node = 0;
-
-  *window = (GapWindow) {
-    .box     = box,
-    .n       = n,
-    .link    = celd_alloc (2 * n, sizeof *window->link),
-    .vote    = celd_alloc (n + 2 * (w + h), sizeof *window->vote),
-    .fixed   = celd_alloc (n, sizeof *window->fixed),
-    .present = celd_alloc (n, sizeof *window->present),
-    .label   = celd_alloc (n, sizeof *window->label),
-    .global  = celd_alloc (n_labels, sizeof *window->global),
-    .local   = celd_alloc0 (n_labels + 1, sizeof *window->local),
-    .order   = celd_alloc (n_labels, sizeof *window->order),
-  };
-  if (!window->link || !window->vote || !window->fixed || !window->present || !window->label || !window->global ||
-      !window->local || !window->order)
-    return CELD_NO_MEMORY;
-  for (int y = box.top; y <= box.bottom; y++)
-    for (int x = box.left; x <= box.right; x++)
-      add_pixel (s, window, node++, x, y);
-  return CELD_OK;
-}
-
-static void
-window_clear (GapWindow *window)
-{
-  celd_free (window->link);
-  celd_free (window->vote);
-  celd_free (window->fixed);
-  celd_free (window->present);
-  celd_free (window->label);
-  celd_free (window->global);
-  celd_free (window->local);
-  celd_free (window->order);
+  return (CeldRect) { left, top, least (b.right + margin, s->labels->width - 1) - left + 1,
+                      least (b.bottom + margin, s->labels->height - 1) - top + 1 };
 }
 
 /* ------------------------------------------------------------------ the cuts */
 
-/* Labels are cut in the order of the whole picture. */
 static CeldStatus
-order_labels (const CeldBoundaryRefinement *s, GapWindow *window)
+solve (CeldBoundaryRefinement *s, CeldWindowCutter *cutter, CeldRect box)
 {
-  uint32_t  *order = celd_alloc (s->task->palette.n, sizeof *order);
-  size_t     n = 0;
-  CeldStatus status = order ? celd_task_label_order (s->task, order) : CELD_NO_MEMORY;
+  CeldPresentLabels present = { .picture = s->labels };
+  CeldPixelGraph    graph;
+  uint32_t         *label = NULL, *part;
+  bool              better = false;
+  CeldStatus        status = celd_window_graph_new (s->task, &present, box, 0, &graph);
 
-  for (size_t i = 0; i < s->task->palette.n && status == CELD_OK; i++)
-    if (window->local[order[i]])
-      window->order[n++] = window->local[order[i]];
-  celd_free (order);
-  return status;
-}
-
-static CeldStatus
-solve (CeldBoundaryRefinement *s, GapWindow *window)
-{
-  CeldPartition problem = {
-    window->n, window->link, window->n_links, window->vote, window->n_votes, window->fixed, window->order,
-    window->n_labels
-  };
-  size_t        node = 0;
-  int64_t       energy;
-  CeldStatus    status = celd_partition (&problem, s->host, window->label, &energy, NULL);
-
-  if (status != CELD_OK || energy >= celd_partition_energy (&problem, window->present))
-    return status;
-  for (int y = window->box.top; y <= window->box.bottom; y++)
-    for (int x = window->box.left; x <= window->box.right && status == CELD_OK; x++, node++)
-      if (window->label[node] != window->present[node])
-        status = celd_refinement_set_label (s, x, y, window->global[window->label[node] - 1]);
+  if (status == CELD_OK && graph.n)
+    status = celd_window_cut (cutter, &graph, 1, &label, &better);
+  part = graph.part;
+  for (int y = box.y; y < box.y + box.height && better; y++)
+    for (int x = box.x; x < box.x + box.width && status == CELD_OK; x++, part++)
+      if (!(*part & CELD_PART_FIXED) && label[*part] != graph.node[*part].value)
+        status = celd_refinement_set_label (s, x, y, label[*part]);
+  celd_free (label);
+  celd_pixel_graph_clear (&graph);
   return status;
 }
 
 CeldStatus
 celd_refine_gaps (CeldBoundaryRefinement *s)
 {
-  GapBoxes   boxes = { 0 };
-  CeldStatus status = find_gaps (s, &boxes);
+  GapBoxes         boxes = { 0 };
+  CeldWindowCutter cutter;
+  CeldStatus       status = celd_window_cutter_new (s->task, s->host, &cutter);
 
+  if (status == CELD_OK)
+    status = find_gaps (s, &boxes);
   for (size_t i = 0; i < boxes.n && status == CELD_OK; i++)
     {
-      GapBox    box = widen (s, boxes.item[i]);
-      GapWindow window;
+      CeldRect box = widen (s, boxes.item[i]);
 
-      if ((int64_t) (box.right - box.left + 1) * (box.bottom - box.top + 1) > MOST_GAP_PIXELS)
-        continue;
-      status = window_new (s, box, &window);
-      if (status == CELD_OK)
-        status = order_labels (s, &window);
-      if (status == CELD_OK)
-        status = solve (s, &window);
-      window_clear (&window);
+      if ((int64_t) box.width * box.height <= MOST_GAP_PIXELS)
+        status = solve (s, &cutter, box);
     }
   celd_free (boxes.item);
+  celd_window_cutter_clear (&cutter);
   return status;
 }

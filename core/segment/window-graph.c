@@ -1,229 +1,91 @@
-/* A window of the picture as a graph whose nodes are connected pixels of one kind in square blocks.
+/* The graph of a window, and its cut: pixels of paper, faint ink and dark ink are nodes of their own; so is each label
+ * of seeds, and each present label.
  *
- * A cut costs the same along any monotone staircase of pixels, so blocks of empty paper lose only the distance from a
- * block's corner to where the cut would begin; boundaries in ink cost next to nothing, so connected ink in a block can
- * be a node as well.  Kinds are paper, faint ink and dark ink; each label of seeds, and each present label of basins,
- * is also separate.  What is fixed (other basins, hard seeds, the window's outermost pixels) is no node: an edge to it
- * is a data cost.
+ * Boundaries in ink cost next to nothing, so connected ink in a block can be a node.  What is fixed (other basins, hard
+ * seeds, the window's outermost pixels) is no node.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "image/image.h"
 #include "segment/basins.h"
+#include "segment/pixel-graph.h"
 #include "segment/task.h"
 #include "segment/windows.h"
+#include "solve/maxflow.h"
+#include "solve/partition.h"
 
 #include <string.h>
 
-#define DARK (1 / 128.0)        /* of the cost of paper: a pair of dark ink costs no more (chosen) */
+#define PAPER       0.75f       /* ink value from which on a pixel is white paper, which a boundary should not cross
+                                * (chosen) */
+#define DARK        (1 / 128.0) /* of the cost of paper: a pair of dark ink costs no more (chosen) */
+#define FINER_PAPER 2           /* a block of paper is divided into 4 x 4 cells (chosen) */
+#define FINER_INK   3           /* others into 8 x 8, and their ink (chosen) */
 
-void
-celd_window_graph_clear (CeldWindowGraph *graph)
+/* ------------------------------------------------------------------ costs */
+
+/* The squared distance from (x,y) in ink to paper, as far as it matters to costs. */
+static int32_t
+squared_to_paper (const CeldSegmentTask *task, int x, int y)
 {
-  celd_free (graph->block);
-  celd_free (graph->hard);
-  celd_free (graph->detail);
-  celd_free (graph->present);
-  celd_free (graph->label);
-  celd_free (graph->link);
-  celd_free (graph->vote);
-  *graph = (CeldWindowGraph) { .task = NULL };
-}
+  const CeldPlane *ink = task->ink;
+  const int32_t   *discount = task->basins->costs.discount;
+  int32_t          least = CELD_MOST_TO_PAPER;
 
-/* ------------------------------------------------------------------ blocks */
-
-static CeldStatus
-add_node (CeldWindowBuilder *b, uint32_t present, uint32_t *node)
-{
-  CeldWindowGraph *graph = b->graph;
-
-  *node = (uint32_t) graph->n;
-  return celd_append (graph->present, graph->n, graph->present_capacity, present & CELD_PART_LABELS);
-}
-
-/* Is pixel (i,j) of a block of the same node as its neighbour (x,y)?  `first`: the block's first pixel.  Nodes other
- * than dark ink end at squares of 1 << square pixels a side. */
-static inline bool
-is_alike (const CeldWindowBuilder *b, size_t first, int square, int x, int y, int i, int j)
-{
-  size_t   stride = (size_t) celd_window_width (b->graph);
-  size_t   p = first + (size_t) y * stride + (size_t) x, q = first + (size_t) j * stride + (size_t) i;
-  uint32_t state = b->state[p];
-
-  return state == b->state[q] && b->paint[p] == b->paint[q]
-         && ((state & CELD_PART_KINDS) == 2 * CELD_PART_KIND_INK
-             || (x >> square == i >> square && y >> square == j >> square));
-}
-
-/* Joins pixels of a block that are of the same kind; ink in eight directions, so that the antialiased edge of a
- * slanting line is one node.  Pixels joined through the row above are not joined again. */
-static void
-join_pixels (const CeldWindowBuilder *b, size_t first, int w, int h, int square)
-{
-  size_t   stride = (size_t) celd_window_width (b->graph);
-  uint32_t down = UINT32_C (1) << b->graph->shift;
-
-  for (int y = 0; y < h; y++)
-    for (int x = 0; x < w; x++)
+  while (least > 1 && discount[least - 1] == discount[CELD_MOST_TO_PAPER])
+    least--;
+  for (int r = 1; r * r < least; r++) /* nearer columns and rows have been searched */
+    for (int i = -r; i <= r; i++)
       {
-        uint32_t state = b->state[first + (size_t) y * stride + (size_t) x];
-        uint32_t k = ((uint32_t) y << b->graph->shift) + (uint32_t) x;
-        bool     west = x > 0 && is_alike (b, first, square, x, y, x - 1, y);
-        bool     north = y > 0 && is_alike (b, first, square, x, y, x, y - 1);
-        bool     north_west = y > 0 && x > 0 && is_alike (b, first, square, x, y, x - 1, y - 1);
+        const int at[4][2] = { { x + i, y - r }, { x + i, y + r }, { x - r, y + i }, { x + r, y + i } };
 
-        b->parent[k] = west ? b->parent[k - 1] : k;
-        if (state & CELD_PART_FIXED)
-          continue;
-        if (north && !(west && north_west))
-          celd_join (b->parent, k, k - down);
-        if (!(state & CELD_PART_KINDS) || north || y == 0)
-          continue;
-        if (north_west && !west)
-          celd_join (b->parent, k, k - down - 1);
-        if (x + 1 < w && is_alike (b, first, square, x, y, x + 1, y - 1))
-          celd_join (b->parent, k, k - down + 1);
+        for (int k = 0; k < 4 && i * i + r * r < least; k++)
+          if (at[k][0] >= 0 && at[k][0] < ink->width && at[k][1] >= 0 && at[k][1] < ink->height
+              && celd_is_paper (CELD_AT (ink, at[k][0], at[k][1])))
+            least = i * i + r * r;
       }
+  return least;
 }
 
-/* Divides a block into several parts: a node for each, and the data costs of its seeds. */
-static CeldStatus
-split_block (CeldWindowBuilder *b, size_t first, int w, int h, int square, uint32_t *block)
+static int32_t
+exact_to_paper (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
 {
-  CeldWindowGraph *graph = b->graph;
-  size_t           stride = (size_t) celd_window_width (graph), area = (size_t) 1 << 2 * graph->shift;
-  uint32_t        *detail;
-  CeldStatus       status = CELD_OK;
+  int32_t here = squared_to_paper (graph->task, x, y), there = squared_to_paper (graph->task, x + !south, y + south);
 
-  if (!celd_reserve (&graph->detail, graph->n_details + 1, &graph->detail_capacity, area * sizeof *detail))
-    return CELD_NO_MEMORY;
-  *block = CELD_PART_MIXED | (uint32_t) graph->n_details;
-  detail = graph->detail + graph->n_details++ * area;
-  memset (detail, 0xff, area * sizeof *detail); /* fixed where the block is clipped */
-  join_pixels (b, first, w, h, square);
-  for (int y = 0; y < h; y++)
-    for (int x = 0; x < w && status == CELD_OK; x++)
-      {
-        size_t   p = first + (size_t) y * stride + (size_t) x;
-        uint32_t k = (uint32_t) ((y << graph->shift) + x);
-
-        if (b->state[p] & CELD_PART_FIXED)
-          {
-            detail[k] = CELD_PART_FIXED | (b->state[p] & CELD_PART_LABELS);
-            continue;
-          }
-        if (b->parent[k] == k)
-          status = add_node (b, b->state[p], &detail[k]);
-        else
-          detail[k] = detail[celd_root (b->parent, k)];
-        if (status == CELD_OK && b->paint[p])
-          status = celd_window_graph_add_data_cost (graph, detail[k], b->paint[p], graph->task->soft_cost);
-      }
-  return status;
+  (void) a;
+  (void) b;
+  return here < there ? here : there;
 }
 
-/* The bits that the states of a block's pixels in the columns left .. end - 1 have in common; *uniform: are all states
- * equal? */
+/* The present label of the pixels of a part. */
 static uint32_t
-common_state (const CeldWindowBuilder *b, int left, int end, bool *uniform)
+present_label (const CeldPixelGraph *graph, uint32_t part)
 {
-  uint32_t different = 0, common = UINT32_MAX;
-
-  for (int i = left; i < end; i++)
-    {
-      different |= b->change[i] | (b->state[i] ^ b->state[left]);
-      common &= b->common[i];
-    }
-  *uniform = !different;
-  return common;
+  return part & CELD_PART_FIXED ? part & ~CELD_PART_FIXED : graph->node[part].value;
 }
 
-static CeldStatus
-make_block (CeldWindowBuilder *b, int column, int h, uint32_t *block)
+/* In blocks ink counts as cheap as possible along present boundaries and as dear as possible elsewhere: an improvement
+ * by these costs is one by the true costs, and no distance to paper needs to be measured. */
+static int32_t
+bound_to_paper (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
 {
-  CeldWindowGraph *graph = b->graph;
-  int              left = column << graph->shift, w = celd_window_width (graph) - left;
-  bool             uniform;
-  uint32_t         common;
-
-  w = w < 1 << graph->shift ? w : 1 << graph->shift;
-  common = common_state (b, left, left + w, &uniform);
-  if (common & CELD_PART_FIXED && !b->hard[column])
-    {
-      *block = uniform ? CELD_PART_FIXED | (common & CELD_PART_LABELS) : CELD_PART_ABOVE;
-      return CELD_OK;
-    }
-  if (uniform && !b->painted[column] && !(common & CELD_PART_FIXED))
-    return add_node (b, common, block);
-  return split_block (b, (size_t) left, w, h, graph->shift, block);
+  (void) x;
+  (void) y;
+  (void) south;
+  return present_label (graph, a) == present_label (graph, b) ? 0 : CELD_MOST_TO_PAPER;
 }
 
-/* Fills in change[i] and common[i] of each column i. */
-static void
-compare_rows (const CeldWindowBuilder *b, int h)
+/* ------------------------------------------------------------------ states of pixels */
+
+/* Of the pixels in a row of blocks, with their present labels as values; ink gets the flags of its kind. */
+typedef struct
 {
-  size_t stride = (size_t) celd_window_width (b->graph);
-
-  memset (b->change, 0, stride * sizeof *b->change);
-  memcpy (b->common, b->state, stride * sizeof *b->common);
-  for (size_t y = 1; y < (size_t) h; y++)
-    for (size_t i = 0; i < stride; i++)
-      {
-        b->change[i] |= b->state[i] ^ b->state[y * stride + i];
-        b->common[i] &= b->state[y * stride + i];
-      }
-}
-
-static CeldStatus
-make_row (CeldWindowBuilder *b, int row, int top, int h)
-{
-  CeldWindowGraph *graph = b->graph;
-  size_t           stride = (size_t) celd_window_width (graph);
-  CeldStatus       status = CELD_OK;
-
-  b->hard = graph->hard + (size_t) row * (size_t) graph->columns;
-  memset (b->painted, 0, (size_t) graph->columns * sizeof *b->painted);
-  for (int y = 0; y < h; y++)
-    celd_window_read (b, top + y, b->state + (size_t) y * stride, b->paint + (size_t) y * stride);
-  compare_rows (b, h);
-  for (int column = 0; column < graph->columns && status == CELD_OK; column++)
-    status = make_block (b, column, h, &graph->block[(size_t) row * (size_t) graph->columns + (size_t) column]);
-  return status;
-}
-
-/* ------------------------------------------------------------------ finer blocks */
-
-/* Divides a block: one that was a single node into 4 x 4, as it has no ink near; others into 8 x 8 and their ink. */
-static CeldStatus
-make_fine_row (CeldWindowBuilder *b, int row, int top, int h)
-{
-  CeldWindowGraph *graph = b->graph;
-  int              w = celd_window_width (graph);
-  const uint8_t   *fine = b->fine + (size_t) row * (size_t) graph->columns;
-  uint32_t        *block = graph->block + (size_t) row * (size_t) graph->columns;
-  const uint32_t  *coarse = graph->coarse->block + (size_t) row * (size_t) graph->columns;
-  CeldStatus       status = CELD_OK;
-
-  for (int k = 0; k < graph->columns; k++)
-    block[k] = CELD_PART_ABOVE;
-  if (!memchr (fine, 1, (size_t) graph->columns))
-    return CELD_OK;
-  b->hard = graph->hard + (size_t) row * (size_t) graph->columns;
-  for (int y = 0; y < h; y++)
-    celd_window_read_fine (b, top + y, fine, b->state + (size_t) y * (size_t) w, b->paint + (size_t) y * (size_t) w);
-  for (int k = 0; k < graph->columns && status == CELD_OK; k++)
-    if (fine[k])
-      {
-        int left = k << graph->shift, right = left + (1 << graph->shift) < w ? left + (1 << graph->shift) : w;
-        int square = graph->shift - (coarse[k] & CELD_PART_MIXED ? 3 : 2);
-
-        status = split_block (b, (size_t) left, right - left, h, square > 0 ? square : 0, &block[k]);
-      }
-  return status;
-}
-
-/* ------------------------------------------------------------------ the whole */
+  const CeldPixelGraph    *graph;
+  const CeldPresentLabels *present;
+  float                    dark;   /* ink below this value is dark */
+  size_t                   hint;   /* of celd_basin_run_at */
+  uint64_t                *state;
+} Reader;
 
 /* The ink value from which on a pair costs more than dark ink may. */
 static float
@@ -236,75 +98,275 @@ end_of_dark (const CeldSmoothnessCosts *costs)
   return (float) i / CELD_INK_STEPS;
 }
 
-/* Builds b->graph, whose window is set; after a failure the caller clears it. */
-static CeldStatus
-build (CeldWindowBuilder *b)
+/* The present labels of row y. */
+static void
+read_labels (Reader *r, int y, uint64_t *state)
 {
-  CeldWindowGraph  *graph = b->graph;
-  const CeldWindow *window = &graph->window;
-  int               size = 1 << graph->shift;
-  size_t            w = (size_t) celd_window_width (graph);
-  CeldStatus        status = CELD_NO_MEMORY;
+  const CeldPresentLabels *present = r->present;
+  const CeldBasins        *basins = r->graph->task->basins;
+  int                      left = r->graph->box.x, end = left + r->graph->box.width, run_end;
 
-  graph->columns = (window->right - window->left + size) >> graph->shift;
-  graph->rows    = (window->bottom - window->top + size) >> graph->shift;
-  graph->block   = celd_alloc ((size_t) graph->columns * (size_t) graph->rows, sizeof *graph->block);
-  graph->hard    = celd_alloc0 ((size_t) graph->columns * (size_t) graph->rows, sizeof *graph->hard);
-  b->dark        = end_of_dark (&graph->task->basins->costs);
-  b->state       = celd_alloc (w << graph->shift, sizeof *b->state);
-  b->paint       = celd_alloc (w << graph->shift, sizeof *b->paint);
-  b->change      = celd_alloc (w, sizeof *b->change);
-  b->common      = celd_alloc (w, sizeof *b->common);
-  b->painted     = celd_alloc ((size_t) graph->columns, sizeof *b->painted);
-  b->parent      = celd_alloc ((size_t) 1 << 2 * graph->shift, sizeof *b->parent);
-  if (graph->block && graph->hard && b->state && b->paint && b->change && b->common && b->painted && b->parent)
-    status = CELD_OK;
-  for (int row = 0; row < graph->rows && status == CELD_OK; row++)
+  for (int x = left; x < end && present->picture; x++)
+    state[x - left] = CELD_AT (present->picture, x, y);
+  if (present->picture)
+    return;
+  for (size_t x = (size_t) left, i = celd_basin_run_at (basins, y, left, &r->hint); (int) x < end; i++)
     {
-      int top = window->top + row * size, h = window->bottom + 1 - top;
+      uint32_t basin = basins->run[i].basin;
+      uint64_t here = present->label[basin] | (present->free[basin] == present->id ? 0 : CELD_STATE_FIXED);
 
-      status = (b->fine ? make_fine_row : make_row) (b, row, top, h < size ? h : size);
+      run_end = celd_basin_run_end (basins, i, y);
+      for (; (int) x < run_end && (int) x < end; x++)
+        state[(int) x - left] = here;
     }
-  if (status == CELD_OK)
-    status = celd_window_graph_connect (graph);
-  if (status == CELD_OK)
-    graph->label = celd_alloc (graph->n, sizeof *graph->label);
-  celd_free (b->state);
-  celd_free (b->paint);
-  celd_free (b->change);
-  celd_free (b->common);
-  celd_free (b->painted);
-  celd_free (b->parent);
-  return status != CELD_OK || graph->label ? status : CELD_NO_MEMORY;
 }
 
+/* Adds the kind of ink to states that are not fixed. */
+static void
+read_ink (const Reader *r, int y, int x, int end, uint64_t *state)
+{
+  const float *ink = &CELD_AT (r->graph->task->ink, 0, y);
+
+  for (; x < end; x++, state++)
+    if (!(*state & CELD_STATE_FIXED))
+      *state |= (ink[x] < PAPER ? CELD_STATE_DIAGONAL : 0) | (ink[x] < r->dark ? CELD_STATE_WIDE : 0);
+}
+
+/* Adds the seeds in the pixels x .. end - 1 of row y to their states.  Pixels that are not free belong to other
+ * windows. */
+static void
+read_seeds (const Reader *r, int y, int x, int end, uint64_t *state)
+{
+  const CeldSegmentTask *task = r->graph->task;
+  const CeldSeedRow     *row = &task->seeds.row[y];
+  size_t                 low = 0, high = row->n;
+
+  while (low < high)
+    {
+      size_t middle = low + (high - low) / 2;
+
+      if (row->run[middle].end <= x)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+  for (size_t i = low; i < row->n && row->run[i].x < end; i++)
+    {
+      uint64_t label = row->run[i].label;
+      bool     hard = celd_task_data_cost (task, row->run[i].label) == CELD_HARD;
+
+      for (int k = row->run[i].x > x ? row->run[i].x : x; k < end && k < row->run[i].end; k++)
+        if (!(state[k - x] & CELD_STATE_FIXED))
+          state[k - x] = hard ? CELD_STATE_FIXED | label : state[k - x] | label << CELD_STATE_SEED;
+    }
+}
+
+/* Reads row y.  The outermost pixels of the window are fixed, except at the frame. */
+static void
+read_row (Reader *r, int y, uint64_t *state)
+{
+  const CeldPlane *ink = r->graph->task->ink;
+  CeldRect         box = r->graph->box;
+  int              end = box.x + box.width, bottom = box.y + box.height;
+  bool             edge = (y == box.y && y > 0) || (y + 1 == bottom && bottom < ink->height);
+
+  read_labels (r, y, state);
+  for (int k = 0; k < box.width && edge; k++)
+    state[k] |= CELD_STATE_FIXED;
+  if (box.x > 0)
+    state[0] |= CELD_STATE_FIXED;
+  if (end < ink->width)
+    state[box.width - 1] |= CELD_STATE_FIXED;
+  read_ink (r, y, box.x, end, state);
+  read_seeds (r, y, box.x, end, state);
+}
+
+/* ------------------------------------------------------------------ the graph */
+
+CeldStatus
+celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box, int shift,
+                       CeldPixelGraph *graph)
+{
+  Reader     r = { .graph = graph, .present = present, .dark = end_of_dark (&task->basins->costs),
+                   .state = celd_alloc ((size_t) box.width << shift, sizeof *r.state) };
+  int        size = 1 << shift;
+  size_t     w = (size_t) box.width;
+  CeldStatus status = celd_pixel_graph_new (task, box, graph);
+
+  if (!r.state)
+    status = CELD_NO_MEMORY;
+  graph->to_paper = shift ? bound_to_paper : exact_to_paper;
+  for (int top = box.y; top < box.y + box.height && status == CELD_OK; top += size)
+    {
+      for (int y = top; y < celd_pixel_graph_bottom (graph, top, size); y++)
+        read_row (&r, y, r.state + (size_t) (y - top) * w);
+      for (int x = 0; x < box.width && status == CELD_OK; x += size)
+        status = celd_pixel_graph_add_square (graph, box.x + x, top, size, r.state + x, w, shift);
+    }
+  celd_free (r.state);
+  return status == CELD_OK ? celd_pixel_graph_connect (graph) : status;
+}
+
+/* Divides a block into cells, or fixes it to its new labels. */
 static CeldStatus
-finish (CeldStatus status, CeldWindowGraph *made, CeldWindowGraph *graph)
+divide (Reader *r, CeldPixelGraph *graph, const CeldPixelNode *node, const uint32_t *label, bool finer)
 {
-  if (status == CELD_OK)
-    *graph = *made;
-  else
-    celd_window_graph_clear (made);
-  return status;
+  int shift = 0, left = node->x, right = celd_pixel_graph_right (graph, left, node->size);
+  int bottom = celd_pixel_graph_bottom (graph, node->y, node->size), cell;
+
+  for (int y = node->y; y < bottom; y++)
+    {
+      uint64_t *state = r->state + (size_t) (y - node->y) * (size_t) node->size;
+      uint32_t *part = celd_pixel_graph_part (graph, left, y);
+
+      for (int x = left; x < right; x++, part++)
+        {
+          bool     fixed = *part & CELD_PART_FIXED;
+          uint32_t own = fixed ? *part & ~CELD_PART_FIXED : label[*part];
+
+          state[x - left] = own | (fixed ? CELD_STATE_FIXED : 0);
+          *part = CELD_PART_FIXED | own;
+        }
+      read_ink (r, y, left, right, state);
+      read_seeds (r, y, left, right, state);
+    }
+  while (1 << shift < node->size)
+    shift++;
+  cell = shift - (node->whole ? FINER_PAPER : FINER_INK);
+  return finer ? celd_pixel_graph_add_square (graph, left, node->y, node->size, r->state, (size_t) node->size,
+                                              cell > 0 ? cell : 0) : CELD_OK;
 }
 
 CeldStatus
-celd_window_graph_new (const CeldSegmentTask *task, const uint32_t *label, const uint32_t *free, uint32_t id,
-                       const CeldWindow *window, int shift, CeldWindowGraph *graph)
+celd_window_graph_refine (CeldPixelGraph *graph, const uint32_t *label, const bool *crossed)
 {
-  CeldWindowGraph       made = { .task = task, .basin_label = label, .window = *window, .shift = shift };
-  CeldWindowBuilder b = { .graph = &made, .free = free, .id = id };
+  CeldPixelNode *old = graph->node;
+  size_t         n = graph->n;
+  Reader         r = { .graph = graph, .dark = end_of_dark (&graph->task->basins->costs),
+                       .state = celd_alloc (CELD_LARGEST_SQUARE * CELD_LARGEST_SQUARE, sizeof *r.state) };
+  CeldStatus     status = r.state ? CELD_OK : CELD_NO_MEMORY;
 
-  return finish (build (&b), &made, graph);
+  celd_pixel_graph_empty (graph);
+  graph->node = NULL;
+  graph->node_capacity = 0;
+  for (size_t k = 0, next; k < n && status == CELD_OK; k = next)
+    {
+      bool finer = false;
+
+      for (next = k; next < n && old[next].x == old[k].x && old[next].y == old[k].y; next++)
+        finer |= crossed[next];
+      status = divide (&r, graph, &old[k], label, finer);
+    }
+  celd_free (old);
+  celd_free (r.state);
+  return status == CELD_OK ? celd_pixel_graph_connect (graph) : status;
 }
 
+/* ------------------------------------------------------------------ the cut */
+
 CeldStatus
-celd_window_graph_refine (const CeldWindowGraph *coarse, const uint8_t *fine, CeldWindowGraph *graph)
+celd_window_cutter_new (const CeldSegmentTask *task, const CeldHost *host, CeldWindowCutter *cutter)
 {
-  CeldWindowGraph   made = {
-    .task = coarse->task, .coarse = coarse, .window = coarse->window, .shift = coarse->shift
+  size_t n_labels = task->palette.n;
+
+  *cutter = (CeldWindowCutter) {
+    .task   = task, .host = host,
+    .order  = celd_alloc (n_labels, sizeof *cutter->order),
+    .local  = celd_alloc (n_labels + 1, sizeof *cutter->local),
+    .global = celd_alloc (n_labels, sizeof *cutter->global),
+    .votes  = celd_alloc (n_labels + 1, sizeof *cutter->votes),
   };
-  CeldWindowBuilder b = { .graph = &made, .fine = fine };
+  if (!cutter->order || !cutter->local || !cutter->global || !cutter->votes)
+    return CELD_NO_MEMORY;
+  return celd_task_label_order (task, cutter->order);
+}
 
-  return finish (build (&b), &made, graph);
+void
+celd_window_cutter_clear (CeldWindowCutter *cutter)
+{
+  celd_free (cutter->order);
+  celd_free (cutter->local);
+  celd_free (cutter->global);
+  celd_free (cutter->votes);
+  *cutter = (CeldWindowCutter) { .task = NULL };
+}
+
+/* Numbers the labels that can occur in a graph from 1, in their order; returns how many there are.  A label that no
+ * node has now needs data costs of at least `least` together. */
+static size_t
+number_labels (CeldWindowCutter *cutter, const CeldPixelGraph *graph, int64_t least)
+{
+  size_t n_labels = cutter->task->palette.n, n = 0;
+
+  memset (cutter->votes, 0, (n_labels + 1) * sizeof *cutter->votes);
+  for (size_t i = 0; i < graph->n_votes; i++)
+    cutter->votes[graph->vote[i].label] += graph->vote[i].cost;
+  for (size_t k = 0; k < graph->n; k++)
+    cutter->votes[graph->node[k].value] = least;
+  for (size_t i = 0; i < n_labels; i++)
+    {
+      uint32_t label = cutter->order[i];
+
+      cutter->local[label] = 0;
+      if (cutter->votes[label] < least)
+        continue;
+      cutter->global[n]    = label;
+      cutter->local[label] = (uint32_t) ++n;
+    }
+  return n;
+}
+
+/* Replaces the labels of data costs by their local numbers; those of other labels are constant and are dropped. */
+static void
+number_votes (const CeldWindowCutter *cutter, CeldPixelGraph *graph)
+{
+  size_t n = 0;
+
+  for (size_t i = 0; i < graph->n_votes; i++)
+    {
+      CeldVote vote = graph->vote[i];
+
+      vote.label = cutter->local[vote.label];
+      if (vote.label)
+        graph->vote[n++] = vote;
+    }
+  graph->n_votes = n;
+}
+
+CeldStatus
+celd_window_cut (CeldWindowCutter *cutter, CeldPixelGraph *graph, int64_t least, uint32_t **label, bool *better)
+{
+  size_t        n_labels = number_labels (cutter, graph, least);
+  uint32_t     *order = celd_alloc (n_labels, sizeof *order), *present = celd_alloc (graph->n, sizeof *present);
+  uint32_t     *result = celd_alloc (graph->n, sizeof *result);
+  CeldHostPart  part;
+  CeldHost      host = celd_host_part (&part, cutter->host, 0, 0);
+  CeldPartition problem;
+  int64_t       energy;
+  CeldStatus    status = CELD_NO_MEMORY;
+
+  if (!order || !present || !result)
+    goto done;
+  for (size_t k = 0; k < n_labels; k++)
+    order[k] = (uint32_t) k + 1;
+  for (size_t k = 0; k < graph->n; k++)
+    present[k] = cutter->local[graph->node[k].value];
+  number_votes (cutter, graph);
+  problem = (CeldPartition) {
+    graph->n, graph->link, graph->n_links, graph->vote, graph->n_votes, NULL, order, n_labels
+  };
+  status = celd_partition (&problem, &host, result, &energy, NULL);
+  if (status != CELD_OK)
+    goto done;
+  *better = energy < celd_partition_energy (&problem, present);
+  for (size_t k = 0; k < graph->n; k++)
+    result[k] = *better ? cutter->global[result[k] - 1] : graph->node[k].value;
+  *label = result;
+  result = NULL;
+
+done:
+  celd_free (order);
+  celd_free (present);
+  celd_free (result);
+  return status;
 }

@@ -1,0 +1,271 @@
+/* Nodes, links and data costs of a graph of pixels.
+ *
+ * Cost: a pass over the states of each square, and over the edges between different parts.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "segment/pixel-graph.h"
+#include "base/unions.h"
+#include "base/vector.h"
+
+CeldStatus
+celd_pixel_graph_new (const CeldSegmentTask *task, CeldRect box, CeldPixelGraph *graph)
+{
+  *graph = (CeldPixelGraph) {
+    .task   = task,
+    .box    = box,
+    .part   = celd_alloc ((size_t) box.width * (size_t) box.height, sizeof *graph->part),
+    .parent = celd_alloc (CELD_LARGEST_SQUARE * CELD_LARGEST_SQUARE, sizeof *graph->parent),
+  };
+  return graph->part && graph->parent ? CELD_OK : CELD_NO_MEMORY;
+}
+
+void
+celd_pixel_graph_clear (CeldPixelGraph *graph)
+{
+  celd_free (graph->part);
+  celd_free (graph->node);
+  celd_free (graph->link);
+  celd_free (graph->vote);
+  celd_free (graph->parent);
+  *graph = (CeldPixelGraph) { .task = NULL };
+}
+
+void
+celd_pixel_graph_empty (CeldPixelGraph *graph)
+{
+  graph->n = graph->n_links = graph->n_votes = 0;
+}
+
+/* Adds the cost of a node without this label. */
+static CeldStatus
+add_data_cost (CeldPixelGraph *graph, uint32_t node, uint32_t label, int64_t cost)
+{
+  CeldVote *last = graph->n_votes ? &graph->vote[graph->n_votes - 1] : NULL;
+
+  if (last && last->node == node && last->label == label)
+    {
+      last->cost += cost;
+      return CELD_OK;
+    }
+  return celd_append (graph->vote, graph->n_votes, graph->vote_capacity, (CeldVote) { node, label, cost });
+}
+
+/* ------------------------------------------------------------------ nodes */
+
+/* The states of a square's w x h pixels. */
+typedef struct { const uint64_t *state; size_t stride; int w, h, cell; } Square;
+
+/* Is (x,y) connected to its neighbour (u,v), which is in the square or not? */
+static inline bool
+is_joined (const Square *square, int x, int y, int u, int v)
+{
+  const uint64_t *state = square->state + (size_t) y * square->stride + (size_t) x;
+
+  return u >= 0 && u < square->w && v >= 0 && *state == square->state[(size_t) v * square->stride + (size_t) u]
+         && (*state & CELD_STATE_WIDE || (x >> square->cell == u >> square->cell
+                                          && y >> square->cell == v >> square->cell));
+}
+
+/* Joins connected pixels of equal state, but not those again that are joined through the row above. */
+static void
+join_pixels (const Square *square, uint32_t *parent)
+{
+  uint32_t w = (uint32_t) square->w, k = 0;
+
+  for (int y = 0; y < square->h; y++)
+    for (int x = 0; x < square->w; x++, k++)
+      {
+        uint64_t state = square->state[(size_t) y * square->stride + (size_t) x];
+        bool     west = is_joined (square, x, y, x - 1, y), north = is_joined (square, x, y, x, y - 1);
+        bool     north_west = is_joined (square, x, y, x - 1, y - 1);
+
+        parent[k] = west ? parent[k - 1] : k;
+        if (north && !(west && north_west))
+          celd_join (parent, k, k - w);
+        if (!(state & CELD_STATE_DIAGONAL) || north)
+          continue;
+        if (north_west && !west)
+          celd_join (parent, k, k - w - 1);
+        if (is_joined (square, x, y, x + 1, y - 1))
+          celd_join (parent, k, k - w + 1);
+      }
+}
+
+/* The bits that all states of a square have; *uniform: are all states equal? */
+static uint64_t
+common_state (const Square *square, bool *uniform)
+{
+  uint64_t different = 0, common = *square->state;
+
+  for (int y = 0; y < square->h; y++)
+    for (int x = 0; x < square->w; x++)
+      {
+        uint64_t state = square->state[(size_t) y * square->stride + (size_t) x];
+
+        different |= state ^ *square->state;
+        common    &= state;
+      }
+  *uniform = !different;
+  return common;
+}
+
+static CeldStatus
+add_node (CeldPixelGraph *graph, int x, int y, int size, bool whole, uint64_t state, uint32_t *part)
+{
+  *part = (uint32_t) graph->n;
+  return celd_append (graph->node, graph->n, graph->node_capacity,
+                      (CeldPixelNode) { x, y, size, whole, (uint32_t) (state & CELD_STATE_VALUE) });
+}
+
+CeldStatus
+celd_pixel_graph_add_square (CeldPixelGraph *graph, int x, int y, int size, const uint64_t *state, size_t stride,
+                             int cell)
+{
+  Square     square = { state, stride, celd_pixel_graph_right (graph, x, size) - x,
+                        celd_pixel_graph_bottom (graph, y, size) - y, cell };
+  bool       uniform, whole;
+  uint64_t   common = common_state (&square, &uniform);
+  size_t     first = graph->n;
+  CeldStatus status = CELD_OK;
+
+  whole = uniform && !(common & CELD_STATE_FIXED) && !(common >> CELD_STATE_SEED);
+  if (whole && size >> cell <= 1)
+    status = add_node (graph, x, y, size, true, common, celd_pixel_graph_part (graph, x, y));
+  else if (!(common & CELD_STATE_FIXED))
+    join_pixels (&square, graph->parent);
+  whole = graph->n > first;
+  for (int v = 0, k = 0; v < square.h; v++)
+    for (int u = 0; u < square.w && status == CELD_OK; u++, k++)
+      {
+        uint64_t own = state[(size_t) v * stride + (size_t) u];
+        uint32_t seed = (uint32_t) (own >> CELD_STATE_SEED), root;
+        uint32_t *part = celd_pixel_graph_part (graph, x + u, y + v);
+
+        if (whole)
+          *part = (uint32_t) first;
+        else if (own & CELD_STATE_FIXED)
+          *part = CELD_PART_FIXED | (uint32_t) (own & CELD_STATE_VALUE);
+        else if ((root = celd_root (graph->parent, (uint32_t) k)) == (uint32_t) k)
+          status = add_node (graph, x, y, size, false, own, part);
+        else
+          *part = *celd_pixel_graph_part (graph, x + (int) root % square.w, y + (int) root / square.w);
+        if (seed && !(own & CELD_STATE_FIXED) && status == CELD_OK)
+          status = add_data_cost (graph, *part, seed, graph->task->soft_cost);
+      }
+  return status;
+}
+
+/* ------------------------------------------------------------------ links */
+
+/* V_pq between (x,y) of part a and the pixel below (south) or to the right, of part b. */
+static int32_t
+edge_cost (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
+{
+  const CeldPlane *ink = graph->task->ink;
+  float            here = CELD_AT (ink, x, y), there = CELD_AT (ink, x + !south, y + south);
+  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
+  bool             on_ink = !celd_is_paper (here) && !celd_is_paper (there);
+  int32_t          to_paper = on_ink ? graph->to_paper (graph, a, b, x, y, south) : 0;
+
+  return celd_smoothness_cost (&graph->task->basins->costs, here, there, to_paper, to_paper, frame);
+}
+
+/* Adds the edge between (x,y) and the pixel below (south) or to the right: to a link, or to a data cost if one of them
+ * is fixed. */
+static CeldStatus
+add_edge (CeldPixelGraph *graph, int x, int y, bool south)
+{
+  uint32_t  a = *celd_pixel_graph_part (graph, x, y), b = *celd_pixel_graph_part (graph, x + !south, y + south);
+  uint32_t  least = a < b ? a : b, most = a < b ? b : a; /* a fixed part is larger than all nodes */
+  CeldLink *last = graph->n_links ? &graph->link[graph->n_links - 1] : NULL;
+  int32_t   cost;
+
+  if (a == b || least & CELD_PART_FIXED || most == CELD_PART_FIXED)
+    return CELD_OK;
+  cost = edge_cost (graph, a, b, x, y, south);
+  if (most & CELD_PART_FIXED)
+    return add_data_cost (graph, least, most & ~CELD_PART_FIXED, cost);
+  if (last && last->a == least && last->b == most)
+    {
+      last->cost += cost;
+      return CELD_OK;
+    }
+  return celd_append (graph->link, graph->n_links, graph->link_capacity, (CeldLink) { least, most, cost });
+}
+
+/* Adds all edges inside the square of a node, and those that leave it: to nodes from the square on the left or above, to
+ * fixed pixels from the square of the node. */
+static CeldStatus
+link_square (CeldPixelGraph *graph, const CeldPixelNode *node)
+{
+  int        left = node->x, right = celd_pixel_graph_right (graph, left, node->size);
+  int        top = node->y, bottom = celd_pixel_graph_bottom (graph, top, node->size);
+  CeldRect   box = graph->box;
+  CeldStatus status = CELD_OK;
+
+  for (int y = top > box.y ? top - 1 : top; y < bottom; y++)
+    for (int x = left > box.x ? left - 1 : left; x < right && status == CELD_OK; x++)
+      {
+        bool fixed = *celd_pixel_graph_part (graph, x, y) & CELD_PART_FIXED;
+
+        if (node->whole && x == left && y >= top && y + 1 < bottom)
+          x = right - 1; /* no edges inside */
+        if (y >= top && x + 1 < box.x + box.width && (x < left ? fixed : x + 1 < right || !fixed))
+          status = add_edge (graph, x, y, false);
+        if (x >= left && y + 1 < box.y + box.height && (y < top ? fixed : y + 1 < bottom || !fixed)
+            && status == CELD_OK)
+          status = add_edge (graph, x, y, true);
+      }
+  return status;
+}
+
+/* Sums up the links of the same two nodes, sorted by the lesser node; no node has many. */
+static CeldStatus
+sum_links (CeldPixelGraph *graph)
+{
+  size_t   *first = celd_alloc0 (graph->n + 1, sizeof *first);
+  CeldLink *sorted = celd_alloc (graph->n_links, sizeof *sorted);
+  size_t    begin = 0, n = 0;
+
+  if (!first || !sorted)
+    {
+      celd_free (first);
+      celd_free (sorted);
+      return CELD_NO_MEMORY;
+    }
+  for (size_t i = 0; i < graph->n_links; i++)
+    first[graph->link[i].a + 1]++;
+  for (size_t k = 1; k <= graph->n; k++)
+    first[k] += first[k - 1];
+  for (size_t i = 0; i < graph->n_links; i++)
+    sorted[first[graph->link[i].a]++] = graph->link[i];
+  for (size_t i = 0; i < graph->n_links; i++)
+    {
+      size_t j;
+
+      if (i && sorted[i].a != sorted[i - 1].a)
+        begin = n;
+      for (j = begin; j < n && graph->link[j].b != sorted[i].b; j++)
+        ;
+      if (j == n)
+        graph->link[n++] = sorted[i];
+      else
+        graph->link[j].cost += sorted[i].cost;
+    }
+  graph->n_links = n;
+  celd_free (first);
+  celd_free (sorted);
+  return CELD_OK;
+}
+
+CeldStatus
+celd_pixel_graph_connect (CeldPixelGraph *graph)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
+    if (!k || graph->node[k].x != graph->node[k - 1].x || graph->node[k].y != graph->node[k - 1].y)
+      status = link_square (graph, &graph->node[k]);
+  return status == CELD_OK ? sum_links (graph) : status;
+}
