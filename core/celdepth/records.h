@@ -1,4 +1,4 @@
-/* Records that travel between the steps: palette, relations, problems, orders, reports, layers, meshes.
+/* Records that the steps take and make: palette, relations, problems, orders, reports, layers, meshes.
  *
  * Part of celdepth.h, which states the conventions of values, ownership and errors.
  *
@@ -15,14 +15,14 @@ extern "C" {
 
 typedef enum { CELD_FROM_SCRIBBLE, CELD_FROM_ARROW, CELD_FROM_BACKGROUND } CeldOrigin;
 
-/* One label and what is known of it. */
+/* One label, and what is known about it. */
 typedef struct
 {
   uint8_t    colour[4];         /* R'G'B'A of its scribbles; alpha 0 only for the background that celdepth added */
   CeldOrigin origin;
   bool       background;        /* weakly behind every other label */
-  bool       hard;              /* its seeds are obeyed whatever the hardness (seeds of arrows) */
-  int        x, y;              /* a pixel of it, well inside */
+  bool       hard;              /* its seeds keep their label at any hardness (seeds of arrows) */
+  int        x, y;              /* a pixel of the region, far from its outline */
   size_t     seeds;             /* painted pixels */
   size_t     area;              /* pixels after segmentation */
 } CeldRegion;
@@ -64,11 +64,11 @@ typedef enum
   CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the closed region round (x,y) */
   CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
   CELD_PROBLEM_ARROW_UNCLEAR,      /* the arrow at (x,y) does not say which end is nearer; left out */
-  CELD_PROBLEM_OUTSIDE,            /* relation `relation` names a point outside the drawing; left out */
+  CELD_PROBLEM_OUTSIDE,            /* relation `relation` has an end outside the drawing; left out */
   CELD_PROBLEM_UNKNOWN_COLOUR,     /* relation `relation` names a colour that is no label; left out */
   CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
   CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
-  CELD_PROBLEM_NOT_CONVERGED,      /* smooth depth was delivered with a larger error than asked for */
+  CELD_PROBLEM_NOT_CONVERGED,      /* the error of smooth depth is larger than the tolerance */
   CELD_PROBLEM_REGION_SPLIT        /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
 } CeldProblemKind;
 
@@ -77,7 +77,7 @@ typedef enum
 typedef struct
 {
   CeldProblemKind kind;
-  int             x, y;            /* where to look; -1 if nowhere */
+  int             x, y;            /* the place in the picture; -1 if there is none */
   uint32_t        label, other;    /* labels concerned; 0 if none */
   size_t          relation;        /* index into the relations; CELD_NO_INDEX if none */
 } CeldProblem;
@@ -86,29 +86,29 @@ typedef struct { CeldProblem *item; size_t n; } CeldProblems;
 
 CELD_API void celd_problems_clear (CeldProblems *problems);
 
-/* Marks the places of problems over whatever is in the picture: a red ring round each, with a dot at the place. */
+/* Draws a red ring with a dot at its centre round the place of each problem, over what the picture contains. */
 CELD_API void celd_problems_paint (const CeldProblems *problems, CeldPaint *paint);
 
-/* One English sentence, cut to `size` bytes with its final 0, saying what, where and what to do.
- * palette and relations may be NULL: then without colours and line numbers. */
+/* Writes one English sentence that says what is wrong, where, and what to do; cut to `size` bytes with the final 0.
+ * palette and relations may be NULL: the sentence then has no colours and no line numbers. */
 CELD_API void celd_problem_text (const CeldProblem *problem, const CeldPalette *palette, const CeldRelations *relations,
                                  char *text, size_t size);
 
-/* Relations that cannot hold together: item[0..n-1] are indices into the relations, in the order of the cycle
- * (each one's farther region is the next one's nearer region, the last leads back to the first). */
+/* Relations that contradict each other: item[0..n-1] are indices into the relations, in the order of the cycle (the
+ * farther region of each is the nearer region of the next, and that of the last the nearer region of the first). */
 typedef struct
 {
   size_t  *item;
   size_t   n;
-  size_t   scc;                /* of CeldOrder */
-  uint32_t label;               /* whose connected regions it takes to have one depth: without that, as with
-                                 * same_colour = separate, there would be no such cycle; 0: none */
+  size_t   scc;                 /* index of its strongly connected component in CeldOrder or CeldExact */
+  uint32_t label;               /* the cycle leads through two connected regions of this label, and would not exist
+                                 * with same_colour = separate; 0: there is no such label */
   uint8_t  colour[3];           /* of that label */
-  int      x[2], y[2];          /* one place in each of two such regions */
+  int      x[2], y[2];          /* a place in each of the two regions */
 } CeldCycle;
 
-/* All relations that go round in circles with each other: those of a strongly connected component of regions, in the
- * order given; and a shortest cycle through the newest of them that is on one. */
+/* The relations between the regions of one strongly connected component, as indices in the order given; and a shortest
+ * cycle through the latest of them that lies on a cycle. */
 typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldScc;
 
 typedef struct
@@ -116,70 +116,71 @@ typedef struct
   uint32_t  *level;             /* of label k: level[k-1]; 0 = farthest */
   size_t     n;                 /* labels */
   uint32_t   levels;            /* one more than the largest level */
-  double    *height;            /* of each level, in gaps of one relation; NULL where that is the level itself */
+  double    *height;            /* of each level, in gaps of one relation; NULL if heights equal levels */
   CeldCycle *cycle;             /* contradictions; the first item of each is the relation that was left out */
   size_t     n_cycles;
-  CeldScc  *scc;
+  CeldScc   *scc;
   size_t     n_sccs;
 } CeldOrder;
 
 CELD_API void celd_order_clear (CeldOrder *order);
 
-/* One English sentence that names the partners of the relation which a contradiction left out, cut to `size` bytes. */
+/* Writes one English sentence that names the other relations of the cycle, those that contradict the one left out; cut
+ * to `size` bytes with the final 0. */
 CELD_API void celd_cycle_text (const CeldCycle *cycle, const CeldRelations *relations, char *text, size_t size);
 
-/* A gap in a contour as the segmentation closed it: a line from one line's end to another's, between two labels. */
+/* A gap in a contour that the segmentation closed: a polyline from one line end to another, between two labels. */
 typedef struct { double x, y; } CeldPlace;
 typedef struct { CeldPlace *place; size_t n; uint32_t label, other; } CeldClosure;
 typedef struct { CeldClosure *item; size_t n; } CeldClosures;
 
 CELD_API void celd_closures_clear (CeldClosures *closures);
 
-/* How well an iterative solve went. */
-typedef struct { bool converged; int iterations; double error; } CeldSolve; /* error: as a share of the range */
+/* How an iterative solver ended; the error is a fraction of the range of the solution. */
+typedef struct { bool converged; int iterations; double error; } CeldSolve;
 
 /* A node of the exact program: a scribble, or an end of a relation off every scribble. */
 typedef struct
 {
   uint32_t label;               /* of the scribble; 0 for the end of a relation */
-  int      x, y;                /* a pixel of it; -1,-1 if other paint hides it all */
-  double   depth;               /* in gaps of one relation; the least of all nodes is 0 */
+  int      x, y;                /* a pixel of it; -1,-1 if other paint covers it completely */
+  double   depth;               /* in gaps of one relation; 0 for the farthest node */
 } CeldNode;
 
-/* What the exact program says beside the depth. */
+/* What the exact program reports in addition to the depth. */
 typedef struct
 {
   CeldNode  *node;
   size_t     n;
   double     sigma;             /* of eq. (1) */
-  double     energy;            /* 1/2 d'Ld of eq. (2), where the depths of nodes have least gaps of 1 */
-  double     gap;               /* how far that is above the least at most, for the bases as they were solved */
-  double     violation;         /* how much the worst inequality misses; 0 if all hold */
+  double     energy;            /* 1/2 d'Ld of eq. (2), with the depths of nodes in gaps of one relation */
+  double     gap;               /* duality gap: the energy is at most this far above its minimum, for the harmonic
+                                 * bases as they were solved */
+  double     violation;         /* of the most violated inequality, in gaps; 0 if all hold */
   size_t     inequalities;      /* between nodes */
-  size_t     active;            /* that hold with equality and push */
-  int        steps;             /* of the active set */
+  size_t     active;            /* inequalities with a positive multiplier, which hold with equality */
+  int        steps;             /* changes of the active set */
   CeldSolve  solve;             /* of the harmonic bases */
   CeldCycle *cycle;             /* contradictions between nodes, as in CeldOrder */
   size_t     n_cycles;
-  CeldScc  *scc;
+  CeldScc   *scc;
   size_t     n_sccs;
 } CeldExact;
 
 CELD_API void celd_exact_clear (CeldExact *exact);
 
-/* Contour ownership: which label each pixel belongs to, ink included.  The host provides three pictures of the
- * drawing's size. */
+/* Contour ownership: which label each pixel belongs to, ink included, in three pictures of the drawing's size.
+ * Ink in a pixel of two labels belongs to the owner if that has ink there, and else to `under`. */
 typedef struct
 {
-  CeldLabels owner;             /* the label of the pixel's area or ink; of two labels in an antialiased pixel the
-                                 * nearer one (at equal levels either) */
+  CeldLabels owner;             /* the pixel's label; in an antialiased pixel of two labels the nearer one (either one
+                                 * if their levels are equal) */
   CeldLabels under;             /* the other one of two labels; equal to owner where there is only one */
-  CeldPlane  coverage;          /* coverage of the pixel by the owner, above 0; 1 where there is only one label.  Ink
-                                 * in the pixel belongs to the owner, or else to `under`. */
+  CeldPlane  coverage;          /* how much of the pixel the owner covers, (0,1]; 1 where there is only one label */
 } CeldOwnership;
 
-/* A drawing cut into one layer for each region.  Layer 0 is the farthest; compositing the layers in their order by
- * the usual `over`, with straight alpha, gives the drawing again. */
+/* A drawing cut into one layer for each region.  Layer 0 is the farthest; the layers, composited in their order by
+ * `over` with straight alpha, are the drawing again. */
 typedef struct CeldLayers CeldLayers;
 
 typedef struct
@@ -189,7 +190,7 @@ typedef struct
   CeldRect box;                 /* the layer is transparent outside it; width 0: everywhere */
 } CeldLayer;
 
-/* The numbers that layers will be stored in; the layers are rounded so that their composite is right. */
+/* The numbers that layers will be stored as; colours are rounded so that the composite of the layers is exact. */
 typedef enum
 {
   CELD_STORE_FLOAT,

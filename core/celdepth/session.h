@@ -29,87 +29,89 @@ CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const Celd
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);
 /* A depth picture for suggestions, see celd_suggest_from_depth; a layer like the others. */
 CELD_API CeldStatus celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth);
-/* Corrections of contour ownership: strokes over ink in the colours of regions, each of which gives the piece of line
- * below it to that region. */
+/* Corrections of contour ownership: strokes over ink, each of which gives the piece of line below it to the region of
+ * its colour. */
 CELD_API CeldStatus celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections);
-/* Relations as text (docs/relations.md), and arrows as SVG path data.  On CELD_BAD_RELATION, *error (may be NULL) says
- * where, and the former ones stay.  NULL or "" removes them. */
+/* Relations as text (docs/relations.md), and arrows as SVG path data.  On CELD_BAD_RELATION *error (may be NULL) says
+ * where the text cannot be read, and the previous relations stay.  NULL or "" removes them. */
 CELD_API CeldStatus celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error);
 CELD_API CeldStatus celd_session_set_arrow_path (CeldSession *session, const char *path, CeldTextError *error);
 
-/* Single strokes over the scribbles layer, named by an id of the host's (not 0).  Pixel (u,v) of the mask, where not 0,
- * paints pixel (x+u,y+v) of the drawing; strokes may extend beyond it.  An id that is in use replaces that stroke, in
- * its place; new strokes lie above all others.  CELD_BAD_VALUE for id 0, and for removing an unknown id. */
+/* Single strokes over the scribbles layer, with ids (not 0) that the host chooses.  Pixel (u,v) of the mask, if not 0,
+ * paints pixel (x+u,y+v) of the drawing; strokes may extend beyond it.  A stroke of a known id replaces the old one at
+ * its place in the painting order; new strokes lie above all others.  CELD_BAD_VALUE for id 0, and for removing an
+ * unknown id. */
 CELD_API CeldStatus celd_session_put_stroke    (CeldSession *session, uint32_t id, int x, int y, const CeldMask *mask,
                                                 const uint8_t colour[3]);
 CELD_API CeldStatus celd_session_remove_stroke (CeldSession *session, uint32_t id);
-/* Single relations in addition to the text, named by an id of the host's (not 0), in the grammar of the text.  An id
- * that is in use replaces its relations.  CELD_BAD_VALUE for id 0, text NULL, and for removing an unknown id. */
+/* Single relations in addition to the text and in its grammar, with ids (not 0) that the host chooses.  A text of a
+ * known id replaces the old one.  CELD_BAD_VALUE for id 0, text NULL, and for removing an unknown id. */
 CELD_API CeldStatus celd_session_put_relation    (CeldSession *session, uint32_t id, const char *text,
                                                   CeldTextError *error);
 CELD_API CeldStatus celd_session_remove_relation (CeldSession *session, uint32_t id);
 
-/* Results.  Each function first makes what is missing; without a drawing it returns CELD_BAD_SIZE, and without
- * scribbles and arrows, where these are needed, CELD_NOTHING_TO_GO_BY.  *changed (may be NULL) is the rectangle in
- * which the result differs from the last time it was asked for: everything the first time, width 0 if nothing differs.
- * Even where labels stay, their colours in the palette may have changed. */
+/* Results.  Each function first makes the results that it needs.  It returns CELD_BAD_SIZE without a drawing, and
+ * CELD_NOTHING_TO_GO_BY if it needs labels and there are neither scribbles nor arrows.  *changed (may be NULL) is a
+ * rectangle outside which the result equals the one that the function returned last: the whole picture the first time
+ * and after a drawing of another size, width 0 if nothing differs.  Colours of unchanged labels may differ in the
+ * palette. */
 CELD_API CeldStatus celd_session_ink (CeldSession *session, const CeldHost *host, CeldPlane *ink, CeldRect *changed);
 CELD_API CeldStatus celd_session_labels (CeldSession *session, const CeldHost *host, CeldLabels *labels,
                                          CeldRect *changed);
-/* The gaps in contours that the segmentation has closed; with methods other than CELD_METHOD_BASINS there are none. */
+/* The gaps in contours that the segmentation closed; none with methods other than CELD_METHOD_BASINS. */
 CELD_API CeldStatus celd_session_closures (CeldSession *session, const CeldHost *host, const CeldClosures **closures);
-/* Paints the closures as red lines about as wide as the drawing's on a transparent picture: a layer of virtual
- * contours, in which the artist can erase what was closed wrongly.  `paint` has the drawing's size and is
- * overwritten. */
+/* Paints the closures on a transparent picture, as red lines about as wide as those of the drawing: a layer of virtual
+ * contours in which the artist can erase wrong closures.  `paint` has the drawing's size and is overwritten. */
 CELD_API CeldStatus celd_session_paint_closures (CeldSession *session, const CeldHost *host, CeldPaint *paint);
-/* What celd_suggest suggests for these labels, whether the settings use it or not. */
+/* The suggestions of celd_suggest for the current labels, also if the settings do not use them. */
 CELD_API CeldStatus celd_session_suggestions (CeldSession *session, const CeldHost *host,
                                               const CeldRelations **suggested);
-/* Paints the suggestions as arrows on a transparent picture: an arrows layer, in which the artist can erase wrong ones.
- * `paint` has the drawing's size and is overwritten. */
+/* Paints the suggestions on a transparent picture, as arrows: a layer of arrows in which the artist can erase wrong
+ * ones.  Those about the background are left out.  `paint` has the drawing's size and is overwritten. */
 CELD_API CeldStatus celd_session_paint_suggestions (CeldSession *session, const CeldHost *host, CeldPaint *paint);
 CELD_API CeldStatus celd_session_order (CeldSession *session, const CeldHost *host, const CeldOrder **order);
 /* Levels before expansion, in the encoding of the settings: those of the labels. */
 CELD_API CeldStatus celd_session_unexpanded_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels,
                                                     CeldRect *changed);
-/* Contour ownership: the label that each pixel belongs to, with its ink.  Where a pixel has two labels, `levels` below
- * has that of the label which covers more of it. */
+/* Contour ownership: the label that each pixel belongs to, ink included. */
 CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership,
                                             CeldRect *changed);
-/* Cuts the art into a layer for each label, completed where it is hidden with settings->complete, see celd_layers_cut.
- * The caller owns *layers and frees it with celd_layers_free. */
+/* Cuts art into a layer for each label, completed with settings->complete: see celd_layers_cut.  The caller owns
+ * *layers and frees it with celd_layers_free. */
 CELD_API CeldStatus celd_session_layers (CeldSession *session, const CeldColours *art, CeldStore store,
                                          const CeldHost *host, CeldLayers **layers);
-/* Levels after expansion, in the encoding of the settings. */
+/* Levels after expansion, in the encoding of the settings: of the label that covers more of each pixel. */
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels,
                                          CeldRect *changed);
 /* Smooth depth, eq. (3).  After an edit only the affected components are solved again, starting from their last depth;
- * the rest stays bit by bit the same.  The preview is to be shown while full depth is made: it has a quarter of the
- * width and height, rounded up, pixel (x,y) standing for the 4 x 4 pixels from (4x,4y) on; *changed is in its own
- * pixels.  It is made without expansion, so its boundaries lie in the middle of contours, and gaps narrower than about
- * eight pixels are closed. */
+ * all others keep their values exactly.  The preview, to be shown while full depth is made, has a quarter of the width
+ * and height, rounded up: its pixel (x,y) stands for the 4 x 4 pixels from (4x,4y) on, and *changed counts in its
+ * pixels.  It is made without expansion, so depth changes in the middle of contours, and gaps narrower than about eight
+ * pixels are closed. */
 CELD_API CeldStatus celd_session_depth_preview (CeldSession *session, const CeldHost *host, CeldPlane *quarter,
                                                 CeldRect *changed);
-CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed);
+CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth,
+                                        CeldRect *changed);
 CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *normals,
                                           CeldRect *changed);
 CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldHost *host, CeldPlane *shading,
                                           CeldRect *changed);
 
-/* Depth by the exact program, see celd_depth_exact, with the background of the settings.  A new relation takes
- * milliseconds if its ends are on scribbles or are ends of earlier relations.  The preview is to be shown while the
- * first full depth is made: it has half the width and height, rounded up, and takes about a quarter of the time. */
-CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth, CeldRect *changed);
+/* Exact depth, eq. (1) and (2), see celd_depth_exact, with the background of the settings.  A new relation takes
+ * milliseconds if its ends lie on scribbles or are ends of earlier relations.  The preview, to be shown while the first
+ * full depth is made, has half the width and height, rounded up, and takes about a quarter of the time. */
+CELD_API CeldStatus celd_session_exact (CeldSession *session, const CeldHost *host, CeldPlane *depth,
+                                        CeldRect *changed);
 CELD_API CeldStatus celd_session_exact_preview (CeldSession *session, const CeldHost *host, CeldPlane *half);
-/* Its report, NULL if the depth was not asked for since the last change; and the palette to which its labels and those
- * of its problems refer.  Borrowed like the palette below. */
+/* The report of exact depth, NULL if that is not valid; and the palette that labels in the report and in its problems
+ * refer to.  Borrowed like the palette below. */
 CELD_API const CeldExact   *celd_session_exact_report  (const CeldSession *session);
 CELD_API const CeldPalette *celd_session_exact_palette (const CeldSession *session);
 
-/* What has been found so far; borrowed, valid until the next call on the session.  celd_session_problems returns NULL
- * if there is no memory. */
+/* The palette, relations and problems of the results made so far; borrowed, valid until the next call on the session.
+ * celd_session_problems returns NULL if there is no memory. */
 CELD_API const CeldPalette   *celd_session_palette   (const CeldSession *session);
-/* With settings.suggest, once the order is made, suggestions follow the artist's relations. */
+/* If settings.suggest is not off and the order is valid, suggestions follow the artist's relations. */
 CELD_API const CeldRelations *celd_session_relations (const CeldSession *session);
 CELD_API const CeldProblems  *celd_session_problems  (CeldSession *session);
 

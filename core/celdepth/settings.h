@@ -1,8 +1,7 @@
-/* The settings: what can be chosen of every step, and a table that describes them.
+/* The settings of all steps, and a table that describes them.
  *
- * Part of celdepth.h.  The table, core/base/settings-table.c, is the home of each setting: its range, default, choices,
- * label and help are there and nowhere else.  The GEGL operations, the command and the reference (docs/settings.md) are
- * made from it.
+ * Part of celdepth.h.  The table, core/base/settings-table.c, defines the range, default, choices, label and help of
+ * each setting; the GEGL operations, the command and the reference (docs/settings.md) are made from it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -39,7 +38,7 @@ typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
 typedef enum { CELD_MESH_AUTO, CELD_MESH_SURFACE, CELD_MESH_SOLID } CeldMeshKind;
 typedef enum { CELD_PATH_SWAY, CELD_PATH_CIRCLE, CELD_PATH_TURNTABLE } CeldPath;
 
-/* Each member is explained, with its range and default, in the row of its name in core/base/settings-table.c. */
+/* docs/settings.md explains each member, with its range and default, under its name with hyphens (ink-threshold). */
 typedef struct
 {
   /* drawing */
@@ -124,17 +123,17 @@ typedef enum
   CELD_SETTING_SWITCH,          /* bool */
   CELD_SETTING_CHOICE,          /* an enumeration that counts from 0 */
   CELD_SETTING_COLOUR,          /* uint8_t[3], sRGB; as a number 0xRRGGBB */
-  CELD_SETTING_TEXT             /* const char *, in the tables of hosts only: no setting of core is a text */
+  CELD_SETTING_TEXT             /* const char *; in tables of hosts only */
 } CeldSettingType;
 
 typedef struct { const char *nick, *label; } CeldSettingChoice;
 
 typedef struct
 {
-  const char              *name;          /* as properties and options have it: "ink-threshold" */
+  const char              *name;          /* of properties and options: "ink-threshold" */
   const char              *label;         /* in dialogs */
-  const char              *help;          /* sentences, without the last full stop; the first one suffices in short */
-  const char              *theme;         /* of the first setting of a theme: its name; NULL: as the one before */
+  const char              *help;          /* sentences, the last one without full stop; the first one is a summary */
+  const char              *theme;         /* name of the theme that starts with this row; NULL: as the row before */
   CeldSettingType          type;
   size_t                   offset;        /* of the member in CeldSettings */
   double                   usual;         /* the default */
@@ -144,15 +143,15 @@ typedef struct
     double                 least, most;   /* of a slider */
     double                 step, page;    /* small and large */
     double                 gamma;         /* above 1: finer for small values; 0: even */
-    int                    digits;        /* behind the point */
+    int                    digits;        /* after the decimal point */
   } shown;
   const char              *unit;          /* "degree", "mm", "relative-coordinate"; NULL: none */
-  const char              *axis;          /* what it is measured along: "x", "y", "ccw"; NULL: nothing */
-  const char              *when;          /* "light {point}": counts while that is chosen; NULL: always */
+  const char              *axis;          /* along which it is measured: "x", "y", "ccw"; NULL: none */
+  const char              *when;          /* "light {point}": used only with that choice; NULL: always */
   const char              *choice_type;   /* name of the enumeration */
   const CeldSettingChoice *choice;        /* by the enumeration's numbers */
   size_t                   choices;
-  unsigned                 stages;        /* for the session: a bit for each stage that reads it */
+  unsigned                 stages;        /* of a session that read it, as bits */
 } CeldSettingInfo;
 
 /* All rows, by theme; *n (may be NULL) is their number. */
@@ -160,11 +159,11 @@ CELD_API const CeldSettingInfo *celd_setting_infos (size_t *n);
 /* The row of a name such as "ink-threshold"; NULL: there is none. */
 CELD_API const CeldSettingInfo *celd_setting_find (const char *name);
 
-/* The value as a number: false 0, true 1; of choices the enumeration's; of colours 0xRRGGBB.  `record` is a
- * CeldSettings, or what the offsets of a host's own rows are of. */
+/* Gets and sets a value as a number: a switch as 0 or 1, a choice as its enumeration, a colour as 0xRRGGBB.  `record`
+ * is a CeldSettings, or the record that the offsets of a host's own rows refer to. */
 CELD_API double celd_setting_get (const CeldSettingInfo *info, const void *record);
 CELD_API void   celd_setting_set (const CeldSettingInfo *info, double value, void *record);
-/* Is this value of the setting within its range?  NaN is not. */
+/* Whether the value is within the range of the setting; NaN is not. */
 CELD_API bool   celd_setting_allows (const CeldSettingInfo *info, double value);
 
 #ifdef __cplusplus

@@ -14,25 +14,25 @@
 extern "C" {
 #endif
 
-/* Computes luma, and alpha if it is not NULL, of n pixels R'G'B'A of sRGB in [0,1].  All hosts use this function, so
- * that they all read the same ink. */
+/* Computes luma (Rec. 709 weights), and alpha if it is not NULL, of n pixels R'G'B'A of sRGB in [0,1].  Hosts should
+ * use this function, so that all of them read the same ink. */
 CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
 
-/* Line art of a drawing: composited on paper, with its polarity found, and its contrast normalised against the paper
- * around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and may not alias
- * it. */
+/* Makes the ink of a drawing: composites it on paper, finds its polarity (with CELD_INK_AUTO), and normalises contrast
+ * by the paper around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and
+ * must not alias it. */
 CELD_API CeldStatus celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, CeldPlane *ink);
 
-/* Virtual contours (section 4): red strokes become ink, blue strokes ink for segmentation only, green strokes paper;
- * for `purpose`.  Works on the drawing before celd_ink, keeps its polarity and alpha; `out` may alias the drawing.
- * Where the drawing has no alpha, out->alpha is not touched. */
+/* Draws virtual contours (section 4) into a drawing, before celd_ink: red strokes become ink, blue strokes ink for
+ * segmentation alone, green strokes paper.  Polarity and alpha stay; without alpha in the drawing out->alpha is not
+ * changed.  `out` may alias the drawing. */
 CELD_API CeldStatus celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose,
                                         CeldInkMode mode, const CeldHost *host, CeldDrawing *out);
 
-/* Scribbles as an artist paints them -> seed labels (0 where nothing is painted) and the palette of their colours,
- * origin CELD_FROM_SCRIBBLE, by falling painted area.  Pixels with alpha below one half are not painted; nor is the
- * most frequent colour in a picture without alpha (unless settings->flats).  Mixed colours at the edges of strokes do
- * not make labels.  A picture without paint gives CELD_OK and an empty palette. */
+/* Reads painted scribbles: seed labels (0 where nothing is painted), and the palette of their colours, of origin
+ * CELD_FROM_SCRIBBLE, by decreasing painted area.  Pixels with alpha below one half count as not painted, and in a
+ * picture without alpha those of the most frequent colour (unless settings->flats).  Mixed colours at the edges of
+ * strokes make no labels.  A picture without paint gives CELD_OK and an empty palette. */
 CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host,
                                          CeldLabels *seeds, CeldPalette *palette);
 
@@ -44,7 +44,8 @@ CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relat
  * appended; errors as above. */
 CELD_API CeldStatus celd_arrow_path_parse (const char *path, CeldRelations *relations, CeldTextError *error);
 
-/* Painted arrows: each connected stroke becomes one relation, appended; unclear ones become problems. */
+/* Reads painted arrows (section 3.1): appends a relation for each connected stroke, and a problem for each whose
+ * direction is unclear. */
 CELD_API CeldStatus celd_arrows_read (const CeldPaint *arrows, CeldArrowStyle style, const CeldHost *host,
                                       CeldRelations *relations, CeldProblems *problems);
 
@@ -57,7 +58,7 @@ CELD_API CeldStatus celd_segment (const CeldPlane *ink, const CeldLabels *seeds,
                                   const CeldSettings *settings, const CeldHost *host,
                                   CeldLabels *labels, CeldPalette *palette, CeldProblems *problems);
 
-/* Draws the closures over whatever is in the picture: an opaque line about as wide as `width`, antialiased, in red. */
+/* Draws closures over what the picture contains, as opaque, antialiased red lines about `width` pixels wide. */
 CELD_API void celd_closures_paint (const CeldClosures *closures, double width, CeldPaint *paint);
 
 /* Gives each connected region of a label a label of its own, in place (same_colour = separate); the largest region
@@ -74,93 +75,94 @@ CELD_API CeldStatus celd_labels_read (const CeldPaint *paint, CeldLabels *labels
 CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPlane *ink, const CeldSettings *settings,
                                           CeldPalette *palette);
 
-/* Which of two regions that touch is in front, as far as the drawing tells: one relation a pair, appended, from a point
- * inside the nearer to one inside the farther, source CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 =
- * as good as a guess, 1/2 = three times as likely as not.  Suggestions do not contradict each other: the weakest of a
- * cycle is not made.  `palette` has the areas and the background of the labels; ink may be NULL. */
+/* Suggests which of two touching regions is in front, from T-junctions and other cues of the drawing.  Appends at most
+ * one relation for a pair, from a point inside the nearer region to one inside the farther; its source is
+ * CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 = a guess, 1/2 = three times as likely as not.
+ * Suggestions do not contradict each other: the weakest of a cycle is left out.  `palette` has the areas and the
+ * background of the labels; ink may be NULL. */
 CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                   const CeldHost *host, CeldRelations *suggested);
 
-/* Suggestions from a depth picture, for example of a depth estimator, in any unit, larger = nearer; NaN is unknown.
- * The confidence compares the difference of two regions' medians with the spread inside them. */
+/* As celd_suggest, from a depth picture, for example of a depth estimator, in any unit, larger = nearer; NaN is
+ * unknown.  The confidence compares the difference between the medians of two regions with the spread within them. */
 CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                                              const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested);
 
-/* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
- * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
- * artist's relations do not decide, directly or by way of others.  Suggestions get weights below all of the artist's.
- * Replaces `both`, which may be `relations`. */
+/* Joins the artist's relations and suggestions: the relations, followed by those suggestions that contradict neither
+ * them (those that settings->on_cycle keeps) nor heavier suggestions; with CELD_SUGGEST_FILL_GAPS only suggestions
+ * between regions whose order does not follow from the relations.  Suggestions get weights below those of all
+ * relations.  Replaces `both`, which may be `relations`. */
 CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
                                            const CeldRelations *relations, const CeldRelations *suggested,
                                            const CeldSettings *settings, const CeldPlane *ink, const CeldHost *host,
                                            CeldRelations *both);
 
-/* Paints relations between points as arrows of the default style over whatever is in the picture, lines about as wide
- * as `width`: a layer that celd_arrows_read reads.  Green ones weigh 1, orange ones little.  Relations that name
- * colours, and equalities, are no arrows; of arrows that would touch only the heaviest is painted. */
-CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double width,
-                                          CeldPaint *paint);
+/* Paints relations between points as arrows of the default style over what the picture contains, with lines about
+ * `width` pixels wide: a layer that celd_arrows_read reads.  The hue goes from orange (weight 0) to green (weight 1).
+ * Equalities and relations that name colours are left out; of arrows that would touch only the heaviest is painted. */
+CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double width, CeldPaint *paint);
 
-/* Topological sort (appendix, [Kah62]) with longest-path levels over the regions that the relations' ends lie in.
- * `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.  Relations that
- * contradict are reported as cycles and left out by settings->on_cycle, the rest is ordered.  No other member of the
- * settings counts; NULL: the defaults.  Where gaps are whole numbers, so are heights, which are levels then; else
- * levels number the heights that there are. */
+/* Depth order: a topological sort (appendix, [Kah62]) of the regions that the relations' ends lie in, with levels by
+ * longest paths.  `ink` may be NULL; with it a point on ink means the nearest region within one stroke width.
+ * Contradictions are reported as cycles; settings->on_cycle, the only setting that counts (NULL: the default), says
+ * which relations are left out.  If all gaps are whole numbers, levels are the heights; otherwise they number the
+ * heights that occur. */
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                                 const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
                                 CeldOrder *order, CeldProblems *problems);
 
-/* Levels in the encoding of the settings: of a height in gaps of one relation, where `levels` is one more than the
- * largest height; and of a level of an order. */
+/* A level in the encoding of the settings: of a height in gaps of one relation, with `levels` one more than the largest
+ * height; and of a level of an order. */
 CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
 CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
 
-/* Whose each pixel is, with its ink: paper is its label's, ink goes to the region that drew it.  Labels are 1 .. n,
- * level[k - 1] is that of label k.  `corrections` (NULL, or 0 where there is none) are strokes over ink: the piece of
- * line below each goes to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of its own pen,
- * over what lies behind it; with CELD_EXPANSION_THICKNESS it is celd_expand.  `owner` may alias `labels`. */
+/* Contour ownership: paper belongs to its label, and ink to the region whose outline it is.  Labels are 1 .. n,
+ * level[k - 1] is the level of label k.  `corrections` (may be NULL; 0 where there is none) are strokes over ink, each
+ * of which gives the piece of line below it to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of
+ * the width of its pen, over what lies behind it; CELD_EXPANSION_THICKNESS is celd_expand.  The caller provides the
+ * pictures of `ownership`; its owner may alias `labels`. */
 CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
                               const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                               CeldOwnership *ownership);
 
-/* Strokes in the colours of regions, as corrections: opaque pixels are the label of their colour, the first of several;
- * 0 where nothing is painted, or a colour that no region has. */
+/* Reads corrections: opaque pixels get the label of their colour, the first if several have it; all others, and pixels
+ * of a colour that no region has, get 0. */
 CELD_API CeldStatus celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels);
 
-/* celd_own for levels before expansion, of any encoding, larger = nearer; not a number reads as 0.  Every level, or
- * with `regions` (may be NULL) every region of a level, is a label.  `corrections` (may be NULL) are labels of
- * `regions`; of a region with several levels they mean the level that has most of it.  CELD_BAD_VALUE for corrections
- * without regions.
- * `expanded` is the level that has more of each pixel and may alias `levels`. */
+/* Depth expansion by celd_own, from levels before expansion in any encoding, larger = nearer; NaN reads as 0.  Every
+ * level, or with `regions` (may be NULL) every region of one level, is a label.  `corrections` (may be NULL) are labels
+ * of `regions`; in a region with several levels they mean the most frequent one.  CELD_BAD_VALUE for corrections
+ * without regions.  `expanded` gets the level that covers more of each pixel, and may alias `levels`. */
 CELD_API CeldStatus celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                         const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                         CeldPlane *expanded);
 
-/* The same as a matte: of each pixel's owner its level, its region (`region` may be NULL; 0 without regions) and how
- * much of the pixel it covers, above 0 (CeldOwnership).  `level` may alias `levels`, `region` may alias `regions`. */
+/* As celd_expand_levels, with the result as a matte: of each pixel's owner its level, its region (`region` may be NULL;
+ * 0 without regions) and its coverage of the pixel, (0,1].  `level` may alias `levels`, `region` may alias
+ * `regions`. */
 CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                           const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                           CeldPlane *level, CeldLabels *region, CeldPlane *coverage);
 
-/* Depth expansion by the thickness of contours (section 3.3).  `ranks` may have any values, larger = nearer; `expanded`
- * holds the same values and may alias `ranks`. */
-CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host,
+/* Depth expansion by the thickness of contours (section 3.3).  Levels may be any numbers, larger = nearer; `expanded`
+ * may alias `levels`. */
+CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *levels, const CeldHost *host,
                                  CeldLabels *expanded);
 
-/* Cuts the art, the drawing itself or colours for it, into one layer for each label that has pixels, in the order of
- * level[label - 1], labels being 1 .. n; of equal levels later labels are in front.  At antialiased edges both layers
- * get a share of the pixel, in colours of their own.
- * `art` is in [0,1] and in whatever the layers are to be composited in, encoded colours or linear light.  All numbers
- * are such as `store` has; in 8 bits the composite is right to one step.
- * `complete` adds what nearer layers hide: outlines run on smoothly, with the region's own line along them, holes are
- * closed, and of the label `background` (0: none) everything is there; never where it could be seen.
- * `ink` is the drawing's, for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+/* Cuts art (the drawing, or a coloured version of it) into one layer for each label that has pixels, in the order of
+ * level[label - 1], labels being 1 .. n; of equal levels later labels are in front.  An antialiased pixel of two labels
+ * goes to both layers, unmixed into two colours.
+ * `art` is in [0,1] and in the space in which the layers will be composited, encoded colours or linear light.  Colours
+ * are rounded to what `store` can hold; in 8 bits the composite is exact to one step.
+ * `complete` adds what nearer layers hide: outlines continue smoothly, with the region's own line along them, holes are
+ * closed, and the label `background` (0: none) fills the picture.  None of it is visible in the composite.
+ * `ink` is the ink for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
 CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *ownership, const uint32_t *level,
                                      size_t n, const CeldColours *art, uint32_t background, CeldStore store,
                                      bool complete, const CeldHost *host, CeldLayers **layers);
 
-/* The same from levels before expansion, with the labels of celd_expand_levels: a layer's is its number from the
- * farthest, from 1.  The background is the farthest label if it has most of the frame. */
+/* Cuts layers from levels before expansion, with the labels of celd_expand_levels.  The label of a layer is its number,
+ * 1 for the farthest.  The farthest label is the background if it covers most of the frame. */
 CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                            const CeldLabels *corrections, const CeldColours *art,
                                            CeldExpansion method, CeldStore store, bool complete, const CeldHost *host,
@@ -172,112 +174,115 @@ CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane
  * so it is smooth across virtual contours.  Components without an anchor keep their level.  A result that misses the
  * tolerance is delivered all the same, and *solve (may be NULL) says so.  `depth` may alias `levels`. */
 CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
-                                 const CeldSettings *settings, const CeldHost *host, CeldPlane *depth, CeldSolve *solve);
+                                 const CeldSettings *settings, const CeldHost *host, CeldPlane *depth,
+                                 CeldSolve *solve);
 
-/* The exact program, eq. (1) and (2): of all depths that satisfy the relations the one of least energy sum w_pq (d_p -
- * d_q)^2 with w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)).  I_p - I_q is the contrast in the 3 x 3 pixels
- * around p or q, whichever is less, sigma is contrast times the mean of (I_p - I_q)^2; `ink` is that for depth.  All
- * pixels of a scribble have one depth (with same_colour = separate those of each of its strokes).  The end of a
- * relation off every scribble is a node of one pixel, so depth varies within regions if relations form a cycle through
- * different points of them.  Equalities are exact, and gaps may be fractions.  A cycle between the same nodes is
- * reported, and its lightest relation, of equal ones the latest, left out.  Scribbles that the palette marks as
- * background lie behind all others unless relations say otherwise.  `depth` has the encoding of the settings; with
- * CELD_ENCODING_RANK in gaps of one relation, least 0.  `problems` are appended, *exact is replaced; these two and the
- * relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and relations. */
+/* Exact depth, eq. (1) and (2): of all depths that satisfy the relations the one of least energy
+ *   sum w_pq (d_p - d_q)^2   with   w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)),
+ * where I_p - I_q is the contrast within the 3 x 3 pixels around p or around q, whichever is smaller, and sigma is
+ * settings->contrast times the mean of (I_p - I_q)^2.  `ink` is the ink for depth.
+ * All pixels of a scribble (with same_colour = separate of each of its strokes) have one depth.  A relation's end off
+ * every scribble is a node of one pixel, so depth varies within a region if relations form a cycle through different
+ * points of it.  Equalities are exact, and gaps may be fractions.  Of a cycle between the same nodes the lightest
+ * relation, of equal ones the latest, is left out and reported.  Scribbles that the palette marks as background lie
+ * behind all others unless relations say otherwise.
+ * `depth` has the encoding of the settings; CELD_ENCODING_RANK gives gaps of one relation, from 0.  `problems` are
+ * appended, *exact is replaced; these two and the relations may be NULL.  CELD_NOTHING_TO_GO_BY without seeds and
+ * relations. */
 CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
                                       const CeldRelations *relations, const CeldSettings *settings,
                                       const CeldHost *host, CeldPlane *depth, CeldExact *exact,
                                       CeldProblems *problems);
 
-/* Lumo normals [Joh02] (section 5), with depth discontinuities: there only the nearer side bends; a region without
- * an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
+/* Normals by Lumo [Joh02] (section 5), extended by depth: along a discontinuity only the nearer side bends, and a
+ * region without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldHost *host, CeldVectors *normals);
 
-/* celd_normals with additional input, NULL: none.  Strokes inside a region bend the surface as settings->quilt says,
- * with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take precedence: white bends
- * that side, black does not, grey bends both. */
+/* celd_normals with further input, which may be NULL.  Strokes inside a region bend the surface as settings->quilt
+ * says, with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take precedence: white
+ * bends that side, black does not, grey bends both. */
 CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                          const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
                                          CeldVectors *normals);
 
-/* Light on normals by the settings, in linear light: art is multiplied by `tone`, and then blended towards white by the
- * `gloss` of highlights and rims, in [0,1]; pixels that are `ink` (may be NULL) have no gloss.  `matcap` is the picture
- * of a lit ball that fills it, of any size, and is needed by CELD_MODEL_MATCAP alone, which is CELD_BAD_VALUE
- * without. */
+/* Lights normals as the settings say, in linear light: `tone` is a factor for art, and `gloss`, of highlights and rims,
+ * blends the product towards white, in [0,1].  Ink (`ink` may be NULL) has no gloss.  `matcap`, used by
+ * CELD_MODEL_MATCAP alone, is a picture of any size that a lit ball fills; CELD_BAD_VALUE if it is missing. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
                                 const CeldSettings *settings, const CeldHost *host, CeldColours *tone,
                                 CeldPlane *gloss);
-/* Applies tone and gloss to art in place; and makes the gloss a white layer to put over art multiplied by the tone. */
+/* Applies tone and gloss to art in place; and makes a white layer of the gloss, to put over art multiplied by the
+ * tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
 CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
 
-/* Shading: that light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
+/* Shading: the light of celd_light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
-/* Fills in colours of transparent pixels, so that a game engine which blends neighbouring pixels shows no seams: pixels
- * with alpha below one half get the colour of the nearest other pixel, up to `reach` pixels away; beyond that, fully
+/* Replaces colours below transparent pixels, so that a game engine which blends neighbouring pixels shows no seams:
+ * pixels with alpha below one half get the colour of the nearest other pixel within `radius` pixels; beyond it fully
  * transparent ones get `blank`.  Alpha stays. */
-CELD_API CeldStatus celd_pad_colours (int reach, const float blank[3], const CeldHost *host, CeldColours *picture);
+CELD_API CeldStatus celd_pad_colours (int radius, const float blank[3], const CeldHost *host, CeldColours *picture);
 
-/* Depth enhancement (section 5, Figures 1d and 5c): the relative change of brightness in linear light, from -1 (black)
- * over 0 (none) to 1 (twice as bright).  `levels` are expanded; the stack distinguishes at most 256 of them.  NaN reads
- * as 0. */
+/* Depth enhancement (section 5, [LCD06], Figures 1d and 5c): a relative change of brightness in linear light, from -1
+ * (black) over 0 (none) to 1 (twice as bright).  `levels` are expanded; NaN reads as 0.  Shadows of the stack
+ * distinguish at most 256 levels. */
 CELD_API CeldStatus celd_enhance (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                   CeldPlane *change);
-/* Ambient occlusion: the fraction of light that the stack of shadows leaves, from 1 - shadow_strength to 1, always
- * without an offset. */
+/* Ambient occlusion: the fraction of light that the stack of shadows leaves, without its offset, from
+ * 1 - shadow_strength to 1. */
 CELD_API CeldStatus celd_occlusion (const CeldPlane *levels, const CeldSettings *settings, const CeldHost *host,
                                     CeldPlane *occlusion);
-/* Applies such a change to art in place; makes its shadows a black layer to put over art; and applies it to a grey
- * picture of the levels, the nearest white, which shows depth while drawing (Figure 5c).  All in linear light. */
+/* Applies a change of brightness to art in place; makes a black layer of its shadows, to put over art; and applies it
+ * to a grey picture of the levels, the nearest white, which shows depth while drawing (Figure 5c).  All in linear
+ * light. */
 CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *colours);
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
 
-/* A drawing that can be viewed from other places (section 5, Figure 1g).  It keeps nothing that it was made from. */
+/* A drawing that can be viewed from other places (section 5, Figure 1g).  It has copies of what it was made from. */
 typedef struct CeldScene CeldScene;
 
-/* A scene of layers, each of which moves by its own depth, which is interpolated where the layer is occluded.
- * Completed layers leave no holes.  `ownership` is what they were cut by.  Views have the colours that the layers
- * were cut in. */
+/* A scene of layers; each moves by its own depth, which is interpolated where the layer is occluded.  Completed layers
+ * leave no holes.  `ownership` is the one that the layers were cut by.  Views have the colour space of the layers. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
                                           const CeldPlane *depth, const CeldHost *host, CeldScene **scene);
-/* A scene of levels, expanded or not, each of which becomes a completed layer. */
+/* A scene of levels, expanded or not, each of which becomes a completed layer of `art`. */
 CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                           const CeldColours *art, CeldExpansion method, const CeldHost *host,
                                           CeldScene **scene);
-/* A scene of a depth map alone, of any origin: uncovered parts are filled from their farther side, in the colour of
- * the paper there, without its ink.  For horizontal views with at most settings->disparity. */
+/* A scene of a depth map alone, of any origin: what comes into view is filled from its farther side, with the colour of
+ * the paper there, without ink.  For horizontal views of at most settings->disparity. */
 CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
                                          const CeldSettings *settings, const CeldHost *host, CeldScene **scene);
 CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
 
-/* A place of the camera: x -1 for the left eye, 1 for the right one; y -1 as far above, 1 below; 0,0 gives the
- * drawing itself.  `squeeze` is the apparent width of the picture, (0,1]: less than 1 when it is turned. */
+/* A position of the camera: x is -1 for the left eye, 1 for the right eye; y is -1 as far above, 1 below; 0,0 shows the
+ * drawing itself.  `squeeze` is the apparent width of the picture, (0,1], below 1 when it is turned. */
 typedef struct { double x, y, squeeze; } CeldCamera;
 CELD_API CeldCamera celd_camera_eye (double eye);
 /* The camera for `frame` of `frames` on a closed path. */
 CELD_API CeldCamera celd_camera_on_path (CeldPath path, int frame, int frames);
 
-/* Renders a view: a point of depth d moves away from the camera by disparity / 2 of the width, times its depth in
- * front of the screen. */
+/* Renders a view: a point moves away from the camera by disparity / 2 of the width, times its depth in front of the
+ * screen as a fraction of the range. */
 CELD_API CeldStatus celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *settings,
                                      const CeldHost *host, CeldColours *view);
 
-/* Limits of comfort: disparity in front of and behind the screen, as fractions of the width; is something in front
- * of the screen cut off by the left or right side of the frame, which the eyes cannot fuse; and would the eyes have
- * to diverge on a screen of settings->screen_width? */
+/* Limits of comfort: the disparity in front of and behind the screen, as fractions of the width; whether the left or
+ * right side of the frame cuts off something in front of the screen, which the eyes cannot fuse; and whether the eyes
+ * would have to diverge on a screen of settings->screen_width. */
 typedef struct { double front, behind; bool cut_left, cut_right, diverges; } CeldComfort;
 #define CELD_STEREO_COMFORT (1.0 / 30) /* fraction of the width: more disparity from front to back strains the eyes */
 #define CELD_EYE_DISTANCE   65.0       /* mm: with more behind the screen the eyes diverge */
 CELD_API CeldStatus celd_stereo_comfort (const CeldPlane *depth, const CeldSettings *settings, CeldComfort *comfort);
-/* Describes what strains the eyes and how to avoid it, in one English sentence a line, cut to `size` bytes; "" if
+/* Describes what strains the eyes and how to avoid it, one English sentence on each line, cut to `size` bytes; "" if
  * nothing does. */
 CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldSettings *settings, char *text,
                                          size_t size);
-/* Draws a floating window: black bars at the left of the left view and at the right of the right one, just wide
- * enough that the frame is in front of what it cuts off. */
+/* Draws a floating window: black bars at the left of the left view and at the right of the right view, as narrow as
+ * they can be for the frame to appear in front of what it cuts off. */
 CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,
                                         CeldColours *right);
 /* Packs two views into one picture of the size that celd_stereo_size computes; anaglyphs are for glasses with red on
@@ -286,7 +291,7 @@ CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height
 CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
                                       CeldColours *joined);
 
-/* A surface over the picture, in pixels; larger = nearer, depth 0 has height 0. */
+/* A surface over the picture: heights in pixels, larger = nearer; depth 0 has height 0. */
 #define CELD_CUT_RIGHT  1
 #define CELD_CUT_BELOW  2
 #define CELD_NEAR_RIGHT 4
@@ -295,14 +300,14 @@ typedef struct
 {
   int      width, height;
   float   *z;                   /* of each pixel */
-  float   *outline;             /* of each pixel; height of the outline if the surface ends there in front of
-                                 * something */
-  uint8_t *cut;                 /* of each pixel: bits for the neighbours towards which the surface is cut, and for
-                                 * those that the pixel is in front of */
+  float   *outline;             /* of each pixel; the height of the outline where the surface ends in front of
+                                 * another one */
+  uint8_t *cut;                 /* of each pixel, bits: CELD_CUT towards neighbours that the surface does not continue
+                                 * to, CELD_NEAR towards those that it is in front of */
 } CeldRelief;
 
-/* Makes a relief: each part is inflated as the bulge says and placed at its depth, and moved forward where it would
- * intersect what is behind it.  The surface is cut only at depth discontinuities.  `depth` is smooth depth; NULL:
+/* Makes a relief: each region is inflated by settings->bulge, placed at its depth, and moved forward where it would
+ * intersect what is behind it.  The surface is cut at depth discontinuities only.  `depth` is smooth depth; NULL:
  * computed by celd_smooth.  Replaces `relief`. */
 CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                  const CeldSettings *settings, const CeldHost *host, CeldRelief *relief);
@@ -319,8 +324,8 @@ typedef struct
   double    error;              /* largest distance to the surface, in pixels */
 } CeldReliefMesh;
 
-/* Makes a mesh.  CELD_BAD_VALUE also if settings->most_vertices is too small for the cuts alone, or for heights that are
- * not finite or beyond CELD_MOST_HEIGHT; those of celd_relief are not.  Replaces `mesh`. */
+/* Makes a mesh.  CELD_BAD_VALUE also if settings->most_vertices is too small for the cuts alone, or if heights are not
+ * finite or beyond CELD_MOST_HEIGHT, as those of celd_relief never are.  Replaces `mesh`. */
 #define CELD_MOST_HEIGHT 1e12f /* pixels */
 CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host,
                                       CeldReliefMesh *mesh);

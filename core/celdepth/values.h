@@ -21,7 +21,7 @@ extern "C" {
 #define CELD_API
 #endif
 
-#define CELD_MAX_SIDE 20000 /* squared distances stay exact in int32_t up to here */
+#define CELD_MAX_SIDE 20000 /* pixels; squared distances within such a picture fit int32_t */
 
 /* ------------------------------------------------------------------ status, progress, threads */
 
@@ -36,14 +36,14 @@ typedef enum
   CELD_NOTHING_TO_GO_BY   /* there is neither a scribble nor an arrow */
 } CeldStatus;
 
-/* One plain English sentence for a status; static storage. */
+/* An English sentence for a status, in static storage. */
 CELD_API const char *celd_status_text (CeldStatus status);
 
 /* What the calling program lends to a long call: progress with a way to cancel, and threads.  Without a CeldHost
  * (NULL), or with NULL members, there are no reports, no cancel, and one thread.  Results do not depend on `each`. */
 typedef struct
 {
-  /* Is told how much is done, in [0,1], never falling; returns false to cancel. */
+  /* Receives the fraction that is done, in [0,1], which never decreases; returns false to cancel. */
   bool (*progress) (void *data, double done);
   /* Calls body (body_data, i) for i = 0 .. n-1, in any order and on any threads; returns when all calls have. */
   void (*each) (void *data, int n, void (*body) (void *body_data, int i), void *body_data);
@@ -56,7 +56,7 @@ typedef struct
  * counts pixels and is at least the width. */
 
 typedef struct { int width, height; size_t stride; float    *data; } CeldPlane;   /* a number per pixel */
-typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* a label or rank per pixel */
+typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;  /* a label or level per pixel */
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* a byte per pixel, 0 = no */
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A of sRGB, straight alpha */
 typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x, y, z */
