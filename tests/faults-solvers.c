@@ -58,7 +58,7 @@ quadratic_step (const CeldHost *host, Results *r)
   const CeldInequality one[3] = { { 0, 1, 1 }, { 1, 2, 1 }, { 3, 0, 1 } };
   double               u[4] = { 0 };
   CeldCertificate      certificate;
-  CeldStatus           status = celd_quadratic (4, k, 3, one, u, NULL, false, &certificate);
+  CeldStatus           status = celd_quadratic (4, k, 3, one, u, NULL, &certificate);
 
   (void) host;
   for (int i = 0; status == CELD_OK && i < 4; i++)

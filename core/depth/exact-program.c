@@ -233,7 +233,7 @@ solve_program (const CeldProgram *p, Problem *q)
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < n; j++)
       q->stiffness[q->class[i] * m + q->class[j]] += p->bases.stiffness[i * n + j];
-  status = celd_quadratic (m, q->stiffness, q->n, q->inequality, q->value, NULL, false, &q->certificate);
+  status = celd_quadratic (m, q->stiffness, q->n, q->inequality, q->value, NULL, &q->certificate);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
     q->u[i] = q->value[q->class[i]];
   return status;

@@ -15,50 +15,12 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "solve/flow.h"
 #include "solve/partition.h"
 
-#define NO_PARENT   UINT32_MAX       /* the parent of a root */
-#define ORPHAN (UINT32_MAX - 1)
-
-static void
-queue_put (CeldFlowQueue *queue, uint32_t p)
-{
-  size_t last = queue->first + queue->n++;
-
-  queue->item[last < queue->room ? last : last - queue->room] = p;
-}
-
-static uint32_t
-queue_take (CeldFlowQueue *queue)
-{
-  uint32_t p = queue->item[queue->first];
-
-  queue->n--;
-  if (++queue->first == queue->room)
-    queue->first = 0;
-  return p;
-}
+#define NO_PARENT UINT32_MAX       /* the parent of a root */
+#define ORPHAN    (UINT32_MAX - 1) /* the parent of an orphan */
 
 /* ------------------------------------------------------------------ the network */
-
-static CeldStatus
-allocate (size_t n, size_t n_arcs, CeldNetwork *network)
-{
-  CeldFlowQueue *queue[3] = { &network->active[CELD_SOURCE], &network->active[CELD_SINK], &network->orphans };
-  bool           good = true;
-
-  *network = (CeldNetwork) { .n = n };
-  network->node    = celd_alloc0 (n + 1, sizeof *network->node);
-  network->arc     = celd_alloc (n_arcs, sizeof *network->arc);
-  network->reached = celd_alloc (n, sizeof *network->reached);
-  for (int i = 0; i < 3; i++)
-    {
-      *queue[i] = (CeldFlowQueue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
-      good = good && queue[i]->item;
-    }
-  return good && network->node && network->arc && network->reached ? CELD_OK : CELD_NO_MEMORY;
-}
 
 /* Counts the arcs of each node, gives them room one node behind the other, and lays them in. */
 static void
@@ -90,15 +52,24 @@ lay_out (const CeldLink *link, size_t n_links, CeldNetwork *network)
 CeldStatus
 celd_network_new (size_t n, const CeldLink *link, size_t n_links, CeldNetwork *network)
 {
-  CeldStatus status;
+  CeldFlowQueue *queue[3] = { &network->active[CELD_SOURCE], &network->active[CELD_SINK], &network->orphans };
+  bool           good = true;
 
-  *network = (CeldNetwork) { 0 };
+  *network = (CeldNetwork) { .n = n };
   if (n >= ORPHAN || n_links >= ORPHAN / 2)
     return CELD_BAD_SIZE;
-  status = allocate (n, 2 * n_links, network);
-  if (status == CELD_OK)
-    lay_out (link, n_links, network);
-  return status;
+  network->node    = celd_alloc0 (n + 1, sizeof *network->node);
+  network->arc     = celd_alloc (2 * n_links, sizeof *network->arc);
+  network->reached = celd_alloc (n, sizeof *network->reached);
+  for (int i = 0; i < 3; i++)
+    {
+      *queue[i] = (CeldFlowQueue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
+      good = good && queue[i]->item;
+    }
+  if (!good || !network->node || !network->arc || !network->reached)
+    return CELD_NO_MEMORY;
+  lay_out (link, n_links, network);
+  return CELD_OK;
 }
 
 void
@@ -123,7 +94,7 @@ activate (CeldNetwork *network, uint32_t p)
   if (node->waits[node->tree])
     return;
   node->waits[node->tree] = true;
-  queue_put (&network->active[node->tree], p);
+  celd_queue_put (&network->active[node->tree], p);
 }
 
 static void
@@ -158,7 +129,7 @@ static void
 make_orphan (CeldNetwork *network, uint32_t p)
 {
   network->node[p].parent = ORPHAN;
-  queue_put (&network->orphans, p);
+  celd_queue_put (&network->orphans, p);
 }
 
 /* ------------------------------------------------------------------ augmentation */
@@ -258,7 +229,7 @@ release (CeldNetwork *network, uint32_t p)
   for (uint32_t a = node->arc; a < node[1].arc; a++)
     {
       const CeldFlowArc *arc = &network->arc[a];
-      CeldFlowNode  *other = &network->node[arc->to];
+      CeldFlowNode      *other = &network->node[arc->to];
 
       if (other->tree != node->tree)
         continue;
@@ -281,7 +252,7 @@ adopt (CeldNetwork *network, uint32_t p)
   for (uint32_t a = node->arc; a < node[1].arc; a++)
     {
       const CeldFlowArc *arc = &network->arc[a];
-      uint32_t       distance;
+      uint32_t           distance;
 
       if (!arc->left[!node->tree] || network->node[arc->to].tree != node->tree)
         continue;
@@ -309,7 +280,7 @@ grow (CeldNetwork *network, int tree, uint32_t p)
 
   for (uint32_t a = node->arc; a < node[1].arc && node->tree == tree; a++)
     {
-      CeldFlowArc      *arc = &network->arc[a];
+      CeldFlowArc  *arc = &network->arc[a];
       CeldFlowNode *other = &network->node[arc->to];
 
       if (arc->left[tree] && other->tree == CELD_NO_TREE && other->excess)
@@ -318,7 +289,7 @@ grow (CeldNetwork *network, int tree, uint32_t p)
         {
           augment (network, tree, p, arc);
           while (network->orphans.n)
-            adopt (network, queue_take (&network->orphans));
+            adopt (network, celd_queue_take (&network->orphans));
         }
       if (!arc->left[tree] || node->tree != tree)
         continue;
@@ -342,7 +313,7 @@ grow_round (CeldNetwork *network, int tree, const CeldHost *host, size_t *steps)
 
   for (size_t n = network->active[tree].n; n && status == CELD_OK; n--)
     {
-      uint32_t p = queue_take (&network->active[tree]);
+      uint32_t p = celd_queue_take (&network->active[tree]);
 
       network->node[p].waits[tree] = false;
       if (network->node[p].tree == tree)

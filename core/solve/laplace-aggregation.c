@@ -5,7 +5,7 @@
  * either end (as in classical algebraic multigrid; Brandt, McCormick and Ruge 1984).  A weakly attached node, whose
  * edges are all weak beside those of its strongest neighbour, joins that neighbour's aggregate and no other, as soon as
  * the whole strong component of that lies in one cell.  Where cells leave too many nodes, they are aggregated in pairs
- * instead (laplace-pairwise.c).  Nodes without an edge and dominant ones (laplace-dominance.c) have no aggregate:
+ * instead (laplace-quality.c).  Nodes without an edge and dominant ones (laplace-quality.c) have no aggregate:
  * relaxation alone solves them.
  *
  * Aggregates lie within one coarse cell, so rows of cells are independent of each other and go to the host's threads.
@@ -15,26 +15,11 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/unions.h"
-#include "solve/laplace-aggregation.h"
+#include "solve/laplace-private.h"
 
 #define STRONG_EDGE 0.5f /* times the strongest edge at either end: a strong edge; chosen by the bench */
 #define FEWER       0.6  /* aggregates for each node at most, or pairs are tried; chosen by the bench */
 #define WHOLE       15   /* doublings after which any cell is the whole picture: 2^15 > CELD_MAX_SIDE */
-
-void
-celd_weighted_graph_clear (CeldWeightedGraph *g)
-{
-  celd_free (g->east);
-  celd_free (g->south);
-  celd_free (g->diagonal);
-  celd_free (g->cell);
-  celd_free (g->row_extra);
-  celd_free (g->divided);
-  celd_free (g->start);
-  celd_free (g->neighbour);
-  celd_free (g->weight);
-  *g = (CeldWeightedGraph) { 0 };
-}
 
 /* ------------------------------------------------------------------ strongest links */
 

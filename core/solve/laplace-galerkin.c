@@ -12,7 +12,24 @@
  */
 #include "base/unions.h"
 #include "base/vector.h"
-#include "solve/laplace-aggregation.h"
+#include "solve/laplace-private.h"
+
+/* ------------------------------------------------------------------ a graph */
+
+void
+celd_weighted_graph_clear (CeldWeightedGraph *g)
+{
+  celd_free (g->east);
+  celd_free (g->south);
+  celd_free (g->diagonal);
+  celd_free (g->cell);
+  celd_free (g->row_extra);
+  celd_free (g->divided);
+  celd_free (g->start);
+  celd_free (g->neighbour);
+  celd_free (g->weight);
+  *g = (CeldWeightedGraph) { 0 };
+}
 
 /* ------------------------------------------------------------------ numbers of the aggregates */
 

@@ -259,9 +259,6 @@ ROW_PASS (PixelPass, pixels_apply, apply_row)
 
 /* ------------------------------------------------------------------ the passes */
 
-#define RUN_PIXEL_PASS(pass, host, name) \
-  celd_row_pass (host, (pass)->level->height, (pass)->s->lanes == 1 ? name##_single : name##_lanes, pass)
-
 /* A pass with these coefficients of a step, or without one. */
 static PixelPass
 pass_of (CeldSolution *s, const double *alpha, const double *beta)
@@ -295,13 +292,13 @@ gather (const CeldSolution *s, int which, bool largest, double *result)
 void
 celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, bool fresh, CeldRoundMeasures *m)
 {
-  PixelPass              pass = pass_of (s, alpha, beta);
+  PixelPass         pass = pass_of (s, alpha, beta);
   CeldLevelVectors *coarse = &s->cycle.vectors[1];
   const CeldHost   *host = s->host;
 
   if (alpha)
     {
-      RUN_PIXEL_PASS (&pass, host, pixels_step);
+      RUN_PASS (&pass, host, s->lanes, pixels_step);
       gather (s, 0, true, m->low);
       gather (s, 1, true, m->high);
       for (int k = 0; k < s->lanes; k++)
@@ -310,14 +307,14 @@ celd_pixels_round (CeldSolution *s, const double *alpha, const double *beta, boo
   if (fresh)
     celd_pixels_refresh (s);
   memset (coarse->b, 0, (size_t) pass.level[1].n * (size_t) s->lanes * sizeof *coarse->b);
-  RUN_PIXEL_PASS (&pass, host, pixels_guess);
-  RUN_PIXEL_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, pixels_restrict);
+  RUN_PASS (&pass, host, s->lanes, pixels_guess);
+  RUN_PASS (&pass, celd_strips_share (pass.level) ? NULL : host, s->lanes, pixels_restrict);
   celd_kcycle_solve (&s->cycle);
-  RUN_PIXEL_PASS (&pass, host, pixels_correct);
-  RUN_PIXEL_PASS (&pass, host, pixels_relax_black);
-  RUN_PIXEL_PASS (&pass, host, pixels_relax_red);
-  RUN_PIXEL_PASS (&pass, host, pixels_rise);
-  RUN_PIXEL_PASS (&pass, host, pixels_apply);
+  RUN_PASS (&pass, host, s->lanes, pixels_correct);
+  RUN_PASS (&pass, host, s->lanes, pixels_relax_black);
+  RUN_PASS (&pass, host, s->lanes, pixels_relax_red);
+  RUN_PASS (&pass, host, s->lanes, pixels_rise);
+  RUN_PASS (&pass, host, s->lanes, pixels_apply);
   gather (s, 0, false, m->zr);
   gather (s, 1, false, m->zq);
   gather (s, 2, false, m->zt);

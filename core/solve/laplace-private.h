@@ -1,10 +1,10 @@
 /* What the files of the Laplacian solver share.  In the order of a solution:
  *
- *   laplace-system.c       boundary conditions: the free pixels as a weighted graph
- *   laplace-null-space.c   floating components
+ *   laplace-system.c       boundary conditions: the free pixels as a weighted graph; floating components
  *   laplace-direct.c       elimination: of small systems, and of the coarsest level
- *   laplace-hierarchy.c    set-up of the levels: laplace-dominance.c leaves out dominant nodes, laplace-aggregation.c
- *                          and laplace-pairwise.c aggregate the others, laplace-galerkin.c sums up the coarse matrix
+ *   laplace-hierarchy.c    set-up of the levels: laplace-quality.c leaves out dominant nodes, laplace-aggregation.c
+ *                          aggregates the others in cells, or laplace-quality.c in pairs, and laplace-galerkin.c sums up
+ *                          the coarse matrix
  *   laplace.c              conjugate gradients and when they stop
  *   laplace-pixels.c       the finest level, on the red pixels alone; laplace-residual.c its residual in double
  *   laplace-cycle.c        the K-cycle over the coarse levels; laplace-smoother.c what it does on each
@@ -48,6 +48,69 @@ typedef struct
 } CeldWeightedGraph;
 
 void celd_weighted_graph_clear (CeldWeightedGraph *graph);    /* accepts a zeroed one */
+
+/* ------------------------------------------------------------------ coarsening a graph */
+
+static inline uint32_t
+celd_grid_nodes (const CeldWeightedGraph *g)
+{
+  return (uint32_t) g->width * (uint32_t) g->height;
+}
+
+/* The coarse cell that a cell lies in. */
+static inline uint32_t
+celd_coarse_cell (const CeldWeightedGraph *fine, uint32_t cell, const CeldWeightedGraph *coarse)
+{
+  uint32_t w = (uint32_t) fine->width;
+
+  return (cell / w >> coarse->doublings) * (uint32_t) coarse->width + (cell % w >> coarse->doublings);
+}
+
+/* The nodes in a row of coarse cells: rows from .. to - 1 of cells, extra nodes extra .. extra_end - 1. */
+typedef struct { uint32_t from, to, extra, extra_end; } CeldNodeRange;
+
+static inline CeldNodeRange
+celd_nodes_of_row (const CeldWeightedGraph *fine, const CeldWeightedGraph *coarse, int row)
+{
+  uint32_t from = (uint32_t) row << coarse->doublings, to = (uint32_t) (row + 1) << coarse->doublings;
+
+  to = to < (uint32_t) fine->height ? to : (uint32_t) fine->height;
+  return (CeldNodeRange) {
+    from, to, fine->n_extra ? fine->row_extra[from] : 0, fine->n_extra ? fine->row_extra[to] : 0
+  };
+}
+
+/* Aggregation under way. */
+typedef struct
+{
+  const CeldWeightedGraph *graph;
+  CeldWeightedGraph       *coarse;
+  const CeldHost          *host;
+  float                    most;        /* weight of the strongest edge of all */
+  float                   *best;        /* of each node: the weight of its strongest edge, 0 without any */
+  uint32_t                *link;        /* the node at the other end of that; in the end the aggregate */
+  uint32_t                *parent;      /* the aggregates as sets, see base/unions.h */
+  uint8_t                 *divided;     /* does the node's strong component go on beyond its coarse cell? */
+  uint32_t                *row_most;    /* of each fine row: bits of the strongest edge's weight */
+  uint32_t                *row_count;   /* of each fine row: nodes with an edge; of each coarse row: aggregates */
+  uint8_t                 *taken;       /* of each coarse cell: does an aggregate have its number? */
+} CeldAggregation;
+
+/* laplace-quality.c: cuts the edges of nodes whose diagonal dominates these; the diagonals of the nodes at the other
+ * ends get their weights. */
+CeldStatus celd_leave_out_dominant (CeldWeightedGraph *graph, const CeldHost *host);
+
+/* laplace-quality.c: aggregates of all nodes, wherever they lie, at most `most` of them if that can be; parent as in
+ * base/unions.h. */
+CeldStatus celd_pairwise_aggregate (const CeldWeightedGraph *graph, uint32_t most, uint32_t *parent);
+
+/* laplace-galerkin.c: numbers the aggregates, a->link[i] becoming that of node i, and fills in the number of extra
+ * nodes and `divided` of the coarse graph, whose grid is known. */
+CeldStatus celd_number_aggregates (CeldAggregation *a);
+
+/* Edges and diagonals of the coarse graph, whose nodes are known. */
+CeldStatus celd_galerkin (const CeldWeightedGraph *fine, const uint32_t *coarser, const CeldHost *host,
+                          CeldWeightedGraph *coarse);
 
 /* laplace-aggregation.c: the next coarser graph.  coarser[i] is the aggregate of node i, CELD_NO_NODE for nodes without
  * an edge and for dominant ones, whose edges `fine` loses.  The caller ends both with their clear and celd_free. */
@@ -216,7 +279,7 @@ bool       celd_is_direct (const CeldWeightedGraph *pixels, bool weak); /* is el
 CeldStatus celd_direct_new (const CeldWeightedGraph *pixels, CeldLaplace *laplace);
 CeldStatus celd_direct_solve (const CeldLaplace *laplace, int lanes, const float *b, const double *b_mean, float *x);
 
-/* ------------------------------------------------------------------ laplace-null-space.c: floating components */
+/* ------------------------------------------------------------------ laplace-system.c: floating components */
 
 static inline size_t
 celd_null_space_runs (const CeldLaplace *laplace)
@@ -226,11 +289,6 @@ celd_null_space_runs (const CeldLaplace *laplace)
 
 /* Finds the floating components of more than one pixel. */
 CeldStatus celd_null_space_find (const CeldWeightedGraph *pixels, CeldLaplace *laplace);
-/* Means of v over each component, of every lane; mean has n_floating + 1 items a lane. */
-void       celd_null_space_means (const CeldLaplace *laplace, int lanes, const float *v, double *mean);
-/* v += plus - minus, the numbers of each pixel's component. */
-void       celd_null_space_shift (const CeldLaplace *laplace, int lanes, const double *plus, const double *minus,
-                                  float *v);
 
 /* ------------------------------------------------------------------ laplace-pixels.c: the finest level */
 

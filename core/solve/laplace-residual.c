@@ -130,7 +130,7 @@ deliver_row (const ResidualPass *pass, int y, const double *black, int lanes)
 CELD_INLINE void
 residual (void *data, int strip, int lanes)
 {
-  const ResidualPass          *pass = data;
+  const ResidualPass  *pass = data;
   const CeldGridLevel *level = pass->level;
   size_t               size = level->stride * (size_t) lanes;
   double              *ring = pass->s->scratch + (size_t) strip * 3 * size;
@@ -156,7 +156,7 @@ residual (void *data, int strip, int lanes)
 CELD_INLINE void
 read_strip (void *data, int strip, int lanes)
 {
-  const ResidualPass          *pass = data;
+  const ResidualPass  *pass = data;
   const CeldGridLevel *level = pass->level;
   size_t               many = (size_t) lanes, w = (size_t) level->width;
   int                  from = strip * CELD_STRIP, end = from + CELD_STRIP;
@@ -173,29 +173,8 @@ read_strip (void *data, int strip, int lanes)
     }
 }
 
-CELD_CLONES static void
-read_strip_single (void *data, int strip)
-{
-  read_strip (data, strip, 1);
-}
-
-CELD_CLONES static void
-read_strip_lanes (void *data, int strip)
-{
-  read_strip (data, strip, CELD_LANES);
-}
-
-CELD_CLONES static void
-residual_single (void *data, int strip)
-{
-  residual (data, strip, 1);
-}
-
-CELD_CLONES static void
-residual_lanes (void *data, int strip)
-{
-  residual (data, strip, CELD_LANES);
-}
+STRIP_PASS (pixels_read, read_strip)
+STRIP_PASS (pixels_residual, residual)
 
 static inline bool
 has_edge (const CeldGridLevel *level, size_t i)
@@ -224,7 +203,7 @@ static void
 settle_strip (void *data, int strip)
 {
   const ResidualPass *pass = data;
-  int         from = strip * CELD_STRIP, end = from + CELD_STRIP;
+  int                 from = strip * CELD_STRIP, end = from + CELD_STRIP;
 
   for (int y = from; y < end && y < pass->level->height; y++)
     settle_row (pass, y);
@@ -232,16 +211,12 @@ settle_strip (void *data, int strip)
 
 /* ------------------------------------------------------------------ the passes */
 
-static void
-run (ResidualPass *pass, void (*single) (void *pass, int strip), void (*lanes) (void *pass, int strip))
-{
-  celd_row_pass (pass->s->host, pass->level->height, pass->s->lanes == 1 ? single : lanes, pass);
-}
-
 void
 celd_pixels_refresh (CeldSolution *s)
 {
-  run (&(ResidualPass) { .s = s, .level = &s->laplace->hierarchy.level[0] }, residual_single, residual_lanes);
+  ResidualPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
+
+  RUN_PASS (&pass, s->host, s->lanes, pixels_residual);
 }
 
 void
@@ -249,9 +224,9 @@ celd_pixels_begin (CeldSolution *s)
 {
   ResidualPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0] };
 
-  run (&pass, read_strip_single, read_strip_lanes);
-  run (&pass, residual_single, residual_lanes);
-  run (&pass, settle_strip, settle_strip);
+  RUN_PASS (&pass, s->host, s->lanes, pixels_read);
+  RUN_PASS (&pass, s->host, s->lanes, pixels_residual);
+  celd_row_pass (s->host, pass.level->height, settle_strip, &pass);
 }
 
 void
@@ -259,5 +234,5 @@ celd_pixels_deliver (CeldSolution *s)
 {
   ResidualPass pass = { .s = s, .level = &s->laplace->hierarchy.level[0], .deliver = true };
 
-  run (&pass, residual_single, residual_lanes);
+  RUN_PASS (&pass, s->host, s->lanes, pixels_residual);
 }

@@ -70,8 +70,13 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
  * A pass takes every row once; its rows are independent of each other, so that strips of them go to the host's threads
  * and none can change the result. */
 
-/* Defines name_single and name_lanes, which take the rows of a strip of a Pass: row (pass, y, lanes).  Names are unique
- * in core, since clang makes the function that chooses between clones global. */
+/* Defines name_single and name_lanes, which process a strip: body (data, strip, lanes).  Names are unique in core, since
+ * clang makes the function that chooses between clones global. */
+#define STRIP_PASS(name, body) \
+  CELD_CLONES static void name##_single (void *data, int strip) { body (data, strip, 1); } \
+  CELD_CLONES static void name##_lanes (void *data, int strip) { body (data, strip, CELD_LANES); }
+
+/* Does so by the rows of a strip of a Pass: row (pass, y, lanes). */
 #define ROW_PASS(Pass, name, row) \
   CELD_INLINE void name (void *data, int strip, int lanes) \
   { \
@@ -81,8 +86,11 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
     for (int y = from; y < to; y++) \
       row (p, y, lanes); \
   } \
-  CELD_CLONES static void name##_single (void *data, int strip) { name (data, strip, 1); } \
-  CELD_CLONES static void name##_lanes (void *data, int strip) { name (data, strip, CELD_LANES); }
+  STRIP_PASS (name, name)
+
+/* Runs a pass for all strips. */
+#define RUN_PASS(pass, host, lanes, name) \
+  celd_row_pass (host, (pass)->level->height, (lanes) == 1 ? name##_single : name##_lanes, pass)
 
 /* Runs the body of a pass for all strips. */
 static inline void

@@ -319,9 +319,6 @@ BOTH_LANES (extra_dot, (const CeldGridLevel *level, const float *a, const float 
 
 /* ------------------------------------------------------------------ the visit of a cycle */
 
-#define RUN_SMOOTHER_PASS(p, host, name) \
-  celd_row_pass (host, (p)->level->height, (p)->lanes == 1 ? name##_single : name##_lanes, p)
-
 /* Adds up what a pass has summed of each row. */
 static void
 sum_rows (const CeldSmootherPass *p, int which, double *sum)
@@ -337,19 +334,19 @@ void
 celd_smooth_down (CeldSmootherPass *p)
 {
   memset (p->next->b, 0, (size_t) p->level[1].n * (size_t) p->lanes * sizeof *p->next->b);
-  RUN_SMOOTHER_PASS (p, p->host, smooth_guess);
-  RUN_SMOOTHER_PASS (p, celd_strips_share (p->level) ? NULL : p->host, smooth_restrict);
+  RUN_PASS (p, p->host, p->lanes, smooth_guess);
+  RUN_PASS (p, celd_strips_share (p->level) ? NULL : p->host, p->lanes, smooth_restrict);
   smooth_extra_down (p, p->lanes);
 }
 
 void
 celd_smooth_up (CeldSmootherPass *p, float *image, double *xb, double *xi, double *oi)
 {
-  RUN_SMOOTHER_PASS (p, p->host, smooth_prolong);
+  RUN_PASS (p, p->host, p->lanes, smooth_prolong);
   smooth_extra_up (p, p->lanes);
-  RUN_SMOOTHER_PASS (p, p->host, smooth_relax_black);
-  RUN_SMOOTHER_PASS (p, p->host, smooth_relax_red);
-  RUN_SMOOTHER_PASS (p, p->host, smooth_apply);
+  RUN_PASS (p, p->host, p->lanes, smooth_relax_black);
+  RUN_PASS (p, p->host, p->lanes, smooth_relax_red);
+  RUN_PASS (p, p->host, p->lanes, smooth_apply);
   sum_rows (p, 0, xb);
   sum_rows (p, 1, xi);
   sum_rows (p, 2, oi);
@@ -365,7 +362,7 @@ celd_smooth_up (CeldSmootherPass *p, float *image, double *xb, double *xi, doubl
 void
 celd_smooth_reduce (CeldSmootherPass *p, double *before, double *after)
 {
-  RUN_SMOOTHER_PASS (p, p->host, smooth_reduce);
+  RUN_PASS (p, p->host, p->lanes, smooth_reduce);
   sum_rows (p, 0, before);
   sum_rows (p, 1, after);
   smooth_extra_dot (p->level, p->b, p->b, before, p->lanes);

@@ -19,10 +19,10 @@
 
 #include <math.h>
 
-#define MAX_CG_ROUNDS  200        /* then the error is reported as it is; chosen */
-#define RENEW        6          /* rounds after which the residual is computed anew in double; chosen by the bench */
-#define RENEW_WEAK   3          /* the same where weights differ much: rounding errors in it grow with the condition */
-#define SAFETY       1.7        /* factor of the estimated error, as the cycle is not linear: it was seen 1.6 short */
+#define MAX_CG_ROUNDS 200 /* then the error is reported as it is; chosen */
+#define RENEW         6   /* rounds after which the residual is computed anew in double; chosen by the bench */
+#define RENEW_WEAK    3   /* RENEW where weights differ much: rounding errors in the residual grow with the condition */
+#define SAFETY        1.7 /* factor of the estimated error, as the cycle is not linear: it was seen 1.6 short */
 
 /* ------------------------------------------------------------------ set-up */
 
@@ -152,8 +152,7 @@ iterate (CeldSolution *s, double tolerance, Lane *lane, CeldSolve *solve)
 {
   double            done = 0, first = 0, alpha[CELD_LANES], beta[CELD_LANES];
   CeldRoundMeasures m;
-
-  int         renew = s->laplace->weak ? RENEW_WEAK : RENEW;
+  int               renew = s->laplace->weak ? RENEW_WEAK : RENEW;
 
   celd_pixels_begin (s);
   for (int k = 0; k < s->lanes; k++)
@@ -207,7 +206,40 @@ converge (const CeldLaplace *l, int lanes, const float *b, const double *b_mean,
 
 /* ------------------------------------------------------------------ solutions */
 
-/* One solution, or CELD_LANES of them. */
+/* Means of v over each floating component, of every lane; mean has n_floating + 1 items a lane. */
+static void
+null_space_means (const CeldLaplace *l, int lanes, const float *v, double *mean)
+{
+  size_t many = (size_t) lanes;
+
+  memset (mean, 0, ((size_t) l->n_floating + 1) * many * sizeof *mean);
+  for (size_t f = 0; f < celd_null_space_runs (l); f++)
+    for (size_t i = l->floating[f].first; i < l->floating[f].end; i++)
+      for (size_t k = 0; k < many; k++)
+        mean[l->floating[f].component * many + k] += (double) v[i * many + k];
+  for (size_t c = 1; c <= l->n_floating; c++)
+    for (size_t k = 0; k < many; k++)
+      mean[c * many + k] /= (double) l->floating_size[c];
+}
+
+/* v += plus - minus, the numbers of each pixel's floating component. */
+static void
+null_space_shift (const CeldLaplace *l, int lanes, const double *plus, const double *minus, float *v)
+{
+  size_t many = (size_t) lanes;
+
+  for (size_t f = 0; f < celd_null_space_runs (l); f++)
+    for (size_t i = l->floating[f].first; i < l->floating[f].end; i++)
+      for (size_t k = 0; k < many; k++)
+        {
+          size_t at = l->floating[f].component * many + k;
+
+          v[i * many + k] = (float) ((double) v[i * many + k] + plus[at] - minus[at]);
+        }
+}
+
+/* One solution, or CELD_LANES of them.  In floating components the mean of the right-hand side is subtracted before, and
+ * the solution shifted to the mean of its start after it. */
 static CeldStatus
 solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, const CeldHost *host,
              CeldSolve *solve)
@@ -223,13 +255,13 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
   before = mean;
   after  = mean + means * (size_t) lanes;
   b_mean = b && l->n_floating ? after + means * (size_t) lanes : NULL;
-  celd_null_space_means (l, lanes, x, before);
+  null_space_means (l, lanes, x, before);
   if (b_mean)
-    celd_null_space_means (l, lanes, b, b_mean);
+    null_space_means (l, lanes, b, b_mean);
   status = l->direct ? celd_direct_solve (l, lanes, b, b_mean, x)
                      : converge (l, lanes, b, b_mean, x, tolerance, host, solve);
-  celd_null_space_means (l, lanes, x, after);
-  celd_null_space_shift (l, lanes, before, after, x);
+  null_space_means (l, lanes, x, after);
+  null_space_shift (l, lanes, before, after, x);
   celd_free (mean);
   return status;
 }

@@ -14,6 +14,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "solve/maxflow.h"
+#include "solve/partition.h"
 
 /* The four directions, of which d ^ 1 is the opposite, and what a parent can be besides. */
 enum { TO_EAST, TO_WEST, TO_SOUTH, TO_NORTH, DIRECTIONS, TO_TERMINAL = DIRECTIONS, ORPHANED, PARENTLESS };
@@ -29,9 +30,6 @@ typedef struct
   bool     active;               /* waits in the queue of active nodes */
 } Node;
 
-/* A ring with room for every node once. */
-typedef struct { uint32_t *item; size_t first, n, room; } Queue;
-
 typedef struct
 {
   int       width, height;
@@ -39,29 +37,10 @@ typedef struct
   ptrdiff_t offset[DIRECTIONS];
   size_t    n;
   Node     *node;
-  Queue     actives, orphans;
+  CeldFlowQueue actives, orphans;
   uint32_t  augmentations;
   int64_t   flow;
 } Grid;
-
-static void
-queue_put (Queue *queue, size_t p)
-{
-  size_t last = queue->first + queue->n++;
-
-  queue->item[last < queue->room ? last : last - queue->room] = (uint32_t) p;
-}
-
-static size_t
-queue_take (Queue *queue)
-{
-  size_t p = queue->item[queue->first];
-
-  queue->n--;
-  if (++queue->first == queue->room)
-    queue->first = 0;
-  return p;
-}
 
 static size_t
 neighbour (const Grid *grid, size_t p, int d)
@@ -75,14 +54,14 @@ activate (Grid *grid, size_t p)
   if (grid->node[p].active)
     return;
   grid->node[p].active = true;
-  queue_put (&grid->actives, p);
+  celd_queue_put (&grid->actives, (uint32_t) p);
 }
 
 static void
 make_orphan (Grid *grid, size_t p)
 {
   grid->node[p].parent = ORPHANED;
-  queue_put (&grid->orphans, p);
+  celd_queue_put (&grid->orphans, (uint32_t) p);
 }
 
 /* ------------------------------------------------------------------ set-up */
@@ -99,8 +78,8 @@ grid_new (int width, int height, Grid *grid)
   grid->offset[TO_SOUTH] = (ptrdiff_t) stride;
   grid->offset[TO_NORTH] = -(ptrdiff_t) stride;
   grid->node          = celd_alloc0 (n, sizeof *grid->node);
-  grid->actives       = (Queue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
-  grid->orphans       = (Queue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
+  grid->actives       = (CeldFlowQueue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
+  grid->orphans       = (CeldFlowQueue) { celd_alloc (n, sizeof (uint32_t)), 0, 0, n };
   return grid->node && grid->actives.item && grid->orphans.item ? CELD_OK : CELD_NO_MEMORY;
 }
 
@@ -339,7 +318,7 @@ solve (Grid *grid, const CeldHost *host)
 {
   for (size_t steps = 1; grid->actives.n; steps++)
     {
-      size_t p = queue_take (&grid->actives);
+      size_t p = celd_queue_take (&grid->actives);
       int    d;
 
       grid->node[p].active = false;
@@ -347,7 +326,7 @@ solve (Grid *grid, const CeldHost *host)
         {
           augment (grid, p, d);
           while (grid->orphans.n)
-            adopt (grid, queue_take (&grid->orphans));
+            adopt (grid, celd_queue_take (&grid->orphans));
         }
       if (steps % 65536 == 0 && celd_progress (host, 0) != CELD_OK) /* how much is left to do cannot be told */
         return CELD_CANCELLED;

@@ -17,8 +17,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "solve/flow.h"
-#include "solve/partition-private.h"
+#include "solve/partition.h"
 
 typedef struct
 {

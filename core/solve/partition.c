@@ -10,7 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "solve/partition-private.h"
+#include "solve/partition.h"
 
 #include <string.h>
 

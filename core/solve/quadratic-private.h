@@ -74,20 +74,22 @@ bool celd_forest_drop (CeldForest *forest, size_t place, double *way, double *fo
 /* Has H lost digits?  x is a motion by H, force = K x. */
 bool celd_forest_is_inaccurate (const CeldForest *forest, double curvature, const double *x, const double *force);
 
-/* ------------------------------------------------------------------ quadratic-order.c */
+/* ------------------------------------------------------------------ quadratic-active-set.c */
 
-/* The nodes in topological order. */
 typedef struct
 {
-  uint32_t *first, *item; /* the inequalities whose b is i: item[first[i]] .. before first[i + 1] */
-  uint32_t *sorted;       /* nodes, every b before its a */
-} CeldTopologicalOrder;
+  CeldForest forest;
+  double    *u, *z, *force, *r; /* n each */
+  double    *y;                 /* m multipliers */
+  double     range;             /* of u and offsets, to judge rounding by */
+  int        steps, most_steps;
+} CeldActiveSet;
 
-/* Fills in the order; false if the inequalities close a cycle.  waits: workspace of n numbers. */
-bool celd_topological_sort (CeldTopologicalOrder *order, size_t n, size_t m, const CeldInequality *inequality,
-                      uint32_t *waits);
+/* From the links of the forest to the solution, the last active set and its multipliers.  False if K has a negative
+ * eigenvalue. */
+bool   celd_active_set_solve (CeldActiveSet *set);
 
-/* Raises u node by node, in topological order, until every inequality holds: from u = 0 to the longest-path levels. */
-void celd_raise_to_levels (const CeldTopologicalOrder *order, size_t n, const CeldInequality *inequality, double *u);
+/* How far inequality i is from holding; 0 if it does but for rounding. */
+double celd_violation (const CeldActiveSet *set, size_t i);
 
 #endif

@@ -26,13 +26,12 @@ typedef struct
  * diagonal is taken to be their sums, so that rounding does no harm).
  * u: n, out.  Of several minimisers the least: the least u of each component of K is 0, or as little more as the
  * inequalities between components ask for.
- * y: m multipliers >= 0, out, K u = sum of y_i (e_a - e_b); may be NULL.  With `warm` it holds multipliers of a like
- * problem to begin with, 0 for inequalities that this one had not.
+ * y: m multipliers >= 0, out, K u = sum of y_i (e_a - e_b); may be NULL.
  * It takes milliseconds for hundreds of nodes and cannot be cancelled.  Should its steps run out, u still obeys the
  * inequalities, and the certificate tells how good it is.
  * CELD_BAD_VALUE: the inequalities close a loop (a == b is one), a gap is not within 1e-12 .. 1e12 or an entry of K
  * beyond 1e30 or NaN, K has a negative eigenvalue.  u, y and the certificate then stay as they were. */
-CeldStatus celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequality,
-                           double *u, double *y, bool warm, CeldCertificate *certificate);
+CeldStatus celd_quadratic (size_t n, const double *k, size_t m, const CeldInequality *inequality, double *u, double *y,
+                           CeldCertificate *certificate);
 
 #endif

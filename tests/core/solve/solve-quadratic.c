@@ -29,7 +29,7 @@ answer_one (void)
     read = read && scanf ("%u %u %lf", &one[i].a, &one[i].b, &one[i].gap) == 3;
   if (read)
     {
-      CeldStatus status = celd_quadratic (n, k, m, one, u, NULL, false, &c);
+      CeldStatus status = celd_quadratic (n, k, m, one, u, NULL, &c);
 
       printf ("%d %.17g %.17g %.17g", (int) status, c.energy, c.gap, c.violation);
       for (size_t i = 0; i < n; i++)

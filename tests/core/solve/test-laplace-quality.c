@@ -4,7 +4,6 @@
  */
 #include "check.h"
 #include "base/unions.h"
-#include "solve/laplace-aggregation.h"
 #include "solve/laplace-private.h"
 
 #include <math.h>
