@@ -35,29 +35,20 @@ read_labels (CeldOp *op, const CeldPlane *ink, CeldLabels *labels)
          (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
 }
 
-/* What the drawing says, or without one the regions' shapes; and the depth hint. */
+/* The depth order with what the drawing, or without one the regions' shapes, and the depth hint suggest. */
 static gboolean
-find_suggestions (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink, CeldRelations *suggested)
-{
-  CeldPlane hint;
-
-  return celd_op_try (op, celd_suggest (labels, &op->palette, ink, &op->quiet, suggested)) &&
-         (!celd_op_has (op, "aux3") ||
-          (celd_op_read_plane (op, "aux3", &hint) &&
-           celd_op_try (op, celd_suggest_from_depth (labels, &op->palette, ink, &hint, &op->quiet, suggested))));
-}
-
-/* With `suggest` that joins the relations. */
-static gboolean
-add_suggestions (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
+make_order (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
 {
   const CeldSettings *s = &op->settings;
+  gboolean            hinted = s->suggest != CELD_SUGGEST_OFF && celd_op_has (op, "aux3");
   CeldRelations       suggested = { 0 };
-  gboolean            good = s->suggest == CELD_SUGGEST_OFF ||
-                             (find_suggestions (op, labels, ink, &suggested) &&
-                        celd_op_try (op, celd_suggestions_join (labels, &op->palette, &op->relations, &suggested,
-                                                                s, ink, &op->quiet, &op->relations)));
+  CeldPlane           hint;
+  gboolean            good = !hinted || celd_op_read_plane (op, "aux3", &hint);
 
+  if (good && s->suggest != CELD_SUGGEST_OFF)
+    good = celd_op_try (op, celd_suggest (labels, &op->palette, ink, hinted ? &hint : NULL, &op->quiet, &suggested));
+  good = good && celd_op_try (op, celd_order_suggested (labels, &op->palette, &op->relations, &suggested, ink, s,
+                                                        &op->host, &op->relations, &op->order, &op->problems));
   celd_relations_clear (&suggested);
   return good;
 }
@@ -86,9 +77,7 @@ render (CeldOp *op)
          (!drawn || celd_op_read_ink (op, "aux2", &ink)) &&
          read_labels (op, drawn ? &ink : NULL, &labels) &&
          celd_op_read_relations (op, "aux") &&
-         add_suggestions (op, &labels, drawn ? &ink : NULL) &&
-         celd_op_try (op, celd_order (&labels, &op->palette, &op->relations, drawn ? &ink : NULL, s, &op->host,
-                                      &op->order, &op->problems)) &&
+         make_order (op, &labels, drawn ? &ink : NULL) &&
          celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
          write_levels (op, &labels);
 }

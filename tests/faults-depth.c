@@ -46,7 +46,7 @@ cycles_step (const CeldHost *host, Results *r)
   return celd_order (&labels, &palette, &circles, NULL, &weakest, host, &r->order, &r->problems);
 }
 
-/* From the lines and from a picture of depth, and beside the scene_relations; some of it painted. */
+/* Suggestions from the lines and from a depth picture, painted, and the order that they and scene_relations make. */
 static CeldStatus
 suggest_step (const CeldHost *host, Results *r)
 {
@@ -55,24 +55,29 @@ suggest_step (const CeldHost *host, Results *r)
   CeldPaint     paint = paint_of (r->pixels);
   CeldRelations suggested = { 0 }, both = { 0 };
   CeldSettings  gaps = scene_settings;
-  CeldHostPart      parts[3];
-  CeldHost      first = celd_host_part (&parts[0], host, 0, 0.4), second = celd_host_part (&parts[1], host, 0.4, 0.8);
-  CeldHost      third = celd_host_part (&parts[2], host, 0.8, 1);
-  CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &first, &suggested);
+  CeldOrder     order = { 0 };
+  CeldHostPart  parts[2];
+  CeldHost      first = celd_host_part (&parts[0], host, 0, 0.6), second = celd_host_part (&parts[1], host, 0.6, 1);
+  CeldStatus    status = celd_suggest (&labels, &label_palette, &ink, &depth, &first, &suggested);
 
   gaps.suggest = CELD_SUGGEST_FILL_GAPS;
   if (status == CELD_OK && !suggested.n)
     status = CELD_BAD_VALUE; /* nothing to do: the test would say nothing */
   if (status == CELD_OK)
-    status = celd_suggest_from_depth (&labels, &label_palette, &ink, &depth, &second, &suggested);
-  if (status == CELD_OK)
-    status = celd_suggestions_join (&labels, &label_palette, &scene_relations, &suggested, &gaps, &ink, &third, &both);
+    status = celd_order_suggested (&labels, &label_palette, &scene_relations, &suggested, &ink, &gaps, &second, &both,
+                                   &order, NULL);
   if (status == CELD_OK)
     status = celd_relations_paint (&suggested, 2, &paint);
   if (status == CELD_OK)
-    r->relations = both;
+    {
+      r->relations = both;
+      r->order     = order;
+    }
   else
-    celd_relations_clear (&both);
+    {
+      celd_relations_clear (&both);
+      celd_order_clear (&order);
+    }
   celd_relations_clear (&suggested);
   return status;
 }

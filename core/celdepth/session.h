@@ -27,7 +27,7 @@ CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const Celd
 CELD_API CeldStatus celd_session_set_scribbles (CeldSession *session, const CeldPaint *scribbles);
 CELD_API CeldStatus celd_session_set_arrows    (CeldSession *session, const CeldPaint *arrows);
 CELD_API CeldStatus celd_session_set_contours  (CeldSession *session, const CeldPaint *contours);
-/* A depth picture for suggestions, see celd_suggest_from_depth; a layer like the others. */
+/* A depth picture for suggestions, the hint of celd_suggest; a layer like the others. */
 CELD_API CeldStatus celd_session_set_depth_hint (CeldSession *session, const CeldPlane *depth);
 /* Corrections of contour ownership: strokes over ink, each of which gives the piece of line below it to the region of
  * its colour. */

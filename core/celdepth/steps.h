@@ -77,25 +77,14 @@ CELD_API CeldStatus celd_background_mark (const CeldLabels *labels, const CeldPl
 
 /* Suggests which of two touching regions is in front, from T-junctions and other cues of the drawing.  Appends at most
  * one relation for a pair, from a point inside the nearer region to one inside the farther; its source is
- * CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 = a guess, 1/2 = three times as likely as not.
- * Suggestions do not contradict each other: the weakest of a cycle is left out.  `palette` has the areas and the
- * background of the labels; ink may be NULL. */
+ * CELD_SOURCE_SUGGESTION, its weight the confidence in (0,1): 0 = a guess, 1/2 = three times as likely as not.  These
+ * suggestions do not contradict each other: the weakest of a cycle is left out.
+ * `hint` is a depth picture, for example of a depth estimator, in any unit, larger = nearer; NaN is unknown.  Its
+ * suggestions are appended after those of the drawing, which they may contradict; their confidence compares the
+ * difference between the medians of two regions with the spread within them.
+ * `palette` has the areas and the background of the labels; ink and hint may be NULL. */
 CELD_API CeldStatus celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                                  const CeldHost *host, CeldRelations *suggested);
-
-/* As celd_suggest, from a depth picture, for example of a depth estimator, in any unit, larger = nearer; NaN is
- * unknown.  The confidence compares the difference between the medians of two regions with the spread within them. */
-CELD_API CeldStatus celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                                             const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested);
-
-/* Joins the artist's relations and suggestions: the relations, followed by those suggestions that contradict neither
- * them (those that settings->on_cycle keeps) nor heavier suggestions; with CELD_SUGGEST_FILL_GAPS only suggestions
- * between regions whose order does not follow from the relations.  Suggestions get weights below those of all
- * relations.  Replaces `both`, which may be `relations`. */
-CELD_API CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette,
-                                           const CeldRelations *relations, const CeldRelations *suggested,
-                                           const CeldSettings *settings, const CeldPlane *ink, const CeldHost *host,
-                                           CeldRelations *both);
+                                  const CeldPlane *hint, const CeldHost *host, CeldRelations *suggested);
 
 /* Paints relations between points as arrows of the default style over what the picture contains, with lines about
  * `width` pixels wide: a layer that celd_arrows_read reads.  The hue goes from orange (weight 0) to green (weight 1).
@@ -110,6 +99,16 @@ CELD_API CeldStatus celd_relations_paint (const CeldRelations *relations, double
 CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                                 const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
                                 CeldOrder *order, CeldProblems *problems);
+
+/* celd_order of the artist's relations, followed by those suggestions that contradict neither them (those that
+ * settings->on_cycle keeps) nor heavier suggestions; with CELD_SUGGEST_FILL_GAPS only suggestions between regions whose
+ * order does not follow from the relations, with CELD_SUGGEST_OFF none.  `joined` is replaced by all these relations and
+ * may be `relations`; suggestions get weights below those of the artist's relations.  `suggested` and `ink` may be
+ * NULL. */
+CELD_API CeldStatus celd_order_suggested (const CeldLabels *labels, const CeldPalette *palette,
+                                          const CeldRelations *relations, const CeldRelations *suggested,
+                                          const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
+                                          CeldRelations *joined, CeldOrder *order, CeldProblems *problems);
 
 /* A level in the encoding of the settings: of a height in gaps of one relation, with `levels` one more than the largest
  * height; and of a level of an order. */

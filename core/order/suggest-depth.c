@@ -1,11 +1,11 @@
-/* Suggestions from a picture of depth that comes from elsewhere, such as a depth estimator's.
+/* Odds for suggestions from a depth picture that comes from elsewhere, such as a depth estimator.
  *
- * Such pictures know little of lines, so that a region is one number, the median over its surface, and its spread is
- * the median distance from that (MAD).  The difference of two medians against both spreads gives log-odds; where it is
- * as large as the spreads together, one region is in front with a confidence of one half.  An estimator errs on whole
- * regions, too: nothing that it says is more certain than MOST.
+ * Such pictures are unreliable near lines, so each region is reduced to one number, the median over its surface, with
+ * the median absolute deviation (MAD) as its spread.  The difference of two medians relative to the sum of both spreads
+ * gives log-odds; where they are equal, one region is in front with a confidence of one half.  An estimator can be wrong
+ * about whole regions, so that confidence is limited by MOST_ODDS.
  *
- * Cost: a sort of all pixels by region and depth; 16 bytes a pixel for a while.
+ * Cost: a sort of all pixels by region and depth; 16 bytes a pixel of work space.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,9 +15,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define ODDS_OF_ONE 1.0986      /* log-odds of a difference as large as the spreads: log 3 */
-#define MOST        2.2         /* log-odds: nine times as likely as not */
-#define EVEN        0.01        /* least spread, as a share of the picture's range */
+#define ODDS_PER_SPREAD 1.0986  /* log-odds of a difference as large as both spreads: log 3, a confidence of 1/2 */
+#define MOST_ODDS       2.2     /* log-odds, about log 9; chosen */
+#define LEAST_SPREAD    0.01    /* of both regions together, as a fraction of the range of medians; chosen */
 
 typedef struct { uint32_t label; float depth; } Sample;
 typedef struct { double median, spread; size_t n; } Summary;
@@ -32,7 +32,7 @@ compare_samples (const void *one, const void *two)
   return (a->depth > b->depth) - (a->depth < b->depth);
 }
 
-/* The surface of all labels: paper, as far as its depth is known. */
+/* The pixels of paper with a label and a finite depth; returns their number. */
 static size_t
 take_samples (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldPlane *depth, Sample *sample)
 {
@@ -50,7 +50,7 @@ take_samples (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, c
   return n;
 }
 
-/* Of n samples of one label, by rising depth; trials them into distances from the median. */
+/* Median and spread of n samples of one label, sorted by depth.  Overwrites the depths. */
 static Summary
 summarize (Sample *sample, size_t n)
 {
@@ -63,7 +63,7 @@ summarize (Sample *sample, size_t n)
   return s;
 }
 
-/* The least and the largest median. */
+/* Fills summary[label] for all labels that have samples; returns the range of their medians. */
 static double
 summarize_all (Sample *sample, size_t n, Summary *summary)
 {
@@ -83,6 +83,7 @@ summarize_all (Sample *sample, size_t n, Summary *summary)
   return most - least;
 }
 
+/* Log-odds of a being in front of b; 0 if a depth is unknown. */
 static double
 odds_of (const Summary *a, const Summary *b, double range)
 {
@@ -90,38 +91,25 @@ odds_of (const Summary *a, const Summary *b, double range)
 
   if (!a->n || !b->n || !(range > 0))
     return 0;
-  odds = ODDS_OF_ONE * (a->median - b->median) / (a->spread + b->spread + EVEN * range);
-  return fmax (-MOST, fmin (MOST, odds));
+  odds = ODDS_PER_SPREAD * (a->median - b->median) / (a->spread + b->spread + LEAST_SPREAD * range);
+  return fmax (-MOST_ODDS, fmin (MOST_ODDS, odds));
 }
 
 CeldStatus
-celd_suggest_from_depth (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                         const CeldPlane *depth, const CeldHost *host, CeldRelations *suggested)
+celd_depth_odds (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink, const CeldPlane *depth,
+                 const CeldPairCues *pairs, size_t n, double *odds)
 {
-  CeldPairCues *pairs = NULL;
-  double       *odds = NULL, range;
-  size_t        n = 0;
-  Sample       *sample;
-  Summary      *summary;
-  CeldStatus    status;
+  Sample  *sample = celd_alloc ((size_t) labels->width * (size_t) labels->height, sizeof *sample);
+  Summary *summary = celd_alloc0 (palette->n + 1, sizeof *summary);
 
-  if (!CELD_SAME_SIZE (labels, depth) || (ink && !CELD_SAME_SIZE (labels, ink)))
-    return CELD_BAD_SIZE;
-  sample  = celd_alloc ((size_t) labels->width * (size_t) labels->height, sizeof *sample);
-  summary = celd_alloc0 (palette->n + 1, sizeof *summary);
-  status  = sample && summary ? celd_cues_gather (labels, palette, ink, host, &pairs, &n) : CELD_NO_MEMORY;
-  if (status == CELD_OK && !(odds = celd_alloc (n, sizeof *odds)))
-    status = CELD_NO_MEMORY;
-  if (status == CELD_OK)
+  if (sample && summary)
     {
-      range = summarize_all (sample, take_samples (labels, palette->n, ink, depth, sample), summary);
+      double range = summarize_all (sample, take_samples (labels, palette->n, ink, depth, sample), summary);
+
       for (size_t i = 0; i < n; i++)
         odds[i] = odds_of (&summary[pairs[i].a], &summary[pairs[i].b], range);
-      status = celd_suggestions_add (pairs, odds, n, palette->n, suggested);
     }
   celd_free (sample);
   celd_free (summary);
-  celd_free (pairs);
-  celd_free (odds);
-  return status == CELD_OK ? celd_progress (host, 1) : status;
+  return sample && summary ? CELD_OK : CELD_NO_MEMORY;
 }

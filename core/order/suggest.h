@@ -84,11 +84,21 @@ typedef struct
 CeldStatus celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
                              const CeldHost *host, CeldPairCues **pairs, size_t *n);
 
+/* ------------------------------------------------------------------ suggest-depth.c */
+
+/* Log-odds of pairs[i].a being in front of pairs[i].b by a depth picture of the size of `labels`; 0 where it has no
+ * depth of one of them.  ink may be NULL. */
+CeldStatus celd_depth_odds (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                            const CeldPlane *depth, const CeldPairCues *pairs, size_t n, double *odds);
+
 /* ------------------------------------------------------------------ suggest.c */
 
-/* Appends a relation for each pair, most confident first, but for those that contradict them; a is in front where
- * odds[i] > 0, and these are log-odds.  Pairs without odds get none. */
-CeldStatus celd_suggestions_add (const CeldPairCues *pairs, const double *odds, size_t n, size_t n_labels,
-                                 CeldRelations *suggested);
+/* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
+ * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
+ * artist's relations do not decide, directly or through others; with CELD_SUGGEST_OFF none.  Suggestions get weights
+ * below all of the artist's.  Replaces `both`, which may be `relations`. */
+CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+                                  const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink,
+                                  const CeldHost *host, CeldRelations *both);
 
 #endif

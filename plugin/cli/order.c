@@ -38,21 +38,6 @@ load_ordering (const CliOptions *options, Ordering *o)
   return good && (!options->drawing || cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));
 }
 
-/* What the drawing suggests, and depth from elsewhere, and if that is to count, behind the relations. */
-static CeldStatus
-make_suggestions (const CeldPlane *ink, const CeldSettings *settings, Ordering *o)
-{
-  const CeldHost *host = &o->run.host;
-  CeldStatus     status = celd_suggest (&o->labels, &o->palette, ink, host, &o->suggestions);
-
-  if (status == CELD_OK && o->hint.data)
-    status = celd_suggest_from_depth (&o->labels, &o->palette, ink, &o->hint, host, &o->suggestions);
-  if (status == CELD_OK && settings->suggest)
-    status = celd_suggestions_join (&o->labels, &o->palette, &o->relations, &o->suggestions, settings, ink, host,
-                                    &o->relations);
-  return status;
-}
-
 static CeldStatus
 make_order (const CliOptions *options, Ordering *o)
 {
@@ -66,9 +51,10 @@ make_order (const CliOptions *options, Ordering *o)
   if (status == CELD_OK && o->layers.arrows.data)
     status = celd_arrows_read (&o->layers.arrows, settings->arrow_style, host, &o->relations, &o->problems);
   if (status == CELD_OK && (options->suggestions || settings->suggest))
-    status = make_suggestions (ink, settings, o);
+    status = celd_suggest (&o->labels, &o->palette, ink, o->hint.data ? &o->hint : NULL, host, &o->suggestions);
   if (status == CELD_OK)
-    status = celd_order (&o->labels, &o->palette, &o->relations, ink, settings, host, &o->order, &o->problems);
+    status = celd_order_suggested (&o->labels, &o->palette, &o->relations, &o->suggestions, ink, settings, host,
+                                   &o->relations, &o->order, &o->problems);
   return status;
 }
 

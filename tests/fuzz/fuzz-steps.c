@@ -161,7 +161,7 @@ try_regions (FuzzInput *input, Page *page)
   check_status (celd_ink (&drawing, (CeldInkMode) fuzz_below (input, 4), NULL, &made));
   FUZZ_CHECK (are_finite (page->made, (size_t) (page->width * page->height)));
   check_status (celd_order (&seeds, &palette, &relations, &ink, &page->settings, NULL, &order, &problems));
-  check_status (celd_suggest_from_depth (&seeds, &palette, &ink, &hint, NULL, &suggested));
+  check_status (celd_suggest (&seeds, &palette, &ink, &hint, NULL, &suggested));
   for (size_t i = 0; i < suggested.n; i++)
     FUZZ_CHECK (suggested.item[i].weight > 0 && suggested.item[i].weight < 1);
   status = celd_depth_exact (&ink, &seeds, &palette, &relations, &page->settings, NULL, &made, &exact, &problems);

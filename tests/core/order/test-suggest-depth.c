@@ -22,15 +22,21 @@ open_depth (const float depth[3], float noise, Sheets *s)
   return plane;
 }
 
-/* The confidence with which one is in front of the other. */
+/* The confidence with which one is in front of the other by the depth picture alone. */
 static double
 compare (const Sheets *s, const CeldPlane *depth, uint32_t a, uint32_t b)
 {
-  CeldRelations suggested = { 0 };
+  CeldRelations drawn = { 0 }, suggested = { 0 }, added;
   double        confidence;
 
-  CHECK (celd_suggest_from_depth (&s->labels, &s->palette, &s->ink, depth, NULL, &suggested) == CELD_OK);
-  confidence = sheets_confidence (s, &suggested, a, b);
+  CHECK (celd_suggest (&s->labels, &s->palette, &s->ink, NULL, NULL, &drawn) == CELD_OK);
+  CHECK (celd_suggest (&s->labels, &s->palette, &s->ink, depth, NULL, &suggested) == CELD_OK);
+  CHECK (suggested.n >= drawn.n);
+  for (size_t i = 0; i < drawn.n; i++) /* those of the drawing come first, unchanged */
+    CHECK (!memcmp (&suggested.item[i], &drawn.item[i], sizeof drawn.item[i]));
+  added      = (CeldRelations) { suggested.item + drawn.n, suggested.n - drawn.n };
+  confidence = sheets_confidence (s, &added, a, b);
+  celd_relations_clear (&drawn);
   celd_relations_clear (&suggested);
   return confidence;
 }
@@ -102,7 +108,7 @@ bad_size (void)
   CeldPlane     plane = open_depth (depth, 0, &s);
 
   plane.height--;
-  CHECK (celd_suggest_from_depth (&s.labels, &s.palette, &s.ink, &plane, NULL, &suggested) == CELD_BAD_SIZE);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, &plane, NULL, &suggested) == CELD_BAD_SIZE && !suggested.n);
   free (plane.data);
   sheets_close (&s);
 }

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "ask-order.h"
+#include "order/suggest.h"
 
 /* Relations between the regions of PARTS, each a letter, a sign and a letter; suggestions with falling weight. */
 static CeldRelations
@@ -135,6 +136,36 @@ own_contradictions_dropped (void)
   own_contradictions (CELD_ON_CYCLE_DROP_WEAKEST);
 }
 
+/* The order is made of A > B and, as far as the settings ask for it, of the suggestion B > C. */
+static void
+order_of_both (void)
+{
+  static const struct { CeldSuggest suggest; size_t joined; uint32_t levels; } wanted[] = {
+    { CELD_SUGGEST_OFF, 1, 3 }, { CELD_SUGGEST_FILL_GAPS, 2, 4 }, { CELD_SUGGEST_ALL, 2, 4 },
+  };
+
+  for (int k = 0; k < 3; k++)
+    {
+      CeldRelations relations = read_pairs ("A>B", CELD_SOURCE_TEXT, 1);
+      CeldRelations ideas = read_pairs ("B>C", CELD_SOURCE_SUGGESTION, 0.9);
+      CeldPalette   palette = palette_of (6, true); /* F is the background, behind all others */
+      CeldLabels    labels = art_labels (PARTS);
+      CeldOrder     order = { 0 };
+      CeldSettings  settings = celd_settings ();
+
+      settings.suggest = wanted[k].suggest;
+      CHECK (celd_order_suggested (&labels, &palette, &relations, &ideas, NULL, &settings, NULL, &relations, &order,
+                                   NULL) == CELD_OK);
+      CHECK (relations.n == wanted[k].joined && order.levels == wanted[k].levels);
+      CHECK (order.level[0] > order.level[1] && (k == 0 || order.level[1] > order.level[2]));
+      celd_order_clear (&order);
+      celd_relations_clear (&relations);
+      free (ideas.item);
+      free (labels.data);
+      free (palette.item);
+    }
+}
+
 static void
 bad_size (void)
 {
@@ -158,6 +189,7 @@ main (void)
   RUN (among_themselves);
   RUN (own_contradictions_reported);
   RUN (own_contradictions_dropped);
+  RUN (order_of_both);
   RUN (bad_size);
   return DONE;
 }

@@ -14,7 +14,7 @@ suggest (const Sheets *s)
 {
   CeldRelations suggested = { 0 };
 
-  CHECK (celd_suggest (&s->labels, &s->palette, &s->ink, NULL, &suggested) == CELD_OK);
+  CHECK (celd_suggest (&s->labels, &s->palette, &s->ink, NULL, NULL, &suggested) == CELD_OK);
   return suggested;
 }
 
@@ -268,24 +268,24 @@ odd_input (void)
 
   sheets_open (40, 40, sheet, 2, 2, &s);
   suggested = (CeldRelations) { 0 };
-  CHECK (celd_suggest (&s.labels, &none, &s.ink, NULL, &suggested) == CELD_OK && suggested.n == 0);
-  CHECK (celd_suggest (&s.labels, &s.palette, NULL, NULL, &suggested) == CELD_OK && suggested.n == 1);
+  CHECK (celd_suggest (&s.labels, &none, &s.ink, NULL, NULL, &suggested) == CELD_OK && suggested.n == 0);
+  CHECK (celd_suggest (&s.labels, &s.palette, NULL, NULL, NULL, &suggested) == CELD_OK && suggested.n == 1);
   for (int p = 0; p < 1600; p++)
     s.ink.data[p] = p % 3 ? NAN : 0;
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &suggested) == CELD_OK);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, NULL, &suggested) == CELD_OK);
   for (int p = 0; p < 1600; p++)
     s.ink.data[p] = 0;
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &suggested) == CELD_OK);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, NULL, &suggested) == CELD_OK);
   for (int p = 0; p < 1600; p += 7)
     s.labels.data[p] = p % 2 ? 0 : 4000000000u;
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &suggested) == CELD_OK);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, NULL, &suggested) == CELD_OK);
   celd_relations_clear (&suggested);
   s.ink.width--;
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &suggested) == CELD_BAD_SIZE && !suggested.n);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, NULL, &suggested) == CELD_BAD_SIZE && !suggested.n);
   s.ink.width = s.ink.height = s.labels.width = s.labels.height = 1;
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &suggested) == CELD_OK && !suggested.n);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, NULL, &suggested) == CELD_OK && !suggested.n);
   s.labels.data[0] = 1;
-  CHECK (celd_suggest (&s.labels, &s.palette, NULL, NULL, &suggested) == CELD_OK && !suggested.n);
+  CHECK (celd_suggest (&s.labels, &s.palette, NULL, NULL, NULL, &suggested) == CELD_OK && !suggested.n);
   celd_relations_clear (&suggested);
   sheets_close (&s);
 }
@@ -299,7 +299,7 @@ stops_when_asked (void)
   Sheets             s;
 
   sheets_open (40, 300, sheet, 2, 2, &s);
-  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, &host, &suggested) == CELD_CANCELLED && !suggested.n);
+  CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &host, &suggested) == CELD_CANCELLED && !suggested.n);
   celd_relations_clear (&suggested);
   sheets_close (&s);
 }
