@@ -1,6 +1,6 @@
-/* The relations of a small strongly connected component with the least total weight without which the others can hold: a
- * minimum weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all others
- * [Lawler 1964].
+/* The relations of a small strongly connected component with the least total weight without which the others can hold:
+ * a minimum weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all
+ * others [Lawler 1964].
  *
  * Labels are placed from far to near in blocks of equal depth.  That a relation is broken shows when the first of its
  * nearer labels is placed, so the least weight that a set S of placed labels has cost does not depend on how S was

@@ -1,10 +1,11 @@
 /* A topological order of classes of labels, from far to near, to which relations are added one by one.
  *
  * A relation whose ends already stand in the right order costs nothing.  Otherwise one search goes up from its nearer
- * side, by rising places, another down from its farther side, by falling places; the one that has done less work goes on
- * until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If the searches meet, the
- * relation contradicts those before.  If not, classes below the crossing that the first has reached move up to it, and
- * classes above it that the second has reached move down to just below these; no class outside the relation's ends moves.
+ * side, by rising places, another down from its farther side, by falling places; the one that has done less work goes
+ * on until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If the searches
+ * meet, the relation contradicts those before.  If not, classes below the crossing that the first has reached move up
+ * to it, and classes above it that the second has reached move down to just below these; no class outside the
+ * relation's ends moves.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -36,7 +37,8 @@ celd_incremental_order_new (const CeldGraph *graph, CeldIncrementalOrder *s)
   size_t     n = graph->n_labels;
   CeldStatus status;
 
-  *s = (CeldIncrementalOrder) { .graph = graph, .at = celd_alloc (n, sizeof *s->at), .place = celd_alloc (n, sizeof *s->place),
+  *s = (CeldIncrementalOrder) { .graph = graph, .at = celd_alloc (n, sizeof *s->at),
+                                .place = celd_alloc (n, sizeof *s->place),
                         .moved = celd_alloc (n, sizeof *s->moved) };
   status = s->at && s->place && s->moved ? celd_equivalence_new (n, &s->classes) : CELD_NO_MEMORY;
   for (int to = CELD_FARTHER; to <= CELD_NEARER && status == CELD_OK; to++)

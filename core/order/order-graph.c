@@ -189,10 +189,24 @@ celd_graph_arc (const CeldGraph *graph, size_t link, CeldSide to)
   return (CeldLinkArc) { (uint32_t) link, !graph->equal[link] && f[1] - f[0] == 1 ? graph->end[f[0]] : CELD_MANY_ENDS };
 }
 
+bool
+celd_graph_point (const CeldGraph *graph, size_t i, CeldSide side, uint32_t *label, int *x, int *y)
+{
+  const CeldRelation *relation = &graph->relations->item[i];
+  const CeldTerm     *term = side == CELD_NEARER ? &relation->nearer : &relation->farther;
+
+  if (term->by_colour)
+    return false;
+  *label = graph->end[graph->first[2 * i + side]] + 1;
+  *x     = (int) term->x;
+  *y     = (int) term->y;
+  return true;
+}
+
 CeldStatus
 celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldArcIndex *index)
 {
-  size_t  *first = celd_alloc0 (graph->n_labels + 2, sizeof *first);
+  size_t      *first = celd_alloc0 (graph->n_labels + 2, sizeof *first);
   CeldLinkArc *arc = celd_alloc (graph->n_ends, sizeof *arc);
 
   *index = (CeldArcIndex) { first, arc };

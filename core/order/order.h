@@ -1,4 +1,4 @@
-/* The graph of an order: labels, and relations as links between them.
+/* The depth order: a graph of labels with relations as links, its cycles, and suggestions from the drawing.
  *
  *   order-graph.c         which labels a relation joins; classes of labels of equal depth
  *   strong-components.c   which relations lie on common cycles
@@ -6,9 +6,13 @@
  *   feedback-arc-set.c    relations of the least total weight that break all cycles
  *   cycle-search.c        shortest cycles
  *   conflicts.c           which relations can hold together, and the cycles of those that cannot
- *   cycle-colours.c       cycles that exist only because regions of one colour have one depth
  *   order.c               levels
  *   split-cycles.c        contradictions resolved by splitting regions
+ *   region-outlines.c     the outlines of all regions' surfaces
+ *   t-junctions.c         where three regions meet, and which outline continues there without a corner: the bar of a T
+ *   suggest-cues.c        what the drawing says about each pair of touching regions
+ *   suggest-depth.c       what a depth picture says about each pair
+ *   suggest.c             relations from these, and the order of them and the artist's relations
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -52,8 +56,8 @@ typedef struct { size_t *first; CeldLinkArc *arc; } CeldArcIndex;
 /* A borrowed view of such lists: those of label k are arc[first[k-1]] to arc[last[k-1] - 1]. */
 typedef struct { const size_t *first, *last; const CeldLinkArc *arc; } CeldLinkArcs;
 
-/* Finds the labels of every relation.  Relations that join nothing are reported as problems and not kept.  The last link
- * has its farther labels only, and is not kept yet.  ink and problems may be NULL. */
+/* Finds the labels of every relation.  Relations that join nothing are reported as problems and not kept.  The last
+ * link has its farther labels only, and is not kept yet.  ink and problems may be NULL. */
 CeldStatus celd_graph_new (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                            const CeldPlane *ink, CeldGraph *graph, CeldProblems *problems);
 void       celd_graph_clear (CeldGraph *graph);
@@ -69,6 +73,10 @@ CeldStatus celd_graph_add (CeldGraph *graph, uint32_t label);
 
 /* A link as an arc that leads to one side. */
 CeldLinkArc celd_graph_arc (const CeldGraph *graph, size_t link, CeldSide to);
+
+/* The pixel at which relation i ends on this side, and its label there; false if that end names a colour.  The pixel
+ * may be ink of another label. */
+bool celd_graph_point (const CeldGraph *graph, size_t i, CeldSide side, uint32_t *label, int *x, int *y);
 
 /* The arcs of all labels that are on `side` of a link with use[link] (NULL: of any).  Cleared by the caller. */
 CeldStatus celd_graph_index (const CeldGraph *graph, CeldSide side, const bool *use, CeldArcIndex *index);
@@ -192,6 +200,10 @@ CeldStatus celd_feedback_arc_set (const CeldGraph *graph, const CeldSccs *sccs, 
  * each dropped relation to `order`, and completes the last link. */
 CeldStatus celd_graph_resolve (CeldGraph *graph, CeldOnCycle on_cycle, const CeldHost *host, CeldOrder *order);
 
+/* For each cycle of the order, finds the label, if any, whose separate regions must have one depth for it to exist. */
+CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                                const CeldGraph *graph, CeldOrder *order);
+
 /* ------------------------------------------------------------------ order.c */
 
 /* The least difference in levels that a relation demands, from its gap as read. */
@@ -200,12 +212,6 @@ celd_gap (double gap)
 {
   return gap > 0 ? fmin (fmax (gap, CELD_LEAST_GAP), CELD_LARGEST_GAP) : 1; /* NaN: 1 */
 }
-
-/* ------------------------------------------------------------------ cycle-colours.c */
-
-/* For each cycle of the order, finds the label, if any, whose separate regions must have one depth for it to exist. */
-CeldStatus celd_cycles_explain (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
-                                const CeldGraph *graph, CeldOrder *order);
 
 /* ------------------------------------------------------------------ split-cycles.c */
 
@@ -218,10 +224,112 @@ typedef struct { CeldSplit *item; size_t n, item_capacity; } CeldSplits;
 CeldStatus celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const CeldSettings *settings,
                               const CeldHost *host, CeldLabels *labels, CeldPalette *palette, CeldSplits *splits);
 
-/* Has the label been split? */
-bool celd_splits_have (const CeldSplits *splits, uint32_t label);
+/* Has the label been split, or split off another one? */
+static inline bool
+celd_splits_have (const CeldSplits *splits, uint32_t label)
+{
+  for (size_t i = 0; i < splits->n; i++)
+    if (splits->item[i].label == label || splits->item[i].other == label)
+      return true;
+  return false;
+}
 
 /* Turns ink along the new boundaries into paper, but not within `stroke` pixels of the regions' outlines. */
 void celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink);
+
+/* ------------------------------------------------------------------ region-outlines.c */
+
+#define CELD_FACES_FRAME   UINT32_MAX
+#define CELD_SHORTEST_MARK 6 /* stroke widths along both sides of a line inside a surface; chosen */
+
+/* A point on the outline of a surface, between two pixels; where ink begins, with the precision of antialiasing. */
+typedef struct
+{
+  float    x, y;
+  uint32_t faces;               /* the label behind the ink there, or CELD_FACES_FRAME; 0: none */
+} CeldOutlinePoint;
+
+/* A closed outline, followed with the surface on the right. */
+typedef struct { size_t first, n; uint32_t label; double length; } CeldOutlineLoop;
+
+/* A region's surface is its paper; of a region that is almost wholly ink, all of it. */
+typedef struct
+{
+  int               width, height;
+  int               stroke;     /* width in pixels */
+  uint32_t         *surface;    /* of each pixel: the label whose surface it is, 0 = contour; with a margin of 1 */
+  size_t            stride;
+  CeldOutlinePoint *point;
+  size_t            n_points;
+  CeldOutlineLoop  *loop;
+  size_t            n_loops;
+  size_t            point_capacity, loop_capacity;
+} CeldRegionOutlines;
+
+/* Labels above n_labels count as 0.  ink may be NULL: then all is paper. */
+CeldStatus celd_region_outlines_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink,
+                                     const CeldHost *host, CeldRegionOutlines *outlines);
+void       celd_region_outlines_clear (CeldRegionOutlines *outlines); /* accepts a zeroed record */
+
+/* The label whose surface pixel (x,y) belongs to, 0 outside the picture. */
+static inline uint32_t
+celd_surface_at (const CeldRegionOutlines *outlines, int x, int y)
+{
+  return x < 0 || y < 0 || x >= outlines->width || y >= outlines->height
+         ? 0 : outlines->surface[(size_t) (y + 1) * outlines->stride + (size_t) (x + 1)];
+}
+
+/* ------------------------------------------------------------------ t-junctions.c */
+
+/* A point where three regions meet, and the angle by which the outline of each turns there: radians, > 0 = its corner
+ * is convex; NaN if it cannot be measured. */
+typedef struct { float x, y; uint32_t label[3]; float turn[3]; } CeldJunction;
+
+/* Finds all junctions; *junctions is the caller's, freed with celd_free. */
+CeldStatus celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegionOutlines *outlines,
+                                const CeldHost *host, CeldJunction **junctions, size_t *n);
+
+/* ------------------------------------------------------------------ suggest-cues.c */
+
+/* Cues that a, > 0, or b, < 0, is in front. */
+typedef enum
+{
+  CELD_CUE_BAR,         /* at junctions where a's outline runs on and b's has a corner: the sum of log-odds */
+  CELD_CUE_ENCLOSED,    /* fraction of a's outline that faces b, less the fraction of b's that faces a */
+  CELD_CUE_CONVEX,      /* 1: a bulges into b, 0: their boundary is straight, -1: b bulges into a */
+  CELD_CUE_COMPACT,     /* compactness of a, less that of b; a disc has 1 */
+  CELD_CUE_MARKS,       /* number of lines in b that end at the boundary with a, less those in a */
+  CELD_CUE_FRAME,       /* 1: b has all of the frame, 0: neither has more than half of it */
+  CELD_N_CUES
+} CeldCue;
+
+typedef struct
+{
+  uint32_t a, b;                /* labels, a < b */
+  double   length;              /* of their boundary, pixels */
+  double   cue[CELD_N_CUES];
+  double   ax, ay, bx, by;      /* a point well inside each of them, near their boundary */
+} CeldPairCues;
+
+/* The pairs of touching regions, sorted by labels; *pairs is the caller's, freed with celd_free.  ink may be NULL. */
+CeldStatus celd_cues_gather (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                             const CeldHost *host, CeldPairCues **pairs, size_t *n);
+
+/* ------------------------------------------------------------------ suggest-depth.c */
+
+/* Log-odds of pairs[i].a being in front of pairs[i].b by a depth picture of the size of `labels`; 0 where it has no
+ * depth of one of them.  ink may be NULL. */
+CeldStatus celd_depth_odds (const CeldLabels *labels, const CeldPalette *palette, const CeldPlane *ink,
+                            const CeldPlane *depth, const CeldPairCues *pairs, size_t n, double *odds);
+
+/* ------------------------------------------------------------------ suggest.c */
+
+/* The artist's relations, and behind them in the list those suggestions that do not contradict them (as far as
+ * settings->on_cycle keeps them) or heavier suggestions; with settings->suggest = CELD_SUGGEST_FILL_GAPS only where the
+ * artist's relations do not decide, directly or through others; with CELD_SUGGEST_OFF none.  Suggestions get weights
+ * below all of the artist's.  Replaces `both`, which may be `relations`. */
+CeldStatus celd_suggestions_join (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
+                                  const CeldRelations *suggested, const CeldSettings *settings, const CeldPlane *ink,
+                                  const CeldHost *host, CeldRelations *both);
 
 #endif

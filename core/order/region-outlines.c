@@ -1,29 +1,29 @@
-/* The outlines of all regions' surfaces, as a drawing shows them: where paper ends and ink begins.
+/* The outlines of all regions' surfaces: where paper ends and ink begins.
  *
- * Labels meet somewhere inside the ink; what the eye goes by is the edge of the ink.  That is followed between pixels,
- * surface on the right, diagonal neighbours connected, and each place is moved to where the ink is one half.
+ * Labels meet somewhere inside the ink, but a viewer sees the edge of the ink.  It is followed between pixels, with the
+ * surface on the right and diagonal neighbours connected, and each point is moved to where the ink is one half.
  *
- * Cost: one pass over the picture and the length of the outlines; 4 bytes a pixel.
+ * Cost: one pass over the picture, and time proportional to the length of the outlines; 4 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
 #include "image/image.h"
-#include "order/suggest.h"
+#include "order/order.h"
 
 #include <math.h>
 
-#define SEEN    UINT32_C (0x80000000) /* of a pixel: its upper edge has been followed */
-#define SOLID   10                    /* a region is ink throughout if less than a tenth of it is paper */
-#define NO_STROKE 3                   /* pixels: outlines of a picture without ink are as rough as this */
-#define THROUGH 3                     /* stroke widths of ink that an outline looks through */
+#define EDGE_FOLLOWED  UINT32_C (0x80000000) /* flag in `surface`: the pixel's upper edge has been followed */
+#define SOLID_DIVISOR  10                    /* less than a tenth of a solid region is paper; chosen */
+#define DEFAULT_STROKE 3                     /* pixels, for pictures without ink; chosen */
+#define MOST_INK       3                     /* stroke widths of ink between an outline and what it faces; chosen */
 
 typedef struct
 {
-  const CeldLabels *labels;
-  const CeldPlane  *ink;        /* may be NULL */
-  size_t            n_labels;
-  CeldRegionOutlines         *outlines;
+  const CeldLabels   *labels;
+  const CeldPlane    *ink;      /* may be NULL */
+  size_t              n_labels;
+  CeldRegionOutlines *outlines;
 } Tracer;
 
 static uint32_t
@@ -40,11 +40,13 @@ paper_at (const Tracer *t, int x, int y)
   return !t->ink || celd_is_paper (CELD_AT (t->ink, x, y));
 }
 
+/* Allocates and fills outlines->surface. */
 static CeldStatus
 read_surfaces (Tracer *t)
 {
   CeldRegionOutlines *r = t->outlines;
-  size_t   *all = celd_alloc0 (t->n_labels + 1, sizeof *all), *paper = celd_alloc0 (t->n_labels + 1, sizeof *paper);
+  size_t             *all = celd_alloc0 (t->n_labels + 1, sizeof *all);
+  size_t             *paper = celd_alloc0 (t->n_labels + 1, sizeof *paper);
 
   r->stride  = (size_t) r->width + 2;
   r->surface = celd_alloc0 ((size_t) r->height + 2, r->stride * sizeof *r->surface);
@@ -64,7 +66,7 @@ read_surfaces (Tracer *t)
             {
               uint32_t label = label_at (t, x, y);
 
-              row[x] = paper_at (t, x, y) || SOLID * paper[label] < all[label] ? label : 0;
+              row[x] = paper_at (t, x, y) || SOLID_DIVISOR * paper[label] < all[label] ? label : 0;
             }
         }
     }
@@ -73,8 +75,8 @@ read_surfaces (Tracer *t)
   return all && paper && r->surface ? CELD_OK : CELD_NO_MEMORY;
 }
 
-/* Headings: 0 to the right, 1 down, 2 to the left, 3 up.  At a corner, the pixels ahead on the left and on the
- * right. */
+/* Headings: 0 to the right, 1 down, 2 to the left, 3 up; and the pixels ahead of a corner on the left and on the right,
+ * relative to it. */
 static const int step_x[4] = { 1, 0, -1, 0 }, step_y[4] = { 0, 1, 0, -1 };
 static const int left_x[4] = { 0, 0, -1, -1 }, left_y[4] = { -1, 0, 0, -1 };
 static const int right_x[4] = { 0, -1, -1, 0 }, right_y[4] = { 0, 0, -1, -1 };
@@ -85,13 +87,14 @@ surface_of (const CeldRegionOutlines *r, int x, int y)
   return &r->surface[(size_t) (y + 1) * r->stride + (size_t) (x + 1)];
 }
 
-/* The label behind the ink that begins at pixel (x,y). */
+/* What the outline of `label` faces in direction (dx,dy), where pixel (x,y) is the first beyond it: as in
+ * CeldOutlinePoint. */
 static uint32_t
-face (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
+faced_label (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
 {
-  int reach = THROUGH * t->outlines->stroke + 2;
+  int most = MOST_INK * t->outlines->stroke + 2;
 
-  for (int k = 0; k <= reach; k++, x += dx, y += dy)
+  for (int k = 0; k <= most; k++, x += dx, y += dy)
     {
       uint32_t there;
 
@@ -100,15 +103,15 @@ face (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
       there = label_at (t, x, y);
       if (there && there != label)
         return there;
-      if (there && k && (*surface_of (t->outlines, x, y) & ~SEEN) == label)
+      if (there && k && (*surface_of (t->outlines, x, y) & ~EDGE_FOLLOWED) == label)
         return 0;
     }
   return 0;
 }
 
-/* The place between the pixel of the surface at (x,y) and its neighbour. */
+/* The point of the outline between the surface's pixel (x,y) and its neighbour in direction (dx,dy). */
 static CeldOutlinePoint
-place (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
+outline_point (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
 {
   int    u = x + dx, v = y + dy;
   double along = 0.5;
@@ -121,28 +124,23 @@ place (const Tracer *t, uint32_t label, int x, int y, int dx, int dy)
       along = in < 1 ? (in - 0.5) / (in - out) : 0.5 / (1 - out); /* NaN, and more than paper, are paper */
     }
   return (CeldOutlinePoint) { (float) (x + 0.5 + along * dx), (float) (y + 0.5 + along * dy),
-                          face (t, label, u, v, dx, dy) };
+                              faced_label (t, label, u, v, dx, dy) };
 }
 
-static CeldStatus
-add_point (CeldRegionOutlines *r, CeldOutlinePoint point)
-{
-  return celd_append (r->point, r->n_points, r->point_capacity, point);
-}
-
-/* Where a loop faces nothing for a short while, and the same label before and behind, it faces that, too: slanting ink
- * is wider than it is thick, and specks of ink lie in the way.  Longer stretches are lines inside the surface. */
+/* Where a loop faces nothing on a short stretch and the same label before and after it, it is taken to face that label
+ * there, too: in that direction slanting ink may be too wide, or a speck of ink in the way.  Longer stretches are lines
+ * inside the surface. */
 static void
-bridge (const CeldRegionOutlines *r, const CeldOutlineLoop *loop)
+fill_short_gaps (const CeldRegionOutlines *r, const CeldOutlineLoop *loop)
 {
   CeldOutlinePoint *p = &r->point[loop->first];
-  size_t        most = (size_t) (CELD_SHORTEST_MARK * r->stroke), start = 0;
+  size_t            most = (size_t) (CELD_SHORTEST_MARK * r->stroke), start = 0;
 
   while (start < loop->n && !p[start].faces)
     start++;
   for (size_t i = 1, gap = 0; i <= loop->n && start < loop->n; i++)
     {
-      size_t   at = (start + i) % loop->n, before = (start + i + loop->n - gap - 1) % loop->n;
+      size_t at = (start + i) % loop->n, before = (start + i + loop->n - gap - 1) % loop->n;
 
       if (!p[at].faces)
         gap++;
@@ -155,70 +153,71 @@ bridge (const CeldRegionOutlines *r, const CeldOutlineLoop *loop)
     }
 }
 
-/* Follows the outline that has the upper edge of the pixel (x,y). */
+/* Follows the outline that has the upper edge of pixel (x,y), and appends it. */
 static CeldStatus
 follow (Tracer *t, uint32_t label, int x, int y)
 {
   CeldRegionOutlines *r = t->outlines;
   CeldOutlineLoop     loop = { .first = r->n_points, .label = label };
-  int          at_x = x, at_y = y, heading = 0;
-  CeldOutlinePoint last;
+  int                 at_x = x, at_y = y, heading = 0;
+  CeldOutlinePoint    last;
 
   do
     {
       int in_x = at_x + right_x[heading], in_y = at_y + right_y[heading];
       int out_x = at_x + left_x[heading], out_y = at_y + left_y[heading];
 
-      if (add_point (r, place (t, label, in_x, in_y, out_x - in_x, out_y - in_y)) != CELD_OK)
+      last = outline_point (t, label, in_x, in_y, out_x - in_x, out_y - in_y);
+      if (celd_append (r->point, r->n_points, r->point_capacity, last) != CELD_OK)
         return CELD_NO_MEMORY;
       if (heading == 0)
-        *surface_of (r, in_x, in_y) |= SEEN;
+        *surface_of (r, in_x, in_y) |= EDGE_FOLLOWED;
       at_x += step_x[heading];
       at_y += step_y[heading];
-      if ((*surface_of (r, at_x + left_x[heading], at_y + left_y[heading]) & ~SEEN) == label)
+      if ((*surface_of (r, at_x + left_x[heading], at_y + left_y[heading]) & ~EDGE_FOLLOWED) == label)
         heading = (heading + 3) & 3;
-      else if ((*surface_of (r, at_x + right_x[heading], at_y + right_y[heading]) & ~SEEN) != label)
+      else if ((*surface_of (r, at_x + right_x[heading], at_y + right_y[heading]) & ~EDGE_FOLLOWED) != label)
         heading = (heading + 1) & 3;
     }
   while (at_x != x || at_y != y || heading != 0);
   loop.n = r->n_points - loop.first;
-  last   = r->point[r->n_points - 1];
   for (size_t i = loop.first; i < r->n_points; last = r->point[i++])
     loop.length += hypot ((double) (r->point[i].x - last.x), (double) (r->point[i].y - last.y));
-  bridge (r, &loop);
+  fill_short_gaps (r, &loop);
   return celd_append (r->loop, r->n_loops, r->loop_capacity, loop);
 }
 
 static CeldStatus
 follow_all (Tracer *t, const CeldHost *host)
 {
-  CeldRegionOutlines  *r = t->outlines;
-  CeldStatus status = CELD_OK;
+  CeldRegionOutlines *r = t->outlines;
+  CeldStatus          status = CELD_OK;
 
   for (int y = 0; y < r->height && status == CELD_OK; y++)
     {
       const uint32_t *row = surface_of (r, 0, y), *above = row - r->stride;
 
       for (int x = 0; x < r->width && status == CELD_OK; x++)
-        if (row[x] && !(row[x] & SEEN) && (above[x] & ~SEEN) != row[x])
+        if (row[x] && !(row[x] & EDGE_FOLLOWED) && (above[x] & ~EDGE_FOLLOWED) != row[x])
           status = follow (t, row[x], x, y);
       if (status == CELD_OK && (y & 255) == 255)
         status = celd_progress (host, (double) y / r->height);
     }
   for (size_t p = 0; p < r->stride * ((size_t) r->height + 2); p++)
-    r->surface[p] &= ~SEEN;
+    r->surface[p] &= ~EDGE_FOLLOWED;
   return status;
 }
 
 CeldStatus
-celd_region_outlines_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host, CeldRegionOutlines *outlines)
+celd_region_outlines_new (const CeldLabels *labels, size_t n_labels, const CeldPlane *ink, const CeldHost *host,
+                          CeldRegionOutlines *outlines)
 {
-  CeldRegionOutlines   made = { .width = labels->width, .height = labels->height };
-  Tracer     t = { labels, ink, n_labels, &made };
-  CeldStatus status;
+  CeldRegionOutlines made = { .width = labels->width, .height = labels->height };
+  Tracer             t = { labels, ink, n_labels, &made };
+  CeldStatus         status;
 
   made.stroke = ink ? celd_stroke_width (ink) : 0;
-  made.stroke = made.stroke ? made.stroke : NO_STROKE;
+  made.stroke = made.stroke ? made.stroke : DEFAULT_STROKE;
   status = read_surfaces (&t);
   if (status == CELD_OK)
     status = follow_all (&t, host);

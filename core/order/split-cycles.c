@@ -1,16 +1,18 @@
 /* Contradictions resolved by splitting a region, which the paper leaves open (section 4): "it is not able to decide
  * where to put a new scribble in order to resolve the conflict".
  *
- * A cycle passes a region from the end of one relation to the end of the next, its two anchors there.  Each region that
- * it passes is cut between them, pixel by pixel, at the least cost (LazyBrush's: along ink it is cheap, across paper
- * every pixel counts); the cheapest of these cuts is made, and the cycle is gone, as relations have their points on one
- * side of the cut or the other.  Then the next contradiction is looked at, until none is left that a cut can resolve.
+ * Where a cycle passes a region, one relation ends at a point of it and the next begins at another, its two anchors.
+ * For each region of the cycle the minimum cut between its anchors is found, on pixels and with LazyBrush's costs (low
+ * along ink, high across paper), and the cheapest of these cuts is made: it separates the ends of the relations, so
+ * that the cycle is gone.  This is repeated until no contradiction is left that a cut can resolve.
  *
- * The new border is no contour: ink along it is taken for paper where smooth depth is made, so that the sheet bends.
- * What the anchors' sides of the region hold whatever the cut costs: everything nearer to one of them, within the
- * region, than a quarter of the way between both; so no cut wraps a point.  Anchors less than two line widths apart, on
- * ink, in parts of a colour that do not touch, or on the background are not parted: such a contradiction stays for
- * feedback-arc-set.c.
+ * The new boundary is not a contour: celd_splits_erase takes the ink along it for paper where smooth depth is made, so
+ * that depth is continuous across it.  Pixels at most a quarter of the distance between the anchors away from one of
+ * them, measured within the region, always stay on its side, which excludes cuts that merely encircle an anchor.
+ * Regions are not cut between anchors that are less than two stroke widths apart, on ink, in different connected
+ * components of the label, or in the background: such contradictions are left to feedback-arc-set.c.
+ *
+ * Cost: a minimum cut on the region's box for each region of a cycle, and all relations anew after each split.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,13 +23,12 @@
 #include "solve/maxflow.h"
 
 #include <math.h>
-#include <string.h>
 
-#define FAR_APART 2         /* line widths between two anchors */
-#define NEAREST   4         /* pixels, however thin the lines are */
-#define HELD      4         /* an anchor holds a quarter of the way to the other */
-#define BOUND     (1 << 28) /* of what an anchor holds: more than any cut costs */
-#define NOT_YET   UINT32_MAX
+#define ANCHORS_APART       2         /* stroke widths, the least distance of two anchors; chosen */
+#define ANCHORS_APART_THIN  4         /* pixels, the same for thin strokes; chosen */
+#define HELD_DIVISOR        4         /* an anchor holds a quarter of the distance to the other; chosen */
+#define HELD_CAPACITY       (1 << 28) /* of a pixel that an anchor holds: more than any cut costs */
+#define UNREACHED           UINT32_MAX
 
 typedef struct
 {
@@ -36,98 +37,90 @@ typedef struct
   CeldLabels          *labels;
   CeldPalette         *palette;
   CeldSmoothnessCosts  costs;
-  double               apart;   /* least distance of two anchors */
+  double               apart;   /* least distance of two anchors, pixels */
   CeldGraph            graph;
 } Work;
 
-/* A region between two anchors, in the box round it, and its cut. */
+/* A region with two anchors, in its bounding box, and the minimum cut between them. */
 typedef struct
 {
   uint32_t  label;
-  int       x[2], y[2];
+  int       x[2], y[2];         /* the anchors */
   CeldRect  box;
-  uint32_t *way[2];             /* steps within the region from each anchor; NOT_YET outside */
+  uint32_t *steps[2];           /* within the region from each anchor; UNREACHED outside */
   uint8_t  *side;               /* 1: of the first anchor */
   int64_t   cost;
-} Sheet;
+} RegionCut;
 
 static void
-sheet_clear (Sheet *sheet)
+region_cut_clear (RegionCut *cut)
 {
-  celd_free (sheet->way[0]);
-  celd_free (sheet->way[1]);
-  celd_free (sheet->side);
-  *sheet = (Sheet) { 0 };
+  celd_free (cut->steps[0]);
+  celd_free (cut->steps[1]);
+  celd_free (cut->side);
+  *cut = (RegionCut) { 0 };
+}
+
+/* The number of anchor k's pixel in the box. */
+static size_t
+anchor_pixel (const RegionCut *cut, int k)
+{
+  return (size_t) (cut->y[k] - cut->box.y) * (size_t) cut->box.width + (size_t) (cut->x[k] - cut->box.x);
+}
+
+static size_t
+box_pixels (const RegionCut *cut)
+{
+  return (size_t) cut->box.width * (size_t) cut->box.height;
 }
 
 /* ------------------------------------------------------------------ anchors */
 
-/* The point at which relation i ends on this side; false if it is none, or on ink of another label. */
+/* The region and the anchors at which consecutive relations i and j of a cycle meet; false if it may not be cut there.
+ * Equalities have no place in the region. */
 static bool
-find_anchor (const Work *w, size_t i, CeldSide side, uint32_t *label, int *x, int *y)
-{
-  const CeldRelation *r = &w->relations->item[i];
-  const CeldTerm     *term = side == CELD_NEARER ? &r->nearer : &r->farther;
-
-  if (term->by_colour)
-    return false;
-  *label = w->graph.end[w->graph.first[2 * i + side]] + 1;
-  *x     = (int) term->x;
-  *y     = (int) term->y;
-  return CELD_AT (w->labels, *x, *y) == *label;
-}
-
-/* Do relations i and j of a cycle meet in a region that may be cut?  Only inequalities hold it there. */
-static bool
-find_meeting (const Work *w, size_t i, size_t j, Sheet *sheet)
+find_anchors (const Work *w, size_t i, size_t j, RegionCut *cut)
 {
   uint32_t other;
 
   return !celd_graph_equal (&w->graph, i) && !celd_graph_equal (&w->graph, j) &&
-         find_anchor (w, i, CELD_FARTHER, &sheet->label, &sheet->x[0], &sheet->y[0]) &&
-         find_anchor (w, j, CELD_NEARER, &other, &sheet->x[1], &sheet->y[1]) && other == sheet->label &&
-         !w->palette->item[other - 1].background &&
-         hypot (sheet->x[0] - sheet->x[1], sheet->y[0] - sheet->y[1]) >= w->apart;
+         celd_graph_point (&w->graph, i, CELD_FARTHER, &cut->label, &cut->x[0], &cut->y[0]) &&
+         celd_graph_point (&w->graph, j, CELD_NEARER, &other, &cut->x[1], &cut->y[1]) &&
+         other == cut->label && !w->palette->item[other - 1].background &&
+         CELD_AT (w->labels, cut->x[0], cut->y[0]) == other && CELD_AT (w->labels, cut->x[1], cut->y[1]) == other &&
+         hypot (cut->x[0] - cut->x[1], cut->y[0] - cut->y[1]) >= w->apart;
 }
 
 /* ------------------------------------------------------------------ the cut */
 
 static void
-find_box (const Work *w, Sheet *sheet)
+find_box (const Work *w, RegionCut *cut)
 {
   int left = w->labels->width, right = -1, top = w->labels->height, bottom = -1;
 
   for (int y = 0; y < w->labels->height; y++)
     for (int x = 0; x < w->labels->width; x++)
-      if (CELD_AT (w->labels, x, y) == sheet->label)
+      if (CELD_AT (w->labels, x, y) == cut->label)
         {
           left   = x < left ? x : left;
           right  = x > right ? x : right;
           top    = y < top ? y : top;
           bottom = y;
         }
-  sheet->box = (CeldRect) { left, top, right - left + 1, bottom - top + 1 };
+  cut->box = (CeldRect) { left, top, right - left + 1, bottom - top + 1 };
 }
 
-/* Steps from an anchor to all of the region, breadth first. */
-static CeldStatus
-measure_ways (const Work *w, Sheet *sheet, int anchor)
+/* Breadth-first search within the label from a pixel of the box, through pixels that `steps` has as UNREACHED.  Sets
+ * their numbers of steps, lists them in `queue` (room for the box), and returns how many there are. */
+static size_t
+search_region (const Work *w, const RegionCut *cut, size_t start, uint32_t *steps, uint32_t *queue)
 {
-  CeldRect  box = sheet->box;
-  size_t    bw = (size_t) box.width, n = bw * (size_t) box.height, n_queue = 0;
-  uint32_t *way = celd_alloc (n, sizeof *way), *queue = celd_alloc (n, sizeof *queue);
+  CeldRect box = cut->box;
+  size_t   bw = (size_t) box.width, n = 0;
 
-  sheet->way[anchor] = way;
-  if (!way || !queue)
-    {
-      celd_free (queue);
-      return CELD_NO_MEMORY;
-    }
-  for (size_t p = 0; p < n; p++)
-    way[p] = NOT_YET;
-  queue[n_queue] = (uint32_t) ((size_t) (sheet->y[anchor] - box.y) * bw + (size_t) (sheet->x[anchor] - box.x));
-  way[queue[n_queue++]] = 0;
-  for (size_t i = 0; i < n_queue; i++)
+  queue[n++]   = (uint32_t) start;
+  steps[start] = 0;
+  for (size_t i = 0; i < n; i++)
     {
       int x = (int) (queue[i] % bw), y = (int) (queue[i] / bw);
 
@@ -136,186 +129,171 @@ measure_ways (const Work *w, Sheet *sheet, int anchor)
           int    u = x + (k == 0) - (k == 1), v = y + (k == 2) - (k == 3);
           size_t q = (size_t) v * bw + (size_t) u;
 
-          if (u < 0 || v < 0 || u >= box.width || v >= box.height || way[q] != NOT_YET ||
-              CELD_AT (w->labels, box.x + u, box.y + v) != sheet->label)
+          if (u < 0 || v < 0 || u >= box.width || v >= box.height || steps[q] != UNREACHED ||
+              CELD_AT (w->labels, box.x + u, box.y + v) != cut->label)
             continue;
-          way[q] = way[queue[i]] + 1;
-          queue[n_queue++] = (uint32_t) q;
+          steps[q]   = steps[queue[i]] + 1;
+          queue[n++] = (uint32_t) q;
         }
     }
-  celd_free (queue);
-  return CELD_OK;
+  return n;
 }
 
-/* V_pq between a pixel of the box and its right or lower neighbour, 0 where one is not in the region. */
-static int32_t
-edge_cost (const Work *w, const Sheet *sheet, int x, int y, int u, int v)
+/* Steps from both anchors; cut->steps[0] is UNREACHED at the second anchor if no path within the label joins them. */
+static CeldStatus
+count_steps (const Work *w, RegionCut *cut)
 {
-  CeldRect box = sheet->box;
+  size_t    n = box_pixels (cut);
+  uint32_t *queue = celd_alloc (n, sizeof *queue);
+  bool      good = queue != NULL;
+
+  for (int k = 0; k < 2 && good; k++)
+    {
+      cut->steps[k] = celd_alloc (n, sizeof (uint32_t));
+      good          = cut->steps[k] != NULL;
+      for (size_t p = 0; p < n && good; p++)
+        cut->steps[k][p] = UNREACHED;
+      if (good)
+        search_region (w, cut, anchor_pixel (cut, k), cut->steps[k], queue);
+    }
+  celd_free (queue);
+  return good ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* V_pq between a pixel of the box and its right or lower neighbour (u,v), 0 where one is not in the region. */
+static int32_t
+edge_cost (const Work *w, const RegionCut *cut, int x, int y, int u, int v)
+{
+  CeldRect box = cut->box;
   float    a, b;
 
-  if (u >= box.width || v >= box.height || sheet->way[0][(size_t) y * (size_t) box.width + (size_t) x] == NOT_YET ||
-      sheet->way[0][(size_t) v * (size_t) box.width + (size_t) u] == NOT_YET)
+  if (u >= box.width || v >= box.height || cut->steps[0][(size_t) y * (size_t) box.width + (size_t) x] == UNREACHED ||
+      cut->steps[0][(size_t) v * (size_t) box.width + (size_t) u] == UNREACHED)
     return 0;
   a = CELD_AT (w->ink, box.x + x, box.y + y);
   b = CELD_AT (w->ink, box.x + u, box.y + v);
   return celd_smoothness_cost (&w->costs, a, b, !celd_is_paper (a), !celd_is_paper (b), false);
 }
 
+/* Finds the minimum cut: fills in `side` and `cost`. */
 static CeldStatus
-cut_sheet (const Work *w, const CeldHost *host, Sheet *sheet)
+cut_region (const Work *w, const CeldHost *host, RegionCut *cut)
 {
-  CeldRect   box = sheet->box;
-  size_t     n = (size_t) box.width * (size_t) box.height, p = 0;
-  size_t     end = (size_t) (sheet->y[1] - box.y) * (size_t) box.width + (size_t) (sheet->x[1] - box.x);
-  uint32_t   held = sheet->way[0][end] / HELD;
-  int32_t   *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
-  int32_t   *bound = celd_alloc (n, sizeof *bound);
+  CeldRect   box = cut->box;
+  size_t     n = box_pixels (cut), p = 0;
+  uint32_t   held = cut->steps[0][anchor_pixel (cut, 1)] / HELD_DIVISOR;
+  int32_t   *east = celd_alloc (n, 3 * sizeof *east), *south = east + n, *bound = south + n;
   CeldStatus status = CELD_NO_MEMORY;
 
-  sheet->side = celd_alloc (n, 1);
-  if (east && south && bound && sheet->side)
+  cut->side = celd_alloc (n, 1);
+  if (east && cut->side)
     {
       for (int y = 0; y < box.height; y++)
         for (int x = 0; x < box.width; x++, p++)
           {
-            east[p]  = edge_cost (w, sheet, x, y, x + 1, y);
-            south[p] = edge_cost (w, sheet, x, y, x, y + 1);
-            bound[p] = sheet->way[0][p] <= held ? BOUND : sheet->way[1][p] <= held ? -BOUND : 0;
+            east[p]  = edge_cost (w, cut, x, y, x + 1, y);
+            south[p] = edge_cost (w, cut, x, y, x, y + 1);
+            bound[p] = cut->steps[0][p] <= held ? HELD_CAPACITY : cut->steps[1][p] <= held ? -HELD_CAPACITY : 0;
           }
-      status = celd_maxflow (box.width, box.height, east, south, bound, host, sheet->side, &sheet->cost);
+      status = celd_maxflow (box.width, box.height, east, south, bound, host, cut->side, &cut->cost);
     }
   celd_free (east);
-  celd_free (south);
-  celd_free (bound);
   return status;
 }
 
-/* The cheapest cut of a cycle; *best keeps label 0 if there is none. */
+/* The cheapest cut of a cycle; best->label stays 0 if there is none. */
 static CeldStatus
-find_cut (const Work *w, const CeldCycle *cycle, const CeldHost *host, Sheet *best)
+find_cut (const Work *w, const CeldCycle *cycle, const CeldHost *host, RegionCut *best)
 {
   CeldStatus status = CELD_OK;
 
   for (size_t k = 0; k < cycle->n && status == CELD_OK; k++)
     {
-      Sheet sheet = { 0 };
-      bool  joined = false;
+      RegionCut cut = { 0 };
 
-      if (!find_meeting (w, cycle->item[k], cycle->item[(k + 1) % cycle->n], &sheet))
+      if (!find_anchors (w, cycle->item[k], cycle->item[(k + 1) % cycle->n], &cut))
         continue;
-      find_box (w, &sheet);
-      status = measure_ways (w, &sheet, 0);
-      if (status == CELD_OK)
-        joined = sheet.way[0][(size_t) (sheet.y[1] - sheet.box.y) * (size_t) sheet.box.width +
-                              (size_t) (sheet.x[1] - sheet.box.x)] != NOT_YET;
-      if (joined)
-        status = measure_ways (w, &sheet, 1);
-      if (joined && status == CELD_OK)
-        status = cut_sheet (w, host, &sheet);
-      if (joined && status == CELD_OK && (!best->label || sheet.cost < best->cost))
+      find_box (w, &cut);
+      status = count_steps (w, &cut);
+      if (status == CELD_OK && cut.steps[0][anchor_pixel (&cut, 1)] != UNREACHED)
         {
-          Sheet other = *best;
+          status = cut_region (w, host, &cut);
+          if (status == CELD_OK && (!best->label || cut.cost < best->cost))
+            {
+              RegionCut other = *best;
 
-          *best = sheet;
-          sheet = other;
+              *best = cut;
+              cut   = other;
+            }
         }
-      sheet_clear (&sheet);
+      region_cut_clear (&cut);
     }
   return status;
 }
 
-/* ------------------------------------------------------------------ taking over */
+/* ------------------------------------------------------------------ the split */
 
-/* A part of the label that does not touch the sheet goes with the anchor that is nearer to it: it is what shows of the
- * same sheet beyond something in front.  Marks it as reached. */
-static void
-join_part (const Work *w, Sheet *sheet, size_t first, uint32_t *queue)
-{
-  CeldRect box = sheet->box;
-  size_t   bw = (size_t) box.width, n = 0;
-  double   nearest[2] = { INFINITY, INFINITY };
-
-  queue[n++] = (uint32_t) first;
-  sheet->way[0][first] = 0;
-  for (size_t i = 0; i < n; i++)
-    {
-      int x = (int) (queue[i] % bw), y = (int) (queue[i] / bw);
-
-      for (int k = 0; k < 2; k++)
-        nearest[k] = fmin (nearest[k], hypot (box.x + x - sheet->x[k], box.y + y - sheet->y[k]));
-      for (int k = 0; k < 4; k++)
-        {
-          int    u = x + (k == 0) - (k == 1), v = y + (k == 2) - (k == 3);
-          size_t q = (size_t) v * bw + (size_t) u;
-
-          if (u < 0 || v < 0 || u >= box.width || v >= box.height || sheet->way[0][q] != NOT_YET ||
-              CELD_AT (w->labels, box.x + u, box.y + v) != sheet->label)
-            continue;
-          sheet->way[0][q] = 0;
-          queue[n++] = (uint32_t) q;
-        }
-    }
-  for (size_t i = 0; i < n; i++)
-    sheet->side[queue[i]] = nearest[0] <= nearest[1];
-}
-
+/* Assigns every other connected component of the label to the side of the nearer anchor: it shows the same thing beyond
+ * something in front. */
 static CeldStatus
-join_parts (const Work *w, Sheet *sheet)
+assign_components (const Work *w, RegionCut *cut)
 {
-  CeldRect  box = sheet->box;
-  uint32_t *queue = celd_alloc ((size_t) box.width * (size_t) box.height, sizeof *queue);
-  size_t    p = 0;
+  CeldRect  box = cut->box;
+  size_t    bw = (size_t) box.width;
+  uint32_t *queue = celd_alloc (box_pixels (cut), sizeof *queue);
 
   if (!queue)
     return CELD_NO_MEMORY;
-  for (int y = 0; y < box.height; y++)
-    for (int x = 0; x < box.width; x++, p++)
-      if (sheet->way[0][p] == NOT_YET && CELD_AT (w->labels, box.x + x, box.y + y) == sheet->label)
-        join_part (w, sheet, p, queue);
+  for (size_t p = 0; p < box_pixels (cut); p++)
+    if (cut->steps[0][p] == UNREACHED &&
+        CELD_AT (w->labels, box.x + (int) (p % bw), box.y + (int) (p / bw)) == cut->label)
+      {
+        size_t n = search_region (w, cut, p, cut->steps[0], queue);
+        double nearest[2] = { INFINITY, INFINITY };
+
+        for (size_t i = 0; i < n; i++)
+          for (int k = 0; k < 2; k++)
+            nearest[k] = fmin (nearest[k], hypot (box.x + (int) (queue[i] % bw) - cut->x[k],
+                                                  box.y + (int) (queue[i] / bw) - cut->y[k]));
+        for (size_t i = 0; i < n; i++)
+          cut->side[queue[i]] = nearest[0] <= nearest[1];
+      }
   celd_free (queue);
   return CELD_OK;
 }
 
-static size_t
-count_side (const Sheet *sheet, uint8_t side)
-{
-  size_t n = 0;
-
-  for (size_t p = 0; p < (size_t) sheet->box.width * (size_t) sheet->box.height; p++)
-    n += sheet->way[0][p] != NOT_YET && sheet->side[p] == side;
-  return n;
-}
-
 /* The smaller side becomes a label of its own, of the same colour. */
 static CeldStatus
-take_side (Work *w, const Sheet *sheet, CeldSplits *splits)
+split_label (Work *w, const RegionCut *cut, CeldSplits *splits)
 {
-  size_t      n[2] = { count_side (sheet, 1), count_side (sheet, 0) };
-  int         moves = n[1] <= n[0];
-  CeldRegion  region = w->palette->item[sheet->label - 1], *rest;
-  size_t      p = 0;
+  CeldRegion  region = w->palette->item[cut->label - 1], *rest;
+  size_t      n[2] = { 0 }, p = 0;
+  int         moves;
 
+  for (size_t q = 0; q < box_pixels (cut); q++)
+    if (cut->steps[0][q] != UNREACHED)
+      n[!cut->side[q]]++;
+  moves        = n[1] <= n[0];
   region.area  = n[moves];
   region.seeds = 0;
-  region.x     = sheet->x[moves];
-  region.y     = sheet->y[moves];
+  region.x     = cut->x[moves];
+  region.y     = cut->y[moves];
   if (!celd_reserve_one (splits->item, splits->n, splits->item_capacity) ||
       celd_append_uncounted (w->palette->item, w->palette->n, region) != CELD_OK)
     return CELD_NO_MEMORY;
-  rest        = &w->palette->item[sheet->label - 1];
+  rest        = &w->palette->item[cut->label - 1];
   rest->area -= n[moves];
-  for (int y = 0; y < sheet->box.height; y++)
-    for (int x = 0; x < sheet->box.width; x++, p++)
-      if (sheet->way[0][p] != NOT_YET && sheet->side[p] == !moves)
-        CELD_AT (w->labels, sheet->box.x + x, sheet->box.y + y) = (uint32_t) w->palette->n;
-  if (CELD_AT (w->labels, rest->x, rest->y) != sheet->label)
+  for (int y = 0; y < cut->box.height; y++)
+    for (int x = 0; x < cut->box.width; x++, p++)
+      if (cut->steps[0][p] != UNREACHED && cut->side[p] == !moves)
+        CELD_AT (w->labels, cut->box.x + x, cut->box.y + y) = (uint32_t) w->palette->n;
+  if (CELD_AT (w->labels, rest->x, rest->y) != cut->label)
     {
-      rest->x = sheet->x[!moves];
-      rest->y = sheet->y[!moves];
+      rest->x = cut->x[!moves];
+      rest->y = cut->y[!moves];
     }
-  splits->item[splits->n++] = (CeldSplit) { sheet->label, (uint32_t) w->palette->n, { sheet->x[!moves], sheet->x[moves] },
-                                     { sheet->y[!moves], sheet->y[moves] } };
+  splits->item[splits->n++] = (CeldSplit) { cut->label, (uint32_t) w->palette->n, { cut->x[!moves], cut->x[moves] },
+                                            { cut->y[!moves], cut->y[moves] } };
   return CELD_OK;
 }
 
@@ -324,20 +302,19 @@ static CeldStatus
 split_once (Work *w, const CeldHost *host, CeldSplits *splits, bool *done)
 {
   CeldOrder  order = { 0 };
-  Sheet      best = { 0 };
+  RegionCut  best = { 0 };
   CeldStatus status = celd_graph_new (w->labels, w->palette, w->relations, w->ink, &w->graph, NULL);
 
-  if (status != CELD_OK)
-    return status;
-  status = celd_graph_resolve (&w->graph, CELD_ON_CYCLE_REPORT, NULL, &order);
+  if (status == CELD_OK)
+    status = celd_graph_resolve (&w->graph, CELD_ON_CYCLE_REPORT, NULL, &order);
   for (size_t i = 0; i < order.n_cycles && status == CELD_OK && !best.label; i++)
     status = find_cut (w, &order.cycle[i], host, &best);
   *done = !best.label;
   if (status == CELD_OK && best.label)
-    status = join_parts (w, &best);
+    status = assign_components (w, &best);
   if (status == CELD_OK && best.label)
-    status = take_side (w, &best, splits);
-  sheet_clear (&best);
+    status = split_label (w, &best, splits);
+  region_cut_clear (&best);
   celd_order_clear (&order);
   celd_graph_clear (&w->graph);
   return status;
@@ -352,21 +329,20 @@ celd_cycles_split (const CeldRelations *relations, const CeldPlane *ink, const C
   CeldStatus status = CELD_OK;
   bool       done = !relations->n;
 
-  quiet.progress = NULL; /* nobody knows how many cuts there will be */
+  quiet.progress = NULL; /* the number of cuts is not known in advance */
   celd_smoothness_costs_new (labels->width, labels->height, settings->ink_threshold, &w.costs);
-  w.apart = fmax (NEAREST, FAR_APART * celd_stroke_width (ink));
-  while (!done && status == CELD_OK && splits->n < 2 * relations->n) /* each cut parts two of their ends */
+  w.apart = fmax (ANCHORS_APART_THIN, ANCHORS_APART * celd_stroke_width (ink));
+  while (!done && status == CELD_OK && splits->n < 2 * relations->n) /* each cut separates two ends of relations */
     {
       status = split_once (&w, &quiet, splits, &done);
-      if (status == CELD_OK)
-        status = celd_progress (host, 1 - 1 / (double) (splits->n + 1));
+      status = status == CELD_OK ? celd_progress (host, 1 - 1 / (double) (splits->n + 1)) : status;
     }
   return status;
 }
 
-/* ------------------------------------------------------------------ the new borders */
+/* ------------------------------------------------------------------ the new boundaries */
 
-/* The label that a label was split from, and the label itself. */
+/* The label that a label was split from first; itself if it was not split off. */
 static uint32_t
 origin_of (const CeldSplits *splits, uint32_t label)
 {
@@ -376,45 +352,37 @@ origin_of (const CeldSplits *splits, uint32_t label)
   return label;
 }
 
-bool
-celd_splits_have (const CeldSplits *splits, uint32_t label)
-{
-  for (size_t i = 0; i < splits->n; i++)
-    if (splits->item[i].label == label || splits->item[i].other == label)
-      return true;
-  return false;
-}
-
-/* Is any pixel round (x,y) of another region than that? */
+/* Does the square of this radius round (x,y) have pixels of regions that were not split from `origin`? */
 static bool
-is_near_others (const CeldSplits *splits, const CeldLabels *labels, uint32_t origin, int x, int y, int reach)
+is_near_others (const CeldSplits *splits, const CeldLabels *labels, uint32_t origin, int x, int y, int radius)
 {
-  for (int v = y - reach; v <= y + reach; v++)
-    for (int u = x - reach; u <= x + reach; u++)
+  for (int v = y - radius; v <= y + radius; v++)
+    for (int u = x - radius; u <= x + radius; u++)
       if (u >= 0 && v >= 0 && u < labels->width && v < labels->height &&
           origin_of (splits, CELD_AT (labels, u, v)) != origin)
         return true;
   return false;
 }
 
-/* Ink round a pixel at a new border becomes paper, but not that of the region's outline. */
+/* Turns the ink within twice the radius of a pixel at a new boundary into paper, except that of the outline of the
+ * region before its splits. */
 static void
-erase_round (const CeldSplits *splits, const CeldLabels *labels, int x, int y, int reach, CeldPlane *ink)
+erase_near (const CeldSplits *splits, const CeldLabels *labels, int x, int y, int radius, CeldPlane *ink)
 {
   uint32_t origin = origin_of (splits, CELD_AT (labels, x, y));
 
-  for (int v = y - 2 * reach; v <= y + 2 * reach; v++)
-    for (int u = x - 2 * reach; u <= x + 2 * reach; u++)
+  for (int v = y - 2 * radius; v <= y + 2 * radius; v++)
+    for (int u = x - 2 * radius; u <= x + 2 * radius; u++)
       if (u >= 0 && v >= 0 && u < labels->width && v < labels->height && CELD_AT (ink, u, v) < 1 &&
           origin_of (splits, CELD_AT (labels, u, v)) == origin &&
-          !is_near_others (splits, labels, origin, u, v, reach))
+          !is_near_others (splits, labels, origin, u, v, radius))
         CELD_AT (ink, u, v) = 1;
 }
 
 void
 celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink)
 {
-  int reach = stroke < 1 ? 1 : stroke;
+  int radius = stroke < 1 ? 1 : stroke;
 
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
@@ -426,6 +394,6 @@ celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int strok
           if (u >= labels->width || v >= labels->height || (there = CELD_AT (labels, u, v)) == here ||
               origin_of (splits, here) != origin_of (splits, there))
             continue;
-          erase_round (splits, labels, x, y, reach, ink);
+          erase_near (splits, labels, x, y, radius, ink);
         }
 }

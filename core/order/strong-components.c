@@ -2,8 +2,8 @@
  * labels and links, by trials.
  *
  * Steps lead down: from a label to the links that have it on their nearer side, from a link to its farther labels; an
- * equality leads both ways.  Of a component with an inequality in it not all relations can hold; only such components are
- * listed.  All other relations can hold, whatever is kept of those.  Linear time.
+ * equality leads both ways.  Of a component with an inequality in it not all relations can hold; only such components
+ * are listed.  All other relations can hold, whatever is kept of those.  Linear time.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

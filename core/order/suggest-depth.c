@@ -2,15 +2,15 @@
  *
  * Such pictures are unreliable near lines, so each region is reduced to one number, the median over its surface, with
  * the median absolute deviation (MAD) as its spread.  The difference of two medians relative to the sum of both spreads
- * gives log-odds; where they are equal, one region is in front with a confidence of one half.  An estimator can be wrong
- * about whole regions, so that confidence is limited by MOST_ODDS.
+ * gives log-odds; where they are equal, one region is in front with a confidence of one half.  An estimator can be
+ * wrong about whole regions, so that confidence is limited by MOST_ODDS.
  *
  * Cost: a sort of all pixels by region and depth; 16 bytes a pixel of work space.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "order/suggest.h"
+#include "order/order.h"
 
 #include <math.h>
 #include <stdlib.h>

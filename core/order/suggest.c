@@ -2,12 +2,12 @@
  * relations.
  *
  * The cues of each pair of touching regions (suggest-cues.c) are weighted and summed to log-odds, as if they were
- * independent.  The weights come from a logistic regression on random scenes of overlapping sheets, except two that such
- * scenes cannot teach: that the background is behind is almost certain, and that a line inside a region ends where
+ * independent.  The weights come from a logistic regression on random scenes of overlapping shapes, except two that
+ * such scenes cannot teach: that the background is behind is almost certain, and that a line inside a region ends where
  * something covers it is a weak cue, because folds also end at the outline of their own region.  Pairs are taken by
  * falling confidence, and one that would close a cycle with those before it is left out.
  *
- * The artist's relations and the suggestions are resolved together, as the contradictions of an order are (conflicts.c),
+ * Contradictions between the artist's relations and the suggestions are resolved as those of an order (conflicts.c),
  * with each suggestion lighter than any relation of the artist.  Suggestions that are not kept are dropped silently.
  *
  * The cues are those from which human vision takes order in line drawings: T-junctions (Guzman, Decomposition of a
@@ -17,7 +17,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order/order.h"
-#include "order/suggest.h"
 
 #include <math.h>
 #include <stdlib.h>

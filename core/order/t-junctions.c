@@ -1,39 +1,39 @@
-/* The corners of outlines where three regions meet.
+/* Junctions, where three regions meet, and how their outlines turn there.
  *
- * Where one contour ends at another, the outline of the region on the far side of the bar of this T runs on as if there
- * were nothing; both others have a corner.  How sharply an outline trials is measured clear of the junction, where wide
- * ink rounds it: a parabola is fitted to each arm and continued to the junction, so that a round bar has no corner.
- * An arm that the parabola does not fit is shortened, down to what still has a direction.
+ * Where one contour ends at another, the two make a T: the outline of the region beyond the bar continues without a
+ * corner, those of both others have one.  Wide ink rounds corners, so that directions are measured at some distance: a
+ * parabola is fitted to each arm of the outline and continued to the junction, so that a curved bar has no corner.  An
+ * arm that does not fit a parabola is shortened, as long as it still has a direction.
  *
- * Everything is in stroke widths; places are as exact as antialiasing makes them.
+ * Cost: one pass over the picture, and a look-up in a grid of cells for each junction.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "order/suggest.h"
+#include "order/order.h"
 
 #include <math.h>
 
-#define CELL     16             /* pixels: side of the cells in which outlines are looked up */
-#define JUNCTION_RADIUS 4.0 /* stroke widths from a junction to the outlines round it, at most */
-#define SAME_PLACE 2.0 /* stroke widths: junctions of the same regions as close as this are one */
-#define GAP      0.75           /* stroke widths round the corner that are not looked at */
-#define ARM      4.0            /* stroke widths of an arm */
-#define SHORTEST 1.5
-#define ROUGH    0.35           /* pixels that an outline may stray from a parabola, and a share of the stroke width */
-#define ROUGH_BY 0.04
+#define CELL_SIDE             16   /* pixels, of the grid in which points of outlines are looked up; chosen */
+#define JUNCTION_RADIUS       4.0  /* stroke widths from a junction to the outlines round it, at most; chosen */
+#define SAME_JUNCTION         2.0  /* stroke widths between junctions of the same regions that count as one; chosen */
+#define CORNER_RADIUS         0.75 /* stroke widths at a junction, where corners are rounded; not measured; chosen */
+#define LONGEST_JUNCTION_ARM  4.0  /* stroke widths; chosen */
+#define SHORTEST_JUNCTION_ARM 1.5  /* stroke widths; chosen */
+#define ARM_STEP              0.7  /* factor by which an arm is shortened; chosen */
+#define FIT_PIXELS            0.35 /* root mean square distance from the parabola, pixels, ...; chosen */
+#define FIT_STROKE            0.04 /* ... plus this fraction of the stroke width; chosen */
 
 typedef struct
 {
   const CeldRegionOutlines *outlines;
-  double          stroke;
-  size_t         *first;        /* of cell k: where[first[k]] .. before where[first[k + 1]] */
-  size_t         *where;        /* points by cell */
-  uint32_t       *loop;         /* of each point */
-  int             columns, rows;
-  CeldJunction  *corner;
-  size_t          n;
-  size_t          corner_capacity;
+  double                    stroke;  /* width in pixels */
+  size_t                   *first;   /* points of cell k: where[first[k]] to where[first[k + 1] - 1] */
+  size_t                   *where;   /* points by cell */
+  uint32_t                 *loop;    /* of each point */
+  int                       columns, rows;
+  CeldJunction             *junction;
+  size_t                    n, junction_capacity;
 } Search;
 
 /* ------------------------------------------------------------------ looking up outlines */
@@ -41,21 +41,22 @@ typedef struct
 static size_t
 cell_of (const Search *s, CeldOutlinePoint p)
 {
-  int column = (int) p.x / CELL, row = (int) p.y / CELL;
+  int column = (int) p.x / CELL_SIDE, row = (int) p.y / CELL_SIDE;
 
   column = column < s->columns ? column : s->columns - 1;
   row    = row < s->rows ? row : s->rows - 1;
   return (size_t) row * (size_t) s->columns + (size_t) column;
 }
 
+/* Sorts the points of all outlines into cells. */
 static CeldStatus
 sort_points (Search *s)
 {
   const CeldRegionOutlines *r = s->outlines;
-  size_t          cells;
+  size_t                    cells;
 
-  s->columns = (r->width + CELL - 1) / CELL;
-  s->rows    = (r->height + CELL - 1) / CELL;
+  s->columns = (r->width + CELL_SIDE - 1) / CELL_SIDE;
+  s->rows    = (r->height + CELL_SIDE - 1) / CELL_SIDE;
   cells      = (size_t) s->columns * (size_t) s->rows;
   s->first   = celd_alloc0 (cells + 2, sizeof *s->first);
   s->where   = celd_alloc (r->n_points, sizeof *s->where);
@@ -75,13 +76,14 @@ sort_points (Search *s)
   return CELD_OK;
 }
 
-/* The place on a label's outlines that is nearest to (x,y), SIZE_MAX if none is within reach. */
+/* The point of a label's outlines that is nearest to (x,y); SIZE_MAX if none is near. */
 static size_t
-nearest (const Search *s, uint32_t label, double x, double y)
+nearest_point (const Search *s, uint32_t label, double x, double y)
 {
-  double reach = JUNCTION_RADIUS * s->stroke + 4, least = reach * reach;
-  int    left = (int) fmax (0, (x - reach) / CELL), top = (int) fmax (0, (y - reach) / CELL);
-  int    right = (int) fmin (s->columns - 1, (x + reach) / CELL), bottom = (int) fmin (s->rows - 1, (y + reach) / CELL);
+  double radius = JUNCTION_RADIUS * s->stroke + 4, least = radius * radius;
+  int    left = (int) fmax (0, (x - radius) / CELL_SIDE), top = (int) fmax (0, (y - radius) / CELL_SIDE);
+  int    right = (int) fmin (s->columns - 1, (x + radius) / CELL_SIDE);
+  int    bottom = (int) fmin (s->rows - 1, (y + radius) / CELL_SIDE);
   size_t found = SIZE_MAX;
 
   for (int row = top; row <= bottom; row++)
@@ -92,7 +94,7 @@ nearest (const Search *s, uint32_t label, double x, double y)
         for (size_t k = s->first[cell]; k < s->first[cell + 1]; k++)
           {
             CeldOutlinePoint p = s->outlines->point[s->where[k]];
-            double       dx = (double) p.x - x, dy = (double) p.y - y;
+            double           dx = (double) p.x - x, dy = (double) p.y - y;
 
             if (dx * dx + dy * dy < least && s->outlines->loop[s->loop[s->where[k]]].label == label)
               {
@@ -106,7 +108,7 @@ nearest (const Search *s, uint32_t label, double x, double y)
 
 /* ------------------------------------------------------------------ arms */
 
-/* Sums for fitting parabolas x(s), y(s). */
+/* Sums over points for fitting parabolas x(s), y(s) by least squares: s^k, x s^k, y s^k, x^2 + y^2. */
 typedef struct { double s[5], x[3], y[3], squares; } Sums;
 
 static void
@@ -126,9 +128,9 @@ sum_up (Sums *sums, double s, double x, double y)
   sums->squares += x * x + y * y;
 }
 
-/* c0, c1, c2 of the parabola with these sums; by Cramer's rule. */
+/* Solves the normal equations for the parabola c[0] + c[1] s + c[2] s^2 by Cramer's rule. */
 static void
-solve (const double s[5], const double v[3], double c[3])
+fit_parabola (const double s[5], const double v[3], double c[3])
 {
   double m00 = s[2] * s[4] - s[3] * s[3], m01 = s[1] * s[4] - s[3] * s[2], m02 = s[1] * s[3] - s[2] * s[2];
   double m11 = s[0] * s[4] - s[2] * s[2], m12 = s[0] * s[3] - s[1] * s[2], m22 = s[0] * s[2] - s[1] * s[1];
@@ -139,16 +141,18 @@ solve (const double s[5], const double v[3], double c[3])
   c[2] = (m02 * v[0] - m12 * v[1] + m22 * v[2]) / det;
 }
 
-/* The direction at place i of the arm that leaves it, to the front or to the back; false if it cannot be told. */
+/* The direction at point i of the arm that follows it on the outline, or that precedes it; false if the arm is too
+ * short or does not fit a parabola. */
 static bool
 fit_arm (const Search *s, size_t i, bool back, double length, double *dx, double *dy)
 {
   const CeldOutlineLoop  *loop = &s->outlines->loop[s->loop[i]];
   const CeldOutlinePoint *point = s->outlines->point;
-  double              gap = GAP * s->stroke + 1, at = 0, x0 = (double) point[i].x, y0 = (double) point[i].y;
-  Sums                sums = { 0 };
-  size_t              k = i - loop->first;
-  double              cx[3], cy[3], rest, rough = ROUGH + ROUGH_BY * s->stroke;
+  double                  x0 = (double) point[i].x, y0 = (double) point[i].y;
+  double                  gap = CORNER_RADIUS * s->stroke + 1, at = 0;
+  Sums                    sums = { 0 };
+  size_t                  k = i - loop->first;
+  double                  cx[3], cy[3], rest, most = FIT_PIXELS + FIT_STROKE * s->stroke;
 
   for (size_t steps = 0; steps < loop->n / 2 && at < gap + length; steps++)
     {
@@ -162,26 +166,27 @@ fit_arm (const Search *s, size_t i, bool back, double length, double *dx, double
     }
   if (at < gap + length || sums.s[0] < 4)
     return false;
-  solve (sums.s, sums.x, cx);
-  solve (sums.s, sums.y, cy);
+  fit_parabola (sums.s, sums.x, cx);
+  fit_parabola (sums.s, sums.y, cy);
   rest = sums.squares;
   for (int n = 0; n < 3; n++)
     rest -= cx[n] * sums.x[n] + cy[n] * sums.y[n];
   *dx = cx[1];
   *dy = cy[1];
-  return rest <= rough * rough * sums.s[0] && hypot (*dx, *dy) > 0.1;
+  return rest <= most * most * sums.s[0] && hypot (*dx, *dy) > 0.1;
 }
 
-/* The longest arm that a parabola fits. */
+/* The direction of the longest arm that fits a parabola. */
 static bool
 find_arm (const Search *s, size_t i, bool back, double *dx, double *dy)
 {
-  for (double length = ARM; length >= SHORTEST; length *= 0.7)
+  for (double length = LONGEST_JUNCTION_ARM; length >= SHORTEST_JUNCTION_ARM; length *= ARM_STEP)
     if (fit_arm (s, i, back, fmax (length * s->stroke, 2 * length), dx, dy))
       return true;
   return false;
 }
 
+/* The angle by which the outline turns at point i, as in CeldJunction. */
 static float
 turn_at (const Search *s, size_t i)
 {
@@ -194,14 +199,15 @@ turn_at (const Search *s, size_t i)
 
 /* ------------------------------------------------------------------ junctions */
 
+/* Is there a junction of these labels already near (x,y)? */
 static bool
 is_known (const Search *s, const uint32_t label[3], double x, double y)
 {
-  double near = SAME_PLACE * s->stroke + 2;
+  double near = SAME_JUNCTION * s->stroke + 2;
 
-  for (size_t k = s->n; k-- > 0 && (double) s->corner[k].y > y - near;)
-    if (!memcmp (s->corner[k].label, label, sizeof s->corner[k].label) &&
-        hypot ((double) s->corner[k].x - x, (double) s->corner[k].y - y) < near)
+  for (size_t k = s->n; k-- > 0 && (double) s->junction[k].y > y - near;)
+    if (!memcmp (s->junction[k].label, label, sizeof s->junction[k].label) &&
+        hypot ((double) s->junction[k].x - x, (double) s->junction[k].y - y) < near)
       return true;
   return false;
 }
@@ -209,18 +215,18 @@ is_known (const Search *s, const uint32_t label[3], double x, double y)
 static CeldStatus
 add_junction (Search *s, uint32_t a, uint32_t b, uint32_t c, int x, int y)
 {
-  uint32_t       low = a < b ? a : b, high = a < b ? b : a;
-  CeldJunction  corner = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } };
+  uint32_t     low = a < b ? a : b, high = a < b ? b : a;
+  CeldJunction junction = { (float) x, (float) y, { low < c ? low : c, 0, high > c ? high : c }, { 0 } };
 
-  corner.label[1] = c < low ? low : c > high ? high : c;
-  if (is_known (s, corner.label, x, y))
+  junction.label[1] = c < low ? low : c > high ? high : c;
+  if (is_known (s, junction.label, x, y))
     return CELD_OK;
   for (int k = 0; k < 3; k++)
-    corner.turn[k] = turn_at (s, nearest (s, corner.label[k], x, y));
-  return celd_append (s->corner, s->n, s->corner_capacity, corner);
+    junction.turn[k] = turn_at (s, nearest_point (s, junction.label[k], x, y));
+  return celd_append (s->junction, s->n, s->junction_capacity, junction);
 }
 
-/* All threes among the four labels round a corner of pixels. */
+/* Adds a junction for all sets of three different labels among the four round a corner of pixels. */
 static CeldStatus
 try_corner (Search *s, const uint32_t four[4], int x, int y)
 {
@@ -261,8 +267,8 @@ search (Search *s, const CeldLabels *labels, size_t n_labels, const CeldHost *ho
 }
 
 CeldStatus
-celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegionOutlines *outlines, const CeldHost *host,
-                       CeldJunction **corners, size_t *n)
+celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegionOutlines *outlines,
+                     const CeldHost *host, CeldJunction **junctions, size_t *n)
 {
   Search     s = { .outlines = outlines, .stroke = outlines->stroke };
   CeldStatus status = sort_points (&s);
@@ -271,11 +277,11 @@ celd_junctions_find (const CeldLabels *labels, size_t n_labels, const CeldRegion
     status = search (&s, labels, n_labels, host);
   if (status == CELD_OK)
     {
-      *corners = s.corner;
-      *n       = s.n;
+      *junctions = s.junction;
+      *n         = s.n;
     }
   else
-    celd_free (s.corner);
+    celd_free (s.junction);
   celd_free (s.first);
   celd_free (s.where);
   celd_free (s.loop);

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "ask-order.h"
-#include "order/suggest.h"
+#include "order/order.h"
 
 /* Relations between the regions of PARTS, each a letter, a sign and a letter; suggestions with falling weight. */
 static CeldRelations
