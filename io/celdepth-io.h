@@ -1,15 +1,15 @@
-/* Pictures in and out of files, for the command line and the GEGL operations; a C face for OpenImageIO, which is C++.
+/* Reads and writes pictures, layers and meshes in files, for the command and the GEGL operations: a C interface to
+ * OpenImageIO and libzip.
  *
- * Files are read in a process of its own: damaged ones can crash a reader, or make it ask for any amount of memory.
- * Reading: open a file, look at its parts (the layers of a PSD, the parts of an EXR, the pages of a TIFF; one part in
- * an ordinary picture), read the parts that are wanted.  Every part comes as large as the canvas, at its place on it,
- * transparent around.  Alpha is straight, whatever the file does.
- * Writing: a picture appears complete or not at all: it is written beside its name and then moved there.  So does a
- * stack of layers.
+ * Reading: open a file, look at its parts (layers of a PSD, parts of an EXR, pages of a TIFF; an ordinary picture has
+ * one), and read those that are wanted.  Every part has the size of the canvas, and is transparent where it has no
+ * pixels.  Alpha is always straight.  Files are decoded in a process of its own, because damaged ones can crash a
+ * decoder or make it ask for any amount of memory.
+ * Writing: a file appears complete or not at all, because it is written under a temporary name and then renamed.
  *
- * Colour stays as it is in the file: encoded by the embedded profile (sRGB if there is none), or linear light; the
- * caller converts.  No function of this file throws or prints; all may be called from any thread, a file from one at a
- * time.  The only global state is the process that reads.
+ * Colours are not converted: they are encoded by the embedded profile (sRGB if there is none), or linear light.  No
+ * function throws or prints.  All may be called from any thread, with one file from one thread at a time.  The only
+ * global state is the connection to the reading process.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-/* One English sentence that names the file and says what is wrong with it; set whenever a function fails. */
+/* An English sentence that names the file and says what is wrong; set when a function fails. */
 typedef struct { char text[1024]; } CeldIoError;
 
 /* ------------------------------------------------------------------ reading */
@@ -31,16 +31,16 @@ typedef struct CeldIoFile CeldIoFile;
 
 typedef struct
 {
-  const char *name;      /* of the layer or part; "" if it has none (as part 0 of a PSD, the merged picture) */
-  bool        alpha;     /* has alpha, or does not cover the canvas */
+  const char *name;      /* of the layer or part; "" if it has none, like part 0 of a PSD, the merged picture */
+  bool        alpha;     /* the part has alpha, or does not cover the canvas */
   bool        grey;      /* red, green and blue are the same */
   bool        linear;    /* linear light (EXR, HDR); else encoded */
   int         bits;      /* of a channel: 8, 16, 32 */
 } CeldIoPart;
 
-/* For programs that have one thread when they call this: copies this program to be the process that reads, which costs
- * 2 ms.  Without it the first file that is opened starts the program celdepth-read, in 0.2 s: it lies beside the module
- * or program that this library is part of, or where it is installed. */
+/* Forks the reading process off this program, in 2 ms; the program must have a single thread when it calls this.
+ * Otherwise the first file that is opened starts the program celdepth-read, in 0.2 s, from the folder of the module or
+ * program that contains this library, or else from where it is installed. */
 void celd_io_fork_reader (void);
 
 CeldIoFile *celd_io_open  (const char *path, CeldIoError *error);        /* NULL: see error */
@@ -53,7 +53,7 @@ int celd_io_height (const CeldIoFile *file);
 size_t            celd_io_parts (const CeldIoFile *file);                /* at least one */
 const CeldIoPart *celd_io_part  (const CeldIoFile *file, size_t part);   /* lives as long as the file */
 
-/* The first part of that name, upper or lower case; CELD_NO_INDEX if there is none. */
+/* The first part of that name, ignoring case; CELD_NO_INDEX if there is none. */
 size_t celd_io_find (const CeldIoFile *file, const char *name);
 
 /* The embedded ICC profile; NULL if there is none.  Lives as long as the file. */
@@ -62,8 +62,8 @@ const char *celd_io_profile (const CeldIoFile *file, size_t part, size_t *size);
 /* Colours: width x height x R,G,B,A, straight alpha, opaque where the file has no alpha. */
 bool celd_io_read_colours (CeldIoFile *file, size_t part, float *rgba, CeldIoError *error);
 
-/* Values (levels, depth): width x height numbers as they were given to celd_io_write_depth; of other pictures the first
- * channel as it is stored (integers as [0,1]).  0 outside the part. */
+/* Values (levels, depth): width x height numbers, as they were given to celd_io_write_depth; of other pictures the
+ * first channel as it is stored (integers as [0,1]).  0 outside the part. */
 bool celd_io_read_values (CeldIoFile *file, size_t part, float *values, CeldIoError *error);
 
 /* ------------------------------------------------------------------ writing */
@@ -75,53 +75,54 @@ typedef struct
 {
   const char  *name;     /* "R", "A", "Z", "N.X", ...; kept by EXR, elsewhere the order counts */
   const float *data;
-  size_t       column, row; /* floats from a pixel to the next, from a row to the next */
+  size_t       column, row; /* floats from one pixel to the next, and from one row to the next */
 } CeldIoChannel;
 
 /* One part of a file. */
 typedef struct
 {
-  const char          *name;     /* NULL: none; a file of several parts must name all */
+  const char          *name;     /* NULL: none; in a file of several parts all need names */
   int                  width, height;
   CeldIoSample         sample;
-  bool                 srgb;     /* colours that are tagged sRGB; else numbers without a tag */
+  bool                 srgb;     /* colours, tagged as sRGB; else numbers without a tag */
   const CeldIoChannel *channel;
-  int                  channels; /* alpha is named "A" and comes straight */
+  int                  channels; /* alpha is named "A", and straight */
 } CeldIoPicture;
 
-/* A remark in the header: a text, or where text is NULL a number. */
+/* An attribute of the file's header: a text, or a number if text is NULL. */
 typedef struct { const char *name; const char *text; float number; } CeldIoNote;
 
-/* Can this file name be written?  By its ending: .exr .png .tif .tiff (upper or lower case). */
+/* Whether celd_io_write can write this file name: it ends in .exr, .png, .tif or .tiff, in any case. */
 bool celd_io_can_write (const char *path);
 
-/* Any picture.  Only EXR holds several parts. */
+/* Writes any picture.  Only EXR files can have several parts. */
 bool celd_io_write (const char *path, const CeldIoPicture *parts, size_t n_parts,
                     const CeldIoNote *notes, size_t n_notes, CeldIoError *error);
 
-/* Depth or levels, larger = nearer.  `farthest` and `nearest` (0 and 1; 0 and levels - 1 for ranks) are the values that
- * the format shows as its far and near end:
+/* Writes depth or levels, larger = nearer.  `farthest` and `nearest` (0 and 1 for normalised levels, 0 and levels - 1
+ * for CELD_ENCODING_RANK) are the values at the far and near end of the format's range:
  *   .exr   Z = distance: far - d (far - near), with near = 1 and far = 2, and depth.V = d in [0,1]; floats
  *   .png   d in 16 bits, near = white, no colour tag
  *   .tif   the values as they are, floats
- * with d = (value - farthest) / (nearest - farthest).  Header notes let celd_io_read_values give the values back. */
+ * with d = (value - farthest) / (nearest - farthest).  From attributes in the header celd_io_read_values computes the
+ * original values. */
 bool celd_io_write_depth (const char *path, const CeldPlane *depth, float farthest, float nearest, CeldIoError *error);
 
-/* Normals: .exr N.X N.Y N.Z signed floats; .png and .tif 0.5 + 0.5 n in 16 bits, green up (OpenGL). */
+/* Writes normals: .exr as signed floats in N.X, N.Y, N.Z; .png and .tif as 0.5 + 0.5 n in 16 bits, y up (OpenGL). */
 bool celd_io_write_normals (const char *path, const CeldVectors *normals, CeldIoError *error);
 
-/* Colours of 8 bits with straight alpha, sRGB; in .exr linear light. */
+/* Writes sRGB colours of 8 bits with straight alpha; in .exr as linear light. */
 bool celd_io_write_paint (const char *path, const CeldPaint *paint, CeldIoError *error);
 
-/* Colours in linear light with straight alpha: .exr and .tif floats; .png 16 bits, encoded and tagged as sRGB. */
+/* Writes colours in linear light with straight alpha: .exr and .tif as floats; .png in 16 bits, encoded as sRGB. */
 bool celd_io_write_colours (const char *path, const CeldColours *colours, CeldIoError *error);
 
-/* Linear light in [0,1]: .exr and .tif floats; .png 16 bits, encoded and tagged as sRGB. */
+/* Writes linear light in [0,1]: .exr and .tif as floats; .png in 16 bits, encoded as sRGB. */
 bool celd_io_write_light (const char *path, const CeldPlane *light, CeldIoError *error);
 
 /* ------------------------------------------------------------------ layers */
 
-/* A name may have any characters; EXR wants each only once.  A box of width 0 is one transparent pixel. */
+/* Names may have any characters; EXR needs different names.  A box of width 0 is written as one transparent pixel. */
 typedef struct { const char *name; CeldRect box; } CeldIoLayer;
 
 typedef struct
@@ -129,37 +130,38 @@ typedef struct
   int                width, height;    /* of the canvas */
   const CeldIoLayer *layer;            /* from back to front, boxes within the canvas */
   size_t             layers;
-  const float       *merged;           /* the picture that the layers make: as wide and high, r,g,b,a, straight alpha */
-  bool             (*paint) (void *host, size_t layer, float *rgba); /* a layer's box, straight alpha; false: give up */
+  const float       *merged;           /* the composite of all layers: width x height x R,G,B,A, straight alpha */
+  /* Paints the box of a layer, straight alpha; returns false to stop the writing. */
+  bool             (*paint) (void *host, size_t layer, float *rgba);
   void              *host;
 } CeldIoStack;
 
-/* By the ending of the name:
+/* The kind of file, by the ending of its name:
  *   .ora    OpenRaster 0.0.5: zip, PNG and XML; 8 bits, sRGB
  *   .exr    a part for each layer, in this order, floats in linear light, with data windows
- *   none    a folder that is empty or does not exist: a PNG of the canvas for each layer, numbered from the back;
- *           8 bits, sRGB */
+ *   none    a folder, empty or new, with a PNG of the whole canvas for each layer, numbered from the back; 8 bits,
+ *           sRGB */
 typedef enum { CELD_IO_NO_STACK, CELD_IO_OPEN_RASTER, CELD_IO_EXR_PARTS, CELD_IO_FOLDER } CeldIoStackKind;
 CeldIoStackKind celd_io_stack_kind (const char *path);
 
-/* Layers are asked for one by one, each once.  If paint gives up, nothing is written and the error is empty. */
+/* Calls paint once for each layer.  If it returns false, nothing is written, and the error is empty. */
 bool celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error);
 
 /* ------------------------------------------------------------------ meshes and heights */
 
-/* Heights in any unit: .exr (channel Y) and .tif as they are, floats; .png in 16 bits from the least, black, to
- * the largest, white, which the header has as notes "celdepth:farthest" and "celdepth:nearest". */
+/* Writes heights in any unit: .exr (channel Y) and .tif as floats; .png in 16 bits, the lowest black, the highest
+ * white, which attributes of the header give as "celdepth:farthest" and "celdepth:nearest". */
 bool celd_io_write_heights (const char *path, const CeldPlane *heights, CeldIoError *error);
 
-/* By the ending of the name:
+/* The kind of file, by the ending of its name:
  *   .glb   glTF 2.0, binary, metres; the art is its texture
- *   .obj   Wavefront, millimetres; with NAME.mtl and the art as NAME-texture.png beside it
+ *   .obj   Wavefront, millimetres; with NAME.mtl, and the art as NAME-texture.png, beside it
  *   .ply   binary, millimetres; each vertex has the colour of the art there
  *   .stl   binary, millimetres, without the art */
 typedef enum { CELD_IO_NO_MESH, CELD_IO_GLB, CELD_IO_OBJ, CELD_IO_PLY, CELD_IO_STL } CeldIoMeshKind;
 CeldIoMeshKind celd_io_mesh_kind (const char *path);
 
-/* The art is encoded as sRGB, straight alpha, and comes over white; NULL: none. */
+/* The art is sRGB with straight alpha, and is composited on white; NULL: none. */
 bool celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error);
 
 /* ------------------------------------------------------------------ several pictures of one size */
@@ -168,20 +170,21 @@ typedef struct
 {
   int          width, height;
   size_t       frames;
-  double       per_second;             /* how fast a GIF moves */
-  int          most_side;              /* a larger GIF is reduced; 0: none is */
-  bool       (*paint) (void *host, size_t frame, float *rgba); /* linear light, straight alpha; false: give up */
+  double       per_second;             /* frames of a GIF */
+  int          most_side;              /* larger GIFs are scaled down to this width or height; 0: no limit */
+  /* Paints a frame in linear light, straight alpha; returns false to stop the writing. */
+  bool       (*paint) (void *host, size_t frame, float *rgba);
   void        *host;
 } CeldIoFrames;
 
-/* By the ending of the name:
- *   .gif    moves, again and again; 256 colours a picture, on white paper
- *   .mpo    views from left to right (CIPA DC-007), JPEGs on white paper
- *   none    a folder that is empty or does not exist: 000.png, 001.png, ...; 8 bits, sRGB, with alpha */
+/* The kind of file, by the ending of its name:
+ *   .gif    an animation that repeats; 256 colours a frame, on white paper
+ *   .mpo    views from left to right (CIPA DC-007), as JPEG on white paper
+ *   none    a folder, empty or new, with 000.png, 001.png, ...; 8 bits, sRGB, with alpha */
 typedef enum { CELD_IO_NO_FRAMES, CELD_IO_GIF, CELD_IO_MPO, CELD_IO_PNG_FRAMES } CeldIoFramesKind;
 CeldIoFramesKind celd_io_frames_kind (const char *path);
 
-/* Frames are asked for one by one, each once.  If paint gives up, nothing is written and the error is empty. */
+/* Calls paint once for each frame.  If it returns false, nothing is written, and the error is empty. */
 bool celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError *error);
 
 #ifdef __cplusplus

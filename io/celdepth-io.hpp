@@ -1,4 +1,5 @@
-// What reading and writing share: errors as sentences, no exception that leaves for C, and nothing half-written.
+// Shared by reading and writing: errors as sentences, exceptions caught before they reach C, files complete or not
+// there.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #ifndef CELDEPTH_IO_HPP
@@ -15,20 +16,20 @@
 
 #include <unistd.h>
 
-// Header notes that turn stored numbers back into the values that were given.
+// Attributes of headers from which the original values of stored numbers are computed.
 constexpr const char *note_farthest = "celdepth:farthest";
 constexpr const char *note_nearest  = "celdepth:nearest";
 
-// What is wrong; the sentence round it names the file.
+// Its text is the part of a sentence that follows "Cannot read NAME: ".
 struct IoFailure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-// IEC 61966-2-1.
+// The transfer function of sRGB, IEC 61966-2-1.
 float encode_srgb (float value);
 
-// Does the work; false, and why not, if it throws.
+// Does the work; false, with the reason, if it throws.
 template <typename Work>
 bool
 succeeds (std::string &why, Work work)
@@ -48,7 +49,7 @@ succeeds (std::string &why, Work work)
     }
   catch (...)
     {
-      why = "an unknown error happened.";
+      why = "an unknown error occurred.";
     }
   while (!why.empty () && (why.back () == '\n' || why.back () == ' '))
     why.pop_back ();
@@ -56,7 +57,7 @@ succeeds (std::string &why, Work work)
   return false;
 }
 
-// Does the work; turns whatever it throws into the sentence "Cannot read "page.psd": ...".
+// Does the work; if it throws, false with a sentence like: Cannot read "page.psd": it is damaged.
 template <typename Work>
 bool
 guarded (const char *verb, const std::string &path, CeldIoError *error, Work work)
@@ -69,7 +70,8 @@ guarded (const char *verb, const std::string &path, CeldIoError *error, Work wor
   return false;
 }
 
-// A file, or a folder, that is being written: under another name until commit (), gone if that is never called.
+// A file or folder that is being written, under a temporary name that commit () changes to the final one.  Without
+// commit () the destructor deletes it.
 class NewFile
 {
 public:

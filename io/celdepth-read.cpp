@@ -1,5 +1,5 @@
-// celdepth-read: reads pictures for a program that must not crash with them.  Started by the operations (read.cpp), not
-// by people; descriptor 3 is its socket.
+// The program celdepth-read: decodes pictures for a program that must not crash.  The GEGL operations start it
+// (read.cpp), with a socket as descriptor 3.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-wire.hpp"
@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-constexpr int patience = 30000; // milliseconds; chosen: a new one takes 0.2 s to start
+constexpr int timeout = 30000; // milliseconds without a request until it exits (chosen: starting again takes 0.2 s)
 
 int
 main ()
@@ -19,12 +19,12 @@ main ()
 
   if (getsockopt (control_descriptor, SOL_SOCKET, SO_TYPE, &type, &size))
     {
-      std::fputs ("celdepth-read is started by the operations of celdepth, not by hand.\n", stderr);
+      std::fputs ("The operations of celdepth start celdepth-read; it cannot be used by itself.\n", stderr);
       return 2;
     }
   close_range (control_descriptor + 1, ~0U, 0);
-  // The starter waits for the first process, the second serves: nobody has to look after it when it ends.
+  // The program that started this one waits for it to exit; its child serves, and init reaps it.
   if (fork () == 0)
-    serve_readers (control_descriptor, patience);
+    serve_readers (control_descriptor, timeout);
   _exit (0);
 }

@@ -1,7 +1,8 @@
-// Pictures that belong together, of one size: a moving GIF, views in one MPO file, or PNG files in a folder.
+// Writes several pictures of one size: an animated GIF, views in one MPO file, or PNG files in a folder.
 //
-// MPO (CIPA DC-007, Multi-Picture Format) is JPEG files one behind the other, each of which has, in a segment APP2 of
-// its own, a directory like TIFF's: the first one says where the others are.  Only these directories are made here.
+// An MPO file (CIPA DC-007, Multi-Picture Format) is a sequence of JPEG files.  Each has a segment APP2 with a
+// directory like that of TIFF; the first one also has the places of all others.  This file writes the directories
+// itself.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "layers.hpp"
@@ -30,9 +31,9 @@ kind_of (const std::string &path)
 
 // ------------------------------------------------------------------ pixels
 
-// sRGB of linear light, fine enough for 8 bits.
+// A table of sRGB codes of linear light, precise enough for 8 bits.
 static const std::vector<float> &
-encoded ()
+srgb_table ()
 {
   static const std::vector<float> table = [] {
     std::vector<float> codes (1 << 16);
@@ -45,15 +46,15 @@ encoded ()
   return table;
 }
 
-// Encoded as sRGB, with straight alpha.
+// A frame, encoded as sRGB, with straight alpha.
 static std::vector<float>
 frame_pixels (const CeldIoFrames &frames, size_t frame)
 {
-  const std::vector<float> &code = encoded ();
+  const std::vector<float> &code = srgb_table ();
   std::vector<float> rgba (4 * size_t (frames.width) * size_t (frames.height));
 
   if (!frames.paint (frames.host, frame, rgba.data ()))
-    throw IoGivenUp ();
+    throw IoStopped ();
   for (size_t i = 0; i < rgba.size (); i++)
     {
       const float value = rgba[i] > 0 ? std::min (rgba[i], 1.f) : 0; // NaN is 0
@@ -63,7 +64,7 @@ frame_pixels (const CeldIoFrames &frames, size_t frame)
   return rgba;
 }
 
-// The same on white paper.
+// A frame, encoded as sRGB, on white paper: R, G, B.
 static std::vector<float>
 frame_on_paper (const CeldIoFrames &frames, size_t frame)
 {
@@ -98,9 +99,9 @@ make_output (const char *format)
 
 // ------------------------------------------------------------------ GIF
 
-// As large as the file, which may be smaller than the frames.
+// A frame on paper, scaled down to the size of the file.
 static std::vector<float>
-reduced (const CeldIoFrames &frames, size_t frame, const ImageSpec &spec)
+scaled_frame (const CeldIoFrames &frames, size_t frame, const ImageSpec &spec)
 {
   std::vector<float> rgb = frame_on_paper (frames, frame), small;
   OIIO::ImageBuf     whole (ImageSpec (frames.width, frames.height, 3, OIIO::TypeFloat), rgb.data ()), part;
@@ -114,9 +115,9 @@ reduced (const CeldIoFrames &frames, size_t frame, const ImageSpec &spec)
   return small;
 }
 
-// The width and height of the file.
+// Sets the width and height of the file.
 static void
-reduce (const CeldIoFrames &frames, ImageSpec &spec)
+set_size (const CeldIoFrames &frames, ImageSpec &spec)
 {
   const double side = std::max (frames.width, frames.height), scale = frames.most_side / side;
 
@@ -137,12 +138,12 @@ write_gif (const std::string &path, const CeldIoFrames &frames)
   auto                   output = make_output ("gif");
 
   spec.attribute ("FramesPerSecond", OIIO::TypeRational, speed);
-  spec.attribute ("gif:LoopCount", 0); // for ever
-  reduce (frames, spec);
+  spec.attribute ("gif:LoopCount", 0); // endless
+  set_size (frames, spec);
   spec.full_width  = spec.width;
   spec.full_height = spec.height;
   specs.assign (frames.frames, spec);
-  // OpenImageIO 2.5 takes the speed from what the same writer wrote before.
+  // OpenImageIO 2.5 uses the frame rate that the same writer had in the file before, so an empty file is written first.
   if (!output->open (file.name (), spec) || !output->close ())
     throw IoFailure (output->geterror ());
   for (size_t i = 0; i < frames.frames; i++)
@@ -150,7 +151,7 @@ write_gif (const std::string &path, const CeldIoFrames &frames)
       bool good = i ? output->open (file.name (), spec, OIIO::ImageOutput::AppendSubimage) :
                       output->open (file.name (), int (specs.size ()), specs.data ());
 
-      if (!good || !output->write_image (OIIO::TypeFloat, reduced (frames, i, spec).data ()))
+      if (!good || !output->write_image (OIIO::TypeFloat, scaled_frame (frames, i, spec).data ()))
         throw IoFailure (output->geterror ());
     }
   if (!output->close ())
@@ -178,7 +179,7 @@ encode_jpeg (const CeldIoFrames &frames, size_t frame)
   return Bytes (memory.buffer ());
 }
 
-// Where the segment goes: behind the ones that must be first, APP0 and APP1.
+// The place of the segment: after APP0 and APP1, which must come first.
 static size_t
 segment_place (const Bytes &jpeg)
 {
@@ -187,7 +188,7 @@ segment_place (const Bytes &jpeg)
   while (place + 4 < jpeg.size () && jpeg[place] == 0xff && (jpeg[place + 1] == 0xe0 || jpeg[place + 1] == 0xe1))
     place += 2 + (size_t (jpeg[place + 2]) << 8) + jpeg[place + 3];
   if (place + 4 >= jpeg.size ())
-    throw IoFailure ("a view could not be made a JPEG.");
+    throw IoFailure ("a view could not be encoded as JPEG.");
   return place;
 }
 
@@ -195,10 +196,10 @@ static void
 put (Bytes &to, uint32_t value, int bytes)
 {
   for (int i = 0; i < bytes; i++)
-    to.push_back (static_cast<unsigned char> (value >> 8 * i)); // the least first, as "II" says
+    to.push_back (static_cast<unsigned char> (value >> 8 * i)); // low byte first, as "II" says
 }
 
-// A field of a directory, whose value, or where that is, takes four bytes.
+// A field of a directory; `value` is its value, or the offset of a value of more than four bytes.
 static void
 put_field (Bytes &to, uint32_t tag, uint32_t type, uint32_t count, uint32_t value)
 {
@@ -212,11 +213,11 @@ constexpr uint32_t type_long = 4, type_ratio = 5, type_undefined = 7, type_signe
 constexpr uint32_t mp_version = 0x30303130;              // "0100"
 constexpr uint32_t disparity_view = 0x020002, representative = 0x20000000;
 constexpr uint32_t unknown = 0xffffffff;
-constexpr uint32_t first_directory = 8;                  // behind the head
-constexpr uint32_t index_size = 2 + 3 * 12 + 4;          // of a directory of three fields
-constexpr uint32_t entry_size = 16;
+constexpr uint32_t first_directory = 8;                  // bytes from the header
+constexpr uint32_t index_size = 2 + 3 * 12 + 4;          // bytes of a directory of three fields
+constexpr uint32_t entry_size = 16;                      // bytes of a view in the index
 
-// What each view says of itself: its number from the left, and that nothing is known of cameras.
+// The attributes of a view: its number from the left, and unknown positions of cameras.
 static void
 put_attributes (Bytes &to, uint32_t offset, size_t view, bool with_version)
 {
@@ -234,7 +235,7 @@ put_attributes (Bytes &to, uint32_t offset, size_t view, bool with_version)
     put (to, unknown, 4);
 }
 
-// Where all views are, counted from the head of this directory.  Entries are 0 until that is known.
+// The index of all views; places count from the header of its segment.  They are 0 while only its size is wanted.
 static void
 put_index (Bytes &to, const std::vector<std::pair<uint32_t, uint32_t>> &place_and_size)
 {
@@ -251,21 +252,21 @@ put_index (Bytes &to, const std::vector<std::pair<uint32_t, uint32_t>> &place_an
       put (to, disparity_view | (i ? 0 : representative), 4);
       put (to, place_and_size[i].second, 4);
       put (to, place_and_size[i].first, 4);
-      put (to, 0, 4); // nothing depends on anything
+      put (to, 0, 4); // no dependent images
     }
 }
 
-// The whole segment of a view; the first one has the index.
+// The segment APP2 of a view; that of the first one has the index.
 static Bytes
 make_segment (size_t view, const std::vector<std::pair<uint32_t, uint32_t>> &place_and_size)
 {
-  constexpr size_t marker = 2, head = 8; // what the length does not count; where offsets begin
+  constexpr size_t marker = 2, header = 8; // bytes before the length, and before the zero of offsets
   Bytes            segment = { 0xff, 0xe2, 0, 0, 'M', 'P', 'F', 0, 'I', 'I', 42, 0 };
 
   put (segment, first_directory, 4);
   if (view == 0)
     put_index (segment, place_and_size);
-  put_attributes (segment, uint32_t (segment.size () - head), view, view > 0);
+  put_attributes (segment, uint32_t (segment.size () - header), view, view > 0);
   segment[2] = static_cast<unsigned char> ((segment.size () - marker) >> 8);
   segment[3] = static_cast<unsigned char> (segment.size () - marker);
   return segment;
@@ -274,12 +275,12 @@ make_segment (size_t view, const std::vector<std::pair<uint32_t, uint32_t>> &pla
 static void
 write_mpo (const std::string &path, const CeldIoFrames &frames)
 {
-  constexpr size_t   most = 4000; // entries fill one segment
+  constexpr size_t   most = 4000; // views; more entries of 16 bytes do not fit a segment of 64 KB
   std::vector<Bytes> views;
   NewFile            file (path);
 
   if (frames.frames > most)
-    throw IoFailure ("it cannot hold so many views.");
+    throw IoFailure ("MPO files can have at most 4000 views.");
   for (size_t i = 0; i < frames.frames; i++)
     views.push_back (encode_jpeg (frames, i));
 
@@ -292,11 +293,11 @@ write_mpo (const std::string &path, const CeldIoFrames &frames)
       const size_t size = views[i].size () + make_segment (i, where).size ();
 
       place.push_back (segment_place (views[i]));
-      // Places count from the head, which is 8 bytes behind the beginning of the first one's segment.
+      // Places count from the header, which is 8 bytes after the beginning of the first view's segment.
       where[i] = { i ? uint32_t (begin - place[0] - 8) : 0, uint32_t (size) };
       begin += size;
       if (begin > UINT32_MAX)
-        throw IoFailure ("it would be larger than 4 GB.");
+        throw IoFailure ("it would be larger than 4 GB. Write fewer or smaller views.");
     }
 
   std::ofstream stream (file.name (), std::ios::binary);
@@ -311,7 +312,7 @@ write_mpo (const std::string &path, const CeldIoFrames &frames)
     }
   stream.close ();
   if (!stream)
-    throw IoFailure ("there is no room for it.");
+    throw IoFailure ("there is not enough space for it.");
   file.commit ();
 }
 
@@ -333,7 +334,7 @@ write_folder (const std::string &path, const CeldIoFrames &frames)
   folder.commit ();
 }
 
-// ------------------------------------------------------------------ the C face
+// ------------------------------------------------------------------ the C functions
 
 CeldIoFramesKind
 celd_io_frames_kind (const char *path)
@@ -348,27 +349,28 @@ celd_io_frames_kind (const char *path)
 bool
 celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError *error)
 {
-  bool given_up = false;
+  bool stopped = false;
   bool good = guarded ("write", path, error, [&] {
     try
       {
         if (!frames->frames)
-          throw IoFailure ("there is no picture for it.");
+          throw IoFailure ("there are no frames.");
         switch (kind_of (path))
           {
           case CELD_IO_GIF:        write_gif (path, *frames); break;
           case CELD_IO_MPO:        write_mpo (path, *frames); break;
           case CELD_IO_PNG_FRAMES: write_folder (path, *frames); break;
-          case CELD_IO_NO_FRAMES:  throw IoFailure ("its ending is neither .gif nor .mpo.");
+          case CELD_IO_NO_FRAMES:  
+            throw IoFailure ("its name must end in .gif or .mpo; without an ending it is a folder.");
           }
       }
-    catch (const IoGivenUp &)
+    catch (const IoStopped &)
       {
-        given_up = true;
+        stopped = true;
       }
   });
 
-  if (given_up)
+  if (stopped)
     error->text[0] = 0;
-  return good && !given_up;
+  return good && !stopped;
 }

@@ -1,4 +1,4 @@
-// Layers of a picture as OpenRaster (open-raster.cpp), as an EXR of several parts, or as PNG files in a folder.
+// Writes the layers of a picture as OpenRaster (open-raster.cpp), as an EXR of several parts, or as PNG files.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "layers.hpp"
@@ -39,7 +39,7 @@ layer_pixels (const CeldIoStack &stack, size_t layer)
   std::vector<float> rgba (4 * size_t (box.width) * size_t (box.height));
 
   if (!stack.paint (stack.host, layer, rgba.data ()))
-    throw IoGivenUp ();
+    throw IoStopped ();
   return rgba;
 }
 
@@ -80,7 +80,7 @@ write_png (const std::string &path, int width, int height, const float *rgba)
   file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
   file.close ();
   if (!file)
-    throw IoFailure ("there is no room for it.");
+    throw IoFailure ("there is not enough space for it.");
 }
 
 // ------------------------------------------------------------------ EXR
@@ -130,7 +130,7 @@ write_exr (const std::string &path, const CeldIoStack &stack)
 
 // ------------------------------------------------------------------ a folder
 
-// "07-ff0000.png": what may be trouble in the name of a file is left out.
+// The name of a layer's file, such as "07-ff0000.png"; characters other than letters and digits become hyphens.
 static std::string
 file_name (const CeldIoStack &stack, size_t layer)
 {
@@ -168,7 +168,7 @@ write_folder (const std::string &path, const CeldIoStack &stack)
   folder.commit ();
 }
 
-// ------------------------------------------------------------------ the C face
+// ------------------------------------------------------------------ the C functions
 
 CeldIoStackKind
 celd_io_stack_kind (const char *path)
@@ -183,7 +183,7 @@ celd_io_stack_kind (const char *path)
 bool
 celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *error)
 {
-  bool given_up = false;
+  bool stopped = false;
   bool good = guarded ("write", path, error, [&] {
     try
       {
@@ -192,16 +192,17 @@ celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *e
           case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
           case CELD_IO_EXR_PARTS:   write_exr (path, *stack); break;
           case CELD_IO_FOLDER:      write_folder (path, *stack); break;
-          case CELD_IO_NO_STACK:    throw IoFailure ("its ending is neither .ora nor .exr.");
+          case CELD_IO_NO_STACK:    
+            throw IoFailure ("its name must end in .ora or .exr; without an ending it is a folder.");
           }
       }
-    catch (const IoGivenUp &)
+    catch (const IoStopped &)
       {
-        given_up = true;
+        stopped = true;
       }
   });
 
-  if (given_up)
+  if (stopped)
     error->text[0] = 0;
-  return good && !given_up;
+  return good && !stopped;
 }

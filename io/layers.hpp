@@ -1,4 +1,4 @@
-// What the formats of layers share: a layer's pixels, and PNG in memory.
+// Shared by the formats of layers: the pixels of a layer, and PNG in memory.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #ifndef CELDEPTH_LAYERS_HPP
@@ -10,22 +10,22 @@
 
 using Bytes = std::vector<unsigned char>;
 
-// Thrown when the host gives up: there is nothing to say.
-struct IoGivenUp
+// Thrown when the host stops the writing, which is no error.
+struct IoStopped
 {
 };
 
-// The box of a layer; of an empty one a pixel.
+// The box of a layer; one pixel if the layer is empty.
 CeldRect layer_box (const CeldIoLayer &layer);
 
-// R, G, B, A of that box, straight alpha.
+// R, G, B, A of the box of a layer, straight alpha.  Throws IoStopped.
 std::vector<float> layer_pixels (const CeldIoStack &stack, size_t layer);
 
-// 8 bits, sRGB.
+// R, G, B, A of sRGB, straight alpha, as a PNG of 8 bits.
 Bytes encode_png (int width, int height, const float *rgba);
 void write_png (const std::string &path, int width, int height, const float *rgba);
 
-// layers from back to front
+// Writes an OpenRaster file.
 void write_open_raster (const std::string &path, const CeldIoStack &stack);
 
 #endif

@@ -1,6 +1,6 @@
-// glTF 2.0 in its binary form (Khronos, ISO/IEC 12113): a chunk of JSON, and one of numbers with the texture as PNG.
+// Writes meshes as binary glTF 2.0 (ISO/IEC 12113): a chunk of JSON, and one of vertices, triangles and a PNG texture.
 //
-// Metres, y up, the picture upright in front of the viewer.  The texture is the art, without gloss.
+// In metres, y up, with the picture upright in front of the viewer.  The material is the art, without gloss.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
@@ -15,7 +15,7 @@ constexpr gint64   float_numbers = 5126, unsigned_numbers = 5125, vertex_data = 
 constexpr gint64   linear = 9729, linear_mipmaps = 9987, clamp_to_edge = 33071;
 constexpr float    metres = 0.001f; // a millimetre
 
-// Where things are in the chunk of numbers.
+// Offsets in the binary chunk, in bytes.
 struct Layout
 {
   size_t place, normal, art, corner, texture, end;
@@ -39,7 +39,7 @@ layout_of (const CeldReliefMesh &mesh, size_t texture)
 
 // ------------------------------------------------------------------ JSON
 
-// Objects and lists as they are nested in the code.
+// Builds JSON; nested objects and lists are nested functions.
 class Json
 {
 public:
@@ -113,7 +113,7 @@ public:
   }
 
 private:
-  // Items of lists have no name.
+  // Starts a member of an object, or an item of a list if the name is null.
   void
   begin (const char *name)
   {
@@ -145,7 +145,7 @@ add_accessor (Json &json, gint64 view, gint64 component, size_t count, const cha
   json.text ("type", type);
 }
 
-// The box of all places, in metres as they are written.
+// The bounding box of all vertices, in metres, with the rounding of the stored numbers.
 static void
 add_bounds (Json &json, const CeldReliefMesh &mesh)
 {
@@ -283,7 +283,7 @@ write_gltf (const std::string &path, const CeldReliefMesh &mesh, const CeldColou
 
   json.append (round_up (json.size ()) - json.size (), ' ');
   if (l.end > UINT32_MAX - json.size () - 28)
-    throw IoFailure ("it would be larger than 4 gigabytes; allow fewer vertices.");
+    throw IoFailure ("it would be larger than 4 GB. Allow fewer vertices.");
   for (uint32_t number : { magic, version, uint32_t (28 + json.size () + l.end), uint32_t (json.size ()), json_chunk })
     writer.put (number);
   writer.put (json);

@@ -1,11 +1,11 @@
-// Wavefront OBJ with its MTL and texture beside it: page.obj, page.mtl, page-texture.png.
+// Writes meshes as Wavefront OBJ, with material and texture in files beside it: page.obj, page.mtl, page-texture.png.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
 
 #include <charconv>
 
-// Numbers with a point in every language.
+// A line of a word and numbers, with a decimal point in every locale.
 static std::string
 line_of (const char *word, const float *numbers, size_t n)
 {
@@ -21,7 +21,7 @@ line_of (const char *word, const float *numbers, size_t n)
   return line + "\n";
 }
 
-// The name of a file beside this one.  Spaces end a name in these formats.
+// The name of a file that belongs to `path`, without spaces, which would end it in these formats.
 static std::string
 name_beside (const std::string &path, const char *ending)
 {

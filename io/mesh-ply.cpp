@@ -1,4 +1,4 @@
-// PLY, binary: vertices with normals, texture coordinates (up) and the colour of the art there; triangles.
+// Writes meshes as binary PLY: vertices with normals, texture coordinates (v up) and colours; triangles.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-// The art round a place of it, over white: the mean of the four pixels there, weighted by how near they are.
+// The colour of the art on white at a place, by bilinear interpolation.
 static void
 colour_at (const CeldColours &art, const float *place, unsigned char rgb[3])
 {
@@ -37,7 +37,7 @@ write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColour
                        "element vertex " + std::to_string (mesh.vertices) + "\n";
 
   if (mesh.vertices > INT32_MAX)
-    throw IoFailure ("there are too many vertices for PLY.");
+    throw IoFailure ("PLY files cannot have so many vertices. Allow fewer vertices.");
   for (const char *name : { "x", "y", "z", "nx", "ny", "nz", "s", "t" })
     header += std::string ("property float ") + name + "\n";
   for (const char *name : { "red", "green", "blue" })

@@ -1,4 +1,4 @@
-// STL, binary: triangles with their normals, in millimetres, z up from the plate.
+// Writes meshes as binary STL: triangles with their normals, in millimetres, z up.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
@@ -32,7 +32,7 @@ write_stl (const std::string &path, const CeldReliefMesh &mesh)
   const char attributes[2] = { 0, 0 };
 
   if (mesh.triangles > UINT32_MAX)
-    throw IoFailure ("there are too many triangles for STL.");
+    throw IoFailure ("STL files cannot have so many triangles. Allow fewer vertices.");
   writer.put (header, sizeof header);
   writer.put (uint32_t (mesh.triangles));
   for (size_t i = 0; i < mesh.triangles; i++)

@@ -1,4 +1,4 @@
-// Meshes in files, by the ending of the name.
+// Writes meshes in the format that the name's ending chooses.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh.hpp"
@@ -52,10 +52,10 @@ write_mesh (const std::string &path, const CeldReliefMesh &mesh, const CeldColou
     case CELD_IO_NO_MESH:
       break;
     }
-  throw IoFailure ("its ending is none of .glb .obj .ply .stl.");
+  throw IoFailure ("its name must end in .glb, .obj, .ply or .stl.");
 }
 
-// ------------------------------------------------------------------ the C face
+// ------------------------------------------------------------------ the C functions
 
 CeldIoMeshKind
 celd_io_mesh_kind (const char *path)

@@ -1,4 +1,4 @@
-// What the formats of meshes share: bytes on their way to a file.
+// Shared by the formats of meshes: writing bytes to a file.
 //
 //   mesh-gltf.cpp   glTF 2.0, binary          mesh-ply.cpp   PLY, binary
 //   mesh-obj.cpp    Wavefront OBJ and MTL     mesh-stl.cpp   STL, binary
@@ -13,7 +13,7 @@
 #include <cstring>
 #include <fstream>
 
-// A file that is being written; numbers go out with their low byte first.
+// A file that is being written; numbers are written with the low byte first.
 class Writer
 {
 public:
@@ -49,13 +49,13 @@ public:
     put (bits);
   }
 
-  // Ends the file, still under its other name.
+  // Completes the file, which keeps its temporary name until commit ().
   void
   close ()
   {
     stream.close ();
     if (!stream)
-      throw IoFailure ("there is no room for it.");
+      throw IoFailure ("there is not enough space for it.");
   }
 
   void commit () { file.commit (); }
@@ -65,13 +65,13 @@ private:
   std::ofstream stream;
 };
 
-// The art may be NULL: no texture, and white.
+// Write a file of their format; art NULL: white, without a texture.
 void write_gltf (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
 void write_obj (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
 void write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
 void write_stl (const std::string &path, const CeldReliefMesh &mesh);
 
-// The art as an opaque PNG, over white.
+// The art on white, as an opaque PNG.
 Bytes encode_texture (const CeldColours &art);
 
 #endif

@@ -1,8 +1,8 @@
-// OpenRaster 0.0.5 (https://www.openraster.org): a zip of PNG files and stack.xml, which names the front layer first.
+// Writes OpenRaster 0.0.5 (https://www.openraster.org): a zip of PNG files and stack.xml, which lists the front layer
+// first.
 //
-// The mimetype comes first and is stored, without any extra field, so that its text stands at byte 38 of the file.  PNG
-// is stored, too: it is compressed already.  All times are the zip format's first day: the same layers make the same
-// file.
+// The entry mimetype comes first, uncompressed and without extra fields, so that programs find its text at byte 38.
+// PNG files are stored uncompressed, too.  All entries have the same date, so that equal layers make equal files.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "layers.hpp"
@@ -14,12 +14,12 @@
 #include <deque>
 #include <memory>
 
-constexpr int thumbnail_side = 256;
-constexpr int first_day      = (1 << 5) + 1; // 1 January 1980
+constexpr int thumbnail_side = 256;          // pixels, at most (OpenRaster)
+constexpr int first_day      = (1 << 5) + 1; // 1 January 1980, the first date that zip can have
 
 // ------------------------------------------------------------------ stack.xml
 
-// A name as an attribute can have it: no control characters, which XML cannot write at all.
+// A name as the value of an XML attribute; control characters, which XML cannot have, become spaces.
 static std::string
 escaped (const char *name)
 {
@@ -65,7 +65,7 @@ stack_xml (const CeldIoStack &stack)
 
 // ------------------------------------------------------------------ the thumbnail
 
-// Means of premultiplied colours over boxes of pixels.
+// The merged picture, scaled down by means of premultiplied colours over boxes of pixels.
 static Bytes
 thumbnail (const CeldIoStack &stack)
 {
@@ -100,7 +100,7 @@ thumbnail (const CeldIoStack &stack)
 
 // ------------------------------------------------------------------ the zip
 
-// A zip file with contents that stay in memory until it is closed.
+// A zip file that is being written.  Its contents stay in memory until close ().
 class Zip
 {
 public:
@@ -157,7 +157,7 @@ private:
   [[noreturn]] void fail () { throw IoFailure (std::string (zip_strerror (zip)) + "."); }
 
   zip_t            *zip;
-  std::deque<Bytes> contents; // which never moves them
+  std::deque<Bytes> contents; // a deque, which does not move its items
 };
 
 static Bytes

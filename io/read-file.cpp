@@ -1,7 +1,7 @@
-// Decodes pictures by OpenImageIO, in the process that reads (read-server.cpp).
+// Decodes pictures with OpenImageIO, in the reading process (read-server.cpp).
 //
-// Pixels are read in strips, so that a layer costs the memory of a strip and what OpenImageIO needs.  OpenImageIO is
-// asked to leave straight alpha alone; files that hold premultiplied alpha (EXR, some TIFF) are divided here.
+// Pixels are read in strips, so that a layer needs the memory of a strip beside that of OpenImageIO.  Straight alpha
+// is kept as it is in the file; premultiplied colours (EXR, some TIFF) are divided by alpha.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-file.hpp"
@@ -17,7 +17,7 @@ using OIIO::Strutil::iequals;
 
 // ------------------------------------------------------------------ channels
 
-// The channel of that name, either bare or as the last word of a longer name ("N.X"); -1 if there is none.
+// The channel of that name, alone or as the last part of a longer name ("N.X"); -1 if there is none.
 static int
 find_channel (const ImageSpec &spec, const std::string &name)
 {
@@ -33,9 +33,10 @@ find_channel (const ImageSpec &spec, const std::string &name)
   return -1;
 }
 
+// Numbers of channels; alpha is -1 if there is none.
 struct Channels
 {
-  int red, green, blue, alpha; // alpha -1: none
+  int red, green, blue, alpha;
 };
 
 static Channels
@@ -60,8 +61,8 @@ is_linear (const ImageSpec &spec, const char *format)
          OIIO::Strutil::istarts_with (spec.get_string_attribute ("oiio:ColorSpace"), "lin");
 }
 
-// OpenImageIO tells where the layer of a PSD lies, but calls the layer's own size the full one, and says of the last
-// layer only that alpha is straight, which it is in all.
+// Corrects what OpenImageIO says about a layer of a PSD: the canvas is not the layer's size but that of the merged
+// picture, and alpha is straight in all layers, not only in the last one.
 static void
 place_layer (ImageSpec &spec, const ImageSpec &merged)
 {
@@ -82,13 +83,14 @@ describe (Part &part, int width, int height, const char *format)
   part.name = spec.get_string_attribute ("oiio:subimagename");
   if (part.name.empty ())
     part.name = spec.get_string_attribute ("tiff:PageName");
-  part.face.alpha = c.alpha >= 0 || !part.covers;
-  part.face.grey = c.red == c.green && c.red == c.blue;
-  part.face.linear = is_linear (spec, format);
-  part.face.bits = int (8 * spec.format.basesize ());
+  part.info.alpha = c.alpha >= 0 || !part.covers;
+  part.info.grey = c.red == c.green && c.red == c.blue;
+  part.info.linear = is_linear (spec, format);
+  part.info.bits = int (8 * spec.format.basesize ());
 }
 
-// The merged picture of a PSD is stored as it is or run-length coded, at most 128 bytes in 2.
+// Throws if the file is too small for its size in pixels: the merged picture of a PSD is stored uncompressed, or as
+// runs of at most 128 bytes in 2.
 static void
 check_psd_size (const PictureFile &file)
 {
@@ -97,7 +99,7 @@ check_psd_size (const PictureFile &file)
                          spec.format.basesize ();
 
   if (bytes / 64 > file.size)
-    throw IoFailure ("it is cut short.");
+    throw IoFailure ("it is truncated.");
 }
 
 void
@@ -116,18 +118,18 @@ open_picture (const std::string &path, PictureFile &file)
   wishes.attribute ("oiio:UnassociatedAlpha", 1);
   file.input = OIIO::ImageInput::open (path, &wishes);
   if (!file.input)
-    throw IoFailure ("it is damaged, or of a kind that cannot be read (PNG, TIFF, EXR, PSD and JPEG can; "
-                     "save XCF, ORA and KRA as PSD). " + OIIO::geterror ());
+    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD and JPEG can be read; "
+                     "save XCF, ORA and KRA as PSD. " + OIIO::geterror ());
   for (int i = 0; file.input->seek_subimage (i, 0); i++)
     file.parts.push_back ({ file.input->spec (i, 0), "", {}, false });
-  file.input->geterror (); // of the search beyond the last part
+  file.input->geterror (); // discards the error of the search for a part after the last one
   if (file.parts.empty ())
-    throw IoFailure ("it holds no picture.");
+    throw IoFailure ("it contains no picture.");
   file.width = file.parts[0].spec.full_width;
   file.height = file.parts[0].spec.full_height;
   if (file.width < 1 || file.height < 1 || file.width > CELD_MAX_SIDE || file.height > CELD_MAX_SIDE)
-    throw IoFailure ("its size of " + std::to_string (file.width) + " x " + std::to_string (file.height) +
-                     " pixels is outside 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
+    throw IoFailure ("it has " + std::to_string (file.width) + " x " + std::to_string (file.height) +
+                     " pixels; width and height must be from 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
   if (iequals (file.input->format_name (), "psd"))
     {
       check_psd_size (file);
@@ -138,7 +140,7 @@ open_picture (const std::string &path, PictureFile &file)
     describe (part, file.width, file.height, file.input->format_name ());
 }
 
-// Interlaced and moving pictures are decoded as a whole, some into a second copy.
+// Twice the size of the pixels, since interlaced and animated pictures are decoded as a whole, some with a copy.
 uint64_t
 decoding_memory (const PictureFile &file, size_t index)
 {
@@ -152,7 +154,7 @@ decoding_memory (const PictureFile &file, size_t index)
 std::string
 profile_of (const PictureFile &file, size_t part)
 {
-  // The layers of a PSD share the profile of the file, which OpenImageIO hangs on some parts only.
+  // The profile of a PSD is for all its layers, but OpenImageIO gives it to some parts only.
   for (size_t i : { part, size_t (0) })
     if (const auto *profile = file.parts.at (i).spec.find_attribute ("ICCProfile"))
       return std::string (static_cast<const char *> (profile->data ()), size_t (profile->datasize ()));
@@ -161,18 +163,19 @@ profile_of (const PictureFile &file, size_t part)
 
 // ------------------------------------------------------------------ pixels
 
-// Layers may stick out of the canvas, but not without end: sums of places stay within int.
+// Pixels from the canvas to the farthest place of a layer (chosen: sums of places fit an int).
 constexpr int64_t farthest_place = 1 << 24;
 
+// Throws if the part cannot be used.
 static void
 check_part (const PictureFile &file, size_t index)
 {
   const ImageSpec &spec = file.parts.at (index).spec;
 
   if (spec.full_width != file.width || spec.full_height != file.height)
-    throw IoFailure ("its part " + std::to_string (index) + " has another size than its first.");
+    throw IoFailure ("its part " + std::to_string (index) + " does not have the size of its first part.");
   if (spec.deep || spec.depth > 1)
-    throw IoFailure ("deep and volume pictures cannot be used.");
+    throw IoFailure ("it is a deep picture or a volume, which cannot be read.");
   if (spec.width > 2 * CELD_MAX_SIDE || spec.height > 2 * CELD_MAX_SIDE || spec.nchannels < 1 ||
       std::abs (int64_t (spec.x) - spec.full_x) > farthest_place ||
       std::abs (int64_t (spec.y) - spec.full_y) > farthest_place)
@@ -192,7 +195,7 @@ part_on_canvas (const PictureFile &file, size_t index)
   return { x, y, right - x, bottom - y };
 }
 
-// Rows of the part from y to end, all channels of all its columns.
+// Decodes rows y .. end - 1 of a part, all columns and channels.
 static void
 decode_rows (OIIO::ImageInput &input, const ImageSpec &spec, int part, int y, int end, float *pixels)
 {
@@ -202,40 +205,40 @@ decode_rows (OIIO::ImageInput &input, const ImageSpec &spec, int part, int y, in
                                          spec.z + 1, 0, n, OIIO::TypeFloat, pixels)
                      : input.read_scanlines (part, 0, spec.y + y, spec.y + end, spec.z, 0, n, OIIO::TypeFloat, pixels);
 
-  // Of a TIFF that is cut short the error is kept, but reading counts as good.
+  // For a truncated TIFF OpenImageIO keeps an error, but returns true.
   if (!good || input.has_error ())
-    throw IoFailure ("it is damaged or cut short (" + input.geterror () + ").");
+    throw IoFailure ("it is damaged or truncated (" + input.geterror () + ").");
 }
 
-// Convert (from, to) makes `floats` numbers of each pixel that lies on the canvas.
+// Reads a part in strips; convert (from, to) makes `floats` numbers of each pixel on the canvas.
 template <typename Convert>
 static void
 read_rows (PictureFile &file, size_t index, int floats, const TakeRows &take, Convert convert)
 {
-  const CeldRect     seen = part_on_canvas (file, index);
+  const CeldRect     visible = part_on_canvas (file, index);
   const ImageSpec   &spec = file.parts[index].spec;
   const int          left = spec.x - spec.full_x, top = spec.y - spec.full_y;
   const size_t       n = size_t (spec.nchannels), row = size_t (std::max (spec.width, 0)) * n;
-  const size_t       seen_row = size_t (seen.width) * size_t (floats);
+  const size_t       visible_row = size_t (visible.width) * size_t (floats);
   const int          unit = std::max (spec.tile_height, 1);
   const int          rows = int (std::min<size_t> ((size_t (1) << 22) / std::max<size_t> (row, 1), 256));
   const int          strip = std::max (rows / unit, 1) * unit;
-  std::vector<float> pixels (row * size_t (std::min (strip, std::max (spec.height, 0)))), seen_pixels;
+  std::vector<float> pixels (row * size_t (std::min (strip, std::max (spec.height, 0)))), visible_pixels;
 
   for (int y = 0; spec.width > 0 && y < spec.height; y += strip)
     {
       const int end = std::min (y + strip, spec.height);
-      const int first = std::max (y, seen.y - top), last = std::min (end, seen.y + seen.height - top);
+      const int first = std::max (y, visible.y - top), last = std::min (end, visible.y + visible.height - top);
 
       decode_rows (*file.input, spec, int (index), y, end, pixels.data ());
-      if (first >= last || !seen.width)
+      if (first >= last || !visible.width)
         continue;
-      seen_pixels.resize (seen_row * size_t (last - first));
+      visible_pixels.resize (visible_row * size_t (last - first));
       for (int j = first; j < last; j++)
-        for (int i = 0; i < seen.width; i++)
-          convert (pixels.data () + size_t (j - y) * row + size_t (seen.x - left + i) * n,
-                   seen_pixels.data () + size_t (j - first) * seen_row + size_t (i) * size_t (floats));
-      take (seen_pixels.data (), last - first);
+        for (int i = 0; i < visible.width; i++)
+          convert (pixels.data () + size_t (j - y) * row + size_t (visible.x - left + i) * n,
+                   visible_pixels.data () + size_t (j - first) * visible_row + size_t (i) * size_t (floats));
+      take (visible_pixels.data (), last - first);
     }
 }
 
@@ -257,7 +260,7 @@ read_colours (PictureFile &file, size_t index, const TakeRows &take)
   });
 }
 
-// value = offset + factor * stored.
+// How values are computed from a channel: offset + factor * stored.
 struct Scale
 {
   int   channel;

@@ -1,8 +1,8 @@
-// The process that reads files for programs that must not crash.
+// The reading process: decodes files for programs that must not crash.
 //
-// A damaged file can crash the library that decodes it, or make it ask for any amount of memory.  So the server, which
-// itself decodes nothing, makes a copy of itself (a worker) for each file.  A worker has limits on memory and time; when
-// it dies, its end of the socket closes, and that is all that the program at the other end sees of it.
+// A damaged file can crash the library that decodes it, or make it ask for any amount of memory.  The server therefore
+// decodes nothing itself, but forks a worker for each file, with limits on memory and time.  When a worker dies, its
+// end of the socket closes, which the program at the other end reports as a damaged file.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-file.hpp"
@@ -32,14 +32,14 @@
 // ------------------------------------------------------------------ limits of a worker
 
 constexpr uint64_t megabyte = uint64_t (1) << 20;
-constexpr uint64_t opening_memory = 1024 * megabyte; // chosen: the largest WebP, which is decoded when it is opened
-constexpr uint64_t working_memory = 256 * megabyte;  // chosen: strips, and the threads that decode EXR
-constexpr unsigned opening_seconds = 60;             // chosen, as the next two
-constexpr double   reading_seconds = 60;
-constexpr double   pixels_a_second = 1e6;            // the slowest kind that was measured, on one core, makes 10e6
-constexpr int      decoding_threads = 4;             // more cost memory and gain little
+constexpr uint64_t opening_memory = 1024 * megabyte; // chosen: enough for the largest WebP, decoded at opening
+constexpr uint64_t working_memory = 256 * megabyte;  // chosen: enough for strips and threads that decode EXR
+constexpr unsigned opening_seconds = 60;             // chosen
+constexpr double   reading_seconds = 60;             // chosen, in addition to the time for pixels
+constexpr double   pixels_per_second = 1e6;          // chosen: the slowest format measured, on one core, has 10e6
+constexpr int      decoding_threads = 4;             // chosen: more need memory and gain little
 
-// Bytes of memory that the process may write to, as RLIMIT_DATA counts them; 0 if that is not known.
+// Bytes of writable memory of the process, as RLIMIT_DATA counts them; 0 if unknown.
 static uint64_t
 memory_used ()
 {
@@ -51,7 +51,7 @@ memory_used ()
   return data * uint64_t (sysconf (_SC_PAGESIZE));
 }
 
-// Limits memory to what is used now and so much more; not with a sanitizer, whose own memory cannot be bounded.
+// Limits memory to the present amount and `more` bytes; not with sanitizers, which need memory without bounds.
 static void
 limit_memory (uint64_t more)
 {
@@ -76,13 +76,13 @@ send_failure (const Wire &wire, const std::string &why)
 static void
 send_part (const Wire &wire, const PictureFile &file, size_t part)
 {
-  const CeldIoPart &face = file.parts[part].face;
+  const CeldIoPart &info = file.parts[part].info;
 
   wire.send_text (file.parts[part].name);
-  wire.send (face.alpha);
-  wire.send (face.grey);
-  wire.send (face.linear);
-  wire.send (face.bits);
+  wire.send (info.alpha);
+  wire.send (info.grey);
+  wire.send (info.linear);
+  wire.send (info.bits);
   wire.send_text (profile_of (file, part), longest_profile);
 }
 
@@ -108,28 +108,29 @@ answer_open (const Wire &wire, PictureFile &file)
   return true;
 }
 
-// The rectangle, then strips: the number of rows and their pixels; 0 after the last one, -1 and a text after a failure.
+// Sends the rectangle, then strips, each as its number of rows and their pixels; after the last one 0, after a failure
+// -1 and a text.
 static void
 answer_pixels (const Wire &wire, PictureFile &file, Request request)
 {
   const size_t part = size_t (wire.receive<uint64_t> ());
   const size_t floats = request == Request::colours ? 4 : 1;
-  CeldRect     seen;
+  CeldRect     visible;
   std::string  why;
 
-  if (!succeeds (why, [&] { seen = part_on_canvas (file, part); }))
+  if (!succeeds (why, [&] { visible = part_on_canvas (file, part); }))
     {
       send_failure (wire, why);
       return;
     }
   limit_memory (working_memory + decoding_memory (file, part) + 16 * file.size);
-  alarm (unsigned (reading_seconds + double (file.width) * double (file.height) / pixels_a_second));
+  alarm (unsigned (reading_seconds + double (file.width) * double (file.height) / pixels_per_second));
   wire.send (Answer::good);
-  wire.send (seen);
+  wire.send (visible);
   const bool read = succeeds (why, [&] {
     const TakeRows take = [&] (const float *rows, int count) {
       wire.send (int32_t (count));
-      wire.send (rows, sizeof (float) * floats * size_t (seen.width) * size_t (count));
+      wire.send (rows, sizeof (float) * floats * size_t (visible.width) * size_t (count));
     };
 
     request == Request::colours ? read_colours (file, part, take) : read_values (file, part, take);
@@ -148,10 +149,10 @@ work (const Wire &wire)
 {
   PictureFile file;
 
-  prctl (PR_SET_DUMPABLE, 0); // a crash is expected and leaves no core file
+  prctl (PR_SET_DUMPABLE, 0); // no core file after a crash, which damaged files cause
   OIIO::attribute ("threads", decoding_threads);
   OIIO::attribute ("exr_threads", decoding_threads);
-  wire.send (wire_greeting);
+  wire.send (wire_version);
   if (wire.receive<Request> () != Request::open)
     return;
   limit_memory (opening_memory);
@@ -174,7 +175,7 @@ start_worker (int control, int socket)
         {
           work (Wire (socket));
         }
-      catch (...) // the other end is gone
+      catch (...) // the other end has closed the socket
         {
         }
       _exit (0);
@@ -182,30 +183,31 @@ start_worker (int control, int socket)
   close (socket);
 }
 
-// A session of its own, away from the signals of a terminal; silent; nothing of the program that started it but stdin.
+// Leaves the process group of the program that started this one, so that signals of its terminal do not arrive; resets
+// signals, and discards output.
 static void
-part_from_starter ()
+detach_from_starter ()
 {
-  const int nowhere = open ("/dev/null", O_RDWR);
+  const int null_device = open ("/dev/null", O_RDWR);
 
   setsid ();
   for (int number : { SIGHUP, SIGINT, SIGTERM, SIGALRM, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV })
     std::signal (number, SIG_DFL);
-  std::signal (SIGCHLD, SIG_IGN); // workers vanish when they end
-  if (nowhere >= 0)
+  std::signal (SIGCHLD, SIG_IGN); // workers need not be waited for
+  if (null_device >= 0)
     {
-      dup2 (nowhere, STDOUT_FILENO);
-      dup2 (nowhere, STDERR_FILENO);
-      close (nowhere);
+      dup2 (null_device, STDOUT_FILENO);
+      dup2 (null_device, STDERR_FILENO);
+      close (null_device);
     }
 }
 
 void
-serve_readers (int control, int patience)
+serve_readers (int control, int timeout)
 {
   int socket;
 
-  part_from_starter ();
-  while ((socket = receive_descriptor (control, patience)) >= 0)
+  detach_from_starter ();
+  while ((socket = receive_descriptor (control, timeout)) >= 0)
     start_worker (control, socket);
 }

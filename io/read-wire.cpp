@@ -1,4 +1,4 @@
-// Bytes and descriptors over a socket.
+// Sends and receives bytes and file descriptors over a socket.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-wire.hpp"
@@ -30,7 +30,7 @@ Wire::send (const void *bytes, size_t size) const
       if (sent < 0 && errno == EINTR)
         continue;
       if (sent <= 0)
-        throw WireFailure ("the other end is gone");
+        throw WireFailure ("the connection is closed");
       next += sent;
       size -= size_t (sent);
     }
@@ -48,7 +48,7 @@ Wire::receive (void *bytes, size_t size) const
       if (received < 0 && errno == EINTR)
         continue;
       if (received <= 0)
-        throw WireFailure ("the other end is gone");
+        throw WireFailure ("the connection is closed");
       next += received;
       size -= size_t (received);
     }
@@ -78,15 +78,15 @@ Wire::receive_text (size_t longest) const
 
 // ------------------------------------------------------------------ descriptors
 
-// Room for one descriptor beside a message of one byte.
-struct Parcel
+// A message of one byte that carries a descriptor.
+struct DescriptorMessage
 {
   char   byte = 0;
   iovec  content = { &byte, 1 };
   alignas (cmsghdr) char control[CMSG_SPACE (sizeof (int))] = {};
   msghdr message = {};
 
-  Parcel ()
+  DescriptorMessage ()
   {
     message.msg_iov = &content;
     message.msg_iovlen = 1;
@@ -98,38 +98,38 @@ struct Parcel
 bool
 send_descriptor (int socket, int descriptor)
 {
-  Parcel   parcel;
-  cmsghdr *header = CMSG_FIRSTHDR (&parcel.message);
-  ssize_t  sent;
+  DescriptorMessage carrier;
+  cmsghdr          *header = CMSG_FIRSTHDR (&carrier.message);
+  ssize_t           sent;
 
   header->cmsg_level = SOL_SOCKET;
   header->cmsg_type = SCM_RIGHTS;
   header->cmsg_len = CMSG_LEN (sizeof descriptor);
   std::memcpy (CMSG_DATA (header), &descriptor, sizeof descriptor);
   do
-    sent = sendmsg (socket, &parcel.message, MSG_NOSIGNAL);
+    sent = sendmsg (socket, &carrier.message, MSG_NOSIGNAL);
   while (sent < 0 && errno == EINTR);
   return sent == 1;
 }
 
 int
-receive_descriptor (int socket, int patience)
+receive_descriptor (int socket, int timeout)
 {
-  Parcel         parcel;
-  pollfd         ready = { socket, POLLIN, 0 };
-  ssize_t        received;
-  const cmsghdr *header;
-  int            descriptor;
+  DescriptorMessage carrier;
+  pollfd            ready = { socket, POLLIN, 0 };
+  ssize_t           received;
+  const cmsghdr    *header;
+  int               descriptor;
 
   do
-    received = poll (&ready, 1, patience);
+    received = poll (&ready, 1, timeout);
   while (received < 0 && errno == EINTR);
   if (received <= 0)
     return -1;
   do
-    received = recvmsg (socket, &parcel.message, MSG_CMSG_CLOEXEC);
+    received = recvmsg (socket, &carrier.message, MSG_CMSG_CLOEXEC);
   while (received < 0 && errno == EINTR);
-  header = received == 1 ? CMSG_FIRSTHDR (&parcel.message) : nullptr;
+  header = received == 1 ? CMSG_FIRSTHDR (&carrier.message) : nullptr;
   if (!header || header->cmsg_level != SOL_SOCKET || header->cmsg_type != SCM_RIGHTS)
     return -1;
   std::memcpy (&descriptor, CMSG_DATA (header), sizeof descriptor);

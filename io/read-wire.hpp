@@ -1,7 +1,7 @@
-// Messages between a program that wants pictures and the process that reads them, over a stream socket.
+// Messages between a program that needs pictures and the reading process, over a stream socket.
 //
-// Numbers and pixels travel as they lie in memory: both ends are of one build, on one machine.  Neither end trusts a
-// length: sizes are checked before memory is taken.
+// Numbers and pixels are sent in their memory representation, since both ends are of one build and on one machine.
+// Each end checks sizes before it allocates memory.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #ifndef CELDEPTH_READ_WIRE_HPP
@@ -13,26 +13,27 @@
 #include <string>
 #include <type_traits>
 
-// The other end is gone, or sends what no message has.
+// The connection is closed, or the other end violates the protocol.
 struct WireFailure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-// What the reading process says first.  Changes whenever a message does: a module may meet a helper of another version.
-constexpr uint32_t wire_greeting = 0xCE1D0001;
+// The first number that a worker sends.  It has to change with the messages, because a module may find a celdepth-read
+// of another version.
+constexpr uint32_t wire_version = 0xCE1D0001;
 
-// The descriptor of the helper that is its end of the control socket.
+// The descriptor that is celdepth-read's end of the control socket.
 constexpr int control_descriptor = 3;
 
 enum class Request : uint8_t { open, colours, values };
 enum class Answer : uint8_t { good, failed };
 
-// Longest text (path, name, message) and longest ICC profile.
+// Most bytes of a text (path, name, message) and of an ICC profile (chosen).
 constexpr size_t longest_text = size_t (1) << 16;
 constexpr size_t longest_profile = size_t (1) << 26;
 
-// Owns its end of the socket.
+// One end of the socket, which it owns.
 class Wire
 {
 public:
@@ -41,11 +42,11 @@ public:
   Wire (const Wire &) = delete;
   Wire &operator= (const Wire &) = delete;
 
-  // All bytes or a WireFailure.
+  // Send or receive all bytes, or throw a WireFailure.
   void send (const void *bytes, size_t size) const;
   void receive (void *bytes, size_t size) const;
 
-  // A number, or a few in a struct.
+  // Send or receive a number, or a struct of numbers.
   template <typename Value>
   void
   send (Value value) const
@@ -72,14 +73,14 @@ private:
   int end;
 };
 
-// Hands a descriptor over; false if nobody listens.
+// Sends a descriptor; false if the connection is closed.
 bool send_descriptor (int socket, int descriptor);
 
-// The next descriptor, close-on-exec; -1 when the other end is gone, or after `patience` milliseconds (-1: none).
-int receive_descriptor (int socket, int patience);
+// Receives a descriptor, close-on-exec; -1 if the connection is closed, or after `timeout` milliseconds (-1: no limit).
+int receive_descriptor (int socket, int timeout);
 
-// Answers requests on the control socket until the other end closes it, each file in a process of its own.  Leaves as
-// well when nobody asks for `patience` milliseconds.  The caller's process must have one thread only.
-void serve_readers (int control, int patience);
+// Answers requests on the control socket, each file in a process of its own, until the other end closes it or makes no
+// request for `timeout` milliseconds (-1: no limit).  The process must have a single thread.
+void serve_readers (int control, int timeout);
 
 #endif

@@ -1,5 +1,5 @@
-// The reading of pictures as the rest of celdepth sees it: it happens in another process (read-server.cpp), which may
-// crash without harm, and comes here through a socket.
+// The functions that read pictures: they ask the reading process (read-server.cpp) over a socket, so that a decoder
+// that crashes does not harm this process.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "celdepth-io.hpp"
@@ -20,7 +20,7 @@
 
 struct DescribedPart
 {
-  CeldIoPart  face;
+  CeldIoPart  info;
   std::string name, profile;
 };
 
@@ -32,11 +32,11 @@ struct CeldIoFile
   int                        width, height;
 };
 
-// ------------------------------------------------------------------ the process that reads
+// ------------------------------------------------------------------ the reading process
 
 constexpr const char *helper_name = "celdepth-read";
 
-// Both ends are closed in programs that are started meanwhile.
+// Owns both ends, which are close-on-exec.
 struct SocketPair
 {
   int ours = -1, theirs = -1;
@@ -59,6 +59,7 @@ struct SocketPair
   SocketPair &operator= (const SocketPair &) = delete;
 };
 
+// Takes over a descriptor from its owner.
 static int
 take (int &descriptor)
 {
@@ -68,7 +69,8 @@ take (int &descriptor)
   return taken;
 }
 
-// The helper beside this module or program, where a build or a user puts it; else where it is installed.
+// The path of celdepth-read: beside this module or program, where a build or a user puts it, or else where it is
+// installed.
 static std::string
 find_helper ()
 {
@@ -84,7 +86,7 @@ find_helper ()
   return std::string (CELD_LIBEXEC_FOLDER) + "/" + helper_name;
 }
 
-// Waits until the process that was started has made its own one and left.
+// Waits until the started process has forked the server and exited.
 static void
 wait_for_starter (pid_t process)
 {
@@ -92,7 +94,7 @@ wait_for_starter (pid_t process)
     continue;
 }
 
-// By posix_spawn: a host that has threads must not fork.
+// Starts celdepth-read by posix_spawn, since a host with threads must not fork.
 static void
 start_helper (const SocketPair &pair)
 {
@@ -116,11 +118,11 @@ start_helper (const SocketPair &pair)
   posix_spawn_file_actions_destroy (&files);
   posix_spawnattr_destroy (&attributes);
   if (status)
-    throw IoFailure ("the program " + helper + ", which reads files, cannot be started.");
+    throw IoFailure ("the program " + helper + ", which reads files, cannot be started. Install celdepth again.");
   wait_for_starter (process);
 }
 
-// The server's socket; -1 before the first file.
+// The control socket of the server; -1 before the first file.
 struct Server
 {
   std::mutex mutex;
@@ -135,7 +137,7 @@ struct Server
 
 static Server server;
 
-// A conversation with a new worker; null if the server is gone, or cannot make one.
+// Connects to a new worker; null if the server does not run any more, or cannot fork one.
 static std::unique_ptr<Wire>
 ask_for_worker (int control)
 {
@@ -148,17 +150,18 @@ ask_for_worker (int control)
   wire = std::make_unique<Wire> (take (pair.ours));
   try
     {
-      if (wire->receive<uint32_t> () == wire_greeting)
+      if (wire->receive<uint32_t> () == wire_version)
         return wire;
     }
   catch (const WireFailure &)
     {
       return nullptr;
     }
-  throw IoFailure ("the program " + std::string (helper_name) + " is of another version of celdepth.");
+  throw IoFailure ("the program " + std::string (helper_name) + " belongs to another version of celdepth. Install both "
+                   "from the same version.");
 }
 
-// The server leaves when nobody wants it for a while; then there is a new one.
+// Connects to a new worker, and starts the server first if it does not run, or has exited after some time without work.
 static std::unique_ptr<Wire>
 start_worker ()
 {
@@ -179,7 +182,7 @@ start_worker ()
       wire = ask_for_worker (server.control);
     }
   if (!wire)
-    throw IoFailure ("the program " + std::string (helper_name) + ", which reads files, does not answer.");
+    throw IoFailure ("the program " + std::string (helper_name) + ", which reads files, does not respond.");
   return wire;
 }
 
@@ -206,9 +209,9 @@ celd_io_fork_reader (void)
   server.control = ends[0];
 }
 
-// ------------------------------------------------------------------ conversations
+// ------------------------------------------------------------------ requests
 
-// The reason that the worker gives.
+// Throws the worker's reason if it reports a failure.
 static void
 check_answer (const Wire &wire)
 {
@@ -216,10 +219,10 @@ check_answer (const Wire &wire)
     throw IoFailure (wire.receive_text ());
 }
 
-// Does the work; says of a worker that is gone what the artist can know.
+// Does the work; reports a worker that died as a damaged file.
 template <typename Work>
 static bool
-guarded_talk (const std::string &path, CeldIoError *error, Work work)
+guarded_read (const std::string &path, CeldIoError *error, Work work)
 {
   return guarded ("read", path, error, [&] {
     try
@@ -228,7 +231,7 @@ guarded_talk (const std::string &path, CeldIoError *error, Work work)
       }
     catch (const WireFailure &)
       {
-        throw IoFailure ("it is damaged (reading it crashed, or took too much time or memory).");
+        throw IoFailure ("it is damaged (decoding it crashed, or needed too much time or memory).");
       }
   });
 }
@@ -237,10 +240,10 @@ static void
 receive_part (const Wire &wire, DescribedPart &part)
 {
   part.name = wire.receive_text ();
-  part.face.alpha = wire.receive<uint8_t> ();
-  part.face.grey = wire.receive<uint8_t> ();
-  part.face.linear = wire.receive<uint8_t> ();
-  part.face.bits = wire.receive<int> ();
+  part.info.alpha = wire.receive<uint8_t> ();
+  part.info.grey = wire.receive<uint8_t> ();
+  part.info.linear = wire.receive<uint8_t> ();
+  part.info.bits = wire.receive<int> ();
   part.profile = wire.receive_text (longest_profile);
 }
 
@@ -254,7 +257,7 @@ open_file (CeldIoFile &file)
   file.width = file.wire->receive<int> ();
   file.height = file.wire->receive<int> ();
   if (file.width < 1 || file.height < 1 || file.width > CELD_MAX_SIDE || file.height > CELD_MAX_SIDE)
-    throw WireFailure ("no size that a worker sends");
+    throw WireFailure ("invalid size");
   for (uint64_t n = file.wire->receive<uint64_t> (); n > 0; n--)
     {
       file.parts.emplace_back ();
@@ -263,55 +266,56 @@ open_file (CeldIoFile &file)
   if (file.parts.empty ())
     throw WireFailure ("no parts");
   for (DescribedPart &part : file.parts)
-    part.face.name = part.name.c_str ();
+    part.info.name = part.name.c_str ();
 }
 
-// Into a picture of the canvas, with `floats` numbers a pixel.
+// Reads a part into a picture of the canvas with `floats` numbers per pixel.
 static void
 read_pixels (const CeldIoFile &file, size_t part, Request request, size_t floats, float *pixels)
 {
   const Wire  &wire = *file.wire;
   const size_t width = size_t (file.width), height = size_t (file.height);
-  CeldRect     seen;
+  CeldRect     visible;
   int          y;
 
   wire.send (request);
   wire.send (uint64_t (part));
   check_answer (wire);
-  seen = wire.receive<CeldRect> ();
-  if (seen.x < 0 || seen.y < 0 || seen.width < 0 || seen.height < 0 || seen.width > file.width - seen.x ||
-      seen.height > file.height - seen.y)
-    throw WireFailure ("no rectangle that a worker sends");
-  // What is overwritten stays untouched: a damaged file of 20000 x 20000 pixels must not cost the memory that it asks for.
-  if (seen.width < file.width || seen.height < file.height)
+  visible = wire.receive<CeldRect> ();
+  if (visible.x < 0 || visible.y < 0 || visible.width < 0 || visible.height < 0 ||
+      visible.width > file.width - visible.x || visible.height > file.height - visible.y)
+    throw WireFailure ("invalid rectangle");
+  // A part that covers the canvas is not cleared first, so that a damaged file does not use the memory of all the
+  // pixels that it claims to have.
+  if (visible.width < file.width || visible.height < file.height)
     std::fill (pixels, pixels + floats * width * height, 0.f);
-  y = seen.y;
+  y = visible.y;
   for (int32_t rows; (rows = wire.receive<int32_t> ()) != 0;)
     {
       if (rows == -1)
         throw IoFailure (wire.receive_text ());
-      if (rows < 0 || rows > seen.y + seen.height - y)
-        throw WireFailure ("no number of rows that a worker sends");
-      if (seen.width == file.width)
+      if (rows < 0 || rows > visible.y + visible.height - y)
+        throw WireFailure ("invalid number of rows");
+      if (visible.width == file.width)
         wire.receive (pixels + floats * width * size_t (y), sizeof (float) * floats * width * size_t (rows));
       else
         for (int j = y; j < y + rows; j++)
-          wire.receive (pixels + floats * (width * size_t (j) + size_t (seen.x)),
-                        sizeof (float) * floats * size_t (seen.width));
+          wire.receive (pixels + floats * (width * size_t (j) + size_t (visible.x)),
+                        sizeof (float) * floats * size_t (visible.width));
       y += rows;
     }
-  if (y < seen.y + seen.height && seen.width)
+  if (y < visible.y + visible.height && visible.width)
     throw WireFailure ("rows are missing");
 }
 
-// ------------------------------------------------------------------ the C face
+// ------------------------------------------------------------------ the C functions
 
 CeldIoFile *
 celd_io_open (const char *path, CeldIoError *error)
 {
   CeldIoFile *file = nullptr;
 
-  if (guarded_talk (path, error, [&] {
+  if (guarded_read (path, error, [&] {
         file = new CeldIoFile ();
         file->path = path;
         open_file (*file);
@@ -348,10 +352,10 @@ celd_io_parts (const CeldIoFile *file)
 const CeldIoPart *
 celd_io_part (const CeldIoFile *file, size_t part)
 {
-  return &file->parts[part].face;
+  return &file->parts[part].info;
 }
 
-// The letters of ASCII only, whatever the language.
+// Compares names, ignoring the case of ASCII letters in any locale.
 static bool
 same_name (const std::string &a, const char *b)
 {
@@ -384,11 +388,11 @@ celd_io_profile (const CeldIoFile *file, size_t part, size_t *size)
 bool
 celd_io_read_colours (CeldIoFile *file, size_t part, float *rgba, CeldIoError *error)
 {
-  return guarded_talk (file->path, error, [&] { read_pixels (*file, part, Request::colours, 4, rgba); });
+  return guarded_read (file->path, error, [&] { read_pixels (*file, part, Request::colours, 4, rgba); });
 }
 
 bool
 celd_io_read_values (CeldIoFile *file, size_t part, float *values, CeldIoError *error)
 {
-  return guarded_talk (file->path, error, [&] { read_pixels (*file, part, Request::values, 1, values); });
+  return guarded_read (file->path, error, [&] { read_pixels (*file, part, Request::values, 1, values); });
 }

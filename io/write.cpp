@@ -1,4 +1,4 @@
-// Writing of pictures: beside the name first, then moved there, so that nothing half-written is left behind.
+// Writes pictures in EXR, PNG and TIFF files.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "celdepth-io.hpp"
@@ -15,13 +15,13 @@
 
 using OIIO::ImageSpec;
 
-// Distances in EXR, as compositors expect them: of the nearest and of the farthest point.
+// Distances of the nearest and of the farthest point from the viewer in EXR files (chosen: depth has no unit).
 constexpr float near_distance = 1, far_distance = 2;
 
 constexpr const char *convention =
   "Z = far - d (far - near) is the distance to the viewer; depth.V = d is 1 at near, 0 at far";
 
-// ------------------------------------------------------------------ names
+// ------------------------------------------------------------------ formats
 
 enum class Format { none, exr, png, tiff };
 
@@ -68,7 +68,7 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
     spec.attribute ("oiio:ColorSpace", "sRGB");
   if (picture.name)
     spec.attribute ("oiio:subimagename", picture.name);
-  // PNG keeps texts only.
+  // PNG has text attributes only.
   for (size_t i = 0; i < n_notes; i++)
     if (notes[i].text)
       spec.attribute (notes[i].name, notes[i].text);
@@ -79,7 +79,7 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
   return spec;
 }
 
-// A row of all channels, interleaved; the colours multiplied by channel `alpha` unless that is -1.
+// Interleaves the channels of a row, with colours multiplied by channel `alpha` if that is not -1.
 static void
 gather_row (const CeldIoPicture &picture, int y, int alpha, float *row)
 {
@@ -123,9 +123,9 @@ write_file (const std::string &path, const CeldIoPicture *parts, size_t n, const
   std::vector<ImageSpec> specs;
 
   if (format == Format::none)
-    throw IoFailure ("its ending is none of .exr .png .tif.");
+    throw IoFailure ("its name must end in .exr, .png or .tif.");
   if (n < 1 || (n > 1 && format != Format::exr))
-    throw IoFailure ("it cannot hold so many parts.");
+    throw IoFailure ("only EXR files can have several parts.");
   for (size_t i = 0; i < n; i++)
     specs.push_back (make_spec (parts[i], format, notes, n_notes));
 
@@ -201,7 +201,7 @@ write_normals (const std::string &path, const CeldVectors &normals)
   write_file (path, &picture, 1, nullptr, 0);
 }
 
-// IEC 61966-2-1.
+// The inverse of encode_srgb.
 static float
 decode_srgb (float v)
 {
@@ -305,7 +305,7 @@ write_heights (const std::string &path, const CeldPlane &heights)
   write_file (path, &picture, 1, notes, png ? 2 : 0);
 }
 
-// ------------------------------------------------------------------ the C face
+// ------------------------------------------------------------------ the C functions
 
 bool
 celd_io_can_write (const char *path)

@@ -110,7 +110,7 @@ def main():
                 if line.startswith('good '):
                     told['good'] += 1
                 elif re.fullmatch(f'Cannot read "{re.escape(name)}": .+', line):
-                    told['crashed' if 'reading it crashed' in line else 'bad'] += 1
+                    told['crashed' if 'decoding it crashed' in line else 'bad'] += 1
                 else:
                     failures.append(f'{os.path.basename(path)}, copy {number} of seed {seed}: {line!r}')
                     if not line:
