@@ -21,6 +21,37 @@ void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *v
 /* The brightness of the paper around each pixel, > 0; `paper` has the size of `value`. */
 CeldStatus celd_paper_levels (const CeldPlane *value, CeldPlane *paper);
 
+/* ------------------------------------------------------------------ ink-noise.c */
+
+#define CELD_INK_BINS  256 /* of a histogram of values in [0,1]; chosen */
+#define CELD_INK_BANKS 4   /* histograms filled in turn, so that an addition need not wait for the one before; chosen */
+
+/* fminf and fmaxf without a call; not for NaN. */
+static inline float
+celd_least (float a, float b)
+{
+  return a < b ? a : b;
+}
+
+static inline float
+celd_most (float a, float b)
+{
+  return a > b ? a : b;
+}
+
+/* `contrast` planes hold the contrast of each pixel against the paper, 0 .. 1. */
+
+/* The standard deviation of the paper's grain at the scale of `step` pixels, from the median second difference along
+ * rows where there is no ink. */
+float celd_ink_noise (const CeldPlane *contrast, int step);
+
+/* The strength of compression artefacts: the ripple that one of ten paper pixels near dark ink exceeds; 0 in a clean
+ * picture.  `around` holds the largest contrast near each pixel, `dark` the contrast of dark strokes. */
+float celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark);
+
+/* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */
+void celd_ink_smooth (CeldPlane *plane, CeldPlane *spare);
+
 /* ------------------------------------------------------------------ ink and paper */
 
 /* Whether a value of ink (0 = ink, 1 = paper) is paper; NaN is. */
@@ -30,17 +61,17 @@ celd_is_paper (float ink)
   return !(ink < 0.5f);
 }
 
-/* stroke-width.c: the median length of the runs of ink along rows and columns, in pixels: 1 .. 256, or 0 without ink.
+/* ink-measures.c: the median length of the runs of ink along rows and columns, in pixels: 1 .. 256, or 0 without ink.
  * Solid areas have few runs and hardly influence it. */
 int celd_stroke_width (const CeldPlane *ink);
 
-/* stroke-width.c: moves (*x,*y) to the nearest paper, at most `reach` pixels away; it stays if it is paper.  False, and
- * unchanged, if there is none. */
-bool celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y);
+/* ink-measures.c: moves (*x,*y) to the nearest paper, at most `radius` pixels away; it stays if it is paper.  False,
+ * and unchanged, if there is none. */
+bool celd_paper_near (const CeldPlane *ink, int radius, int *x, int *y);
 
-/* frame.c: lists the paper pixels along the edge of the picture, as y * width + x (ink NULL: all outermost pixels);
- * corners may be listed twice.  `stroke` is the width of the drawing's strokes; 0: it is measured if needed.  The
- * caller frees *pixel with celd_free. */
+/* ink-measures.c: lists the paper pixels along the edge of the picture, as y * width + x (ink NULL: all outermost
+ * pixels); corners may be listed twice.  `stroke` is the width of the drawing's strokes; 0: it is measured if needed.
+ * The caller frees *pixel with celd_free. */
 CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n);
 
 /* ------------------------------------------------------------------ labels.c */
@@ -97,15 +128,15 @@ CeldStatus celd_affinities (const CeldPlane *ink, float contrast, float floor, c
 
 /* ------------------------------------------------------------------ seed-rows.c */
 
-typedef struct { int x, end; uint32_t label; } CeldSeedRun;       /* pixels x .. end - 1; label > 0 */
-typedef struct { CeldSeedRun *run; size_t n, run_capacity; } CeldSeedRow;       /* from left to right, apart or of other labels */
+typedef struct { int x, end; uint32_t label; } CeldSeedRun;               /* pixels x .. end - 1; label > 0 */
+typedef struct { CeldSeedRun *run; size_t n, run_capacity; } CeldSeedRow; /* sorted; touching runs differ in label */
 typedef struct { int width, height; CeldSeedRow *row; } CeldSeedRows;
 
 CeldStatus celd_seed_rows_new (int width, int height, CeldSeedRows *seeds);      /* without seeds */
 void       celd_seed_rows_clear (CeldSeedRows *seeds);                           /* accepts a zeroed record */
 
 CeldStatus celd_seed_rows_read (const CeldLabels *labels, CeldSeedRows *seeds);  /* makes the record */
-CeldStatus celd_seed_rows_copy (const CeldSeedRows *from, CeldSeedRows *seeds);     /* makes the record */
+CeldStatus celd_seed_rows_copy (const CeldSeedRows *from, CeldSeedRows *seeds);  /* makes the record */
 void       celd_seed_rows_write (const CeldSeedRows *seeds, CeldLabels *labels); /* of equal size; 0 elsewhere */
 
 /* Gives the pixels x .. end - 1 of row y, as far as they are in the picture, a label; label 0 erases. */

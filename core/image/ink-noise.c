@@ -2,10 +2,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/ink.h"
+#include "image/image.h"
 
 #include <math.h>
-
 
 float
 celd_ink_noise (const CeldPlane *contrast, int step)

@@ -11,7 +11,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "image/ink.h"
 
 #include <math.h>
 #include <string.h>

@@ -10,7 +10,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "image/ink.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,6 +17,17 @@
 #define DARKEST 1e-3f /* least paper level: values are divided by it */
 
 /* ------------------------------------------------------------------ one value a pixel */
+
+void
+celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
+{
+  for (size_t i = 0; i < n; i++, rgba += 4)
+    {
+      luma[i] = 0.2126f * rgba[0] + 0.7152f * rgba[1] + 0.0722f * rgba[2];
+      if (alpha)
+        alpha[i] = rgba[3];
+    }
+}
 
 static float
 in_unit (float value, float otherwise)

@@ -1,4 +1,5 @@
-/* The width of a drawing's strokes, and the paper nearest to a point on a stroke.
+/* What steps need to know about the ink of a drawing: the width of its strokes, the paper nearest to a point, and the
+ * paper along the edge of the picture, by which the background is recognised.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,17 +7,20 @@
 
 #include <string.h>
 
-#define LONGEST_RUN   256  /* pixels; longer runs count as this long (chosen) */
-#define STRIP_COLUMNS       4096
+#define LONGEST_RUN   256         /* pixels; longer runs count as this long; chosen */
+#define STRIP_COLUMNS 4096        /* of a strip, whose rows fit into the cache; chosen */
+#define INWARDS       4           /* stroke widths, to where paper inside a drawn frame is looked for; chosen */
+
+/* ------------------------------------------------------------------ the width of strokes */
 
 /* A strip of columns, processed row by row, so that the drawing is read once for runs along rows and columns. */
 typedef struct
 {
   const CeldPlane *ink;
   int              left, width;
-  uint8_t          inked[2][STRIP_COLUMNS + 1];   /* the current row and the one above; the last element is paper */
-  int              begin[STRIP_COLUMNS];          /* of each column: the row in which its last run began */
-  size_t          *runs;                  /* the number of runs of each length */
+  uint8_t          inked[2][STRIP_COLUMNS + 1]; /* the current row and the one above; the last element is paper */
+  int              begin[STRIP_COLUMNS];        /* of each column: the row in which its last run began */
+  size_t          *runs;                        /* the number of runs of each length */
 } Strip;
 
 CELD_CLONES static void
@@ -118,14 +122,16 @@ celd_stroke_width (const CeldPlane *ink)
   return width;
 }
 
+/* ------------------------------------------------------------------ paper near a point, and along the edge */
+
 bool
-celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y)
+celd_paper_near (const CeldPlane *ink, int radius, int *x, int *y)
 {
-  int  px = *x, py = *y, least = reach * reach + 1;
+  int  px = *x, py = *y, least = radius * radius + 1;
   bool found = false;
 
-  for (int v = py - reach < 0 ? 0 : py - reach; v <= py + reach && v < ink->height; v++)
-    for (int u = px - reach < 0 ? 0 : px - reach; u <= px + reach && u < ink->width; u++)
+  for (int v = py - radius < 0 ? 0 : py - radius; v <= py + radius && v < ink->height; v++)
+    for (int u = px - radius < 0 ? 0 : px - radius; u <= px + radius && u < ink->width; u++)
       {
         int squared = (u - px) * (u - px) + (v - py) * (v - py);
 
@@ -137,4 +143,55 @@ celd_paper_near (const CeldPlane *ink, int reach, int *x, int *y)
         *y    = v;
       }
   return found;
+}
+
+/* An outermost pixel, and the direction inwards. */
+typedef struct { int x, y, dx, dy; } EdgePixel;
+
+static EdgePixel
+outermost (int width, int height, size_t i)
+{
+  size_t w = (size_t) width, h = (size_t) height;
+
+  if (i < w)
+    return (EdgePixel) { (int) i, 0, 0, 1 };
+  if (i < 2 * w)
+    return (EdgePixel) { (int) (i - w), height - 1, 0, -1 };
+  if (i < 2 * w + h)
+    return (EdgePixel) { 0, (int) (i - 2 * w), 1, 0 };
+  return (EdgePixel) { width - 1, (int) (i - 2 * w - h), -1, 0 };
+}
+
+/* Lists the first paper inwards from each outermost pixel, at most `most` pixels away; returns how many there are. */
+static size_t
+look_inwards (const CeldPlane *ink, int width, int height, int most, size_t *pixel)
+{
+  size_t n = 0, all = 2 * ((size_t) width + (size_t) height);
+
+  for (size_t i = 0; i < all; i++)
+    {
+      EdgePixel s = outermost (width, height, i);
+
+      for (int k = 0; k <= most && s.x >= 0 && s.y >= 0 && s.x < width && s.y < height; k++, s.x += s.dx, s.y += s.dy)
+        if (!ink || celd_is_paper (CELD_AT (ink, s.x, s.y)))
+          {
+            pixel[n++] = (size_t) s.y * (size_t) width + (size_t) s.x;
+            break;
+          }
+    }
+  return n;
+}
+
+CeldStatus
+celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n)
+{
+  size_t all = 2 * ((size_t) width + (size_t) height);
+
+  *pixel = celd_alloc (all, sizeof **pixel);
+  if (!*pixel)
+    return CELD_NO_MEMORY;
+  *n = look_inwards (ink, width, height, 0, *pixel);
+  if (ink && *n < all / 10)
+    *n = look_inwards (ink, width, height, INWARDS * (stroke ? stroke : celd_stroke_width (ink)) + 2, *pixel);
+  return CELD_OK;
 }
