@@ -1,4 +1,4 @@
-/* celdepth:depth-enhance: what is near stands out against what is behind it (section 5 of the paper, [LCD06]).
+/* celdepth:depth-enhance: shadows that set near parts off from farther ones (section 5 of the paper, [LCD06]).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,8 +12,8 @@ static const CeldSettingChoice results[] = {
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldEnhanceResult, results),
-  .help = "The art with its shadows, only the shadows as a black layer to put over it, or a grey picture in which "
-          "depth is easy to see"
+  .help = "The art with shadows, the shadows alone as a black layer to put over the art, or a grey picture that "
+          "shows depth"
 };
 
 static const CeldProperty properties[] = {
@@ -25,7 +25,7 @@ static const CeldProperty properties[] = {
 };
 
 static const CeldPad pads[] = {
-  { "input", "Art", "The picture that shadows fall on", TRUE },
+  { "input", "Art", "The picture to enhance", TRUE },
   { "aux", "Levels", "Expanded depth levels from Depth Expand, or smooth depth for sharpening", TRUE },
   { NULL, NULL, NULL, FALSE }
 };
@@ -77,7 +77,7 @@ const CeldOperationInfo celd_depth_enhance_operation = {
   .name        = "celdepth:depth-enhance",
   .title       = "Depth Enhance",
   .categories  = "artistic:light",
-  .description = "Makes the parts of a picture stand out from what is behind them, by soft shadows",
+  .description = "Makes the parts of a picture stand out from those behind them, with soft shadows",
   .reference   = CELD_REFERENCE " T. Luft, C. Colditz, O. Deussen: Image Enhancement by Unsharp Masking the "
                  "Depth Buffer. SIGGRAPH 2006.",
   .pads        = pads,

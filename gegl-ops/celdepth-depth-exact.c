@@ -14,9 +14,9 @@ static const CeldProperty properties[] = {
 
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
-  { "aux", "Scribbles", "One stroke over each part, in a colour of its own; each stroke has one depth", FALSE },
+  { "aux", "Scribbles", "One stroke over each part, in a colour of its own. All of a stroke gets one depth", FALSE },
   { "aux2", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
-  { "aux3", "Virtual contours", "Red: depth changes abruptly here; green: ink where it does not", FALSE },
+  { "aux3", "Virtual contours", "Red: depth changes abruptly; green: ink across which depth stays smooth", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -38,7 +38,7 @@ render (CeldOp *op)
   exact           = celd_session_exact_report (session);
   cycles.cycle    = exact->cycle;
   cycles.n_cycles = exact->n_cycles;
-  return celd_op_tell (op, celd_session_problems (session), celd_session_exact_palette (session),
+  return celd_op_report (op, celd_session_problems (session), celd_session_exact_palette (session),
                        celd_session_relations (session), &cycles);
 }
 

@@ -1,4 +1,4 @@
-/* celdepth:depth-expand: ink is given to the region that drew it (the task of section 3.3 of the paper).
+/* celdepth:depth-expand: depth expansion, which gives ink to the regions whose outlines it is (section 3.3).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,22 +7,22 @@
 #include <string.h>
 
 static const CeldSettingChoice results[] = {
-  [CELD_EXPAND_LEVELS] = { "levels", "Levels: with contours given to their owners" },
-  [CELD_EXPAND_LAYER]  = { "layer", "Layer: one layer of the drawing cut up" },
-  [CELD_EXPAND_MATTE]  = { "matte", "Matte: owner and coverage" },
+  [CELD_EXPAND_LEVELS] = { "levels", "Levels, with contours given to their regions" },
+  [CELD_EXPAND_LAYER]  = { "layer", "Layer: one layer of the drawing" },
+  [CELD_EXPAND_MATTE]  = { "matte", "Matte: the region of each pixel, and its coverage" },
 };
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldExpandResult, results),
-  .help = "The levels, one layer of the drawing cut up (in linear light), or the owner of each pixel. The owner is "
-          "shown in the colour of its region (without regions, its level as a grey), and as opaque as it covers a pixel"
+  .help = "The levels; one layer of the drawing (in linear light); or the region that owns each pixel, in its colour "
+          "(without a layer of regions as a grey level) and with its coverage of the pixel as opacity"
 };
 
 static const CeldSettingInfo layer_row = {
   .name = "layer", .label = "Layer", .type = CELD_SETTING_INTEGER, .offset = offsetof (CeldOwnValues, layer),
   .least = 0, .most = G_MAXINT, .shown = { 0, 50, 1, 5, .digits = 0 }, .when = "result {layer}",
-  .help = "Which layer, starting with 0 for the farthest; layers beyond the nearest are empty. Each layer over the one "
-          "before, they are the drawing again"
+  .help = "The number of the layer: 0 is the farthest. Layers after the nearest are empty. Together, in this order, "
+          "the layers are the drawing again"
 };
 
 static const CeldProperty properties[] = {
@@ -37,10 +37,10 @@ static const CeldProperty properties[] = {
 static const CeldPad pads[] = {
   { "input", "Levels", "The depth levels of the regions from Depth Order", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Regions", "Flat colours that separate regions of the same level; otherwise each level is one region",
-    FALSE },
-  { "aux3", "Corrections", "Strokes over ink, each in the colour of the region that the piece of line belongs to",
-    FALSE },
+  { "aux2", "Regions", "Flat colours that distinguish regions of the same level. Without this layer each level is one "
+                       "region", FALSE },
+  { "aux3", "Corrections", "Strokes over ink, each of which gives the piece of line below it to the region of its "
+                           "colour", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -52,7 +52,7 @@ prepare (GeglOperation *operation)
   gegl_operation_set_format (operation, "output", babl_format (levels ? "Y float" : "RGBA float"));
 }
 
-/* ------------------------------------------------------------------ what comes in */
+/* ------------------------------------------------------------------ input */
 
 typedef struct
 {
@@ -61,7 +61,7 @@ typedef struct
 } Inputs;
 
 static const CeldLabels *
-or_null (const CeldLabels *labels)
+labels_or_null (const CeldLabels *labels)
 {
   return labels->data ? labels : NULL;
 }
@@ -71,14 +71,14 @@ read_regions (CeldOp *op, CeldLabels *regions)
 {
   CeldPaint flats;
 
-  return !celd_op_has (op, "aux2") ||
+  return !celd_op_has_input (op, "aux2") ||
          (celd_op_read_paint (op, "aux2", &flats) && celd_op_new_labels (op, regions) &&
           celd_op_try (op, celd_labels_read (&flats, regions, &op->palette)));
 }
 
-/* Is there paint, and none of it in the colour of a region? */
+/* Whether there is paint, but none in the colour of a region. */
 static gboolean
-is_foreign (const CeldPaint *paint, const CeldLabels *corrections)
+has_only_unknown_colours (const CeldPaint *paint, const CeldLabels *corrections)
 {
   gboolean painted = FALSE;
 
@@ -96,22 +96,21 @@ read_corrections (CeldOp *op, const CeldLabels *regions, CeldLabels *corrections
 {
   CeldPaint paint;
 
-  if (!celd_op_has (op, "aux3"))
+  if (!celd_op_has_input (op, "aux3"))
     return TRUE;
   if (!regions->data)
-    return celd_op_fail (op, "Corrections are painted in the colours of regions. Choose a layer for 'Regions' (pad "
-                             "aux2).");
+    return celd_op_fail (op, "Corrections have the colours of regions. Choose a layer for 'Regions' (pad aux2).");
   if (!celd_op_read_paint (op, "aux3", &paint) || !celd_op_new_labels (op, corrections) ||
       !celd_op_try (op, celd_corrections_read (&paint, &op->palette, corrections)))
     return FALSE;
-  return !is_foreign (&paint, corrections) ||
+  return !has_only_unknown_colours (&paint, corrections) ||
          celd_op_fail (op, "No stroke of 'Corrections' (pad aux3) has the colour of a region. Pick the colours from "
                            "'Regions'.");
 }
 
 /* ------------------------------------------------------------------ a layer */
 
-/* The layer on a transparent picture. */
+/* Writes a layer on a transparent picture. */
 static gboolean
 write_layer (CeldOp *op, const CeldLayers *layers, size_t number)
 {
@@ -139,22 +138,22 @@ static gboolean
 render_layer (CeldOp *op, const Inputs *in)
 {
   const CeldSettings *s = &op->settings;
+  const CeldLabels   *regions = labels_or_null (&in->regions), *corrections = labels_or_null (&in->corrections);
   CeldColours         art;
   CeldLayers         *layers = NULL;
-  gboolean            good = celd_op_read_colours (op, "aux", &art) &&
-                             celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, or_null (&in->regions),
-                                                                     or_null (&in->corrections), &art, s->expansion,
-                                                                     CELD_STORE_FLOAT, s->complete, &op->host,
-                                                                     &layers)) &&
-                             write_layer (op, layers, (size_t) op->own.layer);
+  gboolean            good;
 
+  good = celd_op_read_colours (op, "aux", &art) &&
+         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, regions, corrections, &art, s->expansion,
+                                                 CELD_STORE_FLOAT, s->complete, &op->host, &layers)) &&
+         write_layer (op, layers, (size_t) op->own.layer);
   celd_layers_free (layers);
   return good;
 }
 
-/* ------------------------------------------------------------------ owner and alpha */
+/* ------------------------------------------------------------------ matte */
 
-/* The owners' colours in linear light.  A background that no stroke made has none: there is nothing of it. */
+/* The colours of the owners in linear light.  A background without scribble is transparent. */
 static gboolean
 colour_owners (CeldOp *op, const CeldLabels *owner, const CeldPlane *level, CeldColours *matte)
 {
@@ -176,16 +175,16 @@ static gboolean
 render_matte (CeldOp *op, Inputs *in)
 {
   CeldLabels *owner = in->regions.data ? &in->regions : NULL;
-  CeldPlane   share;
+  CeldPlane   coverage;
   CeldColours matte;
 
-  if (!celd_op_new_plane (op, &share) || !celd_op_new_colours (op, &matte) ||
-      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, or_null (&in->corrections),
-                                              op->settings.expansion, &op->host, &in->levels, owner, &share)) ||
+  if (!celd_op_new_plane (op, &coverage) || !celd_op_new_colours (op, &matte) ||
+      !celd_op_try (op, celd_matte_of_levels (&in->ink, &in->levels, owner, labels_or_null (&in->corrections),
+                                              op->settings.expansion, &op->host, &in->levels, owner, &coverage)) ||
       !colour_owners (op, owner, &in->levels, &matte))
     return FALSE;
-  for (gsize p = 0; p < (gsize) share.width * (gsize) share.height; p++)
-    matte.data[4 * p + 3] *= share.data[p];
+  for (gsize p = 0; p < (gsize) coverage.width * (gsize) coverage.height; p++)
+    matte.data[4 * p + 3] *= coverage.data[p];
   return celd_op_write (op, matte.data);
 }
 
@@ -194,8 +193,8 @@ render_matte (CeldOp *op, Inputs *in)
 static gboolean
 render_levels (CeldOp *op, Inputs *in)
 {
-  return celd_op_try (op, celd_expand_levels (&in->ink, &in->levels, or_null (&in->regions),
-                                              or_null (&in->corrections), op->settings.expansion, &op->host,
+  return celd_op_try (op, celd_expand_levels (&in->ink, &in->levels, labels_or_null (&in->regions),
+                                              labels_or_null (&in->corrections), op->settings.expansion, &op->host,
                                               &in->levels)) &&
          celd_op_write (op, in->levels.data);
 }
@@ -224,8 +223,8 @@ const CeldOperationInfo celd_depth_expand_operation = {
   .name        = "celdepth:depth-expand",
   .title       = "Depth Expand",
   .categories  = "artistic",
-  .description = "Gives each contour to the region in front that it belongs to, so that levels change at the outer "
-                 "edge of the ink",
+  .description = "Gives each contour to the part that it outlines, so that depth levels change at the outer edge of "
+                 "the ink",
   .reference   = CELD_REFERENCE,
   .pads        = pads,
   .properties  = properties,

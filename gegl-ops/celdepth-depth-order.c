@@ -40,7 +40,7 @@ static gboolean
 make_order (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
 {
   const CeldSettings *s = &op->settings;
-  gboolean            hinted = s->suggest != CELD_SUGGEST_OFF && celd_op_has (op, "aux3");
+  gboolean            hinted = s->suggest != CELD_SUGGEST_OFF && celd_op_has_input (op, "aux3");
   CeldRelations       suggested = { 0 };
   CeldPlane           hint;
   gboolean            good = !hinted || celd_op_read_plane (op, "aux3", &hint);
@@ -69,7 +69,7 @@ static gboolean
 render (CeldOp *op)
 {
   const CeldSettings *s = &op->settings;
-  gboolean            drawn = celd_op_has (op, "aux2");
+  gboolean            drawn = celd_op_has_input (op, "aux2");
   CeldPlane           ink;
   CeldLabels          labels;
 
@@ -78,7 +78,7 @@ render (CeldOp *op)
          read_labels (op, drawn ? &ink : NULL, &labels) &&
          celd_op_read_relations (op, "aux") &&
          make_order (op, &labels, drawn ? &ink : NULL) &&
-         celd_op_tell (op, &op->problems, &op->palette, &op->relations, &op->order) &&
+         celd_op_report (op, &op->problems, &op->palette, &op->relations, &op->order) &&
          write_levels (op, &labels);
 }
 

@@ -1,4 +1,4 @@
-/* celdepth:depth-smooth: levels become smooth depth that keeps its steps at contours (equation 3 of the paper).
+/* celdepth:depth-smooth: smooth depth from levels, with discontinuities at contours (equation 3 of the paper).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,12 +12,12 @@ static const CeldProperty properties[] = {
 static const CeldPad pads[] = {
   { "input", "Levels", "Depth levels from Depth Expand or Depth Order", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Anchors", "Painted pixels keep their level, for example the scribbles. Without this layer the core "
-                       "of each region does", FALSE },
+  { "aux2", "Anchors", "Painted pixels, for example scribbles, keep their level. Without this layer the pixels "
+                       "deep inside each region do", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
-/* What is painted, by the same reading as of scribbles; *painted is NULL if nothing is. */
+/* Marks painted pixels, read like scribbles; *painted is NULL if there are none. */
 static gboolean
 read_anchors (CeldOp *op, CeldMask *mask, const CeldMask **painted)
 {
@@ -44,7 +44,7 @@ render (CeldOp *op)
          celd_op_read_plane (op, "input", &levels) &&
          read_anchors (op, &mask, &anchors) &&
          celd_op_try (op, celd_smooth (&ink, &levels, anchors, &op->settings, &op->host, &levels, &solve)) &&
-         celd_op_tell_solve (op, &solve) &&
+         celd_op_report_solve (op, &solve) &&
          celd_op_write (op, levels.data);
 }
 

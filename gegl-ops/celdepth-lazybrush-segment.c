@@ -1,4 +1,4 @@
-/* celdepth:lazybrush-segment: scribbles over a drawing become its regions (section 3.2 of the paper, [SDC09b]).
+/* celdepth:lazybrush-segment: the regions of a drawing from scribbles (section 3.2 of the paper, [SDC09b]).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,13 +6,14 @@
 
 static const CeldSettingChoice results[] = {
   [CELD_SEGMENT_LABELS]   = { "labels", "Labels: the regions as flat colours" },
-  [CELD_SEGMENT_CLOSURES] = { "closures", "Closures: the gaps that were closed, as red contours" },
-  [CELD_SEGMENT_PROBLEMS] = { "problems", "Problems: marks on the drawing where something needs attention" },
+  [CELD_SEGMENT_CLOSURES] = { "closures", "Closures: gaps in contours that were closed, in red" },
+  [CELD_SEGMENT_PROBLEMS] = { "problems", "Problems: marks on the drawing" },
 };
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldSegmentResult, results),
-  .help = "The regions, or a layer that shows how they came about"
+  .help = "The regions, a layer of the gaps that were closed, or the drawing with a mark where something needs "
+          "attention"
 };
 
 static const CeldProperty properties[] = {
@@ -27,12 +28,12 @@ static const CeldProperty properties[] = {
 static const CeldPad pads[] = {
   { "input", "Drawing", "The line drawing", TRUE },
   { "aux", "Scribbles", "One stroke over each part, in a colour of its own", FALSE },
-  { "aux2", "Arrows", "Arrows that point from nearer to farther parts. Their ends make regions where there is no "
-                      "scribble", FALSE },
+  { "aux2", "Arrows", "Arrows that point from nearer to farther parts. Their ends are seeds for parts without a "
+                      "stroke", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
-/* A layer for the artist: over the drawing it shows what was closed, and it can be given back as virtual contours. */
+/* Writes closures as a layer that can be used as virtual contours, after the artist has erased wrong ones. */
 static gboolean
 write_closures (CeldOp *op)
 {
@@ -69,7 +70,7 @@ render (CeldOp *op)
 {
   return celd_op_set_session (op) &&
          write_result (op) &&
-         celd_op_tell_session (op, NULL);
+         celd_op_report_session (op, NULL);
 }
 
 const CeldOperationInfo celd_lazybrush_segment_operation = {

@@ -1,4 +1,4 @@
-/* celdepth:lumo-shade: normals that bulge between contours, and the light on them (section 5 of the paper, [Joh02]).
+/* celdepth:lumo-shade: normals inflated from contours, and light on them (section 5 of the paper, [Joh02]).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,15 +8,16 @@ static const CeldSettingChoice results[] = {
   [CELD_LUMO_ART]       = { "art", "Shaded art" },
   [CELD_LUMO_SHADING]   = { "shading", "Shading" },
   [CELD_LUMO_NORMALS]   = { "normals", "Normals" },
-  [CELD_LUMO_TONE]      = { "tone", "Tone: to multiply the art by" },
-  [CELD_LUMO_RIM]       = { "rim", "Rim: highlights and rims, to put over that" },
+  [CELD_LUMO_TONE]      = { "tone", "Tone: a layer to multiply the art by" },
+  [CELD_LUMO_RIM]       = { "rim", "Rim: a layer of highlights and rims" },
   [CELD_LUMO_OCCLUSION] = { "occlusion", "Occlusion" },
 };
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldLumoResult, results),
-  .help = "The lit art; only the light (linear); the normals as 0.5 + 0.5 n (numbers, not colours); a layer to "
-          "multiply the art by, and one to put over that; or how much light parts leave to those behind them (numbers)"
+  .help = "The lit art; the light alone (linear); the normals as 0.5 + 0.5 n (numbers, not colours); a layer to "
+          "multiply the art by; a layer of highlights to put over the product; or ambient occlusion, the fraction of "
+          "light that nearer parts let through (numbers)"
 };
 
 static const CeldProperty properties[] = {
@@ -27,9 +28,9 @@ static const CeldProperty properties[] = {
   { .name = "light-height" }, { .name = "specular" }, { .name = "shininess" }, { .name = "rim-light" },
   { .name = "rim-power" },
   { .name = "shadow-size", .label = "Occlusion size", .when = "result {occlusion}",
-    .help = "How far parts keep light from those behind them, as a fraction of the picture's diagonal" },
+    .help = "How far nearer parts block light from those behind them, as a fraction of the picture's diagonal" },
   { .name = "shadow-strength", .label = "Occlusion strength", .when = "result {occlusion}",
-    .help = "How much light parts keep from those behind them at most" },
+    .help = "The largest fraction of light that nearer parts block" },
   { .name = "directx" }, { .name = "ink" }, { .name = "ink-threshold" },
   { 0 }
 };
@@ -37,15 +38,16 @@ static const CeldProperty properties[] = {
 static const CeldPad pads[] = {
   { "input", "Levels", "Expanded depth levels from Depth Expand", TRUE },
   { "aux", "Drawing", "The line drawing", TRUE },
-  { "aux2", "Colour art", "What the light falls on; the drawing by default", FALSE },
-  { "aux3", "Smooth depth", "Tells which side of a stroke inside a part is higher", FALSE },
-  { "aux4", "Hints", "Paint beside lines. Parts bend on a white side, not on a black one, and on both sides at grey",
-    FALSE },
-  { "aux5", "Matcap", "The picture of a lit ball to take the shading from", CELD_PAD_SAMPLE },
+  { "aux2", "Colour art", "The picture to light; the drawing by default", FALSE },
+  { "aux3", "Smooth depth", "Smooth depth from Depth Smooth, which tells the nearer side of strokes inside a "
+                            "part", FALSE },
+  { "aux4", "Hints", "Paint beside lines: parts bend on a white side, do not bend on a black side, and bend on both "
+                     "sides at grey", FALSE },
+  { "aux5", "Matcap", "The picture of a lit ball, from which parts take their shading", CELD_PAD_SAMPLE },
   { NULL, NULL, NULL, FALSE }
 };
 
-/* The light alone is grey, unless a matcap gives it colours. */
+/* Shading is grey, but coloured with a matcap. */
 static void
 prepare (GeglOperation *operation)
 {
@@ -53,21 +55,21 @@ prepare (GeglOperation *operation)
     [CELD_LUMO_ART] = "RGBA float", [CELD_LUMO_SHADING] = "Y float",   [CELD_LUMO_NORMALS] = "RGB float",
     [CELD_LUMO_TONE] = "RGBA float", [CELD_LUMO_RIM] = "RGBA float", [CELD_LUMO_OCCLUSION] = "Y float",
   };
-  int      result = celd_operation_own (operation)->result;
-  gboolean coloured = result == CELD_LUMO_SHADING &&
-                      celd_operation_settings (operation)->light_model == CELD_MODEL_MATCAP;
+  int                      result = celd_operation_own (operation)->result;
+  gboolean                 coloured = result == CELD_LUMO_SHADING &&
+                                      celd_operation_settings (operation)->light_model == CELD_MODEL_MATCAP;
 
   gegl_operation_set_format (operation, "output", babl_format (coloured ? "RGBA float" : formats[result]));
 }
 
-/* The light on art, or on white. */
+/* Writes lit art, or light on white. */
 static gboolean
 write_lit (CeldOp *op, const CeldColours *tone, const CeldPlane *gloss)
 {
   gboolean    art = op->own.result == CELD_LUMO_ART;
   CeldColours colours;
 
-  if (!(art ? celd_op_read_colours (op, celd_op_has (op, "aux2") ? "aux2" : "aux", &colours)
+  if (!(art ? celd_op_read_colours (op, celd_op_has_input (op, "aux2") ? "aux2" : "aux", &colours)
             : celd_op_new_colours (op, &colours)))
     return FALSE;
   for (gsize i = 0; !art && i < 4 * (gsize) colours.width * (gsize) colours.height; i++)
@@ -84,9 +86,9 @@ write_light (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
   CeldColours         tone, layer, matcap = { 0 };
   CeldPlane           gloss;
 
-  if (by_matcap && !celd_op_has (op, "aux5"))
+  if (by_matcap && !celd_op_has_input (op, "aux5"))
     return celd_op_fail (op, "There is no picture for 'Matcap' (pad aux5). Choose the picture of a lit ball, or "
-                             "another kind of shading.");
+                             "another light model.");
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
       !celd_op_try (op, celd_light (normals, ink, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
@@ -130,7 +132,7 @@ render (CeldOp *op)
   CeldPlane   ink, levels, depth = { 0 };
   CeldPaint   hints = { 0 };
   CeldVectors normals;
-  gboolean    deep = celd_op_has (op, "aux3"), hinted = celd_op_has (op, "aux4");
+  gboolean    deep = celd_op_has_input (op, "aux3"), hinted = celd_op_has_input (op, "aux4");
 
   if (!celd_op_read_plane (op, "input", &levels))
     return FALSE;
@@ -149,7 +151,7 @@ const CeldOperationInfo celd_lumo_shade_operation = {
   .name        = "celdepth:lumo-shade",
   .title       = "Lumo Shade",
   .categories  = "artistic:light",
-  .description = "Shades a drawing as if its parts were round. Parts in front bend at their contours; those behind do "
+  .description = "Shades a drawing as if its parts were round. Parts in front bend at their contours, parts behind do "
                  "not",
   .reference   = CELD_REFERENCE " S. F. Johnston: Lumo: Illumination for Cel Animation. NPAR 2002.",
   .pads        = pads,

@@ -1,4 +1,5 @@
-/* celdepth:oiio-load: a layer of a PSD, a part of an EXR, a page of a TIFF, or any picture that OpenImageIO reads.
+/* celdepth:oiio-load: reads a layer of a PSD, a part of an EXR, a page of a TIFF, or any other picture that OpenImageIO
+ * reads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,15 +11,15 @@ property_string (path, "File", "")
     description ("The file to read: PSD, EXR, TIFF, PNG, ...")
 
 property_string (layer, "Layer", "")
-    description ("The name of the layer or part; empty: by its number")
+    description ("The name of the layer or part. If it is empty, the number below counts")
 
 property_int (part, "Part", 0)
-    description ("The number of the layer or part, from 0; of a PSD, 0 is the merged picture")
+    description ("The number of the layer or part, from 0. Part 0 of a PSD is the merged picture")
     value_range (0, 10000)
     ui_range (0, 20)
 
 property_enum (content, "Content", CeldLoadContent, celd_load_content, CELD_LOAD_COLOURS)
-    description ("Colours, or the values of depth or levels as they were saved")
+    description ("Whether to read colours, or the numbers of depth or levels as they were saved")
 
 #else
 
@@ -29,12 +30,12 @@ property_enum (content, "Content", CeldLoadContent, celd_load_content, CELD_LOAD
 
 #include <gegl-op.h>
 
-/* The file that the properties name, open; kept in user_data until they name another. */
+/* The open file that the properties name; kept in user_data until they name another one. */
 typedef struct
 {
   char       *path, *layer;
   int         number;
-  CeldIoFile *file;   /* NULL: could not be read, or has no such part */
+  CeldIoFile *file;   /* NULL: it cannot be read, or has no such part */
   size_t      part;
 } Source;
 
@@ -49,7 +50,7 @@ source_free (Source *source)
   g_free (source);
 }
 
-/* The part that is wanted; CELD_NO_INDEX, and a message that lists what there is, if it does not exist. */
+/* The number of the part; CELD_NO_INDEX, with a message that lists all parts, if it does not exist. */
 static size_t
 find_part (const Source *source)
 {
@@ -63,9 +64,9 @@ find_part (const Source *source)
   for (size_t i = 0; i < n; i++)
     g_string_append_printf (names, "%s%zu '%s'", i ? ", " : "", i, celd_io_part (source->file, i)->name);
   if (*source->layer)
-    g_message ("Load: %s has no layer '%s'. It has: %s", source->path, source->layer, names->str);
+    g_message ("Load Layer: %s has no layer '%s'. Its layers are: %s", source->path, source->layer, names->str);
   else
-    g_message ("Load: %s has no part %d. It has: %s", source->path, source->number, names->str);
+    g_message ("Load Layer: %s has no part %d. Its parts are: %s", source->path, source->number, names->str);
   g_string_free (names, TRUE);
   return CELD_NO_INDEX;
 }
@@ -83,7 +84,7 @@ source_new (GeglProperties *o)
     return source;
   source->file = celd_io_open (source->path, &error);
   if (!source->file)
-    g_message ("Load: %s", error.text);
+    g_message ("Load Layer: %s", error.text);
   else if ((source->part = find_part (source)) == CELD_NO_INDEX)
     {
       celd_io_close (source->file);
@@ -106,7 +107,7 @@ get_source (GeglOperation *operation)
   return source;
 }
 
-/* Encoded colours keep their embedded profile, if it is one of three primaries. */
+/* The format of colours: in the space of the embedded profile if that is an RGB profile, and else sRGB. */
 static const Babl *
 colour_format (const Source *source)
 {
@@ -164,7 +165,7 @@ process (GeglOperation *operation, GeglBuffer *output, const GeglRectangle *roi,
   if (read)
     gegl_buffer_set (output, &all, 0, gegl_operation_get_format (operation, "output"), pixels, GEGL_AUTO_ROWSTRIDE);
   else
-    g_message ("Load: %s", error.text);
+    g_message ("Load Layer: %s", error.text);
   g_free (pixels);
   return read;
 }

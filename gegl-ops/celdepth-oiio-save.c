@@ -1,4 +1,4 @@
-/* celdepth:oiio-save: depth, normals, light or colours to a file, in the channels that other programs look for.
+/* celdepth:oiio-save: writes depth, normals, light or colours to a file, in the channels that other programs expect.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,16 +10,16 @@ property_string (path, "File", "")
     description ("The file to write; its ending chooses the format: .exr, .png, .tif")
 
 property_enum (content, "Content", CeldSaveContent, celd_save_content, CELD_SAVE_DEPTH)
-    description ("What the picture is: depth (EXR: Z and depth.V), normals (EXR: N.X, N.Y, N.Z), linear light, or "
-                 "colours")
+    description ("The content of the picture: depth (in EXR Z and depth.V), normals (in EXR N.X, N.Y, N.Z), linear "
+                 "light, or colours")
 
 property_double (near_level, "Near level", 1.0)
-    description ("The depth that the file shows as nearest: 1, or of ranks the largest")
+    description ("The depth that is nearest in the file: 1, or with ranks the largest rank")
     ui_range (0.0, 20.0)
     ui_meta ("visible", "content {depth}")
 
 property_double (far_level, "Far level", 0.0)
-    description ("The depth that the file shows as farthest")
+    description ("The depth that is farthest in the file")
     ui_range (0.0, 20.0)
     ui_meta ("visible", "content {depth}")
 
@@ -32,7 +32,7 @@ property_double (far_level, "Far level", 0.0)
 
 #include <gegl-op.h>
 
-/* ------------------------------------------------------------------ one writer a content; pixels are tight */
+/* ------------------------------------------------------------------ writers, by content; pixels are tight */
 
 typedef bool (*Write) (GeglProperties *o, int width, int height, void *pixels, CeldIoError *error);
 
@@ -58,7 +58,7 @@ write_normals (GeglProperties *o, int width, int height, void *pixels, CeldIoErr
   CeldVectors normals = { width, height, (size_t) width, pixels };
 
   for (size_t i = 0; i < 3 * (size_t) width * (size_t) height; i++)
-    normals.data[i] = 2 * normals.data[i] - 1; /* operations hand them on as 0.5 + 0.5 n */
+    normals.data[i] = 2 * normals.data[i] - 1; /* operations store them as 0.5 + 0.5 n */
   return celd_io_write_normals (o->path, &normals, error);
 }
 
@@ -77,7 +77,7 @@ static const struct { const char *format; gsize bytes; Write write; } writers[] 
   [CELD_SAVE_LIGHT]   = { "Y float",    sizeof (float),     write_light },
 };
 
-/* ------------------------------------------------------------------ */
+/* ------------------------------------------------------------------ the operation */
 
 static bool
 save (GeglProperties *o, GeglBuffer *input, const GeglRectangle *roi, CeldIoError *error)
@@ -102,16 +102,16 @@ process (GeglOperation *operation, GeglBuffer *input, const GeglRectangle *roi, 
   bool            written = false;
 
   if (!o->path || !celd_io_can_write (o->path))
-    g_snprintf (error.text, sizeof error.text, "'%s' cannot be written. Give the file an ending: .exr, .png or .tif.",
+    g_snprintf (error.text, sizeof error.text, "'%s' cannot be written: its name must end in .exr, .png or .tif.",
                 o->path ? o->path : "");
   else if (o->content == CELD_SAVE_DEPTH && !(o->near_level > o->far_level))
     g_strlcpy (error.text, "The near level must be larger than the far level.", sizeof error.text);
   else if (gegl_rectangle_is_infinite_plane (roi))
-    g_strlcpy (error.text, "The input has no size. Crop it first.", sizeof error.text);
+    g_strlcpy (error.text, "The input is infinitely large. Crop it first.", sizeof error.text);
   else
     written = save (o, input, roi, &error);
   if (!written)
-    g_message ("Save: %s", error.text);
+    g_message ("Save Depth: %s", error.text);
   return written;
 }
 

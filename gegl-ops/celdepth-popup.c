@@ -1,4 +1,4 @@
-/* celdepth:popup: the whole route of the paper as one operation, through a session.
+/* celdepth:popup: the whole method of the paper as one operation, with a session.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,17 +7,18 @@
 static const CeldSettingChoice results[] = {
   [CELD_POPUP_LABELS]      = { "labels", "Labels: the regions as flat colours" },
   [CELD_POPUP_ORDER]       = { "order", "Order: the level of each region" },
-  [CELD_POPUP_LEVELS]      = { "levels", "Levels: with contours given to their owners" },
+  [CELD_POPUP_LEVELS]      = { "levels", "Levels, with contours given to their regions" },
   [CELD_POPUP_DEPTH]       = { "depth", "Depth: smooth" },
   [CELD_POPUP_NORMALS]     = { "normals", "Normals" },
   [CELD_POPUP_SHADING]     = { "shading", "Shading" },
-  [CELD_POPUP_PROBLEMS]    = { "problems", "Problems: marks on the drawing where something needs attention" },
-  [CELD_POPUP_SUGGESTIONS] = { "suggestions", "Suggestions: which part seems to be in front, as arrows" },
+  [CELD_POPUP_PROBLEMS]    = { "problems", "Problems: marks on the drawing" },
+  [CELD_POPUP_SUGGESTIONS] = { "suggestions", "Suggestions: arrows from parts that seem nearer" },
 };
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldPopupResult, results), .usual = CELD_POPUP_DEPTH,
-  .help = "How far to go. In order, levels and depth, which are linear, nearer is lighter"
+  .help = "The step of the method whose result is shown. In order, levels and depth nearer parts are lighter, in "
+          "linear numbers"
 };
 
 static const CeldProperty properties[] = {
@@ -72,7 +73,7 @@ write_normals (CeldOp *op)
          celd_op_write_normals (op, &normals);
 }
 
-/* Those of the order too, where contradictions are found. */
+/* Includes the problems of the order, such as contradictions. */
 static gboolean
 write_problems (CeldOp *op)
 {
@@ -119,11 +120,11 @@ render (CeldOp *op)
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
       !write_result (op))
     return FALSE;
-  /* In other cases the order has been made already. */
+  /* All results but these two have made the order already. */
   if (result != CELD_POPUP_LABELS && result != CELD_POPUP_SUGGESTIONS &&
       !celd_op_try (op, celd_session_order (op->operation->session, NULL, &order)))
     return FALSE;
-  return celd_op_tell_session (op, order);
+  return celd_op_report_session (op, order);
 }
 
 const CeldOperationInfo celd_popup_operation = {

@@ -1,4 +1,4 @@
-/* celdepth:relief: the parts of a drawing as rounded heights, for bump maps and carving (section 5 of the paper).
+/* celdepth:relief: rounded heights from levels, for bump maps and carving (section 5 of the paper).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,7 +11,7 @@ static const CeldSettingChoice units[] = {
 
 static const CeldSettingInfo unit_row = {
   .name = "unit", .label = "Heights", CELD_OWN_CHOICE (unit, CeldReliefUnit, units),
-  .help = "Heights run from 0, the lowest, to 1, the highest, or are in pixels, with depth 0 at height 0"
+  .help = "Heights from 0, the lowest, to 1, the highest; or heights in pixels, with depth 0 at height 0"
 };
 
 static const CeldProperty properties[] = {
@@ -29,7 +29,7 @@ static const CeldPad pads[] = {
   { NULL, NULL, NULL, FALSE }
 };
 
-/* The lowest becomes 0, the highest 1. */
+/* Scales heights to 0, the lowest, to 1, the highest. */
 static void
 normalize (float *height, gsize n)
 {
@@ -61,7 +61,7 @@ render (CeldOp *op)
 
   good = celd_op_read_ink (op, "aux", &ink) &&
          celd_op_read_plane (op, "input", &levels) &&
-         (!celd_op_has (op, "aux2") || celd_op_read_plane (op, "aux2", &depth)) &&
+         (!celd_op_has_input (op, "aux2") || celd_op_read_plane (op, "aux2", &depth)) &&
          celd_op_try (op, celd_relief (&ink, &levels, depth.data ? &depth : NULL, &op->settings, &op->host,
                                        &relief)) &&
          write_heights (op, &relief);

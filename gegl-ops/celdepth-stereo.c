@@ -1,4 +1,4 @@
-/* celdepth:stereo: a picture with depth as two eyes see it (section 5 of the paper).
+/* celdepth:stereo: a picture with depth as seen by two eyes (section 5 of the paper).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,8 +13,8 @@ static const CeldProperty properties[] = {
 static const CeldPad pads[] = {
   { "input", "Art", "The picture to show", TRUE },
   { "aux", "Depth", "Smooth depth, where nearer is brighter", TRUE },
-  { "aux2", "Levels", "Depth levels, by which the picture is cut into completed layers. Otherwise what comes into "
-                      "sight is filled in from what is farther", FALSE },
+  { "aux2", "Levels", "Depth levels, by which the picture is cut into completed layers. Without them the parts that "
+                      "come into view are filled from what is behind", FALSE },
   { "aux3", "Drawing", "The line drawing, to distinguish ink from paint in coloured art", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
@@ -35,7 +35,7 @@ get_bounding_box (GeglOperation *operation)
   return joined_size (operation, celd_operation_input (operation));
 }
 
-/* All of it, whatever the host asks for; of an endless picture no more than that. */
+/* The whole output, whatever part of it the host asks for; of an infinite picture that part. */
 static GeglRectangle
 get_cached_region (GeglOperation *operation, const GeglRectangle *roi)
 {
@@ -65,9 +65,9 @@ make_scene (CeldOp *op, const CeldColours *art, const CeldPlane *depth, CeldScen
 {
   CeldPlane ink, levels;
 
-  if (!celd_op_read_ink (op, celd_op_has (op, "aux3") ? "aux3" : "input", &ink))
+  if (!celd_op_read_ink (op, celd_op_has_input (op, "aux3") ? "aux3" : "input", &ink))
     return FALSE;
-  if (!celd_op_has (op, "aux2"))
+  if (!celd_op_has_input (op, "aux2"))
     return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, &op->settings, &op->host, scene));
   return celd_op_read_plane (op, "aux2", &levels) &&
          celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, op->settings.expansion, &op->host,
@@ -106,7 +106,7 @@ write_joined (CeldOp *op, const CeldColours view[2])
 }
 
 static gboolean
-tell_comfort (CeldOp *op, const CeldPlane *depth)
+report_comfort (CeldOp *op, const CeldPlane *depth)
 {
   const CeldSettings *s = &op->settings;
   CeldComfort         comfort;
@@ -115,7 +115,7 @@ tell_comfort (CeldOp *op, const CeldPlane *depth)
   if (!celd_op_try (op, celd_stereo_comfort (depth, s, &comfort)))
     return FALSE;
   celd_comfort_text (&comfort, s, text, sizeof text);
-  return !text[0] || celd_op_remark (op, text);
+  return !text[0] || celd_op_report_text (op, text);
 }
 
 static gboolean
@@ -126,14 +126,14 @@ render (CeldOp *op)
 
   return make_views (op, &depth, view) &&
          write_joined (op, view) &&
-         tell_comfort (op, &depth);
+         report_comfort (op, &depth);
 }
 
 const CeldOperationInfo celd_stereo_operation = {
   .name        = "celdepth:stereo",
   .title       = "Stereo",
   .categories  = "artistic",
-  .description = "Shows a picture with depth as two eyes see it, each from its own side",
+  .description = "Turns a picture with depth into a stereo picture, with a view for each eye",
   .reference   = CELD_REFERENCE " E. Dubois: A Projection Method to Generate Anaglyph Stereo Images. "
                  "ICASSP 2001.",
   .pads        = pads,

@@ -1,4 +1,4 @@
-/* celdepth:virtual-contours: painted contours baked into a drawing (section 4 of the paper).
+/* celdepth:virtual-contours: draws painted contours into a drawing (section 4 of the paper).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,7 +11,7 @@ static const CeldSettingChoice results[] = {
 
 static const CeldSettingInfo result_row = {
   .name = "result", .label = "Result", CELD_OWN_CHOICE (result, CeldPurpose, results),
-  .help = "The drawing for finding regions, or the drawing for depth: blue contours count in the former only"
+  .help = "The drawing with contours for segmentation, or for depth: blue contours are in the former only"
 };
 
 static const CeldProperty properties[] = {

@@ -1,4 +1,4 @@
-/* The module of the operations over OpenImageIO.
+/* The GEGL module of the operations that use OpenImageIO.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,7 +18,7 @@ celd_load_content_get_type (void)
     { CELD_LOAD_DEPTH, "Depth or levels", "depth" },
     { 0, NULL, NULL }
   };
-  static GType type;
+  static GType            type;
 
   if (!type)
     type = g_enum_register_static ("CeldLoadContent", values);
@@ -35,7 +35,7 @@ celd_save_content_get_type (void)
     { CELD_SAVE_LIGHT, "Linear light", "light" },
     { 0, NULL, NULL }
   };
-  static GType type;
+  static GType            type;
 
   if (!type)
     type = g_enum_register_static ("CeldSaveContent", values);

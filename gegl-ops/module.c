@@ -1,4 +1,4 @@
-/* The module that GEGL loads: every operation of the suite.
+/* The GEGL module of all operations that do not use OpenImageIO.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,5 +1,5 @@
-/* What the two operations over OpenImageIO share.  They have a module of their own, because OpenImageIO costs every
- * program with GEGL a third of a second when it starts.
+/* Shared by the two operations that use OpenImageIO.  They are in a module of their own, because loading OpenImageIO
+ * takes a third of a second in every program that uses GEGL.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* The base class of every operation: regions, and the classes of the operations themselves.
+/* The base class of all operations: regions, and the classes of the operations themselves.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -30,8 +30,8 @@ celd_operation_input (GeglOperation *operation)
   return input ? *input : (GeglRectangle) { 0, 0, 0, 0 };
 }
 
-/* Every result depends on every pixel: the whole input, whatever the host asks for.  Of an endless one no more than is
- * asked for, and render refuses it. */
+/* The whole input, whatever part of it the host asks for, since every result depends on every pixel.  Of an infinite
+ * input, which render refuses, the part that the host asks for. */
 static GeglRectangle
 finite_picture (GeglOperation *operation, const GeglRectangle *asked)
 {
@@ -46,7 +46,7 @@ get_cached_region (GeglOperation *operation, const GeglRectangle *roi)
   return finite_picture (operation, roi);
 }
 
-/* A sample is needed wherever it lies. */
+/* Of a sample, whose place has no meaning, all pixels are needed. */
 static GeglRectangle
 get_required_for_output (GeglOperation *operation, const gchar *name, const GeglRectangle *roi)
 {
@@ -80,7 +80,7 @@ finalize (GObject *object)
   CeldOperation *self = (CeldOperation *) object;
 
   celd_session_free (self->session);
-  g_free (self->said);
+  g_free (self->last_message);
   celd_operation_clear_values (self);
   g_rec_mutex_clear (&self->busy);
   G_OBJECT_CLASS (celd_operation_parent_class)->finalize (object);
@@ -126,7 +126,7 @@ init_operation (gpointer g_class, gpointer data)
   char                    *menu_label = g_strdup_printf ("%s...", info->title);
 
   klass->info = info;
-  G_OBJECT_CLASS (klass)->set_property = celd_operation_set_property; /* which are not inherited */
+  G_OBJECT_CLASS (klass)->set_property = celd_operation_set_property; /* not inherited */
   G_OBJECT_CLASS (klass)->get_property = celd_operation_get_property;
   celd_operation_install (klass);
   if (info->prepare)
@@ -164,7 +164,7 @@ celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *i
         .class_data     = infos[i],
         .instance_size  = sizeof (CeldOperation),
       };
-      char *name = g_strdup_printf ("CeldOperation-%s", strchr (infos[i]->name, ':') + 1);
+      char           *name = g_strdup_printf ("CeldOperation-%s", strchr (infos[i]->name, ':') + 1);
 
       g_type_module_register_type (module, CELD_TYPE_OPERATION, name, &type, (GTypeFlags) 0);
       g_free (name);

@@ -1,28 +1,28 @@
-/* What GEGL lends to a call: progress and threads, and memory that is freed after it.
+/* Progress and threads of GEGL, and memory that is freed after a call.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "op-parts.h"
 
-#define SHOWN_STEP 0.01 /* of the progress: smaller ones are not worth a redraw; chosen */
+#define LEAST_STEP 0.01 /* of the progress, since hosts redraw at each report (chosen) */
 
 static bool
 report_progress (void *host, double done)
 {
   CeldOp *op = host;
 
-  if (done >= op->progress + SHOWN_STEP)
+  if (done >= op->progress + LEAST_STEP)
     {
       op->progress = done;
       gegl_operation_progress (GEGL_OPERATION (op->operation), done, (gchar *) "");
     }
-  return true; /* GEGL knows no cancel */
+  return true; /* operations of GEGL cannot be cancelled */
 }
 
 typedef struct { void (*body) (void *data, int i); void *data; } Work;
 
 static void
-work_range (gsize first, gsize n, gpointer user_data)
+call_range (gsize first, gsize n, gpointer user_data)
 {
   const Work *work = user_data;
 
@@ -35,11 +35,11 @@ distribute (void *host, int n, void (*body) (void *data, int i), void *data)
 {
   Work work = { body, data };
 
-  gegl_parallel_distribute_range ((gsize) n, 1.0, work_range, &work);
+  gegl_parallel_distribute_range ((gsize) n, 1.0, call_range, &work);
 }
 
 void
-celd_op_borrow_host (CeldOp *op)
+celd_op_set_host (CeldOp *op)
 {
   op->host  = (CeldHost) { report_progress, distribute, op };
   op->quiet = (CeldHost) { NULL, distribute, op };

@@ -1,13 +1,13 @@
-/* What the artist is told: one message a call, gathered while the operation works.
+/* Messages to the artist: one for each call, of all lines that are added during it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "op-parts.h"
 
-#define MOST_PROBLEMS 8 /* in one message; chosen */
+#define MOST_PROBLEMS 8 /* in one message (chosen) */
 
 void
-celd_op_add (CeldOp *op, const char *text)
+celd_op_add_line (CeldOp *op, const char *text)
 {
   if (op->message->len)
     g_string_append_c (op->message, '\n');
@@ -23,12 +23,12 @@ celd_op_fail (CeldOp *op, const char *format, ...)
   va_start (arguments, format);
   text = g_strdup_vprintf (format, arguments);
   va_end (arguments);
-  celd_op_add (op, text);
+  celd_op_add_line (op, text);
   g_free (text);
   return FALSE;
 }
 
-/* While the artist is still choosing layers, that there is nothing to go by is no news. */
+/* While the artist is still choosing layers, missing scribbles and arrows are not reported. */
 gboolean
 celd_op_try (CeldOp *op, CeldStatus status)
 {
@@ -37,13 +37,13 @@ celd_op_try (CeldOp *op, CeldStatus status)
   return status == CELD_OK || celd_op_fail (op, "%s", celd_status_text (status));
 }
 
-/* Says where a text cannot be read, and what it may look like. */
+/* As celd_op_try, for a text; the message says where it cannot be read, and gives an example. */
 static gboolean
 try_text (CeldOp *op, CeldStatus status, const CeldTextError *error, const char *what, const char *example)
 {
   if (status != CELD_BAD_RELATION)
     return celd_op_try (op, status);
-  return celd_op_fail (op, "The %s cannot be read: in line %d, column %d there is %s where %s was expected. An "
+  return celd_op_fail (op, "The %s cannot be read: line %d, column %d has %s where %s was expected. An "
                        "example of %s", what, error->line, error->column, error->found, error->expected, example);
 }
 
@@ -60,7 +60,7 @@ celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error)
 }
 
 gboolean
-celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
+celd_op_report (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
               const CeldOrder *order)
 {
   for (size_t i = 0; problems && i < MIN (problems->n, MOST_PROBLEMS); i++)
@@ -69,7 +69,7 @@ celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palet
       char               text[400];
 
       celd_problem_text (problem, palette, relations, text, sizeof text);
-      celd_op_add (op, text);
+      celd_op_add_line (op, text);
       if (problem->kind == CELD_PROBLEM_CONTRADICTION && order && problem->other < order->n_cycles)
         {
           celd_cycle_text (&order->cycle[problem->other], relations, text, sizeof text);
@@ -82,29 +82,29 @@ celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palet
 }
 
 gboolean
-celd_op_remark (CeldOp *op, const char *text)
+celd_op_report_text (CeldOp *op, const char *text)
 {
-  celd_op_add (op, text);
+  celd_op_add_line (op, text);
   return TRUE;
 }
 
 gboolean
-celd_op_tell_solve (CeldOp *op, const CeldSolve *solve)
+celd_op_report_solve (CeldOp *op, const CeldSolve *solve)
 {
   CeldProblem  problem = { .kind = CELD_PROBLEM_NOT_CONVERGED, .x = -1, .y = -1, .relation = CELD_NO_INDEX };
   CeldProblems problems = { &problem, 1 };
 
-  return solve->converged || celd_op_tell (op, &problems, NULL, NULL, NULL);
+  return solve->converged || celd_op_report (op, &problems, NULL, NULL, NULL);
 }
 
 void
-celd_op_speak (CeldOp *op)
+celd_op_show_message (CeldOp *op)
 {
   CeldOperation *self = op->operation;
   const char    *text = op->message->len ? op->message->str : NULL;
 
-  if (text && g_strcmp0 (text, self->said))
+  if (text && g_strcmp0 (text, self->last_message))
     g_message ("%s: %s", gegl_operation_class_get_key (GEGL_OPERATION_GET_CLASS (self), "title"), text);
-  g_free (self->said);
-  self->said = g_strdup (text);
+  g_free (self->last_message);
+  self->last_message = g_strdup (text);
 }

@@ -1,4 +1,4 @@
-/* The pads of an operation: how hosts see them, and whether what comes in is as it must be.
+/* The pads of an operation, and checks of the pictures on them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,7 @@ create_pad (GeglOperation *operation, const char *name, const char *label, const
   g_param_spec_sink (pad);
 }
 
-/* In the order in which GIMP shows them (GEGL's own list has the newest first). */
+/* Creates the pads in the order in which GIMP shows them. */
 void
 celd_operation_attach (GeglOperation *operation)
 {
@@ -24,9 +24,9 @@ celd_operation_attach (GeglOperation *operation)
   create_pad (operation, "output", "Output", "The result", G_PARAM_READABLE, GEGL_PARAM_PAD_OUTPUT);
 }
 
-/* A layer picker in which nothing is chosen yet: GIMP connects a source without a buffer. */
+/* Whether no layer has been chosen for the pad yet: GIMP then connects a source without a buffer. */
 static gboolean
-is_open_picker (CeldOp *op, const char *pad)
+is_empty_picker (CeldOp *op, const char *pad)
 {
   GeglNode   *producer = gegl_node_get_producer (GEGL_OPERATION (op->operation)->node, pad, NULL);
   GeglBuffer *buffer = NULL;
@@ -41,28 +41,29 @@ is_open_picker (CeldOp *op, const char *pad)
 }
 
 gboolean
-celd_op_has (CeldOp *op, const char *pad)
+celd_op_has_input (CeldOp *op, const char *pad)
 {
-  return gegl_operation_context_get_object (op->context, pad) != NULL && !is_open_picker (op, pad);
+  return gegl_operation_context_get_object (op->context, pad) != NULL && !is_empty_picker (op, pad);
 }
 
-/* A layer of another size is taken as it lies, but the artist should know: GIMP loses the offsets of layers. */
+/* Tells the artist that a layer does not have the picture's rectangle: GIMP does not pass on the offsets of layers. */
 static void
-tell_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
+report_size (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
 {
   const GeglRectangle *p = &op->picture;
-  char                 text[300];
+  char                 text[500];
 
   if (gegl_rectangle_equal (r, p) || gegl_rectangle_is_infinite_plane (r))
     return;
   g_snprintf (text, sizeof text,
-              "'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. What lies outside is cut off, "
-              "and what is missing counts as empty. If the layer looks shifted, give it the picture's size.",
+              "'%s' has %d x %d pixels at %d, %d, but the picture has %d x %d at %d, %d. Pixels outside the picture "
+              "are ignored, and missing pixels are empty. If the result is shifted, give the layer the picture's size "
+              "(in GIMP: Layer, Layer to Image Size).",
               pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
-  celd_op_add (op, text);
+  celd_op_add_line (op, text);
 }
 
-/* A picture that is no layer. */
+/* Whether a sample has a size that can be used. */
 static gboolean
 check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
 {
@@ -72,14 +73,14 @@ check_sample (CeldOp *op, const CeldPad *pad, const GeglRectangle *r)
   return TRUE;
 }
 
-/* Is the pad there as it must be?  Layers may be smaller than the drawing, but must lie over it. */
+/* Whether the pad has a picture that can be used.  Layers may be smaller than the drawing, but must overlap it. */
 static gboolean
 check_pad (CeldOp *op, const CeldPad *pad)
 {
   const GeglRectangle *p = &op->picture;
   const GeglRectangle *r = gegl_operation_source_get_bounding_box (GEGL_OPERATION (op->operation), pad->name);
 
-  if (is_open_picker (op, pad->name))
+  if (is_empty_picker (op, pad->name))
     {
       op->choosing = TRUE;
       return pad->required != TRUE;
@@ -97,7 +98,7 @@ check_pad (CeldOp *op, const CeldPad *pad)
     return celd_op_fail (op, "'%s' (%d x %d pixels at %d, %d) lies outside the picture (%d x %d at %d, %d). "
                          "Move it over the picture, or give it the picture's size.",
                          pad->label, r->width, r->height, r->x, r->y, p->width, p->height, p->x, p->y);
-  tell_size (op, pad, r);
+  report_size (op, pad, r);
   return TRUE;
 }
 

@@ -1,12 +1,12 @@
-/* What the parts of the base class (op*.c) know of each other.
+/* Functions that the files of the base class (op*.c) share.
  *
- *   op.c             the frame round render
+ *   op.c             a call of an operation: checks, render, message
  *   op-class.c       the class: regions, and the classes of the operations
- *   op-properties.c  its properties and their values
- *   op-specs.c       what hosts know of a property, by its row of the table of settings
- *   op-pads.c        its pads, and checks of what comes in
- *   op-messages.c    what the artist is told
- *   op-host.c        progress, threads and memory that last as long as a call
+ *   op-properties.c  properties and their values
+ *   op-specs.c       GParamSpecs of properties, made from rows of the table of settings
+ *   op-pads.c        pads, and checks of the pictures on them
+ *   op-messages.c    messages to the artist
+ *   op-host.c        progress, threads, and memory for the time of a call
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -31,27 +31,28 @@ void celd_operation_clear_values (CeldOperation *self);
 
 /* ------------------------------------------------------------------ op-specs.c */
 
-/* A new specification: name, range, default, label and help for hosts. */
+/* A new GParamSpec: name, range, default, label and help for hosts. */
 GParamSpec *celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row);
 
 /* ------------------------------------------------------------------ op-pads.c */
 
 void celd_operation_attach (GeglOperation *operation);
 
-/* Is each pad as it must be, and the input neither endless nor too large?  Otherwise the message says what is not. */
+/* Whether the input has a finite size up to CELD_MAX_SIDE, and each pad a picture that can be used; if not, with a
+ * message. */
 gboolean celd_op_check_pads (CeldOp *op);
 
 /* ------------------------------------------------------------------ op-messages.c */
 
-/* A line more for the message of this call. */
-void celd_op_add (CeldOp *op, const char *text);
+/* Adds a line to the message of this call. */
+void celd_op_add_line (CeldOp *op, const char *text);
 
-/* Says the message of this call, unless the last call said the same. */
-void celd_op_speak (CeldOp *op);
+/* Shows the message of this call, unless it is that of the last call. */
+void celd_op_show_message (CeldOp *op);
 
 /* ------------------------------------------------------------------ op-host.c */
 
-/* What the host lends: progress and threads. */
-void celd_op_borrow_host (CeldOp *op);
+/* Sets op->host and op->quiet. */
+void celd_op_set_host (CeldOp *op);
 
 #endif

@@ -1,7 +1,7 @@
-/* The properties of an operation: which there are, and their values.
+/* The properties of an operation, and their values.
  *
- * What a host sets is kept as it is, so that the host reads back what it set; and it goes into the CeldSettings and the
- * CeldOwnValues of the operation.
+ * A value that a host sets is kept as a GValue, so that the host gets it back unchanged, and converted into a member of
+ * the operation's CeldSettings or CeldOwnValues.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,7 +20,7 @@ row_of (const CeldProperty *property)
   return row ? row : celd_shared_property (property->name);
 }
 
-/* Does the value belong to the settings of core?  Otherwise to the CeldOwnValues. */
+/* Whether the row is a setting of core, and not one over CeldOwnValues. */
 static gboolean
 is_setting (const CeldSettingInfo *row)
 {

@@ -1,4 +1,4 @@
-/* What hosts know of a property before it has a value: its GParamSpec, made from its row.
+/* The GParamSpec of a property (its name, range, default, label and help for hosts), made from its row.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +14,7 @@ choice_type (const CeldSettingInfo *row)
 
   if (type)
     return type;
-  values = g_new0 (GEnumValue, row->choices + 1); /* for as long as the type */
+  values = g_new0 (GEnumValue, row->choices + 1); /* never freed, like the type */
   for (gsize i = 0; i < row->choices; i++)
     values[i] = (GEnumValue) { (int) i, row->choice[i].label, row->choice[i].nick };
   return g_enum_register_static (row->choice_type, values);
@@ -82,14 +82,14 @@ set_key (GParamSpec *spec, const char *key, const char *value)
 GParamSpec *
 celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row)
 {
-  gboolean    turned = !g_strcmp0 (row->unit, "degree");
+  gboolean    angle = !g_strcmp0 (row->unit, "degree");
   GParamSpec *spec = make_spec (row, property->as ? property->as : row->name,
                                 property->label ? property->label : row->label,
                                 property->help ? property->help : row->help);
 
   set_key (spec, "visible", property->when ? property->when : row->when);
   set_key (spec, "unit", row->unit);
-  set_key (spec, turned ? "direction" : "axis", row->axis);
+  set_key (spec, angle ? "direction" : "axis", row->axis);
   set_key (spec, "multiline", row->type == CELD_SETTING_TEXT ? "true" : NULL);
   return spec;
 }

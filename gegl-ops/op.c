@@ -1,4 +1,4 @@
-/* The frame round `render`: what comes before and after it in a call of an operation.
+/* A call of an operation: checks of its pads, `render`, and the message to the artist.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -28,12 +28,12 @@ render_or_pass (CeldOperation *self, GeglOperationContext *context)
     .message   = g_string_new (NULL),
   };
 
-  celd_op_borrow_host (&op);
+  celd_op_set_host (&op);
   if (celd_op_check_pads (&op) && CELD_OPERATION_CLASS_OF (self)->info->render (&op))
     op.host.progress (&op, 1);
   else
     pass_through (context);
-  celd_op_speak (&op);
+  celd_op_show_message (&op);
   celd_palette_clear (&op.palette);
   celd_relations_clear (&op.relations);
   celd_problems_clear (&op.problems);
@@ -42,7 +42,7 @@ render_or_pass (CeldOperation *self, GeglOperationContext *context)
   g_string_free (op.message, TRUE);
 }
 
-/* A host that draws its windows while it shows progress may ask again from within: it gets the input. */
+/* A host that handles events while it shows progress may call the operation from within render: it gets the input. */
 gboolean
 celd_operation_process (GeglOperation *operation, GeglOperationContext *context, const gchar *output_pad,
                         const GeglRectangle *roi, gint level)

@@ -1,15 +1,15 @@
-/* What every operation of the suite is made of: a base class, and the steps that read pads and write the output.
+/* The base class of all operations, and functions that read their pads and write their output.
  *
- * CeldOperation is a GeglOperation over the whole picture.  An operation of the suite is a CeldOperationInfo: its
- * names, its pads, its properties, and `render`, a chain of steps that each say TRUE or FALSE:
+ * CeldOperation is a GeglOperation that needs the whole picture.  Each operation is a CeldOperationInfo: its names, its
+ * pads, its properties, and `render`, a chain of functions that return TRUE or FALSE:
  *
  *     return celd_op_read_plane (op, "input", &levels) &&
  *            celd_op_read_ink (op, "aux", &ink) &&
  *            celd_op_try (op, celd_expand (...)) &&
  *            celd_op_write (op, levels.data);
  *
- * On FALSE the input passes through unchanged, and the artist is told why: one g_message, not repeated while it stays
- * the same (hosts render again and again).  Everything that hangs on a CeldOp is freed when render is done.
+ * On FALSE the input becomes the output, and one g_message tells the artist why; it is not repeated while it stays the
+ * same, since hosts render again and again.  All that belongs to a CeldOp is freed after render.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -28,13 +28,13 @@
 
 typedef struct _CeldOp CeldOp;
 
-/* ------------------------------------------------------------------ what an operation says of itself */
+/* ------------------------------------------------------------------ the description of an operation */
 
-/* CeldPad.required, beside TRUE (the operation cannot do without) and FALSE.  A sample may be missing, has a size of
- * its own, and lies nowhere. */
+/* A value of CeldPad.required beside TRUE (nothing can be done without it) and FALSE: an optional picture of any size,
+ * at any place. */
 enum { CELD_PAD_SAMPLE = 2 };
 
-/* An input pad as the host shows it. */
+/* An input pad, as hosts show it. */
 typedef struct
 {
   const char *name;                /* "input", "aux", "aux2", ... */
@@ -42,20 +42,20 @@ typedef struct
   gboolean    required;
 } CeldPad;
 
-/* A property: a setting of core by its name, a shared property of properties.c by its name, or one of this operation
- * alone.  What is NULL here is as its row says. */
+/* A property: the name of a setting of core or of a property in properties.c, or a row for this operation alone.
+ * Members that are NULL are those of the row. */
 typedef struct
 {
   const char            *name;
-  const CeldSettingInfo *own;      /* of this operation alone: a row over CeldOwnValues, in place of a name */
-  const char            *as;       /* the name that hosts know it by */
+  const CeldSettingInfo *own;      /* instead of a name: a row of this operation, over CeldOwnValues */
+  const char            *as;       /* the name for hosts */
   const char            *label, *help, *when;
 } CeldProperty;
 
 /* The values of properties that are no settings of core. */
 typedef struct
 {
-  int         result;              /* what comes out: an enumeration of properties.h */
+  int         result;              /* the kind of output: an enumeration of properties.h */
   int         unit, layer;
   bool        directx;
   const char *relations, *arrow_path;
@@ -64,13 +64,13 @@ typedef struct
 typedef struct
 {
   const char         *name;        /* "celdepth:stereo" */
-  const char         *title;       /* "Stereo"; GIMP's menu entry has dots behind it */
+  const char         *title;       /* "Stereo"; followed by "..." in GIMP's menu */
   const char         *categories, *description, *reference;
   const CeldPad      *pads;        /* "input" first, ended by a NULL name */
-  const CeldProperty *properties;  /* in the order of dialogs, ended by one without name and row */
+  const CeldProperty *properties;  /* in the order of dialogs; the last one has neither name nor row */
   const char         *format;      /* of the output; NULL: `prepare` sets it */
   void              (*prepare) (GeglOperation *operation);
-  void              (*adjust) (GeglOperationClass *klass); /* what differs from the base class; NULL: nothing */
+  void              (*adjust) (GeglOperationClass *klass); /* changes functions of the base class; may be NULL */
   gboolean          (*render) (CeldOp *op);
 } CeldOperationInfo;
 
@@ -79,20 +79,20 @@ typedef struct
 typedef struct
 {
   GeglOperation parent_instance;
-  CeldSettings  settings;          /* of the properties, and so are these: */
-  CeldOwnValues own;
+  CeldSettings  settings;          /* the properties that are settings of core */
+  CeldOwnValues own;               /* the other properties */
   GValue       *value;             /* of each property, as the host set it */
-  GRecMutex     busy;              /* over the members below, and over render */
+  GRecMutex     busy;              /* protects the members below, and render */
   gboolean      rendering;
-  char         *said;              /* the last message; NULL if all was well */
-  CeldSession  *session;           /* of operations that keep the route between calls; made by celd_op_set_session */
+  char         *last_message;              /* of the last call; NULL if it had none */
+  CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
 } CeldOperation;
 
 typedef struct
 {
   GeglOperationClass        parent_class;
   const CeldOperationInfo  *info;
-  const CeldSettingInfo   **row;   /* of each property, by its number */
+  const CeldSettingInfo   **row;   /* of each property */
   guint                     n;
 } CeldOperationClass;
 
@@ -101,10 +101,11 @@ typedef struct
 
 GType celd_operation_get_type (void);
 
-/* Makes the base class known to GEGL, and each of these operations. */
+/* Registers the base class and n operations with GEGL. */
 void celd_operations_register (GTypeModule *module, const CeldOperationInfo *const *infos, gsize n);
 
-/* What the properties of an operation say now: for `prepare` and its kin.  A render has a copy of its own. */
+/* The current values of the properties, for `prepare` and other functions of the class; render has a copy of its
+ * own. */
 const CeldSettings  *celd_operation_settings (GeglOperation *operation);
 const CeldOwnValues *celd_operation_own (GeglOperation *operation);
 
@@ -116,9 +117,9 @@ struct _CeldOp
 {
   CeldOperation        *operation;
   GeglOperationContext *context;
-  GeglRectangle         picture;   /* what is read from every pad, and written */
-  CeldHost              host;      /* the host's progress and threads: for the longest step */
-  CeldHost              quiet;     /* threads only: for the others */
+  GeglRectangle         picture;   /* the rectangle that is read from every pad, and written */
+  CeldHost              host;      /* progress and threads, for the longest step */
+  CeldHost              quiet;     /* threads only, for the other steps */
   CeldSettings          settings;
   CeldOwnValues         own;
 
@@ -127,39 +128,37 @@ struct _CeldOp
   CeldProblems          problems;
   CeldOrder             order;
 
-  /* for op*.c and pixels.c alone */
+  /* used by op*.c and pixels.c only */
   GPtrArray            *scratch;
   GString              *message;
   double                progress;
-  gboolean              choosing;  /* the host's dialog still has a picker without a layer */
+  gboolean              choosing;  /* a layer has not been chosen yet in the host's dialog */
 };
 
 /* ------------------------------------------------------------------ op-messages.c */
 
-/* Adds to the message of this call; always FALSE. */
+/* Adds a line to the message of this call; always FALSE. */
 gboolean celd_op_fail (CeldOp *op, const char *format, ...) G_GNUC_PRINTF (2, 3);
-/* TRUE if a step of core went well; else its reason becomes the message. */
+/* TRUE if the status of a step is CELD_OK; else its text is added to the message. */
 gboolean celd_op_try (CeldOp *op, CeldStatus status);
 /* As celd_op_try, for steps that read the relations text, or an arrow path. */
 gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
 gboolean celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error);
-/* Tells the artist; the result is delivered all the same, so always TRUE.  `order` has the circles of contradictions;
- * NULL before there is one. */
-gboolean celd_op_tell (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
+/* Add problems to the message; always TRUE, since there is a result all the same.  `order` has the cycles of
+ * contradictions; NULL before there is an order. */
+gboolean celd_op_report (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
                        const CeldRelations *relations, const CeldOrder *order);
 
-/* A remark of one operation's own, likewise. */
-gboolean celd_op_remark (CeldOp *op, const char *text);
+gboolean celd_op_report_text (CeldOp *op, const char *text);
 
-/* The same for a solve that was less exact than asked for. */
-gboolean celd_op_tell_solve (CeldOp *op, const CeldSolve *solve);
+gboolean celd_op_report_solve (CeldOp *op, const CeldSolve *solve);
 
 /* ------------------------------------------------------------------ op-pads.c, op-host.c */
 
-/* Does something come in on this pad? */
-gboolean celd_op_has (CeldOp *op, const char *pad);
+/* Whether the pad has a picture. */
+gboolean celd_op_has_input (CeldOp *op, const char *pad);
 
-/* Memory that lasts as long as the call; NULL: no memory (and said so). */
+/* Memory that is freed after the call; NULL, with a message, if there is none. */
 gpointer celd_op_alloc (CeldOp *op, gsize size);
 
 /* ------------------------------------------------------------------ pixels.c */
@@ -171,7 +170,7 @@ gboolean celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours
 gboolean celd_op_read_ink     (CeldOp *op, const char *pad, CeldPlane *ink);
 gboolean celd_op_read_sample  (CeldOp *op, const char *pad, CeldColours *colours);  /* linear, its own size */
 
-/* Pictures of the size of the call; not cleared. */
+/* Pictures of the size of op->picture, not cleared; freed after the call. */
 gboolean celd_op_new_plane   (CeldOp *op, CeldPlane *plane);
 gboolean celd_op_new_labels  (CeldOp *op, CeldLabels *labels);
 gboolean celd_op_new_mask    (CeldOp *op, CeldMask *mask);
@@ -179,14 +178,14 @@ gboolean celd_op_new_paint   (CeldOp *op, CeldPaint *paint);
 gboolean celd_op_new_vectors (CeldOp *op, CeldVectors *vectors);
 gboolean celd_op_new_colours (CeldOp *op, CeldColours *colours);
 
-/* The relations of the properties (text, then arrow path) and of a painted layer (a pad that may be missing), to
- * op->relations; unclear arrows to op->problems. */
+/* Reads the relations of the properties (text, then arrow path) and of painted arrows (an optional pad) to
+ * op->relations; unclear arrows become op->problems. */
 gboolean celd_op_read_relations (CeldOp *op, const char *pad);
 
-/* Seed labels and op->palette from painted strokes. */
+/* Reads painted scribbles to seed labels and op->palette. */
 gboolean celd_op_read_scribbles (CeldOp *op, const char *pad, CeldLabels *seeds);
 
-/* The output, in the format that prepare set for it. */
+/* Write the output, with pixels in the format that prepare has set. */
 gboolean celd_op_write         (CeldOp *op, const void *pixels);
 gboolean celd_op_write_drawing (CeldOp *op, const CeldDrawing *drawing);
 gboolean celd_op_write_paint   (CeldOp *op, const CeldLabels *labels, const CeldPalette *palette);
@@ -194,17 +193,18 @@ gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals); /* 0.5 
 
 /* ------------------------------------------------------------------ session.c */
 
-/* Settings, drawing (input), scribbles (aux), arrows (aux2), relations and arrow path, to the session of this
- * operation, which from now on it has. */
+/* Sets the settings, drawing (input), scribbles (aux), arrows (aux2), relations and arrow path in the operation's
+ * session, which it makes at the first call. */
 gboolean celd_op_set_session (CeldOp *op);
 
-/* A further layer, from a pad that may be missing. */
+/* Sets one more layer, from an optional pad. */
 gboolean celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session,
                                                                           const CeldPaint *layer));
-/* What the session knows to tell. */
-gboolean celd_op_tell_session (CeldOp *op, const CeldOrder *order);
+/* Adds the problems of the session to the message. */
+gboolean celd_op_report_session (CeldOp *op, const CeldOrder *order);
 
-gboolean celd_op_write_labels   (CeldOp *op);                    /* the session's labels as colours */
-gboolean celd_op_write_problems (CeldOp *op);                    /* marks over the input, of the stages made so far */
+/* Write the session's labels as colours; and the input with marks for the problems of all valid stages. */
+gboolean celd_op_write_labels   (CeldOp *op);
+gboolean celd_op_write_problems (CeldOp *op);
 
 #endif

@@ -1,4 +1,4 @@
-/* Pictures from pads to core and back.  Buffers arrive in whatever format the host keeps them: each is named here.
+/* Reads pads into pictures for core, and writes pictures to the output, with conversions of pixel formats.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -88,7 +88,7 @@ has_alpha (CeldOp *op, const char *pad)
   return babl_format_has_alpha (gegl_buffer_get_format (buffer_of (op, pad)));
 }
 
-/* Round a layer that is smaller than the picture: nothing, or, if it cannot be seen through, more white paper. */
+/* The pixels around a layer that is smaller than the picture: transparent, or white if the layer has no alpha. */
 static GeglAbyssPolicy
 paper (CeldOp *op, const char *pad)
 {
@@ -171,7 +171,7 @@ celd_op_read_scribbles (CeldOp *op, const char *pad, CeldLabels *seeds)
   if (!celd_op_new_labels (op, seeds))
     return FALSE;
   memset (seeds->data, 0, count (op) * sizeof (uint32_t));
-  return !celd_op_has (op, pad) ||
+  return !celd_op_has_input (op, pad) ||
          (celd_op_read_paint (op, pad, &paint) &&
           celd_op_try (op, celd_scribbles_read (&paint, &op->settings, &op->quiet, seeds, &op->palette)));
 }
@@ -187,7 +187,7 @@ celd_op_read_relations (CeldOp *op, const char *pad)
 
   return celd_op_try_text (op, celd_relations_parse (text, &op->relations, &error), &error) &&
          celd_op_try_path (op, celd_arrow_path_parse (path, &op->relations, &error), &error) &&
-         (!celd_op_has (op, pad) ||
+         (!celd_op_has_input (op, pad) ||
           (celd_op_read_paint (op, pad, &paint) &&
            celd_op_try (op, celd_arrows_read (&paint, style, &op->quiet, &op->relations, &op->problems))));
 }

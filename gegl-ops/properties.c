@@ -8,8 +8,9 @@
 
 static const CeldSettingInfo shared[] = {
   { .name = "relations", .label = "Relations", .type = CELD_SETTING_TEXT, .offset = offsetof (CeldOwnValues, relations),
-    .help = "What is nearer than what, in words: '120,80 > 300,95' compares two points, '#ff0000 > #00ff00' two "
-            "colours, and '=' means the same depth. Write one relation per line, or separate them by ';'" },
+    .help = "Relations between parts: '120,80 > 300,95' says that the part at the first point is nearer than the part "
+            "at the second, '#ff0000 > #00ff00' compares the parts of two colours, and '=' means equal depth. Write "
+            "one relation per line, or separate them by ';'" },
 
   { .name = "arrow-path", .label = "Arrow path", .type = CELD_SETTING_TEXT,
     .offset = offsetof (CeldOwnValues, arrow_path),

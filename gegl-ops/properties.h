@@ -1,4 +1,4 @@
-/* Properties beside the settings of core: what comes out of an operation, and what several of them share.
+/* Properties that are no settings of core: the kinds of output, and those that several operations share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,7 +21,7 @@ typedef enum
   CELD_POPUP_PROBLEMS, CELD_POPUP_SUGGESTIONS
 } CeldPopupResult;
 
-/* The type of a row over the int `member` of CeldOwnValues, which is one of a list of choices. */
+/* Members of a row for the int `member` of CeldOwnValues, an enumeration with a list of choices. */
 #define CELD_OWN_CHOICE(member, enumeration, list) \
   .type = CELD_SETTING_CHOICE, .offset = offsetof (CeldOwnValues, member), .choice_type = #enumeration, \
   .choice = (list), .choices = G_N_ELEMENTS (list), .most = G_N_ELEMENTS (list) - 1

@@ -1,7 +1,7 @@
-/* What operations share that keep a session: the built basins of the drawing among all else stay between calls.
+/* For operations that keep a session, and with it results such as the basins of the drawing, between calls.
  *
- * The session is a member of the operation, made at the first call, used under the operation's lock, and freed with it.
- * Every call hands over everything anew; the session finds out what that changes.
+ * The session is a member of the operation, made at the first call, protected by its lock, and freed with it.  Every
+ * call sets all input again; the session finds out what has changed.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -22,7 +22,7 @@ celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *
 {
   CeldPaint paint;
 
-  if (!celd_op_has (op, pad))
+  if (!celd_op_has_input (op, pad))
     return celd_op_try (op, set (op->operation->session, NULL));
   return celd_op_read_paint (op, pad, &paint) &&
          celd_op_try (op, set (op->operation->session, &paint));
@@ -46,11 +46,11 @@ celd_op_set_session (CeldOp *op)
 }
 
 gboolean
-celd_op_tell_session (CeldOp *op, const CeldOrder *order)
+celd_op_report_session (CeldOp *op, const CeldOrder *order)
 {
   CeldSession *session = op->operation->session;
 
-  return celd_op_tell (op, celd_session_problems (session), celd_session_palette (session),
+  return celd_op_report (op, celd_session_problems (session), celd_session_palette (session),
                        celd_session_relations (session), order);
 }
 
