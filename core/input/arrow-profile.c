@@ -8,7 +8,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/arrows.h"
+#include "input/input.h"
 
 #include <math.h>
 
@@ -48,7 +48,8 @@ strength (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double fro
 
 /* Opacity or width of pieces of the way, equally long, without the outermost pixels: ends are round. */
 static void
-measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n, double *value)
+measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n,
+         double *value)
 {
   double piece = (celd_stroke_length (stroke) - 2 * margin) / n;
 
@@ -56,7 +57,8 @@ measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowSt
     {
       double from = margin + i * piece, to = from + piece;
 
-      value[i] = style == CELD_ARROW_FADE ? strength (stroke, layer, from, to) : celd_stroke_mean_width (stroke, from, to);
+      value[i] = style == CELD_ARROW_FADE ? strength (stroke, layer, from, to)
+                                          : celd_stroke_mean_width (stroke, from, to);
     }
 }
 

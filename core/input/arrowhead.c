@@ -9,7 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 
-#include "input/arrows.h"
+#include "input/input.h"
 #include <math.h>
 
 #define EXTREMITIES  4   /* tail, tip and two barbs */

@@ -10,13 +10,13 @@
  *          FADED_OPACITY, since its faint end is the farther end
  *   taper  the thick end is nearer (arrow-profile.c)
  *
- * Strokes that are unclear, or whose arrowhead contradicts their fade or taper, are reported and never guessed.  Cost: a
- * few sweeps over the pixels of each stroke.
+ * Strokes that are unclear, or whose arrowhead contradicts their fade or taper, are reported and never guessed.
+ *
+ * Cost: a few sweeps over the pixels of each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
-#include "input/arrows.h"
+#include "input/input.h"
 
 #include <math.h>
 

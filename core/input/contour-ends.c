@@ -1,24 +1,30 @@
-/* Open ends of virtual contours: a stroke that stops a few pixels short of the contour it was meant for would leak.
+/* Open ends of virtual contours: a stroke that stops a few pixels short of a contour would leak.
  *
- * A rim pixel is near an end when the square round it, a little wider than the stroke, meets the stroke in one place
- * only; in none, it belongs to a dab, which may close a gap on both sides.  The ends nearest to something to join are
- * joined first, by a line two pixels wide; an end that is joined already asks for no more.
- * Cost: O(reach^2) for each rim pixel; 28 bytes for each that is an end.
+ * A pixel on the outline of a stroke is at an end if a square around it, a little wider than the stroke, meets the
+ * stroke in one place only.  If they do not meet, the pixel belongs to a dab, which may close a gap on both sides.
+ * Ends are joined in the order of their distance to what they are joined to, by a line two pixels wide, unless a line
+ * made before joins the same end.
+ *
+ * Cost: O(distance^2) for each pixel of an outline, and 28 bytes for each that is at an end.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "input/contours.h"
+#include "input/input.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* A rim pixel near the end of a stroke, and the nearest thing that the stroke may be joined to. */
+#define JOIN_DISTANCE 5   /* pixels over which ends are joined, ...; chosen */
+#define JOIN_DIVISOR  256 /* ... plus this part of the shorter side of the picture; chosen */
+#define END_MARGIN    3   /* pixels by which half the square round an end is larger than the stroke is wide; chosen */
+
+/* A pixel on the outline of a stroke near its end, and the nearest pixel that the stroke may be joined to. */
 typedef struct { int x, y, to_x, to_y, squared; uint32_t stroke; bool dab; } End;
 
-/* In how many places does the square of half side `radius` round (x,y) meet the stroke? */
+/* In how many places does the outline of the square with half side `radius` round (x,y) meet the stroke? */
 static int
-crossings (const Bake *b, int x, int y, int radius, uint32_t stroke)
+crossings (const CeldContourBake *b, int x, int y, int radius, uint32_t stroke)
 {
   int  n = 0;
   bool first = false, before = false;
@@ -28,7 +34,7 @@ crossings (const Bake *b, int x, int y, int radius, uint32_t stroke)
       int  along = i % (2 * radius) - radius;
       int  u = i < 2 * radius ? x + along : i < 4 * radius ? x + radius : i < 6 * radius ? x - along : x - radius;
       int  v = i < 2 * radius ? y - radius : i < 4 * radius ? y + along : i < 6 * radius ? y + radius : y - along;
-      bool here = u >= 0 && v >= 0 && u < b->width && v < b->height && CELD_AT (&b->part, u, v) == stroke;
+      bool here = u >= 0 && v >= 0 && u < b->width && v < b->height && CELD_AT (&b->component, u, v) == stroke;
 
       n += here && !before;
       first = i == 0 ? here : first;
@@ -37,13 +43,13 @@ crossings (const Bake *b, int x, int y, int radius, uint32_t stroke)
   return n - (n > 1 && first && before);
 }
 
-/* Finds the nearest ink, other stroke or edge of the picture within the reach. */
+/* Finds the nearest ink, other stroke or edge of the picture; false if it is more than `most` pixels away. */
 static bool
-find_target (const Bake *b, int reach, End *end)
+find_target (const CeldContourBake *b, int most, End *end)
 {
-  end->squared = reach * reach + 1;
-  for (int v = end->y - reach; v <= end->y + reach; v++)
-    for (int u = end->x - reach; u <= end->x + reach; u++)
+  end->squared = most * most + 1;
+  for (int v = end->y - most; v <= end->y + most; v++)
+    for (int u = end->x - most; u <= end->x + most; u++)
       {
         int  squared = (u - end->x) * (u - end->x) + (v - end->y) * (v - end->y);
         bool inside = u >= 0 && v >= 0 && u < b->width && v < b->height;
@@ -51,13 +57,13 @@ find_target (const Bake *b, int reach, End *end)
         if (squared >= end->squared)
           continue;
         if (inside && CELD_AT (&b->ink, u, v) > 0.5f &&
-            (!CELD_AT (&b->part, u, v) || CELD_AT (&b->part, u, v) == end->stroke))
+            (!CELD_AT (&b->component, u, v) || CELD_AT (&b->component, u, v) == end->stroke))
           continue;
         end->squared = squared;
         end->to_x = u;
         end->to_y = v;
       }
-  return end->squared <= reach * reach;
+  return end->squared <= most * most;
 }
 
 static int
@@ -70,18 +76,17 @@ by_squared_distance (const void *a, const void *b)
   return p->y != q->y ? p->y - q->y : p->x - q->x;
 }
 
-/* Is the end answered by a joint made before?  A stroke that touches ink at this end needs no other joint there; a dab
- * may be joined on several sides. */
+/* Does one of the joints made before join this end, too?  A stroke that touches ink near this end needs no other joint
+ * there; a dab may be joined on several sides. */
 static bool
-is_joined (const Bake *b, const End *end, const End *joint, size_t n)
+is_joined (const CeldContourBake *b, const End *end, const End *joint, size_t n)
 {
-  int size = (int) b->breadth[end->stroke] + 3;
+  int size = (int) b->breadth[end->stroke] + END_MARGIN;
 
   for (size_t i = 0; i < n; i++)
     {
       const End *j = &joint[i];
       int        dot = (end->to_x - end->x) * (j->to_x - j->x) + (end->to_y - end->y) * (j->to_y - j->y);
-
       int        far = abs (j->x - end->x) > abs (j->y - end->y) ? abs (j->x - end->x) : abs (j->y - end->y);
 
       if (j->stroke == end->stroke && ((dot > 0 && far <= 2 * size) || (j->squared <= 2 && !end->dab && far <= size)))
@@ -90,17 +95,19 @@ is_joined (const Bake *b, const End *end, const End *joint, size_t n)
   return false;
 }
 
+/* Does a pixel have a neighbour that is not of its stroke? */
 static bool
-is_rim (const Bake *b, int x, int y)
+on_outline (const CeldContourBake *b, int x, int y)
 {
-  uint32_t k = CELD_AT (&b->part, x, y);
+  const CeldLabels *c = &b->component;
+  uint32_t          k = CELD_AT (c, x, y);
 
-  return (x > 0 && CELD_AT (&b->part, x - 1, y) != k) || (x < b->width - 1 && CELD_AT (&b->part, x + 1, y) != k) ||
-         (y > 0 && CELD_AT (&b->part, x, y - 1) != k) || (y < b->height - 1 && CELD_AT (&b->part, x, y + 1) != k);
+  return (x > 0 && CELD_AT (c, x - 1, y) != k) || (x < b->width - 1 && CELD_AT (c, x + 1, y) != k) ||
+         (y > 0 && CELD_AT (c, x, y - 1) != k) || (y < b->height - 1 && CELD_AT (c, x, y + 1) != k);
 }
 
 static CeldStatus
-find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n)
+find_ends (const CeldContourBake *b, int most, const CeldHost *host, End **ends, size_t *n)
 {
   size_t capacity = 0;
 
@@ -110,12 +117,12 @@ find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n
         return CELD_CANCELLED;
       for (int x = 0; x < b->width; x++)
         {
-          End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->part, x, y) };
+          End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->component, x, y) };
           int  met;
 
-          if (!end.stroke || !is_rim (b, x, y) || !find_target (b, reach, &end))
+          if (!end.stroke || !on_outline (b, x, y) || !find_target (b, most, &end))
             continue;
-          met = crossings (b, x, y, (int) b->breadth[end.stroke] + 3, end.stroke);
+          met = crossings (b, x, y, (int) b->breadth[end.stroke] + END_MARGIN, end.stroke);
           if (met > 1)
             continue;
           end.dab = met == 0;
@@ -126,14 +133,13 @@ find_ends (const Bake *b, int reach, const CeldHost *host, End **ends, size_t *n
   return CELD_OK;
 }
 
-/* Joins open ends; joints are kept at the front of the list of ends. */
 CeldStatus
-celd_contour_join (Bake *b, const CeldHost *host)
+celd_contour_join (CeldContourBake *b, const CeldHost *host)
 {
   End       *end = NULL;
-  size_t     n = 0, joints = 0;
-  int        reach = 5 + (b->width < b->height ? b->width : b->height) / 256;
-  CeldStatus status = find_ends (b, reach, host, &end, &n);
+  size_t     n = 0, joints = 0; /* the joints made so far are at the front of the list of ends */
+  int        most = JOIN_DISTANCE + (b->width < b->height ? b->width : b->height) / JOIN_DIVISOR;
+  CeldStatus status = find_ends (b, most, host, &end, &n);
 
   if (status == CELD_OK && n)
     qsort (end, n, sizeof *end, by_squared_distance);

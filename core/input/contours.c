@@ -1,27 +1,29 @@
-/* Virtual contours (section 4): strokes that the artist paints over a drawing where a contour is missing or is none.
+/* Virtual contours (section 4): strokes over a drawing that add a missing contour or remove a line.
  *
- * Red becomes ink for every purpose, green paper.  Blue becomes ink for segmentation.  For depth, where the border that
- * it makes has to stay smooth, it is no ink, and ink along which it runs becomes paper; ink that it only crosses, as
- * where a stroke is carried on over a contour, is left alone.
+ * Red strokes become ink for every purpose, green ones paper.  Blue strokes become ink for segmentation.  For depth,
+ * which has to be smooth across the boundary that they make, they are no ink, and ink that they run along becomes
+ * paper; ink that they only cross, where a stroke ends beyond a contour, stays.
  *
- * A stroke is a contour only if nothing leaks past it: one pixel wide, it is widened to two, and its open ends are
- * joined to what is near (contour-ends.c).  Colours are told by their hue, other hues are ignored.
+ * A stroke one pixel wide would leak diagonally, so that it is widened to two pixels; open ends are joined to what is
+ * near (contour-ends.c).  Colours are recognised by hue; other hues are ignored.
+ *
  * Cost: O(pixels), about that of celd_ink; 24 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
-#include "input/contours.h"
+#include "input/input.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define VIVID_CONTOUR 0.3f /* least difference of the largest and the smallest channel of a stroke's colour */
-#define ALONG 3         /* a stroke runs along ink that it covers for so many of its widths */
+#define VIVID_CONTOUR  0.3f /* least chroma of a stroke: its largest channel less its smallest, 0 .. 1; chosen */
+#define STROKE_OPACITY 128  /* of 255, from which a pixel counts as painted; chosen */
+#define PAPER_ERROR    32   /* of 255 in each channel, within which a pixel of an opaque layer is paper; chosen */
+#define ALONG_INK      3    /* widths of a stroke or of the ink below: longer overlaps run along the ink; chosen */
 
 /* ------------------------------------------------------------------ strokes */
 
-static Kind
+static CeldContourKind
 kind_of_colour (const uint8_t *rgba)
 {
   int   r = rgba[0], g = rgba[1], b = rgba[2];
@@ -29,7 +31,7 @@ kind_of_colour (const uint8_t *rgba)
   float range = (float) (high - low), hue;
 
   if (range < VIVID_CONTOUR * 255)
-    return NOTHING;
+    return CELD_CONTOUR_NONE;
   if (high == r)
     hue = 60 * (float) (g - b) / range;
   else if (high == g)
@@ -37,13 +39,13 @@ kind_of_colour (const uint8_t *rgba)
   else
     hue = 240 + 60 * (float) (r - g) / range;
   if (hue > -25 && hue < 25)
-    return HARD;
+    return CELD_CONTOUR_HARD;
   if (hue > 80 && hue < 165)
-    return ERASE;
-  return hue > 195 && hue < 270 ? SOFT : NOTHING;
+    return CELD_CONTOUR_ERASE;
+  return hue > 195 && hue < 270 ? CELD_CONTOUR_SOFT : CELD_CONTOUR_NONE;
 }
 
-/* The commonest colour of a picture without alpha, which means that nothing is painted; false if it has alpha. */
+/* Finds the commonest colour of an opaque layer, which is its paper; false if the layer has alpha. */
 static bool
 opaque_paper (const CeldPaint *paint, uint8_t colour[3], CeldStatus *status)
 {
@@ -72,9 +74,9 @@ opaque_paper (const CeldPaint *paint, uint8_t colour[3], CeldStatus *status)
   return *status == CELD_OK && opaque;
 }
 
-/* Kind and cover of each pixel; false if nothing is painted. */
+/* Fills in kind and opacity; *painted is the number of painted pixels. */
 static CeldStatus
-read_strokes (Bake *b, const CeldPaint *paint, size_t *painted)
+read_strokes (CeldContourBake *b, const CeldPaint *paint, size_t *painted)
 {
   uint8_t    none[3] = { 0 };
   CeldStatus status;
@@ -84,14 +86,15 @@ read_strokes (Bake *b, const CeldPaint *paint, size_t *painted)
   for (int y = 0; y < b->height && status == CELD_OK; y++)
     for (int x = 0; x < b->width; x++)
       {
-        const uint8_t *p = CELD_RGBA (paint, x, y);
-        Kind           kind = p[3] ? kind_of_colour (p) : NOTHING;
+        const uint8_t  *p = CELD_RGBA (paint, x, y);
+        CeldContourKind kind = p[3] ? kind_of_colour (p) : CELD_CONTOUR_NONE;
 
-        if (opaque && abs (p[0] - none[0]) < 32 && abs (p[1] - none[1]) < 32 && abs (p[2] - none[2]) < 32)
-          kind = NOTHING;
+        if (opaque && abs (p[0] - none[0]) < PAPER_ERROR && abs (p[1] - none[1]) < PAPER_ERROR &&
+            abs (p[2] - none[2]) < PAPER_ERROR)
+          kind = CELD_CONTOUR_NONE;
         CELD_AT (&b->kind, x, y) = (uint8_t) kind;
-        CELD_AT (&b->cover, x, y) = kind == NOTHING ? 0 : p[3];
-        *painted += kind != NOTHING;
+        CELD_AT (&b->opacity, x, y) = kind == CELD_CONTOUR_NONE ? 0 : p[3];
+        *painted += kind != CELD_CONTOUR_NONE;
       }
   return status;
 }
@@ -104,17 +107,17 @@ is_block (const CeldMask *wall, int x, int y)
          CELD_AT (wall, x + 1, y) & 1 && CELD_AT (wall, x, y + 1) & 1 && CELD_AT (wall, x + 1, y + 1) & 1;
 }
 
-/* Walls of this purpose, nowhere less than two pixels wide. */
+/* Fills in the walls for a purpose, at least two pixels wide everywhere. */
 static void
-raise_walls (Bake *b, CeldPurpose purpose)
+set_walls (CeldContourBake *b, CeldPurpose purpose)
 {
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
       {
-        Kind kind = CELD_AT (&b->kind, x, y);
-        bool wanted = kind == HARD || (kind == SOFT && purpose == CELD_FOR_SEGMENTATION);
+        CeldContourKind kind = CELD_AT (&b->kind, x, y);
+        bool            soft = kind == CELD_CONTOUR_SOFT && purpose == CELD_FOR_SEGMENTATION;
 
-        CELD_AT (&b->wall, x, y) = wanted && CELD_AT (&b->cover, x, y) >= 128;
+        CELD_AT (&b->wall, x, y) = (kind == CELD_CONTOUR_HARD || soft) && CELD_AT (&b->opacity, x, y) >= STROKE_OPACITY;
       }
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
@@ -126,9 +129,10 @@ raise_walls (Bake *b, CeldPurpose purpose)
       CELD_AT (&b->wall, x, y) = CELD_AT (&b->wall, x, y) != 0;
 }
 
-/* Fills in part, list and breadth for the strokes of `mark`: twice the area by the length of the rim. */
+/* Finds the strokes: the connected components of `mark`.  Their breadth is twice the area divided by the length of the
+ * outline. */
 static CeldStatus
-find_strokes (Bake *b, const CeldHost *host)
+find_strokes (CeldContourBake *b, const CeldHost *host)
 {
   CeldStatus status;
 
@@ -136,7 +140,7 @@ find_strokes (Bake *b, const CeldHost *host)
   celd_free (b->breadth);
   b->list = NULL;
   b->breadth = NULL;
-  status = celd_components (&b->mark, 0, true, host, &b->part, &b->list, &b->n);
+  status = celd_components (&b->mark, 0, true, host, &b->component, &b->list, &b->n);
   if (status != CELD_OK)
     return status;
   b->breadth = celd_alloc0 (b->n + 1, sizeof *b->breadth);
@@ -145,12 +149,12 @@ find_strokes (Bake *b, const CeldHost *host)
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
       {
-        uint32_t k = CELD_AT (&b->part, x, y);
+        uint32_t k = CELD_AT (&b->component, x, y);
 
-        b->breadth[k] += x == 0 || CELD_AT (&b->part, x - 1, y) != k;
-        b->breadth[k] += y == 0 || CELD_AT (&b->part, x, y - 1) != k;
-        b->breadth[k] += x == b->width - 1 || CELD_AT (&b->part, x + 1, y) != k;
-        b->breadth[k] += y == b->height - 1 || CELD_AT (&b->part, x, y + 1) != k;
+        b->breadth[k] += x == 0 || CELD_AT (&b->component, x - 1, y) != k;
+        b->breadth[k] += y == 0 || CELD_AT (&b->component, x, y - 1) != k;
+        b->breadth[k] += x == b->width - 1 || CELD_AT (&b->component, x + 1, y) != k;
+        b->breadth[k] += y == b->height - 1 || CELD_AT (&b->component, x, y + 1) != k;
       }
   for (size_t k = 1; k <= b->n; k++)
     b->breadth[k] = 2 * (float) b->list[k - 1].area / b->breadth[k];
@@ -159,9 +163,9 @@ find_strokes (Bake *b, const CeldHost *host)
 
 /* ------------------------------------------------------------------ blue strokes for depth */
 
-/* Half the thickness of the ink that each overlap of `part` lies in: the largest distance to paper. */
+/* half[k]: half the thickness of the ink below overlap k, which is the largest distance to paper. */
 static CeldStatus
-measure_ink (const Bake *b, const CeldHost *host, float *half)
+measure_ink (const CeldContourBake *b, const CeldHost *host, float *half)
 {
   uint8_t   *paper = celd_alloc (b->pixels, 1);
   int32_t   *squared = celd_alloc (b->pixels, sizeof *squared);
@@ -172,36 +176,36 @@ measure_ink (const Bake *b, const CeldHost *host, float *half)
   if (status == CELD_OK)
     status = celd_distance (b->width, b->height, paper, host, squared);
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
-    half[b->part.data[i]] = fmaxf (half[b->part.data[i]], sqrtf ((float) squared[i]));
+    half[b->component.data[i]] = fmaxf (half[b->component.data[i]], sqrtf ((float) squared[i]));
   celd_free (squared);
   celd_free (paper);
   return status;
 }
 
-/* Does the overlap run along, or only cross? */
+/* Does an overlap of a stroke and ink run along the ink, rather than cross it? */
 static bool
 runs_along (const CeldComponent *overlap, float breadth, float half)
 {
   int across = overlap->right - overlap->left, down = overlap->bottom - overlap->top;
 
-  return (float) (across > down ? across : down) > ALONG * fmaxf (breadth, 2 * half);
+  return (float) (across > down ? across : down) > ALONG_INK * fmaxf (breadth, 2 * half);
 }
 
-/* Blue strokes erase the ink that they run along: that they overlap for longer than both are thick. */
+/* Marks the ink that blue strokes run along as erased. */
 static CeldStatus
-soften (Bake *b, const CeldHost *host)
+erase_below_soft_strokes (CeldContourBake *b, const CeldHost *host)
 {
   float     *breadth_at = celd_alloc (b->pixels, sizeof *breadth_at); /* of the blue stroke at each pixel */
   float     *half = NULL, *breadth = NULL;                            /* by overlap */
   CeldStatus status = breadth_at ? CELD_OK : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < b->pixels; i++)
-    b->mark.data[i] = b->kind.data[i] == SOFT && b->cover.data[i] >= 128;
+    b->mark.data[i] = b->kind.data[i] == CELD_CONTOUR_SOFT && b->opacity.data[i] >= STROKE_OPACITY;
   if (status == CELD_OK)
     status = find_strokes (b, host);
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     {
-      breadth_at[i] = b->breadth[b->part.data[i]];
+      breadth_at[i] = b->breadth[b->component.data[i]];
       b->mark.data[i] = b->mark.data[i] && b->ink.data[i] < 0.95f;
     }
   if (status == CELD_OK)
@@ -213,13 +217,13 @@ soften (Bake *b, const CeldHost *host)
       status = half && breadth ? measure_ink (b, host, half) : CELD_NO_MEMORY;
     }
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
-    breadth[b->part.data[i]] = breadth_at[i];
+    breadth[b->component.data[i]] = breadth_at[i];
   for (size_t i = 0; i < b->pixels && status == CELD_OK; i++)
     {
-      uint32_t k = b->part.data[i];
+      uint32_t k = b->component.data[i];
 
       if (k && runs_along (&b->list[k - 1], breadth[k], half[k]))
-        b->kind.data[i] = ERASE;
+        b->kind.data[i] = CELD_CONTOUR_ERASE;
     }
   celd_free (breadth);
   celd_free (half);
@@ -227,9 +231,9 @@ soften (Bake *b, const CeldHost *host)
   return status;
 }
 
-/* ------------------------------------------------------------------ the drawing, painted over */
+/* ------------------------------------------------------------------ writing to the drawing */
 
-/* The value that the darkest thousandth of the drawing reaches, if that is dark at all. */
+/* The value that the darkest thousandth of the pixels does not exceed; 0 if that is above one half. */
 static float
 ink_value (const CeldPlane *value)
 {
@@ -244,24 +248,25 @@ ink_value (const CeldPlane *value)
   return bin < BINS / 2 ? (float) bin / (BINS - 1) : 0;
 }
 
-/* The value of a pixel once it is painted over; NAN if it stays as it is. */
+/* The new value of a pixel; NAN if it does not change. */
 static float
-painted_value (const Bake *b, int x, int y, CeldPurpose purpose)
+painted_value (const CeldContourBake *b, int x, int y, CeldPurpose purpose)
 {
-  Kind  kind = CELD_AT (&b->kind, x, y);
-  float value = CELD_AT (&b->value, x, y), paper = fminf (CELD_AT (&b->paper, x, y), 1);
-  float share = CELD_AT (&b->cover, x, y) >= 128 ? 1 : (float) CELD_AT (&b->cover, x, y) / 255;
+  CeldContourKind kind = CELD_AT (&b->kind, x, y);
+  float           value = CELD_AT (&b->value, x, y), paper = fminf (CELD_AT (&b->paper, x, y), 1);
+  uint8_t         alpha = CELD_AT (&b->opacity, x, y);
+  float           opacity = alpha >= STROKE_OPACITY ? 1 : (float) alpha / 255;
 
   if (CELD_AT (&b->wall, x, y))
     return b->dark;
-  if (kind == ERASE)
-    return fmaxf (value, value + share * (paper - value));
-  if (kind == HARD || (kind == SOFT && purpose == CELD_FOR_SEGMENTATION))
-    return fminf (value, value + share * (b->dark - value));
+  if (kind == CELD_CONTOUR_ERASE)
+    return fmaxf (value, value + opacity * (paper - value));
+  if (kind == CELD_CONTOUR_HARD || (kind == CELD_CONTOUR_SOFT && purpose == CELD_FOR_SEGMENTATION))
+    return fminf (value, value + opacity * (b->dark - value));
   return NAN;
 }
 
-/* Gives a pixel of the drawing a value in its mode; its alpha stays unless the ink needs more. */
+/* Sets a pixel of the drawing so that it has a value in this mode.  Its alpha is raised if the ink needs more. */
 static void
 set_value (const CeldDrawing *drawing, CeldInkMode mode, int x, int y, float value, CeldDrawing *out)
 {
@@ -279,7 +284,8 @@ set_value (const CeldDrawing *drawing, CeldInkMode mode, int x, int y, float val
 }
 
 static void
-paint_drawing (const Bake *b, const CeldDrawing *drawing, CeldInkMode mode, CeldPurpose purpose, CeldDrawing *out)
+paint_drawing (const CeldContourBake *b, const CeldDrawing *drawing, CeldInkMode mode, CeldPurpose purpose,
+               CeldDrawing *out)
 {
   for (int y = 0; y < b->height; y++)
     for (int x = 0; x < b->width; x++)
@@ -294,11 +300,11 @@ paint_drawing (const Bake *b, const CeldDrawing *drawing, CeldInkMode mode, Celd
       }
 }
 
-/* ------------------------------------------------------------------ the whole baking */
+/* ------------------------------------------------------------------ all steps */
 
-/* What is needed once something is painted. */
+/* Allocates all work space, and fills in ink, value, paper and dark. */
 static CeldStatus
-study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host)
+measure_drawing (CeldContourBake *b, const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host)
 {
   CeldStatus status = CELD_NO_MEMORY;
 
@@ -307,7 +313,7 @@ study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const Celd
       celd_plane_new (b->width, b->height, &b->paper) == CELD_OK &&
       celd_mask_new (b->width, b->height, &b->wall) == CELD_OK &&
       celd_labels_new (b->width, b->height, &b->mark) == CELD_OK &&
-      celd_labels_new (b->width, b->height, &b->part) == CELD_OK)
+      celd_labels_new (b->width, b->height, &b->component) == CELD_OK)
     status = celd_ink (drawing, mode, host, &b->ink);
   if (status != CELD_OK)
     return status;
@@ -317,36 +323,36 @@ study_drawing (Bake *b, const CeldDrawing *drawing, CeldInkMode mode, const Celd
 }
 
 static void
-end_bake (Bake *b)
+end_bake (CeldContourBake *b)
 {
   celd_free (b->ink.data);
   celd_free (b->value.data);
   celd_free (b->paper.data);
   celd_free (b->kind.data);
-  celd_free (b->cover.data);
+  celd_free (b->opacity.data);
   celd_free (b->wall.data);
   celd_free (b->mark.data);
-  celd_free (b->part.data);
+  celd_free (b->component.data);
   celd_free (b->list);
   celd_free (b->breadth);
 }
 
-/* Walls, their open ends joined, and what blue strokes erase. */
+/* Makes walls, joins their open ends, and finds what blue strokes erase. */
 static CeldStatus
-build (Bake *b, CeldPurpose purpose, const CeldHost *host)
+make_contours (CeldContourBake *b, CeldPurpose purpose, const CeldHost *host)
 {
-  CeldHostPart   part;
-  CeldHost   half = celd_host_part (&part, host, 0.5, 1);
-  CeldStatus status;
+  CeldHostPart part;
+  CeldHost     half = celd_host_part (&part, host, 0.5, 1);
+  CeldStatus   status;
 
-  raise_walls (b, purpose);
+  set_walls (b, purpose);
   for (size_t i = 0; i < b->pixels; i++)
     b->mark.data[i] = b->wall.data[i];
   status = find_strokes (b, NULL);
   if (status == CELD_OK)
     status = celd_contour_join (b, &half);
   if (status == CELD_OK && purpose == CELD_FOR_DEPTH)
-    status = soften (b, NULL);
+    status = erase_below_soft_strokes (b, NULL);
   return status;
 }
 
@@ -354,24 +360,24 @@ CeldStatus
 celd_contours_bake (const CeldDrawing *drawing, const CeldPaint *contours, CeldPurpose purpose, CeldInkMode mode,
                     const CeldHost *host, CeldDrawing *out)
 {
-  Bake       b = { .width = contours->width, .height = contours->height };
-  CeldHostPart   part;
-  CeldHost   half = celd_host_part (&part, host, 0, 0.5);
-  size_t     painted;
-  CeldStatus status = CELD_NO_MEMORY;
+  CeldContourBake b = { .width = contours->width, .height = contours->height };
+  CeldHostPart    part;
+  CeldHost        half = celd_host_part (&part, host, 0, 0.5);
+  size_t          painted;
+  CeldStatus      status = CELD_NO_MEMORY;
 
   if (!CELD_SAME_SIZE (&drawing->luma, contours) || !CELD_SAME_SIZE (&out->luma, contours) ||
       (drawing->alpha.data && (!CELD_SAME_SIZE (&drawing->alpha, contours) || !CELD_SAME_SIZE (&out->alpha, contours))))
     return CELD_BAD_SIZE;
   b.pixels = (size_t) b.width * (size_t) b.height;
   mode = celd_ink_mode (drawing, mode);
-  if (celd_mask_new (b.width, b.height, &b.kind) == CELD_OK && celd_mask_new (b.width, b.height, &b.cover) == CELD_OK)
+  if (celd_mask_new (b.width, b.height, &b.kind) == CELD_OK && celd_mask_new (b.width, b.height, &b.opacity) == CELD_OK)
     status = read_strokes (&b, contours, &painted);
   if (status == CELD_OK && painted)
     {
-      status = study_drawing (&b, drawing, mode, &half);
+      status = measure_drawing (&b, drawing, mode, &half);
       if (status == CELD_OK)
-        status = build (&b, purpose, host);
+        status = make_contours (&b, purpose, host);
     }
   if (status == CELD_OK)
     paint_drawing (&b, drawing, mode, purpose, out);

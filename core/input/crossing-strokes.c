@@ -7,8 +7,7 @@
  */
 #include "base/unions.h"
 #include "base/vector.h"
-#include "image/image.h"
-#include "input/arrows.h"
+#include "input/input.h"
 
 #include <math.h>
 

@@ -1,20 +1,30 @@
 /* Which colours of a painted layer are labels.
  *
- * The colours with most solid pixels come first; each takes in the colours within the radius of rounding, or of loss.
- * A cluster needs solid pixels of its own; in a lossy picture it needs an inside, too, for there a fringe may look
- * like a pencil line.  Rims and ends of strokes, left in a colour of their own by loss and resampling, are given back
- * to the stroke that they keep touching.
- * Cost: a sort of the colours; clusters are found through cells of colour space, O(1) each.
+ * Colours are clustered greedily, by falling number of solid pixels; a cluster has the colours within the radius of
+ * rounding or of loss.  A cluster is a label if it has enough solid pixels, and in a lossy picture interior pixels as
+ * well, because there a fringe may look like a pencil line.  Loss and resampling leave the rims and ends of strokes in
+ * clusters of their own, which are merged with the cluster that they touch most.
+ *
+ * Where two translucent strokes overlap, their mixture is a flat colour, but no label.  On a transparent layer it lies
+ * between the two colours and is more opaque than either.  On opaque paper P a stroke of opacity a shows
+ * A' = P + a (A - P); painted over B' it shows a A + (1 - a) B' = A' + (1 - a) (B' - P).  A colour like this that
+ * touches both strokes, and them more than anything else, is taken for their mixture.
+ *
+ * Cost: a sort of the colours, O(1) for each through a grid of cells in colour space; O(pixels + labels^2) for
+ * overlaps.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <stdlib.h>
 
-#define SATELLITE 40    /* a rim is no farther than this from the colour of its stroke */
-#define MANY_CLUSTERS 4096 /* clusters: more than these are a photograph, where nothing has a rim */
+#define RIM_DISTANCE     40   /* of 255, from the colour of a rim to that of its stroke, at most; chosen */
+#define MANY_CLUSTERS    4096 /* more are a photograph, where rims are not looked for; chosen */
+#define OVERLAP_DISTANCE 3    /* pixels, across which strokes touch in spite of an antialiased rim; chosen */
+#define OVERLAP_ERROR    6    /* of 255, from the colour of an overlap to the expected one, at most; chosen */
+#define MANY_LABELS      1024 /* overlaps of more labels are not looked for; chosen */
 
 typedef struct { uint32_t solid, id; } ClusterCandidate;
 
@@ -28,18 +38,19 @@ by_falling_solid (const void *a, const void *b)
   return (p->id > q->id) - (p->id < q->id);
 }
 
-/* Cells are a radius wide, so that whatever is near lies in one of the 27 cells round about. */
+/* The number of cells along each axis of colour space.  Cells are a radius wide, so that all clusters within the radius
+ * of a colour are in the 27 cells around it. */
 static int
-cell_side (const CeldScribbleLayer *r)
+cells_per_axis (const CeldScribbleLayer *r)
 {
   return 255 / r->radius + 1;
 }
 
-/* The nearest cluster within the radius, CELD_NO_CLUSTER if there is none. */
+/* The nearest cluster within the radius; CELD_NO_CLUSTER if there is none. */
 static uint32_t
 nearest_cluster (const CeldScribbleLayer *r, const int *channel)
 {
-  int      side = cell_side (r), least = r->radius * r->radius + 1;
+  int      side = cells_per_axis (r), least = r->radius * r->radius + 1;
   int      low[3], high[3];
   uint32_t found = CELD_NO_CLUSTER;
 
@@ -68,13 +79,13 @@ CeldStatus
 celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t id)
 {
   const int *c = r->colour[id].channel;
-  int        side = cell_side (r);
+  int        side = cells_per_axis (r);
   size_t     cell = (size_t) ((c[0] / r->radius * side + c[1] / r->radius) * side + c[2] / r->radius);
 
   if (!celd_reserve_one (r->cluster, r->n_clusters, r->cluster_capacity))
     return CELD_NO_MEMORY;
   r->cluster[r->n_clusters] = (CeldScribbleCluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
-  if (id) /* transparent is near nothing */
+  if (id) /* transparent is near no colour */
     {
       r->cluster[r->n_clusters].next = r->head[cell];
       r->head[cell] = (uint32_t) r->n_clusters;
@@ -88,7 +99,7 @@ tally_clusters (CeldScribbleLayer *r)
 {
   for (size_t k = 0; k < r->n_clusters; k++)
     {
-      r->cluster[k].pixels = r->cluster[k].solid = r->cluster[k].core = 0;
+      r->cluster[k].pixels = r->cluster[k].solid = r->cluster[k].interior = 0;
       r->cluster[k].opacity = 0;
     }
   for (size_t i = 1; i < r->n; i++)
@@ -99,42 +110,44 @@ tally_clusters (CeldScribbleLayer *r)
 
         k->pixels += c->pixels;
         k->solid += c->solid;
-        k->core += c->core;
+        k->interior += c->interior;
         k->opacity += c->opacity;
       }
 }
 
-/* Is an eighth of the cluster inside strokes, as it is not for the rims of strokes? */
+/* Is an eighth of the cluster interior pixels?  Rims of strokes have less. */
 static bool
-has_core (const CeldScribbleCluster *k)
+has_interior (const CeldScribbleCluster *k)
 {
-  return k->core >= CELD_LEAST_DOT && 8 * (size_t) k->core >= k->pixels;
+  return k->interior >= CELD_LEAST_DOT && 8 * (size_t) k->interior >= k->pixels;
 }
 
-/* Could cluster k be a part of cluster j, larger than it and of nearly its colour? */
+/* Is cluster j larger than cluster k and of nearly its colour, so that k may be a rim of it? */
 static bool
-may_belong (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
+may_be_rim (const CeldScribbleLayer *r, uint32_t k, uint32_t j)
 {
   const CeldScribbleCluster *c = &r->cluster[k], *l = &r->cluster[j];
 
   return k && l->colour && (l->pixels > c->pixels || (l->pixels == c->pixels && j < k)) &&
-         celd_colour_distance (c->channel, l->channel) <= SATELLITE * SATELLITE;
+         celd_colour_distance (c->channel, l->channel) <= RIM_DISTANCE * RIM_DISTANCE;
 }
 
+/* What a cluster may be a rim of: the candidate of a majority vote, its votes, and how often the two touch. */
 typedef struct { uint32_t of, votes, touch; } Parent;
 
-/* One vote of cluster k for j: what most vote for remains. */
+/* One vote of cluster k for j, by the majority vote of Boyer and Moore. */
 static void
 vote (const CeldScribbleLayer *r, Parent *parent, uint32_t k, uint32_t j)
 {
-  if (!may_belong (r, k, j))
+  if (!may_be_rim (r, k, j))
     return;
   if (!parent[k].votes)
     parent[k].of = j;
   parent[k].votes = parent[k].of == j ? parent[k].votes + 1 : parent[k].votes - 1;
 }
 
-/* Lets every two pixels of unlike clusters that touch vote for each other's, or counts those that touch a parent. */
+/* For each pair of neighbouring pixels of different clusters: both vote, or, with `count`, contacts with the parent are
+ * counted. */
 static void
 visit_touches (const CeldScribbleLayer *r, Parent *parent, bool count)
 {
@@ -159,17 +172,17 @@ visit_touches (const CeldScribbleLayer *r, Parent *parent, bool count)
           }
 }
 
-/* Is the cluster the tinge that loss leaves on paper? */
+/* Is the cluster the tint that loss leaves on paper? */
 static bool
-is_tinge (const CeldScribbleLayer *r, const CeldScribbleCluster *c)
+is_tint (const CeldScribbleLayer *r, const CeldScribbleCluster *c)
 {
-  return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= SATELLITE * SATELLITE;
+  return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= RIM_DISTANCE * RIM_DISTANCE;
 }
 
-/* The rims and ends of strokes make clusters of their own: a cluster that keeps touching a larger one of nearly its
- * colour is a part of that, unless the picture is clean and the cluster has an inside. */
+/* Merges the rims and ends of strokes with their stroke: a cluster that often touches a larger one of nearly its colour
+ * is a part of that, unless the picture is clean and the cluster has interior pixels. */
 static CeldStatus
-absorb_satellites (CeldScribbleLayer *r)
+merge_rims (CeldScribbleLayer *r)
 {
   Parent *parent = celd_alloc0 (r->n_clusters, sizeof *parent);
 
@@ -182,11 +195,11 @@ absorb_satellites (CeldScribbleLayer *r)
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
       const CeldScribbleCluster *c = &r->cluster[k];
-      bool           touching = parent[k].touch >= CELD_LEAST_DOT && 10 * (size_t) parent[k].touch >= c->pixels;
+      size_t                     touch = parent[k].touch;
 
-      if (r->lossy && is_tinge (r, c))
+      if (r->lossy && is_tint (r, c))
         parent[k].of = 0;
-      else if (!touching || (!r->lossy && has_core (c)))
+      else if (touch < CELD_LEAST_DOT || 10 * touch < c->pixels || (!r->lossy && has_interior (c)))
         parent[k].of = k;
     }
   for (size_t i = 1; i < r->n; i++)
@@ -196,32 +209,31 @@ absorb_satellites (CeldScribbleLayer *r)
   return CELD_OK;
 }
 
-/* Solid enough to be a label?  The fringes of other strokes may pass through its colour, but have no inside, except
- * for the tails of soft brushes on paper.  In a lossy picture a fringe may pass for a pencil line: there it needs an
- * inside. */
+/* Is the cluster a label?  Fringes of other strokes may have its colour, but no interior pixels, except for the soft
+ * ends of brushes on paper.  In a lossy picture a fringe may look like a pencil line, so that a label needs interior
+ * pixels there. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
-  if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_core (k)))
+  if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_interior (k)))
     return false;
   return 3 * (size_t) k->solid >= k->pixels ||
-         (2 * (size_t) k->core >= k->solid && has_core (k) && !is_tinge (r, k));
+         (2 * (size_t) k->interior >= k->solid && has_interior (k) && !is_tint (r, k));
 }
 
-/* Equal to paper: the tail of a soft brush, though it may be nearer to what lies beyond. */
+/* Does the colour equal paper?  It may be nearer to a cluster all the same: the soft end of a brush. */
 static bool
 is_paper (const CeldScribbleLayer *r, const CeldScribbleColour *c)
 {
   return r->paper && celd_colour_distance (c->channel, r->colour[r->paper].channel) <= r->radius * r->radius;
 }
 
-/* The colours with most solid pixels first; each takes in what lies within the radius. */
 CeldStatus
 celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
 {
   ClusterCandidate *candidate = celd_alloc (r->n, sizeof *candidate);
-  size_t     cells = (size_t) cell_side (r) * (size_t) cell_side (r) * (size_t) cell_side (r), n = 0;
-  CeldStatus status = CELD_NO_MEMORY;
+  size_t            side = (size_t) cells_per_axis (r), cells = side * side * side, n = 0;
+  CeldStatus        status = CELD_NO_MEMORY;
 
   r->head = celd_alloc (cells, sizeof *r->head);
   if (!candidate || !r->head)
@@ -243,7 +255,7 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     tally_clusters (r);
   if (status == CELD_OK && r->n_clusters <= MANY_CLUSTERS)
     {
-      status = absorb_satellites (r);
+      status = merge_rims (r);
       tally_clusters (r);
     }
   if (status == CELD_OK)
@@ -256,3 +268,132 @@ done:
   return status;
 }
 
+/* ------------------------------------------------------------------ overlaps of translucent strokes */
+
+/* The label at a pixel, counted from 1; 0 for anything else. */
+static uint32_t
+label_at (const CeldScribbleLayer *r, const uint32_t *number, size_t i)
+{
+  uint32_t k = r->colour[r->id[i]].cluster;
+
+  return k == CELD_NO_CLUSTER ? 0 : number[k];
+}
+
+/* touch[a * n + b]: how often labels a and b face each other across OVERLAP_DISTANCE pixels. */
+static void
+count_touches (const CeldScribbleLayer *r, const uint32_t *number, uint32_t *touch, size_t n)
+{
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      for (int i = 0; i < 2; i++)
+        if (x + (i ? 0 : OVERLAP_DISTANCE) < r->width && y + (i ? OVERLAP_DISTANCE : 0) < r->height)
+          {
+            size_t   p = (size_t) y * (size_t) r->width + (size_t) x;
+            size_t   q = p + (i ? OVERLAP_DISTANCE * (size_t) r->width : OVERLAP_DISTANCE);
+            uint32_t a = label_at (r, number, p), b = label_at (r, number, q);
+
+            touch[a * n + b] += a != b;
+            touch[b * n + a] += a != b;
+          }
+}
+
+/* Is  c = from + s (to - origin)  for some s in (0.04,0.96)? */
+static bool
+is_mixture (const int *c, const int *from, const int *to, const int *origin)
+{
+  double along = 0, length = 0, share;
+  int    wanted[3];
+
+  for (int i = 0; i < 3; i++)
+    {
+      along += (c[i] - from[i]) * (to[i] - origin[i]);
+      length += (to[i] - origin[i]) * (to[i] - origin[i]);
+    }
+  share = length > 0 ? along / length : 0;
+  for (int i = 0; i < 3; i++)
+    wanted[i] = (int) (from[i] + share * (to[i] - origin[i]) + 0.5);
+  return share > 0.04 && share < 0.96 && celd_colour_distance (c, wanted) <= OVERLAP_ERROR * OVERLAP_ERROR;
+}
+
+static double
+mean_opacity (const CeldScribbleCluster *c)
+{
+  return (double) c->opacity / c->pixels;
+}
+
+/* Is c the mixture of a over b, or of b over a? */
+static bool
+is_overlap (const CeldScribbleLayer *r, const CeldScribbleCluster *c, const CeldScribbleCluster *a,
+            const CeldScribbleCluster *b)
+{
+  const int *paper = r->colour[r->paper].channel;
+
+  if (r->paper)
+    return is_mixture (c->channel, a->channel, b->channel, paper) ||
+           is_mixture (c->channel, b->channel, a->channel, paper);
+  return mean_opacity (a) < 250 && mean_opacity (c) > mean_opacity (a) + 4 && mean_opacity (c) > mean_opacity (b) + 4 &&
+         is_mixture (c->channel, a->channel, b->channel, a->channel);
+}
+
+/* The two labels that label k touches most, if it touches them more than all else together; else 0. */
+static void
+find_partners (const uint32_t *touch, size_t n, size_t k, size_t *first, size_t *second)
+{
+  size_t all = touch[k * n];
+
+  *first = *second = 0;
+  for (size_t j = 1; j < n; j++)
+    {
+      all += touch[k * n + j];
+      if (touch[k * n + j] >= CELD_LEAST_DOT && (!*first || touch[k * n + j] > touch[k * n + *first]))
+        {
+          *second = *first;
+          *first = j;
+        }
+      else if (touch[k * n + j] >= CELD_LEAST_DOT && (!*second || touch[k * n + j] > touch[k * n + *second]))
+        *second = j;
+    }
+  if (2 * ((size_t) touch[k * n + *first] + touch[k * n + *second]) <= all)
+    *first = *second = 0;
+}
+
+CeldStatus
+celd_scribble_overlaps (CeldScribbleLayer *r)
+{
+  uint32_t  *number = celd_alloc0 (r->n_clusters, sizeof *number), *touch = NULL;
+  size_t    *cluster = celd_alloc0 (r->n_clusters + 1, sizeof *cluster), n = 1;
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (!number || !cluster)
+    goto done;
+  for (size_t k = 1; k < r->n_clusters; k++)
+    if (r->cluster[k].is_label)
+      {
+        cluster[n] = k;
+        number[k] = (uint32_t) n++;
+      }
+  status = CELD_OK;
+  if (n <= 3 || n > MANY_LABELS)
+    goto done;
+  touch = celd_alloc0 (n * n, sizeof *touch);
+  if (!touch)
+    {
+      status = CELD_NO_MEMORY;
+      goto done;
+    }
+  count_touches (r, number, touch, n);
+  for (size_t k = 1; k < n; k++)
+    {
+      size_t a, b;
+
+      find_partners (touch, n, k, &a, &b);
+      if (b && is_overlap (r, &r->cluster[cluster[k]], &r->cluster[cluster[a]], &r->cluster[cluster[b]]))
+        r->cluster[cluster[k]].is_label = false;
+    }
+
+done:
+  celd_free (touch);
+  celd_free (cluster);
+  celd_free (number);
+  return status;
+}

@@ -1,23 +1,25 @@
-/* The exact colours of a painted layer, and how far they can be trusted.
+/* The exact colours of a painted layer, after noise has been removed.
  *
- * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; where
- * they do not, but differ in small steps this way and that, the picture was stored with loss (JPEG), and is
- * restored first if its chroma is smeared, else filtered.  In a picture without alpha the commonest colour is paper.
- * Cost: O(pixels); a lossy picture takes 8 bytes a pixel more for the time of filtering.
+ * Colours are counted in a hash table.  Neighbouring pixels of one stroke have one colour in an ordinary layer; if they
+ * differ by small amounts of either sign, the picture was stored with loss (JPEG).  It is restored if its chroma is
+ * smeared, else filtered, and its colours are counted again.  In a picture without alpha the commonest colour is paper.
+ *
+ * Cost: O(pixels); for a lossy picture 8 bytes a pixel more while it is filtered.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <math.h>
 #include <string.h>
 
-#define CLEAN 3         /* rounding of un-premultiplied colours: as near as this is equal */
-#define NOISY 20        /* noise is not measured beyond this */
-#define LOSSY 14        /* the same as CLEAN, once a lossy picture is filtered */
-#define SIMILAR 36      /* colours this near may be one colour in a lossy picture */
-#define PASSES 3        /* of the filter */
+/* Distances of colours, in steps of 1/255; all chosen. */
+#define CLEAN_RADIUS  3         /* colours are equal in a picture without loss: rounding of premultiplied colours */
+#define LOSSY_RADIUS  14        /* colours are equal in a filtered picture */
+#define MOST_NOISE    20        /* larger noise counts as this */
+#define SIMILAR       36        /* of one colour in a lossy picture, at most */
+#define FILTER_PASSES 3         /* chosen */
 
 /* ------------------------------------------------------------------ exact colours */
 
@@ -60,7 +62,7 @@ grow_slots (CeldScribbleLayer *r)
   return CELD_OK;
 }
 
-/* The index of a colour, made when it is new; 0 = no memory. */
+/* The index of a colour, which is added if it is new; 0: no memory. */
 static uint32_t
 colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
 {
@@ -79,6 +81,7 @@ colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
   return (uint32_t) r->n++;
 }
 
+/* Counts all colours, fills in id, and finds the paper of an opaque layer. */
 static CeldStatus
 count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
@@ -113,12 +116,12 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 
 /* ------------------------------------------------------------------ noise */
 
-/* How far a pixel is from the mean of those beside it, in nine of ten places where the three are of one stroke; a ramp
- * is no noise. */
+/* Sets the radius to the noise and a margin.  Noise is the distance of a pixel from the mean of its left and right
+ * neighbours, which is not exceeded in nine of ten places where the three are of one stroke; so ramps are no noise. */
 static void
 measure_noise (CeldScribbleLayer *r)
 {
-  size_t places[NOISY + 1] = { 0 }, all = 0, below = 0;
+  size_t places[MOST_NOISE + 1] = { 0 }, all = 0, below = 0;
   int    noise = 0;
 
   for (int y = 0; y < r->height; y++)
@@ -141,15 +144,16 @@ measure_noise (CeldScribbleLayer *r)
               mean[i] = (a[i] + b[i] + 1) / 2;
             d = (int) sqrt (celd_colour_distance (mean, c));
           }
-        places[d < NOISY ? d : NOISY]++;
+        places[d < MOST_NOISE ? d : MOST_NOISE]++;
         all++;
       }
-  while (noise < NOISY && 10 * (below += places[noise]) < 9 * all)
+  while (noise < MOST_NOISE && 10 * (below += places[noise]) < 9 * all)
     noise++;
-  r->radius = noise + CLEAN < NOISY ? noise + CLEAN : NOISY;
+  r->radius = noise + CLEAN_RADIUS < MOST_NOISE ? noise + CLEAN_RADIUS : MOST_NOISE;
 }
 
-typedef struct { const CeldPaint *from; CeldPaint to; const CeldScribbleColour *paper; } Filter; /* paper NULL: transparent */
+/* paper is NULL if transparent pixels are paper. */
+typedef struct { const CeldPaint *from; CeldPaint to; const CeldScribbleColour *paper; } Filter;
 
 static bool
 is_none (const Filter *f, const uint8_t *rgba)
@@ -159,8 +163,8 @@ is_none (const Filter *f, const uint8_t *rgba)
   return rgba[3] < 128 || (p && rgba[0] == p[0] && rgba[1] == p[1] && rgba[2] == p[2]);
 }
 
-/* Each pixel becomes the mean of those among the 5x5 round it that have nearly its colour (a sigma filter, [Lee83]):
- * the blocks and echoes of lossy pictures go, edges stay. */
+/* A sigma filter [Lee83] of one row: each pixel becomes the mean of those of the 5 x 5 pixels around it that have
+ * nearly its colour, which removes blocks and ripple of compression, but keeps edges. */
 static void
 filter_row (void *data, int y)
 {
@@ -202,13 +206,13 @@ forget_colours (CeldScribbleLayer *r)
   memset (r->slot, 0, r->slots * sizeof *r->slot);
 }
 
-/* Filters into buffer[0], by way of buffer[1]. */
+/* Filters into buffer[0]; buffer[1] is work space. */
 static CeldStatus
 filter (const CeldScribbleLayer *r, CeldPaint *buffer, const CeldHost *host)
 {
   CeldStatus status = CELD_OK;
 
-  for (int i = 0; i < PASSES && status == CELD_OK; i++)
+  for (int i = 0; i < FILTER_PASSES && status == CELD_OK; i++)
     {
       Filter f = { i ? &buffer[(i + 1) % 2] : r->paint, buffer[i % 2], r->paper ? &r->colour[r->paper] : NULL };
 
@@ -218,15 +222,15 @@ filter (const CeldScribbleLayer *r, CeldPaint *buffer, const CeldHost *host)
   return status;
 }
 
-/* Counts the colours again, in a restored or filtered copy. */
+/* Counts the colours again, in a restored (if smeared) or filtered copy. */
 static CeldStatus
 clean (CeldScribbleLayer *r, bool smeared, bool flats, const CeldHost *host)
 {
-  CeldHostPart   part;
-  CeldHost   again = celd_host_part (&part, host, 0.8, 1);
-  CeldPaint  buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
-                           { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
-  CeldStatus status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
+  CeldHostPart part;
+  CeldHost     again = celd_host_part (&part, host, 0.8, 1);
+  CeldPaint    buffer[2] = { { r->width, r->height, (size_t) r->width, celd_alloc (r->pixels, 4) },
+                             { r->width, r->height, (size_t) r->width, smeared ? NULL : celd_alloc (r->pixels, 4) } };
+  CeldStatus   status = buffer[0].data && (smeared || buffer[1].data) ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = smeared ? celd_scribble_restore (r, host, &buffer[0]) : filter (r, buffer, host);
@@ -238,7 +242,7 @@ clean (CeldScribbleLayer *r, bool smeared, bool flats, const CeldHost *host)
       r->paint = &buffer[0];
       status = count_colours (r, flats, &again);
       r->paint = stored;
-      r->radius = LOSSY;
+      r->radius = LOSSY_RADIUS;
       r->lossy = true;
     }
   celd_free (buffer[0].data);
@@ -249,10 +253,10 @@ clean (CeldScribbleLayer *r, bool smeared, bool flats, const CeldHost *host)
 CeldStatus
 celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
-  CeldHostPart   part[2];
-  CeldHost   count = celd_host_part (&part[0], host, 0, 0.3), rest = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus status;
-  bool       smeared;
+  CeldHostPart part[2];
+  CeldHost     count = celd_host_part (&part[0], host, 0, 0.3), rest = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus   status;
+  bool         smeared;
 
   if (!celd_reserve (&r->colour, 1, &r->colour_capacity, sizeof *r->colour))
     return CELD_NO_MEMORY;
@@ -262,6 +266,6 @@ celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
   if (status != CELD_OK)
     return status;
   measure_noise (r);
-  smeared = r->radius >= 2 * CLEAN && celd_scribble_smeared (r);
-  return smeared || r->radius > 2 * CLEAN ? clean (r, smeared, flats, &rest) : CELD_OK;
+  smeared = r->radius >= 2 * CLEAN_RADIUS && celd_scribble_smeared (r);
+  return smeared || r->radius > 2 * CLEAN_RADIUS ? clean (r, smeared, flats, &rest) : CELD_OK;
 }

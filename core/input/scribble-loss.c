@@ -1,29 +1,30 @@
-/* Thin strokes on white paper as they were before a codec (JPEG) stored their chroma at half size.
+/* Restores thin strokes on white paper whose chroma a codec (JPEG) has stored at half size.
  *
- * Luma stays where it was, chroma is smeared over blocks of 16 pixels: thin strokes pale, and paper beside them is
- * tinted.  So strokes are found by luma: a pixel stands out from paper more than the echoes of stronger ones do in the
- * same block.  Each block's sum of colour, which stays, is shared out among its strokes (scribble-unmix.c).
- * Colours are handled as deficits: how far below paper each channel is.
- * Cost: O(pixels), and a few records for every block that strokes touch.
+ * Luma is kept, but chroma is smeared over blocks of 16 pixels, so that thin strokes lose colour and paper beside them
+ * is tinted.  Strokes are therefore found by luma: their contrast exceeds that of the ripple which compression leaves
+ * around strong strokes in the same block.  The sum of chroma over a block is kept, too; it is divided among the
+ * strokes of the block (scribble-unmix.c).  Colours are deficits here: by how much each channel is below that of paper.
+ *
+ * Cost: O(pixels), and a few records for each block that has strokes.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "input/scribble-loss.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define LUMA_BLOCK 8    /* pixels a side: luma is changed within such blocks ... */
-#define BLOCK 16        /* ... and chroma, at half size, within such */
-#define WHITE 240       /* each channel of paper; on other paper the sums differ */
-#define FAINT 12        /* that little is paper, ... */
-#define ECHO 40         /* ... and so is up to this where something ... */
-#define SHARE 0.35      /* ... in the luma block stands out so much more */
-#define PALE 16         /* luma: paper, or nearly */
-#define VIVID 25        /* strokes with more chroma than this show whether it is smeared */
-#define SMEARED 0.04    /* of all chroma lies beside the strokes */
+#define LUMA_BLOCK      8       /* pixels, side of the blocks of luma; JPEG */
+#define BLOCK           16      /* pixels, side of the blocks of chroma at half size; JPEG */
+#define WHITE_PAPER     240     /* of 255, least channel of paper: on other paper the sums differ; chosen */
+/* Contrast of pixels in steps of 1/255; all chosen. */
+#define FAINT_CONTRAST  12      /* paper has no more */
+#define RIPPLE_CONTRAST 40      /* ripple of compression has no more, ... */
+#define RIPPLE_FRACTION 0.35    /* ... and no more than this fraction of the largest contrast in the luma block */
+#define PALE_LUMA       16      /* deficit of luma: paper, or nearly */
+#define VIVID_CHROMA    25      /* mean chroma of strokes that show whether it is smeared */
+#define SMEARED         0.04    /* least part of all chroma beside the strokes, if it is smeared; chosen */
 
 static inline void
 deficit (const CeldScribbleLayer *r, int x, int y, int *d)
@@ -42,7 +43,8 @@ luma_of (const int *d)
 
 /* ------------------------------------------------------------------ is chroma smeared? */
 
-/* The chroma of a block's paper along that of its strokes, and all; red and blue against luma. */
+/* Adds the chroma of a block's paper, as far as it has the direction of the chroma of its strokes, and that of both.
+ * Chroma is red and blue less luma. */
 static void
 add_smear (const CeldScribbleLayer *r, int left, int top, double *beside, double *all)
 {
@@ -57,13 +59,13 @@ add_smear (const CeldScribbleLayer *r, int left, int top, double *beside, double
 
         deficit (r, x, y, d);
         luma = luma_of (d);
-        n += luma > PALE;
-        sum = luma > PALE ? stroke : paper;
+        n += luma > PALE_LUMA;
+        sum = luma > PALE_LUMA ? stroke : paper;
         sum[0] += d[0] - luma;
         sum[1] += d[2] - luma;
       }
   length = hypot (stroke[0], stroke[1]);
-  if (n < LUMA_BLOCK || length < VIVID * n)
+  if (n < LUMA_BLOCK || length < VIVID_CHROMA * n)
     return;
   *beside += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length;
   *all += (paper[0] * stroke[0] + paper[1] * stroke[1]) / length + length;
@@ -75,7 +77,7 @@ celd_scribble_smeared (const CeldScribbleLayer *r)
   double beside = 0, all = 0;
 
   for (int i = 0; i < 3; i++)
-    if (!r->paper || r->colour[r->paper].channel[i] < WHITE)
+    if (!r->paper || r->colour[r->paper].channel[i] < WHITE_PAPER)
       return false;
   for (int y = 0; y < r->height; y += BLOCK)
     for (int x = 0; x < r->width; x += BLOCK)
@@ -85,8 +87,9 @@ celd_scribble_smeared (const CeldScribbleLayer *r)
 
 /* ------------------------------------------------------------------ strokes, by luma */
 
+/* Fills in the contrast of one row: luma, and a quarter of chroma. */
 static void
-weigh_row (void *data, int y)
+measure_row (void *data, int y)
 {
   CeldScribbleLayer *r = data;
 
@@ -107,7 +110,7 @@ static void
 mark_blocks (void *data, int row)
 {
   CeldScribbleLayer *r = data;
-  int      bottom = (row + 1) * LUMA_BLOCK < r->height ? (row + 1) * LUMA_BLOCK : r->height;
+  int                bottom = (row + 1) * LUMA_BLOCK < r->height ? (row + 1) * LUMA_BLOCK : r->height;
 
   for (int left = 0; left < r->width; left += LUMA_BLOCK)
     {
@@ -119,7 +122,7 @@ mark_blocks (void *data, int row)
           most = most > r->kind[(size_t) y * (size_t) r->width + (size_t) x]
                    ? most
                    : r->kind[(size_t) y * (size_t) r->width + (size_t) x];
-      limit = fmax (FAINT, fmin (ECHO, SHARE * most));
+      limit = fmax (FAINT_CONTRAST, fmin (RIPPLE_CONTRAST, RIPPLE_FRACTION * most));
       for (int y = row * LUMA_BLOCK; y < bottom; y++)
         for (int x = left; x < right; x++)
           {
@@ -130,12 +133,12 @@ mark_blocks (void *data, int row)
     }
 }
 
-/* Gives the pixels that hang together with (x,y) within their block to the next piece. */
+/* Makes a piece of the pixels connected to (x,y) within its block. */
 static CeldStatus
-take_piece (CeldLossStrokes *s, int x, int y)
+add_piece (CeldLossStrokes *s, int x, int y)
 {
   CeldScribbleLayer *r = s->r;
-  int      left = x / BLOCK * BLOCK, top = y / BLOCK * BLOCK, stack[BLOCK * BLOCK], n = 0;
+  int                left = x / BLOCK * BLOCK, top = y / BLOCK * BLOCK, stack[BLOCK * BLOCK], n = 0;
 
   if (celd_append (s->piece, s->n, s->piece_capacity,
                    (CeldLossPiece) { .block = (uint32_t) (y / BLOCK * s->columns + x / BLOCK) }) != CELD_OK)
@@ -165,16 +168,16 @@ find_pieces (CeldLossStrokes *s)
   for (int y = 0; y < s->r->height && status == CELD_OK; y++)
     for (int x = 0; x < s->r->width && status == CELD_OK; x++)
       if (s->r->label[(size_t) y * (size_t) s->r->width + (size_t) x] == CELD_QUEUED)
-        status = take_piece (s, x, y);
+        status = add_piece (s, x, y);
   return status;
 }
 
-/* Pieces that touch across the border of a block. */
+/* Lists the pieces that touch across the boundary of a block. */
 static CeldStatus
 find_contacts (CeldLossStrokes *s)
 {
-  static const int step[4][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 } };
-  const CeldScribbleLayer   *r = s->r;
+  static const int         step[4][2] = { { 1, 0 }, { 1, 1 }, { 0, 1 }, { -1, 1 } };
+  const CeldScribbleLayer *r = s->r;
 
   for (int y = 0; y < r->height; y++)
     for (int x = 0; x < r->width; x++)
@@ -188,15 +191,16 @@ find_contacts (CeldLossStrokes *s)
           b = r->label[(size_t) v * (size_t) r->width + (size_t) u];
           if (!b || a == b)
             continue;
-          if (celd_append (s->contact, s->n_contacts, s->contact_capacity, (CeldLossContact) { a - 1, b - 1, 0 }) != CELD_OK)
+          if (celd_append (s->contact, s->n_contacts, s->contact_capacity, (CeldLossContact) { a - 1, b - 1, 0 }) !=
+              CELD_OK)
             return CELD_NO_MEMORY;
         }
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ measures */
+/* ------------------------------------------------------------------ measuring pieces and blocks */
 
-/* Does nothing beside the pixel stand out more? */
+/* Does none of the eight neighbours have clearly more contrast? */
 static bool
 is_core (const CeldScribbleLayer *r, int x, int y)
 {
@@ -209,7 +213,7 @@ is_core (const CeldScribbleLayer *r, int x, int y)
   return 10 * r->kind[(size_t) y * (size_t) r->width + (size_t) x] >= 9 * most;
 }
 
-/* The mean deficit of each piece's core; of all its pixels where the core is in another block. */
+/* The mean deficit of each piece's core; of all its pixels if the core is in another block. */
 static void
 measure_cores (CeldLossStrokes *s)
 {
@@ -240,12 +244,12 @@ measure_cores (CeldLossStrokes *s)
     }
 }
 
-/* The piece of a pixel, or one that it touches in its block: the thin end of an edge; NULL = paper. */
+/* The piece of a pixel, or one that it touches in its block, as pixels at an antialiased edge do; NULL = paper. */
 static CeldLossPiece *
 piece_near (const CeldLossStrokes *s, int x, int y)
 {
-  static const int step[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
-  const CeldScribbleLayer   *r = s->r;
+  static const int         step[5][2] = { { 0, 0 }, { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
+  const CeldScribbleLayer *r = s->r;
 
   for (int k = 0; k < 5; k++)
     {
@@ -258,8 +262,8 @@ piece_near (const CeldLossStrokes *s, int x, int y)
   return NULL;
 }
 
-/* How much of each pixel is painted, and what each block holds; of paper only its tint, where none of it is clipped, as
- * echoes are grey. */
+/* The coverage of each piece, and the sum of each block.  Of paper only the tint counts, where it is not clipped,
+ * because ripple is grey. */
 static void
 measure_sums (CeldLossStrokes *s)
 {
@@ -270,16 +274,16 @@ measure_sums (CeldLossStrokes *s)
       {
         CeldLossBlock *block = &s->block[y / BLOCK * s->columns + x / BLOCK];
         CeldLossPiece *p = piece_near (s, x, y);
-        int    d[3], grey;
+        int            d[3], grey;
 
         deficit (r, x, y, d);
         grey = d[0] > 0 && d[1] > 0 && d[2] > 0 ? luma_of (d) : 0;
         if (p)
           {
-            if (p->luma >= FAINT)
-              p->cover += fmin (fmax (luma_of (d) / p->luma, 0), 1.2);
+            if (p->luma >= FAINT_CONTRAST)
+              p->coverage += fmin (fmax (luma_of (d) / p->luma, 0), 1.2);
             else
-              p->cover += r->label[(size_t) y * (size_t) r->width + (size_t) x] != 0;
+              p->coverage += r->label[(size_t) y * (size_t) r->width + (size_t) x] != 0;
             grey = 0;
           }
         for (int i = 0; i < 3; i++)
@@ -287,7 +291,7 @@ measure_sums (CeldLossStrokes *s)
       }
 }
 
-/* ------------------------------------------------------------------ the whole restoration */
+/* ------------------------------------------------------------------ all steps */
 
 static void
 paint_strokes (const CeldLossStrokes *s, CeldPaint *out)
@@ -297,9 +301,9 @@ paint_strokes (const CeldLossStrokes *s, CeldPaint *out)
   for (int y = 0; y < out->height; y++)
     for (int x = 0; x < out->width; x++)
       {
-        uint32_t     l = s->r->label[(size_t) y * (size_t) out->width + (size_t) x];
+        uint32_t             l = s->r->label[(size_t) y * (size_t) out->width + (size_t) x];
         const CeldLossPiece *stroke = l ? &s->piece[s->piece[l - 1].stroke] : NULL;
-        uint8_t     *rgba = CELD_RGBA (out, x, y);
+        uint8_t             *rgba = CELD_RGBA (out, x, y);
 
         for (int i = 0; i < 3; i++)
           {
@@ -314,14 +318,14 @@ paint_strokes (const CeldLossStrokes *s, CeldPaint *out)
 CeldStatus
 celd_scribble_restore (CeldScribbleLayer *r, const CeldHost *host, CeldPaint *out)
 {
-  CeldLossStrokes    s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
-  CeldStatus status = CELD_NO_MEMORY;
+  CeldLossStrokes s = { .r = r, .columns = (r->width + BLOCK - 1) / BLOCK };
+  CeldStatus      status = CELD_NO_MEMORY;
 
   s.n_blocks = (size_t) s.columns * (size_t) ((r->height + BLOCK - 1) / BLOCK);
   s.block = celd_alloc0 (s.n_blocks, sizeof *s.block);
   if (!s.block)
     goto done;
-  celd_parallel_for (host, r->height, weigh_row, r);
+  celd_parallel_for (host, r->height, measure_row, r);
   celd_parallel_for (host, (r->height + LUMA_BLOCK - 1) / LUMA_BLOCK, mark_blocks, r);
   status = celd_progress (host, 0.1);
   if (status == CELD_OK)

@@ -1,19 +1,21 @@
 /* Which pixels of scribbles each label has.
  *
- * Those of its own colours, as far as they are solid or touch solid ones; every other pixel goes to the label nearby
- * whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its full colour is taken by its
- * strongest one.
+ * A label has the pixels of its own colours that are solid or touch solid ones; every other pixel is assigned to the
+ * neighbouring label whose colour is nearest.  A line on opaque paper that is too thin to have a pixel of its full
+ * colour is assigned by its strongest pixel.
  *
- * Cost: O(pixels); 8 bytes for each pixel that has to be handed to a neighbour.
+ * Cost: O(pixels); 8 bytes for each pixel whose label comes from a neighbour.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <limits.h>
 
-#define TINT 30         /* how far a thinned colour may be off */
-#define STRONG 60       /* a line differs from paper at least as much */
+/* Distances of colours in steps of 1/255; chosen. */
+#define TINT_ERROR    30        /* between a thin line and its label's colour mixed with paper, at most */
+#define LINE_CONTRAST 60        /* between a line and paper, at least */
+#define LEAST_MIXTURE 0.3       /* part of its label's colour in a thin line; chosen */
 
 /* ------------------------------------------------------------------ labels from neighbours */
 
@@ -26,7 +28,7 @@ own_label (const CeldScribbleLayer *r, size_t i)
   return k == 0 || (k != CELD_NO_CLUSTER && r->cluster[k].is_label) ? k : CELD_UNDECIDED;
 }
 
-/* Does an solid pixel of the same label touch the pixel (x,y)? */
+/* Does a solid pixel of the label touch the pixel (x,y)? */
 static bool
 is_rim (const CeldScribbleLayer *r, int x, int y, uint32_t label)
 {
@@ -57,7 +59,7 @@ place_row (void *data, int y)
     }
 }
 
-/* Among the labels that touch the pixel, the one of the nearest colour; none where paper is nearer still. */
+/* Of the labels that touch the pixel, the one with the nearest colour; 0 if paper is nearer. */
 static uint32_t
 nearest_neighbour (const CeldScribbleLayer *r, size_t i)
 {
@@ -104,7 +106,8 @@ queue_neighbours (CeldScribbleLayer *r, size_t i, uint32_t *queue, size_t n)
   return n;
 }
 
-/* Undecided pixels take a label from their neighbours, ring by ring; what no label reaches is none. */
+/* Gives undecided pixels labels of their neighbours, ring by ring outwards; those that are not reached stay
+ * undecided. */
 static CeldStatus
 place_rest (CeldScribbleLayer *r, const CeldHost *host)
 {
@@ -147,16 +150,17 @@ done:
 
 /* ------------------------------------------------------------------ lines too thin to have a colour of their own */
 
-/* Paint, unlike paper, that no label took. */
+/* Is the pixel paint, clearly unlike paper, without a label? */
 static bool
 is_lost (const CeldScribbleLayer *r, size_t i)
 {
   return (r->label[i] == 0 || r->label[i] == CELD_UNDECIDED) && r->id[i] && r->id[i] != r->paper &&
-         celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) > STRONG * STRONG;
+         celd_colour_distance (r->colour[r->id[i]].channel, r->colour[r->paper].channel) >
+         LINE_CONTRAST * LINE_CONTRAST;
 }
 
-/* Gathers the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds the strongest colour among them, 0 if
- * a label touches them: then they are what is left of its rim. */
+/* Lists the lost pixels connected to pixel i, marks them CELD_QUEUED, and finds their strongest colour; 0 if a label
+ * touches them, because they belong to its rim then. */
 static size_t
 gather_line (CeldScribbleLayer *r, uint32_t i, uint32_t *line, uint32_t *strongest)
 {
@@ -191,14 +195,14 @@ gather_line (CeldScribbleLayer *r, uint32_t i, uint32_t *line, uint32_t *stronge
   return n;
 }
 
-/* Is the lost line broader than CELD_THIN round a pixel?  Then what is strongest there is hardly thinned by paper. */
+/* Is the lost line broader than CELD_THIN around a pixel?  Then its strongest pixels are hardly mixed with paper. */
 static bool
 is_broad (const CeldScribbleLayer *r, uint32_t i)
 {
-  int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width), reach = CELD_THIN / 2 + 1;
+  int x = (int) (i % (size_t) r->width), y = (int) (i / (size_t) r->width), radius = CELD_THIN / 2 + 1;
 
-  for (int v = y - reach; v <= y + reach; v++)
-    for (int u = x - reach; u <= x + reach; u++)
+  for (int v = y - radius; v <= y + radius; v++)
+    for (int u = x - radius; u <= x + radius; u++)
       if (u < 0 || v < 0 || u >= r->width || v >= r->height ||
           r->label[(size_t) v * (size_t) r->width + (size_t) u] != CELD_QUEUED)
         return false;
@@ -224,13 +228,13 @@ strongest_of_broad (const CeldScribbleLayer *r, const uint32_t *line, size_t n)
   return strongest;
 }
 
-/* The label whose colour, thinned with paper, comes nearest to the colour given; 0 if none is near. */
+/* The label whose colour, mixed with paper, comes nearest to a colour; 0 if none is near. */
 static uint32_t
 label_of_tint (const CeldScribbleLayer *r, uint32_t id)
 {
   const int *paper = r->colour[r->paper].channel, *c = r->colour[id].channel;
   uint32_t   found = 0;
-  int        least = TINT * TINT;
+  int        least = TINT_ERROR * TINT_ERROR;
 
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
@@ -248,7 +252,7 @@ label_of_tint (const CeldScribbleLayer *r, uint32_t id)
       for (int i = 0; i < 3; i++)
         tint[i] = (int) (paper[i] + share * (r->cluster[k].channel[i] - paper[i]));
       d = celd_colour_distance (tint, c);
-      if (share > 0.3 && d < least)
+      if (share > LEAST_MIXTURE && d < least)
         {
           least = d;
           found = k;
@@ -262,7 +266,7 @@ static uint32_t
 label_of_colour (const CeldScribbleLayer *r, uint32_t id)
 {
   uint32_t found = 0;
-  int      least = TINT * TINT;
+  int      least = TINT_ERROR * TINT_ERROR;
 
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
@@ -277,8 +281,9 @@ label_of_colour (const CeldScribbleLayer *r, uint32_t id)
   return found;
 }
 
+/* Assigns lost lines to the label of their colour, or makes a label for them. */
 static CeldStatus
-rescue_lines (CeldScribbleLayer *r)
+assign_lost_lines (CeldScribbleLayer *r)
 {
   size_t     lost = 0;
   uint32_t  *line;
@@ -326,6 +331,6 @@ celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host)
   if (status == CELD_OK)
     status = place_rest (r, host);
   if (status == CELD_OK && r->paper)
-    status = rescue_lines (r);
+    status = assign_lost_lines (r);
   return status;
 }

@@ -1,34 +1,35 @@
 /* The colours that strokes had before a codec smeared their chroma.
  *
- * What a block holds of a colour, the strokes in it have given: a codec moves chroma about, but keeps its sum.  So the
- * sums of all blocks that a stroke runs through tell how much chroma it had, and its core tells luma and hue.  Where
- * several strokes share blocks, each gets of a sum in proportion to what it is expected to have given, again and again
- * (the multiplicative update of [Richardson72] and [Lucy74]).  Pieces that touch and have nearly one colour are one
- * stroke; scraps belong to the stroke that they touch; strokes of nearly one colour have one label.
+ * A codec smears chroma within a block, but keeps its sum.  The sums over all blocks of a stroke therefore give the
+ * amount of chroma that it had, and its core gives luma and hue.  Where strokes share blocks, each sum is divided among
+ * them in proportion to what they are expected to contribute, iteratively (the multiplicative update of [Richardson72]
+ * and [Lucy74]).  Pieces that touch and have nearly the same colour are one stroke; small fragments are joined to the
+ * stroke that they touch; strokes of nearly the same colour have one label.
+ *
  * Cost: O(contacts log contacts + strokes * labels).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/scribble-loss.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define ROUNDS 12       /* of unmixing */
-#define GAIN 4          /* chroma is not smeared more than this */
-#define ALIKE 30        /* pieces as near as this are of one stroke */
-#define SCRAP 80        /* pixels: a smaller piece that touches a stroke may be a scrap of it, ... */
-#define SCRAP_OFF 130   /* ... the farther off in colour the smaller it is */
-#define SAME_COLOUR 24 /* strokes as near as this have one label, ... */
-#define SPECK 60        /* ... those of fewer pixels as far off as this, too, in part */
-#define MANY 4096       /* strokes that may found a label: the others are specks */
+/* Distances of colours are in steps of 1/255; all chosen. */
+#define UNMIX_ROUNDS      12    /* iterations */
+#define MOST_GAIN         4     /* factor by which smear has reduced chroma, at most */
+#define PIECE_DISTANCE    30    /* of colours of pieces of one stroke, at most */
+#define FRAGMENT_PIXELS   80    /* smaller pieces may be fragments of a stroke that they touch, ... */
+#define FRAGMENT_DISTANCE 130   /* ... with this additional distance for an empty one, less for a larger one */
+#define LABEL_DISTANCE    24    /* of colours of one label, at most; up to twice as much ... */
+#define SMALL_STROKE      60    /* ... for strokes of fewer pixels, by their number */
+#define MOST_STARTERS     4096  /* strokes, from the largest on, that may start a label */
 
 /* ------------------------------------------------------------------ unmixing */
 
-/* One round: what each stroke has in full, from what its blocks hold and what they were expected to. */
+/* One iteration: scales `full` of each stroke by what its blocks have, relative to what they were expected to have. */
 static void
-unmix_once (CeldLossStrokes *s, double (*given)[3])
+unmix_once (CeldLossStrokes *s, double (*received)[3])
 {
   for (size_t b = 0; b < s->n_blocks; b++)
     for (int i = 0; i < 3; i++)
@@ -36,8 +37,8 @@ unmix_once (CeldLossStrokes *s, double (*given)[3])
   for (size_t k = 0; k < s->n; k++)
     for (int i = 0; i < 3; i++)
       {
-        s->block[s->piece[k].block].expected[i] += s->piece[k].cover * s->piece[s->piece[k].stroke].full[i];
-        given[k][i] = 0;
+        s->block[s->piece[k].block].expected[i] += s->piece[k].coverage * s->piece[s->piece[k].stroke].full[i];
+        received[k][i] = 0;
       }
   for (size_t k = 0; k < s->n; k++)
     for (int i = 0; i < 3; i++)
@@ -45,16 +46,16 @@ unmix_once (CeldLossStrokes *s, double (*given)[3])
         const CeldLossBlock *b = &s->block[s->piece[k].block];
 
         if (b->expected[i] > 0)
-          given[s->piece[k].stroke][i] += s->piece[k].cover * fmax (b->sum[i], 0) / b->expected[i];
+          received[s->piece[k].stroke][i] += s->piece[k].coverage * fmax (b->sum[i], 0) / b->expected[i];
       }
   for (size_t k = 0; k < s->n; k++)
     for (int i = 0; i < 3; i++)
       if (s->piece[k].stroke == k && s->piece[k].all > 0)
-        s->piece[k].full[i] *= given[k][i] / s->piece[k].all;
+        s->piece[k].full[i] *= received[k][i] / s->piece[k].all;
 }
 
-/* Luma and hue are those of the core.  How much stronger chroma is in full, the channels tell that are darker than
- * luma: the smear of others is brighter than paper, where it is clipped. */
+/* Sets the colour of a stroke: luma and hue of its core, with chroma scaled by a gain.  The gain comes from channels
+ * darker than luma, because the smear of the others is brighter than paper and so was clipped. */
 static void
 find_colour (const CeldScribbleLayer *r, CeldLossPiece *p)
 {
@@ -69,7 +70,7 @@ find_colour (const CeldScribbleLayer *r, CeldLossPiece *p)
       full += darker[i] ? p->full[i] - p->luma : 0;
     }
   if (core > 3)
-    gain = fmin (fmax (full / core, 1), GAIN);
+    gain = fmin (fmax (full / core, 1), MOST_GAIN);
   for (int i = 0; i < 3; i++)
     {
       double d = core > 3 && darker[i] ? p->full[i] : p->luma + gain * (p->core[i] - p->luma);
@@ -98,12 +99,12 @@ stroke_of (CeldLossStrokes *s, uint32_t k)
   return k;
 }
 
-/* Stroke b becomes a part of stroke a: means by cover. */
+/* Makes stroke b a part of stroke a: colours become means weighted by coverage. */
 static void
 unite (CeldLossStrokes *s, uint32_t a, uint32_t b)
 {
   CeldLossPiece *p = &s->piece[a], *q = &s->piece[b];
-  double all = p->all + q->all, share = all > 0 ? q->all / all : 0.5;
+  double         all = p->all + q->all, share = all > 0 ? q->all / all : 0.5;
 
   for (int i = 0; i < 3; i++)
     {
@@ -128,7 +129,8 @@ by_distance (const void *a, const void *b)
   return (p->b > q->b) - (p->b < q->b);
 }
 
-/* The likest pieces first; then once more, with scraps, and again for scraps that touched nothing but scraps. */
+/* Joins pieces that touch, the most similar first; in a second pass fragments, too, and in a third fragments that
+ * touched only fragments. */
 static void
 join_pieces (CeldLossStrokes *s)
 {
@@ -140,7 +142,8 @@ join_pieces (CeldLossStrokes *s)
       {
         uint32_t a = stroke_of (s, s->contact[i].a), b = stroke_of (s, s->contact[i].b);
         double   least = fmin (s->piece[a].all, s->piece[b].all);
-        double   limit = ALIKE + (pass && least < SCRAP ? SCRAP_OFF * (1 - least / SCRAP) : 0);
+        double   limit = PIECE_DISTANCE +
+                          (pass && least < FRAGMENT_PIXELS ? FRAGMENT_DISTANCE * (1 - least / FRAGMENT_PIXELS) : 0);
 
         if (a != b && distance (&s->piece[a], &s->piece[b]) <= limit)
           unite (s, a, b);
@@ -149,21 +152,21 @@ join_pieces (CeldLossStrokes *s)
     s->piece[k].stroke = stroke_of (s, k);
 }
 
-typedef struct { double all; uint32_t stroke; } Candidate;
+typedef struct { double all; uint32_t stroke; } LabelCandidate;
 
 static int
-by_falling_cover (const void *a, const void *b)
+by_falling_coverage (const void *a, const void *b)
 {
-  const Candidate *p = a, *q = b;
+  const LabelCandidate *p = a, *q = b;
 
   if (p->all < q->all || p->all > q->all)
     return p->all < q->all ? 1 : -1;
   return (p->stroke > q->stroke) - (p->stroke < q->stroke);
 }
 
-/* The largest strokes come first; each joins the nearest label of nearly its colour, or founds one. */
+/* Assigns strokes to labels, the largest first: each joins the nearest label of nearly its colour, or starts one. */
 static void
-gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
+gather_labels (CeldLossStrokes *s, LabelCandidate *candidate, uint32_t *label)
 {
   size_t n = 0, n_labels = 0;
 
@@ -171,13 +174,14 @@ gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
     if (s->piece[k].stroke == k)
       {
         find_colour (s->r, &s->piece[k]);
-        candidate[n++] = (Candidate) { s->piece[k].all, k };
+        candidate[n++] = (LabelCandidate) { s->piece[k].all, k };
       }
-  qsort (candidate, n, sizeof *candidate, by_falling_cover);
+  qsort (candidate, n, sizeof *candidate, by_falling_coverage);
   for (size_t i = 0; i < n; i++)
     {
       uint32_t k = candidate[i].stroke, found = k;
-      double   small = candidate[i].all < SPECK ? 1 - candidate[i].all / SPECK : 0, least = SAME_COLOUR * (1 + small);
+      double   small = candidate[i].all < SMALL_STROKE ? 1 - candidate[i].all / SMALL_STROKE : 0;
+      double   least = LABEL_DISTANCE * (1 + small);
 
       for (size_t j = 0; j < n_labels; j++)
         if (distance (&s->piece[k], &s->piece[label[j]]) < least)
@@ -187,7 +191,7 @@ gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
           }
       if (found != k)
         unite (s, found, k);
-      else if (i < MANY)
+      else if (i < MOST_STARTERS)
         label[n_labels++] = k;
     }
   for (uint32_t k = 0; k < s->n; k++)
@@ -197,10 +201,10 @@ gather_labels (CeldLossStrokes *s, Candidate *candidate, uint32_t *label)
 CeldStatus
 celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host)
 {
-  double   (*given)[3] = celd_alloc (s->n, sizeof *given);
-  Candidate *candidate = celd_alloc (s->n, sizeof *candidate);
-  uint32_t  *label = celd_alloc (s->n, sizeof *label);
-  CeldStatus status = given && candidate && label ? CELD_OK : CELD_NO_MEMORY;
+  double        (*received)[3] = celd_alloc (s->n, sizeof *received);
+  LabelCandidate *candidate = celd_alloc (s->n, sizeof *candidate);
+  uint32_t       *label = celd_alloc (s->n, sizeof *label);
+  CeldStatus      status = received && candidate && label ? CELD_OK : CELD_NO_MEMORY;
 
   if (status != CELD_OK)
     goto done;
@@ -209,24 +213,24 @@ celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host)
       CeldLossPiece *p = &s->piece[k];
 
       p->stroke = k;
-      p->all = p->cover;
+      p->all = p->coverage;
       for (int i = 0; i < 3; i++)
         p->full[i] = p->core[i];
     }
-  unmix_once (s, given);
+  unmix_once (s, received);
   for (size_t k = 0; k < s->n; k++)
     find_colour (s->r, &s->piece[k]);
   join_pieces (s);
-  for (int i = 0; i < ROUNDS && status == CELD_OK; i++)
+  for (int i = 0; i < UNMIX_ROUNDS && status == CELD_OK; i++)
     {
-      unmix_once (s, given);
-      status = celd_progress (host, 0.4 + 0.2 * i / ROUNDS);
+      unmix_once (s, received);
+      status = celd_progress (host, 0.4 + 0.2 * i / UNMIX_ROUNDS);
     }
   gather_labels (s, candidate, label);
 
 done:
   celd_free (label);
   celd_free (candidate);
-  celd_free (given);
+  celd_free (received);
   return status;
 }

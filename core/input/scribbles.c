@@ -1,21 +1,21 @@
-/* Scribbles as an artist paints them -> one label a colour.
+/* Scribbles as an artist paints them: each of their colours is a label.
  *
- * A pixel is CELD_FRINGE when it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
- * between theirs too: that is what soft brushes, antialiasing, overlaps and resampling make, while a pencil line one
- * pixel wide has the same colour on both its sides.  Colours with solid pixels are labels (scribble-clusters.c);
- * every other pixel goes to one of them (scribble-places.c).
+ * A pixel is a fringe if it lies in a thin run, or on a ramp, between two other colours, and its own colour lies
+ * between theirs, too.  Soft brushes, antialiasing, overlaps and resampling make fringes; a pencil line one pixel wide
+ * is none, because it has the same colour on both of its sides.  Colours with solid pixels are labels
+ * (scribble-clusters.c); every other pixel is assigned to one of them (scribble-places.c).  Transparent counts as a
+ * colour unlike all others.
  *
- * Transparent counts as a colour that is unlike every other.
- * Cost: O(pixels); 9 bytes a pixel, and 8 more for each pixel that has to be handed to a neighbour.
+ * Cost: O(pixels); 9 bytes a pixel, and 8 more for each pixel whose label comes from a neighbour.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "input/scribbles.h"
+#include "input/input.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define RAMP 8          /* pixels on either side over which a soft edge is recognised */
+#define RAMP 8 /* pixels on either side within which a soft edge is recognised; chosen */
 
 /* ------------------------------------------------------------------ fringes */
 
@@ -27,7 +27,7 @@ differ (const CeldScribbleLayer *r, uint32_t a, uint32_t b)
   return !a || !b || celd_colour_distance (r->colour[a].channel, r->colour[b].channel) > r->radius * r->radius;
 }
 
-/* Is the colour c, unlike both, a step from a to b?  (The angle at c is obtuse.) */
+/* Is colour c, which differs from both, between a and b?  That is, is the angle at c obtuse? */
 static bool
 between (const CeldScribbleLayer *r, uint32_t a, uint32_t c, uint32_t b)
 {
@@ -41,7 +41,8 @@ between (const CeldScribbleLayer *r, uint32_t a, uint32_t c, uint32_t b)
   return dot > 0;
 }
 
-/* The pixel at p has `before` pixels before it and `after` behind it on a line of the picture, `step` apart. */
+/* Is the pixel at p in a fringe along a row or column? There are `before` pixels before it and `after` pixels after it,
+ * `step` apart. */
 static bool
 in_fringe (const CeldScribbleLayer *r, const uint32_t *p, int before, int after, ptrdiff_t step)
 {
@@ -64,11 +65,12 @@ in_fringe (const CeldScribbleLayer *r, const uint32_t *p, int before, int after,
          between (r, p[-before * step], *p, p[after * step]);
 }
 
+/* Fills in the kinds of one row. */
 static void
-judge_row (void *data, int y)
+classify_row (void *data, int y)
 {
   CeldScribbleLayer *r = data;
-  size_t   width = (size_t) r->width;
+  size_t             width = (size_t) r->width;
 
   for (int x = 0; x < r->width; x++)
     {
@@ -96,7 +98,7 @@ count_kinds (CeldScribbleLayer *r)
   for (size_t i = 0; i < r->pixels; i++)
     {
       r->colour[r->id[i]].solid += r->kind[i] != CELD_FRINGE;
-      r->colour[r->id[i]].core += r->kind[i] == CELD_INTERIOR;
+      r->colour[r->id[i]].interior += r->kind[i] == CELD_INTERIOR;
     }
 }
 
@@ -112,9 +114,9 @@ by_falling_seeds (const void *a, const void *b)
   return memcmp (p->colour, q->colour, sizeof p->colour);
 }
 
-/* Counts each cluster's pixels; (x,y) is the middle of its longest row of pixels, whose length goes to area. */
+/* Counts each cluster's pixels in seeds; (x,y) is the middle of its longest run, and area the length of that. */
 static void
-survey_labels (const CeldScribbleLayer *r, CeldRegion *of)
+measure_labels (const CeldScribbleLayer *r, CeldRegion *of)
 {
   for (int y = 0; y < r->height; y++)
     for (int x = 0, end; x < r->width; x = end)
@@ -137,9 +139,9 @@ survey_labels (const CeldScribbleLayer *r, CeldRegion *of)
       }
 }
 
-/* Palette and seeds at once, so that neither changes when memory is short. */
+/* Writes palette and seeds; neither changes if it fails. */
 static CeldStatus
-deliver (const CeldScribbleLayer *r, CeldLabels *seeds, CeldPalette *palette)
+write_result (const CeldScribbleLayer *r, CeldLabels *seeds, CeldPalette *palette)
 {
   CeldRegion *of = celd_alloc0 (r->n_clusters, sizeof *of);      /* by cluster */
   CeldRegion *item = celd_alloc (r->n_clusters, sizeof *item);   /* those with pixels, sorted */
@@ -153,7 +155,7 @@ deliver (const CeldScribbleLayer *r, CeldLabels *seeds, CeldPalette *palette)
       celd_free (of);
       return CELD_NO_MEMORY;
     }
-  survey_labels (r, of);
+  measure_labels (r, of);
   for (size_t k = 1; k < r->n_clusters; k++)
     if (of[k].seeds)
       {
@@ -184,10 +186,10 @@ deliver (const CeldScribbleLayer *r, CeldLabels *seeds, CeldPalette *palette)
   return CELD_OK;
 }
 
-/* ------------------------------------------------------------------ the whole reading */
+/* ------------------------------------------------------------------ all steps */
 
 static void
-free_reading (CeldScribbleLayer *r)
+layer_clear (CeldScribbleLayer *r)
 {
   celd_free (r->id);
   celd_free (r->kind);
@@ -202,10 +204,10 @@ CeldStatus
 celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, const CeldHost *host,
                      CeldLabels *seeds, CeldPalette *palette)
 {
-  CeldHostPart   part;
-  CeldHost   begin = celd_host_part (&part, host, 0, 0.5);
-  CeldScribbleLayer    r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
-  CeldStatus status;
+  CeldHostPart      part;
+  CeldHost          begin = celd_host_part (&part, host, 0, 0.5);
+  CeldScribbleLayer r = { .paint = scribbles, .width = scribbles->width, .height = scribbles->height };
+  CeldStatus        status;
 
   if (!CELD_SAME_SIZE (scribbles, seeds))
     return CELD_BAD_SIZE;
@@ -217,7 +219,7 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   if (status != CELD_OK)
     goto done;
 
-  celd_parallel_for (host, r.height, judge_row, &r);
+  celd_parallel_for (host, r.height, classify_row, &r);
   count_kinds (&r);
   status = celd_progress (host, 0.6);
   if (status == CELD_OK)
@@ -227,9 +229,9 @@ celd_scribbles_read (const CeldPaint *scribbles, const CeldSettings *settings, c
   if (status == CELD_OK)
     status = celd_scribble_places (&r, host);
   if (status == CELD_OK)
-    status = deliver (&r, seeds, palette);
+    status = write_result (&r, seeds, palette);
 
 done:
-  free_reading (&r);
+  layer_clear (&r);
   return status;
 }

@@ -7,7 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 
-#include "input/arrows.h"
+#include "input/input.h"
 #include <math.h>
 
 /* Pixels in a row of a plane with its border. */

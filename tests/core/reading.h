@@ -5,7 +5,7 @@
 #ifndef READING_H
 #define READING_H
 
-#include "input/scribbles.h"
+#include "input/input.h"
 #include "check.h"
 
 /* 'A' is colour 1, which has the channels rgb[0], and so on; '.' is colour 0, transparent.  All pixels count as core
@@ -23,7 +23,7 @@ reading_new (const char *const *art, int (*rgb)[3], size_t n)
     {
       CeldScribbleColour *c = &r.colour[r.id[p]];
 
-      c->core = c->solid = ++c->pixels;
+      c->interior = c->solid = ++c->pixels;
       c->opacity += 255;
     }
   return r;

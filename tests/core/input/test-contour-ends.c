@@ -3,13 +3,13 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "input/contours.h"
+#include "input/input.h"
 
 enum { SIDE = 40 }; /* ends are joined over up to five pixels */
 
 typedef struct
 {
-  Bake     bake;
+  CeldContourBake     bake;
   float    ink[SIDE * SIDE], breadth[4];
   uint8_t  wall[SIDE * SIDE];
   uint32_t part[SIDE * SIDE];
@@ -20,9 +20,9 @@ sheet_new (void)
 {
   Sheet *s = calloc (1, sizeof *s);
 
-  s->bake = (Bake) {
+  s->bake = (CeldContourBake) {
     .width = SIDE, .height = SIDE, .pixels = SIDE * SIDE, .ink = { SIDE, SIDE, SIDE, s->ink },
-    .wall = { SIDE, SIDE, SIDE, s->wall }, .part = { SIDE, SIDE, SIDE, s->part }, .n = 3, .breadth = s->breadth,
+    .wall = { SIDE, SIDE, SIDE, s->wall }, .component = { SIDE, SIDE, SIDE, s->part }, .n = 3, .breadth = s->breadth,
   };
   for (int i = 0; i < SIDE * SIDE; i++)
     s->ink[i] = 1;

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "reading.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 static const char *const apart[] = { "AAAA....BBB", "AAAA....BBB", NULL };
 
@@ -34,11 +34,11 @@ colours_within_the_radius_are_one (void)
   reading_clear (&r);
 }
 
-/* Four solid pixels; with loss an inside, too. */
+/* With loss also four interior ones. */
 static void
-a_label_needs_honest_pixels (void)
+a_label_needs_four_solid_pixels (void)
 {
-  static const struct { uint32_t solid, core; bool lossy, label; } given[] = {
+  static const struct { uint32_t solid, interior; bool lossy, label; } given[] = {
     { 4, 0, false, true }, { 3, 0, false, false }, { 4, 4, true, true }, { 4, 3, true, false },
   };
   int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
@@ -48,7 +48,7 @@ a_label_needs_honest_pixels (void)
       CeldScribbleLayer r = reading_new (apart, rgb, 2);
 
       r.colour[2].solid = given[i].solid;
-      r.colour[2].core = given[i].core;
+      r.colour[2].interior = given[i].interior;
       r.lossy = given[i].lossy;
       cluster (&r, 2);
       CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
@@ -57,11 +57,11 @@ a_label_needs_honest_pixels (void)
     }
 }
 
-/* Fringes of other strokes pass through its colour: it needs a third, or an inside that is most of what is solid. */
+/* A label whose colour fringes have, too, needs a third of its pixels solid, or most of the solid ones interior. */
 static void
 fringes_of_others_do_not_count (void)
 {
-  static const struct { uint32_t solid, core; bool label; } given[] = {
+  static const struct { uint32_t solid, interior; bool label; } given[] = {
     { 44, 0, true }, { 43, 0, false }, { 32, 17, true }, { 36, 17, false }, { 16, 15, false },
   };
   int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
@@ -72,7 +72,7 @@ fringes_of_others_do_not_count (void)
 
       r.colour[2].pixels = 132;
       r.colour[2].solid = given[i].solid;
-      r.colour[2].core = given[i].core;
+      r.colour[2].interior = given[i].interior;
       cluster (&r, 2);
       CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
       reading_clear (&r);
@@ -91,7 +91,7 @@ a_rim_belongs_to_its_stroke (void)
     {
       CeldScribbleLayer r = reading_new (i == 1 ? apart_too : touching, i == 2 ? far : near, 2);
 
-      r.colour[2].core = i == 3 ? 6 : 0;
+      r.colour[2].interior = i == 3 ? 6 : 0;
       cluster (&r, 2);
       CHECK ((r.colour[2].cluster == r.colour[1].cluster) == (i == 0));
       CHECK (r.cluster[2].is_label == (i > 0));
@@ -109,7 +109,7 @@ a_rim_belongs_to_what_it_touches (void)
   int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
   CeldScribbleLayer r = reading_new (art, rgb, 4);
 
-  r.colour[3].core = 0;
+  r.colour[3].interior = 0;
   cluster (&r, 4);
   CHECK (r.colour[3].cluster == r.colour[2].cluster);
   reading_clear (&r);
@@ -133,7 +133,7 @@ int
 main (void)
 {
   RUN (colours_within_the_radius_are_one);
-  RUN (a_label_needs_honest_pixels);
+  RUN (a_label_needs_four_solid_pixels);
   RUN (fringes_of_others_do_not_count);
   RUN (a_rim_belongs_to_its_stroke);
   RUN (a_rim_belongs_to_what_it_touches);

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 
 enum { W = 480, H = 320, BLOCK = 16, STROKES = 8 };

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "reading.h"
-#include "input/scribbles.h"
+#include "input/input.h"
 
 /* Is colour C still a label?  A and B must be.  Each colour is a cluster of its own, but for the paper, colour D. */
 static bool

@@ -1,0 +1,285 @@
+/* Reading what the artist paints: scribbles, virtual contours, arrows.
+ *
+ *   scribble-colours.c   counts the colours of a layer, and cleans them where it was stored with loss
+ *   scribble-loss.c      finds thin strokes whose chroma a codec has smeared
+ *   scribble-unmix.c     what colours these strokes had
+ *   scribble-clusters.c  which colours are labels
+ *   scribble-places.c    which pixels each label has
+ *   scribbles.c          all steps of reading scribbles: fringes, and the palette
+ *   contours.c           virtual contours painted into a drawing
+ *   contour-ends.c       joins their open ends to what is near
+ *   arrow-layer.c        how opaque the pixels of an arrows layer are; relations painted as one
+ *   stroke-distance.c    geodesic distances along a stroke, its width and middle at a distance
+ *   arrowhead.c          which end of a stroke has an arrowhead or a dot
+ *   arrow-profile.c      which end of a stroke is more opaque or wider
+ *   crossings.c          where strokes cross
+ *   crossing-strokes.c   the strokes of a connected component in which some cross
+ *   arrows.c             all arrows of a layer
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CELD_INPUT_H
+#define CELD_INPUT_H
+
+#include "image/image.h"
+
+/* ------------------------------------------------------------------ scribbles */
+
+#define CELD_LEAST_DOT  4       /* solid pixels that make a label: a dot of 2 x 2; chosen */
+#define CELD_THIN       3       /* pixels: a run of a colour at most this long can be a fringe; chosen */
+#define CELD_NO_CLUSTER UINT32_MAX
+
+/* In place of a cluster, as the label of a pixel. */
+#define CELD_UNDECIDED UINT32_MAX
+#define CELD_QUEUED    (UINT32_MAX - 1)
+
+/* CELD_FRINGE: the pixel's colour lies between those of its neighbours; CELD_INTERIOR: all four neighbours have its
+ * colour; CELD_SOLID: any other. */
+typedef enum { CELD_FRINGE, CELD_SOLID, CELD_INTERIOR } CeldPixelKind;
+
+/* One exact colour of the layer. */
+typedef struct
+{
+  int      channel[3];
+  uint32_t pixels, solid, interior;     /* how many pixels it has, and of those kinds; interior ones are solid, too */
+  uint64_t opacity;                     /* sum of its pixels' alpha, 0 .. 255 each */
+  uint32_t cluster;
+} CeldScribbleColour;
+
+/* Colours that mean one label; cluster 0 means no label. */
+typedef struct
+{
+  int      channel[3];
+  uint32_t colour;                      /* the colour of most solid pixels */
+  uint32_t next;                        /* in the same cell of colour space */
+  uint32_t pixels, solid, interior;
+  uint64_t opacity;
+  bool     is_label;
+} CeldScribbleCluster;
+
+typedef struct
+{
+  const CeldPaint     *paint;
+  int                  width, height;
+  size_t               pixels;
+  uint32_t            *id;         /* of each pixel: index into colour; 0 = transparent */
+  uint8_t             *kind;       /* CeldPixelKind of each pixel */
+  uint32_t            *label;      /* of each pixel: its cluster; from CELD_QUEUED on: none */
+  CeldScribbleColour  *colour;
+  size_t               n;
+  uint32_t            *slot;       /* hash table of colour indices; 0 = free */
+  size_t               slots;      /* a power of two */
+  uint32_t             paper;      /* the colour that means no label in a picture without alpha; 0 = transparent does */
+  int                  radius;     /* colours at most this far apart are equal */
+  bool                 lossy;      /* there was noise to be filtered */
+  CeldScribbleCluster *cluster;
+  size_t               n_clusters;
+  uint32_t            *head;       /* first cluster in each cell of colour space */
+  size_t               colour_capacity, cluster_capacity;
+} CeldScribbleLayer;
+
+static inline int
+celd_colour_distance (const int *a, const int *b)
+{
+  int d0 = a[0] - b[0], d1 = a[1] - b[1], d2 = a[2] - b[2];
+
+  return d0 * d0 + d1 * d1 + d2 * d2;
+}
+
+/* scribble-colours.c: fills in id, colour, paper, radius and lossy; label and kind are used as work space. */
+CeldStatus celd_scribble_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host);
+
+/* scribble-loss.c: does much of the chroma of strokes on white paper lie beside them? */
+bool celd_scribble_smeared (const CeldScribbleLayer *r);
+
+/* scribble-loss.c: paints the strokes of a picture with smeared chroma flat, in the colours that they had, on flat
+ * paper. */
+CeldStatus celd_scribble_restore (CeldScribbleLayer *r, const CeldHost *host, CeldPaint *out);
+
+/* scribble-clusters.c: fills in cluster, from colours whose solid and interior pixels are counted. */
+CeldStatus celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host);
+
+/* scribble-clusters.c: clusters that occur only where two translucent strokes overlap are labels no longer. */
+CeldStatus celd_scribble_overlaps (CeldScribbleLayer *r);
+
+/* scribble-clusters.c: appends a cluster of one colour. */
+CeldStatus celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t colour);
+
+/* scribble-places.c: fills in label; adds clusters for lines that are too thin to have a pixel of their full colour. */
+CeldStatus celd_scribble_places (CeldScribbleLayer *r, const CeldHost *host);
+
+/* ------------------------------------------------------------------ scribbles stored with loss */
+
+/* The connected component of a stroke within one block.  Colours are deficits: by how much each channel is below that
+ * of paper. */
+typedef struct
+{
+  double   core[3];     /* where the component is darkest: right in luma, too low in chroma */
+  double   full[3];     /* what it would be without smear, by the sums of blocks */
+  double   colour[3];   /* from these two */
+  double   luma;        /* of the core */
+  double   coverage;    /* painted pixels, those at edges in part */
+  double   all;         /* coverage of the whole stroke, if this is its first piece */
+  uint32_t block;
+  uint32_t stroke;      /* union-find: a piece of the same stroke */
+} CeldLossPiece;
+
+/* Pieces that touch, and how far apart their colours are. */
+typedef struct { uint32_t a, b; float distance; } CeldLossContact;
+
+/* The deficit of a block: sum over its pixels, and what its strokes would give it. */
+typedef struct { double sum[3], expected[3]; } CeldLossBlock;
+
+typedef struct
+{
+  CeldScribbleLayer *r;         /* label: 1 + the piece of each pixel, 0 = paper; kind: its contrast, 0 .. 255 */
+  int                columns;   /* blocks in a row */
+  size_t             n_blocks;
+  CeldLossBlock     *block;
+  CeldLossPiece     *piece;
+  size_t             n;
+  CeldLossContact   *contact;
+  size_t             n_contacts;
+  size_t             piece_capacity, contact_capacity;
+} CeldLossStrokes;
+
+/* Luma of a colour or a deficit. */
+static inline double
+celd_deficit_luma (const double *d)
+{
+  return 0.299 * d[0] + 0.587 * d[1] + 0.114 * d[2];
+}
+
+/* scribble-unmix.c: fills in stroke and colour of the pieces, whose core, coverage and block are known. */
+CeldStatus celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host);
+
+/* ------------------------------------------------------------------ virtual contours */
+
+/* Hard strokes become ink, soft ones ink for segmentation only; erasing ones turn ink into paper. */
+typedef enum { CELD_CONTOUR_NONE, CELD_CONTOUR_HARD, CELD_CONTOUR_SOFT, CELD_CONTOUR_ERASE } CeldContourKind;
+
+typedef struct
+{
+  int            width, height;
+  size_t         pixels;
+  CeldPlane      ink;           /* of the drawing, by celd_ink */
+  CeldPlane      value;         /* of the drawing, by celd_ink_values */
+  CeldPlane      paper;         /* of the drawing, by celd_paper_levels */
+  float          dark;          /* the value that ink of this drawing has */
+  CeldMask       kind;          /* CeldContourKind of each pixel */
+  CeldMask       opacity;       /* of the stroke at each pixel */
+  CeldMask       wall;          /* 1 = becomes ink */
+  CeldLabels     mark;          /* the pixels of strokes, whose connected components are found */
+  CeldLabels     component;     /* of these: the strokes */
+  CeldComponent *list;          /* of strokes */
+  size_t         n;
+  float         *breadth;       /* of stroke k at k, in pixels; at 0 for ink */
+} CeldContourBake;
+
+/* Sets the walls of 2 x 2 pixels from (x,y) on, as far as they lie in the picture. */
+static inline void
+celd_contour_stamp (CeldMask *wall, int x, int y, uint8_t value)
+{
+  for (int v = y > 0 ? y : 0; v <= y + 1 && v < wall->height; v++)
+    for (int u = x > 0 ? x : 0; u <= x + 1 && u < wall->width; u++)
+      CELD_AT (wall, u, v) |= value;
+}
+
+/* contour-ends.c: joins open ends of strokes to the nearest ink, other stroke or edge of the picture, at most 5 pixels
+ * plus 1/256 of the shorter side away. */
+CeldStatus celd_contour_join (CeldContourBake *b, const CeldHost *host);
+
+/* ------------------------------------------------------------------ arrows */
+
+typedef struct { double x, y; } CeldPoint;
+
+/* ------------------------------------------------------------------ arrow-layer.c */
+
+#define CELD_PAPER_CONTRAST 32 /* least difference of paint from paper, 0 .. 255, in a layer without alpha; chosen */
+
+typedef struct
+{
+  const CeldPaint *paint;    /* borrowed */
+  bool             opaque;   /* all alpha is 255: paint is what differs from paper */
+  uint8_t          paper[3]; /* the commonest colour of an opaque layer */
+} CeldArrowLayer;
+
+/* Finds out whether a layer is opaque, and its paper.  CELD_NO_MEMORY is the only failure. */
+CeldStatus celd_arrow_layer_new (const CeldPaint *paint, CeldArrowLayer *layer);
+
+/* Alpha, or the largest difference from paper in any channel: 0 .. 255.  (x,y) must be in the picture. */
+int celd_arrow_opacity (const CeldArrowLayer *layer, int x, int y);
+
+/* ------------------------------------------------------------------ stroke-distance.c */
+
+/* Sums over all pixels nearer to the start than one distance: their number and their places. */
+typedef struct { double count, x, y; } CeldStrokeSums;
+
+/* A connected stroke, followed from one or more of its pixels.  Pixels are indices into planes that have a border of
+ * one pixel, (width + 2) x (height + 2), so that each has eight neighbours. */
+typedef struct
+{
+  int             width, height; /* of the picture */
+  float          *distance;      /* such a plane: geodesic distance from the start in pixels; infinite elsewhere */
+  const uint32_t *pixel;         /* of the stroke, in reading order */
+  size_t          n;
+  CeldStrokeSums *sums;          /* sums[i]: pixels with distance < i; room for 3 n / 2 + 4 */
+  size_t          n_sums;
+  float          *earlier;       /* room for n distances from an earlier start */
+} CeldArrowStroke;
+
+int       celd_stroke_x (const CeldArrowStroke *stroke, uint32_t pixel);     /* column in the picture */
+int       celd_stroke_y (const CeldArrowStroke *stroke, uint32_t pixel);     /* row in the picture */
+CeldPoint celd_stroke_point (const CeldArrowStroke *stroke, uint32_t pixel); /* centre of a pixel, in the picture */
+
+/* Is the pixel at a point, or one of its four neighbours, part of a stroke? */
+bool celd_stroke_painted (const CeldArrowStroke *stroke, CeldPoint p);
+
+/* Fills in the distances from the nearest of n starts, and the sums.  Returns the farthest pixel. */
+uint32_t celd_stroke_follow (CeldArrowStroke *stroke, const uint32_t *start, size_t n);
+
+/* Distance of the farthest pixel, rounded up, after celd_stroke_follow. */
+double celd_stroke_length (const CeldArrowStroke *stroke);
+
+/* Between two distances: pixels per unit of length, which is the mean width; and the centroid of the pixels. */
+double    celd_stroke_mean_width (const CeldArrowStroke *stroke, double from, double to);
+CeldPoint celd_stroke_centroid (const CeldArrowStroke *stroke, double from, double to);
+
+/* ------------------------------------------------------------------ arrowhead.c, arrow-profile.c */
+
+/* The tail of an arrow is at the nearer region, its tip at the farther one. */
+typedef struct { CeldPoint tail, tip; } CeldArrowEnds;
+
+/* False if the stroke has no clear arrowhead; with `dot`, no clear dot, whose centre is then the tip. */
+bool celd_arrowhead (CeldArrowStroke *stroke, bool dot, CeldArrowEnds *ends);
+
+/* The more opaque (CELD_ARROW_FADE) or the wider (CELD_ARROW_TAPER) end of a stroke is the tail; false if neither end
+ * clearly is. */
+bool celd_arrow_profile (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style,
+                         CeldArrowEnds *ends);
+
+/* ------------------------------------------------------------------ crossings.c */
+
+/* Where two strokes cross: arms 0 and 2 are one of them, 1 and 3 the other, on a circle round the crossing. */
+typedef struct { CeldPoint centre, arm[4]; double radius, breadth[4]; } CeldStrokeCrossing;
+
+/* A stroke cut out of its picture, with a border of one pixel that is not painted.  squared: of each pixel the squared
+ * distance to the nearest one that is not painted. */
+typedef struct { int left, top, width, height; uint8_t *painted; int32_t *squared; } CeldStrokeMask;
+
+CeldStatus celd_stroke_mask_new (const CeldArrowStroke *stroke, CeldStrokeMask *mask);
+void       celd_stroke_mask_clear (CeldStrokeMask *mask);
+
+/* The crossings in a mask; *list is the caller's to free. */
+CeldStatus celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCrossing **list, size_t *n);
+
+/* ------------------------------------------------------------------ crossing-strokes.c */
+
+/* Stroke k of a component has the pixels from first[k] to first[k + 1], numbered as in CeldArrowStroke. */
+typedef struct { uint32_t *pixel; size_t *first, n; size_t pixel_capacity; } CeldCrossingStrokes;
+
+/* Takes a connected component apart where strokes cross; n = 0 if none do.  To be cleared by the caller. */
+CeldStatus celd_crossing_strokes_find (const CeldArrowStroke *component, CeldCrossingStrokes *strokes);
+void       celd_crossing_strokes_clear (CeldCrossingStrokes *strokes);
+
+#endif
