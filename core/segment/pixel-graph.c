@@ -8,6 +8,8 @@
 #include "base/unions.h"
 #include "base/vector.h"
 
+#define MEASURED (-CELD_MOST_TO_PAPER) /* the true distance to paper is measured */
+
 CeldStatus
 celd_pixel_graph_new (const CeldSegmentTask *task, CeldRect box, CeldPixelGraph *graph)
 {
@@ -165,9 +167,23 @@ edge_cost (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bo
   const CeldPlane *ink = graph->task->ink;
   float            here = CELD_AT (ink, x, y), there = CELD_AT (ink, x + !south, y + south);
   bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
-  bool             on_ink = !celd_is_paper (here) && !celd_is_paper (there);
-  int32_t          to_paper = on_ink ? graph->to_paper (graph, a, b, x, y, south) : 0;
+  int32_t          to_paper = 0;
 
+  if (!celd_is_paper (here) && !celd_is_paper (there))
+    {
+      to_paper = graph->to_paper ? graph->to_paper (graph, a, b) : MEASURED;
+      if (to_paper < 0 && graph->distance)
+        {
+          size_t p = (size_t) y * (size_t) ink->width + (size_t) x, q = p + (south ? (size_t) ink->width : 1);
+
+          to_paper = graph->distance[p] < graph->distance[q] ? graph->distance[p] : graph->distance[q];
+        }
+      else if (to_paper < 0)
+        {
+          to_paper = celd_squared_to_paper (ink, x, y, -to_paper);
+          to_paper = celd_squared_to_paper (ink, x + !south, y + south, to_paper);
+        }
+    }
   return celd_smoothness_cost (&graph->task->basins->costs, here, there, to_paper, to_paper, frame);
 }
 

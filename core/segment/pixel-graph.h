@@ -47,9 +47,12 @@ struct CeldPixelGraph
   uint32_t              *parent; /* of the pixels of a square: a disjoint-set forest (unions.h) */
   size_t                 node_capacity, link_capacity, vote_capacity;
 
-  /* For two neighbouring pixels of ink, (x,y) of part a and the one below (south) or to the right, of part b: the
-   * squared distance to paper that their edge costs as much as. */
-  int32_t (*to_paper) (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south);
+  /* celd_distance_to_paper of the picture, if that is known; NULL: distances are measured where they are needed. */
+  const int32_t *distance;
+
+  /* For edges between ink of two parts: the squared distance to paper that they cost as much as; if negative, the true
+   * one of each edge, at most so much.  NULL: the true one. */
+  int32_t (*to_paper) (const CeldPixelGraph *graph, uint32_t a, uint32_t b);
 };
 
 /* Makes a graph without nodes; the parts are not set.  Clear it also after a failure. */

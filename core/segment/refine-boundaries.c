@@ -26,6 +26,18 @@ typedef struct { BoundarySegment *item; size_t n, item_capacity; } BoundarySegme
 
 /* ------------------------------------------------------------------ pixels */
 
+/* V_pq of (x,y) and the pixel below (south) or to the right. */
+static int32_t
+edge_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
+{
+  const CeldPlane *ink = s->task->ink;
+  size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
+  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
+
+  return celd_smoothness_cost (&s->task->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south),
+                               s->to_paper[p], s->to_paper[south ? p + w : p + 1], frame);
+}
+
 /* The energy of a pixel with this label: its edges, and its seed. */
 static int64_t
 cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
@@ -41,13 +53,13 @@ cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
       cost = vote == CELD_HARD ? DISOBEYED : vote;
     }
   if (x > 0 && CELD_AT (l, x - 1, y) != label)
-    cost += celd_refinement_cost (s, x - 1, y, false);
+    cost += edge_cost (s, x - 1, y, false);
   if (x + 1 < l->width && CELD_AT (l, x + 1, y) != label)
-    cost += celd_refinement_cost (s, x, y, false);
+    cost += edge_cost (s, x, y, false);
   if (y > 0 && CELD_AT (l, x, y - 1) != label)
-    cost += celd_refinement_cost (s, x, y - 1, true);
+    cost += edge_cost (s, x, y - 1, true);
   if (y + 1 < l->height && CELD_AT (l, x, y + 1) != label)
-    cost += celd_refinement_cost (s, x, y, true);
+    cost += edge_cost (s, x, y, true);
   return cost;
 }
 
@@ -279,6 +291,7 @@ celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldL
 
   if (status == CELD_OK)
     status = refine_seeds (&s);
+
   if (status == CELD_OK)
     status = refine_segments (&s);
   if (status == CELD_OK)

@@ -32,18 +32,6 @@ most (int a, int b)
 
 /* ------------------------------------------------------------------ pixels */
 
-int32_t
-celd_refinement_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
-{
-  const CeldPlane *ink = s->task->ink;
-  size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
-  bool             frame = south ? x == 0 || x + 1 == ink->width : y == 0 || y + 1 == ink->height;
-
-  return celd_smoothness_cost (&s->task->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, x + !south, y + south),
-                               s->to_paper[p],
-                               s->to_paper[south ? p + w : p + 1], frame);
-}
-
 CeldStatus
 celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t label)
 {
@@ -111,7 +99,7 @@ widen (const CeldBoundaryRefinement *s, GapBox b)
 static CeldStatus
 solve (CeldBoundaryRefinement *s, CeldWindowCutter *cutter, CeldRect box)
 {
-  CeldPresentLabels present = { .picture = s->labels };
+  CeldPresentLabels present = { .picture = s->labels, .to_paper = s->to_paper };
   CeldPixelGraph    graph;
   uint32_t         *label = NULL, *part;
   bool              better = false;

@@ -18,9 +18,6 @@ typedef struct
   size_t                 changed_capacity;
 } CeldBoundaryRefinement;
 
-/* refine-gaps.c: V_pq of (x,y) and the pixel below (south) or to the right. */
-int32_t celd_refinement_cost (const CeldBoundaryRefinement *s, int x, int y, bool south);
-
 /* Sets the label of a pixel and notes the change. */
 CeldStatus celd_refinement_set_label (CeldBoundaryRefinement *s, int x, int y, uint32_t label);
 

@@ -48,7 +48,7 @@ const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);
 
 #define CELD_COST_UNIT     16   /* cost of a pair of pixels inside ink: energies are integers */
 #define CELD_INK_STEPS     1024 /* steps of the table by ink */
-#define CELD_MOST_TO_PAPER 1024 /* squared pixels: the discount grows no more from here on */
+#define CELD_MOST_TO_PAPER 100  /* squared pixels: the discount grows no more from here on */
 
 typedef struct
 {
@@ -71,5 +71,8 @@ int32_t celd_smoothness_cost (const CeldSmoothnessCosts *costs, float ink, float
 
 /* The squared distance of every pixel to the nearest paper, 0 on paper: a tight plane of the picture's size. */
 CeldStatus celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_paper);
+
+/* The squared distance of a pixel of ink to the nearest paper, at most `most`. */
+int32_t celd_squared_to_paper (const CeldPlane *ink, int x, int y, int32_t most);
 
 #endif

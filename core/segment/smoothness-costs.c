@@ -71,3 +71,19 @@ celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_
   celd_free (paper);
   return status;
 }
+
+int32_t
+celd_squared_to_paper (const CeldPlane *ink, int x, int y, int32_t most)
+{
+  for (int r = 1; r * r < most; r++) /* nearer columns and rows have been searched */
+    for (int i = -r; i <= r; i++)
+      {
+        const int at[4][2] = { { x + i, y - r }, { x + i, y + r }, { x - r, y + i }, { x + r, y + i } };
+
+        for (int k = 0; k < 4 && i * i + r * r < most; k++)
+          if (at[k][0] >= 0 && at[k][0] < ink->width && at[k][1] >= 0 && at[k][1] < ink->height
+              && celd_is_paper (CELD_AT (ink, at[k][0], at[k][1])))
+            most = i * i + r * r;
+      }
+  return most;
+}

@@ -139,7 +139,7 @@ trim (const WindowSolver *s, uint32_t id, const CeldWindow *window)
 static CeldStatus
 solve_window (WindowSolver *s, uint32_t id, const CeldWindow *found, const uint32_t *basin)
 {
-  CeldPresentLabels present = { NULL, s->label, s->free, id };
+  CeldPresentLabels present = { .label = s->label, .free = s->free, .id = id };
   CeldPixelGraph    graph;
   CeldWindow        window;
   uint32_t         *label = NULL;

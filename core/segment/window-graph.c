@@ -24,39 +24,6 @@
 
 /* ------------------------------------------------------------------ costs */
 
-/* The squared distance from (x,y) in ink to paper, as far as it matters to costs. */
-static int32_t
-squared_to_paper (const CeldSegmentTask *task, int x, int y)
-{
-  const CeldPlane *ink = task->ink;
-  const int32_t   *discount = task->basins->costs.discount;
-  int32_t          least = CELD_MOST_TO_PAPER;
-
-  while (least > 1 && discount[least - 1] == discount[CELD_MOST_TO_PAPER])
-    least--;
-  for (int r = 1; r * r < least; r++) /* nearer columns and rows have been searched */
-    for (int i = -r; i <= r; i++)
-      {
-        const int at[4][2] = { { x + i, y - r }, { x + i, y + r }, { x - r, y + i }, { x + r, y + i } };
-
-        for (int k = 0; k < 4 && i * i + r * r < least; k++)
-          if (at[k][0] >= 0 && at[k][0] < ink->width && at[k][1] >= 0 && at[k][1] < ink->height
-              && celd_is_paper (CELD_AT (ink, at[k][0], at[k][1])))
-            least = i * i + r * r;
-      }
-  return least;
-}
-
-static int32_t
-exact_to_paper (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
-{
-  int32_t here = squared_to_paper (graph->task, x, y), there = squared_to_paper (graph->task, x + !south, y + south);
-
-  (void) a;
-  (void) b;
-  return here < there ? here : there;
-}
-
 /* The present label of the pixels of a part. */
 static uint32_t
 present_label (const CeldPixelGraph *graph, uint32_t part)
@@ -67,11 +34,8 @@ present_label (const CeldPixelGraph *graph, uint32_t part)
 /* In blocks ink counts as cheap as possible along present boundaries and as dear as possible elsewhere: an improvement
  * by these costs is one by the true costs, and no distance to paper needs to be measured. */
 static int32_t
-bound_to_paper (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bool south)
+bound_to_paper (const CeldPixelGraph *graph, uint32_t a, uint32_t b)
 {
-  (void) x;
-  (void) y;
-  (void) south;
   return present_label (graph, a) == present_label (graph, b) ? 0 : CELD_MOST_TO_PAPER;
 }
 
@@ -82,6 +46,7 @@ typedef struct
 {
   const CeldPixelGraph    *graph;
   const CeldPresentLabels *present;
+  bool                     blocks; /* can a node be more than a pixel? */
   float                    dark;   /* ink below this value is dark */
   size_t                   hint;   /* of celd_basin_run_at */
   uint64_t                *state;
@@ -177,7 +142,8 @@ read_row (Reader *r, int y, uint64_t *state)
     state[0] |= CELD_STATE_FIXED;
   if (end < ink->width)
     state[box.width - 1] |= CELD_STATE_FIXED;
-  read_ink (r, y, box.x, end, state);
+  if (r->blocks)
+    read_ink (r, y, box.x, end, state);
   read_seeds (r, y, box.x, end, state);
 }
 
@@ -187,15 +153,16 @@ CeldStatus
 celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box, int shift,
                        CeldPixelGraph *graph)
 {
-  Reader     r = { .graph = graph, .present = present, .dark = end_of_dark (&task->basins->costs),
-                   .state = celd_alloc ((size_t) box.width << shift, sizeof *r.state) };
-  int        size = 1 << shift;
+  int        size = shift ? 1 << shift : CELD_LARGEST_SQUARE;
   size_t     w = (size_t) box.width;
+  Reader     r = { .graph = graph, .present = present, .dark = end_of_dark (&task->basins->costs), .blocks = shift > 0,
+                   .state = celd_alloc (w * (size_t) size, sizeof *r.state) };
   CeldStatus status = celd_pixel_graph_new (task, box, graph);
 
   if (!r.state)
     status = CELD_NO_MEMORY;
-  graph->to_paper = shift ? bound_to_paper : exact_to_paper;
+  graph->distance = present->to_paper;
+  graph->to_paper = shift ? bound_to_paper : NULL;
   for (int top = box.y; top < box.y + box.height && status == CELD_OK; top += size)
     {
       for (int y = top; y < celd_pixel_graph_bottom (graph, top, size); y++)
@@ -242,7 +209,7 @@ celd_window_graph_refine (CeldPixelGraph *graph, const uint32_t *label, const bo
 {
   CeldPixelNode *old = graph->node;
   size_t         n = graph->n;
-  Reader         r = { .graph = graph, .dark = end_of_dark (&graph->task->basins->costs),
+  Reader         r = { .graph = graph, .blocks = true, .dark = end_of_dark (&graph->task->basins->costs),
                        .state = celd_alloc (CELD_LARGEST_SQUARE * CELD_LARGEST_SQUARE, sizeof *r.state) };
   CeldStatus     status = r.state ? CELD_OK : CELD_NO_MEMORY;
 

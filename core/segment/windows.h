@@ -27,11 +27,18 @@ size_t celd_basin_run_at (const CeldBasins *basins, int y, int x, size_t *hint);
 
 /* ------------------------------------------------------------------ window-graph.c */
 
-/* The labels that pixels have before a window is cut: those of a picture, or of their basins, where pixels of basins
- * with free[basin] != id are fixed. */
-typedef struct { const CeldLabels *picture; const uint32_t *label, *free; uint32_t id; } CeldPresentLabels;
+/* The labels that pixels have before a window is cut: those of a picture, whose celd_distance_to_paper is known; or of
+ * their basins, where pixels of basins with free[basin] != id are fixed. */
+typedef struct
+{
+  const CeldLabels *picture;
+  const int32_t    *to_paper;
+  const uint32_t   *label, *free;
+  uint32_t          id;
+} CeldPresentLabels;
 
-/* The graph of a window in square blocks of side 1 << shift; the values of its nodes are their present labels.  The
+/* The graph of a window in square blocks of side 1 << shift; shift 0: of pixels.  The values of its nodes are their
+ * present labels.  The
  * window's outermost pixels are fixed, except along the frame of the picture.  Clear it also after a failure. */
 CeldStatus celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box, int shift,
                                   CeldPixelGraph *graph);
