@@ -9,12 +9,12 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
+#include "segment/pixel-graph.h"
 #include "segment/splits.h"
-#include "solve/partition.h"
 
 #include <string.h>
 
-#define NO_KIND         UINT32_MAX
+#define NO_CELLS        6 /* nodes may be as large as squares: 1 << 6 pixels a side */
 #define FINE_SQUARE     4 /* pixels: in squares up to this size the distance of ink to paper is measured (chosen) */
 #define MOST_TO_PAPER   4 /* pixels: ink farther from paper counts as this far (chosen) */
 #define COARSE_TO_PAPER 4 /* squared pixels: what ink counts as in larger squares, so that cuts prefer the middle of
@@ -62,19 +62,6 @@ celd_cut_graph_visit_squares (CeldCutGraph *graph, CeldSquareVisit visit)
   return status;
 }
 
-uint32_t
-celd_cut_graph_node_at (const CeldCutGraph *graph, int x, int y)
-{
-  const CeldCut *cut = graph->cut;
-  int            column = (x - cut->left) / CELD_CUT_SQUARE, row = (y - cut->top) / CELD_CUT_SQUARE;
-  int            within = graph->size[row * graph->columns + column] - 1; /* sizes are powers of two */
-  size_t         corner = celd_cut_index (cut, x - ((x - cut->left) & within), y - ((y - cut->top) & within));
-
-  if (cut->mark[corner] == CELD_INSIDE && graph->node[cut->node[corner]].whole)
-    return cut->node[corner];
-  return cut->node[celd_cut_index (cut, x, y)];
-}
-
 /* ------------------------------------------------------------------ nodes */
 
 /* What a square contains: pixels inside, others; and ink, if all are inside. */
@@ -108,18 +95,12 @@ inspect (const CeldCutGraph *graph, int x, int y, int right, int bottom)
   return (Contents) { inside, outside, ink };
 }
 
-static CeldStatus
-add_node (CeldCutGraph *graph, CeldCutNode node)
-{
-  return celd_append (graph->node, graph->n, graph->node_capacity, node);
-}
-
-/* Sets the kind of each pixel inside: pixels of one node are of one kind. */
+/* Sets the states of a square's pixels: pixels of one node are of one basin, and all paper or all ink. */
 static void
-find_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
+find_states (CeldCutGraph *graph, int x, int y, int right, int bottom)
 {
   const CeldBasins *basins = graph->cut->task->basins;
-  uint32_t         *kind = graph->kind;
+  uint64_t         *state = graph->state;
 
   for (int v = y; v < bottom; v++)
     {
@@ -127,98 +108,39 @@ find_kinds (CeldCutGraph *graph, int x, int y, int right, int bottom)
 
       for (int u = x; u < right; u++)
         {
+          uint8_t mark = graph->cut->mark[celd_cut_index (graph->cut, u, v)];
+
           if (u == celd_basin_run_end (basins, k, v))
             k++;
-          *kind++ = graph->cut->mark[celd_cut_index (graph->cut, u, v)] != CELD_INSIDE ? NO_KIND
-                  : 2 * basins->run[k].basin + celd_is_paper (CELD_AT (graph->cut->task->ink, u, v));
+          *state++ = mark != CELD_INSIDE ? CELD_STATE_FIXED | mark
+                   : basins->run[k].basin | (celd_is_paper (CELD_AT (graph->cut->task->ink, u, v)) ? CELD_CUT_PAPER : 0);
         }
     }
 }
 
-/* Assigns pixel i of the square and all pixels of the same kind connected to it to the last node (flood fill). */
-static void
-flood (CeldCutGraph *graph, int x, int y, int width, int height, int i)
-{
-  uint32_t *kind = graph->kind, same = kind[i];
-  int       n = 0;
-
-#define TAKE(j) (kind[j] = NO_KIND, graph->stack[n++] = (uint16_t) (j))
-  TAKE (i);
-  while (n)
-    {
-      int j = graph->stack[--n], u = j % width, v = j / width;
-
-      graph->cut->node[celd_cut_index (graph->cut, x + u, y + v)] = (uint32_t) graph->n - 1;
-      if (u > 0 && kind[j - 1] == same)
-        TAKE (j - 1);
-      if (u + 1 < width && kind[j + 1] == same)
-        TAKE (j + 1);
-      if (v > 0 && kind[j - width] == same)
-        TAKE (j - width);
-      if (v + 1 < height && kind[j + width] == same)
-        TAKE (j + width);
-    }
-#undef TAKE
-}
-
 static CeldStatus
-number_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
+add_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  Contents    has = inspect (graph, x, y, right, bottom);
-  CeldCutNode node = { .x = x, .y = y, .size = size, .whole = !has.outside && !has.ink, .ink = has.ink };
-  CeldStatus  status = CELD_OK;
+  Contents has = inspect (graph, x, y, right, bottom);
+  bool     paper = !has.outside && !has.ink;
 
   if (!has.inside)
     return CELD_OK;
-  if (node.whole || size == 1)
-    {
-      graph->cut->node[celd_cut_index (graph->cut, x, y)] = (uint32_t) graph->n;
-      return add_node (graph, node);
-    }
-  find_kinds (graph, x, y, right, bottom);
-  for (int i = 0; i < (right - x) * (bottom - y) && status == CELD_OK; i++)
-    {
-      if (graph->kind[i] == NO_KIND)
-        continue;
-      node.ink   = graph->kind[i] % 2 == 0;
-      node.basin = graph->kind[i] / 2;
-      status     = add_node (graph, node);
-      if (status == CELD_OK)
-        flood (graph, x, y, right - x, bottom - y, i);
-    }
-  return status;
+  if (paper || size == 1)
+    return celd_pixel_graph_add_whole (&graph->pixels, x, y, size, paper ? CELD_CUT_PAPER : 0);
+  find_states (graph, x, y, right, bottom);
+  return celd_pixel_graph_add_square (&graph->pixels, x, y, size, graph->state, (size_t) (right - x), NO_CELLS);
 }
 
 /* ------------------------------------------------------------------ links */
 
-/* The squared distance from ink at (x,y) to paper, up to MOST_TO_PAPER squared. */
+/* In small squares the distance of ink to paper is measured. */
 static int32_t
-squared_to_paper (const CeldPlane *ink, int x, int y)
+to_paper (const CeldPixelGraph *pixels, uint32_t a, uint32_t b)
 {
-  int32_t least = MOST_TO_PAPER * MOST_TO_PAPER;
+  const CeldPixelNode *node = &pixels->node[a & CELD_PART_FIXED ? b : a];
 
-  for (int v = -MOST_TO_PAPER + 1; v < MOST_TO_PAPER; v++)
-    for (int u = -MOST_TO_PAPER + 1; u < MOST_TO_PAPER; u++)
-      if (u * u + v * v < least && x + u >= 0 && y + v >= 0 && x + u < ink->width && y + v < ink->height &&
-          celd_is_paper (CELD_AT (ink, x + u, y + v)))
-        least = u * u + v * v;
-  return least;
-}
-
-static int32_t
-cost_between (const CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
-{
-  const CeldPlane           *ink = graph->cut->task->ink;
-  const CeldSmoothnessCosts *costs = &graph->cut->task->basins->costs;
-  float                      a = CELD_AT (ink, x, y), b = CELD_AT (ink, u, v);
-  bool                       along = x == u ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
-
-  if (a >= 1 && b >= 1 && !along)
-    return costs->by_ink[CELD_INK_STEPS];
-  if (celd_is_paper (a) || celd_is_paper (b))
-    return celd_smoothness_cost (costs, a, b, 0, 0, along);
-  return fine ? celd_smoothness_cost (costs, a, b, squared_to_paper (ink, x, y), squared_to_paper (ink, u, v), along)
-              : celd_smoothness_cost (costs, a, b, COARSE_TO_PAPER, COARSE_TO_PAPER, along);
+  return node->size <= FINE_SQUARE ? -MOST_TO_PAPER * MOST_TO_PAPER : COARSE_TO_PAPER;
 }
 
 /* Does it take smaller squares to find where a cut runs between two nodes? */
@@ -228,128 +150,30 @@ is_uncertain (const CeldCutNode *a, const CeldCutNode *b)
   return a->whole || b->whole || (!a->ink && !b->ink) || a->basin == b->basin;
 }
 
+/* Makes the nodes of the cut from those of the pixels. */
 static CeldStatus
-add_link (CeldCutGraph *graph, uint32_t a, uint32_t b, int32_t cost)
+read_pixels (CeldCutGraph *graph)
 {
-  uint32_t *recent = &graph->recent[(a * 31u + b) % CELD_RECENT_LINKS];
+  const CeldPixelGraph *pixels = &graph->pixels;
 
-  if (*recent < graph->n_links && graph->link[*recent].a == a && graph->link[*recent].b == b)
-    {
-      graph->link[*recent].cost += cost;
-      return CELD_OK;
-    }
-  if (!celd_reserve_one (graph->link, graph->n_links, graph->link_capacity) ||
-      !celd_reserve_one (graph->uncertain, graph->n_links, graph->uncertain_capacity))
+  if (!celd_reserve (&graph->node, pixels->n, &graph->node_capacity, sizeof *graph->node) ||
+      !celd_reserve (&graph->uncertain, pixels->n_links, &graph->uncertain_capacity, sizeof *graph->uncertain))
     return CELD_NO_MEMORY;
-  graph->link[graph->n_links] = (CeldLink) { a, b, cost };
-  graph->uncertain[graph->n_links] = is_uncertain (&graph->node[a], &graph->node[b]);
-  *recent = (uint32_t) graph->n_links++;
-  return CELD_OK;
-}
-
-/* Links the pixel (x,y) inside to its neighbour (u,v).  Pairs of two pixels inside occur twice, once from each. */
-static CeldStatus
-connect (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
-{
-  const CeldCut *cut = graph->cut;
-  uint8_t        mark = cut->mark[celd_cut_index (cut, u, v)];
-  uint32_t       k, other;
-
-  if (mark == CELD_OUTSIDE || (mark == CELD_INSIDE && (u < x || v < y)))
-    return CELD_OK;
-  k     = celd_cut_graph_node_at (graph, x, y);
-  other = mark == CELD_INSIDE ? celd_cut_graph_node_at (graph, u, v) : k;
-  if (other != k)
-    return add_link (graph, k, other, cost_between (graph, x, y, u, v, fine));
-  if (mark == CELD_NEAR_FIRST)
-    graph->node[k].terminal += cost_between (graph, x, y, u, v, fine);
-  if (mark == CELD_NEAR_SECOND)
-    graph->node[k].terminal -= cost_between (graph, x, y, u, v, fine);
-  return CELD_OK;
-}
-
-/* Links the pixels x .. right - 1 of row y to the row above (step -1) or below (1). */
-static CeldStatus
-link_rows (CeldCutGraph *graph, int x, int right, int y, int step, bool fine)
-{
-  const CeldCut *cut = graph->cut;
-  const size_t   p = celd_cut_index (cut, 0, y);
-  CeldStatus     status = CELD_OK;
-
-  if (y + step < 0 || y + step >= cut->task->ink->height)
-    return CELD_OK;
-  for (int u = x; u < right && status == CELD_OK; u++)
-    if (cut->mark[p + (size_t) u] == CELD_INSIDE)
-      status = connect (graph, u, y, u, y + step, fine);
-  return status;
-}
-
-/* Links the pixels y .. bottom - 1 of column x to the column to the left (step -1) or right (1). */
-static CeldStatus
-link_columns (CeldCutGraph *graph, int y, int bottom, int x, int step, bool fine)
-{
-  const CeldCut *cut = graph->cut;
-  CeldStatus     status = CELD_OK;
-
-  if (x + step < 0 || x + step >= cut->task->ink->width)
-    return CELD_OK;
-  for (int v = y; v < bottom && status == CELD_OK; v++)
-    if (cut->mark[celd_cut_index (cut, x, v)] == CELD_INSIDE)
-      status = connect (graph, x, v, x + step, v, fine);
-  return status;
-}
-
-/* Links two different neighbours in a square, the first one in reading order first. */
-static CeldStatus
-link_pair (CeldCutGraph *graph, int x, int y, int u, int v, bool fine)
-{
-  return graph->cut->mark[celd_cut_index (graph->cut, x, y)] == CELD_INSIDE ? connect (graph, x, y, u, v, fine)
-       : graph->cut->mark[celd_cut_index (graph->cut, u, v)] == CELD_INSIDE ? connect (graph, u, v, x, y, fine) :
-  CELD_OK;
-}
-
-static CeldStatus
-link_within (CeldCutGraph *graph, int x, int y, int right, int bottom, bool fine)
-{
-  size_t     w = (size_t) graph->cut->task->ink->width;
-  CeldStatus status = CELD_OK;
-
-  for (int v = y; v < bottom; v++)
+  graph->n = pixels->n;
+  for (size_t k = 0; k < graph->n; k++)
     {
-      const uint8_t  *mark = graph->cut->mark + celd_cut_index (graph->cut, x, v);
-      const uint32_t *node = graph->cut->node + celd_cut_index (graph->cut, x, v);
+      const CeldPixelNode *node = &pixels->node[k];
+      bool                 paper = node->value & CELD_CUT_PAPER;
 
-      for (int u = x; u < right && status == CELD_OK; u++, mark++, node++)
-        {
-          bool inside = *mark == CELD_INSIDE;
-
-          if (u + 1 < right && (mark[0] != mark[1] || (inside && node[0] != node[1])))
-            status = link_pair (graph, u, v, u + 1, v, fine);
-          if (v + 1 < bottom && (mark[0] != mark[w] || (inside && node[0] != node[w])) && status == CELD_OK)
-            status = link_pair (graph, u, v, u, v + 1, fine);
-        }
+      graph->node[k] = (CeldCutNode) { .x = node->x, .y = node->y, .size = node->size, .whole = paper && node->whole,
+                                       .ink = !paper, .basin = node->value & ~CELD_CUT_PAPER };
     }
-  return status;
-}
-
-static CeldStatus
-link_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
-{
-  size_t     p = celd_cut_index (graph->cut, x, y);
-  bool       fine = size <= FINE_SQUARE;
-  CeldStatus status = CELD_OK;
-
-  if (graph->cut->mark[p] != CELD_INSIDE || !graph->node[graph->cut->node[p]].whole)
-    status = link_within (graph, x, y, right, bottom, fine);
-  if (status == CELD_OK)
-    status = link_rows (graph, x, right, y, -1, fine);
-  if (status == CELD_OK)
-    status = link_rows (graph, x, right, bottom - 1, 1, fine);
-  if (status == CELD_OK)
-    status = link_columns (graph, y, bottom, x, -1, fine);
-  if (status == CELD_OK)
-    status = link_columns (graph, y, bottom, right - 1, 1, fine);
-  return status;
+  for (size_t i = 0; i < pixels->n_links; i++)
+    graph->uncertain[i] = is_uncertain (&graph->node[pixels->link[i].a], &graph->node[pixels->link[i].b]);
+  for (size_t i = 0; i < pixels->n_votes; i++)
+    graph->node[pixels->vote[i].node].terminal += pixels->vote[i].label == CELD_NEAR_FIRST ? pixels->vote[i].cost
+                                                                                           : -pixels->vote[i].cost;
+  return CELD_OK;
 }
 
 CeldStatus
@@ -357,9 +181,12 @@ celd_cut_graph_build (CeldCutGraph *graph)
 {
   CeldStatus status;
 
-  graph->n = graph->n_links = 0;
-  status = celd_cut_graph_visit_squares (graph, number_square);
-  return status == CELD_OK ? celd_cut_graph_visit_squares (graph, link_square) : status;
+  celd_pixel_graph_empty (&graph->pixels);
+  graph->pixels.to_paper = to_paper;
+  status = celd_cut_graph_visit_squares (graph, add_square);
+  if (status == CELD_OK)
+    status = celd_pixel_graph_connect (&graph->pixels);
+  return status == CELD_OK ? read_pixels (graph) : status;
 }
 
 /* ------------------------------------------------------------------ seeds */
@@ -379,8 +206,8 @@ celd_cut_graph_visit_seeds (CeldCutGraph *graph, CeldSeedVisit visit, int kept)
           continue;
         for (int x = run->x < cut->left ? cut->left : run->x, end; x < last; x = end)
           {
-            bool     inside = cut->mark[celd_cut_index (cut, x, y)] == CELD_INSIDE;
-            uint32_t k = inside ? celd_cut_graph_node_at (graph, x, y) : 0;
+            uint32_t k = *celd_pixel_graph_part (&graph->pixels, x, y);
+            bool     inside = !(k & CELD_PART_FIXED);
 
             end = inside ? celd_cut_graph_node_end (&graph->node[k], x, last) : x + 1;
             if (inside)

@@ -28,23 +28,23 @@ static CeldStatus
 paths_new (const CeldCutGraph *graph, Paths *paths)
 {
   *paths = (Paths) {
-    celd_alloc0 (graph->n + 2, sizeof *paths->first), celd_alloc (2 * graph->n_links, sizeof *paths->link),
+    celd_alloc0 (graph->n + 2, sizeof *paths->first), celd_alloc (2 * graph->pixels.n_links, sizeof *paths->link),
     celd_alloc (graph->n, sizeof *paths->queue), celd_alloc (graph->n, sizeof *paths->length),
     celd_alloc0 (graph->n, sizeof *paths->queued)
   };
   if (!paths->first || !paths->link || !paths->queue || !paths->length || !paths->queued)
     return CELD_NO_MEMORY;
-  for (size_t i = 0; i < graph->n_links; i++)
+  for (size_t i = 0; i < graph->pixels.n_links; i++)
     {
-      paths->first[graph->link[i].a + 2]++;
-      paths->first[graph->link[i].b + 2]++;
+      paths->first[graph->pixels.link[i].a + 2]++;
+      paths->first[graph->pixels.link[i].b + 2]++;
     }
   for (size_t k = 1; k < graph->n + 2; k++)
     paths->first[k] += paths->first[k - 1];
-  for (size_t i = 0; i < graph->n_links; i++)
+  for (size_t i = 0; i < graph->pixels.n_links; i++)
     {
-      paths->link[paths->first[graph->link[i].a + 1]++] = i;
-      paths->link[paths->first[graph->link[i].b + 1]++] = i;
+      paths->link[paths->first[graph->pixels.link[i].a + 1]++] = i;
+      paths->link[paths->first[graph->pixels.link[i].b + 1]++] = i;
     }
   return CELD_OK;
 }
@@ -53,7 +53,7 @@ paths_new (const CeldCutGraph *graph, Paths *paths)
 static uint32_t
 other_of (const CeldCutGraph *graph, size_t link, uint32_t k)
 {
-  return graph->link[link].a == k ? graph->link[link].b : graph->link[link].a;
+  return graph->pixels.link[link].a == k ? graph->pixels.link[link].b : graph->pixels.link[link].a;
 }
 
 /* Marks the nodes that are not connected to the first end. */
@@ -80,7 +80,7 @@ mark_unreachable (CeldCutGraph *graph, Paths *paths)
 static double
 step_between (const CeldCutGraph *graph, size_t link)
 {
-  const CeldCutNode *a = &graph->node[graph->link[link].a], *b = &graph->node[graph->link[link].b];
+  const CeldCutNode *a = &graph->node[graph->pixels.link[link].a], *b = &graph->node[graph->pixels.link[link].b];
   double             x = (a->seeded ? a->seed_x : a->x + a->size / 2) - (b->seeded ? b->seed_x : b->x + b->size / 2);
   double             y = (a->seeded ? a->seed_y : a->y + a->size / 2) - (b->seeded ? b->seed_y : b->y + b->size / 2);
 
@@ -192,7 +192,7 @@ celd_cut_graph_solve (CeldCutGraph *graph, int kept, const CeldHost *host)
       terminal[k] = source == 0 ? terminal[k] : -terminal[k];
     }
   if (status == CELD_OK)
-    status = celd_flow (graph->n, graph->link, graph->n_links, terminal, host, side, NULL);
+    status = celd_flow (graph->n, graph->pixels.link, graph->pixels.n_links, terminal, host, side, NULL);
   for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
     graph->node[k].side = graph->node[k].unreachable                ? CELD_OUTSIDE
                        : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
@@ -206,10 +206,8 @@ celd_cut_graph_clear (CeldCutGraph *graph)
 {
   celd_free (graph->size);
   celd_free (graph->active);
-  celd_free (graph->kind);
-  celd_free (graph->stack);
+  celd_free (graph->state);
   celd_free (graph->node);
-  celd_free (graph->link);
   celd_free (graph->uncertain);
-  celd_free (graph->recent);
+  celd_pixel_graph_clear (&graph->pixels);
 }

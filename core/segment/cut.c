@@ -33,20 +33,23 @@
 static CeldStatus
 graph_new (const CeldCut *cut, CeldCutGraph *graph)
 {
-  size_t n;
+  CeldRect   box = { cut->left, cut->top, cut->right - cut->left + 1, cut->bottom - cut->top + 1 };
+  size_t     n;
+  CeldStatus status;
 
   *graph = (CeldCutGraph) {
     .cut     = cut,
-    .columns = (cut->right - cut->left) / CELD_CUT_SQUARE + 1,
-    .rows    = (cut->bottom - cut->top) / CELD_CUT_SQUARE + 1,
-    .kind    = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->kind),
-    .stack   = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->stack),
-    .recent  = celd_alloc0 (CELD_RECENT_LINKS, sizeof *graph->recent),
+    .columns = (box.width - 1) / CELD_CUT_SQUARE + 1,
+    .rows    = (box.height - 1) / CELD_CUT_SQUARE + 1,
+    .state   = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->state),
   };
   n = (size_t) graph->columns * (size_t) graph->rows;
   graph->size = celd_alloc (n, 1);
   graph->active = celd_alloc (n, 1);
-  return graph->kind && graph->stack && graph->recent && graph->size && graph->active ? CELD_OK : CELD_NO_MEMORY;
+  status = celd_pixel_graph_new (cut->task, box, &graph->pixels);
+  for (size_t p = 0; p < (size_t) box.width * (size_t) box.height && status == CELD_OK; p++)
+    graph->pixels.part[p] = CELD_PART_FIXED;
+  return graph->state && graph->size && graph->active ? status : CELD_NO_MEMORY;
 }
 
 /* The distance of the interval between a and b from the one of a tile that starts at x. */
@@ -101,8 +104,8 @@ force_disc (CeldCutGraph *graph, const CeldSeedDisc *disc, int i)
     if (celd_seed_disc_row (disc, y, &x, &end))
       for (x = x < cut->left ? cut->left : x; x < end && x <= cut->right;)
         {
-          bool         inside = cut->mark[celd_cut_index (cut, x, y)] == CELD_INSIDE;
-          CeldCutNode *node = inside ? &graph->node[celd_cut_graph_node_at (graph, x, y)] : NULL;
+          uint32_t     k = *celd_pixel_graph_part (&graph->pixels, x, y);
+          CeldCutNode *node = k & CELD_PART_FIXED ? NULL : &graph->node[k];
 
           if (node)
             node->forced[i] = true;
@@ -138,20 +141,18 @@ add_seed_costs (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept
 static CeldStatus
 label_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
 {
-  const CeldCut *cut = graph->cut;
-  size_t         corner = celd_cut_index (cut, x, y);
-  bool           whole = cut->mark[corner] == CELD_INSIDE && graph->node[cut->node[corner]].whole;
-
   (void) size;
   for (int v = y; v < bottom; v++)
     {
-      uint8_t *mark = cut->mark + celd_cut_index (cut, 0, v);
+      uint8_t  *mark = graph->cut->mark + celd_cut_index (graph->cut, x, v);
+      uint32_t *part = celd_pixel_graph_part (&graph->pixels, x, v), *end = part + (right - x);
 
-      if (whole)
-        memset (mark + x, graph->node[cut->node[corner]].side, (size_t) (right - x));
-      else
-        for (int u = x; u < right; u++)
-          mark[u] = mark[u] == CELD_INSIDE ? graph->node[cut->node[celd_cut_index (cut, u, v)]].side : mark[u];
+      for (; part < end; part++, mark++)
+        if (!(*part & CELD_PART_FIXED))
+          {
+            *mark = graph->node[*part].side;
+            *part = CELD_PART_FIXED | *mark;
+          }
     }
   return CELD_OK;
 }
@@ -194,9 +195,9 @@ refine (CeldCutGraph *graph)
   memset (graph->active, 0, (size_t) graph->columns * (size_t) graph->rows);
   for (size_t k = 0; k < graph->n; k++)
     graph->node[k].cut = graph->node[k].size > 1 && is_misplaced (&graph->node[k]);
-  for (size_t i = 0; i < graph->n_links; i++)
+  for (size_t i = 0; i < graph->pixels.n_links; i++)
     {
-      CeldCutNode *a = &graph->node[graph->link[i].a], *b = &graph->node[graph->link[i].b];
+      CeldCutNode *a = &graph->node[graph->pixels.link[i].a], *b = &graph->node[graph->pixels.link[i].b];
 
       if (graph->uncertain[i] && a->side != b->side && (a->size > 1 || b->size > 1))
         a->cut = b->cut = true;
@@ -228,7 +229,7 @@ celd_cut_pixels (CeldCut *cut, const CeldHost *host, int *kept)
   if (status != CELD_OK)
     goto done;
   for (int i = 0; i < 2; i++)
-    graph.at_end[i] = celd_cut_graph_node_at (&graph, cut->end[i].x, cut->end[i].y);
+    graph.at_end[i] = *celd_pixel_graph_part (&graph.pixels, cut->end[i].x, cut->end[i].y);
   celd_cut_graph_visit_seeds (&graph, note_seeds, 0);
   status = celd_cut_graph_find_kept_end (&graph, kept);
   while (status == CELD_OK && *kept >= 0)
@@ -282,9 +283,9 @@ add_boundaries (CeldCutGraph *graph)
 
   for (size_t i = 0; i < basins->n_boundaries; i++)
     n += cut->at[basins->boundary[i].a] && cut->at[basins->boundary[i].b];
-  graph->link  = celd_alloc (n, sizeof *graph->link);
+  graph->pixels.link = celd_alloc (n, sizeof *graph->pixels.link);
   graph->uncertain = celd_alloc (n, sizeof *graph->uncertain);
-  if (!graph->link || !graph->uncertain)
+  if (!graph->pixels.link || !graph->uncertain)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < basins->n_boundaries; i++)
     {
@@ -294,8 +295,8 @@ add_boundaries (CeldCutGraph *graph)
 
       if (!a || !b)
         continue;
-      graph->uncertain[graph->n_links] = boundary->opening > 0;
-      graph->link[graph->n_links++] = (CeldLink) { a - 1, b - 1, boundary->cost + glue };
+      graph->uncertain[graph->pixels.n_links] = boundary->opening > 0;
+      graph->pixels.link[graph->pixels.n_links++] = (CeldLink) { a - 1, b - 1, boundary->cost + glue };
     }
   return CELD_OK;
 }

@@ -113,11 +113,22 @@ common_state (const Square *square, bool *uniform)
 }
 
 static CeldStatus
-add_node (CeldPixelGraph *graph, int x, int y, int size, bool whole, uint64_t state, uint32_t *part)
+add_node (CeldPixelGraph *graph, int x, int y, int size, bool whole, uint64_t state)
 {
-  *part = (uint32_t) graph->n;
   return celd_append (graph->node, graph->n, graph->node_capacity,
                       (CeldPixelNode) { x, y, size, whole, (uint32_t) (state & CELD_STATE_VALUE) });
+}
+
+CeldStatus
+celd_pixel_graph_add_whole (CeldPixelGraph *graph, int x, int y, int size, uint64_t state)
+{
+  uint32_t node = (uint32_t) graph->n;
+  int      right = celd_pixel_graph_right (graph, x, size);
+
+  for (int v = y; v < celd_pixel_graph_bottom (graph, y, size); v++)
+    for (uint32_t *part = celd_pixel_graph_part (graph, x, v), *end = part + (right - x); part < end; part++)
+      *part = node;
+  return add_node (graph, x, y, size, true, state);
 }
 
 CeldStatus
@@ -126,34 +137,33 @@ celd_pixel_graph_add_square (CeldPixelGraph *graph, int x, int y, int size, cons
 {
   Square     square = { state, stride, celd_pixel_graph_right (graph, x, size) - x,
                         celd_pixel_graph_bottom (graph, y, size) - y, cell };
-  bool       uniform, whole;
+  bool       uniform;
   uint64_t   common = common_state (&square, &uniform);
-  size_t     first = graph->n;
   CeldStatus status = CELD_OK;
 
-  whole = uniform && !(common & CELD_STATE_FIXED) && !(common >> CELD_STATE_SEED);
-  if (whole && size >> cell <= 1)
-    status = add_node (graph, x, y, size, true, common, celd_pixel_graph_part (graph, x, y));
-  else if (!(common & CELD_STATE_FIXED))
+  if (uniform && size >> cell <= 1 && !(common & CELD_STATE_FIXED) && !(common >> CELD_STATE_SEED))
+    return celd_pixel_graph_add_whole (graph, x, y, size, common);
+  if (!(common & CELD_STATE_FIXED))
     join_pixels (&square, graph->parent);
-  whole = graph->n > first;
   for (int v = 0, k = 0; v < square.h; v++)
     for (int u = 0; u < square.w && status == CELD_OK; u++, k++)
       {
-        uint64_t own = state[(size_t) v * stride + (size_t) u];
-        uint32_t seed = (uint32_t) (own >> CELD_STATE_SEED), root;
-        uint32_t *part = celd_pixel_graph_part (graph, x + u, y + v);
+        uint64_t  own = state[(size_t) v * stride + (size_t) u];
+        uint32_t *part = celd_pixel_graph_part (graph, x + u, y + v), root;
 
-        if (whole)
-          *part = (uint32_t) first;
-        else if (own & CELD_STATE_FIXED)
-          *part = CELD_PART_FIXED | (uint32_t) (own & CELD_STATE_VALUE);
-        else if ((root = celd_root (graph->parent, (uint32_t) k)) == (uint32_t) k)
-          status = add_node (graph, x, y, size, false, own, part);
+        if (own & CELD_STATE_FIXED)
+          {
+            *part = CELD_PART_FIXED | (uint32_t) (own & CELD_STATE_VALUE);
+            continue;
+          }
+        root  = celd_root (graph->parent, (uint32_t) k);
+        *part = (uint32_t) graph->n;
+        if (root == (uint32_t) k)
+          status = add_node (graph, x, y, size, false, own);
         else
           *part = *celd_pixel_graph_part (graph, x + (int) root % square.w, y + (int) root / square.w);
-        if (seed && !(own & CELD_STATE_FIXED) && status == CELD_OK)
-          status = add_data_cost (graph, *part, seed, graph->task->soft_cost);
+        if (own >> CELD_STATE_SEED && status == CELD_OK)
+          status = add_data_cost (graph, *part, (uint32_t) (own >> CELD_STATE_SEED), graph->task->soft_cost);
       }
   return status;
 }
@@ -188,11 +198,11 @@ edge_cost (const CeldPixelGraph *graph, uint32_t a, uint32_t b, int x, int y, bo
 }
 
 /* Adds the edge between (x,y) and the pixel below (south) or to the right: to a link, or to a data cost if one of them
- * is fixed. */
-static CeldStatus
-add_edge (CeldPixelGraph *graph, int x, int y, bool south)
+ * is fixed.  `part` is that of (x,y). */
+static inline CeldStatus
+add_edge (CeldPixelGraph *graph, const uint32_t *part, int x, int y, bool south)
 {
-  uint32_t  a = *celd_pixel_graph_part (graph, x, y), b = *celd_pixel_graph_part (graph, x + !south, y + south);
+  uint32_t  a = part[0], b = part[south ? graph->box.width : 1];
   uint32_t  least = a < b ? a : b, most = a < b ? b : a; /* a fixed part is larger than all nodes */
   CeldLink *last = graph->n_links ? &graph->link[graph->n_links - 1] : NULL;
   int32_t   cost;
@@ -217,22 +227,30 @@ link_square (CeldPixelGraph *graph, const CeldPixelNode *node)
 {
   int        left = node->x, right = celd_pixel_graph_right (graph, left, node->size);
   int        top = node->y, bottom = celd_pixel_graph_bottom (graph, top, node->size);
-  CeldRect   box = graph->box;
+  int        last_x = graph->box.x + graph->box.width - 1, last_y = graph->box.y + graph->box.height - 1;
   CeldStatus status = CELD_OK;
 
-  for (int y = top > box.y ? top - 1 : top; y < bottom; y++)
-    for (int x = left > box.x ? left - 1 : left; x < right && status == CELD_OK; x++)
-      {
-        bool fixed = *celd_pixel_graph_part (graph, x, y) & CELD_PART_FIXED;
+  for (int y = top > graph->box.y ? top - 1 : top; y < bottom; y++)
+    {
+      const uint32_t *part = celd_pixel_graph_part (graph, left, y);
 
-        if (node->whole && x == left && y >= top && y + 1 < bottom)
-          x = right - 1; /* no edges inside */
-        if (y >= top && x + 1 < box.x + box.width && (x < left ? fixed : x + 1 < right || !fixed))
-          status = add_edge (graph, x, y, false);
-        if (x >= left && y + 1 < box.y + box.height && (y < top ? fixed : y + 1 < bottom || !fixed)
-            && status == CELD_OK)
-          status = add_edge (graph, x, y, true);
-      }
+      if (left > graph->box.x && y >= top && part[-1] & CELD_PART_FIXED)
+        status = add_edge (graph, part - 1, left - 1, y, false);
+      for (int x = left; x < right && status == CELD_OK; x++, part++)
+        {
+          bool fixed = *part & CELD_PART_FIXED;
+
+          if (node->whole && x == left && y >= top && y + 1 < bottom)
+            {
+              part += right - 1 - x; /* no edges inside */
+              x = right - 1;
+            }
+          if (y >= top && x < last_x && (x + 1 < right || !fixed))
+            status = add_edge (graph, part, x, y, false);
+          if (y < last_y && (y < top ? fixed : y + 1 < bottom || !fixed) && status == CELD_OK)
+            status = add_edge (graph, part, x, y, true);
+        }
+    }
   return status;
 }
 

@@ -67,6 +67,9 @@ void celd_pixel_graph_empty (CeldPixelGraph *graph);
 CeldStatus celd_pixel_graph_add_square (CeldPixelGraph *graph, int x, int y, int size, const uint64_t *state,
                                         size_t stride, int cell);
 
+/* Adds a square that is one node, for pixels of this state. */
+CeldStatus celd_pixel_graph_add_whole (CeldPixelGraph *graph, int x, int y, int size, uint64_t state);
+
 /* Fills in the links between nodes, and the data costs for fixed neighbours. */
 CeldStatus celd_pixel_graph_connect (CeldPixelGraph *graph);
 

@@ -31,7 +31,6 @@ typedef struct
   uint32_t         *basin, *at; /* the current region, as in CeldCut */
   uint8_t          *side;       /* of its basins, after a cut between basins */
   uint8_t          *mark;       /* of each pixel, for celd_cut_pixels; CELD_OUTSIDE between two cuts */
-  uint32_t         *node;
 } Split;
 
 static uint32_t
@@ -71,9 +70,8 @@ split_new (Split *split)
   split->at     = celd_alloc0 (basins->n, sizeof *split->at);
   split->side   = celd_alloc (basins->n, 1);
   split->mark   = celd_alloc0 (n_pixels, 1);
-  split->node   = celd_alloc (n_pixels, sizeof *split->node);
-  return split->first && split->boundary && split->box && split->basin && split->at && split->side && split->mark &&
-         split->node ? celd_seed_rows_copy (&split->task->seeds, &split->painted) : CELD_NO_MEMORY;
+  return split->first && split->boundary && split->box && split->basin && split->at && split->side && split->mark
+         ? celd_seed_rows_copy (&split->task->seeds, &split->painted) : CELD_NO_MEMORY;
 }
 
 static void
@@ -88,7 +86,6 @@ split_clear (Split *split)
   celd_free (split->at);
   celd_free (split->side);
   celd_free (split->mark);
-  celd_free (split->node);
 }
 
 static void
@@ -379,7 +376,6 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
   cut.basin = split->basin;
   cut.at    = split->at;
   cut.mark  = split->mark;
-  cut.node  = split->node;
   return split_region (split, &cut, i, host);
 }
 

@@ -6,8 +6,8 @@
 #ifndef CELD_SPLITS_H
 #define CELD_SPLITS_H
 
+#include "segment/pixel-graph.h"
 #include "segment/task.h"
-#include "solve/partition.h"
 
 /* An end of a relation on the drawing: the paper nearest to its point, if there is any near. */
 typedef struct { bool there; int x, y; } CeldRelationEnd;
@@ -53,7 +53,6 @@ typedef struct
   uint32_t              *at;                       /* of basin k: its index in `basin` plus one, or 0 */
   bool                   any;                      /* its basins need not be connected */
   uint8_t               *mark;                     /* tight plane of the picture's size */
-  uint32_t              *node;                     /* workspace of the picture's size */
 } CeldCut;
 
 /* Cuts the region between its ends, down to single pixels, and sets the marks.  *kept is the end, 0 or 1, with the
@@ -67,8 +66,8 @@ CeldStatus celd_cut_basins (const CeldCut *cut, const CeldHost *host, uint8_t *s
 
 /* ------------------------------------------------------------------ the graph that a region is cut on */
 
-#define CELD_CUT_SQUARE   64   /* pixels: the largest squares, and the side of tiles; a power of two */
-#define CELD_RECENT_LINKS 4096 /* entries of the cache of links by pair; a power of two */
+#define CELD_CUT_SQUARE CELD_LARGEST_SQUARE /* side of tiles */
+#define CELD_CUT_PAPER  (UINT32_C (1) << 28)  /* flag of the value of a node of paper; the rest is its basin */
 
 /* A node: connected pixels of a square, either paper or ink of one basin; or the whole square, if it is nothing but
  * paper. */
@@ -94,15 +93,12 @@ typedef struct
   int            columns, rows; /* of tiles, in the region's box */
   uint8_t       *size;          /* side of the squares in each tile: a power of two */
   bool          *active;        /* does the tile have pixels to be cut? */
-  uint32_t      *kind;          /* workspace for one square: basin, and paper or ink */
-  uint16_t      *stack;
+  uint64_t      *state;         /* workspace: of the pixels of a square */
+  CeldPixelGraph pixels;        /* of a cut between basins, only its links are set */
   CeldCutNode   *node;
   size_t         n;
-  CeldLink      *link;          /* a pair of nodes may occur more than once */
   bool          *uncertain;     /* of each link: is the exact place of a cut through it open? */
-  size_t         n_links;
-  uint32_t      *recent;        /* cache of links by pair */
-  size_t         node_capacity, link_capacity, uncertain_capacity;
+  size_t         node_capacity, uncertain_capacity;
 } CeldCutGraph;
 
 /* The index of pixel (x,y) in a tight plane. */
@@ -121,9 +117,6 @@ CeldStatus celd_cut_graph_build (CeldCutGraph *graph);
 /* Calls `visit` for each square of the active tiles: its first pixel, its end in x and y (exclusive), and its size. */
 typedef CeldStatus (*CeldSquareVisit) (CeldCutGraph *graph, int x, int y, int right, int bottom, int size);
 CeldStatus celd_cut_graph_visit_squares (CeldCutGraph *graph, CeldSquareVisit visit);
-
-/* The node of a pixel inside.  A whole square stores it at its first pixel only. */
-uint32_t celd_cut_graph_node_at (const CeldCutGraph *graph, int x, int y);
 
 /* The x up to which row pixels from x on belong to this node for certain, at most `end`. */
 static inline int

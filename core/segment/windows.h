@@ -38,8 +38,8 @@ typedef struct
 } CeldPresentLabels;
 
 /* The graph of a window in square blocks of side 1 << shift; shift 0: of pixels.  The values of its nodes are their
- * present labels.  The
- * window's outermost pixels are fixed, except along the frame of the picture.  Clear it also after a failure. */
+ * present labels.  The window's outermost pixels are fixed, except along the frame of the picture.  Clear it also after
+ * a failure. */
 CeldStatus celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box, int shift,
                                   CeldPixelGraph *graph);
 

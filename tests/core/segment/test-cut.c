@@ -17,7 +17,7 @@ typedef struct
   CeldSettings    settings;
   CeldBasins      basins;
   CeldSegmentTask task;
-  uint32_t        basin[PIXELS], at[PIXELS], node[PIXELS];
+  uint32_t        basin[PIXELS], at[PIXELS];
   uint8_t         mark[PIXELS];
   CeldCut         cut;
 } Page;
@@ -41,7 +41,7 @@ page_open (Page *page, CeldPlane ink, int x, int y, int u, int v)
   page->cut = (CeldCut) {
     .task = &page->task, .label = 1, .right = ink.width - 1, .bottom = ink.height - 1,
     .end = { { true, x, y }, { true, u, v } }, .basin = page->basin, .n = page->basins.n, .at = page->at,
-    .mark = page->mark, .node = page->node,
+    .mark = page->mark,
   };
   reach = CELD_DISC_RANGE * celd_relation_end_distance (page->cut.end[0], page->cut.end[1]);
   for (int i = 0; i < 2; i++)
