@@ -1,26 +1,34 @@
-/* Arrowheads: where is the tail of a stroke, and where its tip?
+/* Arrowheads: which end of a stroke is the tail, and which the tip?
  *
  * A stroke is followed from each of its extremities.  One of them is the tail if the stroke keeps the width w of its
- * shaft up to a part that reaches out on both sides, with lines from its tip back to both barbs and nothing beside
- * them.  Nothing is asked about what lies between the lines, so open and filled heads are the same; antialiasing,
- * unsteady hands and bent shafts are allowed for.  If two extremities look like tails of different arrows, or none
- * does, there is no answer.  A dot at the end of a shaft is found in the same way: a filled disc instead of the lines.
+ * shaft up to a head: a part that is wider on both sides, with lines from its tip back to both barbs and no paint
+ * beside them.  What is between the lines does not matter, so that open and filled heads are found alike.  The
+ * tolerances allow for antialiasing, unsteady hands and curved shafts.  If two extremities look like tails of different
+ * arrows, or none does, the stroke has no clear arrowhead.  A dot at the end of a shaft is found in the same way, with
+ * a filled disc in place of the lines.
+ *
+ * Ratios without a unit were chosen so that painted and random arrows are read and other strokes are not.
+ *
+ * Cost: four passes over the pixels of a stroke, and some twenty for each of its ends.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-
 #include "input/input.h"
+
 #include <math.h>
 
-#define EXTREMITIES  4   /* tail, tip and two barbs */
-#define LEAST_COSINE 0.7 /* of the angle between the shaft's end and the head's axis */
-#define EVEN_WIDTH 2.2 /* largest ratio of widths along a shaft: pens start thin */
-#define THICK_START  1.4 /* largest ratio of the width near the tail to that in the middle: more is another head */
-#define SHORTEST_SHAFT 6 /* pixels */
-#define TURNS        3   /* of the axis towards the tip */
+#define EXTREMITIES    4   /* tail, tip and two barbs */
+#define LEAST_COSINE   0.7 /* of the angle between the shaft's end and the head's axis; chosen */
+#define EVEN_WIDTH     2.2 /* largest ratio of widths along a shaft, because pens start thin; chosen */
+#define THICK_START    1.4 /* largest ratio of the width near the tail to that in the middle: more is a head; chosen */
+#define SHORTEST_SHAFT 6   /* pixels; chosen */
+#define AXIS_ROUNDS    3   /* iterations in which the axis is turned towards the tip; chosen */
 
-/* Part of a stroke seen along an axis: s forwards, v sideways, from an origin. */
-typedef struct { CeldPoint origin, axis; double from; } View; /* pixels at this distance and beyond */
+/* The pixels of a stroke at a distance of `from` or more, in coordinates along an axis: s forwards, v sideways (left of
+ * the axis is positive). */
+typedef struct { CeldPoint origin, axis; double from; } View;
+
+/* The extent of pixels in a view: range of s; largest and least v, and s of the pixels that have them; their number. */
 typedef struct { double least_s, most_s, left, right, left_s, right_s; size_t n; } Extent;
 
 static CeldPoint
@@ -43,16 +51,16 @@ sideways (const View *view, CeldPoint p)
   return (p.y - view->origin.y) * view->axis.x - (p.x - view->origin.x) * view->axis.y;
 }
 
-/* The place s forwards and v sideways. */
+/* The point s forwards and v sideways. */
 static CeldPoint
-place (const View *view, double s, double v)
+view_point (const View *view, double s, double v)
 {
   CeldPoint o = view->origin, a = view->axis;
 
   return (CeldPoint) { o.x + s * a.x - v * a.y, o.y + s * a.y + v * a.x };
 }
 
-/* How far the view reaches between two values of s.  `right` is negative sideways. */
+/* The extent between two values of s. */
 static Extent
 extent_between (const CeldArrowStroke *stroke, const View *view, double from, double to)
 {
@@ -90,7 +98,7 @@ breadth_at (const CeldArrowStroke *stroke, const View *view, double s)
   return e.n ? e.left - e.right + 1 : 0;
 }
 
-/* The middle of the foremost pixels. */
+/* The centroid of the pixels within half a pixel of most_s. */
 static CeldPoint
 foremost (const CeldArrowStroke *stroke, const View *view, double most_s)
 {
@@ -110,8 +118,8 @@ foremost (const CeldArrowStroke *stroke, const View *view, double most_s)
   return (CeldPoint) { sum.x / n, sum.y / n };
 }
 
-/* Width of the last piece before a distance, four widths long.  Pens start thin: where the shaft has just begun, its
- * whole first half says more. */
+/* Width of the last part before a distance, four widths long; at least 3/4 of w, and 9/10 in the first half of the
+ * stroke, because pens start thin. */
 static double
 width_before (const CeldArrowStroke *stroke, double w, double distance)
 {
@@ -120,53 +128,54 @@ width_before (const CeldArrowStroke *stroke, double w, double distance)
   return fmax (least * w, celd_stroke_mean_width (stroke, fmax (0, distance - 4 * w), distance));
 }
 
-/* The distance at which the stroke gets wider than just before and stays so; its length if it does not. */
+/* The distance at which the stroke gets wider than just before, and stays wider; its length if it does not. */
 static double
 shaft_end (const CeldArrowStroke *stroke, double w)
 {
-  double length = celd_stroke_length (stroke), run = fmax (w, 4), d = w;
+  double length = celd_stroke_length (stroke), ahead = fmax (w, 4), d = w;
 
-  for (; d + run < length; d += 0.5)
+  for (; d + ahead < length; d += 0.5)
     {
       double wide = 1.3 * width_before (stroke, w, d) + 0.8;
 
-      if (celd_stroke_mean_width (stroke, d, d + run) > wide && celd_stroke_mean_width (stroke, d, d + 0.5 * run) > wide)
+      if (celd_stroke_mean_width (stroke, d, d + ahead) > wide &&
+          celd_stroke_mean_width (stroke, d, d + 0.5 * ahead) > wide)
         return d;
     }
   return length;
 }
 
-/* Is the stroke about equally wide all the way to the end of its shaft, without another head at its start? */
+/* Does the shaft have about the same width everywhere, and no head at its start? */
 static bool
 is_even (const CeldArrowStroke *stroke, double w, double end)
 {
   double a = celd_stroke_mean_width (stroke, 0, end / 3), b = celd_stroke_mean_width (stroke, end / 3, 2 * end / 3);
-  double c = celd_stroke_mean_width (stroke, 2 * end / 3, end), run = fmax (w, 4);
+  double c = celd_stroke_mean_width (stroke, 2 * end / 3, end), part = fmax (w, 4);
 
-  for (double d = 0; d < fmin (end - run, 8 * w); d += 0.5)
-    if (celd_stroke_mean_width (stroke, d, d + run) > THICK_START * b + 0.8)
+  for (double d = 0; d < fmin (end - part, 8 * w); d += 0.5)
+    if (celd_stroke_mean_width (stroke, d, d + part) > THICK_START * b + 0.8)
       return false;
   return fmax (a, fmax (b, c)) < EVEN_WIDTH * fmin (a, fmin (b, c));
 }
 
-/* Does the part beyond the shaft reach out on both sides, and does the shaft run in between the barbs? */
+/* Is the part beyond the shaft wider than it on both sides, and does the shaft enter it between the barbs? */
 static bool
-reaches_out (const View *view, const Extent *e, double w, const View *shaft)
+is_wider (const View *view, const Extent *e, double w, const View *shaft)
 {
-  double least  = 0.5 * w + fmax (0.25 * w, 0.75);
-  double cosine = shaft->axis.x * view->axis.x + shaft->axis.y * view->axis.y, way;
+  double    least = 0.5 * w + fmax (0.25 * w, 0.75);
+  double    cosine = shaft->axis.x * view->axis.x + shaft->axis.y * view->axis.y, along;
   CeldPoint entry;
 
   if (cosine < LEAST_COSINE || e->left < least || -e->right < least)
     return false;
-  way   = (0.5 * (e->left_s + e->right_s) - forwards (view, shaft->origin)) / cosine;
-  entry = place (shaft, way, 0);
+  along = (0.5 * (e->left_s + e->right_s) - forwards (view, shaft->origin)) / cosine;
+  entry = view_point (shaft, along, 0);
   return fabs (sideways (view, entry)) < 0.35 * (e->left - e->right) + 0.25 * w;
 }
 
-/* Does it fall back from its tip on both sides, alike, and end there? */
+/* Are both barbs behind the tip, at similar distances, and does the head end there? */
 static bool
-falls_back (const Extent *e, double w)
+barbs_are_behind (const Extent *e, double w)
 {
   double left = e->most_s - e->left_s, right = e->most_s - e->right_s;
 
@@ -174,7 +183,7 @@ falls_back (const Extent *e, double w)
          e->most_s - e->least_s < 1.2 * fmax (left, right) + w + 2;
 }
 
-/* Is the straight way painted, all but a fifth of it? */
+/* Are at least four fifths of the straight line painted? */
 static bool
 is_line (const CeldArrowStroke *stroke, CeldPoint from, CeldPoint to)
 {
@@ -186,22 +195,22 @@ is_line (const CeldArrowStroke *stroke, CeldPoint from, CeldPoint to)
   return 5 * painted >= 4 * (n + 1);
 }
 
-/* Do the two lines of a head lead from its tip to its barbs, is it narrow near the tip and wider and wider behind, and
- * is nothing outside of the triangle?  That holds for open and for filled heads. */
+/* Are there lines from the tip to both barbs, does the breadth increase from the tip backwards, and is less than a
+ * twentieth of the pixels outside of the triangle?  That holds for open and for filled heads. */
 static bool
 is_arrowhead (const CeldArrowStroke *stroke, const View *view, const Extent *e, double w)
 {
-  double    breadth = e->left - e->right + 1, depth = e->most_s - 0.5 * (e->left_s + e->right_s);
-  double    tip = e->most_s - fmin (0.6 * w, 0.3 * depth), slope = 0.5 * breadth / depth;
-  CeldPoint foremost = place (view, tip, 0);
+  double    breadth = e->left - e->right + 1, length = e->most_s - 0.5 * (e->left_s + e->right_s);
+  double    s = e->most_s - fmin (0.6 * w, 0.3 * length), slope = 0.5 * breadth / length;
+  CeldPoint tip = view_point (view, s, 0);
   size_t    outside = 0;
 
-  if (breadth_at (stroke, view, e->most_s - 0.25 * depth) > 0.68 * breadth ||
-      breadth_at (stroke, view, e->most_s - 0.5 * depth) > 0.82 * breadth ||
-      breadth_at (stroke, view, e->most_s - 0.5 * depth) < 0.35 * breadth)
+  if (breadth_at (stroke, view, e->most_s - 0.25 * length) > 0.68 * breadth ||
+      breadth_at (stroke, view, e->most_s - 0.5 * length) > 0.82 * breadth ||
+      breadth_at (stroke, view, e->most_s - 0.5 * length) < 0.35 * breadth)
     return false;
-  if (!is_line (stroke, foremost, place (view, e->left_s, e->left - 0.4 * w)) ||
-      !is_line (stroke, foremost, place (view, e->right_s, e->right + 0.4 * w)))
+  if (!is_line (stroke, tip, view_point (view, e->left_s, e->left - 0.4 * w)) ||
+      !is_line (stroke, tip, view_point (view, e->right_s, e->right + 0.4 * w)))
     return false;
   for (size_t i = 0; i < stroke->n; i++)
     {
@@ -213,31 +222,31 @@ is_arrowhead (const CeldArrowStroke *stroke, const View *view, const Extent *e, 
   return 20 * outside < e->n;
 }
 
-/* Is it a filled disc?  It fills more of its box than a triangle does, or else it is at least broadest in the
- * middle. */
+/* Is it a filled disc, about as long as broad?  It fills more of its box than a triangle does, or somewhat more and is
+ * broadest near the middle. */
 static bool
 is_dot (const Extent *e)
 {
-  double breadth = e->left - e->right + 1, depth = e->most_s - e->least_s + 1;
-  double filled = (double) e->n / (breadth * depth);
+  double breadth = e->left - e->right + 1, length = e->most_s - e->least_s + 1;
+  double filled = (double) e->n / (breadth * length);
   double middle = (0.5 * (e->left_s + e->right_s) - e->least_s) / fmax (1, e->most_s - e->least_s);
 
-  return depth > 0.6 * breadth && depth < 1.6 * breadth &&
+  return length > 0.6 * breadth && length < 1.6 * breadth &&
          (filled > 0.65 || (filled > 0.56 && middle > 0.35 && middle < 0.75));
 }
 
-/* Turns the axis until it runs from between the barbs to the tip: the shaft may be bent, so that the first look is
- * askew.  The answer is what the view shows then. */
+/* Turns the axis until it runs from between the barbs to the tip, since the shaft may be curved.  Returns the extent in
+ * that view. */
 static Extent
 turn_to_tip (const CeldArrowStroke *stroke, View *view)
 {
   Extent e = extent_between (stroke, view, -INFINITY, INFINITY);
 
-  for (int i = 0; i < TURNS && e.left > 0 && e.right < 0; i++)
+  for (int i = 0; i < AXIS_ROUNDS && e.left > 0 && e.right < 0; i++)
     {
       CeldPoint tip = foremost (stroke, view, e.most_s);
 
-      view->origin = place (view, 0.5 * (e.left_s + e.right_s), 0.5 * (e.left + e.right));
+      view->origin = view_point (view, 0.5 * (e.left_s + e.right_s), 0.5 * (e.left + e.right));
       view->axis   = direction (view->origin, tip);
       e = extent_between (stroke, view, -INFINITY, INFINITY);
     }
@@ -264,9 +273,9 @@ nearest_pixel (const CeldArrowStroke *stroke, CeldPoint p)
   return nearest;
 }
 
-/* The part beyond the shaft of width w, which ends at a distance: looked at along the shaft's last piece. */
+/* A view of the part beyond a shaft of width w that ends at a distance, along the direction of the shaft there. */
 static View
-look_ahead (const CeldArrowStroke *stroke, double w, double end)
+view_beyond (const CeldArrowStroke *stroke, double w, double end)
 {
   double    back = fmin (fmax (2 * w, 6), 0.6 * end);
   CeldPoint last = celd_stroke_centroid (stroke, end - 0.4 * back, end - 0.15 * back);
@@ -274,7 +283,8 @@ look_ahead (const CeldArrowStroke *stroke, double w, double end)
   return (View) { last, direction (celd_stroke_centroid (stroke, end - back, end - 0.75 * back), last), end };
 }
 
-/* If the stroke followed from `tail` ends in a head, or a dot: its tail and its tip, or the dot's centre. */
+/* Follows the stroke from `tail`.  If it ends in a head, or with `dot` in a dot: its tail, and its tip or the dot's
+ * centre. */
 static bool
 read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds *ends)
 {
@@ -292,16 +302,16 @@ read_from_tail (CeldArrowStroke *stroke, uint32_t tail, bool dot, CeldArrowEnds 
   if (end >= length || end < 1.5 * w || !is_even (stroke, w, end))
     return false;
   w     = width_before (stroke, w, end);
-  view  = look_ahead (stroke, w, end);
+  view  = view_beyond (stroke, w, end);
   shaft = view;
   e     = turn_to_tip (stroke, &view);
-  if (!reaches_out (&view, &e, w, &shaft) || is_dot (&e) != dot ||
-      (!dot && (!falls_back (&e, w) || !is_arrowhead (stroke, &view, &e, w))))
+  if (!is_wider (&view, &e, w, &shaft) || is_dot (&e) != dot ||
+      (!dot && (!barbs_are_behind (&e, w) || !is_arrowhead (stroke, &view, &e, w))))
     return false;
   tip   = foremost (stroke, &view, e.most_s);
   *ends = (CeldArrowEnds) { celd_stroke_centroid (stroke, 0, fmax (1, w)), dot ? view.origin : tip };
 
-  /* What is farthest from the tip is the tail, or else it was some place in the middle of the shaft. */
+  /* The tail must be farthest from the tip; else the stroke was followed from the middle of the shaft. */
   tail = nearest_pixel (stroke, tip);
   last = celd_stroke_point (stroke, celd_stroke_follow (stroke, &tail, 1));
   return hypot (last.x - ends->tail.x, last.y - ends->tail.y) < w + 2;

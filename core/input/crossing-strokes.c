@@ -1,7 +1,9 @@
-/* A connected component of paint taken apart into the strokes that cross in it.
+/* Separates a connected component of paint into the strokes that cross in it.
  *
- * The disc of each crossing is cut out, which leaves separate pieces.  Pieces on opposite sides of a crossing are one
- * stroke, together with the straight band between them; so the paint of a crossing belongs to both strokes.
+ * Without the discs around its crossings the component falls into pieces.  Pieces on opposite sides of a crossing are
+ * one stroke, together with the straight band between them, so that the paint of a crossing belongs to both strokes.
+ *
+ * Cost: a distance transform of the component's box, and a pass over it for each stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -109,10 +111,10 @@ find_pieces (Pieces *p)
     {
       const CeldStrokeCrossing *crossing = &p->crossing[i];
       CeldPoint                 o = crossing->centre;
-      double                    far = crossing->radius;
+      double                    radius = crossing->radius;
 
-      for (int y = (int) fmax (0, o.y - far - 1); y < c->height && y <= o.y + far; y++)
-        for (int x = (int) fmax (0, o.x - far - 1); x < c->width && x <= o.x + far; x++)
+      for (int y = (int) fmax (0, o.y - radius - 1); y < c->height && y <= o.y + radius; y++)
+        for (int x = (int) fmax (0, o.x - radius - 1); x < c->width && x <= o.x + radius; x++)
           if (in_disc (crossing, (CeldPoint) { x + 0.5, y + 0.5 }))
             CELD_AT (&p->pieces, x, y) = 0;
     }
@@ -124,7 +126,7 @@ find_pieces (Pieces *p)
   return status;
 }
 
-/* The piece just beyond an arm; 0 if there is none. */
+/* The piece beyond an arm, within half a radius of the circle; 0 if there is none. */
 static uint32_t
 piece_at (const Pieces *p, const CeldStrokeCrossing *x, int arm)
 {
@@ -139,7 +141,7 @@ piece_at (const Pieces *p, const CeldStrokeCrossing *x, int arm)
   return 0;
 }
 
-/* Joins the pieces that cross over each other. */
+/* Joins pieces that are opposite each other at a crossing. */
 static void
 join_pieces (Pieces *p)
 {
@@ -163,7 +165,7 @@ in_band (const CeldStrokeCrossing *x, int arm, CeldPoint p)
   return fabs ((p.x - a.x) * (b.y - a.y) - (p.y - a.y) * (b.x - a.x)) <= half * length;
 }
 
-/* Is a place in a crossing of the stroke whose pieces have this root? */
+/* Is a point in a crossing, on the band of the stroke whose pieces have this root? */
 static bool
 crosses_at (Pieces *p, uint32_t root, CeldPoint place)
 {
@@ -188,7 +190,7 @@ add_stroke (Pieces *p, uint32_t root, CeldCrossingStrokes *to)
   for (int y = 0; y < c->height; y++)
     for (int x = 0; x < c->width; x++)
       {
-        uint32_t  piece = CELD_AT (&p->pieces, x, y);
+        uint32_t piece = CELD_AT (&p->pieces, x, y);
 
         if (piece ? celd_root (p->parent, piece - 1) != root
                   : !c->painted[(size_t) y * (size_t) c->width + (size_t) x] ||

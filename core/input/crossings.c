@@ -1,9 +1,12 @@
 /* Where painted strokes cross.
  *
- * On a circle round a crossing lie four arms, two and two opposite each other, with paint from the centre to each and
- * on beyond it.  That tells a crossing from a head, whose barbs all point one way, and whose corners end.  Circles of
- * several sizes are tried round the pixels that are farthest from the edges of the paint: strokes that cross at a small
- * angle part late.  The straightest one of those that overlap is the crossing.
+ * A circle around a crossing meets four arms, which are opposite each other in pairs, and paint joins each arm to the
+ * centre and continues beyond the circle.  That distinguishes a crossing from an arrowhead, whose barbs point in one
+ * direction and end.  Circles of several sizes are tried around pixels that are farther from the edge of the paint than
+ * their neighbours; strokes that cross at a small angle need large ones.  Of candidates that overlap the one with the
+ * straightest strokes is the crossing.
+ *
+ * Cost: some hundred samples for each pixel on the middle of a stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,14 +15,14 @@
 
 #include <math.h>
 
-#define ARMS        4
-#define SAMPLES     256  /* on a circle, at most */
-#define MOST_BEND   0.6  /* radians that a stroke may turn at a crossing */
-#define MOST_RATIO  2.2  /* of the breadths of its arms */
-#define BEYOND      1.5  /* arms reach on to so many radii */
+#define ARMS          4
+#define SAMPLES       256  /* on a circle, at most; chosen */
+#define MOST_TURN     0.6  /* radians that a stroke may turn at a crossing; chosen */
+#define BREADTH_RATIO 2.2  /* of the two arms of a stroke, at most; chosen */
+#define BEYOND        1.5  /* radii from the centre up to which an arm must continue; chosen */
 
-/* A possible crossing, and how far its strokes are from straight. */
-typedef struct { CeldStrokeCrossing crossing; double bend; } CrossingCandidate;
+/* A possible crossing, and the larger angle by which one of its strokes turns, in radians. */
+typedef struct { CeldStrokeCrossing crossing; double turn; } CrossingCandidate;
 
 /* Points of the circle of radius 1. */
 typedef struct { double x[SAMPLES], y[SAMPLES]; } Circle;
@@ -30,8 +33,9 @@ is_painted (const CeldStrokeMask *c, double x, double y)
   return x >= 0 && y >= 0 && x < c->width && y < c->height && c->painted[(size_t) y * (size_t) c->width + (size_t) x];
 }
 
+/* Is the straight line from `start` to `end` pixels away from a point painted? */
 static bool
-is_way (const CeldStrokeMask *c, CeldPoint from, double angle, double start, double end)
+is_painted_line (const CeldStrokeMask *c, CeldPoint from, double angle, double start, double end)
 {
   for (double s = start; s <= end; s += 0.5)
     if (!is_painted (c, from.x + s * cos (angle), from.y + s * sin (angle)))
@@ -39,15 +43,15 @@ is_way (const CeldStrokeMask *c, CeldPoint from, double angle, double start, dou
   return true;
 }
 
-/* Does the arm go on beyond the circle, about straight? */
+/* Does the arm continue beyond the circle, turning by at most 0.4 radians? */
 static bool
-goes_on (const CeldStrokeMask *c, CeldPoint centre, double angle, double radius)
+continues (const CeldStrokeMask *c, CeldPoint centre, double angle, double radius)
 {
   double    turn[] = { 0, 0.2, -0.2, 0.4, -0.4 };
   CeldPoint arm = { centre.x + radius * cos (angle), centre.y + radius * sin (angle) };
 
   for (size_t i = 0; i < sizeof turn / sizeof *turn; i++)
-    if (is_way (c, arm, angle + turn[i], 0, (BEYOND - 1) * radius + 1))
+    if (is_painted_line (c, arm, angle + turn[i], 0, (BEYOND - 1) * radius + 1))
       return true;
   return false;
 }
@@ -82,53 +86,54 @@ find_arcs (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, doub
   return arcs == ARMS;
 }
 
-/* How far two arms are from opposite each other. */
+/* The angle by which a stroke with these two arms turns. */
 static double
-bend_between (double a, double b)
+turn_between (double a, double b)
 {
   return fabs (CELD_PI - fmod (fabs (b - a), 2 * CELD_PI));
 }
 
-/* Is there a crossing of strokes on a circle? */
+/* Does the circle show a crossing? */
 static bool
-look_round (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, CrossingCandidate *found)
+try_circle (const CeldStrokeMask *c, const Circle *circle, CeldPoint centre, double radius, CrossingCandidate *found)
 {
-  double        middle[ARMS], wide[ARMS];
+  double              middle[ARMS], wide[ARMS];
   CeldStrokeCrossing *x = &found->crossing;
 
   if (!find_arcs (c, circle, centre, radius, middle, wide))
     return false;
-  found->bend = fmax (bend_between (middle[0], middle[2]), bend_between (middle[1], middle[3]));
-  if (found->bend > MOST_BEND)
+  found->turn = fmax (turn_between (middle[0], middle[2]), turn_between (middle[1], middle[3]));
+  if (found->turn > MOST_TURN)
     return false;
   *x = (CeldStrokeCrossing) { .centre = centre, .radius = radius };
   for (int i = 0; i < ARMS; i++)
     {
       x->arm[i]     = (CeldPoint) { centre.x + radius * cos (middle[i]), centre.y + radius * sin (middle[i]) };
       x->breadth[i] = 2 * radius * sin (fmin (CELD_PI, wide[i]) / 2);
-      if (!is_way (c, centre, middle[i], 0, radius) || !goes_on (c, centre, middle[i], radius))
+      if (!is_painted_line (c, centre, middle[i], 0, radius) || !continues (c, centre, middle[i], radius))
         return false;
     }
   for (int i = 0; i < 2; i++)
-    if (fmax (x->breadth[i], x->breadth[i + 2]) > MOST_RATIO * fmin (x->breadth[i], x->breadth[i + 2]) + 1)
+    if (fmax (x->breadth[i], x->breadth[i + 2]) > BREADTH_RATIO * fmin (x->breadth[i], x->breadth[i + 2]) + 1)
       return false;
   return true;
 }
 
-/* Is a pixel about as far from the edge as any beside it? */
+/* Are at most two of the eight neighbours farther from the edge of the paint? */
 static bool
-is_inmost (const CeldStrokeMask *c, size_t p)
+is_medial (const CeldStrokeMask *c, size_t p)
 {
   size_t w = (size_t) c->width, beside[] = { p - w - 1, p - w, p - w + 1, p - 1, p + 1, p + w - 1, p + w, p + w + 1 };
-  int    deeper = 0;
+  int    farther = 0;
 
   for (int i = 0; i < 8; i++)
-    deeper += c->squared[beside[i]] > c->squared[p];
-  return deeper <= 2;
+    farther += c->squared[beside[i]] > c->squared[p];
+  return farther <= 2;
 }
 
+/* Appends a candidate for each pixel around which a circle shows a crossing: the straightest. */
 static CeldStatus
-gather (const CeldStrokeMask *c, CrossingCandidate **list, size_t *n)
+find_candidates (const CeldStrokeMask *c, CrossingCandidate **list, size_t *n)
 {
   static const double radii[] = { 1.6, 2, 2.5, 3.2, 4 }; /* of the largest circle inside the paint */
   Circle              circle;
@@ -143,33 +148,30 @@ gather (const CeldStrokeMask *c, CrossingCandidate **list, size_t *n)
   for (int y = 1; y + 1 < c->height; y++)
     for (int x = 1; x + 1 < c->width; x++)
       {
-        size_t    p = (size_t) y * (size_t) c->width + (size_t) x;
-        CrossingCandidate best = { .bend = INFINITY }, one;
+        size_t            p = (size_t) y * (size_t) c->width + (size_t) x;
+        CrossingCandidate best = { .turn = INFINITY }, one;
 
-        if (!c->painted[p] || !is_inmost (c, p))
+        if (!c->painted[p] || !is_medial (c, p))
           continue;
         for (size_t i = 0; i < sizeof radii / sizeof *radii; i++)
-          if (look_round (c, &circle, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
-              one.bend < best.bend)
+          if (try_circle (c, &circle, (CeldPoint) { x + 0.5, y + 0.5 }, radii[i] * sqrt (c->squared[p]) + 1, &one) &&
+              one.turn < best.turn)
             best = one;
-        if (best.bend < INFINITY)
-          {
-            if (celd_append (*list, *n, capacity, best) != CELD_OK)
-              return CELD_NO_MEMORY;
-          }
+        if (best.turn < INFINITY && celd_append (*list, *n, capacity, best) != CELD_OK)
+          return CELD_NO_MEMORY;
       }
   return CELD_OK;
 }
 
-/* Takes the straightest candidate and drops those that overlap it. */
+/* Takes the straightest candidate from the list, and drops those that overlap it. */
 static CeldStrokeCrossing
 take_best (CrossingCandidate *list, size_t *n)
 {
-  size_t       best = 0, kept = 0;
+  size_t             best = 0, kept = 0;
   CeldStrokeCrossing x;
 
   for (size_t i = 1; i < *n; i++)
-    if (list[i].bend < list[best].bend)
+    if (list[i].turn < list[best].turn)
       best = i;
   x = list[best].crossing;
   for (size_t i = 0; i < *n; i++)
@@ -186,10 +188,10 @@ take_best (CrossingCandidate *list, size_t *n)
 CeldStatus
 celd_stroke_crossings_find (const CeldStrokeMask *mask, CeldStrokeCrossing **list, size_t *n)
 {
-  CrossingCandidate    *candidates = NULL;
+  CrossingCandidate  *candidates = NULL;
   CeldStrokeCrossing *found = NULL;
-  size_t        left = 0, taken = 0, capacity = 0;
-  CeldStatus    status = gather (mask, &candidates, &left);
+  size_t              left = 0, taken = 0, capacity = 0;
+  CeldStatus          status = find_candidates (mask, &candidates, &left);
 
   while (left && status == CELD_OK)
     {
