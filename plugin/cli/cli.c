@@ -1,4 +1,4 @@
-/* celdepth: depth for hand-drawn cartoons, for batches and scripts.  Chooses the sub-command.
+/* The command celdepth: chooses the sub-command.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,7 +26,7 @@ print_help (FILE *where)
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
     fprintf (where, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
   fprintf (where, "\n'celdepth COMMAND --help' shows the options and examples of a command.\n"
-                  "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 done but relations contradicted each other.\n");
+                  "Exit codes: 0 success, 1 failure, 2 wrong usage, 3 success, but relations contradict each other.\n");
 }
 
 static int
@@ -47,11 +47,11 @@ main (int argc, char **argv)
   const char *word = argc > 1 ? argv[1] : "";
 
 #ifdef __GLIBC__
-  /* Pictures go back to the system when they are freed.  By itself glibc begins to keep large blocks, with holes
-   * between them: 50 bytes a pixel. */
+  /* Returns pictures to the system when they are freed.  Otherwise glibc raises this threshold and keeps large blocks:
+   * up to 50 bytes per pixel more (measured). */
   mallopt (M_MMAP_THRESHOLD, 1 << 20);
 #endif
-  /* For file names only: numbers keep their point whatever the language. */
+  /* The locale is for file names only; numbers have a decimal point in any locale. */
   setlocale (LC_CTYPE, "");
   if (!strcmp (word, "--help") || !strcmp (word, "-h") || !strcmp (word, "help"))
     {
@@ -66,7 +66,7 @@ main (int argc, char **argv)
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
     if (!strcmp (word, commands[i]->name))
       {
-        celd_io_fork_reader (); /* before there are threads */
+        celd_io_fork_reader (); /* while there is one thread */
         return run_command (commands[i], argc - 1, argv + 1);
       }
   if (word[0])

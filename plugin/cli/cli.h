@@ -1,15 +1,16 @@
-/* What the files of the celdepth command share.
+/* Functions that the files of the celdepth command share.
  *
- * Each sub-command is a file of its name: popup, segment, order, expand, smooth, shade, enhance, stereo, wiggle,
- * relief, exact, layers.  What they share:
+ * Each sub-command is in a file of its name: popup, segment, order, expand, smooth, shade, enhance, stereo, wiggle,
+ * relief, exact, layers.  The other files:
  *
- *   cli.c       which sub-command              pictures.c  pictures in and out, colours through babl
- *   options*.c  the options of a sub-command   npy.c       numpy files
- *   input.c     a drawing and its layers       report.c    --report
- *   session.c   the same for a session         messages.c  sentences on stderr
- *   route.c     popup and segment              run.c       progress, cancel, timings
- *   step.c      order, expand, smooth, relief  threads.c   the cores of the machine
- *   scene.c     stereo and wiggle
+ *   cli.c       chooses the sub-command         pictures.c  reads and writes pictures
+ *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
+ *   input.c     reads a drawing and its layers  text.c      relations as text, text files
+ *   session.c   sets a session's input          report.c    --report
+ *   route.c     for popup and segment           messages.c  messages on stderr
+ *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
+ *               relief                          threads.c   threads for loops of core
+ *   scene.c     for stereo and wiggle
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -32,7 +33,7 @@ typedef enum
   CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024, CLI_WIGGLE = 2048
 } CliSteps;
 
-/* File names are NULL where not given. */
+/* The values of all options.  Names of files, and texts, that are not given are NULL. */
 typedef struct
 {
   CliSteps     step;
@@ -46,40 +47,39 @@ typedef struct
   char        *padding_text;
   int          grid_columns, grid_rows, padding; /* of --grid and --padding */
   int          views, columns, frames, fps, size;
-  bool         quiet, directx, background_colour; /* was a background colour given? */
+  bool         quiet, directx;
+  bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
-  GPtrArray   *offered;    /* of options-settings.c: the options that are settings */
+  GPtrArray   *offered;    /* the options that are settings, for options-settings.c */
 } CliOptions;
 
 typedef struct
 {
   const char *name;
   CliSteps    step;
-  const char *input;       /* what its argument is called */
+  const char *input;       /* the name of its argument in --help */
   const char *summary, *examples;
-  const char *settings;    /* by name, with spaces between; "option=name" offers one under another name, "+name" one
-                            * that is switched on by its option alone */
-  const char *output;      /* the option of the usual output */
-  void      (*begin) (CliOptions *options);  /* defaults of its own; NULL: none */
-  bool      (*check) (CliOptions *options);  /* what must hold beside ranges, or says what does not; NULL: nothing */
+  const char *settings;    /* names of settings, with spaces between; "option=name" gives the option another name,
+                            * "+name" is an option without a value that switches the setting on */
+  const char *output;      /* the output option that messages give as an example */
+  void      (*begin) (CliOptions *options);  /* sets its own defaults; may be NULL */
+  bool      (*check) (CliOptions *options);  /* checks beyond ranges; false with a message; may be NULL */
   int       (*run) (const CliOptions *options);
 } CliCommand;
 
-/* CLI_DONE, or the exit code of the mistake, which was said.  `options` must be cleared in every case. */
+/* CLI_DONE, or another exit code after a message.  The caller clears `options` in either case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
 
 /* ------------------------------------------------------------------ messages.c */
 
-/* "celdepth: ..." on stderr. */
+/* Prints "celdepth: ..." on stderr. */
 void cli_say (const char *format, ...) G_GNUC_PRINTF (1, 2);
-/* The same; false, for `return cli_error (...)`. */
+/* As cli_say, but returns false, for `return cli_error (...)`. */
 bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
-/* Says why a step failed, unless it did not; is it CELD_OK? */
+/* Whether a status is CELD_OK; if not, prints its text. */
 bool cli_check (CeldStatus status);
-/* "3,4 > #ff0000 @2 !crack" as the grammar has it; free with g_free. */
-char *cli_relation_text (const CeldRelation *relation);
-/* All but contradictions; a few of them if there are many. */
+/* Prints the first problems that are no contradictions. */
 void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
 
 /* ------------------------------------------------------------------ run.c, threads.c */
@@ -88,26 +88,26 @@ typedef struct CliThreads CliThreads;
 
 typedef struct { const char *stage; double seconds; } CliTiming;
 
-/* The command's CeldHost: a bar on stderr, cancelled by SIGINT, with the time that each stage took. */
+/* The command's CeldHost: a progress bar on stderr, cancelling by SIGINT and SIGTERM, and the time of each stage. */
 typedef struct
 {
   CeldHost    host;
   GArray     *timings;     /* CliTiming */
-  gint64      began;       /* of the stage, in microseconds */
-  gint64      drawn;       /* when the bar was drawn last; 0 = there is no bar on the screen */
+  gint64      began;       /* time when the stage began, in microseconds */
+  gint64      drawn;       /* time when the bar was last drawn; 0: there is no bar on the screen */
   bool        visible;
   CliThreads *threads;
 } CliRun;
 
 void cli_run_begin (CliRun *run, bool quiet);
-/* The next stage begins, the one before is over; NULL: all stages are over. */
+/* Ends the current stage and begins another one; NULL: none. */
 void cli_run_stage (CliRun *run, const char *stage);
-/* All stages are over: says why they failed, or that they were cancelled; is neither so? */
+/* Ends the current stage.  True if the status is CELD_OK and the run was not cancelled; if not, prints why. */
 bool cli_run_finish (CliRun *run, CeldStatus status);
 void cli_run_end   (CliRun *run);
 bool cli_run_cancelled (void);
 
-CliThreads *cli_threads_new  (void);                     /* NULL: there is one core only */
+CliThreads *cli_threads_new  (void);                     /* NULL: the machine has one core */
 void        cli_threads_free (CliThreads *threads);      /* accepts NULL */
 void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *data, int i), void *data);
 
@@ -115,14 +115,14 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
 
 bool cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing);
 bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
-/* Colours of a part, linear light or encoded as sRGB; and a picture's first part, in linear light.  Free data with
- * g_free. */
+/* Colours of a part, in linear light or encoded as sRGB; and of the first part of a file, in linear light.  Free data
+ * with g_free. */
 bool cli_read_part    (CeldIoFile *file, size_t part, bool linear, CeldColours *colours);
 bool cli_read_colours (const char *path, CeldColours *colours);
 bool cli_colours_new  (int width, int height, CeldColours *colours);
 bool cli_read_levels  (const char *path, CeldPlane *levels);
 
-bool cli_is_device     (const char *path); /* neither a file nor a folder: a terminal, a pipe, /dev/null */
+bool cli_is_device     (const char *path); /* not a file or folder, but a terminal, a pipe, /dev/null */
 bool cli_is_png        (const char *path);
 bool cli_can_write     (const char *path);
 bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
@@ -133,13 +133,14 @@ bool cli_write_shading (const char *path, const CeldPlane *shading);
 bool cli_write_colours (const char *path, const CeldColours *colours);
 bool cli_write_heights (const char *path, const CeldPlane *heights);
 bool cli_write_mesh    (const char *path, const CeldReliefMesh *mesh, const CeldColours *art);
-/* Numbers in [0,1], which no program should take for colours: of floats, or for a map in 8 bits with alpha. */
+/* Numbers in [0,1] that are no colours: in .png 16 bits; maps in 8 bits with alpha. */
 bool cli_write_values  (const char *path, const CeldPlane *values);
 bool cli_write_map     (const char *path, const CeldColours *map);
-/* n pixels from linear light to sRGB. */
+/* Converts n pixels R,G,B,A from linear light to sRGB. */
 void cli_encode        (const float *linear, int n, float *encoded);
 
-bool cli_plane_new (int width, int height, CeldPlane *plane);   /* end with g_free (data) */
+/* New pictures; free data with g_free.  False, with a message, if there is no memory. */
+bool cli_plane_new (int width, int height, CeldPlane *plane);
 bool cli_labels_new (int width, int height, CeldLabels *labels);
 
 bool cli_is_npy   (const char *path);
@@ -160,28 +161,29 @@ typedef struct
   CeldPaint   scribbles, arrows, contours, corrections;
 } CliLayers;
 
-/* The layers of the wanted roles: from the files that the options name, else from the parts of `input` (may be NULL)
- * that bear the role's name.  All must be as large as the layers' width and height, where these are set before. */
+/* Reads the layers of the wanted roles, from the files that the options name, or else from the parts of `input` (may be
+ * NULL) with the name of the role.  All must have the layers' width and height, if these are set before. */
 bool cli_layers_read  (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers);
 void cli_layers_clear (CliLayers *layers);
-/* Levels or depth of the size of the layers. */
+/* Reads levels or depth of the size of the layers. */
 bool cli_hint_read    (const char *path, const CliLayers *layers, CeldPlane *depth);
-/* One picture: its part of that name, or else its first. */
+/* Reads one layer: the part with the role's name, or else the first part of the file. */
 bool cli_layer_read (const char *path, const char *role, CliLayers *layers, CeldPaint *paint);
 
-/* The drawing of `input` in its colours; or if `path` is not NULL, the part "colours" of that file, or its first. */
+/* Reads the colours of the drawing in `input`, or if `path` is not NULL the part "colours" of that file, or else its
+ * first part. */
 bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
 
-/* The text of --relations or --relations-file; "" if neither is given, NULL if it cannot be read. */
+/* The text of --relations or --relations-file; "" if neither is given, NULL, with a message, if it cannot be read. */
 char *cli_relations_text (const CliOptions *options);
-/* What that text is called in messages. */
+/* The name of that text in messages. */
 const char *cli_relations_name (const CliOptions *options);
-/* Says where such a text, or an arrow path, cannot be read. */
+/* Whether a status is CELD_OK; if not, prints where the text, or the arrow path, cannot be read. */
 bool cli_check_text (CeldStatus status, const char *name, const CeldTextError *error);
 
 /* ------------------------------------------------------------------ report.c, messages.c */
 
-/* What a sub-command found; NULL what it did not look for. */
+/* The results of a sub-command; NULL: it does not make them. */
 typedef struct
 {
   const char          *command;
@@ -192,31 +194,35 @@ typedef struct
   const CeldProblems  *problems;
   const CeldClosures  *closures;
   const CeldLayers    *layers;
-  const CeldExact     *exact;       /* with it, of `order` there are the cycles alone */
+  const CeldExact     *exact;       /* if it is there, `order` has cycles only */
   const CeldSettings  *settings;
   const GArray        *timings;
 } CliReport;
 
 bool cli_report_write (const char *path, const CliReport *report);
-/* Ends a sub-command that found an order: the report, if one is wanted, contradictions and remarks; the exit code. */
-int  cli_tell (const CliOptions *options, const CliReport *report);
+/* Writes the report if --report is given, prints contradictions and problems, and returns the exit code. */
+int  cli_finish (const CliOptions *options, const CliReport *report);
 
-/* A text as a whole or not at all; to a device as it is. */
+/* ------------------------------------------------------------------ text.c */
+
+/* A relation in the grammar of docs/relations.md, such as "3,4 > #ff0000 @2 !crack"; free with g_free. */
+char *cli_relation_text (const CeldRelation *relation);
+/* Writes a text file completely or not at all; a device may get a part of it. */
 bool cli_write_text (const char *path, const char *text);
-/* One relation a line. */
+/* Writes one relation on each line. */
 bool cli_write_relations (const char *path, const CeldRelations *relations);
 
 /* ------------------------------------------------------------------ session.c, route.c */
 
-/* Hands the input of the options over to the session, by way of the layers. */
+/* Reads the input that the options name, and sets it in the session.  The caller clears `layers`. */
 bool cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers);
 
-/* Makes what the options ask for, up to the labels or as far as it goes; the exit code. */
+/* Makes and writes the results that the options ask for: labels, or with whole_route all of them.  The exit code. */
 int cli_run_route (const CliOptions *options, const char *command, bool whole_route);
 
 /* ------------------------------------------------------------------ step.c */
 
-/* Levels and the ink of their drawing. */
+/* A run over levels, with the ink of their drawing. */
 typedef struct
 {
   CeldPlane levels, ink;
@@ -224,44 +230,44 @@ typedef struct
   CliRun    run;
 } CliStep;
 
-/* To be ended whatever it returns. */
+/* Reads levels and drawing, and makes ink.  The caller calls cli_step_end in either case. */
 bool cli_step_begin (const CliOptions *options, CliStep *step);
 /* The exit code. */
 int  cli_step_end   (CliStep *step, bool good);
 
-/* Ink of the drawing for one purpose, with virtual contours; free data with g_free. */
+/* Makes the ink of the drawing for one purpose, with virtual contours; free data with g_free. */
 bool  cli_make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink);
-/* The near end of levels whose encoding is not known: 1, or the largest rank. */
+/* The nearest level if the encoding is unknown: 1, or the largest level if that is more. */
 float cli_nearest_level (const CeldPlane *levels);
 
 /* ------------------------------------------------------------------ shade.c */
 
 #define CLI_MAPS 3
-/* The file of a map for --maps: "hero_n.png" for "hero.png", then _o and _s; free with g_free. */
+/* The name of a map for --maps: "hero_n.png", "hero_o.png", "hero_s.png" for "hero.png"; free with g_free. */
 char *cli_map_name (const char *path, int map);
 
 /* ------------------------------------------------------------------ scene.c */
 
-/* A drawing to be seen from the side. */
+/* A drawing that can be viewed from other places. */
 typedef struct
 {
   CeldSession        *session;
   CeldScene          *scene;
-  CeldPlane           depth;       /* the session's, and so is the order */
+  CeldPlane           depth;       /* a view of the session's, like the order */
   const CeldOrder    *order;
   const CeldSettings *settings;    /* borrowed from the options */
   CliRun             *run;
   int                 frames;
 } CliScene;
 
-/* To be cleared whatever it returns. */
+/* Makes a scene of the input that the options name.  The caller clears it in either case. */
 bool cli_scene_new   (const CliOptions *options, CliRun *run, CliScene *s);
 void cli_scene_clear (CliScene *s);
-/* Views from the cameras of all frames, in a file or folder. */
+/* Writes the view of each frame's camera to a file or folder. */
 bool cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame),
                       int frames, const CliOptions *options);
-/* The report and the remarks; the exit code. */
-int  cli_scene_tell  (const CliOptions *options, const char *command, const CliScene *s);
+/* Writes the report, prints messages, and returns the exit code. */
+int  cli_scene_finish  (const CliOptions *options, const char *command, const CliScene *s);
 
 /* ------------------------------------------------------------------ the sub-commands */
 

@@ -1,4 +1,4 @@
-/* enhance: shadows from levels, over art, as a layer, and over a view of depth.
+/* celdepth enhance: shadows from levels, on art, as a layer, or on a view of depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,8 +12,9 @@ read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
   if (!cli_read_colours (options->art, art))
     return false;
   return (art->width == levels->width && art->height == levels->height) ||
-         cli_error ("%s is %d x %d, but %s is %d x %d.", options->art, art->width, art->height, options->input,
-                    levels->width, levels->height);
+         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.", options->art,
+                    art->width, art->height, options->input, levels->width,
+                    levels->height);
 }
 
 static bool
@@ -72,7 +73,7 @@ const CliCommand cli_enhance_command = {
   .name     = "enhance",
   .step     = CLI_ENHANCE,
   .input    = "LEVELS",
-  .summary  = "Makes parts stand out from what is behind them, by soft shadows.",
+  .summary  = "Makes the parts of a picture stand out from those behind them, with soft shadows.",
   .examples = "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
               "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"
               "  celdepth enhance levels.npy --view view.png",

@@ -1,4 +1,4 @@
-/* celdepth exact: depth by the exact quadratic program, through a session.
+/* celdepth exact: exact depth by the quadratic program of eq. (1) and (2), with a session.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,7 +18,7 @@ make (CeldSession *session, CliRun *run, CeldPlane *depth)
   return cli_run_finish (run, status);
 }
 
-/* The near end of the depth as it was encoded. */
+/* The nearest depth in the encoding of the settings. */
 static float
 nearest_depth (const CeldPlane *depth, CeldEncoding encoding)
 {
@@ -30,10 +30,10 @@ nearest_depth (const CeldPlane *depth, CeldEncoding encoding)
 }
 
 static int
-tell (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldPlane *depth,
+finish (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldPlane *depth,
       const CeldOrder *cycles)
 {
-  return cli_tell (options, &(CliReport) {
+  return cli_finish (options, &(CliReport) {
     .command   = "exact",
     .width     = depth->width,
     .height    = depth->height,
@@ -65,10 +65,10 @@ run_exact (const CliOptions *options)
     {
       cycles.cycle    = celd_session_exact_report (session)->cycle;
       cycles.n_cycles = celd_session_exact_report (session)->n_cycles;
-      cycles.scc     = celd_session_exact_report (session)->scc;
-      cycles.n_sccs  = celd_session_exact_report (session)->n_sccs;
+      cycles.scc      = celd_session_exact_report (session)->scc;
+      cycles.n_sccs   = celd_session_exact_report (session)->n_sccs;
       if (cli_write_depth (options->depth, &depth, nearest_depth (&depth, options->settings.encoding)))
-        code = tell (session, options, &run, &depth, &cycles);
+        code = finish (session, options, &run, &depth, &cycles);
     }
   cli_run_end (&run);
   celd_session_free (session);
@@ -79,7 +79,7 @@ const CliCommand cli_exact_command = {
   .name     = "exact",
   .step     = CLI_EXACT,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Finds the smoothest depth that satisfies every relation, by the paper's quadratic program.",
+  .summary  = "Finds the smoothest depth that satisfies every relation, by quadratic programming.",
   .examples = "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
               "      --encoding rank --report report.json",

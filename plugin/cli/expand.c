@@ -1,10 +1,10 @@
-/* celdepth expand: contours given to the regions that drew them.
+/* celdepth expand: depth expansion, which gives contours to the regions that they outline.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
-/* Flat colours, as segment writes them. */
+/* Reads regions as flat colours, as segment writes them. */
 static bool
 read_regions (const char *path, CliLayers *layers, CeldLabels *regions)
 {
@@ -22,7 +22,7 @@ read_regions (const char *path, CliLayers *layers, CeldLabels *regions)
 static int
 run_expand (const CliOptions *options)
 {
-  CliStep       step;
+  CliStep    step;
   CeldLabels regions = { 0 };
   bool       good = cli_step_begin (options, &step) &&
                     (!options->regions || read_regions (options->regions, &step.layers, &regions));
@@ -43,9 +43,9 @@ const CliCommand cli_expand_command = {
   .name     = "expand",
   .step     = CLI_EXPAND,
   .input    = "LEVELS",
-  .summary  = "Gives each contour to the region that it belongs to.",
+  .summary  = "Gives each contour to the region that it outlines.",
   .examples = "  celdepth expand flat-levels.npy --drawing bee.png --regions flat.png --levels levels.npy",
   .settings = "ink method=expansion",
-  .output   = "depth",
+  .output   = "levels",
   .run      = run_expand,
 };

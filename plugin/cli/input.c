@@ -1,4 +1,4 @@
-/* A drawing with its layers: each from a file of its own, or all from the layers of one PSD, EXR or TIFF by name.
+/* Reads a drawing and its layers, each from its own file, or all from the named layers of a PSD, EXR or TIFF file.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -43,7 +43,8 @@ check_size (const CeldIoFile *file, const char *path, CliLayers *layers)
   return check_sides (celd_io_width (file), celd_io_height (file), path, layers);
 }
 
-/* Where a file has layers, but not the drawing, that is a mistake; without layers its picture is the drawing. */
+/* The part with the drawing: the one of that name, or the first if no part has the name of a layer; otherwise
+ * CELD_NO_INDEX, with a message. */
 static size_t
 find_drawing (const CeldIoFile *file, const char *path)
 {
@@ -110,7 +111,7 @@ path_of (const CliOptions *options, CliRoles role)
        : role == CLI_CONTOURS ? options->contours : options->corrections;
 }
 
-/* The drawing, and what else the same file holds and no option gives. */
+/* Reads the drawing, and from the same file the layers for which no option names another file. */
 static bool
 read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLayers *layers)
 {
@@ -171,7 +172,7 @@ cli_relations_text (const CliOptions *options)
     }
   if (strlen (text) < length)
     {
-      cli_say ("Cannot read \"%s\": it is no text.", options->relations_file);
+      cli_say ("Cannot read \"%s\": it is not a text file.", options->relations_file);
       g_free (text);
       return NULL;
     }

@@ -1,4 +1,4 @@
-/* celdepth layers: the drawing cut into one layer a region.
+/* celdepth layers: cuts a drawing into one layer for each region.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -15,7 +15,7 @@ same_colour (const CeldPalette *palette, size_t a, size_t b)
   return !memcmp (palette->item[a].colour, palette->item[b].colour, sizeof palette->item[a].colour);
 }
 
-/* The label's colour; with its number, too, where several labels have that colour. */
+/* The name of a label's layer: its colour, and its number if several labels have that colour. */
 static char *
 name_of (const CeldPalette *palette, uint32_t label)
 {
@@ -36,14 +36,13 @@ typedef struct
 {
   const CeldLayers *layers;
   CliRun           *run;
-  const Babl       *fish;      /* from what the layers are composited in to what they are stored in; NULL: the same */
+  const Babl       *fish;      /* converts from the colours of compositing to those of storing; NULL: they are equal */
 } Painter;
 
 static bool
 paint (void *host, size_t layer, float *rgba)
 {
-  const Painter *painter = host;
-
+  const Painter  *painter = host;
   const CeldRect *box = &celd_layers_item (painter->layers, layer)->box;
 
   celd_layers_paint (painter->layers, layer, rgba);
@@ -112,10 +111,10 @@ make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run
 }
 
 static int
-tell (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldOrder *order,
+finish (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldOrder *order,
       const CeldColours *art, const CeldLayers *layers)
 {
-  return cli_tell (options, &(CliReport) {
+  return cli_finish (options, &(CliReport) {
     .command   = "layers",
     .width     = art->width,
     .height    = art->height,
@@ -151,7 +150,7 @@ run_layers (const CliOptions *options)
   good = good && make (session, &art, store, &run, &order, &layers) &&
          write_layers (options->output, layers, celd_session_palette (session), linear && !exr, &art, &run);
   if (good)
-    code = tell (session, options, &run, order, &art, layers);
+    code = finish (session, options, &run, order, &art, layers);
   cli_run_end (&run);
   celd_layers_free (layers);
   celd_session_free (session);
@@ -165,10 +164,10 @@ check (CliOptions *options)
   const char *light = options->light;
 
   if (light && strcmp (light, "encoded") && strcmp (light, "linear"))
-    return cli_error ("--light cannot be '%s'; it takes encoded|linear.", light);
+    return cli_error ("--light cannot be '%s': the value must be encoded|linear.", light);
   if (light && !strcmp (light, "encoded") && options->output &&
       celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS)
-    return cli_error ("--light encoded is not for .exr, whose colours are linear light.");
+    return cli_error ("--light encoded cannot be used with .exr, whose colours are linear light.");
   return true;
 }
 
@@ -182,7 +181,7 @@ const CliCommand cli_layers_command = {
               "      --colours painted.png --output bee.exr --report report.json\n"
               "  celdepth layers page.psd --output layers      (a folder of PNG files)",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion complete",
-  .output   = "depth",
+  .output   = "output",
   .check    = check,
   .run      = run_layers,
 };

@@ -1,4 +1,4 @@
-/* What the artist is told, on stderr.
+/* Messages on stderr.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#define MOST_PROBLEMS 12 /* that are said */
+#define MOST_PROBLEMS 12 /* that are printed (chosen) */
 
 static void
 say (const char *format, va_list arguments)
@@ -45,46 +45,6 @@ cli_check (CeldStatus status)
 }
 
 static void
-append_number (GString *text, const char *before, double value)
-{
-  char number[G_ASCII_DTOSTR_BUF_SIZE];
-
-  g_string_append (text, before);
-  g_string_append (text, g_ascii_formatd (number, sizeof number, "%.6g", value));
-}
-
-static void
-append_term (GString *text, const CeldTerm *term)
-{
-  if (term->by_colour)
-    g_string_append_printf (text, "#%02x%02x%02x", term->colour[0], term->colour[1], term->colour[2]);
-  else
-    {
-      append_number (text, "", term->x);
-      append_number (text, ",", term->y);
-    }
-}
-
-char *
-cli_relation_text (const CeldRelation *relation)
-{
-  GString *text = g_string_new (NULL);
-
-  append_term (text, &relation->nearer);
-  g_string_append (text, relation->equal ? " = " : " > ");
-  append_term (text, &relation->farther);
-  if (relation->weight < 1 || relation->weight > 1)
-    append_number (text, " @", relation->weight);
-  if (relation->gap < 1 || relation->gap > 1)
-    append_number (text, " +", relation->gap);
-  if (relation->crack)
-    g_string_append (text, " !crack");
-  if (relation->anchor)
-    g_string_append (text, " !anchor");
-  return g_string_free (text, FALSE);
-}
-
-static void
 say_cycles (const CeldOrder *order, const CeldRelations *relations)
 {
   for (size_t i = 0; i < order->n_cycles; i++)
@@ -105,11 +65,11 @@ say_cycles (const CeldOrder *order, const CeldRelations *relations)
           g_free (text);
         }
       if (cycle->label)
-        fprintf (stderr, "    That is so because #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
-                 "--same-colour separate gives each its own.\n", cycle->colour[0], cycle->colour[1], cycle->colour[2],
+        fprintf (stderr, "    The reason is that #%02x%02x%02x has one depth at (%d, %d) and at (%d, %d); "
+                 "--same-colour separate lets them differ.\n", cycle->colour[0], cycle->colour[1], cycle->colour[2],
                  cycle->x[0], cycle->y[0], cycle->x[1], cycle->y[1]);
       if (order->scc[cycle->scc].n > cycle->n)
-        fprintf (stderr, "    Other circles go through these, too: %" G_GSIZE_FORMAT " relations in all.\n",
+        fprintf (stderr, "    Other cycles share regions with this one: %" G_GSIZE_FORMAT " relations in all.\n",
                  order->scc[cycle->scc].n);
     }
 }
@@ -128,11 +88,11 @@ cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, cons
         cli_say ("%s", text);
       }
   if (n > MOST_PROBLEMS)
-    cli_say ("There are %" G_GSIZE_FORMAT " more messages; --report writes them all.", n - MOST_PROBLEMS);
+    cli_say ("There are %" G_GSIZE_FORMAT " more messages; --report writes all of them.", n - MOST_PROBLEMS);
 }
 
 int
-cli_tell (const CliOptions *options, const CliReport *report)
+cli_finish (const CliOptions *options, const CliReport *report)
 {
   if (options->report && !cli_report_write (options->report, report))
     return CLI_FAILED;

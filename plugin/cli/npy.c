@@ -1,5 +1,5 @@
-/* Numpy files of 32-bit floats, the simplest way to hand numbers on exactly.  Format version 1.0: a magic word, the
- * length of the header, the header as Python text, then the numbers row by row, least byte first.
+/* Numpy files of 32-bit floats, for exact values.  Format version 1.0: a magic word, the length of the header, the
+ * header as Python text, then the numbers row by row.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,8 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PREFIX      10  /* magic word, version, length of the header */
-#define HEADER_SIZE 128 /* with the prefix; numpy wants a multiple of 64 */
+#define PREFIX      10  /* bytes of magic word, version, and length of the header */
+#define HEADER_SIZE 128 /* bytes with the prefix; numpy needs a multiple of 64 */
 #define FLOATS      (G_BYTE_ORDER == G_LITTLE_ENDIAN ? "'<f4'" : "'>f4'")
 
 bool
@@ -51,16 +51,16 @@ cli_npy_write (const char *path, int width, int height, int depth, size_t row, c
   return good;
 }
 
-/* The two numbers in "...'shape': (12, 34)...". */
+/* Reads the two numbers in "...'shape': (12, 34)...". */
 static bool
 read_header (const char *header, int *height, int *width)
 {
   const char *shape = strstr (header, "'shape': (");
-  int         behind = 0; /* the closing bracket; never reached where there are more axes */
+  int         end = 0; /* set at the closing bracket, which does not follow if there are more axes */
 
   if (!shape || !strstr (header, FLOATS) || !strstr (header, "'fortran_order': False"))
     return false;
-  return sscanf (shape, "'shape': (%d, %d)%n", height, width, &behind) == 2 && behind && *height >= 1 && *width >= 1 &&
+  return sscanf (shape, "'shape': (%d, %d)%n", height, width, &end) == 2 && end && *height >= 1 && *width >= 1 &&
          *height <= CELD_MAX_SIDE && *width <= CELD_MAX_SIDE;
 }
 
@@ -81,15 +81,15 @@ cli_npy_read (const char *path, CeldPlane *plane)
     }
   header_end = length > PREFIX ? PREFIX + (guchar) bytes[8] + 256 * (gsize) (guchar) bytes[9] : 0;
   if (!header_end || header_end >= length || memcmp (bytes, "\x93NUMPY\x01", 7) || bytes[header_end - 1] != '\n')
-    cli_say ("Cannot read \"%s\": it is no numpy file of version 1, or it is damaged.", path);
+    cli_say ("Cannot read \"%s\": it is not a numpy file of version 1, or it is damaged.", path);
   else
     {
       bytes[header_end - 1] = 0;
       if (!read_header (bytes + PREFIX, &height, &width))
-        cli_say ("Cannot read \"%s\": it holds no plane of 32-bit floats of 1 to %d pixels a side.", path,
+        cli_say ("Cannot read \"%s\": it is not an array of 32-bit floats with two axes of 1 to %d.", path,
                  CELD_MAX_SIDE);
       else if ((length - header_end) / sizeof (float) / (gsize) width < (gsize) height)
-        cli_say ("Cannot read \"%s\": it is cut short.", path);
+        cli_say ("Cannot read \"%s\": it is truncated.", path);
       else if (cli_plane_new (width, height, plane))
         {
           memcpy (plane->data, bytes + header_end, sizeof (float) * (gsize) width * (gsize) height);

@@ -1,4 +1,4 @@
-/* Options that are whole numbers: how many pictures there are, how large, how fast.
+/* Options with whole numbers: the number of pictures, their size, their rate.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -20,13 +20,13 @@ typedef struct
 
 static const CountOption counts[] = {
   { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
-    "how many views there are from the left eye to the right one (default: 8)" },
+    "the number of views from the left eye to the right eye (default: 8)" },
   { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
-    "tiles in a row of a quilt (default: as many as rows)" },
+    "the number of tiles in a row of a quilt (default: as many as rows)" },
   { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
-    "pictures in one round (default: 24)" },
+    "the number of pictures in one round of the camera (default: 24)" },
   { "size", CLI_STEREO | CLI_WIGGLE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
-    "the longer side of a .gif: larger ones are reduced (default: 640)" },
+    "the longest side of a .gif in pixels; larger ones are scaled down (default: 640)" },
   { "fps", CLI_STEREO | CLI_WIGGLE, MEMBER (fps), 1, 50, 12, "1-50", "pictures per second of a .gif (default: 12)" },
 };
 
@@ -49,7 +49,7 @@ take_count (const char *name, const char *value, gpointer data, GError **error)
       *count_of (data, count) = (int) number;
       return TRUE;
     }
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, value,
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s': the value must be %s.", name, value,
                count->value);
   return FALSE;
 }
@@ -69,7 +69,7 @@ cli_counts_complete (CliOptions *options)
   for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
     if (!*count_of (options, &counts[i]))
       *count_of (options, &counts[i]) = counts[i].usual;
-  for (int i = 1; !options->columns; i++) /* a square */
+  for (int i = 1; !options->columns; i++) /* the smallest square */
     if (i * i >= options->views)
       options->columns = i;
 }

@@ -10,14 +10,14 @@
 #include <string.h>
 #include <unistd.h>
 
-/* From OUTPUT on they are written; a joined picture may also be an MPO. */
+/* Kinds from OUTPUT on are written.  JOINED is a picture or an MPO file. */
 typedef enum { INPUT, TEXT, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH } FileKind;
 
 typedef struct
 {
   const char *name;
-  int         steps;       /* CliSteps that have this option */
-  int         required;    /* CliSteps that cannot do without */
+  int         steps;       /* CliSteps with this option */
+  int         required;    /* CliSteps that need it */
   FileKind    kind;
   size_t      offset;      /* in CliOptions */
   const char *value, *help;
@@ -27,82 +27,85 @@ typedef struct
 
 static const FileOption files[] = {
   { "drawing", CLI_ORDER | OF_LEVELS, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
-    "the drawing that the input was made from" },
+    "the line drawing" },
   { "scribbles", WITH_LAYERS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour per region" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
-    "virtual contours: red separates, blue separates regions only, green erases ink" },
+    "virtual contours: red ones separate regions and depth, blue ones regions only, green ones erase ink" },
   { "corrections", CLI_POPUP | CLI_LAYERS, 0, INPUT, MEMBER (corrections), "PICTURE",
-    "strokes over ink that give it to the region of the same colour" },
+    "strokes over ink, each of which gives the line below it to the region of its colour" },
   { "arrows", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
   { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
-    "painted pixels keep their level (default: the core of each region)" },
+    "painted pixels keep their level (default: the pixels deep inside each region do)" },
   { "relations", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE",
-    "a file with such relations" },
+    "a text file with relations" },
   { "arrow-path", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
-    "arrows as SVG path data such as 'M 120,80 L 300,90', the nearer end first" },
+    "arrows as SVG path data such as 'M 120,80 L 300,90', each from its nearer end" },
   { "depth-hint", GIVES_LABELS | CLI_ORDER, 0, INPUT, MEMBER (depth_hint), "PICTURE",
-    "depth from another source, near = white, as a further source of suggestions" },
+    "a depth picture from another source, near = white, for suggestions" },
   { "labels", GIVES_LABELS, 0, OUTPUT, MEMBER (labels), "OUT", "write regions in the colours of their scribbles" },
   { "closures", GIVES_LABELS, 0, OUTPUT, MEMBER (closures), "OUT",
-    "write the gaps that were closed, as red contours on a transparent layer" },
+    "write the gaps in contours that were closed, in red on a transparent layer" },
   { "suggestions", GIVES_LABELS | CLI_ORDER, 0, REPORT, MEMBER (suggestions), "OUT",
-    "write which parts seem to be in front, as relations with their confidence" },
+    "write suggestions, which say what seems to be in front, as relations with their confidence" },
   { "suggested-arrows", GIVES_LABELS, 0, OUTPUT, MEMBER (suggested_arrows), "OUT",
     "write suggestions as arrows on a transparent layer" },
   { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT",
-    "write levels before contours are given to the regions that they belong to" },
+    "write levels before expansion, with boundaries in the middle of contours" },
   { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
     "write levels" },
   { "depth", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, CLI_SMOOTH | CLI_EXACT, OUTPUT, MEMBER (depth), "OUT",
     "write smooth depth" },
   { "regions", CLI_EXPAND, 0, INPUT, MEMBER (regions), "PICTURE",
-    "regions as written by segment, to separate parts of the same level" },
-  { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture that shadows or light fall on" },
+    "the regions that segment has written, to distinguish those of the same level" },
+  { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture to shade or enhance" },
   { "depth", CLI_SHADE | CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
-    "smooth depth as written by popup or smooth; relief places the parts by it (default: computed from the levels), "
-    "shade bends the higher side of strokes inside a part (see --quilt)" },
+    "smooth depth that popup or smooth has written: the depth of the parts of a relief (default: computed from the "
+    "levels); shade bends the nearer side of strokes inside a part (see --quilt)" },
   { "hints", CLI_SHADE, 0, INPUT, MEMBER (hints), "PICTURE",
-    "paint beside lines: parts bend on a white side, not on a black one, on both at grey" },
-  { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE", "the picture of a lit ball to take the shading from" },
+    "paint beside lines: parts bend on a white side, do not bend on a black side, bend on both sides at grey" },
+  { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE",
+    "the picture of a lit ball, from which parts take their shading" },
   { "grid", CLI_SHADE, 0, TEXT, MEMBER (grid), "COLUMNSxROWS",
-    "the input is a sheet of sprites, each of which is shaded by itself" },
-  { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with its shadows" },
-  { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write only the shadows, as a black layer" },
+    "the input is a sheet of sprites, which are shaded one by one" },
+  { "enhanced", CLI_ENHANCE, 0, OUTPUT, MEMBER (enhanced), "OUT", "write the art with shadows" },
+  { "shadow", CLI_ENHANCE, 0, OUTPUT, MEMBER (shadow), "OUT", "write the shadows alone, as a black layer" },
   { "view", CLI_ENHANCE, 0, OUTPUT, MEMBER (view), "OUT", "write a grey picture of depth with shadows" },
   { "normals", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (normals), "OUT", "write normals" },
   { "shading", CLI_POPUP | CLI_SHADE, 0, OUTPUT, MEMBER (shading), "OUT", "write shading" },
-  { "shaded", CLI_SHADE, 0, OUTPUT, MEMBER (shaded), "OUT", "write the art, or the drawing, as the light falls on it" },
-  { "tone", CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write the layer to multiply the art by" },
-  { "rim", CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT", "write highlights and rims, as a white layer to put over that" },
+  { "shaded", CLI_SHADE, 0, OUTPUT, MEMBER (shaded), "OUT", "write the lit art, or without --art the lit drawing" },
+  { "tone", CLI_SHADE, 0, OUTPUT, MEMBER (tone), "OUT", "write a layer to multiply the art by" },
+  { "rim", CLI_SHADE, 0, OUTPUT, MEMBER (rim), "OUT",
+    "write a white layer of highlights and rims, to put over the product" },
   { "occlusion", CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT",
-    "write how much light reaches what is behind other parts" },
+    "write ambient occlusion: the fraction of light that nearer parts let through" },
   { "maps", CLI_SHADE, 0, TEXT, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
   { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
-    "how many transparent pixels around a sprite its maps fill (default: 4)" },
-  { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write what the left eye sees" },
-  { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write what the right eye sees" },
+    "the number of transparent pixels around a sprite that maps fill (default: 4)" },
+  { "left", CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write the view of the left eye" },
+  { "right", CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write the view of the right eye" },
   { "joined", CLI_STEREO, 0, JOINED, MEMBER (stereo), "OUT",
     "write both views in one picture (see --stereo), or in one .mpo file" },
   { "quilt", CLI_STEREO, 0, OUTPUT, MEMBER (quilt), "OUT",
     "write all --views as tiles of one picture (see --columns)" },
   { "sequence", CLI_STEREO, 0, FRAMES, MEMBER (sequence), "OUT",
-    "write all --views one by one: .mpo, .gif, or a folder of PNG files" },
+    "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the animation: .gif, or a folder of PNG files" },
   { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
-    "what is shown, cut up or put on the mesh instead of the drawing" },
+    "a coloured version of the drawing, used instead of it for layers, views and meshes" },
   { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
-    "what the layers are composited in: encoded colours (Krita) or linear light (GIMP 3); default: "
-    "encoded, but linear for .exr" },
+    "the colours in which layers will be composited: encoded (Krita) or linear light (GIMP 3); default: encoded, but "
+    "linear for .exr" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
     "write layers: .ora (OpenRaster), .exr (one part per layer), or a folder of PNG files" },
   { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT",
-    "write heights in pixels; in .png from the lowest to the highest" },
+    "write heights in pixels; in .png from 0, the lowest, to 1, the highest" },
   { "mesh", CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT", "write a mesh: .glb, .obj, .ply, or .stl for printing" },
-  { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT", "write what was found, as JSON" },
+  { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT",
+    "write a report of regions, relations and problems, as JSON" },
 };
 
 static char **
@@ -149,15 +152,17 @@ cli_files_check (const CliCommand *command, CliOptions *options)
         continue;
       outputs++;
       if (files[i].kind == OUTPUT && !cli_can_write (name))
-        return cli_error ("--%s %s: the ending must be .png, .exr, .tif or .npy.", files[i].name, name);
+        return cli_error ("--%s %s: the name must end in .png, .exr, .tif or .npy.", files[i].name, name);
       if (files[i].kind == JOINED && !cli_can_write (name) && celd_io_frames_kind (name) != CELD_IO_MPO)
-        return cli_error ("--%s %s: the ending must be .png, .exr, .tif, .npy or .mpo.", files[i].name, name);
+        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy or .mpo.", files[i].name, name);
       if (files[i].kind == FRAMES && !celd_io_frames_kind (name))
-        return cli_error ("--%s %s: the ending must be .gif or .mpo, or none for a folder.", files[i].name, name);
+        return cli_error ("--%s %s: the name must end in .gif or .mpo, or have no ending for a folder.",
+                          files[i].name, name);
       if (files[i].kind == STACK && !celd_io_stack_kind (name))
-        return cli_error ("--%s %s: the ending must be .ora or .exr, or none for a folder.", files[i].name, name);
+        return cli_error ("--%s %s: the name must end in .ora or .exr, or have no ending for a folder.",
+                          files[i].name, name);
       if (files[i].kind == MESH && !celd_io_mesh_kind (name))
-        return cli_error ("--%s %s: the ending must be .glb, .obj, .ply or .stl.", files[i].name, name);
+        return cli_error ("--%s %s: the name must end in .glb, .obj, .ply or .stl.", files[i].name, name);
       if (same_file (name, options->input))
         return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
       for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
@@ -169,7 +174,7 @@ cli_files_check (const CliCommand *command, CliOptions *options)
         }
     }
   return outputs || options->maps ||
-         cli_error ("Nothing to write: name at least one output, such as --%s.", command->output);
+         cli_error ("There is nothing to write: give at least one output, such as --%s.", command->output);
 }
 
 bool
@@ -190,7 +195,7 @@ is_empty (const char *folder)
   return empty;
 }
 
-/* Pictures and layers are written beside their name and moved there; a report may go to a device. */
+/* Whether a file can be written there, with a message if not.  Only a report may go to a device. */
 static bool
 check_place (const char *name, FileKind kind)
 {
@@ -206,13 +211,13 @@ check_place (const char *name, FileKind kind)
   else if (device && kind != REPORT)
     good = cli_error ("Cannot write \"%s\": it is not an ordinary file.", name);
   else if (!device && g_access (folder, W_OK))
-    good = cli_error ("Cannot write \"%s\": its folder: %s.", name, g_strerror (errno));
+    good = cli_error ("Cannot write \"%s\" in its folder: %s.", name, g_strerror (errno));
   g_free (folder);
   g_free (plain);
   return good;
 }
 
-/* Maps are named after another file than those that they are written to. */
+/* Checks the files of --maps, whose names are made from the option's value. */
 static bool
 check_maps (const CliOptions *options)
 {
@@ -243,8 +248,6 @@ cli_files_check_places (CliOptions *options)
     }
   return good && check_maps (options);
 }
-
-/* ------------------------------------------------------------------ */
 
 void
 cli_files_clear (CliOptions *options)

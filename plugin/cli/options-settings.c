@@ -1,5 +1,5 @@
-/* The settings that a sub-command offers, made from the rows of the table of settings.  Numbers have a point in every
- * language.
+/* The options of a sub-command that are settings, made from the rows of the table of settings.  Numbers have a decimal
+ * point in any locale.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,7 +12,7 @@
 typedef struct
 {
   const CeldSettingInfo *row;
-  bool                   alone;   /* on when it is there: takes no value */
+  bool                   alone;   /* it takes no value, and switches the setting on */
   char                  *name, *values, *help;
 } SettingOption;
 
@@ -27,9 +27,9 @@ option_free (gpointer data)
   g_free (option);
 }
 
-/* ------------------------------------------------------------------ what --help says */
+/* ------------------------------------------------------------------ --help */
 
-/* What the option takes: words with | between, or a range. */
+/* The values of an option: words with | between, or a range. */
 static char *
 values_of (const CeldSettingInfo *row)
 {
@@ -70,7 +70,7 @@ text_of (const CeldSettingInfo *row, double value)
     }
 }
 
-/* The first sentence of the help, begun with a small letter as the other options are, and the default. */
+/* The first sentence of the setting's help, with a small first letter as in other options, and the default. */
 static char *
 help_of (const SettingOption *option, const CeldSettings *settings)
 {
@@ -135,7 +135,7 @@ read_value (const CeldSettingInfo *row, const char *text, double *value)
     }
 }
 
-/* One setting of the command line: right by itself? */
+/* Sets a setting from the command line; an error if the value is not within its range. */
 static gboolean
 take_setting (const char *name, const char *text, gpointer data, GError **error)
 {
@@ -158,7 +158,7 @@ take_setting (const char *name, const char *text, gpointer data, GError **error)
         }
       return TRUE;
     }
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s'; it takes %s.", name, text,
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s': the value must be %s.", name, text,
                option->values);
   return FALSE;
 }

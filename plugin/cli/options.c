@@ -1,4 +1,4 @@
-/* The options of each sub-command: files (options-files.c), settings (options-settings.c), whole numbers
+/* Parses the options of a sub-command: files (options-files.c), settings (options-settings.c), whole numbers
  * (options-counts.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* GOption's part. */
+/* Parses the command line with GOption. */
 static bool
 parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
 {
@@ -26,9 +26,10 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   cli_counts_append (command, entries);
   if (command->step == CLI_SHADE)
     g_array_append_val (entries, ((GOptionEntry) {
-      "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green of normals points down, as DirectX wants it", NULL }));
+      "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green in normals points down, as in DirectX, instead of up",
+      NULL }));
   g_array_append_val (entries, ((GOptionEntry) {
-    "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "neither progress nor remarks", NULL }));
+    "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "print errors only, no progress and no hints", NULL }));
   g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
   g_option_context_set_main_group (context, group);
   g_option_context_set_summary (context, command->summary);
@@ -51,11 +52,11 @@ static bool
 check (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
   if (argc != 2)
-    return cli_error (argc < 2 ? "%s is missing." : "More than one %s was given.", command->input);
+    return cli_error (argc < 2 ? "%s is missing." : "There is more than one %s.", command->input);
   options->input = g_strdup (argv[1]);
   cli_counts_complete (options);
   if (options->relations && options->relations_file)
-    return cli_error ("Give --relations or --relations-file, not both.");
+    return cli_error ("Give either --relations or --relations-file.");
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
@@ -71,7 +72,7 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
     command->begin (options);
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
     return cli_files_check_places (options) ? CLI_DONE : CLI_FAILED;
-  fprintf (stderr, "'celdepth %s --help' shows how it is used.\n", command->name);
+  fprintf (stderr, "'celdepth %s --help' shows its usage.\n", command->name);
   return CLI_USAGE;
 }
 

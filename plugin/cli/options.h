@@ -1,4 +1,4 @@
-/* What the files of the options share.
+/* Functions that the files of the options share.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,15 +16,15 @@
 
 /* ------------------------------------------------------------------ options-files.c */
 
-/* GOptionEntry for each file of a command. */
+/* Appends a GOptionEntry for each file of a command. */
 void cli_files_append (const CliCommand *command, CliOptions *options, GArray *entries);
-/* Each output has a name of its own, and an ending that can be written. */
+/* Whether required files are given, and outputs have different names with endings that can be written. */
 bool cli_files_check (const CliCommand *command, CliOptions *options);
-/* Can they be written there?  Before the work rather than after it. */
+/* Whether the outputs can be written there, which is checked before the work begins. */
 bool cli_files_check_places (CliOptions *options);
 void cli_files_clear (CliOptions *options);
 
-/* The settings of sub-commands that make regions of a drawing, and of those that look at them from the side. */
+/* The settings of sub-commands that make regions, and in addition of those that make views. */
 #define CLI_SETTINGS_OF_LABELS \
   "ink ink-threshold method close-gaps keep-necks hardness +flats background background-colour seeds same-colour " \
   "arrow-style"
@@ -32,15 +32,15 @@ void cli_files_clear (CliOptions *options);
 
 /* ------------------------------------------------------------------ options-settings.c */
 
-/* GOptionEntry for each setting of a command; their data are the CliOptions. */
+/* Appends a GOptionEntry for each setting of a command; its data are the CliOptions. */
 void cli_settings_append (const CliCommand *command, CliOptions *options, GArray *entries);
 void cli_settings_clear (CliOptions *options);
 
 /* ------------------------------------------------------------------ options-counts.c */
 
-/* GOptionEntry for each whole number of a command; their data are the CliOptions. */
+/* Appends a GOptionEntry for each whole number of a command; its data are the CliOptions. */
 void cli_counts_append   (const CliCommand *command, GArray *entries);
-/* Those that were not given. */
+/* Sets those that were not given. */
 void cli_counts_complete (CliOptions *options);
 
 #endif

@@ -77,7 +77,7 @@ write_ordering (const CliOptions *options, const Ordering *o)
 static int
 tell_ordering (const CliOptions *options, const Ordering *o)
 {
-  return cli_tell (options, &(CliReport) {
+  return cli_finish (options, &(CliReport) {
     .command   = "order",
     .width     = o->labels.width,
     .height    = o->labels.height,

@@ -1,5 +1,5 @@
-/* Pictures in and out.  Colours go through babl, so that they are what GEGL's loaders make of the same file: the
- * embedded profile first, sRGB where there is none.
+/* Reads and writes pictures.  Colours are converted by babl from the embedded profile (sRGB if there is none), so that
+ * they equal those of GEGL's loaders.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -31,7 +31,7 @@ cli_colours_new (int width, int height, CeldColours *colours)
 
 /* ------------------------------------------------------------------ reading */
 
-/* The space of the embedded profile; NULL (sRGB) if there is none that fits the pixels. */
+/* The space of the embedded profile; NULL (sRGB) if there is none, or none for this kind of pixels. */
 static const Babl *
 space_of (const CeldIoFile *file, size_t part)
 {
@@ -46,13 +46,13 @@ space_of (const CeldIoFile *file, size_t part)
   return space;
 }
 
-/* The colours of a part on their way from the file to a format of sRGB. */
+/* Colours of a part, and their conversion to sRGB. */
 typedef struct
 {
-  float      *rgba;        /* as the file has them */
-  float      *row;         /* one row of pixels as the fish takes them */
+  float      *rgba;        /* in the format of the file */
+  float      *row;         /* a row in the format that the fish converts from */
   const Babl *fish;
-  int         width, channels; /* 4, or 2 where the picture is grey */
+  int         width, channels; /* 4, or 2 if the picture is grey */
 } Colours;
 
 static void
@@ -81,7 +81,8 @@ colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colour
     return cli_check (CELD_NO_MEMORY);
   if (!celd_io_read_colours (file, part, colours->rgba, &error))
     return cli_error ("%s", error.text);
-  /* Floats and no cache of conversions: otherwise babl tries out tables of 350 MB, which costs half a second. */
+  /* With floats, and without babl's cache of conversions; else babl tests tables of 350 MB for half a second
+   * (measured). */
   g_setenv ("BABL_INHIBIT_CACHE", "1", FALSE);
   babl_init ();
   colours->fish = babl_fish (babl_format_with_space (about->linear ? linear : encoded, space_of (file, part)),
@@ -89,7 +90,7 @@ colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colour
   return true;
 }
 
-/* One row through the fish; grey pixels have their value and alpha only. */
+/* Converts a row; grey pixels have a value and alpha only. */
 static void
 colours_convert (const Colours *colours, int y, void *to)
 {
@@ -191,7 +192,7 @@ cli_encode (const float *linear, int n, float *encoded)
   babl_process (babl_fish (babl_format ("RGBA float"), babl_format ("R'G'B'A float")), linear, encoded, n);
 }
 
-/* ------------------------------------------------------------------ writing, by the ending of the name */
+/* ------------------------------------------------------------------ writing, in the format of the name's ending */
 
 bool
 cli_is_png (const char *path)
@@ -223,7 +224,7 @@ cli_write_depth (const char *path, const CeldPlane *depth, float nearest)
   return check_written (celd_io_write_depth (path, depth, 0, nearest, &error), &error);
 }
 
-/* Numbers into numpy files, colours elsewhere. */
+/* Writes numbers of labels to numpy files, and colours to others. */
 bool
 cli_write_labels (const char *path, const CeldLabels *labels, const CeldPalette *palette)
 {
@@ -250,7 +251,7 @@ cli_write_labels (const char *path, const CeldLabels *labels, const CeldPalette 
   return good;
 }
 
-/* As normals: height x width x 4 into numpy files. */
+/* Writes height x width x 4 numbers in [0,1] to numpy files, and 8-bit colours to others. */
 bool
 cli_write_layer (const char *path, const CeldPaint *layer)
 {

@@ -1,4 +1,4 @@
-/* celdepth popup: the whole route, from a drawing to its shading.
+/* celdepth popup: the whole method, from a drawing to depth and shading.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +14,7 @@ const CliCommand cli_popup_command = {
   .name     = "popup",
   .step     = CLI_POPUP,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Goes the whole route: regions, order, depth, normals and shading of a drawing.",
+  .summary  = "Makes regions, order, depth, normals and shading of a drawing, in one run.",
   .examples = "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
               "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"

@@ -4,7 +4,7 @@
  */
 #include "cli.h"
 
-/* A surface, or what stands up on a printer. */
+/* The settings with the kind of mesh that the file needs: a closed solid for STL, for printing, and else a surface. */
 static CeldSettings
 mesh_settings (const CliOptions *options)
 {
@@ -27,24 +27,24 @@ make_mesh (const CliOptions *options, const CeldRelief *relief, CliRun *run)
 
   cli_run_stage (run, "mesh");
   status = celd_relief_mesh (relief, &s, &run->host, &mesh);
-  if (status == CELD_BAD_VALUE) /* the settings are good */
+  if (status == CELD_BAD_VALUE) /* with valid settings: the cuts alone have too many vertices */
     {
       cli_run_stage (run, NULL);
-      return cli_error ("The borders alone have more than %.0f vertices: raise --most-vertices.",
+      return cli_error ("The outlines alone have more than %.0f vertices: increase --most-vertices.",
                         (double) s.most_vertices);
     }
   good = cli_run_finish (run, status) && cli_art_read (options->drawing, options->colours, false, &layers, &art) &&
          cli_write_mesh (options->mesh, &mesh, &art);
   if (good && !options->quiet && mesh.error > 1.01 * (double) s.mesh_error)
-    cli_say ("To have no more than %.0f vertices the mesh is up to %.1f pixels from the heights; --most-vertices "
-             "allows more.", (double) s.most_vertices, mesh.error);
+    cli_say ("With %.0f vertices at most, the mesh deviates by up to %.1f pixels from the heights; increase "
+             "--most-vertices to allow more.", (double) s.most_vertices, mesh.error);
   celd_relief_mesh_clear (&mesh);
   cli_layers_clear (&layers);
   g_free (art.data);
   return good;
 }
 
-/* Smooth depth, if it is given. */
+/* Reads smooth depth if --depth is given. */
 static bool
 read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth)
 {
@@ -53,14 +53,14 @@ read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth
   if (!cli_read_levels (options->smooth_depth, depth))
     return false;
   return (depth->width == levels->width && depth->height == levels->height) ||
-         cli_error ("%s is %d x %d, but %s is %d x %d.", options->smooth_depth, depth->width, depth->height,
-                    options->input, levels->width, levels->height);
+         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.",
+                    options->smooth_depth, depth->width, depth->height, options->input, levels->width, levels->height);
 }
 
 static int
 run_relief (const CliOptions *options)
 {
-  CliStep       step;
+  CliStep    step;
   CeldPlane  depth = { 0 };
   CeldRelief relief = { 0 };
   bool       good = cli_step_begin (options, &step) && read_depth (options, &step.levels, &depth);
@@ -85,7 +85,7 @@ const CliCommand cli_relief_command = {
   .name     = "relief",
   .step     = CLI_RELIEF,
   .input    = "LEVELS",
-  .summary  = "Rounds the parts of a drawing, as heights or as a mesh to view or to print.",
+  .summary  = "Makes rounded heights of the parts of a drawing, or a mesh to view or to print.",
   .examples = "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr\n"
               "  celdepth relief levels.npy --drawing bee.png --colours art.png --mesh bee.glb\n"
               "  celdepth relief levels.npy --drawing bee.png --mesh bee.stl --bulge 0.3 --mesh-size 80",

@@ -1,15 +1,13 @@
-/* --report: what was found, as JSON; docs/report.md says what each member means.
+/* --report: results as JSON; docs/report.md describes each member.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
-#include <errno.h>
 #include <json-glib/json-glib.h>
-#include <stdio.h>
 #include <sys/resource.h>
 
-#define SCHEMA 1 /* rises when a member changes its meaning or goes; not when one is added */
+#define SCHEMA 1 /* increases when a member is removed or changes its meaning, but not when one is added */
 
 static void
 add_text (JsonBuilder *json, const char *name, const char *text)
@@ -58,7 +56,7 @@ begin_list (JsonBuilder *json, const char *name)
 
 /* ------------------------------------------------------------------ labels */
 
-/* The layer of a label: its number from the back, and its box. */
+/* The layer of a label: its number from the farthest, and its box. */
 static void
 add_layer (JsonBuilder *json, const CeldLayers *layers, uint32_t label)
 {
@@ -108,7 +106,7 @@ add_label (JsonBuilder *json, const CliReport *report, size_t index)
 
 /* ------------------------------------------------------------------ relations */
 
-/* Why a relation was left out, by the problem that names it; NULL if that problem leaves it in. */
+/* Why a relation with a problem of this kind was left out; NULL if it was not. */
 static const char *
 reason (CeldProblemKind kind)
 {
@@ -228,7 +226,7 @@ add_closure (JsonBuilder *json, const CeldClosure *closure)
   json_builder_end_object (json);
 }
 
-/* How the regions were found. */
+/* The method of segmentation, and the gaps that it closed. */
 static void
 add_segmentation (JsonBuilder *json, const CliReport *report)
 {
@@ -246,7 +244,7 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
     "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
     "contradiction", "not-converged", "region-split",
   };
-  char text[400];
+  char               text[400];
 
   celd_problem_text (problem, report->palette, report->relations, text, sizeof text);
   json_builder_begin_object (json);
@@ -314,7 +312,7 @@ add_exact (JsonBuilder *json, const CeldExact *exact)
   json_builder_end_object (json);
 }
 
-/* ------------------------------------------------------------------ the whole */
+/* ------------------------------------------------------------------ the report */
 
 static void
 add_suggestions (JsonBuilder *json, const CeldRelations *suggestions)
@@ -387,50 +385,6 @@ make_text (const CliReport *report)
   g_object_unref (generator);
   g_object_unref (json);
   return text;
-}
-
-/* A finished file must not take the place of a device. */
-static bool
-write_device (const char *path, const char *text)
-{
-  FILE *device = fopen (path, "w");
-  bool  good = device && fputs (text, device) >= 0;
-
-  good = device && !fclose (device) && good;
-  return good || cli_error ("Cannot write \"%s\": %s.", path, g_strerror (errno));
-}
-
-bool
-cli_write_text (const char *path, const char *text)
-{
-  GError *error = NULL;
-  bool    good;
-
-  if (cli_is_device (path))
-    return write_device (path, text);
-  good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
-  if (!good)
-    cli_say ("Cannot write \"%s\": %s", path, error->message);
-  g_clear_error (&error);
-  return good;
-}
-
-bool
-cli_write_relations (const char *path, const CeldRelations *relations)
-{
-  GString *all = g_string_new (NULL);
-  bool     good;
-
-  for (size_t i = 0; i < relations->n; i++)
-    {
-      char *text = cli_relation_text (&relations->item[i]);
-
-      g_string_append_printf (all, "%s\n", text);
-      g_free (text);
-    }
-  good = cli_write_text (path, all->str);
-  g_string_free (all, TRUE);
-  return good;
 }
 
 bool

@@ -1,10 +1,10 @@
-/* What popup and segment share: the stages of a session, one after the other, and their results in files.
+/* Shared by popup and segment: makes the results of a session, and writes them to files.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
-/* Views of what the session made; data NULL where it was not asked for. */
+/* Results of the session, borrowed; data NULL: not asked for. */
 typedef struct
 {
   CeldLabels           labels;
@@ -15,7 +15,7 @@ typedef struct
   CeldVectors          normals;
 } Results;
 
-/* Stage by stage, so that each has its time and its bar; the session makes what a stage needs in any case. */
+/* Makes the results one by one, so that each has its own time and progress bar. */
 static CeldStatus
 make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun *run, Results *results)
 {
@@ -54,7 +54,7 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
   return status;
 }
 
-/* Paints a layer of the drawing's size, and writes it. */
+/* Paints a layer of the drawing's size and writes it. */
 static bool
 write_layer (CeldSession *session, const char *path, const Results *results,
              CeldStatus (*make_layer) (CeldSession *session, const CeldHost *host, CeldPaint *paint))
@@ -88,9 +88,9 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
 }
 
 static int
-tell (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
+finish (CeldSession *session, const char *command, const CliOptions *options, const CliRun *run, const Results *results)
 {
-  return cli_tell (options, &(CliReport) {
+  return cli_finish (options, &(CliReport) {
     .command   = command,
     .width     = results->labels.width,
     .height    = results->labels.height,
@@ -119,7 +119,7 @@ cli_run_route (const CliOptions *options, const char *command, bool whole_route)
   cli_run_begin (&run, options->quiet);
   if (good && cli_run_finish (&run, make (session, options, whole_route, &run, &results)) &&
       write_results (session, options, &results))
-    code = tell (session, command, options, &run, &results);
+    code = finish (session, command, options, &run, &results);
   cli_run_end (&run);
   celd_session_free (session);
   return code;

@@ -1,4 +1,4 @@
-/* Progress on stderr, cancelling by SIGINT or SIGTERM, and the time that each stage took.
+/* Progress on stderr, cancelling by SIGINT or SIGTERM, and the time of each stage.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#define BAR_WIDTH    30
-#define REDRAW_AFTER 100000 /* microseconds */
+#define BAR_WIDTH    30     /* characters (chosen) */
+#define REDRAW_AFTER 100000 /* microseconds (chosen) */
 
 static volatile sig_atomic_t interrupted;
 
@@ -38,7 +38,7 @@ progress (void *host, double done)
   CliRun *run = host;
   gint64  now = g_get_monotonic_time ();
 
-  /* Short work never shows a bar. */
+  /* Stages shorter than REDRAW_AFTER show no bar. */
   if (run->visible && current (run) && now - MAX (run->drawn, run->began) > REDRAW_AFTER)
     {
       int marks = (int) (CLAMP (done, 0, 1) * BAR_WIDTH);

@@ -1,4 +1,4 @@
-/* What stereo and wiggle share: a drawing as a scene of completed layers, and its views in files.
+/* Shared by stereo and wiggle: makes a scene of completed layers, and writes its views.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -34,7 +34,7 @@ make (const CeldColours *art, CliRun *run, CliScene *s)
   return cli_run_finish (run, status);
 }
 
-/* Layers must be whole: else there would be holes. */
+/* Layers are always completed, since others leave holes in views. */
 bool
 cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
 {
@@ -54,9 +54,9 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
 }
 
 int
-cli_scene_tell (const CliOptions *options, const char *command, const CliScene *s)
+cli_scene_finish (const CliOptions *options, const char *command, const CliScene *s)
 {
-  return cli_tell (options, &(CliReport) {
+  return cli_finish (options, &(CliReport) {
     .command   = command,
     .width     = s->depth.width,
     .height    = s->depth.height,

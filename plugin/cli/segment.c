@@ -1,4 +1,4 @@
-/* celdepth segment: the regions of a drawing.
+/* celdepth segment: finds the regions of a drawing.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +14,7 @@ const CliCommand cli_segment_command = {
   .name     = "segment",
   .step     = CLI_SEGMENT,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Gives every pixel of a drawing to one of the scribbles.",
+  .summary  = "Finds the regions of a drawing, one for each colour of the scribbles.",
   .examples = "  celdepth segment bee.png --scribbles strokes.png --labels flat.png\n"
               "  celdepth segment bee.png --scribbles strokes.png --closures closures.png\n"
               "  celdepth segment bee.png --scribbles strokes.png --contours closures.png --labels flat.png",

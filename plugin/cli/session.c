@@ -1,4 +1,4 @@
-/* The input of a sub-command handed over to a session.
+/* Sets the input of a sub-command in a session.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* celdepth shade: normals and light from levels, cell by cell of a sheet, and maps for game engines.
+/* celdepth shade: normals and light from levels, also of a sheet of sprites, and maps for game engines.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* data NULL: not read, or not asked for. */
+/* Input and results; data NULL: not given, or not asked for. */
 typedef struct
 {
   CeldPlane   levels, depth;
@@ -31,7 +31,7 @@ cli_map_name (const char *path, int map)
 
 /* ------------------------------------------------------------------ options */
 
-/* A whole number at *text, which moves on. */
+/* Reads a whole number at *text, and moves *text after it. */
 static bool
 read_number (const char **text, int least, int most, int *number)
 {
@@ -52,11 +52,11 @@ check (CliOptions *options)
   options->padding = 4;
   if (grid && !(read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_columns) && *grid++ == 'x' &&
                 read_number (&grid, 1, CELD_MAX_SIDE, &options->grid_rows) && !*grid))
-    return cli_error ("--grid cannot be '%s'; it takes columns and rows such as 8x4.", options->grid);
+    return cli_error ("--grid cannot be '%s': the value must be columns and rows, such as 8x4.", options->grid);
   if (padding && !(read_number (&padding, 0, 64, &options->padding) && !*padding))
-    return cli_error ("--padding cannot be '%s'; it takes 0-64.", options->padding_text);
-  if (options->maps && !cli_is_png (options->maps)) /* others multiply colours by alpha, or know no 8 bits */
-    return cli_error ("--maps %s: the ending must be .png.", options->maps);
+    return cli_error ("--padding cannot be '%s': the value must be 0-64.", options->padding_text);
+  if (options->maps && !cli_is_png (options->maps)) /* other formats premultiply colours, or have no 8 bits */
+    return cli_error ("--maps %s: the name must end in .png.", options->maps);
   if (options->matcap)
     options->settings.light_model = CELD_MODEL_MATCAP;
   return options->settings.light_model != CELD_MODEL_MATCAP || options->matcap ||
@@ -77,7 +77,7 @@ read_hints (const CliOptions *options, Shade *s)
   return !options->hints || cli_layer_read (options->hints, "hints", &s->layers, &s->hints);
 }
 
-/* The light falls on the drawing if on nothing else. */
+/* Reads the art to light: that of --art, or else the drawing. */
 static bool
 read_art (const CliOptions *options, Shade *s)
 {
@@ -92,8 +92,8 @@ static bool
 check_grid (const CliOptions *options, const CeldPlane *levels)
 {
   return (levels->width % options->grid_columns == 0 && levels->height % options->grid_rows == 0) ||
-         cli_error ("%s has %d x %d pixels, which are not %d x %d cells of one size.", options->input, levels->width,
-                    levels->height, options->grid_columns, options->grid_rows);
+         cli_error ("\"%s\" has %d x %d pixels, which cannot be divided into %d x %d equal cells.", options->input,
+                    levels->width, levels->height, options->grid_columns, options->grid_rows);
 }
 
 static bool
@@ -108,7 +108,7 @@ read_all (const CliOptions *options, Shade *s)
          (!options->matcap || cli_read_colours (options->matcap, &s->matcap));
 }
 
-/* ------------------------------------------------------------------ room for results */
+/* ------------------------------------------------------------------ results */
 
 static bool
 new_results (const CliOptions *options, Shade *s)
@@ -187,8 +187,8 @@ make_ink (const CeldSettings *settings, const CeldHost *host, Shade *s)
   return status == CELD_OK ? celd_ink (drawing, settings->ink, host, &s->ink) : status;
 }
 
-/* What maps hold: normals as 0.5 + 0.5 n, occlusion, and the brightness of the art, from which engines make highlights;
- * each with the alpha of the art. */
+/* Fills the maps: normals as 0.5 + 0.5 n; occlusion; and the luma of the art, which engines use for highlights.  Each
+ * has the alpha of the art. */
 static void
 fill_maps (const Shade *s, float *encoded)
 {
@@ -252,7 +252,7 @@ shade_cell (const CliOptions *options, const CeldHost *host, Shade *s)
   return status == CELD_OK && options->maps ? make_maps (options, host, s) : status;
 }
 
-/* Cells know nothing of each other. */
+/* Shades each cell by itself. */
 static bool
 shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 {
@@ -274,7 +274,7 @@ shade_cells (const CliOptions *options, CliRun *run, const Shade *s)
 
 /* ------------------------------------------------------------------ writing */
 
-/* The light on art, or on white. */
+/* Writes lit art, or light on white. */
 static bool
 write_lit (const char *path, const Shade *s, CeldColours *on)
 {
@@ -347,7 +347,7 @@ const CliCommand cli_shade_command = {
   .name     = "shade",
   .step     = CLI_SHADE,
   .input    = "LEVELS",
-  .summary  = "Computes normals that bend at the contours of expanded levels, and shades them.",
+  .summary  = "Computes normals that bend at contours, and shades them.",
   .examples = "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
               "      --light-azimuth 45\n"
               "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png \\\n"

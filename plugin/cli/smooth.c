@@ -4,7 +4,7 @@
  */
 #include "cli.h"
 
-/* Pixels that are painted keep their level. */
+/* Reads painted pixels as anchors, which keep their level. */
 static bool
 read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
 {
@@ -28,7 +28,7 @@ read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
 static int
 run_smooth (const CliOptions *options)
 {
-  CliStep      step;
+  CliStep   step;
   CeldMask  anchors = { 0 };
   CeldSolve solve = { 0 };
   bool      good = cli_step_begin (options, &step) &&
@@ -57,7 +57,7 @@ const CliCommand cli_smooth_command = {
   .name     = "smooth",
   .step     = CLI_SMOOTH,
   .input    = "LEVELS",
-  .summary  = "Turns levels into depth that is smooth except at contours.",
+  .summary  = "Turns levels into smooth depth, which changes abruptly at contours only.",
   .examples = "  celdepth smooth levels.npy --drawing bee.png --anchors strokes.png --depth depth.exr",
   .settings = "ink ink-threshold hold-rest tolerance",
   .output   = "depth",

@@ -1,4 +1,4 @@
-/* What the sub-commands share that make one step: the ink of a drawing, and levels with it.
+/* Shared by sub-commands that make one step of levels: reading levels and making the ink of their drawing.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

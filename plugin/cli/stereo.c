@@ -1,4 +1,4 @@
-/* celdepth stereo: what two eyes see, or several, from completed layers and smooth depth.
+/* celdepth stereo: views for two eyes, or more views, from completed layers and smooth depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,7 +26,7 @@ make_pair (const CliScene *s, CeldColours view[2])
   return cli_run_finish (s->run, status);
 }
 
-/* Both as they are; of one file. */
+/* Paints one of the two views for celd_io_write_frames. */
 static bool
 paint_view (void *host, size_t frame, float *rgba)
 {
@@ -79,14 +79,14 @@ write_pair (const CliOptions *options, const CliScene *s)
 
 /* ------------------------------------------------------------------ many views */
 
-/* From the left eye to the right one. */
+/* Views are evenly spaced from the left eye to the right eye. */
 static CeldCamera
 camera (const CliScene *s, int view)
 {
   return celd_camera_eye (2.0 * view / (s->frames - 1) - 1);
 }
 
-/* Tiles of one picture, as displays of light fields take them: the first at the left of the lowest row. */
+/* Writes all views as tiles of one picture, for light field displays: the first at the left of the lowest row. */
 static bool
 write_quilt (const CliOptions *options, const CliScene *s)
 {
@@ -96,8 +96,9 @@ write_quilt (const CliOptions *options, const CliScene *s)
   CeldStatus  status = CELD_OK;
   bool        good = (gint64) w * columns <= G_MAXUINT16 && (gint64) h * rows <= G_MAXUINT16
                        ? cli_colours_new (w * columns, h * rows, &quilt)
-                       : cli_error ("The quilt would be %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " pixels large: take "
-                                    "fewer views, or a smaller drawing.", (gint64) w * columns, (gint64) h * rows);
+                       : cli_error ("The quilt would have %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " pixels, which "
+                                    "is too large. Make fewer views, or scale the drawing down.",
+                                    (gint64) w * columns, (gint64) h * rows);
 
   if (good)
     memset (quilt.data, 0, 4 * sizeof *quilt.data * quilt.stride * (size_t) quilt.height);
@@ -117,9 +118,9 @@ write_quilt (const CliOptions *options, const CliScene *s)
   return good;
 }
 
-/* ------------------------------------------------------------------ */
+/* ------------------------------------------------------------------ the command */
 
-/* What strains the eyes. */
+/* Prints what strains the eyes. */
 static void
 say_comfort (const CliScene *s)
 {
@@ -146,7 +147,7 @@ run_stereo (const CliOptions *options)
       s.frames = options->views;
       if (write_pair (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
           (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options)))
-        code = cli_scene_tell (options, "stereo", &s);
+        code = cli_scene_finish (options, "stereo", &s);
       if (code != CLI_FAILED && !options->quiet)
         say_comfort (&s);
     }
@@ -159,7 +160,7 @@ const CliCommand cli_stereo_command = {
   .name     = "stereo",
   .step     = CLI_STEREO,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Shows the drawing as two eyes see it, by its layers and their depth.",
+  .summary  = "Makes a stereo picture of a drawing, from its layers and their depth.",
   .examples = "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
               "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png \\\n"
               "      --right right.png --disparity 0.03\n"

@@ -1,4 +1,4 @@
-/* The cores of the machine, lent to core's loops over rows.
+/* Threads for the loops of core, one for each processor.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,7 +10,7 @@ struct CliThreads
   int          helpers;    /* threads besides the caller's */
   GMutex       mutex;
   GCond        finished;
-  int          busy;       /* helpers still at work */
+  int          busy;       /* helpers that have not finished the loop */
 };
 
 /* One loop. */

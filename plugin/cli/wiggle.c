@@ -1,10 +1,10 @@
-/* celdepth wiggle: the camera moves before the drawing, so that its depth is seen at a glance.
+/* celdepth wiggle: an animation of a camera that moves in front of the drawing, which shows its depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "options.h"
 
-#define DISPARITY 0.05f /* of the width, for one eye, which needs more to see depth; chosen */
+#define DISPARITY 0.05f /* of the width; more than in stereo, since motion alone has to show depth (chosen) */
 
 static CeldCamera
 camera (const CliScene *s, int frame)
@@ -24,7 +24,7 @@ run_wiggle (const CliOptions *options)
     {
       s.frames = options->frames;
       if (cli_scene_write (options->wiggle, &s, camera, options->frames, options))
-        code = cli_scene_tell (options, "wiggle", &s);
+        code = cli_scene_finish (options, "wiggle", &s);
     }
   cli_scene_clear (&s);
   cli_run_end (&run);
@@ -41,11 +41,11 @@ const CliCommand cli_wiggle_command = {
   .name     = "wiggle",
   .step     = CLI_WIGGLE,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Moves a camera in front of the drawing, to show depth at a glance, as GIF or PNG files.",
+  .summary  = "Makes an animation of a camera that moves in front of the drawing, which shows its depth.",
   .examples = "  celdepth wiggle bee.png --scribbles strokes.png --arrows arrows.png --output bee.gif\n"
               "  celdepth wiggle page.psd --path circle --frames 48 --output frames      (a folder of PNG files)",
   .settings = CLI_SETTINGS_OF_LABELS CLI_SETTINGS_OF_SCENES " path disparity convergence",
-  .output   = "depth",
+  .output   = "output",
   .begin    = begin,
   .run      = run_wiggle,
 };

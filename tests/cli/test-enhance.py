@@ -67,7 +67,7 @@ class Enhance(Test):
 
     def test_failures(self):
         Image.new('RGB', (WIDTH + 1, HEIGHT)).save(self.path('wide.png'))
-        self.fails('enhance', 'levels.npy', '--art', 'wide.png', '--enhanced', 'a.png', naming='wide.png is 97 x 64')
+        self.fails('enhance', 'levels.npy', '--art', 'wide.png', '--enhanced', 'a.png', naming='"wide.png" has 97 x 64')
         self.fails('enhance', 'missing.npy', '--view', 'a.png', naming='missing.npy')
         self.fails('enhance', 'levels.npy', '--art', 'missing.png', '--enhanced', 'a.png', naming='missing.png')
         self.celdepth('enhance', 'levels.npy', '--view', 'a.png', '--shadow-size', '0', code=2)

@@ -272,7 +272,7 @@ class BadInput(Test):
         self.assertIn('relations.txt, line', text)
         with open(self.path('relations.txt'), 'wb') as file:
             file.write(b'1,1 > 2,2\0 and more')
-        self.assertIn('no text', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
+        self.assertIn('not a text file', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
 
     def test_contradictions(self):
         """Code 3, both relations by name, and the best order of the rest."""
@@ -285,7 +285,7 @@ class BadInput(Test):
     def test_numbers_of_three_axes(self):
         """Normals are no levels."""
         np.save(self.path('normals.npy'), np.zeros((HEIGHT, WIDTH, 3), np.float32))
-        self.fails('smooth', 'normals.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='no plane')
+        self.fails('smooth', 'normals.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='not an array')
 
     def test_colours_above_their_alpha(self):
         """Premultiplied colours that cannot be are as bright as they can be."""

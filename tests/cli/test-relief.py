@@ -133,7 +133,7 @@ class Relief(Test):
         Image.new('L', (WIDTH + 1, HEIGHT)).save(self.path('wide.png'))
         self.fails('relief', 'levels.npy', '--drawing', 'wide.png', '--height', 'a.npy', naming='97 x 64')
         self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--depth', 'wide.png', '--height', 'a.npy',
-                   naming='wide.png is 97 x 64')
+                   naming='"wide.png" has 97 x 64')
         self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--colours', 'missing.png', '--mesh', 'a.glb',
                    naming='missing.png')
         self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--mesh', 'nowhere/a.glb', naming='nowhere')

@@ -142,7 +142,7 @@ class Shade(Test):
             self.assertEqual(all(same), bool(grid))
 
     def test_errors(self):
-        self.fails('shade', *SPRITE, '--normals', 'n.npy', '--grid', '3x1', naming='3 x 1 cells')
+        self.fails('shade', *SPRITE, '--normals', 'n.npy', '--grid', '3x1', naming='3 x 1 equal cells')
         np.save(self.path('small.npy'), np.zeros((4, 4), np.float32))
         self.fails('shade', *SPRITE, '--normals', 'n.npy', '--depth', 'small.npy', naming='small.npy')
         for words, naming in ((('--grid', '3'), '--grid'), (('--grid', '0x2'), '--grid'),

@@ -37,8 +37,8 @@ class Usage(Test):
             with self.subTest(step):
                 self.wrong(step, naming='is missing')
                 self.wrong(step, 'a.png', '--nonsense', naming='--nonsense')
-        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='More than one')
-        self.wrong('popup', 'a.png', naming='Nothing to write')
+        self.wrong('popup', 'a.png', 'b.png', '--depth', 'c.png', naming='more than one')
+        self.wrong('popup', 'a.png', naming='nothing to write')
         self.wrong('segment', 'a.png', naming='such as --labels')
         self.wrong('enhance', 'a.npy', naming='such as --enhanced')
         self.wrong('enhance', 'a.npy', '--enhanced', 'b.png', naming='--art')
@@ -61,12 +61,12 @@ class Usage(Test):
     def test_wrong_files(self):
         for name in ('depth.jpg', 'depth', 'png', '.npy'):
             with self.subTest(name):
-                self.wrong('popup', 'a.png', '--depth', name, naming='ending')
+                self.wrong('popup', 'a.png', '--depth', name, naming='must end in')
         self.wrong('popup', 'a.png', '--depth', 'a.png', naming='overwrite')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--levels', './b.png', naming='same file')
         self.wrong('popup', 'a.png', '--scribbles', 's.png', '--depth', 's.png', naming='same file')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1>2,2', '--relations-file', 'r.txt',
-                   naming='not both')
+                   naming='either --relations or')
 
     def test_comma_locale(self):
         localedef = ['localedef', '-i', 'de_DE', '-f', 'UTF-8', self.path('de_DE.UTF-8')]

@@ -1,0 +1,96 @@
+/* Relations as text, and text files.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <errno.h>
+#include <stdio.h>
+
+/* ------------------------------------------------------------------ relations */
+
+static void
+append_number (GString *text, const char *before, double value)
+{
+  char number[G_ASCII_DTOSTR_BUF_SIZE];
+
+  g_string_append (text, before);
+  g_string_append (text, g_ascii_formatd (number, sizeof number, "%.6g", value));
+}
+
+static void
+append_term (GString *text, const CeldTerm *term)
+{
+  if (term->by_colour)
+    g_string_append_printf (text, "#%02x%02x%02x", term->colour[0], term->colour[1], term->colour[2]);
+  else
+    {
+      append_number (text, "", term->x);
+      append_number (text, ",", term->y);
+    }
+}
+
+char *
+cli_relation_text (const CeldRelation *relation)
+{
+  GString *text = g_string_new (NULL);
+
+  append_term (text, &relation->nearer);
+  g_string_append (text, relation->equal ? " = " : " > ");
+  append_term (text, &relation->farther);
+  if (relation->weight < 1 || relation->weight > 1)
+    append_number (text, " @", relation->weight);
+  if (relation->gap < 1 || relation->gap > 1)
+    append_number (text, " +", relation->gap);
+  if (relation->crack)
+    g_string_append (text, " !crack");
+  if (relation->anchor)
+    g_string_append (text, " !anchor");
+  return g_string_free (text, FALSE);
+}
+
+/* ------------------------------------------------------------------ files */
+
+/* Writes to a device, which cannot be replaced by a finished file. */
+static bool
+write_device (const char *path, const char *text)
+{
+  FILE *device = fopen (path, "w");
+  bool  good = device && fputs (text, device) >= 0;
+
+  good = device && !fclose (device) && good;
+  return good || cli_error ("Cannot write \"%s\": %s.", path, g_strerror (errno));
+}
+
+bool
+cli_write_text (const char *path, const char *text)
+{
+  GError *error = NULL;
+  bool    good;
+
+  if (cli_is_device (path))
+    return write_device (path, text);
+  good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+  if (!good)
+    cli_say ("Cannot write \"%s\": %s", path, error->message);
+  g_clear_error (&error);
+  return good;
+}
+
+bool
+cli_write_relations (const char *path, const CeldRelations *relations)
+{
+  GString *all = g_string_new (NULL);
+  bool     good;
+
+  for (size_t i = 0; i < relations->n; i++)
+    {
+      char *text = cli_relation_text (&relations->item[i]);
+
+      g_string_append_printf (all, "%s\n", text);
+      g_free (text);
+    }
+  good = cli_write_text (path, all->str);
+  g_string_free (all, TRUE);
+  return good;
+}
