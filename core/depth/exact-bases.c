@@ -11,7 +11,6 @@
  */
 #include "base/vector.h"
 #include "depth/depth.h"
-#include "depth/exact.h"
 #include "solve/laplace.h"
 
 #define COMPOSED_ROWS 16 /* rows of a job when depth is composed */

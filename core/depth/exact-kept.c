@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "image/image.h"
 
 #define MOST_ADDED 8 /* new points at once; for more it takes no longer to solve for all nodes, CELD_LANES at a time */

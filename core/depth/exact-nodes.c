@@ -8,7 +8,6 @@
  */
 #include "base/vector.h"
 #include "depth/depth.h"
-#include "depth/exact.h"
 #include "solve/laplace.h"
 
 /* ------------------------------------------------------------------ adding a node */

@@ -17,7 +17,7 @@
  */
 #include "base/unions.h"
 #include "base/vector.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "solve/quadratic.h"

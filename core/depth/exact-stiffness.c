@@ -11,7 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "solve/laplace.h"
 
 #define BANDS  8   /* of rows */

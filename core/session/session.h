@@ -20,7 +20,6 @@
 
 #include "base/stages.h"
 #include "depth/depth.h"
-#include "depth/exact.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "ownership/ownership.h"

@@ -9,7 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/vector.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "image/image.h"
 #include "session/session.h"
 

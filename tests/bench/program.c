@@ -9,7 +9,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "bench.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 
 #include <stdio.h>
 #include <stdlib.h>

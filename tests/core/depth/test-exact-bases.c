@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "solve/laplace.h"
 
 #define MOST 400 /* pixels of a test's picture */

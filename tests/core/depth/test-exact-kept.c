@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "exact-scene.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "solve/laplace.h"
 
 static const char *const rows[] = {

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "depth/exact.h"
+#include "depth/depth.h"
 #include "image/image.h"
 #include "segment/task.h"
 #include "solve/laplace.h"
