@@ -14,7 +14,7 @@
  */
 #include "image/image.h"
 #include "layers/layers.h"
-#include "ownership/expansion.h"
+#include "ownership/ownership.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <math.h>
 

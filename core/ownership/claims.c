@@ -11,7 +11,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <limits.h>
 #include <math.h>

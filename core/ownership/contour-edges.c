@@ -9,7 +9,7 @@
  */
 #include "base/vector.h"
 #include "image/image.h"
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <math.h>
 

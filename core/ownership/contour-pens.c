@@ -7,13 +7,12 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <math.h>
 
 #define PLAIN_THICKNESS     1.04f /* ratio to the pen's width above which ink contains other lines; chosen */
 #define THICKNESS_TOLERANCE 0.5f  /* pixels by which thickness may be off; chosen */
-#define MAX_ORDERED         12    /* labels at one loop; with more of them its order counts as changed */
 #define TIP_WIDTHS          6.f   /* pen widths that the two sides of an outline run on to their common tip; chosen */
 
 static uint32_t
@@ -140,46 +139,50 @@ find_changed_widths (const CeldContourPens *old, const CeldContourPens *new)
   return changed;
 }
 
+void
+celd_label_list_add (uint32_t label, CeldLabelList *list)
+{
+  for (uint32_t i = 0; i < list->n && i < CELD_LISTED_LABELS; i++)
+    if (list->label[i] == label)
+      return;
+  if (list->n < CELD_LISTED_LABELS)
+    list->label[list->n] = label;
+  list->n++;
+}
+
 static int
 compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
 {
   return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
 }
 
-/* Labels that are in the same order as before. */
-typedef struct { uint32_t label[MAX_ORDERED]; size_t n; } Ordered;
-
-/* Adds a label; false if it has changed its order with another one, or if there are too many. */
-static bool
-add_label (uint32_t label, const CeldContourPens *old, const CeldContourPens *new, Ordered *ordered)
+bool
+celd_label_order_changed (const CeldLabelList *list, const CeldContourPens *old, const CeldContourPens *new)
 {
-  for (size_t k = 0; k < ordered->n; k++)
-    if (ordered->label[k] == label)
-      return true;
-  if (ordered->n == MAX_ORDERED || label > old->n)
-    return false;
-  for (size_t k = 0; k < ordered->n; k++)
-    if (compare_levels (old, label, ordered->label[k]) != compare_levels (new, label, ordered->label[k]))
-      return false;
-  ordered->label[ordered->n++] = label;
-  return true;
+  if (list->n > CELD_LISTED_LABELS)
+    return true;
+  for (uint32_t i = 0; i < list->n; i++)
+    for (uint32_t j = 0; j < i; j++)
+      if (list->label[i] > old->n || list->label[j] > old->n ||
+          compare_levels (old, list->label[i], list->label[j]) != compare_levels (new, list->label[i], list->label[j]))
+        return true;
+  return false;
 }
 
 /* Do all labels of a loop, each of which may own ink anywhere on it, have the same order as before? */
 static bool
 same_order (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldContourPens *new)
 {
-  Ordered ordered = { .n = 0 };
+  CeldLabelList list = { .n = 0 };
 
   for (size_t i = loop->first; i < loop->first + loop->n; i++)
     {
-      const CeldEdgePen *pen = &new->pen[i];
-
-      if ((pen->near && !add_label (pen->near, old, new, &ordered)) ||
-          (pen->far && !add_label (pen->far, old, new, &ordered)))
-        return false;
+      if (new->pen[i].near)
+        celd_label_list_add (new->pen[i].near, &list);
+      if (new->pen[i].far)
+        celd_label_list_add (new->pen[i].far, &list);
     }
-  return true;
+  return !celd_label_order_changed (&list, old, new);
 }
 
 /* Are labels, widths and order the same as before at all points of a loop? */

@@ -6,10 +6,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/tiles.h"
 #include "base/vector.h"
 #include "image/image.h"
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <math.h>
 

@@ -18,7 +18,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/expansion.h"
+#include "ownership/ownership.h"
 #include "solve/laplace.h"
 
 #include <math.h>

@@ -12,23 +12,23 @@
  */
 #include "base/vector.h"
 #include "image/image.h"
-#include "ownership/expansion.h"
+#include "ownership/ownership.h"
 
 #include <stdlib.h>
 
 #define MIN_PATCH 16 /* pixels; smaller components of ink are free whatever their rank; chosen */
 
-int
-celd_compare_ranks (const void *a, const void *b)
+static int
+compare_ranks (const void *a, const void *b)
 {
   uint32_t p = *(const uint32_t *) a, q = *(const uint32_t *) b;
 
   return (p > q) - (p < q);
 }
 
-/* Collects the first rank of each run in a row, then sorts and removes duplicates. */
-CeldStatus
-celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
+/* The distinct ranks: collects the first rank of each run in a row, then sorts and removes duplicates. */
+static CeldStatus
+list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
 {
   uint32_t *rank = NULL;
   size_t    found = 0, kept = 0, capacity = 0;
@@ -41,7 +41,7 @@ celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
             celd_free (rank);
             return CELD_NO_MEMORY;
           }
-  qsort (rank, found, sizeof *rank, celd_compare_ranks);
+  qsort (rank, found, sizeof *rank, compare_ranks);
   for (size_t i = 0; i < found; i++)
     if (i == 0 || rank[i] != rank[i - 1])
       rank[kept++] = rank[i];
@@ -50,26 +50,37 @@ celd_list_ranks (const CeldLabels *ranks, uint32_t **list, size_t *n)
   return CELD_OK;
 }
 
-/* Replaces ranks by levels. */
-static void
+CeldStatus
+celd_number_ranks (CeldLabels *picture, uint32_t **list, size_t *n)
+{
+  size_t     pixels = (size_t) picture->width * (size_t) picture->height;
+  uint32_t  *rank = NULL, last = 0;
+  CeldStatus status = list_ranks (picture, &rank, n);
+
+  for (size_t p = 0; p < pixels && status == CELD_OK; p++)
+    {
+      uint32_t        here = picture->data[p];
+      const uint32_t *found = p && here == last ? NULL : bsearch (&here, rank, *n, sizeof here, compare_ranks);
+
+      picture->data[p] = found ? (uint32_t) (found - rank) + 1 : picture->data[p - 1];
+      last = here;
+    }
+  if (list && status == CELD_OK)
+    *list = rank;
+  else
+    celd_free (rank);
+  return status;
+}
+
+/* Copies ranks as levels, and keeps the list. */
+static CeldStatus
 number_pixels (const CeldLabels *ranks, CeldExpansionState *state)
 {
-  uint32_t *level = state->level;
+  CeldLabels level = { state->width, state->height, (size_t) state->width, state->level };
 
   for (int y = 0; y < ranks->height; y++)
-    for (int x = 0; x < ranks->width; x++, level++)
-      {
-        const uint32_t *rank = &CELD_AT (ranks, x, y);
-
-        if (x > 0 && rank[0] == rank[-1])
-          *level = level[-1];
-        else
-          {
-            const uint32_t *found = bsearch (rank, state->rank, state->n, sizeof *rank, celd_compare_ranks);
-
-            *level = (uint32_t) (found - state->rank) + 1;
-          }
-      }
+    memcpy (&CELD_AT (&level, 0, y), &CELD_AT (ranks, 0, y), (size_t) ranks->width * sizeof *level.data);
+  return celd_number_ranks (&level, &state->rank, &state->n);
 }
 
 /* Frees the ink of all components that have paper, and of those that are too small. */
@@ -192,14 +203,15 @@ celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host
   state.pixels = (size_t) ranks->width * (size_t) ranks->height;
   state.level = celd_alloc (state.pixels, sizeof *state.level);
   state.distance_in_ink = celd_alloc (state.pixels, sizeof *state.distance_in_ink);
-  status = state.level && state.distance_in_ink ? celd_list_ranks (ranks, &state.rank, &state.n) : CELD_NO_MEMORY;
+  status = state.level && state.distance_in_ink ? CELD_OK : CELD_NO_MEMORY;
+  if (status == CELD_OK)
+    status = number_pixels (ranks, &state);
   if (status)
     goto done;
   state.box = celd_alloc0 (state.n, sizeof *state.box);
   status = state.box ? CELD_OK : CELD_NO_MEMORY;
   if (status)
     goto done;
-  number_pixels (ranks, &state);
   if ((status = free_ink (ink, &first, &state)) == CELD_OK &&
       (status = measure_state (&second, &state)) == CELD_OK &&
       (status = expand_regions (&third, &state)) == CELD_OK)

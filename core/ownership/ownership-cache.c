@@ -7,9 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/tiles.h"
 #include "base/vector.h"
-#include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
 
 #include <math.h>
@@ -156,10 +154,11 @@ clip_rect (CeldRect r, int width, int height)
   return (CeldRect) { r.x, r.y, right - r.x, bottom - r.y };
 }
 
-/* A changed owner affects the neighbouring pixels, too. */
+/* Updates the marked tiles, and if levels have changed (sort) all that have antialiased pixels.  A changed owner affects
+ * the neighbouring pixels, too. */
 static CeldRect
 update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool sort, const CeldTiles *tiles,
-              CeldOwnership *own)
+               CeldOwnership *own)
 {
   CeldRect changed = { 0 };
   int      w = in->ink->width, h = in->ink->height;
@@ -167,14 +166,13 @@ update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, boo
   for (int ty = 0; ty < tiles->down; ty++)
     for (int tx = 0; tx < tiles->across; tx++)
       {
-        CeldRect r = celd_tile_rect (tx, ty, w, h), round = clip_rect ((CeldRect) { r.x - 1, r.y - 1, r.width + 2,
-                                                                                   r.height + 2 }, w, h);
+        CeldRect r = celd_tile_rect (tx, ty, w, h);
+        CeldRect round = clip_rect ((CeldRect) { r.x - 1, r.y - 1, r.width + 2, r.height + 2 }, w, h);
+        bool     marked = *celd_tile_of (tiles, r.x, r.y);
 
-        if (*celd_tile_of (tiles, r.x, r.y))
-          changed = celd_rect_union (changed, celd_ownership_coverage_update (in->ink, &kept->owner, in->level, round,
-                                                                              own));
-        else if (sort && *celd_tile_of (&kept->antialiased, r.x, r.y))
-          changed = celd_rect_union (changed, celd_ownership_reorder (&kept->owner, in->level, r, own));
+        if (marked || (sort && *celd_tile_of (&kept->antialiased, r.x, r.y)))
+          changed = celd_rect_union (changed, celd_ownership_coverage (in->ink, &kept->owner, in->level,
+                                                                       marked ? round : r, !marked, own));
       }
   return changed;
 }
@@ -264,10 +262,7 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   if (!status && input->corrections)
     status = celd_corrections_apply (&kept->pens, input->ink, input->corrections, &kept->owner, &kept->reassigned);
   if (!status)
-    {
-      memcpy (ownership->owner.data, kept->owner.data, (size_t) w * (size_t) h * sizeof (uint32_t));
-      celd_ownership_coverage (input->ink, input->level, ownership);
-    }
+    celd_ownership_coverage (input->ink, &kept->owner, input->level, (CeldRect) { 0, 0, w, h }, false, ownership);
   celd_free (solid);
   if (status)
     celd_ownership_cache_clear (kept);

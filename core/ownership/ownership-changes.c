@@ -6,9 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/tiles.h"
 #include "image/image.h"
-#include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
 
 #include <math.h>
@@ -142,30 +140,9 @@ compare_claims (const CeldPlane *ink, const CeldContourPens *old, const CeldCont
 
 /* ------------------------------------------------------------------ labels that change their order */
 
-/* Labels with claims in a tile. */
-typedef struct { uint32_t label[7], n; } Claimants;
-
-#define MAX_CLAIMANTS 7 /* with more of them the order counts as changed */
-
-static int
-compare_levels (const CeldContourPens *pens, uint32_t a, uint32_t b)
-{
-  return (pens->level[a - 1] > pens->level[b - 1]) - (pens->level[a - 1] < pens->level[b - 1]);
-}
-
+/* Lists the labels with claims in each tile. */
 static void
-add_claimant (uint32_t label, Claimants *c)
-{
-  for (uint32_t i = 0; i < c->n && i < MAX_CLAIMANTS; i++)
-    if (c->label[i] == label)
-      return;
-  if (c->n < MAX_CLAIMANTS)
-    c->label[c->n] = label;
-  c->n++;
-}
-
-static void
-list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, Claimants *list)
+list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim, CeldLabelList *list)
 {
   CeldTileSpan span[CELD_MAX_CLAIM_SPANS];
   int          n = celd_claim_tiles (ink, tiles, claim, span);
@@ -173,11 +150,11 @@ list_claim (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim
   for (int i = 0; i < n; i++)
     for (int y = span[i].top; y <= span[i].bottom; y++)
       for (int x = span[i].left; x <= span[i].right; x++)
-        add_claimant (claim->label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
+        celd_label_list_add (claim->label, &list[(size_t) y * (size_t) tiles->across + (size_t) x]);
 }
 
 static void
-list_claimants (const CeldPlane *ink, const CeldContourPens *pens, const CeldTiles *tiles, Claimants *list)
+list_claimants (const CeldPlane *ink, const CeldContourPens *pens, const CeldTiles *tiles, CeldLabelList *list)
 {
   for (size_t k = 0; k < pens->edges->n_loops; k++)
     for (size_t i = 0; i < pens->edges->loop[k].n; i++)
@@ -190,25 +167,11 @@ list_claimants (const CeldPlane *ink, const CeldContourPens *pens, const CeldTil
       }
 }
 
-/* Has the order of any two of these labels changed?  That of new labels has. */
-static bool
-order_changed (const Claimants *c, const CeldContourPens *old, const CeldContourPens *new)
-{
-  if (c->n > MAX_CLAIMANTS)
-    return true;
-  for (uint32_t i = 0; i < c->n; i++)
-    for (uint32_t j = 0; j < i; j++)
-      if (c->label[i] > old->n || c->label[j] > old->n ||
-          compare_levels (old, c->label[i], c->label[j]) != compare_levels (new, c->label[i], c->label[j]))
-        return true;
-  return false;
-}
-
 static CeldStatus
 compare_orders (const CeldPlane *ink, const CeldContourPens *old, const CeldContourPens *new, CeldTiles *tiles)
 {
-  size_t     n = (size_t) tiles->across * (size_t) tiles->down;
-  Claimants *list;
+  size_t         n = (size_t) tiles->across * (size_t) tiles->down;
+  CeldLabelList *list;
 
   if (old->n == new->n && !memcmp (old->level, new->level, new->n * sizeof *new->level))
     return CELD_OK;
@@ -217,7 +180,7 @@ compare_orders (const CeldPlane *ink, const CeldContourPens *old, const CeldCont
     return CELD_NO_MEMORY;
   list_claimants (ink, new, tiles, list);
   for (size_t i = 0; i < n; i++)
-    if (order_changed (&list[i], old, new))
+    if (celd_label_order_changed (&list[i], old, new))
       tiles->at[i] |= CLAIM_AND_COVERAGE;
   celd_free (list);
   return CELD_OK;

@@ -5,10 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "ownership/expansion.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "ownership/ownership.h"
 
 /* Replaces NaN and -0 by 0. */
 static float
@@ -21,40 +18,14 @@ clean_level (float level)
 static uint32_t
 rank_of_level (float level)
 {
-  float    number_values = clean_level (level);
+  float    clean = clean_level (level);
   uint32_t bits;
 
-  memcpy (&bits, &number_values, sizeof bits);
+  memcpy (&bits, &clean, sizeof bits);
   return bits & UINT32_C (0x80000000) ? ~bits : bits | UINT32_C (0x80000000);
 }
 
 /* ------------------------------------------------------------------ levels and regions as labels */
-
-/* Replaces each value by its position, from 1, among the *n distinct values in rising order. */
-static CeldStatus
-number_values (CeldLabels *values, size_t *n)
-{
-  size_t     pixels = (size_t) values->width * (size_t) values->height;
-  uint32_t  *list = NULL, last = 0;
-  CeldStatus status = celd_list_ranks (values, &list, n);
-
-  for (size_t p = 0; p < pixels && !status; p++)
-    {
-      uint32_t here = values->data[p];
-
-      if (p && here == last)
-        values->data[p] = values->data[p - 1];
-      else
-        {
-          const uint32_t *found = bsearch (&here, list, *n, sizeof here, celd_compare_ranks);
-
-          values->data[p] = (uint32_t) (found - list) + 1;
-        }
-      last = here;
-    }
-  celd_free (list);
-  return status;
-}
 
 /* Splits the levels, whose numbers are in `label`, by regions. */
 static CeldStatus
@@ -65,12 +36,12 @@ split_levels_by_region (const CeldLabels *regions, CeldLabels *label, CeldLabels
 
   for (int y = 0; y < label->height; y++)
     memcpy (&CELD_AT (scratch, 0, y), &CELD_AT (regions, 0, y), (size_t) label->width * sizeof (uint32_t));
-  status = number_values (scratch, &n_regions);
+  status = celd_number_ranks (scratch, NULL, &n_regions);
   if (!status && *n > UINT32_MAX / n_regions)
     status = CELD_NO_MEMORY;
   for (size_t p = 0; p < pixels && !status; p++)
     label->data[p] = (uint32_t) ((label->data[p] - 1) * n_regions) + scratch->data[p];
-  return status ? status : number_values (label, n);
+  return status ? status : celd_number_ranks (label, NULL, n);
 }
 
 /* Records level, region and order of each label. */
@@ -106,7 +77,7 @@ number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwne
   for (int y = 0; y < levels->height; y++)
     for (int x = 0; x < levels->width; x++)
       CELD_AT (label, x, y) = rank_of_level (CELD_AT (levels, x, y));
-  status = number_values (label, &made->n);
+  status = celd_number_ranks (label, NULL, &made->n);
   if (!status && regions)
     status = split_levels_by_region (regions, label, &made->own.under, &made->n);
   return status ? status : describe_labels (levels, regions, made);

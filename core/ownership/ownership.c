@@ -7,8 +7,93 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/contour-pens.h"
 #include "ownership/ownership.h"
+
+/* ------------------------------------------------------------------ coverage */
+
+/* The label of the brightest, or darkest, pixel of the 3 x 3 round (x,y); ties: the first in reading order. */
+static uint32_t
+extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
+{
+  uint32_t found = CELD_AT (owner, x, y);
+  float    best = CELD_AT (ink, x, y);
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < ink->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < ink->width; u++)
+      if (brightest ? CELD_AT (ink, u, v) > best : CELD_AT (ink, u, v) < best)
+        {
+          best  = CELD_AT (ink, u, v);
+          found = CELD_AT (owner, u, v);
+        }
+  return found;
+}
+
+/* The labels of a pixel and the coverage of the first. */
+typedef struct { uint32_t owner, under; float coverage; } Mixture;
+
+static Mixture
+mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
+{
+  float   value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
+  Mixture s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
+
+  if (fraction < 1)
+    s.under = extreme_label (ink, larger, x, y, !celd_is_paper (value));
+  if (s.under != s.owner)
+    s.coverage = fraction;
+  return s;
+}
+
+/* The mixture that the record has. */
+static Mixture
+recorded_mixture (const CeldOwnership *own, const CeldLabels *larger, int x, int y)
+{
+  Mixture s = { CELD_AT (&own->owner, x, y), CELD_AT (&own->under, x, y), CELD_AT (&own->coverage, x, y) };
+
+  return s.owner == CELD_AT (larger, x, y) ? s : (Mixture) { s.under, s.owner, 1 - s.coverage };
+}
+
+/* Stores it with the nearer label as owner; true if that is a change. */
+static bool
+put_mixture (Mixture s, const uint32_t *level, int x, int y, CeldOwnership *own)
+{
+  uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
+  float    *coverage = &CELD_AT (&own->coverage, x, y);
+  bool      new;
+
+  if (s.owner != s.under && level[s.under - 1] > level[s.owner - 1])
+    s = (Mixture) { s.under, s.owner, 1 - s.coverage };
+  new    = *owner != s.owner || *under != s.under || *coverage != s.coverage;
+  *owner = s.owner;
+  *under = s.under;
+  *coverage = s.coverage;
+  return new;
+}
+
+CeldRect
+celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
+                         bool levels_only, CeldOwnership *own)
+{
+  CeldRect changed = { 0 };
+
+  for (int y = rect.y; y < rect.y + rect.height; y++)
+    {
+      int first = rect.x + rect.width, end = rect.x;
+
+      for (int x = rect.x; x < rect.x + rect.width; x++)
+        if (levels_only && CELD_AT (&own->owner, x, y) == CELD_AT (&own->under, x, y))
+          continue;
+        else if (put_mixture (levels_only ? recorded_mixture (own, larger, x, y) : mixture_at (ink, larger, x, y), level, x, y,
+                         own))
+          {
+            first = x < first ? x : first;
+            end   = x + 1;
+          }
+      if (first < end)
+        changed = celd_rect_union (changed, (CeldRect) { first, y, end - first, 1 });
+    }
+  return changed;
+}
 
 /* ------------------------------------------------------------------ by the thickness of contours */
 
@@ -125,6 +210,8 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   return status;
 }
 
+/* ------------------------------------------------------------------ the step */
+
 /* Checks that sizes agree and labels are within 1 .. n. */
 static CeldStatus
 check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabels *corrections,
@@ -141,158 +228,30 @@ check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabel
   return CELD_OK;
 }
 
+/* Completes a record whose `owner` has the label that covers most of each pixel. */
+static CeldStatus
+complete (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
+{
+  CeldLabels larger;
+  CeldRect   whole = { 0, 0, ink->width, ink->height };
+  CeldStatus status = celd_labels_new (ink->width, ink->height, &larger);
+
+  if (status != CELD_OK)
+    return status;
+  for (int y = 0; y < ink->height; y++)
+    memcpy (&CELD_AT (&larger, 0, y), &CELD_AT (&own->owner, 0, y), (size_t) ink->width * sizeof *larger.data);
+  celd_ownership_coverage (ink, &larger, level, whole, false, own);
+  celd_free (larger.data);
+  return CELD_OK;
+}
+
 CeldStatus
 celd_own (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, size_t n,
           const CeldLabels *corrections, CeldExpansion method, const CeldHost *host, CeldOwnership *ownership)
 {
   CeldStatus status = check (ink, labels, n, corrections, ownership);
 
-  if (!status)
+  if (status == CELD_OK)
     status = own_ink (ink, labels, level, n, corrections, method, host, ownership);
-  if (!status)
-    celd_ownership_coverage (ink, level, ownership);
-  return status;
-}
-
-/* The label of the brightest, or darkest, pixel of the 3 x 3 round (x,y); ties: the first in reading order. */
-static uint32_t
-extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
-{
-  uint32_t found = CELD_AT (owner, x, y);
-  float    best = CELD_AT (ink, x, y);
-
-  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < ink->height; v++)
-    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < ink->width; u++)
-      if (brightest ? CELD_AT (ink, u, v) > best : CELD_AT (ink, u, v) < best)
-        {
-          best  = CELD_AT (ink, u, v);
-          found = CELD_AT (owner, u, v);
-        }
-  return found;
-}
-
-/* Sets the label of the larger part as owner, and that of the other as under. */
-static void
-cover_row (const CeldPlane *ink, int y, CeldOwnership *own)
-{
-  const float    *value = &CELD_AT (ink, 0, y);
-  const uint32_t *owner = &CELD_AT (&own->owner, 0, y);
-  uint32_t       *under = &CELD_AT (&own->under, 0, y);
-  float          *coverage = &CELD_AT (&own->coverage, 0, y);
-
-  memcpy (under, owner, (size_t) ink->width * sizeof *under);
-  for (int x = 0; x < ink->width; x++)
-    {
-      float fraction = celd_is_paper (value[x]) ? value[x] : 1 - value[x];
-
-      coverage[x] = 1;
-      if (!(fraction < 1))
-        continue;
-      under[x] = extreme_label (ink, &own->owner, x, y, !celd_is_paper (value[x]));
-      if (under[x] != owner[x])
-        coverage[x] = fraction;
-    }
-}
-
-/* Makes the nearer label the owner. */
-static void
-order_row (const uint32_t *level, int y, CeldOwnership *own)
-{
-  uint32_t *owner = &CELD_AT (&own->owner, 0, y), *under = &CELD_AT (&own->under, 0, y);
-  float    *coverage = &CELD_AT (&own->coverage, 0, y);
-
-  for (int x = 0; x < own->owner.width; x++)
-    if (owner[x] != under[x] && level[under[x] - 1] > level[owner[x] - 1])
-      {
-        uint32_t larger = owner[x];
-
-        owner[x] = under[x];
-        under[x] = larger;
-        coverage[x] = 1 - coverage[x];
-      }
-}
-
-void
-celd_ownership_coverage (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
-{
-  for (int y = 0; y < ink->height; y++)
-    {
-      cover_row (ink, y, own);
-      if (y > 0)
-        order_row (level, y - 1, own); /* cover_row reads the next row as well */
-    }
-  order_row (level, ink->height - 1, own);
-}
-
-/* ------------------------------------------------------------------ updates of a rectangle */
-
-/* The labels of a pixel and the coverage of the first. */
-typedef struct { uint32_t owner, under; float coverage; } Mixture;
-
-static Mixture
-mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
-{
-  float   value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
-  Mixture s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
-
-  if (fraction < 1)
-    s.under = extreme_label (ink, larger, x, y, !celd_is_paper (value));
-  if (s.under != s.owner)
-    s.coverage = fraction;
-  return s;
-}
-
-/* Stores it with the nearer label as owner; true if that is a change. */
-static bool
-put_mixture (Mixture s, const uint32_t *level, int x, int y, CeldOwnership *own)
-{
-  uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
-  float    *coverage = &CELD_AT (&own->coverage, x, y);
-  bool      new;
-
-  if (s.owner != s.under && level[s.under - 1] > level[s.owner - 1])
-    s = (Mixture) { s.under, s.owner, 1 - s.coverage };
-  new    = *owner != s.owner || *under != s.under || *coverage != s.coverage;
-  *owner = s.owner;
-  *under = s.under;
-  *coverage = s.coverage;
-  return new;
-}
-
-CeldRect
-celd_ownership_coverage_update (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
-                  CeldOwnership *own)
-{
-  CeldRect changed = { 0 };
-
-  for (int y = rect.y; y < rect.y + rect.height; y++)
-    for (int x = rect.x; x < rect.x + rect.width; x++)
-      if (put_mixture (mixture_at (ink, larger, x, y), level, x, y, own))
-        changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
-  return changed;
-}
-
-CeldRect
-celd_ownership_reorder (const CeldLabels *larger, const uint32_t *level, CeldRect rect, CeldOwnership *own)
-{
-  CeldRect changed = { 0 };
-
-  for (int y = rect.y; y < rect.y + rect.height; y++)
-    for (int x = rect.x; x < rect.x + rect.width; x++)
-      {
-        uint32_t *owner = &CELD_AT (&own->owner, x, y), *under = &CELD_AT (&own->under, x, y);
-        uint32_t  first = *owner, more, less;
-
-        if (first == *under)
-          continue;
-        more = CELD_AT (larger, x, y);
-        less = first == more ? *under : first;
-        if (first == (level[less - 1] > level[more - 1] ? less : more))
-          continue;
-        *owner = *under;
-        *under = first;
-        CELD_AT (&own->coverage, x, y) = 1 - CELD_AT (&own->coverage, x, y);
-        changed = celd_rect_union (changed, (CeldRect) { x, y, 1, 1 });
-      }
-  return changed;
+  return status == CELD_OK ? complete (ink, level, ownership) : status;
 }

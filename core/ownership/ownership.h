@@ -1,8 +1,17 @@
 /* Contour ownership: which label each pixel belongs to, ink included.
  *
- *   ownership.c          computes it, with the coverage of antialiased pixels
- *   ownership-cache.c    updates it after an edit
- *   ownership-changes.c  finds the tiles that an edit affects
+ *   contour-edges.c        traces the edges of ink and measures how thick the ink is
+ *   contour-pens.c         finds the region whose pen drew the ink next to each point of an edge
+ *   pen-width.c            estimates the width of each pen
+ *   claims.c               assigns ink to the pens that cover it
+ *   claim-remainder.c      assigns the pixels that no pen covers
+ *   corrections.c          applies the artist's corrections
+ *   expansion.c            the paper's depth expansion, by the thickness of contours
+ *   expansion-region.c     expands one level
+ *   ownership.c            the step, with the coverage of antialiased pixels
+ *   ownership-cache.c      updates ownership after an edit
+ *   ownership-changes.c    finds the tiles that an edit affects
+ *   ownership-of-levels.c  ownership of pictures that have levels but no labels
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,23 +19,223 @@
 #define CELD_OWNERSHIP_H
 
 #include "base/tiles.h"
-#include "ownership/contour-pens.h"
+
+/* ------------------------------------------------------------------ contour-edges.c */
+
+/* A point of an edge, with the precision of antialiasing. */
+typedef struct
+{
+  float   x, y;
+  float   nx, ny;               /* unit normal, into the ink */
+  float   thickness;              /* distance through the ink along the normal, in pixels; INFINITY if no other side
+                                   * is found */
+  float   step;                 /* distance to the next point of the loop, in pixels */
+  int32_t paper, across;        /* pixels of paper, y * width + x: on this side, and on the other side of the ink; -1
+                                 * = outside the picture */
+  bool    corner;               /* the edge turns sharply here */
+  bool    skewed;                /* a corner is so close that the normal is unreliable */
+} CeldEdgePoint;
+
+/* A closed edge: the points first .. first + n - 1, in an order that has paper on the right. */
+typedef struct { size_t first, n; } CeldEdgeLoop;
+
+typedef struct
+{
+  int            width, height, stroke; /* stroke: the median line width in pixels, see celd_stroke_width */
+  CeldEdgePoint *point;
+  size_t         n_points, point_capacity;
+  CeldEdgeLoop  *loop;
+  size_t         n_loops, loop_capacity;
+} CeldContourEdges;
+
+CeldStatus celd_contour_edges_new (const CeldPlane *ink, const CeldHost *host, CeldContourEdges *edges);
+void       celd_contour_edges_clear (CeldContourEdges *edges);  /* accepts a zeroed record */
+
+/* Distance in pixels. */
+float celd_edge_distance (const CeldEdgePoint *a, const CeldEdgePoint *b);
+
+/* Rounds down, also below 0: the pixel that a coordinate lies in. */
+static inline int
+celd_floor (float value)
+{
+  int down = (int) value;
+
+  return down - ((float) down > value);
+}
+
+/* ------------------------------------------------------------------ contour-pens.c */
+
+/* A point of an edge under a labelling. */
+typedef struct
+{
+  uint32_t near, far;           /* labels of the paper on this side and on the other side; 0 = outside the picture */
+  uint32_t owner;               /* label whose pen drew the ink at this point; 0 = unknown */
+  float    width;               /* of that pen, in pixels */
+} CeldEdgePen;
+
+/* The pens of a labelling with labels 1 .. n: pen[i] belongs to edges->point[i]. */
+typedef struct
+{
+  const CeldContourEdges *edges;
+  const uint32_t         *level;
+  size_t                  n;
+  CeldEdgePen            *pen;
+  float                  *typical_width, *max_width; /* width of label k's pen, and the largest that it may have along
+                                                   * the line, in pixels: at k - 1; 0 = unknown */
+} CeldContourPens;
+
+CeldStatus celd_contour_pens_new (const CeldContourEdges *edges, const CeldLabels *labels, const uint32_t *level,
+                                  size_t n,
+                          CeldContourPens *pens);
+/* Like celd_contour_pens_new, but reuses `old`, from which `labels` differ only within `changed`. */
+CeldStatus celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed,
+                                     const uint32_t *level,
+                            size_t n, CeldContourPens *pens);
+void       celd_contour_pens_clear (CeldContourPens *pens);    /* accepts a zeroed record */
+
+/* The nearer one of the two labels at a point, whose pen drew the ink between them; 0 if neither is nearer. */
+static inline uint32_t
+celd_pen_front (const CeldContourPens *pens, const CeldEdgePen *pen)
+{
+  if (!pen->near || !pen->far || pens->level[pen->near - 1] == pens->level[pen->far - 1])
+    return 0;
+  return pens->level[pen->near - 1] > pens->level[pen->far - 1] ? pen->near : pen->far;
+}
+
+/* Some labels, without duplicates; n > CELD_LISTED_LABELS: more than that. */
+#define CELD_LISTED_LABELS 7
+typedef struct { uint32_t label[CELD_LISTED_LABELS], n; } CeldLabelList;
+
+void celd_label_list_add (uint32_t label, CeldLabelList *list);
+
+/* Has the order of any two of these labels changed between two labellings?  That of labels that are new, or too many to
+ * be listed, counts as changed. */
+bool celd_label_order_changed (const CeldLabelList *list, const CeldContourPens *old, const CeldContourPens *new);
+
+/* ------------------------------------------------------------------ pen-width.c */
+
+/* Estimates typical_width and max_width of each label, and the pen's width at each point of a loop. */
+CeldStatus celd_pen_widths_measure (CeldContourPens *pens);
+void       celd_pen_widths_smooth (const CeldEdgeLoop *loop, CeldContourPens *pens);
+
+/* ------------------------------------------------------------------ claims.c */
+
+/* A point, and the unit vector along which ink is claimed from there. */
+typedef struct { float x, y, nx, ny; } CeldRay;
+
+/* Ink that one point of an edge claims for its pen.  All members have four bytes and there is no padding, so that
+ * memcmp compares claims. */
+typedef struct
+{
+  enum { CELD_CLAIM_BAND, CELD_CLAIM_LINE, CELD_CLAIM_DISC } shape;
+  uint32_t label;
+  CeldRay  from, to;            /* band: its two sides; line: its beginning, in both; disc: its centre, in both */
+  float    width;               /* of the pen, in pixels; of a disc the radius */
+  float    length;              /* of a band behind the edge, or of a line along it, in pixels */
+  int      direction;                 /* of a line: along the loop (1) or against it (-1) */
+  uint32_t tentative;               /* 1: yields to every other claim (a line that is assumed to continue under
+                                     * another) */
+} CeldClaim;
+
+#define CELD_MAX_CLAIMS 6 /* largest number of claims of one point */
+
+/* Writes the claims of point i of the loop; returns their number. */
+size_t celd_claims_at_point (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i,
+                             CeldClaim claim[CELD_MAX_CLAIMS]);
+
+/* The state of the assignment of ink. */
+typedef struct
+{
+  const CeldContourPens *pens;
+  const CeldPlane       *ink;
+  CeldLabels            *owner; /* 0 = unclaimed ink */
+  CeldPlane             *excess;  /* of each ink pixel: its distance beyond its owner's pen in pixels, <= 0 if the
+                                   * pen covers it; INFINITY if unclaimed; -INFINITY if settled without claims */
+} CeldClaimMap;
+
+/* The point at distance `along` from the beginning of a line. */
+static inline CeldRay
+celd_claim_line_at (const CeldClaim *line, float along)
+{
+  CeldRay at = line->from;
+
+  at.x -= (float) line->direction * along * at.ny;
+  at.y += (float) line->direction * along * at.nx;
+  return at;
+}
+
+/* Length of a line in pixels; a tentative line ends where its centre leaves the ink. */
+float celd_claim_line_length (const CeldPlane *ink, const CeldClaim *line);
+
+/* Makes a claim.  The result depends neither on the order of claims nor on repetitions. */
+void celd_claim_apply (const CeldClaimMap *claims, const CeldClaim *claim);
+
+/* Assigns all pixels to owners; `owner` may alias `labels`. */
+CeldStatus celd_claims_assign (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels,
+                               const bool *solid,
+                            const CeldHost *host, CeldLabels *owner, CeldPlane *excess);
+
+/* ------------------------------------------------------------------ claim-remainder.c */
+
+/* Finds labels that consist almost wholly of ink: solid[k - 1] for label k. */
+CeldStatus celd_solid_labels_find (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels,
+                                   bool *solid);
+
+/* Resets the pixels of a rectangle to the state before any claim. */
+void celd_claims_reset (const CeldClaimMap *claims, const CeldLabels *labels, const bool *solid, CeldRect rect);
+
+/* A pixel, as y * width + x, and its owner. */
+typedef struct { int32_t pixel; uint32_t owner; } CeldPixelOwner;
+
+#define CELD_OWNER_PENDING UINT32_MAX /* in place of an owner: the pixel is queued */
+
+/* Assigns the listed pixels, which have no owner, to the owner nearest to them; the order of the list has no
+ * influence. */
+void       celd_claims_spread (const CeldClaimMap *claims, CeldPixelOwner *rest, size_t n);
+CeldStatus celd_claims_finish (const CeldClaimMap *claims);  /* lists the pixels first */
+
+/* Writes the up to four neighbours of a pixel; returns their number. */
+int celd_pixel_neighbours (const CeldPlane *ink, int32_t pixel, int near[4][2]);
+
+/* ------------------------------------------------------------------ corrections.c */
+
+/* The pixels that corrections reassigned, in this order, with their former owners. */
+typedef struct { CeldPixelOwner *item; size_t n, capacity; } CeldReassigned;
+
+/* Gives the ink under strokes (0 = no stroke), and the pieces of line that they touch, to the strokes' labels.
+ * Appends the reassigned pixels to `reassigned`, also when it fails. */
+CeldStatus celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
+                              CeldLabels *owner, CeldReassigned *reassigned);
+void       celd_reassigned_clear (CeldReassigned *reassigned);
+
+/* ------------------------------------------------------------------ expansion.c, expansion-region.c */
+
+/* A picture during expansion; planes without padding. */
+typedef struct
+{
+  int       width, height;
+  size_t    pixels;
+  uint32_t *level;          /* 1 .. n from back to front; 0 for ink that is still free */
+  int32_t  *distance_in_ink;   /* squared distance to the nearest pixel that was not free at the beginning */
+  uint32_t *rank;           /* the rank that level k stands for: rank[k-1] */
+  CeldRect *box;            /* bounding box of level k at the beginning: box[k-1]; width 0 if it has no pixels */
+  size_t    n;
+} CeldExpansionState;
+
+/* Replaces each number of a tight picture by its place, from 1, among the *n distinct ones in rising order.  *list (may be
+ * NULL) has these; to be freed with celd_free. */
+CeldStatus celd_number_ranks (CeldLabels *picture, uint32_t **list, size_t *n);
+
+/* Expands level k into free ink; all nearer levels have to be expanded already. */
+CeldStatus celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host);
 
 /* ------------------------------------------------------------------ ownership.c */
 
-/* Completes a record whose `owner` has the label that covers most of each pixel: finds the second label of
- * antialiased pixels and the coverage of the first, and makes the nearer label the owner. */
-void celd_ownership_coverage (const CeldPlane *ink, const uint32_t *level, CeldOwnership *ownership);
-
-/* Does so within a rectangle; `larger` has the label that covers most of each pixel.  Returns where the record
- * changes. */
-CeldRect celd_ownership_coverage_update (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level,
-                                         CeldRect rect,
-                           CeldOwnership *ownership);
-
-/* Updates a rectangle in which nothing but the levels has changed.  Returns where the record changes. */
-CeldRect celd_ownership_reorder (const CeldLabels *larger, const uint32_t *level, CeldRect rect,
-                                 CeldOwnership *ownership);
+/* Fills in a rectangle of the record from `larger`, the label that covers most of each pixel: finds the second label of
+ * antialiased pixels and the coverage of the first, and makes the nearer label the owner.  levels_only: nothing but levels
+ * has changed since it was filled in.  Returns where the record changes. */
+CeldRect celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
+                                  bool levels_only, CeldOwnership *ownership);
 
 /* ------------------------------------------------------------------ ownership-cache.c: CELD_EXPANSION_OUTLINES */
 
@@ -76,5 +285,28 @@ CeldStatus celd_ownership_mark_changes (const CeldOwnershipCache *kept, const Ce
 #define CELD_MAX_CLAIM_SPANS 17
 int celd_claim_tiles (const CeldPlane *ink, const CeldTiles *tiles, const CeldClaim *claim,
                       CeldTileSpan span[CELD_MAX_CLAIM_SPANS]);
+
+/* ------------------------------------------------------------------ ownership-of-levels.c */
+
+/* The ownership of a picture of levels, with labels 1 .. n for its levels, or for the regions
+ * of its levels, the farthest first.  Label k has order[k - 1] as its place in depth, from 0, the original level
+ * level[k - 1], and region[k - 1] (0 without regions). */
+typedef struct
+{
+  CeldOwnership own;
+  uint32_t     *order, *region;
+  float        *level;
+  size_t        n;
+} CeldLevelOwnership;
+
+/* See celd_expand_levels.  The record has to be cleared also after a failure. */
+CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
+                                CeldLevelOwnership *made);
+void       celd_level_ownership_clear (CeldLevelOwnership *made);
+/* In layers/layers.c: cuts the art into layers by that. */
+CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art,
+                                  CeldStore store,
+                                bool complete, const CeldHost *host, CeldLayers **layers);
 
 #endif

@@ -7,7 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "ownership/contour-pens.h"
+#include "ownership/ownership.h"
 
 #include <math.h>
 

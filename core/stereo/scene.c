@@ -6,7 +6,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "layers/layers.h"
-#include "ownership/expansion.h"
+#include "ownership/ownership.h"
 #include "stereo/scene.h"
 
 #define BAND_ROWS 32 /* rows of one task */

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
-#include "ownership/expansion.h"
+#include "ownership/ownership.h"
 #include "sketch.h"
 
 /* Digits are levels, '#' is free ink. */
