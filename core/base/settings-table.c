@@ -9,8 +9,6 @@
 #include "celdepth/settings.h"
 #include "base/stages.h"
 
-#include <string.h>
-
 /* ------------------------------------------------------------------ choices, by their numbers */
 
 static const CeldSettingChoice ink_modes[] = {
@@ -444,13 +442,4 @@ celd_setting_infos (size_t *n)
   if (n)
     *n = sizeof infos / sizeof *infos;
   return infos;
-}
-
-const CeldSettingInfo *
-celd_setting_find (const char *name)
-{
-  for (size_t i = 0; i < sizeof infos / sizeof *infos; i++)
-    if (!strcmp (infos[i].name, name))
-      return &infos[i];
-  return NULL;
 }

@@ -1,8 +1,22 @@
-/* Defaults and checks of the settings, and their values as numbers, all by the table of settings-table.c.
+/* Settings by name, their defaults and checks, and their values as numbers, all by the table of settings-table.c.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "celdepth/settings.h"
+
+#include <string.h>
+
+const CeldSettingInfo *
+celd_setting_find (const char *name)
+{
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
+
+  for (size_t i = 0; i < n; i++)
+    if (!strcmp (info[i].name, name))
+      return &info[i];
+  return NULL;
+}
 
 double
 celd_setting_get (const CeldSettingInfo *info, const void *record)

@@ -254,7 +254,7 @@ solve_laplace (const CeldHost *host, Inpainting *fill)
   CeldLaplace *laplace = NULL;
   CeldStatus   status = east && south && fixed ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t p = 0; p < pixels && !status; p++)
+  for (size_t p = 0; p < pixels && status == CELD_OK; p++)
     {
       fixed[p] = fill->kind[p] != FILL_FREE;
       if (fill->kind[p] && (p + 1) % w && fill->kind[p + 1])
@@ -262,9 +262,9 @@ solve_laplace (const CeldHost *host, Inpainting *fill)
       if (fill->kind[p] && p + w < pixels && fill->kind[p + w])
         south[p] = 1;
     }
-  if (!status)
+  if (status == CELD_OK)
     status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, host, &laplace);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_lap_solve_lanes (laplace, NULL, fill->value, INPAINT_TOLERANCE, host, NULL);
   celd_lap_free (laplace);
   celd_free (east);
@@ -352,22 +352,22 @@ celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const Ce
   CeldOutline outline = { 0 };
   CeldStatus  status = everything ? CELD_OK : celd_layer_outline (layers, layer, ink, stroke, &outline);
 
-  if (status)
+  if (status != CELD_OK)
     return status;
   part.n_curves = outline.n_gaps;
   part.curve    = celd_alloc (part.n_curves, sizeof *part.curve);
   status        = part.curve ? CELD_OK : CELD_NO_MEMORY;
-  if (!status && everything)
+  if (status == CELD_OK && everything)
     status = cover_everything (&part);
-  else if (!status)
+  else if (status == CELD_OK)
     {
       celd_layer_curves (layers, layer, &outline, part.curve);
       part.box = whole_box (&part);
       status = celd_coverage_of_outline (part.box, &outline, part.curve, &part.coverage);
     }
-  if (!status)
+  if (status == CELD_OK)
     keep_hidden (&part);
-  if (!status && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
+  if (status == CELD_OK && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
       (status = inpaint (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
     status = keep_pixels (&part, &fill);
   celd_outline_clear (&outline);

@@ -94,12 +94,12 @@ trace_all (Tracing *t)
   if (!celd_reserve (&t->outline->loop, 1, &t->outline->loop_capacity, sizeof *t->outline->loop))
     return CELD_NO_MEMORY;
   t->outline->loop[0] = 0;
-  for (int y = t->box.y; y < t->box.y + t->box.height && !status; y++)
-    for (int x = t->box.x; x < t->box.x + t->box.width && !status; x++)
+  for (int y = t->box.y; y < t->box.y + t->box.height && status == CELD_OK; y++)
+    for (int x = t->box.x; x < t->box.x + t->box.width && status == CELD_OK; x++)
       if (is_visible (t, x, y) && !is_visible (t, x, y - 1) && !*upper_side (t, x, y))
         {
           status = trace_loop (t, x, y);
-          if (!status)
+          if (status == CELD_OK)
             status = end_loop (t->outline);
         }
   return status;
@@ -331,9 +331,9 @@ add_gap (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int strok
     before++;
   after = piece_length (loop, from + length);
   status = describe_end (layers, layer, ink, stroke, loop, from, -1, before, &gap->in);
-  if (!status)
+  if (status == CELD_OK)
     status = describe_end (layers, layer, ink, stroke, loop, from + length, 1, after, &gap->out);
-  outline->n_gaps += !status;
+  outline->n_gaps += status == CELD_OK;
   return status;
 }
 
@@ -349,7 +349,7 @@ find_gaps (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int str
 {
   CeldStatus status = CELD_OK;
 
-  for (size_t l = 0; l < outline->n_loops && !status; l++)
+  for (size_t l = 0; l < outline->n_loops && status == CELD_OK; l++)
     {
       Loop   loop = { outline->crack + outline->loop[l], outline->loop[l + 1] - outline->loop[l] };
       size_t start;
@@ -359,7 +359,7 @@ find_gaps (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int str
       start = find_change (&loop);
       if (start == loop.n)
         set_hidden (&loop, loop.crack->hidden && loop_area (&loop) < 0);
-      for (size_t i = 0, length; start < loop.n && i < loop.n && !status; i += length)
+      for (size_t i = 0, length; start < loop.n && i < loop.n && status == CELD_OK; i += length)
         {
           length = piece_length (&loop, start + i);
           if (crack_at (&loop, start + i)->hidden)
@@ -388,9 +388,9 @@ celd_layer_outline (const CeldLayers *layers, size_t layer, const CeldPlane *ink
   t.traced = celd_alloc0 ((size_t) t.box.width * (size_t) t.box.height, 1);
   status = t.traced ? trace_all (&t) : CELD_NO_MEMORY;
   celd_free (t.traced);
-  if (!status)
+  if (status == CELD_OK)
     status = find_gaps (layers, layer, ink, stroke, outline);
-  if (status)
+  if (status != CELD_OK)
     celd_outline_clear (outline);
   return status;
 }

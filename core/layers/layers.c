@@ -165,16 +165,16 @@ complete_layers (const CeldPlane *ink, uint32_t background, const CeldHost *host
   int        stroke = celd_stroke_width (ink);
   CeldStatus status = CELD_OK;
 
-  for (size_t k = 0; k < layers->n && !status; k++)
+  for (size_t k = 0; k < layers->n && status == CELD_OK; k++)
     {
       CeldHostPart part;
       double       turns = (double) layers->n;
       CeldHost     turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
 
       status = celd_layer_complete (layers, k, layers->item[k].label == background, ink, stroke, &turn);
-      if (!status)
+      if (status == CELD_OK)
         status = celd_progress (&turn, 1);
-      for (size_t i = 0; i < layers->n_hidden[k] && !status; i++)
+      for (size_t i = 0; i < layers->n_hidden[k] && status == CELD_OK; i++)
         extend_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
     }
   return status;
@@ -296,7 +296,7 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
     return CELD_BAD_VALUE;
   of_label = celd_alloc (n, sizeof *of_label);
   status = of_label ? new_layers (ink->width, ink->height, n, &layers) : CELD_NO_MEMORY;
-  if (status)
+  if (status != CELD_OK)
     goto done;
   layers->store = store;
   celd_quantizer_prepare (layers);
@@ -305,11 +305,11 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
       (status = place_pixels (own, of_label, layers)) == CELD_OK &&
       (status = celd_layers_unmix (layers, ink, &first)) == CELD_OK)
     find_boxes (layers);
-  if (!status && complete)
+  if (status == CELD_OK && complete)
     status = complete_layers (ink, background, &second, layers);
 done:
   celd_free (of_label);
-  if (status)
+  if (status != CELD_OK)
     celd_layers_free (layers);
   else
     *result = layers;
@@ -350,7 +350,7 @@ celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, con
   uint32_t   background = 0;
   CeldStatus status = find_background (made, &background);
 
-  return status ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete,
+  return status != CELD_OK ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete,
                                             host,
                                             layers);
 }
@@ -365,7 +365,7 @@ celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const Celd
   CeldHost           first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
   CeldStatus         status = celd_level_ownership_new (ink, levels, regions, corrections, method, &first, &made);
 
-  if (!status)
+  if (status == CELD_OK)
     status = celd_level_layers_cut (&made, ink, art, store, complete, &second, layers);
   celd_level_ownership_clear (&made);
   return status;

@@ -50,7 +50,7 @@ find_strokes (Corrector *h)
   int        w = h->ink->width;
   CeldStatus status = celd_tiles_new (w, h->ink->height, &h->strokes);
 
-  for (int y = 0; y < h->ink->height && !status; y++)
+  for (int y = 0; y < h->ink->height && status == CELD_OK; y++)
     for (int x = 0; x < w; x += CELD_TILE)
       {
         const uint32_t *label = &CELD_AT (h->corrections, x, y);
@@ -127,7 +127,7 @@ reassign_behind (const Corrector *h, size_t i)
   float                length = search_depth (h, i);
   CeldStatus           status = CELD_OK;
 
-  for (float s = SEARCH_STEP / 2; s < length && h->change[i].to && !status; s += SEARCH_STEP)
+  for (float s = SEARCH_STEP / 2; s < length && h->change[i].to && status == CELD_OK; s += SEARCH_STEP)
     {
       int x, y;
 
@@ -145,8 +145,8 @@ reassign_below (const Corrector *h, CeldRect tile)
 
   if (!*celd_tile_of (&h->strokes, tile.x, tile.y))
     return CELD_OK;
-  for (int y = tile.y; y < tile.y + tile.height && !status; y++)
-    for (int x = tile.x; x < tile.x + tile.width && !status; x++)
+  for (int y = tile.y; y < tile.y + tile.height && status == CELD_OK; y++)
+    for (int x = tile.x; x < tile.x + tile.width && status == CELD_OK; x++)
       if (CELD_AT (h->corrections, x, y) && !celd_is_paper (CELD_AT (h->ink, x, y)))
         status = reassign (h, x, y, CELD_AT (h->corrections, x, y));
   return status;
@@ -161,14 +161,14 @@ celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const
   Corrector  h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.change), { 0 }, reassigned };
   CeldStatus status = h.change ? find_strokes (&h) : CELD_NO_MEMORY;
 
-  for (size_t i = 0; i < n && !status; i++)
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
     h.change[i] = find_change (&h, i);
-  for (size_t k = 0; k < pens->edges->n_loops && !status; k++)
+  for (size_t k = 0; k < pens->edges->n_loops && status == CELD_OK; k++)
     propagate_changes (&h, &pens->edges->loop[k]);
-  for (size_t i = 0; i < n && !status; i++)
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
     status = reassign_behind (&h, i);
-  for (int ty = 0; ty < h.strokes.down && !status; ty++)
-    for (int tx = 0; tx < h.strokes.across && !status; tx++)
+  for (int ty = 0; ty < h.strokes.down && status == CELD_OK; ty++)
+    for (int tx = 0; tx < h.strokes.across && status == CELD_OK; tx++)
       status = reassign_below (&h, celd_tile_rect (tx, ty, ink->width, ink->height));
   celd_free (h.change);
   celd_free (h.strokes.at);

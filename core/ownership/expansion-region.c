@@ -283,7 +283,7 @@ propagate_thickness (ExpansionWindow *w, const CeldHost *host)
         w->south[p] = p + (size_t) w->width < w->pixels && w->contour[p + (size_t) w->width];
       }
   status = celd_lap_setup (w->width, w->height, w->east, w->south, NULL, w->axis, &set_up, &laplace);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_lap_solve (laplace, 1, NULL, w->t, PROPAGATION_TOLERANCE, &solve, NULL);
   celd_lap_free (laplace);
   return status;
@@ -323,11 +323,11 @@ fill_gaps (ExpansionWindow *w, const CeldHost *host)
   size_t         n = 0, p = 0;
   CeldStatus     status = celd_labels_new (w->width, w->height, &gaps);
 
-  for (p = 0; p < w->pixels && !status; p++)
+  for (p = 0; p < w->pixels && status == CELD_OK; p++)
     gaps.data[p] = w->contour[p] && !w->taken[p];
-  if (!status)
+  if (status == CELD_OK)
     status = celd_components (&gaps, 0, false, host, &gaps, &list, &n);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   for (int y = 0; y < w->height; y++)
     for (int x = 0; x < w->width; x++)
@@ -365,23 +365,23 @@ celd_expand_region (CeldExpansionState *state, uint32_t k, const CeldHost *host)
   if (!state->box[k - 1].width || !find_window (&w))
     return celd_progress (host, 1);
   status = open_window (&w);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   read_window (&w);
   status = celd_nearest (w.width, w.height, w.front, &first, w.d1, w.near1);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_nearest (w.width, w.height, w.farther, &second, w.d2, w.near2);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   flood (&w, w.contour);
   find_axis (&w);
   trim_contour (&w);
   status = propagate_thickness (&w, &third);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   take_contour (&w);
   status = fill_gaps (&w, &fourth);
-  if (!status)
+  if (status == CELD_OK)
     write_window (&w);
 done:
   close_window (&w);

@@ -92,9 +92,9 @@ free_ink (const CeldPlane *ink, const CeldHost *host, CeldExpansionState *state)
   size_t         n = 0, p;
   CeldStatus     status = celd_labels_new (state->width, state->height, &patch);
 
-  if (!status)
+  if (status == CELD_OK)
     status = celd_components (&level, 0, false, host, &patch, &list, &n);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   for (p = 0; p < n; p++)
     if (list[p].area < MIN_PATCH)
@@ -121,12 +121,12 @@ measure_state (const CeldHost *host, CeldExpansionState *state)
   CeldStatus status = settled ? CELD_OK : CELD_NO_MEMORY;
   size_t     p;
 
-  for (p = 0; p < state->pixels && !status; p++)
+  for (p = 0; p < state->pixels && status == CELD_OK; p++)
     settled[p] = state->level[p] != 0;
-  if (!status)
+  if (status == CELD_OK)
     status = celd_distance (state->width, state->height, settled, host, state->distance_in_ink);
   celd_free (settled);
-  for (p = 0; p < state->pixels && !status; p++)
+  for (p = 0; p < state->pixels && status == CELD_OK; p++)
     if (state->level[p])
       {
         int       x = (int) (p % (size_t) state->width), y = (int) (p / (size_t) state->width);
@@ -146,7 +146,7 @@ expand_regions (const CeldHost *host, CeldExpansionState *state)
 {
   CeldStatus status = CELD_OK;
 
-  for (size_t k = state->n; k > 1 && !status; k--)
+  for (size_t k = state->n; k > 1 && status == CELD_OK; k--)
     {
       CeldHostPart part;
       CeldHost turn = celd_host_part (&part, host, (double) (state->n - k) / (double) state->n,
@@ -165,11 +165,11 @@ assign_rest (const CeldHost *host, CeldExpansionState *state)
   int32_t   *nearest = celd_alloc (state->pixels, sizeof *nearest);
   CeldStatus status = settled && nearest ? CELD_OK : CELD_NO_MEMORY;
 
-  for (size_t p = 0; p < state->pixels && !status; p++)
+  for (size_t p = 0; p < state->pixels && status == CELD_OK; p++)
     settled[p] = state->level[p] != 0;
-  if (!status)
+  if (status == CELD_OK)
     status = celd_nearest (state->width, state->height, settled, host, state->distance_in_ink, nearest);
-  for (size_t p = 0; p < state->pixels && !status; p++)
+  for (size_t p = 0; p < state->pixels && status == CELD_OK; p++)
     if (!settled[p] && nearest[p] >= 0)
       state->level[p] = state->level[nearest[p]];
   celd_free (settled);
@@ -206,17 +206,17 @@ celd_expand (const CeldPlane *ink, const CeldLabels *ranks, const CeldHost *host
   status = state.level && state.distance_in_ink ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
     status = number_pixels (ranks, &state);
-  if (status)
+  if (status != CELD_OK)
     goto done;
   state.box = celd_alloc0 (state.n, sizeof *state.box);
   status = state.box ? CELD_OK : CELD_NO_MEMORY;
-  if (status)
+  if (status != CELD_OK)
     goto done;
   if ((status = free_ink (ink, &first, &state)) == CELD_OK &&
       (status = measure_state (&second, &state)) == CELD_OK &&
       (status = expand_regions (&third, &state)) == CELD_OK)
     status = assign_rest (&fourth, &state);
-  if (!status)
+  if (status == CELD_OK)
     write_ranks (&state, ranks, expanded);
 done:
   celd_free (state.level);

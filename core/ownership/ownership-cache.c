@@ -82,15 +82,15 @@ find_unclaimed (Unclaimed *unclaimed)
 
         if (!(*celd_tile_of (unclaimed->tiles, r.x, r.y) & CELD_TILE_CLAIM))
           continue;
-        for (int y = r.y > 0 ? r.y - 1 : 0; y <= r.y + r.height && y < ink->height && !status; y++)
-          for (int x = r.x > 0 ? r.x - 1 : 0; x <= r.x + r.width && x < ink->width && !status; x++)
+        for (int y = r.y > 0 ? r.y - 1 : 0; y <= r.y + r.height && y < ink->height && status == CELD_OK; y++)
+          for (int x = r.x > 0 ? r.x - 1 : 0; x <= r.x + r.width && x < ink->width && status == CELD_OK; x++)
             status = add_unclaimed (unclaimed, x, y);
       }
-  for (size_t i = 0; i < unclaimed->n && !status; i++)
+  for (size_t i = 0; i < unclaimed->n && status == CELD_OK; i++)
     {
       int near[4][2], n = celd_pixel_neighbours (ink, unclaimed->item[i].pixel, near);
 
-      for (int k = 0; k < n && !status; k++)
+      for (int k = 0; k < n && status == CELD_OK; k++)
         status = add_unclaimed (unclaimed, near[k][0], near[k][1]);
     }
   return status;
@@ -104,7 +104,7 @@ spread_again (const CeldClaimMap *c, CeldTiles *tiles)
 
   for (size_t i = 0; i < unclaimed.n; i++)
     CELD_AT (c->owner, unclaimed.item[i].pixel % c->ink->width, unclaimed.item[i].pixel / c->ink->width) = 0;
-  if (!status)
+  if (status == CELD_OK)
     celd_claims_spread (c, unclaimed.item, unclaimed.n);
   celd_free (unclaimed.item);
   return status;
@@ -203,15 +203,15 @@ measure_pens (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, Celd
 
   *solid = celd_alloc (in->n, sizeof **solid);
   status = level && *solid ? CELD_OK : CELD_NO_MEMORY;
-  if (!status)
+  if (status == CELD_OK)
     memcpy (level, in->level, in->n * sizeof *level);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_contour_pens_update (&kept->pens, in->labels, new_labels, level, in->n, pens);
-  if (!status && !new_labels.width && in->n == kept->pens.n)
+  if (status == CELD_OK && !new_labels.width && in->n == kept->pens.n)
     memcpy (*solid, kept->solid, in->n * sizeof **solid);
-  else if (!status)
+  else if (status == CELD_OK)
     status = celd_solid_labels_find (pens, in->ink, in->labels, *solid);
-  if (status)
+  if (status != CELD_OK)
     {
       celd_contour_pens_clear (pens);
       celd_free (level);
@@ -225,7 +225,7 @@ find_antialiased (const CeldPlane *ink, CeldTiles *antialiased)
 {
   CeldStatus status = celd_tiles_new (ink->width, ink->height, antialiased);
 
-  for (int y = 0; y < ink->height && !status; y++)
+  for (int y = 0; y < ink->height && status == CELD_OK; y++)
     for (int x = 0; x < ink->width; x++)
       if (CELD_AT (ink, x, y) > 0 && CELD_AT (ink, x, y) < 1)
         *celd_tile_of (antialiased, x, y) = 1;
@@ -246,25 +246,25 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
   celd_ownership_cache_clear (kept);
   kept->pens.edges = &kept->edges;
   status = find_antialiased (input->ink, &kept->antialiased);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_contour_edges_new (input->ink, &first, &kept->edges);
-  if (!status)
+  if (status == CELD_OK)
     status = measure_pens (input, kept, (CeldRect) { 0, 0, w, h }, &pens, &solid);
-  if (!status)
+  if (status == CELD_OK)
     replace_pens (kept, &pens, &solid);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_labels_new (w, h, &kept->owner);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_plane_new (w, h, &kept->excess);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_claims_assign (&kept->pens, input->ink, input->labels, kept->solid, &second, &kept->owner,
                                  &kept->excess);
-  if (!status && input->corrections)
+  if (status == CELD_OK && input->corrections)
     status = celd_corrections_apply (&kept->pens, input->ink, input->corrections, &kept->owner, &kept->reassigned);
-  if (!status)
+  if (status == CELD_OK)
     celd_ownership_coverage (input->ink, &kept->owner, input->level, (CeldRect) { 0, 0, w, h }, false, ownership);
   celd_free (solid);
-  if (status)
+  if (status != CELD_OK)
     celd_ownership_cache_clear (kept);
   return status;
 }
@@ -281,11 +281,11 @@ update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost
   bool           *solid = NULL;
   CeldStatus      status = measure_pens (in, kept, new_labels, &pens, &solid);
 
-  if (!status)
+  if (status == CELD_OK)
     status = celd_ownership_mark_changes (kept, in, new_labels, &pens, solid, tiles);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_progress (host, 0.5);
-  if (!status)
+  if (status == CELD_OK)
     {
       replace_pens (kept, &pens, &solid);
       claim_again (&claims, in, kept->solid, tiles);
@@ -306,15 +306,15 @@ celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_label
   CeldTiles  tiles = { 0 };
   CeldStatus status = celd_tiles_new (input->ink->width, input->ink->height, &tiles);
 
-  if (!status)
+  if (status == CELD_OK)
     revert_corrections (kept, &tiles);
-  if (!status && (!same || new_labels.width))
+  if (status == CELD_OK && (!same || new_labels.width))
     status = update_owners (input, new_labels, host, kept, &tiles);
-  if (!status)
+  if (status == CELD_OK)
     status = apply_corrections (input, kept, &tiles);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_progress (host, 1);
-  if (!status)
+  if (status == CELD_OK)
     *changed = update_record (input, kept, !same, &tiles, ownership);
   else
     celd_ownership_cache_clear (kept);

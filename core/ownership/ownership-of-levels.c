@@ -37,11 +37,11 @@ split_levels_by_region (const CeldLabels *regions, CeldLabels *label, CeldLabels
   for (int y = 0; y < label->height; y++)
     memcpy (&CELD_AT (scratch, 0, y), &CELD_AT (regions, 0, y), (size_t) label->width * sizeof (uint32_t));
   status = celd_number_ranks (scratch, NULL, &n_regions);
-  if (!status && *n > UINT32_MAX / n_regions)
+  if (status == CELD_OK && *n > UINT32_MAX / n_regions)
     status = CELD_NO_MEMORY;
-  for (size_t p = 0; p < pixels && !status; p++)
+  for (size_t p = 0; p < pixels && status == CELD_OK; p++)
     label->data[p] = (uint32_t) ((label->data[p] - 1) * n_regions) + scratch->data[p];
-  return status ? status : celd_number_ranks (label, NULL, n);
+  return status != CELD_OK ? status : celd_number_ranks (label, NULL, n);
 }
 
 /* Records level, region and order of each label. */
@@ -78,9 +78,9 @@ number_labels (const CeldPlane *levels, const CeldLabels *regions, CeldLevelOwne
     for (int x = 0; x < levels->width; x++)
       CELD_AT (label, x, y) = rank_of_level (CELD_AT (levels, x, y));
   status = celd_number_ranks (label, NULL, &made->n);
-  if (!status && regions)
+  if (status == CELD_OK && regions)
     status = split_levels_by_region (regions, label, &made->own.under, &made->n);
-  return status ? status : describe_labels (levels, regions, made);
+  return status != CELD_OK ? status : describe_labels (levels, regions, made);
 }
 
 /* ------------------------------------------------------------------ corrections */
@@ -105,9 +105,9 @@ number_corrections (const CeldLevelOwnership *made, const CeldLabels *correction
   size_t           *area = celd_alloc0 (made->n, sizeof *area);
   CeldStatus        status = area ? celd_labels_new (label->width, label->height, numbered) : CELD_NO_MEMORY;
 
-  for (size_t p = 0; p < (size_t) label->width * (size_t) label->height && !status; p++)
+  for (size_t p = 0; p < (size_t) label->width * (size_t) label->height && status == CELD_OK; p++)
     area[label->data[p] - 1]++;
-  for (int y = 0; y < label->height && !status; y++)
+  for (int y = 0; y < label->height && status == CELD_OK; y++)
     for (int x = 0; x < label->width; x++)
       {
         const uint32_t *stroke = &CELD_AT (corrections, x, y);
@@ -137,11 +137,11 @@ celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const C
   if (corrections && !regions)
     return CELD_BAD_VALUE;
   status = celd_ownership_new (levels->width, levels->height, &made->own);
-  if (!status)
+  if (status == CELD_OK)
     status = number_labels (levels, regions, made);
-  if (!status && corrections)
+  if (status == CELD_OK && corrections)
     status = number_corrections (made, corrections, &numbered);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_own (ink, &made->own.owner, made->order, made->n, corrections ? &numbered : NULL, method, host,
                        &made->own);
   celd_free (numbered.data);
@@ -182,7 +182,7 @@ celd_expand_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLab
   if (!CELD_SAME_SIZE (levels, expanded))
     return CELD_BAD_SIZE;
   status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
-  if (!status)
+  if (status == CELD_OK)
     write_levels (&made, expanded);
   celd_level_ownership_clear (&made);
   return status;
@@ -200,7 +200,7 @@ celd_matte_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldL
       (region && !CELD_SAME_SIZE (levels, region)))
     return CELD_BAD_SIZE;
   status = celd_level_ownership_new (ink, levels, regions, corrections, method, host, &made);
-  for (int y = 0; y < levels->height && !status; y++)
+  for (int y = 0; y < levels->height && status == CELD_OK; y++)
     for (int x = 0; x < levels->width; x++)
       {
         uint32_t owner = CELD_AT (&made.own.owner, x, y);

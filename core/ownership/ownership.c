@@ -146,17 +146,17 @@ own_by_thickness (const CeldPlane *ink, const CeldLabels *labels, const uint32_t
   CeldLabels levels = { 0 }, found = { 0 };
   CeldStatus status = celd_labels_new (labels->width, labels->height, &levels);
 
-  if (status)
+  if (status != CELD_OK)
     return status;
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
       CELD_AT (&levels, x, y) = level[CELD_AT (labels, x, y) - 1];
   status = celd_expand (ink, &levels, host, &levels);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_labels_new (labels->width, labels->height, &found);
-  if (!status)
+  if (status == CELD_OK)
     status = spread_labels (labels, level, &levels, &found);
-  for (int y = 0; y < labels->height && !status; y++)
+  for (int y = 0; y < labels->height && status == CELD_OK; y++)
     for (int x = 0; x < labels->width; x++)
       CELD_AT (owner, x, y) = CELD_AT (&found, x, y) ? CELD_AT (&found, x, y) : CELD_AT (labels, x, y);
   celd_free (levels.data);
@@ -173,7 +173,7 @@ own_by_outlines (const CeldContourPens *pens, const CeldPlane *ink, const CeldLa
   bool      *solid = celd_alloc (pens->n, sizeof *solid);
   CeldStatus status = solid ? celd_solid_labels_find (pens, ink, labels, solid) : CELD_NO_MEMORY;
 
-  if (!status)
+  if (status == CELD_OK)
     status = celd_claims_assign (pens, ink, labels, solid, host, &own->owner, &own->coverage);
   celd_free (solid);
   return status;
@@ -195,14 +195,14 @@ own_ink (const CeldPlane *ink, const CeldLabels *labels, const uint32_t *level, 
   if (method == CELD_EXPANSION_OUTLINES || corrections)
     {
       status = celd_contour_edges_new (ink, &first, &edges);
-      if (!status)
+      if (status == CELD_OK)
         status = celd_contour_pens_new (&edges, labels, level, n, &pens);
     }
-  if (!status && method == CELD_EXPANSION_OUTLINES)
+  if (status == CELD_OK && method == CELD_EXPANSION_OUTLINES)
     status = own_by_outlines (&pens, ink, labels, &second, own);
-  else if (!status)
+  else if (status == CELD_OK)
     status = own_by_thickness (ink, labels, level, &second, &own->owner);
-  if (!status && corrections)
+  if (status == CELD_OK && corrections)
     status = celd_corrections_apply (&pens, ink, corrections, &own->owner, &reassigned);
   celd_reassigned_clear (&reassigned);
   celd_contour_pens_clear (&pens);

@@ -190,7 +190,7 @@ celd_mesh_add_wall (CeldMeshBuilder *m, int x, int y, int end_x, int end_y)
       find_chain_down (m, x, y, edge.inside, &start);
       find_chain_down (m, end_x, end_y, edge.end_inside, &end);
       status = fill_wall (m, &start, &end);
-      return status ? status : celd_mesh_add_triangle (m, m->bottom_centre, end.vertex[end.n - 1],
+      return status != CELD_OK ? status : celd_mesh_add_triangle (m, m->bottom_centre, end.vertex[end.n - 1],
                                                        start.vertex[start.n - 1]);
     }
   if (!is_cut (m->relief, x, y, direction))

@@ -55,7 +55,7 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
     {
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
       status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
-      return status ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second,
+      return status != CELD_OK ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second,
                                                       p->z);
     }
   status = celd_relief_inflate (surface, (double) settings->tolerance, host, p->z);

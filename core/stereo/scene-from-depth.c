@@ -266,7 +266,7 @@ make_rows (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host, double
 {
   CeldStatus status = CELD_OK;
 
-  for (int y = 0; y < depth->height && !status; y++)
+  for (int y = 0; y < depth->height && status == CELD_OK; y++)
     {
       make_row (m, depth, y);
       if (y % 64 == 63)
@@ -282,11 +282,11 @@ make_scene (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host)
   size_t     groups = m->scene->n_parts;
   CeldStatus status = make_rows (m, depth, host, 0);
 
-  for (size_t k = 0; k < groups && !status; k++)
+  for (size_t k = 0; k < groups && status == CELD_OK; k++)
     status = celd_scene_spans_new (m->spans[k], m->pixels[k], &m->scene->part[k]);
   celd_free (m->spans);
   m->spans = NULL;
-  return status ? status : make_rows (m, depth, host, 0.5);
+  return status != CELD_OK ? status : make_rows (m, depth, host, 0.5);
 }
 
 CeldStatus
@@ -307,7 +307,7 @@ celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPla
   steps   = fmin (fmax (2 * (most - least) / (double) m.cut, 1), MAX_GROUPS);
   m.steps = most > least ? steps / (most - least) : 0;
   status  = celd_scene_new (depth->width, depth->height, 2 * ((size_t) steps + 1), &m.scene);
-  if (!status)
+  if (status == CELD_OK)
     {
       m.scene->least = least;
       m.scene->most  = most;
@@ -317,12 +317,12 @@ celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPla
       m.pixels = celd_alloc0 (m.scene->n_parts, sizeof *m.pixels);
       status = m.depths && m.spans && m.pixels ? make_scene (&m, depth, host) : CELD_NO_MEMORY;
     }
-  if (!status)
+  if (status == CELD_OK)
     status = celd_scene_sort (m.scene);
   celd_free (m.depths);
   celd_free (m.spans);
   celd_free (m.pixels);
-  if (status)
+  if (status != CELD_OK)
     celd_scene_free (m.scene);
   else
     *result = m.scene;

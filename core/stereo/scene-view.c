@@ -320,20 +320,20 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
 
   if (!scratch || !t.colour || !t.depths)
     status = CELD_NO_MEMORY;
-  if (!status)
+  if (status == CELD_OK)
     {
       Scanline line = scanline_in (scratch, scene->width);
 
       memset (line.span, 0, (size_t) line.width * sizeof *line.span);
       line.first = line.width;
-      for (uint32_t k = 0; k < groups && !status; k++)
+      for (uint32_t k = 0; k < groups && status == CELD_OK; k++)
         {
           status = transpose_group (&t, k, &line, host, &(*transposed)->part[k]);
-          if (!status)
+          if (status == CELD_OK)
             status = celd_progress (host, 0.8 * (k + 1) / groups);
         }
     }
-  if (!status)
+  if (status == CELD_OK)
     status = celd_scene_sort (*transposed);
   celd_free (scratch);
   celd_free (t.colour);
@@ -349,11 +349,11 @@ draw_two_axes (const CeldScene *scene, Projection across, Projection along, cons
   CeldScene  *transposed = NULL;
   CeldStatus  status = transpose_scene (scene, across, host, &transposed);
 
-  if (!status)
+  if (status == CELD_OK)
     tall.data = celd_alloc ((size_t) scene->width * (size_t) scene->height, 4 * sizeof *tall.data);
-  if (!status)
+  if (status == CELD_OK)
     status = tall.data ? draw (transposed, along, host, &tall) : CELD_NO_MEMORY;
-  for (int y = 0; y < view->height && !status; y++)
+  for (int y = 0; y < view->height && status == CELD_OK; y++)
     for (int x = 0; x < view->width; x++)
       memcpy (CELD_RGBA (view, x, y), CELD_RGBA (&tall, y, x), 4 * sizeof *view->data);
   celd_scene_free (transposed);
@@ -381,5 +381,5 @@ celd_scene_view (const CeldScene *scene, CeldCamera camera, const CeldSettings *
   across = (Projection) { camera.squeeze, scene->width / 2.0, camera.x * half, screen };
   along  = (Projection) { 1, scene->height / 2.0, camera.y * half, screen };
   status = camera.y != 0 ? draw_two_axes (scene, across, along, host, view) : draw (scene, across, host, view);
-  return status ? status : celd_progress (host, 1);
+  return status != CELD_OK ? status : celd_progress (host, 1);
 }

@@ -101,7 +101,7 @@ celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const f
         pixels += (size_t) (x - first);
       }
   status = celd_scene_spans_new (n, pixels, spans);
-  for (int y = 0, first; y < box.height && !status; y++)
+  for (int y = 0, first; y < box.height && status == CELD_OK; y++)
     {
       const float *row = rgba + 4 * (size_t) y * w;
 
@@ -302,21 +302,21 @@ celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, 
       !CELD_SAME_SIZE (depth, &ownership->coverage))
     return CELD_BAD_SIZE;
   status = celd_scene_new (depth->width, depth->height, n, &scene);
-  for (size_t k = 0; k < n && !status; k++)
+  for (size_t k = 0; k < n && status == CELD_OK; k++)
     {
       CeldHostPart turn;
       CeldHost     short_run = celd_host_part (&turn, host, 0, 0);
 
       status = add_layer (&part, layers, k, &short_run, scene);
-      if (!status)
+      if (status == CELD_OK)
         status = celd_progress (host, (double) (k + 1) / (double) n);
     }
-  if (!status)
+  if (status == CELD_OK)
     {
       celd_depth_range (depth, &scene->least, &scene->most);
       status = celd_scene_sort (scene);
     }
-  if (status)
+  if (status != CELD_OK)
     celd_scene_free (scene);
   else
     *result = scene;
@@ -334,9 +334,9 @@ celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldP
   CeldHost      third = celd_host_part (&part[2], host, 0.9, 1);
   CeldStatus    status = celd_level_ownership_new (ink, levels, NULL, NULL, method, &first, &made);
 
-  if (!status)
+  if (status == CELD_OK)
     status = celd_level_layers_cut (&made, ink, art, CELD_STORE_FLOAT, true, &second, &layers);
-  if (!status)
+  if (status == CELD_OK)
     status = celd_scene_of_layers (layers, &made.own, depth, &third, scene);
   celd_layers_free (layers);
   celd_level_ownership_clear (&made);
