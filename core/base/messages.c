@@ -61,8 +61,8 @@ relation_name (const CeldRelations *relations, size_t index, char *name, size_t 
 }
 
 void
-celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations,
-                   char *text, size_t size)
+celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldRelations *relations, char *text,
+                   size_t size)
 {
   char label[24], other[24], relation[96];
 

@@ -152,8 +152,8 @@ mark_cores (Cores *c, size_t speck, const uint8_t *changed, const uint8_t *last,
 }
 
 CeldStatus
-celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed,
-                 const uint8_t *last, const CeldHost *host, uint8_t *fixed)
+celd_cores_mark (int width, int height, const float *level, size_t speck, const uint8_t *changed, const uint8_t *last,
+                 const CeldHost *host, uint8_t *fixed)
 {
   Cores        c = { .width = width, .height = height, .level = level, .fixed = fixed };
   CeldHostPart part[2];

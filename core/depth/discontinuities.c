@@ -6,8 +6,8 @@
  * levels are expanded or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a
  * virtual contour gives a smooth transition.
  *
- * A cut that ends nearby separates nothing: then a short detour leads around it.  That is found by flood fill in a small
- * window, with one bit for each pixel, so that a whole row is filled at once.
+ * A cut that ends nearby separates nothing: then a short detour leads around it.  That is found by flood fill in a
+ * small window, with one bit for each pixel, so that a whole row is filled at once.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -71,8 +71,8 @@ weigh_row (const CeldDepthEdges *b, const float *level, int n, int y, int right,
 }
 
 CeldStatus
-celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host,
-                    float *east, float *south)
+celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host, float *east,
+                    float *south)
 {
   CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)) };
   size_t         w = (size_t) ink->width;

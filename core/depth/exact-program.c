@@ -367,8 +367,8 @@ celd_program_solve (CeldProgram *program, const CeldRelations *relations, const 
 
 CeldStatus
 celd_depth_exact (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
-                  const CeldRelations *relations, const CeldSettings *settings, const CeldHost *host,
-                  CeldPlane *depth, CeldExact *exact, CeldProblems *problems)
+                  const CeldRelations *relations, const CeldSettings *settings, const CeldHost *host, CeldPlane *depth,
+                  CeldExact *exact, CeldProblems *problems)
 {
   const CeldRelations none = { 0 };
   CeldProgram        *program;

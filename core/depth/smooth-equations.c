@@ -15,11 +15,11 @@
 /* One component. */
 typedef struct
 {
-  size_t   area;                /* pixels, and the sum of their levels; counted only if no fixed pixel borders it */
-  double   sum;
-  float    least, most;         /* of these levels */
-  float    low, high;           /* of the levels of the fixed pixels that border it; low > high: there are none */
-  bool     changed;             /* some equation is new */
+  size_t area;                  /* pixels, and the sum of their levels; counted only if no fixed pixel borders it */
+  double sum;
+  float  least, most;           /* of these levels */
+  float  low, high;             /* of the levels of the fixed pixels that border it; low > high: there are none */
+  bool   changed;               /* some equation is new */
 } ComponentExtent;
 
 typedef struct
@@ -148,7 +148,7 @@ fill_constant (const SmoothWork *work)
   CELD_EACH_RUN (&work->components, 0, e->height, y, s)
     {
       const ComponentExtent *extent = &work->extent[s->component];
-      size_t        p = pixel_at (e, s->x, y), end = pixel_at (e, s->end, y);
+      size_t                 p = pixel_at (e, s->x, y), end = pixel_at (e, s->end, y);
 
       if (!extent->changed)
         memcpy (work->depth + p, e->last + p, (end - p) * sizeof *e->last);
@@ -259,8 +259,7 @@ read_box (void *data, const CeldBox *box, CeldSolve *solve)
 /* ------------------------------------------------------------------ the step */
 
 CeldStatus
-celd_smooth_equations_solve (const CeldSmoothEquations *equations, const CeldHost *host, float *depth,
-                             CeldSolve *solve)
+celd_smooth_equations_solve (const CeldSmoothEquations *equations, const CeldHost *host, float *depth, CeldSolve *solve)
 {
   SmoothWork   work = { .equations = equations, .depth = depth };
   CeldHostPart part[2];

@@ -176,7 +176,7 @@ remember (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldSolve *
 
 CeldStatus
 celd_smooth_update (CeldSmoothState *smoother, const CeldSmoothInput *s, const CeldHost *host, CeldPlane *depth,
-                   CeldSolve *solve)
+                    CeldSolve *solve)
 {
   CeldHostPart part[2];
   CeldHost     holding = celd_host_part (&part[0], host, 0, 0.2), solving = celd_host_part (&part[1], host, 0.2, 1);

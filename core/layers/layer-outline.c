@@ -292,10 +292,10 @@ static CeldStatus
 describe_end (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke, const Loop *loop, size_t i,
               int direction, size_t length, CeldGapEnd *end)
 {
-  size_t  length_limit = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke
-                         + 1, to;
-  Point  *point;
-  double  tx, ty, norm;
+  size_t length_limit = (size_t) (5 * stroke < 16 ? 16 : 5 * stroke > 64 ? 64 : 5 * stroke), from = (size_t) stroke
+                        + 1, to;
+  Point *point;
+  double tx, ty, norm;
 
   to   = from + length_limit < length ? from + length_limit : length;
   from = from < to / 2 ? from : to / 2;

@@ -1,20 +1,20 @@
-/* The shape of a layer: where it is visible, absent or occluded, the curves that complete its outline where a nearer layer
- * occludes it, and the coverage of pixels by what the closed outline encloses.
+/* The shape of a layer: where it is visible, absent or occluded, the curves that complete its outline where a nearer
+ * layer occludes it, and the coverage of pixels by what the closed outline encloses.
  *
  * Two edges that disappear behind a shape are seen as one if a smooth curve without an inflection can join them (P. J.
- * Kellman and T. F. Shipley, A theory of visual interpolation in object perception, Cognitive Psychology 23, 1991).  Each
- * gap is closed by a cubic Bezier curve from the point where the outline disappears to the point where it reappears, with
- * the directions measured there.  Its handles have the length of those of a circular arc, 2/3 d / (1 + cos), so that equal
- * turns give an arc and no curve extends far beyond its ends.  Ends that no such curve can join are joined by a straight
- * line.  Where a curve would leave the occluding layer, its handles are shortened until it does not.  An unreliable
- * direction is replaced by the mirror image of the other end's, as on an arc.
+ * Kellman and T. F. Shipley, A theory of visual interpolation in object perception, Cognitive Psychology 23, 1991).
+ * Each gap is closed by a cubic Bezier curve from the point where the outline disappears to the point where it
+ * reappears, with the directions measured there.  Its handles have the length of those of a circular arc, 2/3 d / (1 +
+ * cos), so that equal turns give an arc and no curve extends far beyond its ends.  Ends that no such curve can join are
+ * joined by a straight line.  Where a curve would leave the occluding layer, its handles are shortened until it does
+ * not.  An unreliable direction is replaced by the mirror image of the other end's, as on an arc.
  *
  * The two sides of a limb that passes behind something reappear on its other side: two gaps exchange their ends if both
  * outlines become straighter, and the new curves stay occluded.
  *
- * Coverage is the exact area to the right of directed edges, accumulated along rows.  An edge that goes up by h through a
- * pixel adds h to everything beyond it in the row, and one that goes down subtracts h, so that the sum along a row is the
- * winding number.
+ * Coverage is the exact area to the right of directed edges, accumulated along rows.  An edge that goes up by h through
+ * a pixel adds h to everything beyond it in the row, and one that goes down subtracts h, so that the sum along a row is
+ * the winding number.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

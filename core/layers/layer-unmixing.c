@@ -47,7 +47,7 @@ add_colour (const float *art, float weight, float *sum, float *total)
 
 static void
 sample_neighbours (const CeldLayers *layers, const CeldPlane *ink, const CeldBlend *blend, uint32_t layer, int radius,
-             Neighbours *neighbours)
+                   Neighbours *neighbours)
 {
   int left = blend->x > radius ? blend->x - radius : 0, top = blend->y > radius ? blend->y - radius : 0;
   int right = blend->x + radius < layers->width ? blend->x + radius : layers->width - 1;

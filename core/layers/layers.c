@@ -345,14 +345,14 @@ find_background (const CeldLevelOwnership *made, uint32_t *background)
 
 CeldStatus
 celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
-                     bool complete, const CeldHost *host, CeldLayers **layers)
+                       bool complete, const CeldHost *host, CeldLayers **layers)
 {
   uint32_t   background = 0;
   CeldStatus status = find_background (made, &background);
 
-  return status != CELD_OK ? status : celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete,
-                                            host,
-                                            layers);
+  if (status != CELD_OK)
+    return status;
+  return celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, host, layers);
 }
 
 CeldStatus

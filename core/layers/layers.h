@@ -27,10 +27,10 @@ typedef struct { int x, y; float colour[4]; } CeldHiddenPixel;
 
 struct CeldLayers
 {
-  int         width, height;
-  CeldStore   store;
-  float       code_value[256], code_limit[256]; /* linear light of each sRGB code, and the upper limit of what is
-                                                 * rounded to it */
+  int               width, height;
+  CeldStore         store;
+  float             code_value[256], code_limit[256]; /* linear light of each sRGB code, and the upper limit of what is
+                                                       * rounded to it */
   CeldLayer        *item;      /* from back to front */
   CeldRect         *seen;      /* box of the pixels where each layer is CELD_LAYER_VISIBLE */
   size_t            n;

@@ -153,11 +153,11 @@ strengths (const Creases *s, const Flank *p, const Flank *q, double nx, double n
 static CeldStatus
 look_at_edge (Creases *s, int x, int y, bool down)
 {
-  CeldLumo *l = s->lumo;
-  size_t    i = celd_lumo_pixel (l, x, y);
-  Flank     p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
-  CeldCrease  crease = { (uint32_t) i, down, false, 0, 0, { 0, 0 } };
-  double    nx, ny;
+  CeldLumo  *l = s->lumo;
+  size_t     i = celd_lumo_pixel (l, x, y);
+  Flank      p = flank_of (s, x, y), q = flank_of (s, x + !down, y + down);
+  CeldCrease crease = { (uint32_t) i, down, false, 0, 0, { 0, 0 } };
+  double     nx, ny;
 
   if (!is_middle (s, &p, &q))
     return CELD_OK;

@@ -8,9 +8,9 @@
  *   2. strokes inside a region, where they bend it (lumo-creases.c)
  *   3. what outlines constrain the normal to (lumo-outlines.c)
  *   4. normals in between, component by component (here, by depth/boxed-solver.c)
- *   5. with a bevel: flat again farther away from outlines than its width (here).  Each pixel takes the nearest constraint
- *      of its neighbours [Dan80], but not across cuts, so that outlines of nearer regions do not bend what continues
- *      behind them.  Rows are swept down and up until nothing changes.
+ *   5. with a bevel: flat again farther away from outlines than its width (here).  Each pixel takes the nearest
+ *      constraint of its neighbours [Dan80], but not across cuts, so that outlines of nearer regions do not bend what
+ *      continues behind them.  Rows are swept down and up until nothing changes.
  *
  *   [Dan80]  P.-E. Danielsson: Euclidean Distance Mapping.  Computer Graphics and Image Processing 14, 1980.
  *   [Joh02]  S. F. Johnston: Lumo: Illumination for Cel Animation.  NPAR 2002.

@@ -260,7 +260,7 @@ celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours
   for (int y = 0; y < colours->height; y++)
     for (int x = 0; x < colours->width; x++)
       {
-        float  g = CELD_AT (gloss, x, y), *rgba = CELD_RGBA (colours, x, y);
+        float        g = CELD_AT (gloss, x, y), *rgba = CELD_RGBA (colours, x, y);
         const float *t = CELD_RGBA (tone, x, y);
 
         for (int c = 0; c < 3; c++)

@@ -14,8 +14,8 @@
 #include "image/image.h"
 #include "light/light.h"
 
-#define MOST_LEVELS 256             /* distinct levels; more are rounded to so many evenly spaced ones (they fit a byte) */
-#define FAINT_MATTE (1.0f / 1024)   /* a smaller matte is ignored (chosen) */
+#define MOST_LEVELS 256           /* distinct levels, to fit a byte; more are rounded to so many evenly spaced ones */
+#define FAINT_MATTE (1.0f / 1024) /* a smaller matte is ignored (chosen) */
 
 /* The distinct levels of a picture, numbered from the farthest. */
 typedef struct

@@ -344,7 +344,7 @@ celd_claims_at_point (const CeldContourPens *pens, const CeldEdgeLoop *loop, siz
 
 CeldStatus
 celd_claims_assign (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels, const bool *solid,
-                 const CeldHost *host, CeldLabels *owner, CeldPlane *excess)
+                    const CeldHost *host, CeldLabels *owner, CeldPlane *excess)
 {
   const CeldContourEdges *edges = pens->edges;
   CeldClaimMap            c = { pens, ink, owner, excess };

@@ -226,8 +226,7 @@ update_owners (const CeldContourPens *old, CeldContourPens *pens)
 
 CeldStatus
 celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed, const uint32_t *level,
-                          size_t n,
-                 CeldContourPens *pens)
+                          size_t n, CeldContourPens *pens)
 {
   const CeldContourEdges *edges = old->edges;
   CeldContourPens         made = { .edges = edges, .level = level, .n = n };

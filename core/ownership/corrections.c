@@ -31,8 +31,8 @@ typedef struct
 static CeldStatus
 reassign (const Corrector *h, int x, int y, uint32_t to)
 {
-  uint32_t       *owner = &CELD_AT (h->owner, x, y);
-  CeldStatus      status;
+  uint32_t  *owner = &CELD_AT (h->owner, x, y);
+  CeldStatus status;
 
   if (*owner == to)
     return CELD_OK;
@@ -154,8 +154,7 @@ reassign_below (const Corrector *h, CeldRect tile)
 
 CeldStatus
 celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
-                        CeldLabels *owner,
-                   CeldReassigned *reassigned)
+                        CeldLabels *owner, CeldReassigned *reassigned)
 {
   size_t     n = pens->edges->n_points;
   Corrector  h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.change), { 0 }, reassigned };

@@ -149,8 +149,8 @@ expand_regions (const CeldHost *host, CeldExpansionState *state)
   for (size_t k = state->n; k > 1 && status == CELD_OK; k--)
     {
       CeldHostPart part;
-      CeldHost turn = celd_host_part (&part, host, (double) (state->n - k) / (double) state->n,
-                                     (double) (state->n - k + 1) / (double) state->n);
+      CeldHost     turn = celd_host_part (&part, host, (double) (state->n - k) / (double) state->n,
+                                         (double) (state->n - k + 1) / (double) state->n);
 
       status = celd_expand_region (state, (uint32_t) k, &turn);
     }

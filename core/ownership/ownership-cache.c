@@ -154,8 +154,8 @@ clip_rect (CeldRect r, int width, int height)
   return (CeldRect) { r.x, r.y, right - r.x, bottom - r.y };
 }
 
-/* Updates the marked tiles, and if levels have changed (sort) all that have antialiased pixels.  A changed owner affects
- * the neighbouring pixels, too. */
+/* Updates the marked tiles, and if levels have changed (sort) all that have antialiased pixels.  A changed owner
+ * affects the neighbouring pixels, too. */
 static CeldRect
 update_record (const CeldOwnershipInput *in, const CeldOwnershipCache *kept, bool sort, const CeldTiles *tiles,
                CeldOwnership *own)
@@ -274,7 +274,7 @@ celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host
 /* Updates owners after a change of labels or levels; corrections have to be reverted before. */
 static CeldStatus
 update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost *host, CeldOwnershipCache *kept,
-              CeldTiles *tiles)
+               CeldTiles *tiles)
 {
   CeldContourPens pens = { 0 };
   CeldClaimMap    claims = { &kept->pens, in->ink, &kept->owner, &kept->excess };
@@ -299,8 +299,7 @@ update_owners (const CeldOwnershipInput *in, CeldRect new_labels, const CeldHost
 
 CeldStatus
 celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_labels, const CeldHost *host,
-                             CeldOwnershipCache *kept,
-                   CeldOwnership *ownership, CeldRect *changed)
+                             CeldOwnershipCache *kept, CeldOwnership *ownership, CeldRect *changed)
 {
   bool       same = kept->pens.n == input->n && !memcmp (kept->level, input->level, input->n * sizeof *input->level);
   CeldTiles  tiles = { 0 };

@@ -188,7 +188,7 @@ compare_orders (const CeldPlane *ink, const CeldContourPens *old, const CeldCont
 
 CeldStatus
 celd_ownership_mark_changes (const CeldOwnershipCache *kept, const CeldOwnershipInput *input, CeldRect new_labels,
-                     const CeldContourPens *pens, const bool *solid, CeldTiles *tiles)
+                             const CeldContourPens *pens, const bool *solid, CeldTiles *tiles)
 {
   compare_pixels (kept, input, changed_labels (kept, input, new_labels, solid), solid, tiles);
   compare_claims (input->ink, &kept->pens, pens, tiles);

@@ -124,8 +124,8 @@ number_corrections (const CeldLevelOwnership *made, const CeldLabels *correction
 
 CeldStatus
 celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                       CeldLevelOwnership *made)
+                          const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
+                          CeldLevelOwnership *made)
 {
   CeldLabels numbered = { 0 };
   CeldStatus status;

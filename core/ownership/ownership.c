@@ -81,14 +81,15 @@ celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const u
       int first = rect.x + rect.width, end = rect.x;
 
       for (int x = rect.x; x < rect.x + rect.width; x++)
-        if (levels_only && CELD_AT (&own->owner, x, y) == CELD_AT (&own->under, x, y))
-          continue;
-        else if (put_mixture (levels_only ? recorded_mixture (own, larger, x, y) : mixture_at (ink, larger, x, y), level, x, y,
-                         own))
-          {
-            first = x < first ? x : first;
-            end   = x + 1;
-          }
+        {
+          bool one = levels_only && CELD_AT (&own->owner, x, y) == CELD_AT (&own->under, x, y);
+
+          if (one || !put_mixture (levels_only ? recorded_mixture (own, larger, x, y) : mixture_at (ink, larger, x, y),
+                                   level, x, y, own))
+            continue;
+          first = x < first ? x : first;
+          end   = x + 1;
+        }
       if (first < end)
         changed = celd_rect_union (changed, (CeldRect) { first, y, end - first, 1 });
     }
@@ -101,9 +102,9 @@ celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const u
 static CeldStatus
 spread_labels (const CeldLabels *labels, const uint32_t *level, const CeldLabels *levels, CeldLabels *owner)
 {
-  int        w = labels->width, h = labels->height;
-  size_t     n = 0, pixels = (size_t) w * (size_t) h;
-  int32_t   *queue = celd_alloc (pixels, sizeof *queue);
+  int      w = labels->width, h = labels->height;
+  size_t   n = 0, pixels = (size_t) w * (size_t) h;
+  int32_t *queue = celd_alloc (pixels, sizeof *queue);
 
   if (!queue)
     return CELD_NO_MEMORY;

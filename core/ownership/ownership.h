@@ -85,12 +85,10 @@ typedef struct
 } CeldContourPens;
 
 CeldStatus celd_contour_pens_new (const CeldContourEdges *edges, const CeldLabels *labels, const uint32_t *level,
-                                  size_t n,
-                          CeldContourPens *pens);
+                                  size_t n, CeldContourPens *pens);
 /* Like celd_contour_pens_new, but reuses `old`, from which `labels` differ only within `changed`. */
 CeldStatus celd_contour_pens_update (const CeldContourPens *old, const CeldLabels *labels, CeldRect changed,
-                                     const uint32_t *level,
-                            size_t n, CeldContourPens *pens);
+                                     const uint32_t *level, size_t n, CeldContourPens *pens);
 void       celd_contour_pens_clear (CeldContourPens *pens);    /* accepts a zeroed record */
 
 /* The nearer one of the two labels at a point, whose pen drew the ink between them; 0 if neither is nearer. */
@@ -172,8 +170,7 @@ void celd_claim_apply (const CeldClaimMap *claims, const CeldClaim *claim);
 
 /* Assigns all pixels to owners; `owner` may alias `labels`. */
 CeldStatus celd_claims_assign (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *labels,
-                               const bool *solid,
-                            const CeldHost *host, CeldLabels *owner, CeldPlane *excess);
+                               const bool *solid, const CeldHost *host, CeldLabels *owner, CeldPlane *excess);
 
 /* ------------------------------------------------------------------ claim-remainder.c */
 
@@ -205,7 +202,7 @@ typedef struct { CeldPixelOwner *item; size_t n, capacity; } CeldReassigned;
 /* Gives the ink under strokes (0 = no stroke), and the pieces of line that they touch, to the strokes' labels.
  * Appends the reassigned pixels to `reassigned`, also when it fails. */
 CeldStatus celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const CeldLabels *corrections,
-                              CeldLabels *owner, CeldReassigned *reassigned);
+                                   CeldLabels *owner, CeldReassigned *reassigned);
 void       celd_reassigned_clear (CeldReassigned *reassigned);
 
 /* ------------------------------------------------------------------ expansion.c, expansion-region.c */
@@ -222,8 +219,8 @@ typedef struct
   size_t    n;
 } CeldExpansionState;
 
-/* Replaces each number of a tight picture by its place, from 1, among the *n distinct ones in rising order.  *list (may be
- * NULL) has these; to be freed with celd_free. */
+/* Replaces each number of a tight picture by its place, from 1, among the *n distinct ones in rising order.  *list (may
+ * be NULL) has these; to be freed with celd_free. */
 CeldStatus celd_number_ranks (CeldLabels *picture, uint32_t **list, size_t *n);
 
 /* Expands level k into free ink; all nearer levels have to be expanded already. */
@@ -232,8 +229,8 @@ CeldStatus celd_expand_region (CeldExpansionState *state, uint32_t k, const Celd
 /* ------------------------------------------------------------------ ownership.c */
 
 /* Fills in a rectangle of the record from `larger`, the label that covers most of each pixel: finds the second label of
- * antialiased pixels and the coverage of the first, and makes the nearer label the owner.  levels_only: nothing but levels
- * has changed since it was filled in.  Returns where the record changes. */
+ * antialiased pixels and the coverage of the first, and makes the nearer label the owner.  levels_only: nothing but
+ * levels has changed since it was filled in.  Returns where the record changes. */
 CeldRect celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
                                   bool levels_only, CeldOwnership *ownership);
 
@@ -266,9 +263,9 @@ typedef struct
  * `new_labels`; the ink has to be the same.  *changed is the part of the record that changes.  After a failure the
  * record is unchanged and the cache is empty. */
 CeldStatus celd_ownership_cache_make (const CeldOwnershipInput *input, const CeldHost *host, CeldOwnershipCache *kept,
-                             CeldOwnership *ownership);
+                                      CeldOwnership *ownership);
 CeldStatus celd_ownership_cache_update (const CeldOwnershipInput *input, CeldRect new_labels, const CeldHost *host,
-                              CeldOwnershipCache *kept, CeldOwnership *ownership, CeldRect *changed);
+                                        CeldOwnershipCache *kept, CeldOwnership *ownership, CeldRect *changed);
 void       celd_ownership_cache_clear (CeldOwnershipCache *kept);    /* accepts a zeroed record */
 
 /* ------------------------------------------------------------------ ownership-changes.c */
@@ -278,8 +275,8 @@ void       celd_ownership_cache_clear (CeldOwnershipCache *kept);    /* accepts 
 
 /* Sets both bits of the tiles in which owners may change with the new pens and solid labels. */
 CeldStatus celd_ownership_mark_changes (const CeldOwnershipCache *kept, const CeldOwnershipInput *input,
-                                        CeldRect new_labels,
-                                const CeldContourPens *pens, const bool *solid, CeldTiles *tiles);
+                                        CeldRect new_labels, const CeldContourPens *pens, const bool *solid,
+                                        CeldTiles *tiles);
 
 /* Writes the tiles that a claim may touch, as spans; returns their number. */
 #define CELD_MAX_CLAIM_SPANS 17
@@ -301,12 +298,11 @@ typedef struct
 
 /* See celd_expand_levels.  The record has to be cleared also after a failure. */
 CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
-                                CeldLevelOwnership *made);
+                                     const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
+                                     CeldLevelOwnership *made);
 void       celd_level_ownership_clear (CeldLevelOwnership *made);
 /* In layers/layers.c: cuts the art into layers by that. */
 CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art,
-                                  CeldStore store,
-                                bool complete, const CeldHost *host, CeldLayers **layers);
+                                  CeldStore store, bool complete, const CeldHost *host, CeldLayers **layers);
 
 #endif

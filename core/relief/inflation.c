@@ -142,7 +142,7 @@ celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHos
 
 CeldStatus
 celd_relief_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance, const CeldHost *host,
-                      float *height)
+                       float *height)
 {
   Inflation r = { .surface = surface, .normals = normals };
 

@@ -6,8 +6,8 @@
  * four faces share.
  *
  * Squares are simplified by a quadtree, built from single pixels upwards: four are merged if there is no cut inside and
- * the four triangles between the corners and the centre of the merged square deviate by at most the error at every corner
- * of a pixel.
+ * the four triangles between the corners and the centre of the merged square deviate by at most the error at every
+ * corner of a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -307,7 +307,7 @@ join_squares (const Surface *s, int k, const CeldHost *host, CeldQuadtree *b)
 
 CeldStatus
 celd_quadtree_new (const CeldMeshPoints *points, const CeldRelief *relief, double error, const CeldHost *host,
-                 CeldQuadtree *quadtree)
+                   CeldQuadtree *quadtree)
 {
   Surface    s = { points, relief, error };
   CeldStatus status = CELD_OK;

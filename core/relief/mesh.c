@@ -103,13 +103,13 @@ static CeldStatus
 fill_pixel (CeldMeshBuilder *m, int x, int y)
 {
   const CeldMeshPoints *c = m->points;
-  uint32_t           point[4] = { celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST),
-                                  celd_mesh_point_at (c, x, y + 1, CELD_NORTH_EAST),
-                                  celd_mesh_point_at (c, x + 1, y + 1, CELD_NORTH_WEST),
-                                  celd_mesh_point_at (c, x + 1, y, CELD_SOUTH_WEST) };
-  uint32_t           v[4];
-  bool               falls = fabsf (c->z[point[0]] - c->z[point[2]]) <= fabsf (c->z[point[1]] - c->z[point[3]]);
-  CeldStatus         status;
+  uint32_t              point[4] = { celd_mesh_point_at (c, x, y, CELD_SOUTH_EAST),
+                                     celd_mesh_point_at (c, x, y + 1, CELD_NORTH_EAST),
+                                     celd_mesh_point_at (c, x + 1, y + 1, CELD_NORTH_WEST),
+                                     celd_mesh_point_at (c, x + 1, y, CELD_SOUTH_WEST) };
+  uint32_t              v[4];
+  bool                  falls = fabsf (c->z[point[0]] - c->z[point[2]]) <= fabsf (c->z[point[1]] - c->z[point[3]]);
+  CeldStatus            status;
 
   for (int k = 0; k < 4; k++)
     v[k] = m->vertex[point[k]] - 1;
@@ -262,13 +262,13 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
       !are_heights (relief->outline, (size_t) relief->width * (size_t) relief->height))
     return CELD_BAD_VALUE;
 
-  CeldMeshPoints points = { .width = 0 };
-  CeldQuadtree   quadtree = { .width = 0 };
-  CeldHostPart   part[2];
-  CeldHost       pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
-  CeldMeshBuilder  m = { .relief = relief, .points = &points, .quadtree = &quadtree,
+  CeldMeshPoints  points = { .width = 0 };
+  CeldQuadtree    quadtree = { .width = 0 };
+  CeldHostPart    part[2];
+  CeldHost        pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
+  CeldMeshBuilder m = { .relief = relief, .points = &points, .quadtree = &quadtree,
                         .solid = settings->mesh == CELD_MESH_SOLID };
-  CeldStatus  status = celd_mesh_points_new (relief, &pointing, &points);
+  CeldStatus      status = celd_mesh_points_new (relief, &pointing, &points);
 
   m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);
   if (status == CELD_OK)

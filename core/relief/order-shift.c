@@ -374,8 +374,7 @@ minimize (Shift *s, const CeldHost *host)
 
 CeldStatus
 celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts, double range,
-                         const CeldHost *host,
-                  double *shift)
+                         const CeldHost *host, double *shift)
 {
   size_t     n = tiles->n;
   double    *space = celd_alloc0 (n, 6 * sizeof *space);

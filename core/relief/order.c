@@ -41,9 +41,9 @@ typedef struct
 static void
 add_cut (void *data, size_t near, size_t far, bool right)
 {
-  Order              *o = data;
-  double              ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
-  uint32_t            a = o->tiles.tile[near], b = o->tiles.tile[far];
+  Order   *o = data;
+  double   ahead = fmax (0, (double) o->depth[near] - (double) o->depth[far]) * o->step;
+  uint32_t a = o->tiles.tile[near], b = o->tiles.tile[far];
 
   (void) right;
   if (a != b && o->status == CELD_OK)
@@ -254,8 +254,7 @@ keep_cuts (Order *o, const CeldHost *host, float *shift)
 
 CeldStatus
 celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
-                        const CeldHost *host,
-                 float *shift)
+                        const CeldHost *host, float *shift)
 {
   Order o = { .surface = surface, .z = z, .depth = depth, .step = step };
 

@@ -55,8 +55,9 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
     {
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
       status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
-      return status != CELD_OK ? status : celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second,
-                                                      p->z);
+      if (status != CELD_OK)
+        return status;
+      return celd_relief_integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
     }
   status = celd_relief_inflate (surface, (double) settings->tolerance, host, p->z);
   for (size_t i = 0; i < n; i++)
@@ -123,10 +124,10 @@ celd_relief (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *dep
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
 
-  size_t      n = (size_t) ink->width * (size_t) ink->height;
-  CeldSurface surface = { .width = 0 };
-  ReliefPlanes      p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
-                    { .data = NULL } };
+  size_t       n = (size_t) ink->width * (size_t) ink->height;
+  CeldSurface  surface = { .width = 0 };
+  ReliefPlanes p = { celd_alloc (n, sizeof *p.z), celd_alloc (n, sizeof *p.depth), celd_alloc (n, sizeof *p.shift),
+                     { .data = NULL } };
   CeldRelief   made = { .width = 0 };
   CeldHostPart part[3];
   CeldHost     smoothing = celd_host_part (&part[0], host, 0, 0.2), cutting = celd_host_part (&part[1], host, 0.2, 0.3);

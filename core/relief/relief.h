@@ -43,7 +43,7 @@ void celd_surface_cuts (const CeldSurface *surface, CeldCutBody body, void *data
 CeldStatus celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height);
 /* Computes the height by integrating normals, which include their bulge. */
 CeldStatus celd_relief_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
-                                 const CeldHost *host, float *height);
+                                  const CeldHost *host, float *height);
 
 /* ------------------------------------------------------------------ order-shift.c */
 
@@ -70,15 +70,14 @@ void       celd_relief_tiles_clear (CeldReliefTiles *tiles);               /* ac
 /* Finds the smallest and smoothest shifts of the tiles that keep the order at the cuts, see order.c; `range` in
  * pixels. */
 CeldStatus celd_relief_shift_tiles (const CeldReliefTiles *tiles, const CeldReliefTilePair *cut, size_t cuts,
-                                    double range,
-                             const CeldHost *host, double *shift);
+                                    double range, const CeldHost *host, double *shift);
 
 /* ------------------------------------------------------------------ order.c */
 
 /* Finds the smallest and smoothest shift of the surface z such that at each cut the nearer side is in front of the
  * other by `step` times the difference of depth, which is at least 0. */
 CeldStatus celd_relief_keep_order (const CeldSurface *surface, const float *z, const float *depth, double step,
-                            const CeldHost *host, float *shift);
+                                   const CeldHost *host, float *shift);
 
 /* ------------------------------------------------------------------ mesh-surface.c: points */
 
@@ -128,8 +127,7 @@ typedef struct
 
 /* Merges squares of which four triangles round the centre deviate by at most `error` pixels. */
 CeldStatus celd_quadtree_new (const CeldMeshPoints *points, const CeldRelief *relief, double error,
-                              const CeldHost *host,
-                            CeldQuadtree *quadtree);
+                              const CeldHost *host, CeldQuadtree *quadtree);
 void       celd_quadtree_clear (CeldQuadtree *quadtree);            /* accepts a partly built record */
 /* Is the square of 2^k pixels in column x and row y of such squares a leaf? */
 bool       celd_quadtree_is_leaf (const CeldQuadtree *quadtree, int k, int x, int y);

@@ -27,7 +27,7 @@
  * lead out of the grid have weight 0. */
 CELD_CLONES static void
 strongest_of_row (uint32_t first, uint32_t w, const float *north, const float *south, const float *east, float *best,
-         uint32_t *link)
+                  uint32_t *link)
 {
   for (uint32_t x = 0; x < w; x++)
     {

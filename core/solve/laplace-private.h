@@ -3,8 +3,8 @@
  *   laplace-system.c       boundary conditions: the free pixels as a weighted graph; floating components
  *   laplace-direct.c       elimination: of small systems, and of the coarsest level
  *   laplace-hierarchy.c    set-up of the levels: laplace-quality.c leaves out dominant nodes, laplace-aggregation.c
- *                          aggregates the others in cells, or laplace-quality.c in pairs, and laplace-galerkin.c sums up
- *                          the coarse matrix
+ *                          aggregates the others in cells, or laplace-quality.c in pairs, and laplace-galerkin.c
+ *                          sums up the coarse matrix
  *   laplace.c              conjugate gradients and when they stop
  *   laplace-pixels.c       the finest level, on the red pixels alone; laplace-residual.c its residual in double
  *   laplace-cycle.c        the K-cycle over the coarse levels; laplace-smoother.c what it does on each

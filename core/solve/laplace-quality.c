@@ -1,15 +1,15 @@
 /* Aggregation by quality in the Laplacian solver: A. Napov and Y. Notay, "An algebraic multigrid method with guaranteed
  * convergence rate", SIAM J. Sci. Comput. 34, 2012, for pairs and plain Jacobi.
  *
- * Dominant nodes: one whose diagonal is more than twice the sum of its edge weights is solved by relaxation alone.  In an
- * aggregate it would hold the others with far more than the edge that joins them: a pixel between a fixed one and a wall,
- * say, would hold all that is behind the wall.  So it is left out of aggregation, and on coarser levels its edges count
- * for the diagonals of its neighbours: prolongation to it is zero.
+ * Dominant nodes: one whose diagonal is more than twice the sum of its edge weights is solved by relaxation alone.  In
+ * an aggregate it would hold the others with far more than the edge that joins them: a pixel between a fixed one and a
+ * wall, say, would hold all that is behind the wall.  So it is left out of aggregation, and on coarser levels its edges
+ * count for the diagonals of its neighbours: prolongation to it is zero.
  *
- * Pairs, where cells leave too many nodes: few nodes are left then, of very different sizes and weights, and cells that are
- * large enough to join many of them would join too many at once.  So nodes are paired, each with the one that it moves
- * with best, wherever that lies.  Two nodes of whole diagonals d, d', joined by an edge w, with diagonals s, s' beyond
- * their edges, have the quality
+ * Pairs, where cells leave too many nodes: few nodes are left then, of very different sizes and weights, and cells that
+ * are large enough to join many of them would join too many at once.  So nodes are paired, each with the one that it
+ * moves with best, wherever that lies.  Two nodes of whole diagonals d, d', joined by an edge w, with diagonals s, s'
+ * beyond their edges, have the quality
  *
  *   d d' / (d + d') / (w + s s' / (s + s')),
  *
@@ -17,8 +17,8 @@
  * grid, 1 is best.  It bounds the condition number of the two-level method.  A node without a partner joins the
  * aggregate of its best neighbour if that one's diagonal is much larger; many may, since each moves against it alone.
  *
- * Without the first the exact program takes up to seven times as long (campfire at 1 megapixel), without the second up to
- * 17 times, and may miss its tolerance (bee, campfire at 0.25 megapixels).
+ * Without the first the exact program takes up to seven times as long (campfire at 1 megapixel), without the second up
+ * to 17 times, and may miss its tolerance (bee, campfire at 0.25 megapixels).
  *
  * Cost: O(nodes + edges), and for pairs O(edges) for each doubling of the worst quality.
  *
@@ -172,8 +172,8 @@ cut_extra (const Dominance *o)
 CeldStatus
 celd_leave_out_dominant (CeldWeightedGraph *graph, const CeldHost *host)
 {
-  uint32_t  n = celd_grid_nodes (graph);
-  Dominance o = {
+  uint32_t   n = celd_grid_nodes (graph);
+  Dominance  o = {
     graph, celd_alloc ((size_t) n + graph->n_extra, 1), celd_alloc ((size_t) graph->height, sizeof *o.count)
   };
   float     *sum = celd_alloc0 (graph->n_extra ? (size_t) n + graph->n_extra : 0, sizeof *sum);

@@ -70,8 +70,8 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
  * A pass takes every row once; its rows are independent of each other, so that strips of them go to the host's threads
  * and none can change the result. */
 
-/* Defines name_single and name_lanes, which process a strip: body (data, strip, lanes).  Names are unique in core, since
- * clang makes the function that chooses between clones global. */
+/* Defines name_single and name_lanes, which process a strip: body (data, strip, lanes).  Names are unique in core,
+ * since clang makes the function that chooses between clones global. */
 #define STRIP_PASS(name, body) \
   CELD_CLONES static void name##_single (void *data, int strip) { body (data, strip, 1); } \
   CELD_CLONES static void name##_lanes (void *data, int strip) { body (data, strip, CELD_LANES); }

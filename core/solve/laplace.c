@@ -238,8 +238,8 @@ null_space_shift (const CeldLaplace *l, int lanes, const double *plus, const dou
         }
 }
 
-/* One solution, or CELD_LANES of them.  In floating components the mean of the right-hand side is subtracted before, and
- * the solution shifted to the mean of its start after it. */
+/* One solution, or CELD_LANES of them.  In floating components the mean of the right-hand side is subtracted before,
+ * and the solution shifted to the mean of its start after it. */
 static CeldStatus
 solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double tolerance, const CeldHost *host,
              CeldSolve *solve)
@@ -267,8 +267,8 @@ solve_lanes (const CeldLaplace *l, int lanes, const float *b, float *x, double t
 }
 
 CeldStatus
-celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance,
-                const CeldHost *host, CeldSolve *solve)
+celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double tolerance, const CeldHost *host,
+                CeldSolve *solve)
 {
   size_t     n = (size_t) laplace->width * (size_t) laplace->height;
   CeldSolve  worst = { .converged = true };
@@ -292,8 +292,8 @@ celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float *x, double
 }
 
 CeldStatus
-celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance,
-                      const CeldHost *host, CeldSolve *solve)
+celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, const CeldHost *host,
+                      CeldSolve *solve)
 {
   CeldSolve  worst;
   CeldStatus status = solve_lanes (laplace, CELD_LANES, b, x, tolerance, host, &worst);

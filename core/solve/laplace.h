@@ -28,8 +28,8 @@ CeldStatus celd_lap_solve (CeldLaplace *laplace, int nrhs, const float *b, float
  * p * CELD_LANES + k, in b (NULL: 0 everywhere) as in x; lanes that are 0 everywhere are done at once.
  * Stops when every lane is within the tolerance; solve (may be NULL) has the worst lane. */
 #define CELD_LANES 8
-CeldStatus celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance,
-                                 const CeldHost *host, CeldSolve *solve);
+CeldStatus celd_lap_solve_lanes (CeldLaplace *laplace, const float *b, float *x, double tolerance, const CeldHost *host,
+                                 CeldSolve *solve);
 void celd_lap_free (CeldLaplace *laplace);                    /* accepts NULL */
 
 #endif

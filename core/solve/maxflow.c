@@ -32,14 +32,14 @@ typedef struct
 
 typedef struct
 {
-  int       width, height;
-  size_t    stride;              /* nodes from row to row: one more than the width */
-  ptrdiff_t offset[DIRECTIONS];
-  size_t    n;
-  Node     *node;
+  int           width, height;
+  size_t        stride;          /* nodes from row to row: one more than the width */
+  ptrdiff_t     offset[DIRECTIONS];
+  size_t        n;
+  Node         *node;
   CeldFlowQueue actives, orphans;
-  uint32_t  augmentations;
-  int64_t   flow;
+  uint32_t      augmentations;
+  int64_t       flow;
 } Grid;
 
 static size_t

@@ -32,10 +32,10 @@ typedef struct
   size_t             *rank;      /* of label l: rank[l - 1] */
   uint32_t           *seen;      /* by rank: the last component that this label reaches */
   uint32_t            last_id;
-  PixelComponent    *todo;
-  size_t    n_todo;
-  size_t    decided, total;
-  size_t    todo_capacity;
+  PixelComponent     *todo;
+  size_t              n_todo;
+  size_t              decided, total;
+  size_t              todo_capacity;
 } Solver;
 
 /* The label whose hard seed p is, or 0. */
@@ -156,7 +156,7 @@ find_components (Solver *s, const PixelComponent *old)
   for (int y = old->top; y <= old->bottom; y++)
     for (int x = old->left; x <= old->right; x++)
       {
-        size_t p = (size_t) y * (size_t) s->problem->width + (size_t) x, n, reached;
+        size_t         p = (size_t) y * (size_t) s->problem->width + (size_t) x, n, reached;
         PixelComponent component = *old;
 
         if (s->component[p] != old->id)
@@ -182,10 +182,10 @@ static int32_t
 pull (const Solver *s, const PixelComponent *component, size_t p)
 {
   const CeldMultiway *m = s->problem;
-  size_t   q[NEIGHBOURS], n;
-  int32_t  capacity[NEIGHBOURS];
-  uint32_t label[NEIGHBOURS + 1] = { m->seed[p] };
-  int64_t  sum = 0;
+  size_t              q[NEIGHBOURS], n;
+  int32_t             capacity[NEIGHBOURS];
+  uint32_t            label[NEIGHBOURS + 1] = { m->seed[p] };
+  int64_t             sum = 0;
 
   n = neighbours (m, p, q, capacity);
   for (size_t k = 0; k < n; k++)
@@ -243,16 +243,16 @@ take_side (Solver *s, const PixelComponent *component, const uint8_t *side, uint
 static CeldStatus
 cut (Solver *s, const PixelComponent *component)
 {
-  int        w = component->right - component->left + 1, h = component->bottom - component->top + 1;
-  size_t     n = (size_t) w * (size_t) h;
-  int32_t   *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
-  int32_t   *terminal = celd_alloc (n, sizeof *terminal);
-  uint8_t   *side = celd_alloc (n, 1);
-  PixelComponent      first = *component, others = *component;
-  double       done = (double) s->decided / (double) s->total;
-  CeldHostPart part;
-  CeldHost     host = celd_host_part (&part, s->host, done, done);
-  CeldStatus   status = CELD_NO_MEMORY;
+  int            w = component->right - component->left + 1, h = component->bottom - component->top + 1;
+  size_t         n = (size_t) w * (size_t) h;
+  int32_t       *east = celd_alloc (n, sizeof *east), *south = celd_alloc (n, sizeof *south);
+  int32_t       *terminal = celd_alloc (n, sizeof *terminal);
+  uint8_t       *side = celd_alloc (n, 1);
+  PixelComponent first = *component, others = *component;
+  double         done = (double) s->decided / (double) s->total;
+  CeldHostPart   part;
+  CeldHost       host = celd_host_part (&part, s->host, done, done);
+  CeldStatus     status = CELD_NO_MEMORY;
 
   if (!east || !south || !terminal || !side)
     goto done;
@@ -298,10 +298,10 @@ begin (Solver *s)
 CeldStatus
 celd_multiway (const CeldMultiway *problem, const CeldHost *host, uint32_t *label)
 {
-  size_t     n = (size_t) problem->width * (size_t) problem->height;
-  PixelComponent      all = { 1, 0, 0, problem->n_labels, 0, 0, problem->width - 1, problem->height - 1 };
-  Solver     s = { .problem = problem, .host = host, .label = label };
-  CeldStatus status = CELD_NO_MEMORY;
+  size_t         n = (size_t) problem->width * (size_t) problem->height;
+  PixelComponent all = { 1, 0, 0, problem->n_labels, 0, 0, problem->width - 1, problem->height - 1 };
+  Solver         s = { .problem = problem, .host = host, .label = label };
+  CeldStatus     status = CELD_NO_MEMORY;
 
   s.component = celd_alloc (n, sizeof *s.component);
   s.queue = celd_alloc (n, sizeof *s.queue);

@@ -15,12 +15,12 @@ typedef struct { uint32_t id; uint32_t begin, end; uint32_t from, mid, to; } Nod
 typedef struct
 {
   CeldPartitionGraph *graph;
-  uint32_t *component;
-  uint32_t *item, *found;   /* nodes by component; while components are looked for, the new ones */
-  uint32_t *seen;           /* by rank: the last component that this label reaches */
-  uint32_t  last_id;
-  NodeComponent    *todo;           /* a component has a node at least, so that there are never more than nodes */
-  size_t    n_todo, decided;
+  uint32_t           *component;
+  uint32_t           *item, *found; /* nodes by component; while components are looked for, the new ones */
+  uint32_t           *seen; /* by rank: the last component that this label reaches */
+  uint32_t            last_id;
+  NodeComponent      *todo;         /* a component has a node at least, so that there are never more than nodes */
+  size_t              n_todo, decided;
 } Greedy;
 
 /* ------------------------------------------------------------------ components */
@@ -106,7 +106,7 @@ find_components (Greedy *g, const NodeComponent *first, const NodeComponent *oth
 
   for (uint32_t i = others->begin; i < others->end; i++)
     {
-      uint32_t     p = g->item[i], reached;
+      uint32_t             p = g->item[i], reached;
       const NodeComponent *old = g->component[p] == first->id ? first : others;
       NodeComponent        component = *old;
 
@@ -171,12 +171,12 @@ lay_out (Greedy *g, const NodeComponent *component)
 static CeldStatus
 cut (Greedy *g, const NodeComponent *component, const CeldHost *host)
 {
-  CeldNetwork *network = &g->graph->network;
-  NodeComponent        first = *component, others = *component;
-  double       done = (double) g->decided / (double) g->graph->n;
-  CeldHostPart part;
-  CeldHost     still = celd_host_part (&part, host, done, done);
-  CeldStatus   status = celd_progress (host, done);
+  CeldNetwork  *network = &g->graph->network;
+  NodeComponent first = *component, others = *component;
+  double        done = (double) g->decided / (double) g->graph->n;
+  CeldHostPart  part;
+  CeldHost      still = celd_host_part (&part, host, done, done);
+  CeldStatus    status = celd_progress (host, done);
 
   if (status != CELD_OK)
     return status;
@@ -197,10 +197,10 @@ cut (Greedy *g, const NodeComponent *component, const CeldHost *host)
 CeldStatus
 celd_partition_greedy (CeldPartitionGraph *graph, const CeldHost *host)
 {
-  size_t     n = graph->n;
-  Greedy     g = { .graph = graph, .last_id = 1 };
-  NodeComponent      all = { 1, 0, (uint32_t) n, 0, 0, (uint32_t) graph->n_ranks }, none = { 0 };
-  CeldStatus status = CELD_NO_MEMORY;
+  size_t        n = graph->n;
+  Greedy        g = { .graph = graph, .last_id = 1 };
+  NodeComponent all = { 1, 0, (uint32_t) n, 0, 0, (uint32_t) graph->n_ranks }, none = { 0 };
+  CeldStatus    status = CELD_NO_MEMORY;
 
   g.component = celd_alloc (n, sizeof *g.component);
   g.item  = celd_alloc (n, sizeof *g.item);

@@ -21,13 +21,13 @@
 typedef struct
 {
   const CeldPartition *problem;
-  uint32_t   *free_node;     /* of node k: its number among those that are not fixed, or FIXED */
-  uint32_t   *rank;          /* of label l: rank[l - 1] */
-  CeldLink   *link;          /* between nodes that are not fixed */
-  size_t      n_links;
-  CeldVoteSum *raw, *sorted;  /* votes as they come; by rank */
-  size_t      n_raw;
-  size_t     *count;         /* n_ranks + 1 */
+  uint32_t            *free_node;    /* of node k: its number among those that are not fixed, or FIXED */
+  uint32_t            *rank;         /* of label l: rank[l - 1] */
+  CeldLink            *link;         /* between nodes that are not fixed */
+  size_t               n_links;
+  CeldVoteSum         *raw, *sorted; /* votes as they come; by rank */
+  size_t               n_raw;
+  size_t              *count;        /* n_ranks + 1 */
 } Draft;
 
 static void

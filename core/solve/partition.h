@@ -102,13 +102,13 @@ typedef struct
 
 typedef struct
 {
-  size_t         n;
-  CeldFlowNode  *node;      /* n + 1, the last one only as the end of the arcs */
-  CeldFlowArc   *arc;
-  uint32_t      *reached;   /* after celd_network_drain: nodes that remaining excess can reach, in no order */
-  size_t         n_reached;
-  CeldFlowQueue  active[2], orphans;
-  uint32_t       augmentations;
+  size_t        n;
+  CeldFlowNode *node;       /* n + 1, the last one only as the end of the arcs */
+  CeldFlowArc  *arc;
+  uint32_t     *reached;    /* after celd_network_drain: nodes that remaining excess can reach, in no order */
+  size_t        n_reached;
+  CeldFlowQueue active[2], orphans;
+  uint32_t      augmentations;
 } CeldNetwork;
 
 /* Arcs of both directions for each link, with its cost left in both; no excess. */
@@ -124,7 +124,7 @@ void celd_network_root (CeldNetwork *network, uint32_t p);
  * still stands for the same cuts. */
 CeldStatus celd_network_drain (CeldNetwork *network, const CeldHost *host);
 
-/* ------------------------------------------------------------------ a partition problem made ready: shared by partition-*.c
+/* ------------------------------------------------------------------ partition-*.c: a problem made ready
  *
  * Labels are ranks here, their places in the order, from 0; nodes are those that are not fixed.  A link to a fixed node
  * is a vote for that node's label, and votes for the same label are added up. */

@@ -1,10 +1,10 @@
-/* The dual active-set method (D. Goldfarb and A. Idnani, Mathematical Programming 27, 1983) for a quadratic program on a
- * graph Laplacian.
+/* The dual active-set method (D. Goldfarb and A. Idnani, Mathematical Programming 27, 1983) for a quadratic program on
+ * a graph Laplacian.
  *
- * u is always the point of least energy on which the active inequalities hold with equality, and all multipliers are >= 0.
- * A violated inequality becomes active by moving along z = H (e_a - e_b) until it holds; on the way, active ones whose
- * multiplier reaches 0 become inactive.  The dual value rises with every step, so that no active set comes back and the
- * method ends (ties could hold it up: the number of steps is limited).  Two things are particular here:
+ * u is always the point of least energy on which the active inequalities hold with equality, and no multiplier is
+ * negative.  A violated inequality becomes active by moving along z = H (e_a - e_b) until it holds; on the way, active
+ * ones whose multiplier reaches 0 become inactive.  The dual value rises with every step, so that no active set comes
+ * back and the method ends (ties could hold it up: the number of steps is limited).  Two things are particular here:
  *
  * - active inequalities are the links of a forest (quadratic-forest.c), so that linear dependence of constraints is a
  *   question of connectivity and never of rounding;

@@ -17,26 +17,26 @@ typedef struct
   size_t                n, m;
   const CeldInequality *inequality;
 
-  uint32_t             *active;       /* the links: numbers of inequalities, n - 1 at most */
-  size_t                n_active;
-  uint32_t             *order;        /* nodes, each after its parent */
-  uint32_t             *parent;       /* of a node, in its tree */
-  uint32_t             *link;         /* to the parent, a place in `active`; CELD_NO_LINK: a root */
-  uint32_t             *tree;         /* of a node, numbered from 0 */
-  double               *offset;       /* of a node from its root */
-  size_t                n_trees;
-  uint32_t             *component;    /* of a node, in K alone, numbered from 0 */
-  uint32_t             *body;         /* of a component: the number of one of its components */
-  size_t                n_components;
+  uint32_t *active;                   /* the links: numbers of inequalities, n - 1 at most */
+  size_t    n_active;
+  uint32_t *order;                    /* nodes, each after its parent */
+  uint32_t *parent;                   /* of a node, in its tree */
+  uint32_t *link;                     /* to the parent, a place in `active`; CELD_NO_LINK: a root */
+  uint32_t *tree;                     /* of a node, numbered from 0 */
+  double   *offset;                   /* of a node from its root */
+  size_t    n_trees;
+  uint32_t *component;                /* of a node, in K alone, numbered from 0 */
+  uint32_t *body;                     /* of a component: the number of one of its components */
+  size_t    n_components;
 
-  double               *weight;       /* n x n, w_ij of K */
-  double               *pull;         /* of a node, the sum of its weights */
-  double               *inverse;      /* n x n, H: the motion that forces cause; trees are rigid, each body is held at
+  double   *weight;                   /* n x n, w_ij of K */
+  double   *pull;                     /* of a node, the sum of its weights */
+  double   *inverse;                  /* n x n, H: the motion that forces cause; trees are rigid, each body is held at
                                        * one of its trees */
-  double               *work;         /* n x n */
-  double               *row;          /* n */
-  uint32_t             *entry;        /* 5 n, for walks */
-  bool                  fresh;        /* no update of H since its set-up */
+  double   *work;                     /* n x n */
+  double   *row;                      /* n */
+  uint32_t *entry;                    /* 5 n, for walks */
+  bool      fresh;                    /* no update of H since its set-up */
 } CeldForest;
 
 /* ------------------------------------------------------------------ quadratic-matrix.c */

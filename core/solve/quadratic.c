@@ -1,9 +1,10 @@
 /* The quadratic program of a few nodes: min 1/2 u'Ku  subject to  u_a - u_b >= gap (eq. 1 and 2 of the paper, with the
  * pixels eliminated; K is a graph Laplacian).
  *
- * A cycle of inequalities is found beforehand by topological sorting, so that there is always a step to take.  The method
- * (quadratic-active-set.c) starts from the inequalities that hold the nodes at their longest-path levels.  Its result
- * fixes each component of K but for a constant; in the end every component is put as far back as the others let it.
+ * A cycle of inequalities is found beforehand by topological sorting, so that there is always a step to take.  The
+ * method (quadratic-active-set.c) starts from the inequalities that hold the nodes at their longest-path levels.  Its
+ * result fixes each component of K but for a constant; in the end every component is put as far back as the others let
+ * it.
  *
  * Cost: O(n^3), and O(n^2 + m) for each change of the active set; memory 24 n^2 bytes.
  *
@@ -89,8 +90,8 @@ good_numbers (size_t n, const double *k, size_t m, const CeldInequality *inequal
   return true;
 }
 
-/* Makes links of the inequalities that hold the nodes at their longest-path levels, as far as they are independent: most
- * of them stay. */
+/* Makes links of the inequalities that hold the nodes at their longest-path levels, as far as they are independent:
+ * most of them stay. */
 static void
 start_links (const TopologicalOrder *order, CeldActiveSet *q)
 {

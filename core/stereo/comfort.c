@@ -99,15 +99,15 @@ celd_comfort_text (const CeldComfort *comfort, const CeldSettings *settings, cha
                                100 * whole, floor (1000 * disparity * CELD_STEREO_COMFORT / whole) / 1000);
   if (comfort->diverges && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "On a screen of %.0f mm what is farthest lies %.0f mm apart, more than the eyes do (%.0f "
-                               "mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer "
-                               "to 0.\n",
+                               "On a screen of %.0f mm what is farthest lies %.0f mm apart, more than the eyes do (%.0f"
+                               " mm), which would have to look apart: try a disparity of %.3f, or a convergence nearer"
+                               " to 0.\n",
                                (double) settings->screen_width, behind, CELD_EYE_DISTANCE,
                                floor (1000 * disparity * CELD_EYE_DISTANCE / behind) / 1000);
   if ((comfort->cut_left || comfort->cut_right) && !settings->floating_window && used < size)
     used += (size_t) snprintf (text + used, size - used,
-                               "Parts in front of the screen are cut by the frame at the %s: try a convergence of 1, or "
-                               "the floating window.\n",
+                               "Parts in front of the screen are cut by the frame at the %s: try a convergence of 1, or"
+                               " the floating window.\n",
                                comfort->cut_left && comfort->cut_right ? "left and the right"
                                : comfort->cut_left ? "left" : "right");
   if (used && used < size)

@@ -290,8 +290,8 @@ make_scene (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host)
 }
 
 CeldStatus
-celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
-                     const CeldSettings *settings, const CeldHost *host, CeldScene **result)
+celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth, const CeldSettings *settings,
+                     const CeldHost *host, CeldScene **result)
 {
   SceneBuilder m = { .art = art, .ink = ink };
   double       least, most, steps;

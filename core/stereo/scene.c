@@ -89,7 +89,7 @@ next_run (const float *rgba, int n, int x, int *first)
 
 CeldStatus
 celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const float *depths, uint32_t group,
-                       const CeldHost *host, CeldSceneSpans *spans)
+                             const CeldHost *host, CeldSceneSpans *spans)
 {
   size_t     w = (size_t) box.width, n = 0, pixels = 0;
   CeldStatus status;
@@ -229,10 +229,9 @@ static void
 prepare_band (void *data, int band)
 {
   LayerDepth *p = data;
-  int   w = p->layer.box.width, end = (band + 1) * BAND_ROWS < p->layer.box.height ? (band + 1) * BAND_ROWS
-            : p->layer.box.height;
+  int         w = p->layer.box.width, end = (band + 1) * BAND_ROWS;
 
-  for (int y = band * BAND_ROWS; y < end; y++)
+  for (int y = band * BAND_ROWS; y < end && y < p->layer.box.height; y++)
     {
       float *art = p->art + 4 * (size_t) y * (size_t) w;
 

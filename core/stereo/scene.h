@@ -67,7 +67,7 @@ void      celd_scene_span_pad (CeldSceneSpan *span, int width);
 /* Makes spans of all pixels of a picture that are not transparent; `rgba` is premultiplied, and both planes have the
  * size of the box. */
 CeldStatus celd_scene_spans_of_picture (CeldRect box, int width, const float *rgba, const float *depths, uint32_t group,
-                                  const CeldHost *host, CeldSceneSpans *spans);
+                                        const CeldHost *host, CeldSceneSpans *spans);
 
 /* Sorts the spans by rows; to be called once, when all parts are complete. */
 CeldStatus celd_scene_sort (CeldScene *scene);
