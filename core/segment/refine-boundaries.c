@@ -3,7 +3,8 @@
  *
  * A segment is a straight piece of a boundary along which the labels on its sides are the same.  It is moved by a pixel
  * to the side where the energy is lower, data costs included, until no segment of the picture gains.  Across paper,
- * where an edge costs a thousand times as much as in a line, boundaries are then cut again in windows (refine-gaps.c).
+ * where an edge costs a thousand times as much as in a line, boundaries are then cut again in windows
+ * (solve-windows.c).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,24 +12,28 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/labelling.h"
-#include "segment/refinement.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>
 
-#define DISOBEYED (INT64_C (1) << 50)  /* cost of another label on a hard seed */
+#define DISOBEYED (INT64_C (1) << 50) /* cost of another label on a hard seed */
 
-/* The first edge of a segment: between (x,y) and the pixel below, the segment going right; or between (x,y) and the
- * pixel to the right, the segment going down. */
-typedef struct { int x, y; bool south; } BoundarySegment;
-typedef struct { BoundarySegment *item; size_t n, item_capacity; } BoundarySegments;
+typedef struct
+{
+  const CeldSegmentTask *task;
+  const CeldHost        *host;
+  CeldLabels            *labels;
+  int32_t               *to_paper; /* of each pixel: squared distance to paper */
+  uint32_t              *changed;  /* indices of changed pixels, in any order and number */
+  size_t                 n_changed, changed_capacity;
+} Refinement;
 
 /* ------------------------------------------------------------------ pixels */
 
 /* V_pq of (x,y) and the pixel below (south) or to the right. */
 static int32_t
-edge_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
+edge_cost (const Refinement *s, int x, int y, bool south)
 {
   const CeldPlane *ink = s->task->ink;
   size_t           w = (size_t) ink->width, p = (size_t) y * w + (size_t) x;
@@ -40,7 +45,7 @@ edge_cost (const CeldBoundaryRefinement *s, int x, int y, bool south)
 
 /* The energy of a pixel with this label: its edges, and its seed. */
 static int64_t
-cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
+cost_of (const Refinement *s, int x, int y, uint32_t label)
 {
   const CeldLabels *l = s->labels;
   uint32_t          seed = celd_seed_rows_at (&s->task->seeds, x, y);
@@ -63,7 +68,23 @@ cost_of (const CeldBoundaryRefinement *s, int x, int y, uint32_t label)
   return cost;
 }
 
+/* Sets the label of a pixel and notes the change. */
+static CeldStatus
+set_label (Refinement *s, int x, int y, uint32_t label)
+{
+  if (celd_append (s->changed, s->n_changed, s->changed_capacity,
+                   (uint32_t) y * (uint32_t) s->labels->width + (uint32_t) x) != CELD_OK)
+    return CELD_NO_MEMORY;
+  CELD_AT (s->labels, x, y) = label;
+  return CELD_OK;
+}
+
 /* ------------------------------------------------------------------ segments */
+
+/* The first edge of a segment: between (x,y) and the pixel below, the segment going right; or between (x,y) and the
+ * pixel to the right, the segment going down. */
+typedef struct { int x, y; bool south; } BoundarySegment;
+typedef struct { BoundarySegment *item; size_t n, item_capacity; } BoundarySegments;
 
 static bool
 is_edge (const CeldLabels *l, int x, int y, bool south)
@@ -120,7 +141,7 @@ find_segments (const CeldLabels *l, BoundarySegments *edges)
 
 /* Gives the n pixels from (x,y) on to a label, if that lowers the energy. */
 static CeldStatus
-try_move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
+try_move (Refinement *s, int x, int y, bool south, int n, uint32_t label, bool *moved)
 {
   uint32_t   old = CELD_AT (s->labels, x, y);
   size_t     before = s->n_changed;
@@ -132,7 +153,7 @@ try_move (CeldBoundaryRefinement *s, int x, int y, bool south, int n, uint32_t l
       int px = x + i * south, py = y + i * !south;
 
       gain  += cost_of (s, px, py, old) - cost_of (s, px, py, label);
-      status = celd_refinement_set_label (s, px, py, label);
+      status = set_label (s, px, py, label);
     }
   *moved = status == CELD_OK && gain > 0;
   if (*moved)
@@ -152,26 +173,16 @@ add_segments_around (const CeldLabels *l, int x, int y, bool south, int n, Bound
 {
   CeldStatus status = CELD_OK;
 
-  for (int across = -1; across <= 1; across++)
-    for (int i = -1; i <= n && status == CELD_OK; i++)
-      {
-        int px = x + (south ? i : across), py = y + (south ? across : i);
-
-        status = add_segment (l, px, py, south, edges);
-      }
-  for (int across = -1; across <= 1; across++)
-    for (int i = -1; i <= n && status == CELD_OK; i++)
-      {
-        int px = x + (south ? i : across), py = y + (south ? across : i);
-
-        status = add_segment (l, px, py, !south, edges);
-      }
+  for (int turned = 0; turned < 2; turned++)
+    for (int across = -1; across <= 1; across++)
+      for (int i = -1; i <= n && status == CELD_OK; i++)
+        status = add_segment (l, x + (south ? i : across), y + (south ? across : i), south != turned, edges);
   return status;
 }
 
 /* Moves a segment to one side or the other. */
 static CeldStatus
-try_segment (CeldBoundaryRefinement *s, BoundarySegment edge, BoundarySegments *next)
+try_segment (Refinement *s, BoundarySegment edge, BoundarySegments *next)
 {
   const CeldLabels *l = s->labels;
   bool              south = edge.south, moved;
@@ -196,7 +207,7 @@ try_segment (CeldBoundaryRefinement *s, BoundarySegment edge, BoundarySegments *
 }
 
 static CeldStatus
-refine_segments (CeldBoundaryRefinement *s)
+refine_segments (Refinement *s)
 {
   BoundarySegments edges = { 0 };
   CeldStatus       status = find_segments (s->labels, &edges);
@@ -220,7 +231,7 @@ refine_segments (CeldBoundaryRefinement *s)
 
 /* On lines a boundary round a single seed may cost less than the seed's data cost. */
 static CeldStatus
-refine_seeds (CeldBoundaryRefinement *s)
+refine_seeds (Refinement *s)
 {
   const CeldSeedRows *seeds = &s->task->seeds;
   CeldStatus          status = CELD_OK;
@@ -235,9 +246,24 @@ refine_seeds (CeldBoundaryRefinement *s)
             uint32_t label = CELD_AT (s->labels, x, y);
 
             if (label != run->label && cost_of (s, x, y, run->label) < cost_of (s, x, y, label))
-              status = celd_refinement_set_label (s, x, y, run->label);
+              status = set_label (s, x, y, run->label);
           }
       }
+  return status;
+}
+
+/* ------------------------------------------------------------------ gaps */
+
+static CeldStatus
+refine_gaps (Refinement *s)
+{
+  CeldPatches patches = { 0 };
+  CeldStatus  status = celd_gaps_solve (s->task, s->to_paper, s->host, s->labels, &patches);
+
+  for (size_t i = 0; i < patches.n; i++)
+    for (int x = patches.item[i].x; x < patches.item[i].end && status == CELD_OK; x++)
+      status = set_label (s, x, patches.item[i].y, patches.item[i].label);
+  celd_patches_clear (&patches);
   return status;
 }
 
@@ -253,27 +279,19 @@ compare_pixels (const void *a, const void *b)
 
 /* Appends the changed pixels as patches. */
 static CeldStatus
-list_changes (CeldBoundaryRefinement *s, CeldPatches *patches)
+list_changes (Refinement *s, CeldPatches *patches)
 {
   uint32_t   w = (uint32_t) s->labels->width;
   CeldStatus status = CELD_OK;
 
   if (s->n_changed)
     qsort (s->changed, s->n_changed, sizeof *s->changed, compare_pixels);
-  for (size_t i = 0; i < s->n_changed && status == CELD_OK;)
+  for (size_t i = 0; i < s->n_changed && status == CELD_OK; i++)
     {
-      uint32_t  p = s->changed[i];
-      CeldPatch patch = { (int32_t) (p / w), (int32_t) (p % w), (int32_t) (p % w) + 1,
-                          CELD_AT (s->labels, p % w, p / w) };
+      int x = (int) (s->changed[i] % w), y = (int) (s->changed[i] / w);
 
-      for (i++; i < s->n_changed && s->changed[i] <= p + 1; p = s->changed[i++])
-        if (s->changed[i] == p + 1)
-          {
-            if ((p + 1) % w == 0 || CELD_AT (s->labels, (p + 1) % w, (p + 1) / w) != patch.label)
-              break;
-            patch.end++;
-          }
-      status = celd_patch_add (patches, patch);
+      if (!i || s->changed[i] != s->changed[i - 1])
+        status = celd_patch_add (patches, (CeldPatch) { y, x, x + 1, CELD_AT (s->labels, x, y) });
     }
   return status;
 }
@@ -284,7 +302,7 @@ celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldL
   size_t                 n = (size_t) labels->width * (size_t) labels->height;
   CeldHostPart           part;
   CeldHost               brief = celd_host_part (&part, host, 0, 0);
-  CeldBoundaryRefinement s = {
+  Refinement s = {
     .task = task, .host = &brief, .labels = labels, .to_paper = celd_alloc (n, sizeof *s.to_paper)
   };
   CeldStatus             status = s.to_paper ? celd_distance_to_paper (task->ink, &brief, s.to_paper) : CELD_NO_MEMORY;
@@ -295,7 +313,7 @@ celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldL
   if (status == CELD_OK)
     status = refine_segments (&s);
   if (status == CELD_OK)
-    status = celd_refine_gaps (&s);
+    status = refine_gaps (&s);
   if (status == CELD_OK)
     status = refine_segments (&s);
   if (status == CELD_OK)

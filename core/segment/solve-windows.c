@@ -1,12 +1,15 @@
-/* Strokes in basins of another label: the LazyBrush energy [SDC09b] minimised on pixels, in windows round them.
+/* The LazyBrush energy [SDC09b] minimised on pixels, in windows: round strokes that lie in basins of another label, and
+ * round gaps that a boundary crosses.
  *
  * A window's pixels are contracted to a graph (window-graph.c) and cut like the basin graph (partition.c).  Where a
  * boundary then crosses paper, the blocks along it are divided into pixels, and the window is cut once more.  Small
- * windows are pixels from the start, and each of their cuts is exact.  A result is accepted only if its energy is lower
- * than that of the basins' labels with hard seeds on them.
+ * windows, and those round gaps, are pixels from the start, and each of their cuts is exact.  A result is accepted only
+ * if its energy is lower than that of the present labels, with hard seeds on them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "base/vector.h"
+#include "image/image.h"
 #include "segment/basins.h"
 #include "segment/labelling.h"
 #include "segment/pixel-graph.h"
@@ -16,6 +19,10 @@
 #define WINDOW_PIXELS 4096 /* largest window that is solved on pixels (chosen) */
 #define WINDOW_BLOCKS 4096 /* blocks of larger windows, approximately (chosen) */
 #define LARGEST_BLOCK 5    /* largest block: 1 << so many pixels a side (chosen) */
+
+#define GAP_DISTANCE    3         /* pixels between boundaries across paper that share a window (chosen) */
+#define GAP_MARGIN      6         /* pixels round a gap, besides a stroke width and half the gap (chosen) */
+#define MOST_GAP_PIXELS (1 << 18) /* pixels of a window: larger ones are no gaps (chosen) */
 
 typedef struct
 {
@@ -202,5 +209,127 @@ celd_windows_solve (const CeldSegmentTask *task, const uint32_t *label, const Ce
     patches->n = before;
   celd_patches_clear (&s.patches);
   celd_windows_clear (&windows);
+  return status;
+}
+
+/* ------------------------------------------------------------------ boundaries across gaps */
+
+typedef struct
+{
+  const CeldSegmentTask *task;
+  const int32_t         *to_paper;
+  CeldLabels            *labels;
+  CeldPatches           *patches;
+  CeldWindowCutter       cutter;
+} GapSolver;
+
+typedef struct { int left, top, right, bottom; } GapBox; /* inclusive */
+typedef struct { GapBox *item; size_t n, item_capacity; } GapBoxes;
+
+static int
+least (int a, int b)
+{
+  return a < b ? a : b;
+}
+
+static int
+most (int a, int b)
+{
+  return a > b ? a : b;
+}
+
+/* Adds a pixel to a box nearby, or to a new one. */
+static CeldStatus
+add_gap (int x, int y, GapBoxes *boxes)
+{
+  for (size_t i = 0; i < boxes->n; i++)
+    {
+      GapBox *b = &boxes->item[i];
+
+      if (x < b->left - GAP_DISTANCE || x > b->right + GAP_DISTANCE || y < b->top - GAP_DISTANCE || y > b->bottom +
+          GAP_DISTANCE)
+        continue;
+      *b = (GapBox) { least (b->left, x), least (b->top, y), most (b->right, x), most (b->bottom, y) };
+      return CELD_OK;
+    }
+  return celd_append (boxes->item, boxes->n, boxes->item_capacity, (GapBox) { x, y, x, y });
+}
+
+/* Is the edge a boundary across paper? */
+static bool
+is_gap (const GapSolver *s, int x, int y, bool south)
+{
+  int x2 = x + !south, y2 = y + south;
+
+  return x2 < s->labels->width && y2 < s->labels->height && CELD_AT (s->labels, x, y) != CELD_AT (s->labels, x2, y2) &&
+         celd_is_paper (CELD_AT (s->task->ink, x, y)) && celd_is_paper (CELD_AT (s->task->ink, x2, y2));
+}
+
+static CeldStatus
+find_gaps (const GapSolver *s, GapBoxes *boxes)
+{
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < s->labels->height && status == CELD_OK; y++)
+    for (int x = 0; x < s->labels->width && status == CELD_OK; x++)
+      if (is_gap (s, x, y, false) || is_gap (s, x, y, true))
+        status = add_gap (x, y, boxes);
+  return status;
+}
+
+/* The window of a gap, with the pixels around it that stay as they are. */
+static CeldRect
+widen (const GapSolver *s, GapBox b)
+{
+  int margin = GAP_MARGIN + s->task->basins->stroke + most (b.right - b.left, b.bottom - b.top) / 2 + 1;
+  int left = most (b.left - margin, 0), top = most (b.top - margin, 0);
+
+  return (CeldRect) { left, top, least (b.right + margin, s->labels->width - 1) - left + 1,
+                      least (b.bottom + margin, s->labels->height - 1) - top + 1 };
+}
+
+static CeldStatus
+solve_gap (GapSolver *s, CeldRect box)
+{
+  CeldPresentLabels present = { .picture = s->labels, .to_paper = s->to_paper };
+  CeldPixelGraph    graph;
+  uint32_t         *label = NULL, *part;
+  bool              better = false;
+  CeldStatus        status = celd_window_graph_new (s->task, &present, box, 0, &graph);
+
+  if (status == CELD_OK && graph.n)
+    status = celd_window_cut (&s->cutter, &graph, 1, &label, &better);
+  part = graph.part;
+  for (int y = box.y; y < box.y + box.height && better; y++)
+    for (int x = box.x; x < box.x + box.width && status == CELD_OK; x++, part++)
+      if (!(*part & CELD_PART_FIXED) && label[*part] != graph.node[*part].value)
+        {
+          CELD_AT (s->labels, x, y) = label[*part];
+          status = celd_patch_add (s->patches, (CeldPatch) { y, x, x + 1, label[*part] });
+        }
+  celd_free (label);
+  celd_pixel_graph_clear (&graph);
+  return status;
+}
+
+CeldStatus
+celd_gaps_solve (const CeldSegmentTask *task, const int32_t *to_paper, const CeldHost *host, CeldLabels *labels,
+                 CeldPatches *patches)
+{
+  GapSolver  s = { .task = task, .to_paper = to_paper, .labels = labels, .patches = patches };
+  GapBoxes   boxes = { 0 };
+  CeldStatus status = celd_window_cutter_new (task, host, &s.cutter);
+
+  if (status == CELD_OK)
+    status = find_gaps (&s, &boxes);
+  for (size_t i = 0; i < boxes.n && status == CELD_OK; i++)
+    {
+      CeldRect box = widen (&s, boxes.item[i]);
+
+      if ((int64_t) box.width * box.height <= MOST_GAP_PIXELS)
+        status = solve_gap (&s, box);
+    }
+  celd_free (boxes.item);
+  celd_window_cutter_clear (&s.cutter);
   return status;
 }

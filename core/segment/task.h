@@ -151,6 +151,12 @@ CeldStatus celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *
 CeldStatus celd_windows_solve (const CeldSegmentTask *task, const uint32_t *label, const CeldHost *host,
                                CeldPatches *patches);
 
+/* Where a boundary between two labels crosses paper, the energy is minimised on pixels: in a window that has room for
+ * the line ends on both sides, with everything outside fixed.  Changes `labels` where that lowers the energy, and
+ * appends the changed pixels, also those before a failure.  `to_paper`: celd_distance_to_paper. */
+CeldStatus celd_gaps_solve (const CeldSegmentTask *task, const int32_t *to_paper, const CeldHost *host,
+                            CeldLabels *labels, CeldPatches *patches);
+
 /* ------------------------------------------------------------------ refine-boundaries.c: boundaries of lower energy */
 
 /* Moves the boundaries between `labels` in place to where the energy is lower, within lines and across gaps.  Appends
