@@ -225,6 +225,17 @@ mark_seeded (const CeldSegmentTask *task, int y)
       }
 }
 
+bool
+celd_seed_discs_contain (const CeldSeedDiscs *discs, int x, int y)
+{
+  int from, end;
+
+  for (int k = 0; k < 2; k++)
+    if (celd_seed_disc_row (&discs->disc[k], y, &from, &end) && x >= from && x < end)
+      return true;
+  return false;
+}
+
 /* ------------------------------------------------------------------ adding seeds */
 
 /* Adds seeds in the pixels x .. end - 1 of row y that lie in the enclosure. */

@@ -33,7 +33,7 @@ CeldStatus celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExt
 /* Adds to a boundary another part of it. */
 void celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *more);
 
-/* basin-merging.c: fills in merged, enclosure and component, and their numbers. */
+/* basins.c: fills in merged, enclosure and component, and their numbers. */
 CeldStatus celd_basins_merge (CeldBasins *basins);
 
 /* basins.c: fills in the areas. */

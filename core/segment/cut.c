@@ -1,252 +1,261 @@
-/* A region, cut between two points of it: the smallest sum of the smoothness cost V_pq of LazyBrush [SDC09b] along the
- * boundary.
- *
- * The minimum cut is found on squares that are small near the ends and larger the farther away they are, and then again
- * and again in a band along the previous cut, on squares a quarter as large, down to pixels (H. Lombaert et al., "A
- * multilevel banded graph cuts method for fast image segmentation", ICCV 2005; theirs has squares of one size in each
- * pass).  The cost is one pass over the region's pixels to read the drawing, and otherwise the length of the cut.
+/* The minimum cut of a region's graph, which end of it is nearer to the seeds of the region, and the graph of whole
+ * basins.
  *
  * Of all minimum cuts the one nearest to the end with more clearance is taken: a limb reaches to where the body begins.
- * Seeds of the region add data costs for the end that keeps its label.
+ * Seeds of the region add data costs for the end that keeps its label: the one with the shorter path to them from node
+ * to node, where ink counts as longer.
  *
  * Where a narrow opening separates the two ends, the basins already meet where the cut should be, and the region is cut
  * between whole basins.  Merged basins (basins.h), which have no narrow opening inside, stay whole.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "image/image.h"
+#include "base/vector.h"
 #include "segment/basins.h"
 #include "segment/splits.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
-#include "solve/partition.h"
 
 #include <math.h>
-#include <string.h>
 
-#define SQUARES_BETWEEN_ENDS 8                   /* squares between the ends; those as far away are as large (chosen) */
-#define FINER                4                   /* ratio of the squares' sides in consecutive bands (chosen) */
-#define GLUE                 ((int64_t) 1 << 44) /* for cutting a merged basin: above any cut, below HARD_TERMINAL */
+#define INK_STEP      8                   /* length of a step through ink, in steps on paper (chosen) */
+#define HARD_TERMINAL ((int64_t) 1 << 48) /* of forced nodes: above any cut */
+#define GLUE          ((int64_t) 1 << 44) /* for cutting a merged basin: above any cut, below HARD_TERMINAL */
 
-/* ------------------------------------------------------------------ squares */
-
-static CeldStatus
-graph_new (const CeldCut *cut, CeldCutGraph *graph)
+void
+celd_cut_graph_clear (CeldCutGraph *graph)
 {
-  CeldRect   box = { cut->left, cut->top, cut->right - cut->left + 1, cut->bottom - cut->top + 1 };
-  size_t     n;
-  CeldStatus status;
-
-  *graph = (CeldCutGraph) {
-    .cut     = cut,
-    .columns = (box.width - 1) / CELD_CUT_SQUARE + 1,
-    .rows    = (box.height - 1) / CELD_CUT_SQUARE + 1,
-    .state   = celd_alloc (CELD_CUT_SQUARE * CELD_CUT_SQUARE, sizeof *graph->state),
-  };
-  n = (size_t) graph->columns * (size_t) graph->rows;
-  graph->size = celd_alloc (n, 1);
-  graph->active = celd_alloc (n, 1);
-  status = celd_pixel_graph_new (cut->task, box, &graph->pixels);
-  for (size_t p = 0; p < (size_t) box.width * (size_t) box.height && status == CELD_OK; p++)
-    graph->pixels.part[p] = CELD_PART_FIXED;
-  return graph->state && graph->size && graph->active ? status : CELD_NO_MEMORY;
+  celd_free (graph->size);
+  celd_free (graph->active);
+  celd_free (graph->state);
+  celd_free (graph->node);
+  celd_free (graph->uncertain);
+  celd_pixel_graph_clear (&graph->pixels);
 }
 
-/* The distance of the interval between a and b from the one of a tile that starts at x. */
-static int
-distance_to_tile (int a, int b, int x)
-{
-  int low = a < b ? a : b, high = a < b ? b : a;
+/* ------------------------------------------------------------------ nodes */
 
-  return x > high ? x - high : x + CELD_CUT_SQUARE < low ? low - x - CELD_CUT_SQUARE : 0;
-}
-
-static void
-set_sizes (CeldCutGraph *graph)
-{
-  const CeldCut *cut = graph->cut;
-  double         apart = celd_relation_end_distance (cut->end[0], cut->end[1]);
-
-  for (int t = 0; t < graph->columns * graph->rows; t++)
-    {
-      int    x = distance_to_tile (cut->end[0].x, cut->end[1].x, cut->left + t % graph->columns * CELD_CUT_SQUARE);
-      int    y = distance_to_tile (cut->end[0].y, cut->end[1].y, cut->top + t / graph->columns * CELD_CUT_SQUARE);
-      double wanted = fmax (apart, x > y ? x : y) / SQUARES_BETWEEN_ENDS;
-      int    size = 1;
-
-      while (2 * size <= wanted && size < CELD_CUT_SQUARE)
-        size *= 2;
-      graph->size[t] = (uint8_t) size;
-      graph->active[t] = true;
-    }
-}
-
-/* ------------------------------------------------------------------ seeds and discs */
-
+/* Does it take smaller squares to find where a cut runs between two nodes? */
 static bool
-in_disc (const CeldSeedDiscs *discs, int x, int y)
+is_uncertain (const CeldCutNode *a, const CeldCutNode *b)
 {
-  int from, end;
-
-  for (int k = 0; k < 2; k++)
-    if (celd_seed_disc_row (&discs->disc[k], y, &from, &end) && x >= from && x < end)
-      return true;
-  return false;
+  return a->whole || b->whole || (!a->ink && !b->ink) || a->basin == b->basin;
 }
 
-static void
-force_disc (CeldCutGraph *graph, const CeldSeedDisc *disc, int i)
+CeldStatus
+celd_cut_graph_read_pixels (CeldCutGraph *graph)
 {
-  const CeldCut *cut = graph->cut;
-  int            r = (int) disc->radius, x, end;
+  const CeldPixelGraph *pixels = &graph->pixels;
 
-  for (int y = disc->y - r < cut->top ? cut->top : disc->y - r; y <= disc->y + r && y <= cut->bottom; y++)
-    if (celd_seed_disc_row (disc, y, &x, &end))
-      for (x = x < cut->left ? cut->left : x; x < end && x <= cut->right;)
-        {
-          uint32_t     k = *celd_pixel_graph_part (&graph->pixels, x, y);
-          CeldCutNode *node = k & CELD_PART_FIXED ? NULL : &graph->node[k];
-
-          if (node)
-            node->forced[i] = true;
-          x = node ? celd_cut_graph_node_end (node, x, end) : x + 1;
-        }
-}
-
-static void
-note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept)
-{
-  (void) kept;
-  celd_cut_graph_note_seeds (graph, k, x, end, y);
-}
-
-static void
-add_seed_costs (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept)
-{
-  const CeldCut *cut = graph->cut;
-  CeldCutNode   *node = &graph->node[k];
-  int32_t        vote = celd_task_data_cost (cut->task, cut->label);
-
-  if (node->forced[1 - kept] && in_disc (&cut->discs[1 - kept], x, y) && in_disc (&cut->discs[1 - kept], end - 1, y))
-    return;
-  if (vote == CELD_HARD)
-    node->forced[kept] = true;
-  else
-    node->terminal += (int64_t) (end - x) * (kept == 0 ? vote : -vote);
-}
-
-/* ------------------------------------------------------------------ one pass */
-
-/* Marks the pixels of a square by the side of their nodes; those of unreachable nodes become outside. */
-static CeldStatus
-label_square (CeldCutGraph *graph, int x, int y, int right, int bottom, int size)
-{
-  (void) size;
-  for (int v = y; v < bottom; v++)
+  if (!celd_reserve (&graph->node, pixels->n, &graph->node_capacity, sizeof *graph->node) ||
+      !celd_reserve (&graph->uncertain, pixels->n_links, &graph->uncertain_capacity, sizeof *graph->uncertain))
+    return CELD_NO_MEMORY;
+  graph->n = pixels->n;
+  for (size_t k = 0; k < graph->n; k++)
     {
-      uint8_t  *mark = graph->cut->mark + celd_cut_index (graph->cut, x, v);
-      uint32_t *part = celd_pixel_graph_part (&graph->pixels, x, v), *end = part + (right - x);
+      const CeldPixelNode *node = &pixels->node[k];
+      bool                 paper = node->value & CELD_CUT_PAPER;
 
-      for (; part < end; part++, mark++)
-        if (!(*part & CELD_PART_FIXED))
-          {
-            *mark = graph->node[*part].side;
-            *part = CELD_PART_FIXED | *mark;
-          }
+      graph->node[k] = (CeldCutNode) { .x = node->x, .y = node->y, .size = node->size, .whole = paper && node->whole,
+                                       .ink = !paper, .basin = node->value & ~CELD_CUT_PAPER };
+    }
+  for (size_t i = 0; i < pixels->n_links; i++)
+    graph->uncertain[i] = is_uncertain (&graph->node[pixels->link[i].a], &graph->node[pixels->link[i].b]);
+  for (size_t i = 0; i < pixels->n_votes; i++)
+    graph->node[pixels->vote[i].node].terminal += pixels->vote[i].label == CELD_NEAR_FIRST ? pixels->vote[i].cost
+                                                                                           : -pixels->vote[i].cost;
+  return CELD_OK;
+}
+
+/* ------------------------------------------------------------------ the end nearer to the seeds */
+
+/* The links by node: those of node k are link[first[k]] .. link[first[k + 1] - 1]. */
+typedef struct { size_t *first, *link; uint32_t *queue; double *length; bool *queued; } Paths;
+
+static void
+paths_clear (Paths *paths)
+{
+  celd_free (paths->first);
+  celd_free (paths->link);
+  celd_free (paths->queue);
+  celd_free (paths->length);
+  celd_free (paths->queued);
+}
+
+static CeldStatus
+paths_new (const CeldCutGraph *graph, Paths *paths)
+{
+  *paths = (Paths) {
+    celd_alloc0 (graph->n + 2, sizeof *paths->first), celd_alloc (2 * graph->pixels.n_links, sizeof *paths->link),
+    celd_alloc (graph->n, sizeof *paths->queue), celd_alloc (graph->n, sizeof *paths->length),
+    celd_alloc0 (graph->n, sizeof *paths->queued)
+  };
+  if (!paths->first || !paths->link || !paths->queue || !paths->length || !paths->queued)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < graph->pixels.n_links; i++)
+    {
+      paths->first[graph->pixels.link[i].a + 2]++;
+      paths->first[graph->pixels.link[i].b + 2]++;
+    }
+  for (size_t k = 1; k < graph->n + 2; k++)
+    paths->first[k] += paths->first[k - 1];
+  for (size_t i = 0; i < graph->pixels.n_links; i++)
+    {
+      paths->link[paths->first[graph->pixels.link[i].a + 1]++] = i;
+      paths->link[paths->first[graph->pixels.link[i].b + 1]++] = i;
     }
   return CELD_OK;
 }
 
-/* Reopens a node's square and those around it. */
+/* The node at the other end of a link. */
+static uint32_t
+other_of (const CeldCutGraph *graph, size_t link, uint32_t k)
+{
+  return graph->pixels.link[link].a == k ? graph->pixels.link[link].b : graph->pixels.link[link].a;
+}
+
+/* Marks the nodes that are not connected to the first end. */
 static void
-reactivate_around (CeldCutGraph *graph, const CeldCutNode *node)
+mark_unreachable (CeldCutGraph *graph, Paths *paths)
 {
-  const CeldCut *cut = graph->cut;
-  int            left = node->x - node->size, right = node->x + 2 * node->size;
-  int            top = node->y - node->size, bottom = node->y + 2 * node->size;
+  size_t n = 0;
 
-  left   = left < cut->left ? cut->left : left;
-  top    = top < cut->top ? cut->top : top;
-  right  = right > cut->right ? cut->right + 1 : right;
-  bottom = bottom > cut->bottom ? cut->bottom + 1 : bottom;
-  for (int y = top; y < bottom; y++)
-    for (int x = left; x < right; x++)
-      if (cut->mark[celd_cut_index (cut, x, y)] != CELD_OUTSIDE)
-        cut->mark[celd_cut_index (cut, x, y)] = CELD_INSIDE;
-  for (int y = (top - cut->top) / CELD_CUT_SQUARE; y <= (bottom - 1 - cut->top) / CELD_CUT_SQUARE; y++)
-    for (int x = (left - cut->left) / CELD_CUT_SQUARE; x <= (right - 1 - cut->left) / CELD_CUT_SQUARE; x++)
-      graph->active[y * graph->columns + x] = true;
-}
-
-/* Is a forced node on the wrong side? */
-static bool
-is_misplaced (const CeldCutNode *node)
-{
-  return (node->forced[0] && node->side == CELD_NEAR_SECOND) || (node->forced[1] && node->side == CELD_NEAR_FIRST);
-}
-
-/* Activates a band along the cut where its squares are larger than pixels; false if they are not, anywhere.  In ink
- * between two basins the cut is in the middle of the line already. */
-static bool
-refine (CeldCutGraph *graph)
-{
-  bool any = false;
-
-  memset (graph->active, 0, (size_t) graph->columns * (size_t) graph->rows);
   for (size_t k = 0; k < graph->n; k++)
-    graph->node[k].cut = graph->node[k].size > 1 && is_misplaced (&graph->node[k]);
-  for (size_t i = 0; i < graph->pixels.n_links; i++)
-    {
-      CeldCutNode *a = &graph->node[graph->pixels.link[i].a], *b = &graph->node[graph->pixels.link[i].b];
-
-      if (graph->uncertain[i] && a->side != b->side && (a->size > 1 || b->size > 1))
-        a->cut = b->cut = true;
-    }
-  for (size_t k = 0; k < graph->n; k++)
-    if (graph->node[k].cut)
+    graph->node[k].unreachable = true;
+  paths->queue[n++] = graph->at_end[0];
+  graph->node[graph->at_end[0]].unreachable = false;
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = paths->first[paths->queue[i]]; j < paths->first[paths->queue[i] + 1]; j++)
       {
-        reactivate_around (graph, &graph->node[k]);
-        any = true;
+        uint32_t other = other_of (graph, paths->link[j], paths->queue[i]);
+
+        if (graph->node[other].unreachable)
+          paths->queue[n++] = other;
+        graph->node[other].unreachable = false;
       }
-  for (int t = 0; t < graph->columns * graph->rows; t++)
-    if (graph->active[t])
-      graph->size[t] = (uint8_t) (graph->size[t] > FINER ? graph->size[t] / FINER : 1);
-  return any;
 }
 
-/* ------------------------------------------------------------------ the cut on squares */
+static double
+step_between (const CeldCutGraph *graph, size_t link)
+{
+  const CeldCutNode *a = &graph->node[graph->pixels.link[link].a], *b = &graph->node[graph->pixels.link[link].b];
+  double             x = (a->seeded ? a->seed_x : a->x + a->size / 2) - (b->seeded ? b->seed_x : b->x + b->size / 2);
+  double             y = (a->seeded ? a->seed_y : a->y + a->size / 2) - (b->seeded ? b->seed_y : b->y + b->size / 2);
+
+  return hypot (x, y) * (a->ink || b->ink || !graph->uncertain[link] ? INK_STEP : 1);
+}
+
+/* Finds the shortest path from each node to a seed: nodes wait in a ring buffer until no path gets shorter. */
+static void
+find_shortest_paths (const CeldCutGraph *graph, Paths *paths)
+{
+  size_t n = 0;
+
+  for (size_t k = 0; k < graph->n; k++)
+    {
+      paths->length[k] = graph->node[k].seeded && !graph->node[k].unreachable ? 0 : INFINITY;
+      paths->queued[k] = paths->length[k] == 0;
+      if (paths->queued[k])
+        paths->queue[n++] = (uint32_t) k;
+    }
+  for (size_t first = 0; n; n--, first = first + 1 < graph->n ? first + 1 : 0)
+    {
+      uint32_t k = paths->queue[first];
+
+      paths->queued[k] = false;
+      for (size_t j = paths->first[k]; j < paths->first[k + 1]; j++)
+        {
+          uint32_t other = other_of (graph, paths->link[j], k);
+          double   length = paths->length[k] + step_between (graph, paths->link[j]);
+
+          if (length >= paths->length[other] - 1e-9)
+            continue;
+          paths->length[other] = length;
+          if (!paths->queued[other])
+            paths->queue[(first + n++) % graph->n] = other;
+          paths->queued[other] = true;
+        }
+    }
+}
+
+/* The length of the path from end i to the region's seeds. */
+static double
+path_from (const CeldCutGraph *graph, const Paths *paths, int i)
+{
+  CeldRelationEnd    end = graph->cut->end[i];
+  const CeldCutNode *node = &graph->node[graph->at_end[i]];
+
+  return node->seeded ? hypot (end.x - node->seed_x, end.y - node->seed_y) : paths->length[graph->at_end[i]];
+}
+
+void
+celd_cut_graph_note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end, int y)
+{
+  CeldCutNode *node = &graph->node[k];
+
+  for (int i = 0; i < 2; i++)
+    {
+      CeldRelationEnd at = graph->cut->end[i];
+      int             near = at.x < x ? x : at.x >= end ? end - 1 : at.x;
+
+      if (k == graph->at_end[i] &&
+          (!node->seeded || hypot (near - at.x, y - at.y) < hypot (node->seed_x - at.x, node->seed_y - at.y)))
+        {
+          node->seeded = true;
+          node->seed_x = near;
+          node->seed_y = y;
+        }
+    }
+  if (!node->seeded)
+    {
+      node->seeded = true;
+      node->seed_x = x;
+      node->seed_y = y;
+    }
+}
 
 CeldStatus
-celd_cut_pixels (CeldCut *cut, const CeldHost *host, int *kept)
+celd_cut_graph_find_kept_end (CeldCutGraph *graph, int *kept)
 {
-  CeldCutGraph graph;
-  CeldStatus   status = graph_new (cut, &graph);
+  Paths      paths;
+  CeldStatus status = paths_new (graph, &paths);
 
-  if (status != CELD_OK)
-    goto done;
-  set_sizes (&graph);
-  status = celd_cut_graph_build (&graph);
-  if (status != CELD_OK)
-    goto done;
-  for (int i = 0; i < 2; i++)
-    graph.at_end[i] = *celd_pixel_graph_part (&graph.pixels, cut->end[i].x, cut->end[i].y);
-  celd_cut_graph_visit_seeds (&graph, note_seeds, 0);
-  status = celd_cut_graph_find_kept_end (&graph, kept);
-  while (status == CELD_OK && *kept >= 0)
+  if (status == CELD_OK)
     {
-      for (int k = 0; k < 4; k++)
-        force_disc (&graph, &cut->discs[k / 2].disc[k % 2], k / 2);
-      celd_cut_graph_visit_seeds (&graph, add_seed_costs, *kept);
-      status = celd_cut_graph_solve (&graph, *kept, host);
-      if (status == CELD_OK)
-        status = celd_cut_graph_visit_squares (&graph, label_square);
-      if (status != CELD_OK || !refine (&graph))
-        break;
-      status = celd_cut_graph_build (&graph);
+      mark_unreachable (graph, &paths);
+      find_shortest_paths (graph, &paths);
+      *kept = graph->node[graph->at_end[1]].unreachable ? -1 :
+      path_from (graph, &paths, 0) < path_from (graph, &paths, 1) ? 0 : 1;
     }
+  paths_clear (&paths);
+  return status;
+}
 
-done:
-  celd_cut_graph_clear (&graph);
+/* ------------------------------------------------------------------ minimum cut */
+
+CeldStatus
+celd_cut_graph_solve (CeldCutGraph *graph, int kept, const CeldHost *host)
+{
+  const CeldCut *cut = graph->cut;
+  int            source = cut->discs[1 - kept].clearance > cut->discs[kept].clearance ? 1 - kept : kept;
+  int64_t       *terminal = celd_alloc (graph->n, sizeof *terminal);
+  uint8_t       *side = celd_alloc (graph->n, 1);
+  CeldStatus     status = terminal && side ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
+    {
+      const CeldCutNode *node = &graph->node[k];
+
+      terminal[k] = node->unreachable ? 0 : node->terminal + HARD_TERMINAL * (node->forced[0] - node->forced[1]);
+      terminal[k] = source == 0 ? terminal[k] : -terminal[k];
+    }
+  if (status == CELD_OK)
+    status = celd_flow (graph->n, graph->pixels.link, graph->pixels.n_links, terminal, host, side, NULL);
+  for (size_t k = 0; k < graph->n && status == CELD_OK; k++)
+    graph->node[k].side = graph->node[k].unreachable                ? CELD_OUTSIDE
+                       : (side[k] != 0) == (source == 0) ? CELD_NEAR_FIRST : CELD_NEAR_SECOND;
+  celd_free (terminal);
+  celd_free (side);
   return status;
 }
 

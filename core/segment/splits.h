@@ -36,6 +36,9 @@ CeldSeedDiscs celd_seed_discs_find (const CeldSegmentTask *task, CeldRelationEnd
 /* The pixels *x .. *end - 1 of a disc in row y, not clipped to the picture; false if there are none. */
 bool celd_seed_disc_row (const CeldSeedDisc *disc, int y, int *x, int *end);
 
+/* Is the pixel in one of the discs? */
+bool celd_seed_discs_contain (const CeldSeedDiscs *discs, int x, int y);
+
 /* ------------------------------------------------------------------ cuts of a region between two points of it */
 
 /* Marks of pixels.  Before the cut: outside the region or inside.  After it: the end that gets the pixel. */
@@ -108,30 +111,10 @@ celd_cut_index (const CeldCut *cut, int x, int y)
   return (size_t) y * (size_t) cut->task->basins->width + (size_t) x;
 }
 
-/* ------------------------------------------------------------------ cut-graph.c */
+/* ------------------------------------------------------------------ cut.c */
 
-/* Makes nodes of all pixels inside, square by square, and the links between them; pixels that have an end already add
- * capacities to their neighbours. */
-CeldStatus celd_cut_graph_build (CeldCutGraph *graph);
-
-/* Calls `visit` for each square of the active tiles: its first pixel, its end in x and y (exclusive), and its size. */
-typedef CeldStatus (*CeldSquareVisit) (CeldCutGraph *graph, int x, int y, int right, int bottom, int size);
-CeldStatus celd_cut_graph_visit_squares (CeldCutGraph *graph, CeldSquareVisit visit);
-
-/* The x up to which row pixels from x on belong to this node for certain, at most `end`. */
-static inline int
-celd_cut_graph_node_end (const CeldCutNode *node, int x, int end)
-{
-  int next = node->whole ? node->x + node->size : x + 1;
-
-  return next < end ? next : end;
-}
-
-/* Calls `visit` for the pixels inside that are seeds of the region: x .. end - 1 of row y, in one node. */
-typedef void (*CeldSeedVisit) (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept);
-void celd_cut_graph_visit_seeds (CeldCutGraph *graph, CeldSeedVisit visit, int kept);
-
-/* ------------------------------------------------------------------ cut-solve.c */
+/* Makes the nodes of the cut from those of the pixels, and the capacities from their data costs. */
+CeldStatus celd_cut_graph_read_pixels (CeldCutGraph *graph);
 
 /* Notes that the pixels x .. end - 1 of row y, in node k, are seeds of the region. */
 void celd_cut_graph_note_seeds (CeldCutGraph *graph, uint32_t k, int x, int end, int y);
