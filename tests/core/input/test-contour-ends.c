@@ -305,6 +305,80 @@ strokes_that_reach_the_frame_stay (void)
   picture_free (p);
 }
 
+/* Of targets at one distance the upper one is taken. */
+static void
+of_two_targets_the_upper_one_is_joined (void)
+{
+  static const int walls[][4] = { { 21, 18, 23, 19 }, { 23, 17, 25, 18 } };
+  Picture         *p = picture_new (SIDE, SIDE);
+
+  draw (p, 1, 10, 19, 20, 19);
+  draw (p, 0, 24, 17, 24, 17);
+  draw (p, 0, 24, 21, 24, 21);
+  CHECK (walls_are (p, walls, 2));
+  picture_free (p);
+}
+
+/* The square round a pixel in the middle meets the stroke in two corners. */
+static void
+the_side_of_a_diagonal_stroke_is_no_end (void)
+{
+  for (int k = 0; k < 2; k++)
+    {
+      Picture *p = picture_new (SIDE, SIDE);
+
+      for (int x = 8; x <= 31; x++)
+        draw (p, 1, x, k ? SIDE - 1 - x : x, x, k ? SIDE - 1 - x : x);
+      draw (p, 0, 20, 16, 20, 16);
+      draw (p, 0, 20, 23, 20, 23);
+      CHECK (!join (p, 0, SIDE - 1));
+      picture_free (p);
+    }
+}
+
+/* The square round the end (16,16) of a stroke meets it in its upper left corner and the pixel below: one place. */
+static void
+a_diagonal_end_is_joined (void)
+{
+  static const int walls[][4] = { { 17, 16, 21, 17 } };
+  Picture         *p = picture_new (SIDE, SIDE);
+
+  for (int x = 6; x <= 16; x++)
+    draw (p, 1, x, x, x, x + (x < 16));
+  p->breadth[1] = 1;
+  draw (p, 0, 20, 16, 20, 16);
+  CHECK (walls_are (p, walls, 1));
+  picture_free (p);
+}
+
+/* The square round (20,20) meets the stroke on its left, just below the corner, and on its right. */
+static void
+two_places_at_a_corner_and_opposite_are_two (void)
+{
+  Picture *p = picture_new (SIDE, SIDE);
+
+  draw (p, 1, 16, 17, 16, 17);
+  draw (p, 1, 20, 20, 20, 20);
+  draw (p, 1, 24, 20, 24, 20);
+  draw (p, 0, 20, 24, 20, 24);
+  CHECK (!join (p, 0, SIDE - 1));
+  picture_free (p);
+}
+
+/* Ink at a corner of the end is touched, too: the ink four pixels above is not joined. */
+static void
+an_end_that_touches_ink_diagonally_needs_no_other_joint (void)
+{
+  static const int walls[][4] = { { 31, 20, 32, 21 } };
+  Picture         *p = picture_new (SIDE, SIDE);
+
+  draw (p, 1, 10, 18, 30, 19);
+  draw (p, 0, 31, 20, 31, 20);
+  draw (p, 0, 28, 14, 30, 14);
+  CHECK (walls_are (p, walls, 1));
+  picture_free (p);
+}
+
 int
 main (void)
 {
@@ -321,5 +395,10 @@ main (void)
   RUN (joints_in_one_direction_keep_a_distance);
   RUN (the_shortest_joint_is_made_first);
   RUN (strokes_that_reach_the_frame_stay);
+  RUN (of_two_targets_the_upper_one_is_joined);
+  RUN (the_side_of_a_diagonal_stroke_is_no_end);
+  RUN (a_diagonal_end_is_joined);
+  RUN (two_places_at_a_corner_and_opposite_are_two);
+  RUN (an_end_that_touches_ink_diagonally_needs_no_other_joint);
   return DONE;
 }
