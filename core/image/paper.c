@@ -159,8 +159,8 @@ static float
 upper_value (const CeldPlane *value, int left, int top, int side)
 {
   unsigned of[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } }, all = 0, above = 0;
-  double   sum[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } };
-  int      bin = CELD_INK_BINS - 1, fullest;
+  double sum[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } };
+  int    bin = CELD_INK_BINS - 1, fullest;
 
   for (int y = top; y < top + side && y < value->height; y++)
     for (int x = left; x < left + side && x < value->width; x++)

@@ -183,11 +183,11 @@ read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowS
 
 typedef struct
 {
-  CeldLabels       label;     /* each pixel's component, from 1 */
-  CeldComponent   *component;
-  size_t           n;
-  uint32_t        *pixel;     /* component by component, in reading order, numbered as in CeldArrowStroke */
-  CeldArrowStroke  stroke;
+  CeldLabels      label;      /* each pixel's component, from 1 */
+  CeldComponent  *component;
+  size_t          n;
+  uint32_t       *pixel;      /* component by component, in reading order, numbered as in CeldArrowStroke */
+  CeldArrowStroke stroke;
 } Components;
 
 static void

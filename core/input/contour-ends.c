@@ -117,8 +117,8 @@ find_ends (const CeldContourBake *b, int most, const CeldHost *host, End **ends,
         return CELD_CANCELLED;
       for (int x = 0; x < b->width; x++)
         {
-          End  end = { .x = x, .y = y, .stroke = CELD_AT (&b->component, x, y) };
-          int  met;
+          End end = { .x = x, .y = y, .stroke = CELD_AT (&b->component, x, y) };
+          int met;
 
           if (!end.stroke || !on_outline (b, x, y) || !find_target (b, most, &end))
             continue;

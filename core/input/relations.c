@@ -29,7 +29,7 @@ static CeldStatus
 read_positive (CeldReader *r, double *number)
 {
   const char *expected = "a number above 0";
-  CeldReader      start;
+  CeldReader  start;
   CeldStatus  status;
 
   celd_text_advance (r);
@@ -94,7 +94,7 @@ read_term (CeldReader *r, PlacedTerm *placed)
 static CeldStatus
 read_mark (CeldReader *r, CeldRelation *flags)
 {
-  bool   crack  = strncmp (r->at, "!crack", 6) == 0, anchor = strncmp (r->at, "!anchor", 7) == 0;
+  bool       crack  = strncmp (r->at, "!crack", 6) == 0, anchor = strncmp (r->at, "!anchor", 7) == 0;
   CeldReader behind = *r;
 
   if (!crack && !anchor)
@@ -170,7 +170,7 @@ read_relation (CeldReader *r, CeldRelations *relations)
 CeldStatus
 celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error)
 {
-  CeldReader     r      = { text, 1, 1, error };
+  CeldReader r      = { text, 1, 1, error };
   size_t     before = relations->n;
   CeldStatus status = CELD_OK;
 

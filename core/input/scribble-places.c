@@ -46,8 +46,8 @@ is_rim (const CeldScribbleLayer *r, int x, int y, uint32_t label)
 static void
 place_row (void *data, int y)
 {
-  CeldScribbleLayer  *r = data;
-  uint32_t *label = r->label + (size_t) y * (size_t) r->width;
+  CeldScribbleLayer *r = data;
+  uint32_t          *label = r->label + (size_t) y * (size_t) r->width;
 
   for (int x = 0; x < r->width; x++)
     {

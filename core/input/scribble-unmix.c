@@ -201,7 +201,7 @@ gather_labels (CeldLossStrokes *s, LabelCandidate *candidate, uint32_t *label)
 CeldStatus
 celd_scribble_unmix (CeldLossStrokes *s, const CeldHost *host)
 {
-  double        (*received)[3] = celd_alloc (s->n, sizeof *received);
+  double          (*received)[3] = celd_alloc (s->n, sizeof *received);
   LabelCandidate *candidate = celd_alloc (s->n, sizeof *candidate);
   uint32_t       *label = celd_alloc (s->n, sizeof *label);
   CeldStatus      status = received && candidate && label ? CELD_OK : CELD_NO_MEMORY;

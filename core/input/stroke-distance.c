@@ -88,7 +88,7 @@ gather_fronts (CeldArrowStroke *stroke, float longest)
     stroke->sums[i] = (CeldStrokeSums) { 0 };
   for (size_t i = 0; i < stroke->n; i++)
     {
-      CeldPoint  p = celd_stroke_point (stroke, stroke->pixel[i]);
+      CeldPoint       p = celd_stroke_point (stroke, stroke->pixel[i]);
       CeldStrokeSums *f = &stroke->sums[(size_t) stroke->distance[stroke->pixel[i]] + 1];
 
       f->count++;
@@ -132,10 +132,10 @@ celd_stroke_length (const CeldArrowStroke *stroke)
 static CeldStrokeSums
 below (const CeldArrowStroke *stroke, double distance)
 {
-  double    d = fmax (0, fmin (distance, celd_stroke_length (stroke)));
-  size_t    i = d < celd_stroke_length (stroke) ? (size_t) d : stroke->n_sums - 2;
+  double         d = fmax (0, fmin (distance, celd_stroke_length (stroke)));
+  size_t         i = d < celd_stroke_length (stroke) ? (size_t) d : stroke->n_sums - 2;
   CeldStrokeSums a = stroke->sums[i], b = stroke->sums[i + 1];
-  double    t = d - (double) i;
+  double         t = d - (double) i;
 
   return (CeldStrokeSums) { a.count + t * (b.count - a.count), a.x + t * (b.x - a.x), a.y + t * (b.y - a.y) };
 }
@@ -150,7 +150,7 @@ CeldPoint
 celd_stroke_centroid (const CeldArrowStroke *stroke, double from, double to)
 {
   CeldStrokeSums a = below (stroke, from), b = below (stroke, to);
-  double    count = b.count - a.count;
+  double         count = b.count - a.count;
 
   if (!(count > 0)) /* nothing between: there are pixels at the start */
     return (CeldPoint) { b.x / b.count, b.y / b.count };

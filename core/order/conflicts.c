@@ -45,7 +45,7 @@ complete_background (CeldGraph *g, CeldCycleSearch *s)
 {
   size_t      *f = &g->first[2 * (g->n_links - 1)];
   CeldArcIndex down;
-  CeldStatus status;
+  CeldStatus   status;
 
   if (f[0] == f[1])
     return CELD_OK;

@@ -52,7 +52,7 @@ begin (CeldCycleSearch *s)
 static void
 visit (CeldCycleSearch *s, CeldSide to, size_t label, size_t strict, uint32_t from, size_t link)
 {
-  size_t    state = 2 * label + strict;
+  size_t          state = 2 * label + strict;
   CeldSearchStep *step = &s->step[to][state];
 
   if (step->number == s->number)
@@ -101,9 +101,9 @@ reach (CeldCycleSearch *s, CeldSide to, uint32_t label, size_t strict, bool ineq
 static void
 expand (CeldCycleSearch *s, CeldSide to, uint32_t state)
 {
-  const CeldGraph *g = s->graph;
-  const CeldLinkArcs  *arcs = &s->arcs[to];
-  size_t           label = state / 2, before = state % 2;
+  const CeldGraph    *g = s->graph;
+  const CeldLinkArcs *arcs = &s->arcs[to];
+  size_t              label = state / 2, before = state % 2;
 
   for (const CeldLinkArc *arc = arcs->arc + arcs->first[label]; arc < arcs->arc + arcs->last[label]; arc++)
     {
@@ -188,7 +188,7 @@ bool
 celd_cycle_search_is_simple (CeldCycleSearch *s)
 {
   const CeldSearchStep *step;
-  uint32_t       *label = s->queue[0], *link = s->passed[0], number = ++s->number;
+  uint32_t             *label = s->queue[0], *link = s->passed[0], number = ++s->number;
 
   for (size_t k = 0; k < s->graph->n_labels; k++)
     label[k] = number - 1;
@@ -210,7 +210,7 @@ CeldStatus
 celd_cycle_search_cycle (const CeldCycleSearch *s, CeldCycle *cycle)
 {
   const CeldSearchStep *down = s->step[CELD_FARTHER], *up = s->step[CELD_NEARER];
-  size_t          before = 1, n;
+  size_t                before = 1, n;
 
   for (uint32_t t = s->met; down[t].from != NOWHERE; t = down[t].from)
     before++;

@@ -25,14 +25,14 @@ typedef struct { uint32_t far, near; bool equal; double weight; } Arc;
 typedef struct
 {
   const CeldGraph *graph;
-  const CeldScc  *scc;
+  const CeldScc   *scc;
   uint32_t         label[MOST_LABELS]; /* label - 1 */
   size_t           n;
   Arc             *arc;
-  uint32_t        *block;       /* sets of labels that may have one depth */
+  uint32_t        *block;              /* sets of labels that may have one depth */
   size_t           n_blocks;
-  double          *cost;        /* of a set of placed labels */
-  uint32_t        *last;        /* the block of it that was placed last */
+  double          *cost;               /* of a set of placed labels */
+  uint32_t        *last;               /* the block of it that was placed last */
   size_t           block_capacity;
 } Exact;
 

@@ -101,7 +101,7 @@ static bool
 follow (CeldIncrementalOrder *s, uint32_t place, CeldSide to, size_t *work)
 {
   const CeldGraph *g = s->graph;
-  CeldLinkArcs         arcs = celd_incremental_order_arcs (s, to);
+  CeldLinkArcs     arcs = celd_incremental_order_arcs (s, to);
   bool             met = false;
   uint32_t         k = s->at[place];
 

@@ -24,8 +24,8 @@
 typedef struct
 {
   const CeldGraph *graph;
-  CeldArcIndex        up;      /* links that lead up from a label */
-  CeldEquivalence      classes;
+  CeldArcIndex     up;      /* links that lead up from a label */
+  CeldEquivalence  classes;
   bool            *visible; /* of a class, at its root: has it a pixel? */
   double          *level;   /* of a class: its height; -1: not visible, and nothing visible behind it */
   size_t          *waits;   /* of a class: nearer ends in links that are not placed yet */
@@ -159,8 +159,8 @@ place_class (Sort *s, uint32_t c)
     {
       for (size_t j = s->up.first[k]; j < s->up.first[k + 1]; j++)
         {
-          size_t  link   = s->up.arc[j].link;
-          double  height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
+          size_t link   = s->up.arc[j].link;
+          double height = s->level[c] + (s->visible[c] ? gap_of (g, link) : 1);
 
           if (!g->kept[link] || celd_graph_equal (g, link))
             continue;

@@ -266,9 +266,9 @@ assign_components (const Work *w, RegionCut *cut)
 static CeldStatus
 split_label (Work *w, const RegionCut *cut, CeldSplits *splits)
 {
-  CeldRegion  region = w->palette->item[cut->label - 1], *rest;
-  size_t      n[2] = { 0 }, p = 0;
-  int         moves;
+  CeldRegion region = w->palette->item[cut->label - 1], *rest;
+  size_t     n[2] = { 0 }, p = 0;
+  int        moves;
 
   for (size_t q = 0; q < box_pixels (cut); q++)
     if (cut->steps[0][q] != UNREACHED)

@@ -13,11 +13,11 @@
 typedef struct
 {
   const CeldGraph *graph;
-  CeldArcIndex        down;
-  uint32_t        *number;  /* in the order in which nodes are found, from 1; 0: not yet */
-  uint32_t        *low;     /* the least number that is known to be reached from a node */
-  size_t          *cursor;  /* of a node: the next step from it */
-  bool            *open;    /* is its component not complete yet? */
+  CeldArcIndex     down;
+  uint32_t        *number;       /* in the order in which nodes are found, from 1; 0: not yet */
+  uint32_t        *low;          /* the least number that is known to be reached from a node */
+  size_t          *cursor;       /* of a node: the next step from it */
+  bool            *open;         /* is its component not complete yet? */
   uint32_t        *path, *stack; /* from the start to the node at hand; nodes whose component is not complete */
   size_t           n_path, n_stack, found;
 } SccWalk;
@@ -167,7 +167,7 @@ celd_sccs_clear (CeldSccs *sccs)
 CeldStatus
 celd_sccs_find (const CeldGraph *graph, CeldSccs *sccs)
 {
-  SccWalk       walk;
+  SccWalk    walk;
   CeldStatus status = walk_new (graph, &walk);
 
   *sccs = (CeldSccs) { celd_alloc0 (graph->n_labels, sizeof (uint32_t)),

@@ -13,9 +13,11 @@
 static inline CeldScribbleLayer
 reading_new (const char *const *art, int (*rgb)[3], size_t n)
 {
-  CeldLabels ids = art_labels (art);
-  CeldScribbleLayer    r = { .width = ids.width, .height = ids.height, .pixels = (size_t) ids.width * (size_t) ids.height,
-                   .id = ids.data, .colour = calloc (n + 1, sizeof (CeldScribbleColour)), .n = n + 1, .radius = 3 };
+  CeldLabels        ids = art_labels (art);
+  CeldScribbleLayer r = {
+    .width = ids.width, .height = ids.height, .pixels = (size_t) ids.width * (size_t) ids.height, .id = ids.data,
+    .colour = calloc (n + 1, sizeof (CeldScribbleColour)), .n = n + 1, .radius = 3,
+  };
 
   for (size_t k = 1; k <= n; k++)
     memcpy (r.colour[k].channel, rgb[k - 1], sizeof *rgb);

@@ -98,9 +98,9 @@ comb_and_spiral (void)
   static const char *const comb[] = { "A.A.A", "A.A.A", "AAAA.", "....A", NULL };
   static const char *const spiral[] = { "AAAAAAA", "......A", "AAAAA.A", "A...A.A", "A.AAA.A", "A.....A", "AAAAAAA",
                                         NULL };
-  CeldLabels               l = art_labels (comb), c = art_labels (comb);
-  CeldComponent           *list;
-  size_t                   n;
+  CeldLabels     l = art_labels (comb), c = art_labels (comb);
+  CeldComponent *list;
+  size_t         n;
 
   CHECK (celd_components (&l, 0, false, NULL, &c, &list, &n) == CELD_OK);
   CHECK (n == 3 && list[0].area == 8 && list[0].bottom == 2 && list[0].right == 3);

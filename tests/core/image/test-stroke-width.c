@@ -48,7 +48,7 @@ random_drawings (void)
 {
   static const int size[][2] = { { 1, 1 }, { 1, 400 }, { 400, 1 }, { 30, 20 }, { 13, 300 }, { 9000, 3 }, { 4096, 2 },
                                  { 4097, 4 } };
-  uint32_t state = 3;
+  uint32_t         state = 3;
 
   for (size_t k = 0; k < sizeof size / sizeof *size; k++)
     for (int round = 0; round < 12; round++)

@@ -58,9 +58,9 @@ without_direction (void)
 {
   for (int degrees = 0; degrees < 360; degrees += 24)
     {
-      Arrow line = straight (degrees, 4, BARE, 0), bar = straight (degrees, 4, BAR, 12);
-      Arrow dot = straight (degrees, 4, DOT, 7);
-      Arrow there = straight (degrees, 4, OPEN, 14), back = straight (degrees + 180, 4, OPEN, 14);
+      Arrow     line = straight (degrees, 4, BARE, 0), bar = straight (degrees, 4, BAR, 12);
+      Arrow     dot = straight (degrees, 4, DOT, 7);
+      Arrow     there = straight (degrees, 4, OPEN, 14), back = straight (degrees + 180, 4, OPEN, 14);
       CeldPaint paint = blank (100, 100);
       Answer    answer;
 

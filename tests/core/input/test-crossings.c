@@ -74,12 +74,12 @@ arrows_that_touch (void)
   for (int i = 0; i < 240; i++)
     {
       CeldArrowStyle style = STYLES[i % 4];
-      double    w = random_between (&state, 3, 8), angle = random_between (&state, 0, 6.28), share = i % 3 / 2.;
-      double    turn = random_between (&state, 0.5, 5.8);
-      Arrow     a = through ((Point) { 120, 120 }, angle, 90, i / 4 % 3 / 2., w, style, i % 8 < 4);
-      Arrow     b = through ((Point) { 120, 120 }, angle + turn, 90, share, w, style, i % 8 < 4);
-      CeldPaint paint = blank (SIZE, SIZE);
-      Answer    answer;
+      double         w = random_between (&state, 3, 8), angle = random_between (&state, 0, 6.28), share = i % 3 / 2.;
+      double         turn = random_between (&state, 0.5, 5.8);
+      Arrow          a = through ((Point) { 120, 120 }, angle, 90, i / 4 % 3 / 2., w, style, i % 8 < 4);
+      Arrow          b = through ((Point) { 120, 120 }, angle + turn, 90, share, w, style, i % 8 < 4);
+      CeldPaint      paint = blank (SIZE, SIZE);
+      Answer         answer;
 
       draw_arrow (&paint, &a, GREEN);
       draw_arrow (&paint, &b, GREEN);

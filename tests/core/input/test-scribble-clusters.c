@@ -106,7 +106,7 @@ a_rim_belongs_to_what_it_touches (void)
   static const char *const art[] = {
     "AAAAAADDDDDDD", "AAAAAADDDDDDD", "...........D.", "BBBBBBBB.....", "BBBBBBBB.....", "CCCCCC.......", NULL
   };
-  int     rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
+  int               rgb[4][3] = { { 200, 0, 0 }, { 160, 20, 0 }, { 180, 10, 0 }, { 180, 20, 0 } };
   CeldScribbleLayer r = reading_new (art, rgb, 4);
 
   r.colour[3].interior = 0;
@@ -120,7 +120,7 @@ static void
 what_equals_paper_is_paper (void)
 {
   static const char *const art[] = { "AAAAAAAAAA", "AAAAAAAAAA", "CCCCCCCCCC", "BBBBBBBBBB", NULL };
-  int     rgb[3][3] = { { 255, 255, 255 }, { 255, 251, 255 }, { 255, 253, 255 } };
+  int               rgb[3][3] = { { 255, 255, 255 }, { 255, 251, 255 }, { 255, 253, 255 } };
   CeldScribbleLayer r = reading_new (art, rgb, 3);
 
   r.paper = 1;

@@ -121,9 +121,9 @@ smeared_strokes_keep_their_colours (void)
 static bool
 is_smeared (double width, double share, int shake)
 {
-  CeldPaint paint = { W, H, W, &paint_of[0][0][0] };
-  CeldScribbleLayer   r = { .paint = &paint, .width = W, .height = H, .pixels = W * H };
-  CeldScribbleColour    colour[2] = { { .pixels = 0 }, { .channel = { 255, 255, 255 } } };
+  CeldPaint          paint = { W, H, W, &paint_of[0][0][0] };
+  CeldScribbleLayer  r = { .paint = &paint, .width = W, .height = H, .pixels = W * H };
+  CeldScribbleColour colour[2] = { { .pixels = 0 }, { .channel = { 255, 255, 255 } } };
 
   draw (width);
   store (share, shake);

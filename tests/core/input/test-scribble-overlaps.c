@@ -10,7 +10,7 @@ static bool
 is_label (const char *const *art, int (*rgb)[3], bool on_paper, int opacity)
 {
   CeldScribbleLayer r = reading_new (art, rgb, 4);
-  bool    label;
+  bool              label;
 
   r.paper = on_paper ? 4 : 0;
   r.n_clusters = 4;

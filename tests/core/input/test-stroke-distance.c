@@ -10,9 +10,9 @@
 static CeldArrowStroke
 stroke_of (const char *const *rows, uint32_t **pixels)
 {
-  int       w = art_width (rows), h = art_height (rows);
+  int             w = art_width (rows), h = art_height (rows);
   CeldArrowStroke t = { .width = w, .height = h };
-  size_t    plane = (size_t) (w + 2) * (size_t) (h + 2);
+  size_t          plane = (size_t) (w + 2) * (size_t) (h + 2);
 
   *pixels    = malloc (plane * sizeof **pixels);
   t.distance = malloc (plane * sizeof *t.distance);
@@ -52,9 +52,9 @@ distances_follow_the_stroke (void)
     "######.",
     NULL
   };
-  uint32_t *pixels;
+  uint32_t       *pixels;
   CeldArrowStroke t = stroke_of (rows, &pixels);
-  uint32_t  end = celd_stroke_follow (&t, t.pixel, 1);
+  uint32_t        end = celd_stroke_follow (&t, t.pixel, 1);
 
   CHECK (celd_stroke_x (&t, t.pixel[0]) == 0 && celd_stroke_y (&t, t.pixel[0]) == 0);
   NEAR (distance_at (&t, 5, 0), 5, 1e-5);
@@ -70,9 +70,9 @@ static void
 several_starts (void)
 {
   static const char *const rows[] = { "#########", NULL };
-  uint32_t *pixels, start[2];
+  uint32_t       *pixels, start[2];
   CeldArrowStroke t = stroke_of (rows, &pixels);
-  uint32_t  end;
+  uint32_t        end;
 
   start[0] = t.pixel[0];
   start[1] = t.pixel[8];
@@ -93,9 +93,9 @@ widths_and_centres (void)
     "..........#########.",
     NULL
   };
-  uint32_t *pixels;
+  uint32_t       *pixels;
   CeldArrowStroke t = stroke_of (rows, &pixels);
-  uint32_t  start = t.pixel[9]; /* the left end of row 2 */
+  uint32_t        start = t.pixel[9]; /* the left end of row 2 */
 
   CHECK (celd_stroke_x (&t, start) == 0 && celd_stroke_y (&t, start) == 2);
   celd_stroke_follow (&t, &start, 1);
@@ -113,7 +113,7 @@ static void
 painted (void)
 {
   static const char *const rows[] = { ".....", "..#..", ".....", NULL };
-  uint32_t *pixels;
+  uint32_t       *pixels;
   CeldArrowStroke t = stroke_of (rows, &pixels);
 
   celd_stroke_follow (&t, t.pixel, 1);

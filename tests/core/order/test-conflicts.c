@@ -12,15 +12,15 @@
 /* One row of pixels, region k at pixel k; label numbers from 0 here. */
 typedef struct
 {
-  int           n_labels, n;
-  int           near[MOST_RELATIONS], far[MOST_RELATIONS];
-  int           gap[MOST_RELATIONS];
-  CeldRelation  item[MOST_RELATIONS];
-  CeldRegion    region[MOST_LABELS];
-  uint32_t      pixel[MOST_LABELS];
-  CeldOrder     order;
-  CeldProblems  problems;
-  bool          kept[MOST_RELATIONS];
+  int          n_labels, n;
+  int          near[MOST_RELATIONS], far[MOST_RELATIONS];
+  int          gap[MOST_RELATIONS];
+  CeldRelation item[MOST_RELATIONS];
+  CeldRegion   region[MOST_LABELS];
+  uint32_t     pixel[MOST_LABELS];
+  CeldOrder    order;
+  CeldProblems problems;
+  bool         kept[MOST_RELATIONS];
 } Case;
 
 static void

@@ -12,14 +12,14 @@
  * sets of labels on both sides. */
 typedef struct
 {
-  int           n_labels, n;
-  uint32_t      near[MOST_RELATIONS], far[MOST_RELATIONS];
-  CeldRelation  item[MOST_RELATIONS];
-  CeldRegion    region[MOST_LABELS];
-  uint32_t      pixel[MOST_LABELS];
-  CeldOrder     order;
-  CeldProblems  problems;
-  bool          kept[MOST_RELATIONS];
+  int          n_labels, n;
+  uint32_t     near[MOST_RELATIONS], far[MOST_RELATIONS];
+  CeldRelation item[MOST_RELATIONS];
+  CeldRegion   region[MOST_LABELS];
+  uint32_t     pixel[MOST_LABELS];
+  CeldOrder    order;
+  CeldProblems problems;
+  bool         kept[MOST_RELATIONS];
 } Scene;
 
 /* ------------------------------------------------------------------ scenes */
@@ -283,7 +283,7 @@ check_sccs (const Scene *s)
   for (size_t j = 0; j < s->order.n_sccs; j++)
     {
       const CeldScc *scc = &s->order.scc[j];
-      int             newest = (int) scc->newest.item[0];
+      int            newest = (int) scc->newest.item[0];
 
       for (size_t k = 0; k < scc->n; k++)
         {

@@ -78,9 +78,9 @@ points_on_ink (void)
 {
   static const char *const rows[]  = { "AAAAAAAABBBB", "AAAAAAAABBBB", "AAAAAAAABBBB", "CCCCCCCCCCCC", NULL };
   static const char *const lines[] = { "......##9...", "......##9...", "......##9...", "............", NULL };
-  CeldPlane                ink     = art_plane (lines);
-  CeldPalette              palette = palette_of (3, false);
-  Answer                   a       = ask (rows, &palette, "7.5,0.5 > 0,0", &ink); /* A's own ink, B's paper beside it */
+  CeldPlane   ink     = art_plane (lines);
+  CeldPalette palette = palette_of (3, false);
+  Answer      a       = ask (rows, &palette, "7.5,0.5 > 0,0", &ink);              /* A's own ink, B's paper beside it */
 
   CHECK (a.problems.n == 0 && levels_are (&a, "010"));
   forget (&a);
@@ -102,9 +102,9 @@ points_in_black_areas (void)
                                        "BBBBBBBBBBBBB", "AAAAAAAAAAAAA", "AAAAAAAAAAAAA", NULL };
   static const char *const lines[] = { ".#.#.#.#.#.#.", "#############", "#############", "#############",
                                        "#############", ".............", ".#.#.#.#.#.#.", NULL };
-  CeldPlane                ink     = art_plane (lines);
-  CeldPalette              palette = palette_of (2, false);
-  Answer                   a       = ask (rows, &palette, "6,3 > 6,5", &ink);
+  CeldPlane   ink     = art_plane (lines);
+  CeldPalette palette = palette_of (2, false);
+  Answer      a       = ask (rows, &palette, "6,3 > 6,5", &ink);
 
   CHECK (a.problems.n == 0 && levels_are (&a, "01"));
   forget (&a);

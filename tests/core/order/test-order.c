@@ -91,8 +91,8 @@ static void
 lost_labels_leave_no_hole (void)
 {
   static const char *const rows[] = { "AA  CC  EEFF", "AA  CC  EEFF", NULL }; /* B and D have no pixel */
-  CeldPalette              palette = palette_of (6, false);
-  Answer                   a       = ask (rows, &palette, "A > #140000 > C > #280000 > E", NULL);
+  CeldPalette palette = palette_of (6, false);
+  Answer      a       = ask (rows, &palette, "A > #140000 > C > #280000 > E", NULL);
 
   CHECK (a.problems.n == 0 && levels_are (&a, "211000"));
   forget (&a);
@@ -169,8 +169,8 @@ static void
 one_colour_closes_a_circle (void)
 {
   static const char *const rows[] = { "AABBAACCDDDD", "AABBAACCDDDD", NULL };
-  CeldPalette              palette = palette_of (4, false);
-  Answer                   a = ask (rows, &palette, "A>B;B>C", NULL); /* points: C lies in the second part of a */
+  CeldPalette palette = palette_of (4, false);
+  Answer      a = ask (rows, &palette, "A>B;B>C", NULL);              /* points: C lies in the second part of a */
 
   CHECK (a.order.n_cycles == 1 && a.order.cycle[0].label == 1 && a.order.cycle[0].colour[0] == 10);
   CHECK (a.order.cycle[0].x[0] + a.order.cycle[0].x[1] == 4);

@@ -120,9 +120,9 @@ static void
 line_that_ends (void)
 {
   static const char *const parts[] = { "AB", NULL };
-  CeldLabels               half = art_labels (parts);
-  Sheets                   s;
-  CeldRelations            suggested;
+  CeldLabels    half = art_labels (parts);
+  Sheets        s;
+  CeldRelations suggested;
 
   for (int side = 0; side < 2; side++)
     {
@@ -149,9 +149,9 @@ line_that_ends (void)
 static void
 hole_of_a_ring (void)
 {
-  const Sheet sheet[] = { page, { 100, 95, 100, 95, 80 }, { 100, 95, 100, 95, 45 } };
-  Sheets             s;
-  CeldRelations      suggested;
+  const Sheet   sheet[] = { page, { 100, 95, 100, 95, 80 }, { 100, 95, 100, 95, 45 } };
+  Sheets        s;
+  CeldRelations suggested;
 
   sheets_open (200, 190, sheet, 3, 4, &s);
   for (int p = 0; p < 200 * 190; p++)
@@ -238,10 +238,10 @@ random_scenes (void)
 static void
 any_size (void)
 {
-  const Sheet small[] = { page, { 40, 40, 40, 40, 25 }, { 60, 45, 85, 60, 14 } };
-  const Sheet large[] = { page, { 120, 120, 120, 120, 75 }, { 180, 135, 255, 180, 42 } };
-  Sheets             s, l;
-  CeldRelations      one, other;
+  const Sheet   small[] = { page, { 40, 40, 40, 40, 25 }, { 60, 45, 85, 60, 14 } };
+  const Sheet   large[] = { page, { 120, 120, 120, 120, 75 }, { 180, 135, 255, 180, 42 } };
+  Sheets        s, l;
+  CeldRelations one, other;
 
   sheets_open (110, 90, small, 3, 3, &s);
   sheets_open (330, 270, large, 3, 9, &l);
@@ -261,10 +261,10 @@ any_size (void)
 static void
 odd_input (void)
 {
-  const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
-  Sheets             s;
-  CeldRelations      suggested;
-  CeldPalette        none = { 0 };
+  const Sheet   sheet[] = { page, { 20, 20, 20, 20, 12 } };
+  Sheets        s;
+  CeldRelations suggested;
+  CeldPalette   none = { 0 };
 
   sheets_open (40, 40, sheet, 2, 2, &s);
   suggested = (CeldRelations) { 0 };
@@ -293,10 +293,10 @@ odd_input (void)
 static void
 stops_when_asked (void)
 {
-  const Sheet sheet[] = { page, { 20, 20, 20, 20, 12 } };
-  const CeldHost     host = { .progress = check_refuse };
-  CeldRelations      suggested = { 0 };
-  Sheets             s;
+  const Sheet    sheet[] = { page, { 20, 20, 20, 20, 12 } };
+  const CeldHost host = { .progress = check_refuse };
+  CeldRelations  suggested = { 0 };
+  Sheets         s;
 
   sheets_open (40, 300, sheet, 2, 2, &s);
   CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, NULL, &host, &suggested) == CELD_CANCELLED && !suggested.n);
