@@ -14,7 +14,7 @@
  * the size overflows: then all is as before. */
 bool celd_reserve (void *items, size_t count, size_t *capacity, size_t size);
 
-/* The same where the types are known, for one item more than n. */
+/* Makes room for one item more than n, of the type of the items. */
 #define celd_reserve_one(items, n, capacity) \
   ((n) < (capacity) || celd_reserve (&(items), (n) + 1, &(capacity), sizeof *(items)))
 

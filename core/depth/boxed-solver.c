@@ -47,7 +47,7 @@ add_run (CeldRunComponents *components, size_t *n, int x, int end)
   return celd_append (components->run, *n, components->run_capacity, (CeldPixelRun) { x, end, 0 });
 }
 
-/* Ends a run where fixed pixels begin, and where a border is cut. */
+/* Ends a run where fixed pixels begin or end, and where an edge between levels is cut. */
 static CeldStatus
 find_row_runs (const Joins *j, CeldRunComponents *components, int y, uint8_t *mark, size_t *n)
 {

@@ -69,7 +69,7 @@ take_over (const Cores *c, const Region *region, size_t speck, const uint8_t *la
 
 /* Whether the pixel (x,y) is beside another region. */
 static bool
-on_border (const Cores *c, int x, int y)
+on_boundary (const Cores *c, int x, int y)
 {
   const float *here = c->level + (size_t) y * (size_t) c->width + (size_t) x;
 
@@ -77,7 +77,7 @@ on_border (const Cores *c, int x, int y)
          (y > 0 && here[-c->width] != here[0]) || (y + 1 < c->height && here[c->width] != here[0]);
 }
 
-/* Calls for every run of the group's regions. */
+/* Loops over every run of the group's regions. */
 #define EACH_GROUP_RUN(c, bounds, g, y, s) \
   CELD_EACH_RUN (&(c)->regions, (bounds).y, (bounds).y + (bounds).height, y, s) \
     if ((c)->group[s->component] == (g))
@@ -87,17 +87,17 @@ static CeldStatus
 measure (const Cores *c, uint32_t g, CeldRect box, const CeldHost *host)
 {
   size_t     n = (size_t) box.width * (size_t) box.height;
-  uint8_t   *border = celd_alloc0 (n, 1);
+  uint8_t   *boundary = celd_alloc0 (n, 1);
   int32_t   *squared = celd_alloc (n, sizeof *squared);
-  CeldStatus status = border && squared ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status = boundary && squared ? CELD_OK : CELD_NO_MEMORY;
 
 #define IN_BOX(x, y) ((size_t) ((y) - box.y) * (size_t) box.width + (size_t) ((x) - box.x))
   if (status == CELD_OK)
     {
       EACH_GROUP_RUN (c, box, g, y, s)
         for (int x = s->x; x < s->end; x++)
-          border[IN_BOX (x, y)] = on_border (c, x, y);
-      status = celd_distance (box.width, box.height, border, host, squared);
+          boundary[IN_BOX (x, y)] = on_boundary (c, x, y);
+      status = celd_distance (box.width, box.height, boundary, host, squared);
     }
   if (status == CELD_OK)
     {
@@ -111,7 +111,7 @@ measure (const Cores *c, uint32_t g, CeldRect box, const CeldHost *host)
             c->fixed[(size_t) y * (size_t) c->width + (size_t) x] = CELD_CORE;
     }
 #undef IN_BOX
-  celd_free (border);
+  celd_free (boundary);
   celd_free (squared);
   return status;
 }

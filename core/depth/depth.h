@@ -90,7 +90,7 @@ uint32_t celd_run_component_at (const CeldRunComponents *components, int x, int 
 /* Whether any pixel of this run of row y is 1 in `mark`, of the size of the picture. */
 bool celd_run_marked (const CeldRunComponents *components, const CeldPixelRun *run, int y, const uint8_t *mark);
 
-/* Calls for every run `s` of the rows y = from .. end - 1. */
+/* Loops over every run `s` of the rows y = from .. end - 1. */
 #define CELD_EACH_RUN(components, from, end, y, s) \
   for (int y = (from); y < (end); y++) \
     for (const CeldPixelRun *s = (components)->run + (components)->row[y], \
@@ -126,7 +126,7 @@ celd_box_pixel (const CeldBox *box, int x, int y)
   return (size_t) (y - box->rect.y) * (size_t) box->rect.width + (size_t) (x - box->rect.x);
 }
 
-/* Calls for every run `s` of the components that are solved in the box. */
+/* Loops over every run `s` of the components that are solved in the box. */
 #define CELD_EACH_BOX_RUN(box, y, s) \
   CELD_EACH_RUN ((box)->components, (box)->rect.y, (box)->rect.y + (box)->rect.height, y, s) \
     if ((box)->group_of[s->component] == (box)->group)

@@ -313,7 +313,7 @@ claim_lines (const CeldContourPens *pens, const CeldEdgeLoop *loop, size_t i, Ce
 
 /* ------------------------------------------------------------------ claims of a point */
 
-/* How far the band of a point goes behind the edge. */
+/* The length of a point's band behind the edge, in pixels. */
 static float
 band_length (const CeldEdgePoint *p, const CeldEdgePen *pen)
 {

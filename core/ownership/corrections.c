@@ -29,15 +29,15 @@ typedef struct
 } Corrector;
 
 static CeldStatus
-reassign (const Corrector *h, int x, int y, uint32_t to)
+reassign (const Corrector *c, int x, int y, uint32_t to)
 {
-  uint32_t  *owner = &CELD_AT (h->owner, x, y);
+  uint32_t  *owner = &CELD_AT (c->owner, x, y);
   CeldStatus status;
 
   if (*owner == to)
     return CELD_OK;
-  status = celd_append (h->reassigned->item, h->reassigned->n, h->reassigned->capacity,
-                        (CeldPixelOwner) { (int32_t) (y * h->ink->width + x), *owner });
+  status = celd_append (c->reassigned->item, c->reassigned->n, c->reassigned->capacity,
+                        (CeldPixelOwner) { (int32_t) (y * c->ink->width + x), *owner });
   if (status == CELD_OK)
     *owner = to;
   return status;
@@ -45,67 +45,67 @@ reassign (const Corrector *h, int x, int y, uint32_t to)
 
 /* Marks the tiles with strokes. */
 static CeldStatus
-find_strokes (Corrector *h)
+find_strokes (Corrector *c)
 {
-  int        w = h->ink->width;
-  CeldStatus status = celd_tiles_new (w, h->ink->height, &h->strokes);
+  int        w = c->ink->width;
+  CeldStatus status = celd_tiles_new (w, c->ink->height, &c->strokes);
 
-  for (int y = 0; y < h->ink->height && status == CELD_OK; y++)
+  for (int y = 0; y < c->ink->height && status == CELD_OK; y++)
     for (int x = 0; x < w; x += CELD_TILE)
       {
-        const uint32_t *label = &CELD_AT (h->corrections, x, y);
+        const uint32_t *label = &CELD_AT (c->corrections, x, y);
         int             n = w - x < CELD_TILE ? w - x : CELD_TILE;
         uint32_t        any = 0;
 
         for (int i = 0; i < n; i++)
           any |= label[i];
         if (any)
-          *celd_tile_of (&h->strokes, x, y) = 1;
+          *celd_tile_of (&c->strokes, x, y) = 1;
       }
   return status;
 }
 
 /* The pixel at distance s behind an edge; true if it is ink. */
 static bool
-ink_behind (const Corrector *h, const CeldEdgePoint *p, float s, int *x, int *y)
+ink_behind (const Corrector *c, const CeldEdgePoint *p, float s, int *x, int *y)
 {
   *x = celd_floor (p->x + s * p->nx);
   *y = celd_floor (p->y + s * p->ny);
-  return *x >= 0 && *y >= 0 && *x < h->ink->width && *y < h->ink->height && !celd_is_paper (CELD_AT (h->ink, *x, *y));
+  return *x >= 0 && *y >= 0 && *x < c->ink->width && *y < c->ink->height && !celd_is_paper (CELD_AT (c->ink, *x, *y));
 }
 
 static float
-search_depth (const Corrector *h, size_t i)
+search_depth (const Corrector *c, size_t i)
 {
-  return fminf (h->pens->edges->point[i].thickness, MAX_PIECE_WIDTHS * h->pens->pen[i].width + 2);
+  return fminf (c->pens->edges->point[i].thickness, MAX_PIECE_WIDTHS * c->pens->pen[i].width + 2);
 }
 
 /* The reassignment by the first stroke that a point sees through the ink. */
 static Reassignment
-find_change (const Corrector *h, size_t i)
+find_change (const Corrector *c, size_t i)
 {
-  const CeldEdgePoint *p = &h->pens->edges->point[i];
-  float                length = search_depth (h, i), x = p->x + length * p->nx, y = p->y + length * p->ny;
+  const CeldEdgePoint *p = &c->pens->edges->point[i];
+  float                length = search_depth (c, i), x = p->x + length * p->nx, y = p->y + length * p->ny;
 
-  if (!celd_tiles_any (&h->strokes, celd_tile_span (&h->strokes, fminf (x, p->x) - 1, fminf (y, p->y) - 1,
+  if (!celd_tiles_any (&c->strokes, celd_tile_span (&c->strokes, fminf (x, p->x) - 1, fminf (y, p->y) - 1,
                                                     fmaxf (x, p->x) + 1, fmaxf (y, p->y) + 1), 1))
     return (Reassignment) { 0, 0 };
   for (float s = SEARCH_STEP / 2; s < length; s += SEARCH_STEP)
     {
       int u, v;
 
-      if (ink_behind (h, p, s, &u, &v) && CELD_AT (h->corrections, u, v))
-        return (Reassignment) { CELD_AT (h->owner, u, v), CELD_AT (h->corrections, u, v) };
+      if (ink_behind (c, p, s, &u, &v) && CELD_AT (c->corrections, u, v))
+        return (Reassignment) { CELD_AT (c->owner, u, v), CELD_AT (c->corrections, u, v) };
     }
   return (Reassignment) { 0, 0 };
 }
 
 /* Points without a reassignment take that of their neighbour, up to a corner. */
 static void
-propagate_changes (const Corrector *h, const CeldEdgeLoop *loop)
+propagate_changes (const Corrector *c, const CeldEdgeLoop *loop)
 {
-  const CeldEdgePoint *point = &h->pens->edges->point[loop->first];
-  Reassignment        *change = &h->change[loop->first];
+  const CeldEdgePoint *point = &c->pens->edges->point[loop->first];
+  Reassignment        *change = &c->change[loop->first];
   size_t               n = loop->n, seen = 0;
 
   for (size_t i = 0; i < n; i++)
@@ -121,34 +121,34 @@ propagate_changes (const Corrector *h, const CeldEdgeLoop *loop)
 }
 
 static CeldStatus
-reassign_behind (const Corrector *h, size_t i)
+reassign_behind (const Corrector *c, size_t i)
 {
-  const CeldEdgePoint *p = &h->pens->edges->point[i];
-  float                length = search_depth (h, i);
+  const CeldEdgePoint *p = &c->pens->edges->point[i];
+  float                length = search_depth (c, i);
   CeldStatus           status = CELD_OK;
 
-  for (float s = SEARCH_STEP / 2; s < length && h->change[i].to && status == CELD_OK; s += SEARCH_STEP)
+  for (float s = SEARCH_STEP / 2; s < length && c->change[i].to && status == CELD_OK; s += SEARCH_STEP)
     {
       int x, y;
 
-      if (ink_behind (h, p, s, &x, &y) && CELD_AT (h->owner, x, y) == h->change[i].from)
-        status = reassign (h, x, y, h->change[i].to);
+      if (ink_behind (c, p, s, &x, &y) && CELD_AT (c->owner, x, y) == c->change[i].from)
+        status = reassign (c, x, y, c->change[i].to);
     }
   return status;
 }
 
 /* Reassigns the ink under the strokes within a tile. */
 static CeldStatus
-reassign_below (const Corrector *h, CeldRect tile)
+reassign_below (const Corrector *c, CeldRect tile)
 {
   CeldStatus status = CELD_OK;
 
-  if (!*celd_tile_of (&h->strokes, tile.x, tile.y))
+  if (!*celd_tile_of (&c->strokes, tile.x, tile.y))
     return CELD_OK;
   for (int y = tile.y; y < tile.y + tile.height && status == CELD_OK; y++)
     for (int x = tile.x; x < tile.x + tile.width && status == CELD_OK; x++)
-      if (CELD_AT (h->corrections, x, y) && !celd_is_paper (CELD_AT (h->ink, x, y)))
-        status = reassign (h, x, y, CELD_AT (h->corrections, x, y));
+      if (CELD_AT (c->corrections, x, y) && !celd_is_paper (CELD_AT (c->ink, x, y)))
+        status = reassign (c, x, y, CELD_AT (c->corrections, x, y));
   return status;
 }
 
@@ -157,20 +157,20 @@ celd_corrections_apply (const CeldContourPens *pens, const CeldPlane *ink, const
                         CeldLabels *owner, CeldReassigned *reassigned)
 {
   size_t     n = pens->edges->n_points;
-  Corrector  h = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *h.change), { 0 }, reassigned };
-  CeldStatus status = h.change ? find_strokes (&h) : CELD_NO_MEMORY;
+  Corrector  c = { pens, ink, corrections, owner, celd_alloc (n + 1, sizeof *c.change), { 0 }, reassigned };
+  CeldStatus status = c.change ? find_strokes (&c) : CELD_NO_MEMORY;
 
   for (size_t i = 0; i < n && status == CELD_OK; i++)
-    h.change[i] = find_change (&h, i);
+    c.change[i] = find_change (&c, i);
   for (size_t k = 0; k < pens->edges->n_loops && status == CELD_OK; k++)
-    propagate_changes (&h, &pens->edges->loop[k]);
+    propagate_changes (&c, &pens->edges->loop[k]);
   for (size_t i = 0; i < n && status == CELD_OK; i++)
-    status = reassign_behind (&h, i);
-  for (int ty = 0; ty < h.strokes.down && status == CELD_OK; ty++)
-    for (int tx = 0; tx < h.strokes.across && status == CELD_OK; tx++)
-      status = reassign_below (&h, celd_tile_rect (tx, ty, ink->width, ink->height));
-  celd_free (h.change);
-  celd_free (h.strokes.at);
+    status = reassign_behind (&c, i);
+  for (int ty = 0; ty < c.strokes.down && status == CELD_OK; ty++)
+    for (int tx = 0; tx < c.strokes.across && status == CELD_OK; tx++)
+      status = reassign_below (&c, celd_tile_rect (tx, ty, ink->width, ink->height));
+  celd_free (c.change);
+  celd_free (c.strokes.at);
   return status;
 }
 

@@ -299,8 +299,8 @@ take_contour (ExpansionWindow *w)
   flood (w, w->taken);
 }
 
-/* Does pixel (x,y) touch a farther region, or the border of the window inside the picture, beyond which anything may
- * be? */
+/* Does pixel (x,y) touch a farther region, or the boundary of the window inside the picture, beyond which one may be?
+ * */
 static bool
 touches_others (const ExpansionWindow *w, int x, int y)
 {

@@ -1,6 +1,6 @@
 /* Exact minimum cut of a sparse graph by augmenting paths between two search trees: Y. Boykov and V. Kolmogorov, "An
- * Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 2004.  maxflow.c is
- * the same on all pixels of a grid.
+ * Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 2004.  maxflow.c does
+ * so on all pixels of a grid.
  *
  * One tree grows from the nodes with an excess, the other from those with a deficit, along arcs with residual capacity.
  * Where they meet, excess is moved from root to root; arcs that this saturates make orphans, which look for a new
@@ -22,7 +22,7 @@
 
 /* ------------------------------------------------------------------ the network */
 
-/* Counts the arcs of each node, gives them room one node behind the other, and lays them in. */
+/* Stores the arcs of each node one node after the other. */
 static void
 lay_out (const CeldLink *link, size_t n_links, CeldNetwork *network)
 {
@@ -179,7 +179,7 @@ move_to_root (CeldNetwork *network, int tree, uint32_t p, int64_t amount)
     make_orphan (network, p);
 }
 
-/* The arc joins p of the tree that grows and the other tree: moves what the whole way allows. */
+/* The arc joins p of the growing tree and the other tree: moves as much as the path between the roots allows. */
 static void
 augment (CeldNetwork *network, int tree, uint32_t p, CeldFlowArc *arc)
 {
@@ -193,7 +193,8 @@ augment (CeldNetwork *network, int tree, uint32_t p, CeldFlowArc *arc)
 
 /* ------------------------------------------------------------------ adoption */
 
-/* Its distance, or 0 if the parents of p end at an orphan.  The way is stamped, so that the next question is short. */
+/* The distance of p to its root, or 0 if its parents end at an orphan.  The path is stamped, so that later calls are
+ * short. */
 static uint32_t
 distance_to_root (CeldNetwork *network, uint32_t p)
 {
@@ -297,7 +298,7 @@ grow (CeldNetwork *network, int tree, uint32_t p)
         enter (network, tree, arc->to, arc->sister, node->stamp, node->distance + 1);
       else if (other->tree == tree && other->stamp <= node->stamp && other->distance > node->distance)
         {
-          /* Its way to the root is longer than the one through p, as far as known. */
+          /* The path of `other` to the root is longer than the one through p, as far as known. */
           other->parent   = arc->sister;
           other->stamp    = node->stamp;
           other->distance = node->distance + 1;
@@ -324,7 +325,7 @@ grow_round (CeldNetwork *network, int tree, const CeldHost *host, size_t *steps)
   return status;
 }
 
-/* Keeps of the nodes that were in a tree those that are in the source's now, and takes both trees down. */
+/* Keeps in `reached` the nodes of the source tree, and removes both trees. */
 static void
 take_down (CeldNetwork *network)
 {

@@ -132,8 +132,8 @@ same_cell (const CeldAggregation *a, uint32_t i, uint32_t j)
          celd_coarse_cell (g, j < n ? j : g->cell[j - n], a->coarse);
 }
 
-/* Must the weakly attached node i not join its strongest neighbour yet, because that one's strong component goes on
- * beyond the cell? */
+/* Must the weakly attached node i not yet join its strongest neighbour, because the strong component of that neighbour
+ * extends beyond the cell? */
 static inline bool
 must_wait (const CeldAggregation *a, uint32_t i)
 {

@@ -11,8 +11,8 @@
  */
 #include "solve/laplace-private.h"
 
-/* So much of the residual, in the Euclidean norm, left after one inner step: no second one.  Chosen by the bench
- * (tests/bench/solvers): a second step pays more on the first levels. */
+/* Where no more of the residual than this, in the Euclidean norm, is left after one inner step, there is no second one.
+ * Chosen by the bench (tests/bench/solvers): a second step pays more on the first levels. */
 #define ENOUGH(l) ((l) <= 2 ? 0.25 : 0.5)
 
 #define SMALL     16384 /* numbers in a level's vector that are not worth other threads; chosen */

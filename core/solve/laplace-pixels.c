@@ -135,7 +135,8 @@ guess_row (const PixelPass *pass, int y, int lanes)
     }
 }
 
-/* Black pixels were relaxed last, so only red ones have a residual: what their black neighbours pull. */
+/* Black pixels were relaxed last, so only red ones have a residual: the sum of weight times value of their black
+ * neighbours. */
 CELD_INLINE void
 restrict_row (const PixelPass *pass, int y, int lanes)
 {

@@ -223,8 +223,8 @@ typedef struct
 
 /* Relaxes x from 0 and restricts the residual to the next level's b, which is zero before. */
 void celd_smooth_down (CeldSmootherPass *pass);
-/* Adds the prolongation of the next level's solution to x and relaxes.  image: A x of the extra nodes; pass->image the
- * same of the grid nodes.  xb = x b, xi = x A x, oi = other A x (0 without one), of every lane. */
+/* Adds the prolongation of the next level's solution to x and relaxes.  image: A x of the extra nodes; pass->image: A x
+ * of the grid nodes.  xb = x b, xi = x A x, oi = other A x (0 without one), of every lane. */
 void celd_smooth_up (CeldSmootherPass *pass, float *image, double *xb, double *xi, double *oi);
 /* b -= a A x; before, after: b b, of every lane. */
 void celd_smooth_reduce (CeldSmootherPass *pass, double *before, double *after);

@@ -198,7 +198,7 @@ settle_row (const ResidualPass *pass, int y)
       }
 }
 
-/* Of its own, after the residual: the strips beside this one read its x for that. */
+/* A pass of its own, after the residual: for that the strips beside this one read its x. */
 static void
 settle_strip (void *data, int strip)
 {

@@ -40,7 +40,7 @@ guess_row (const CeldSmootherPass *p, int y, int lanes)
     }
 }
 
-/* Black nodes were relaxed last: what they pull at red ones is these ones' residual. */
+/* Black nodes were relaxed last, so the residual of a red node is the sum of weight times x of its black neighbours. */
 CELD_INLINE void
 restrict_row (const CeldSmootherPass *p, int y, int lanes)
 {

@@ -74,7 +74,7 @@ celd_lap_free (CeldLaplace *laplace)
 
 /* ------------------------------------------------------------------ the conjugate gradient */
 
-/* What is known of one lane. */
+/* The state of one lane. */
 typedef struct
 {
   double alpha[MAX_CG_ROUNDS], beta[MAX_CG_ROUNDS];
@@ -109,14 +109,15 @@ least_eigenvalue (int rounds, const double *alpha, const double *beta)
   return fmax (low, 1e-6);
 }
 
-/* How far the error has come on its way from `first` to the tolerance, on a logarithmic scale. */
+/* Progress of the error from `first` to the tolerance, on a logarithmic scale: 0 .. 1. */
 static double
 share_done (double first, double error, double tolerance)
 {
   return first > tolerance ? fmin (fmax (log (first / error) / log (first / tolerance), 0), 1) : 0;
 }
 
-/* Reads what a cycle has told of a lane; alpha and beta of the next step are 0 when it is done. */
+/* Estimates the error of a lane from the measures of a round, and chooses alpha and beta of the next step, which are 0
+ * when the lane is done. */
 static void
 judge (Lane *lane, int round, double tolerance, const CeldRoundMeasures *m, int k, double *alpha, double *beta)
 {

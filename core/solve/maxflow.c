@@ -16,7 +16,7 @@
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 
-/* The four directions, of which d ^ 1 is the opposite, and what a parent can be besides. */
+/* The four directions, of which d ^ 1 is the opposite; a parent is a direction, or one of the others. */
 enum { TO_EAST, TO_WEST, TO_SOUTH, TO_NORTH, DIRECTIONS, TO_TERMINAL = DIRECTIONS, ORPHANED, PARENTLESS };
 enum { FREE, SOURCE, SINK };
 
@@ -142,7 +142,7 @@ grow (Grid *grid, size_t p)
       else if (other->tree != node->tree)
         return d;
       else if (other->stamp > node->stamp || other->distance <= node->distance)
-        continue; /* its way to the terminal is no longer than the one through p, as far as known */
+        continue; /* the path of `other` to the terminal is no longer than the one through p, as far as known */
       other->parent   = (uint8_t) (d ^ 1);
       other->stamp    = node->stamp;
       other->distance = node->distance + 1;
@@ -196,7 +196,7 @@ push_to_root (Grid *grid, size_t p, int32_t amount)
     make_orphan (grid, p);
 }
 
-/* Fills the path through the edge from p in direction d, which joins the two trees. */
+/* Saturates the path through the edge from p in direction d, which joins the two trees. */
 static void
 augment (Grid *grid, size_t p, int d)
 {
@@ -225,8 +225,8 @@ augment (Grid *grid, size_t p, int d)
 
 /* ------------------------------------------------------------------ adoption */
 
-/* Edges from p to its terminal, or 0 if its parents end at an orphan.  The way there is stamped, so that the next
- * question is short. */
+/* Edges from p to its terminal, or 0 if its parents end at an orphan.  The path is stamped, so that later calls are
+ * short. */
 static uint32_t
 distance_to_root (Grid *grid, size_t p)
 {

@@ -47,9 +47,9 @@ hard_label (const Solver *s, size_t p)
   return seed && s->problem->vote[seed - 1] == CELD_HARD && s->label[p] == seed ? seed : 0;
 }
 
-/* Calls out the four neighbours of p = (x,y) that exist: q, and the capacity of the edge to it. */
 #define NEIGHBOURS 4
 
+/* Lists the neighbours q of pixel p, and the capacities of the edges to them; returns how many there are. */
 static size_t
 neighbours (const CeldMultiway *m, size_t p, size_t q[NEIGHBOURS], int32_t capacity[NEIGHBOURS])
 {
@@ -177,9 +177,10 @@ find_components (Solver *s, const PixelComponent *old)
 
 /* ------------------------------------------------------------------ one cut */
 
-/* One pixel's pull to the labels below mid (> 0) or to the others (< 0): its own paint, and hard pixels beside it. */
+/* The terminal capacity of a pixel, to the labels below mid (> 0) or to the others (< 0): its own paint, and hard
+ * pixels beside it. */
 static int32_t
-pull (const Solver *s, const PixelComponent *component, size_t p)
+terminal_capacity (const Solver *s, const PixelComponent *component, size_t p)
 {
   const CeldMultiway *m = s->problem;
   size_t              q[NEIGHBOURS], n;
@@ -220,7 +221,7 @@ lay_out (const Solver *s, const PixelComponent *component, int32_t *east, int32_
 
         east[i]     = inside && x < component->right && s->component[p + 1] == component->id ? m->east[p] : 0;
         south[i]    = inside && y < component->bottom && s->component[p + w] == component->id ? m->south[p] : 0;
-        terminal[i] = inside ? pull (s, component, p) : 0;
+        terminal[i] = inside ? terminal_capacity (s, component, p) : 0;
       }
 }
 

@@ -117,7 +117,7 @@ take (Expansion *e, uint32_t p, uint32_t alpha)
 
 /* ------------------------------------------------------------------ one expansion */
 
-/* Begins a search at p if it has an excess.  Nodes with a deficit are found by the search: few are beside alpha. */
+/* Begins a search at p if it has an excess.  Nodes with a deficit need no root: the search finds them. */
 static void
 root (Expansion *e, uint32_t p)
 {

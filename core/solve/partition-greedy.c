@@ -129,9 +129,9 @@ find_components (Greedy *g, const NodeComponent *first, const NodeComponent *oth
 
 /* ------------------------------------------------------------------ one cut */
 
-/* What pulls p to the labels below mid (> 0) or to the others (< 0). */
+/* The terminal capacity of p, to the labels below mid (> 0) or to the others (< 0). */
 static int64_t
-pull (const Greedy *g, const NodeComponent *component, uint32_t p)
+terminal_capacity (const Greedy *g, const NodeComponent *component, uint32_t p)
 {
   int64_t sum = 0;
 
@@ -162,7 +162,7 @@ lay_out (Greedy *g, const NodeComponent *component)
 
           arc->left[0] = arc->left[1] = g->component[arc->to] == component->id ? g->graph->cost[a] : 0;
         }
-      network->node[p].excess = pull (g, component, p);
+      network->node[p].excess = terminal_capacity (g, component, p);
       if (network->node[p].excess)
         celd_network_root (network, p);
     }

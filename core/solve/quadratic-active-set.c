@@ -157,7 +157,7 @@ choose (const CeldActiveSet *q)
   return best;
 }
 
-/* Two bodies of which one can move freely: it does, and they are one. */
+/* Moves the body of the nearer node until inequality p holds, which costs nothing, and joins both bodies. */
 static void
 join_bodies (CeldActiveSet *q, uint32_t p, double y)
 {
@@ -223,7 +223,7 @@ first_loose (const CeldActiveSet *q, double *when)
   return first;
 }
 
-/* Makes inequality p active. */
+/* Makes inequality p active; others become inactive on the way. */
 static bool
 take_in (CeldActiveSet *q, uint32_t p)
 {

@@ -119,7 +119,7 @@ start_links (const TopologicalOrder *order, CeldActiveSet *q)
 
 /* ------------------------------------------------------------------ the answer */
 
-/* Puts every component as far back as the others let it, and makes up for rounding. */
+/* Shifts every component as far back as the inequalities between components allow, and corrects rounding. */
 static void
 lay_out (const TopologicalOrder *order, CeldActiveSet *q)
 {
@@ -184,7 +184,7 @@ certify (CeldActiveSet *q)
   return c;
 }
 
-/* Cuts the two blocks of memory up. */
+/* Divides the two blocks of memory among the vectors and lists. */
 static void
 share_out (double *numbers, uint32_t *indices, TopologicalOrder *order, CeldActiveSet *q)
 {

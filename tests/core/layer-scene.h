@@ -13,13 +13,13 @@
 typedef struct
 {
   int           width, height;
-  CeldPlane     ink;
+  CeldPlane     ink, depth;
   CeldOwnership own;
   CeldColours   art;
   uint32_t      level[MOST_LABELS];
 } LayerScene;
 
-/* White paper, all of label 1; level k of label k + 1. */
+/* White paper of depth 0, all of label 1; level k of label k + 1. */
 static inline LayerScene
 layer_scene (int width, int height)
 {
@@ -27,6 +27,7 @@ layer_scene (int width, int height)
   size_t     n = (size_t) width * (size_t) height;
 
   CHECK (celd_plane_new (width, height, &s.ink) == CELD_OK);
+  CHECK (celd_plane_new (width, height, &s.depth) == CELD_OK);
   CHECK (celd_labels_new (width, height, &s.own.owner) == CELD_OK);
   CHECK (celd_labels_new (width, height, &s.own.under) == CELD_OK);
   CHECK (celd_plane_new (width, height, &s.own.coverage) == CELD_OK);
@@ -34,6 +35,7 @@ layer_scene (int width, int height)
   for (size_t p = 0; p < n; p++)
     {
       s.ink.data[p] = s.own.coverage.data[p] = 1;
+      s.depth.data[p] = 0;
       s.own.owner.data[p] = s.own.under.data[p] = 1;
       for (int c = 0; c < 4; c++)
         s.art.data[4 * p + (size_t) c] = 1;
@@ -47,6 +49,7 @@ static inline void
 layer_scene_close (LayerScene *s)
 {
   free (s->ink.data);
+  free (s->depth.data);
   free (s->own.owner.data);
   free (s->own.under.data);
   free (s->own.coverage.data);

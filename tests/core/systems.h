@@ -98,10 +98,10 @@ static inline System
 random_system (int w, int h, uint32_t *seed)
 {
   static const float choice[] = { 0, 1e-6f, 1e-3f, 0.1f, 0.5f, 1, 1, 1 };
-  System             s = system_new (w, h, 1, 1);
-  uint8_t           *fixed = calloc (pixels (&s), 1);
-  float             *value = calloc (pixels (&s), sizeof *value);
-  int                kind = (int) check_random (seed, 3);
+  System   s = system_new (w, h, 1, 1);
+  uint8_t *fixed = calloc (pixels (&s), 1);
+  float   *value = calloc (pixels (&s), sizeof *value);
+  int      kind = (int) check_random (seed, 3);
 
   for (size_t i = 0; i < pixels (&s); i++)
     {

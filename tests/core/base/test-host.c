@@ -35,10 +35,10 @@ nobody_listens (void)
 static void
 parts_of_parts (void)
 {
-  Host     host = { 0 };
-  CeldHost whole = { listen, NULL, &host };
+  Host         host = { 0 };
+  CeldHost     whole = { listen, NULL, &host };
   CeldHostPart outer, inner;
-  CeldHost half = celd_host_part (&outer, &whole, 0.5, 1), quarter = celd_host_part (&inner, &half, 0, 0.5);
+  CeldHost     half = celd_host_part (&outer, &whole, 0.5, 1), quarter = celd_host_part (&inner, &half, 0, 0.5);
 
   CHECK (celd_progress (&quarter, 0) == CELD_OK);
   NEAR (host.last, 0.5, 1e-12);
@@ -52,10 +52,10 @@ parts_of_parts (void)
 static void
 cancel_comes_through (void)
 {
-  Host     host = { .stop = true };
-  CeldHost whole = { listen, NULL, &host };
+  Host         host = { .stop = true };
+  CeldHost     whole = { listen, NULL, &host };
   CeldHostPart part;
-  CeldHost inner = celd_host_part (&part, &whole, 0, 0.5);
+  CeldHost     inner = celd_host_part (&part, &whole, 0, 0.5);
 
   CHECK (celd_progress (&inner, 0.1) == CELD_CANCELLED);
 }
@@ -63,10 +63,10 @@ cancel_comes_through (void)
 static void
 each_once (void)
 {
-  CeldHost lent = { .each = check_backwards };
+  CeldHost     lent = { .each = check_backwards };
   CeldHostPart part;
-  CeldHost inner = celd_host_part (&part, &lent, 0, 1);
-  int      count[9] = { 0 };
+  CeldHost     inner = celd_host_part (&part, &lent, 0, 1);
+  int          count[9] = { 0 };
 
   celd_parallel_for (NULL, 9, mark, count);
   celd_parallel_for (&lent, 9, mark, count);

@@ -24,17 +24,17 @@ parts_are_what_a_flood_finds (void)
 {
   for (uint32_t round = 0, r = 5; round < 60; round++)
     {
-      CeldPlane  ink = ink_of (&picture);
-      CeldDepthEdges edges = { &ink, 0.25f, 1 };
-      CeldRunComponents  parts = { 0 };
-      bool       regions = round % 2;
-      int        part[N], n, covered = 0;
+      CeldPlane         ink = ink_of (&picture);
+      CeldDepthEdges    edges = { &ink, 0.25f, 1 };
+      CeldRunComponents parts = { 0 };
+      bool              regions = round % 2;
+      int               part[N], n, covered = 0;
 
       random_picture (&r, &picture);
       weigh (regions);
       n = flood_parts (regions ? NULL : picture.fixed, weight, part);
-      CHECK (celd_run_components_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &edges, NULL,
-                              &parts) == CELD_OK);
+      CHECK (celd_run_components_find (W, H, picture.level, regions ? NULL : picture.fixed, regions ? NULL : &edges,
+                                       NULL, &parts) == CELD_OK);
       CHECK (parts.n == (size_t) n);
       for (int y = 0; y < H; y++)
         for (size_t i = parts.row[y]; i < parts.row[y + 1]; i++)

@@ -72,8 +72,8 @@ static void
 oracle_bases (const Picture *p, double *h)
 {
   const CeldHarmonicBases *b = &p->bases;
-  int              n = p->w * p->h;
-  double          *a = malloc ((size_t) (n * n) * sizeof *a);
+  int                      n = p->w * p->h;
+  double                  *a = malloc ((size_t) (n * n) * sizeof *a);
 
   laplacian (p, a);
   for (int i = 0; i < n; i++)
@@ -110,8 +110,8 @@ static void
 check_bases (const Picture *p, double error)
 {
   const CeldHarmonicBases *b = &p->bases;
-  int              n = p->w * p->h;
-  double          *h = malloc ((size_t) n * b->n * sizeof *h), *a = malloc ((size_t) (n * n) * sizeof *a);
+  int                      n = p->w * p->h;
+  double                  *h = malloc ((size_t) n * b->n * sizeof *h), *a = malloc ((size_t) (n * n) * sizeof *a);
 
   oracle_bases (p, h);
   laplacian (p, a);

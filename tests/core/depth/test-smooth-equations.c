@@ -45,7 +45,8 @@ relax (const Picture *p, const Facts *f, double depth[N])
           held[f->component[i]] = true;
     }
   for (int i = 0; i < N; i++)
-    depth[i] = p->fixed[i] || held[f->component[i]] ? (double) p->level[i] : sum[f->component[i]] / count[f->component[i]];
+    depth[i] = p->fixed[i] || held[f->component[i]] ? (double) p->level[i]
+                                                    : sum[f->component[i]] / count[f->component[i]];
   while (moved > 1e-9)
     {
       moved = 0;
@@ -68,9 +69,10 @@ relax (const Picture *p, const Facts *f, double depth[N])
 static void
 solve (Picture *p, float depth[N])
 {
-  CeldPlane  ink = ink_of (p);
-  CeldSmoothEquations system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH }, NULL, NULL, TOLERANCE, RANGE };
-  CeldSolve  how = { 0 };
+  CeldPlane           ink = ink_of (p);
+  CeldSmoothEquations system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH }, NULL, NULL, TOLERANCE,
+                                 RANGE };
+  CeldSolve           how = { 0 };
 
   CHECK (celd_smooth_equations_solve (&system, NULL, depth, &how) == CELD_OK);
   CHECK (how.converged && how.error <= TOLERANCE);
@@ -162,11 +164,11 @@ is_touched (const Picture *now, const Picture *old, const Facts *facts, const Fa
 static void
 again (CeldSmoothState *smoother, Picture *p, const CeldPlane *last, CeldPlane *depth)
 {
-  CeldSettings  settings = celd_settings ();
-  CeldPlane     ink = ink_of (p), levels = { W, H, W, p->level };
-  CeldMask      anchors = { W, H, W, p->fixed };
+  CeldSettings    settings = celd_settings ();
+  CeldPlane       ink = ink_of (p), levels = { W, H, W, p->level };
+  CeldMask        anchors = { W, H, W, p->fixed };
   CeldSmoothInput smoothing = { &ink, &levels, &anchors, &settings, REACH, CELD_SPECK, last->data };
-  CeldSolve     how;
+  CeldSolve       how;
 
   settings.hold_rest     = false;
   settings.ink_threshold = THRESHOLD / 100.f;
@@ -186,8 +188,8 @@ an_edit_solves_what_it_touches (void)
   for (uint32_t round = 0, r = 11; round < 12; round++)
     {
       CeldSmoothState smoother = { 0 };
-      CeldPlane    last = { 0 }, depth;
-      bool         inked = false;
+      CeldPlane       last = { 0 }, depth;
+      bool            inked = false;
 
       random_picture (&r, &picture);
       keep_range (&picture);
@@ -224,9 +226,9 @@ an_edit_solves_what_it_touches (void)
 static void
 untouched_parts_are_not_solved (void)
 {
-  static Picture picture;
-  CeldSmoothState   smoother = { 0 };
-  CeldPlane      none = { 0 }, first, second;
+  static Picture  picture;
+  CeldSmoothState smoother = { 0 };
+  CeldPlane       none = { 0 }, first, second;
 
   for (int i = 0; i < N; i++)
     {

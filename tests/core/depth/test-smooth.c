@@ -297,7 +297,7 @@ what_no_anchor_reaches_keeps_its_level (void)
 static void
 a_speck_is_no_spike (void)
 {
-  CeldPlane ink = plane (60, 50, 1), levels = plane (60, 50, 1), depth = plane (60, 50, 0);
+  CeldPlane    ink = plane (60, 50, 1), levels = plane (60, 50, 1), depth = plane (60, 50, 0);
   CeldSettings settings = celd_settings ();
 
   levels.data[25 * 60 + 30] = levels.data[25 * 60 + 31] = 3;

@@ -29,7 +29,7 @@ static void
 a_box_covers_its_pixels (void)
 {
   const double corner[4][2] = { { 1.5, 5 }, { 6, 5 }, { 6, 8.25 }, { 1.5, 8.25 } };
-  CeldCoverage    cover = cover_of (4, corner);
+  CeldCoverage cover = cover_of (4, corner);
 
   for (int y = 3; y < 3 + SIDE; y++)
     for (int x = -2; x < -2 + SIDE; x++)
@@ -42,7 +42,7 @@ static void
 a_triangle_halves_the_pixels_of_its_slope (void)
 {
   const double corner[3][2] = { { 0, 4 }, { 10, 14 }, { 0, 14 } };
-  CeldCoverage    cover = cover_of (3, corner);
+  CeldCoverage cover = cover_of (3, corner);
 
   for (int i = 0; i < 10; i++)
     {
@@ -57,7 +57,7 @@ static void
 what_is_outside_the_picture_is_cut_off (void)
 {
   const double corner[4][2] = { { -50, -50 }, { 10, -50 }, { 10, 90 }, { -50, 90 } };
-  CeldCoverage    cover = cover_of (4, corner);
+  CeldCoverage cover = cover_of (4, corner);
 
   for (int y = 3; y < 3 + SIDE; y++)
     for (int x = -2; x < -2 + SIDE; x++)
@@ -69,7 +69,7 @@ static void
 holes_are_empty_and_overlaps_count_once (void)
 {
   CeldCoverage cover;
-  double    box[3][3] = { { 0, 20, 1 }, { 5, 9, -1 }, { 12, 25, 1 } }; /* from, to, the way round */
+  double       box[3][3] = { { 0, 20, 1 }, { 5, 9, -1 }, { 12, 25, 1 } }; /* from, to, the way round */
 
   CHECK (celd_coverage_new ((CeldRect) { 0, 0, 30, 30 }, &cover) == CELD_OK);
   for (int i = 0; i < 3; i++)
@@ -98,7 +98,7 @@ areas_add_up (void)
 
   for (int round = 0; round < 100; round++)
     {
-      double    corner[12][2], area = 0, sum = 0;
+      double       corner[12][2], area = 0, sum = 0;
       CeldCoverage cover;
 
       for (int i = 0; i < 12; i++)

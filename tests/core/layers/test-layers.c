@@ -169,8 +169,10 @@ random_scene (uint32_t *state, size_t *n)
 
       s.own.owner.data[p] = again ? s.own.owner.data[p - 1] : 1 + check_random (state, (uint32_t) *n);
       s.own.under.data[p] = check_random (state, 2) ? s.own.owner.data[p] : 1 + check_random (state, (uint32_t) *n);
-      s.own.coverage.data[p] = s.own.under.data[p] == s.own.owner.data[p] ? 1 : (float) check_random (state, 1001) / 1000;
-      s.ink.data[p]       = (float) check_random (state, 5) / 4;
+      s.own.coverage.data[p] = 1;
+      if (s.own.under.data[p] != s.own.owner.data[p])
+        s.own.coverage.data[p] = (float) check_random (state, 1001) / 1000;
+      s.ink.data[p] = (float) check_random (state, 5) / 4;
       for (int c = 0; c < 4; c++)
         s.art.data[4 * p + c] = c == 3 && opaque ? 1 : (float) check_random (state, 256) / 255;
     }
@@ -268,7 +270,8 @@ threads_make_no_difference (void)
       LayerScene  s = random_scene (&state, &n);
       CeldLayers *one = layer_scene_cut (&s, n, CELD_STORE_8_BIT, true), *other = NULL;
 
-      CHECK (celd_layers_cut (&s.ink, &s.own, s.level, n, &s.art, 1, CELD_STORE_8_BIT, true, &backwards, &other) == CELD_OK);
+      CHECK (celd_layers_cut (&s.ink, &s.own, s.level, n, &s.art, 1, CELD_STORE_8_BIT, true, &backwards, &other) ==
+             CELD_OK);
       for (size_t k = 0; k < celd_layers_count (one); k++)
         {
           float *a = layer_canvas (&s, one, k), *b = layer_canvas (&s, other, k);
@@ -431,15 +434,22 @@ bad_input_is_refused (void)
   CeldColours small = { 5, 5, 6, s.art.data };
   CeldHost    refuse = { .progress = check_refuse };
 
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &small, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_BAD_SIZE);
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 0, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_NOTHING_TO_GO_BY);
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 2, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_BAD_VALUE);
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, (CeldStore) 3, false, NULL, &layers) == CELD_BAD_VALUE);
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, true, &refuse, &layers) == CELD_CANCELLED);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &small, 0, CELD_STORE_FLOAT, false, NULL, &layers) ==
+         CELD_BAD_SIZE);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 0, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) ==
+         CELD_NOTHING_TO_GO_BY);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 2, CELD_STORE_FLOAT, false, NULL, &layers) ==
+         CELD_BAD_VALUE);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, (CeldStore) 3, false, NULL, &layers) ==
+         CELD_BAD_VALUE);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, true, &refuse, &layers) ==
+         CELD_CANCELLED);
   s.own.under.data[3] = 2;
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_BAD_VALUE);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) ==
+         CELD_BAD_VALUE);
   s.own.under.data[3] = 0;
-  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) == CELD_BAD_VALUE);
+  CHECK (celd_layers_cut (&s.ink, &s.own, s.level, 1, &s.art, 0, CELD_STORE_FLOAT, false, NULL, &layers) ==
+         CELD_BAD_VALUE);
   CHECK (!layers);
   layer_scene_close (&s);
 }

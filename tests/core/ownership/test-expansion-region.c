@@ -10,10 +10,11 @@
 static CeldExpansionState
 open_picture (const CeldLabels *levels)
 {
-  int       w = levels->width, h = levels->height;
-  size_t    n = (size_t) w * (size_t) h;
-  uint8_t  *known = malloc (n);
-  CeldExpansionState s = { w, h, n, levels->data, malloc (n * sizeof (int32_t)), NULL, calloc (9, sizeof (CeldRect)), 9 };
+  int                w = levels->width, h = levels->height;
+  size_t             n = (size_t) w * (size_t) h;
+  uint8_t           *known = malloc (n);
+  CeldExpansionState s = { w, h, n, levels->data, malloc (n * sizeof (int32_t)), NULL, calloc (9, sizeof (CeldRect)),
+                           9 };
 
   for (size_t p = 0; p < n; p++)
     {
@@ -39,8 +40,8 @@ open_picture (const CeldLabels *levels)
 static void
 expand (const char *const *picture, uint32_t k, const char *const *wanted)
 {
-  CeldLabels levels = art_labels (picture);
-  CeldExpansionState  s = open_picture (&levels);
+  CeldLabels         levels = art_labels (picture);
+  CeldExpansionState s = open_picture (&levels);
 
   CHECK (celd_expand_region (&s, k, NULL) == CELD_OK);
   NEAR (differing (&levels, wanted), 0, 0);
@@ -107,9 +108,9 @@ a_small_gap_is_filled (void)
     "##############################", "111111111111111111111111111111", "111111111111111111111111111111",
     "111111111111111111111111111111", NULL
   };
-  CeldLabels levels = art_labels (picture);
-  CeldExpansionState  s = open_picture (&levels);
-  int        free_pixels = 0;
+  CeldLabels         levels = art_labels (picture);
+  CeldExpansionState s = open_picture (&levels);
+  int                free_pixels = 0;
 
   CHECK (celd_expand_region (&s, 2, NULL) == CELD_OK);
   for (int y = 1; y < 8; y++)
@@ -172,9 +173,9 @@ static void
 a_cancelled_region_takes_nothing (void)
 {
   static const char *const picture[] = { "222####111", "222####111", NULL };
-  CeldLabels levels = art_labels (picture);
-  CeldExpansionState  s = open_picture (&levels);
-  CeldHost   host = { .progress = check_refuse };
+  CeldLabels         levels = art_labels (picture);
+  CeldExpansionState s = open_picture (&levels);
+  CeldHost           host = { .progress = check_refuse };
 
   CHECK (celd_expand_region (&s, 2, &host) == CELD_CANCELLED);
   NEAR (differing (&levels, picture), 0, 0);

@@ -170,10 +170,10 @@ paper_alone_and_ink_alone (void)
   static const char *const dot[] = { "B", NULL };
   static const char *const column[] = { "A", "#", "#", "B", "#", NULL };
   static const char *const column_wanted[] = { "A", "B", "B", "B", "B", NULL };
-  uint32_t                 data[6] = { 5, 5, 5, 9, 9, 9 }, result[6] = { 0 };
-  float                    black[6] = { 0 };
-  CeldLabels               ranks = { 6, 1, 6, data }, expanded = { 6, 1, 6, result };
-  CeldPlane                ink = { 6, 1, 6, black };
+  uint32_t   data[6] = { 5, 5, 5, 9, 9, 9 }, result[6] = { 0 };
+  float      black[6] = { 0 };
+  CeldLabels ranks = { 6, 1, 6, data }, expanded = { 6, 1, 6, result };
+  CeldPlane  ink = { 6, 1, 6, black };
 
   expect (paper, paper);
   expect (dot, dot);
@@ -318,10 +318,10 @@ progress_rises_and_cancel_changes_nothing (void)
 {
   static const char *const rows[] = {
     "AAAAAAAAA", "AA#####AA", "A##BBB##A", "A#BBBBB#A", "A##BBB##A", "AA#####AA", "AAAAAAAAA", NULL };
-  Picture                  p = picture_of (rows);
-  double                   state[2] = { 1e9, 0 };
-  CeldHost                 host = { count_down, NULL, state };
-  int                      calls;
+  Picture  p = picture_of (rows);
+  double   state[2] = { 1e9, 0 };
+  CeldHost host = { count_down, NULL, state };
+  int      calls;
 
   CHECK (celd_expand (&p.ink, &p.ranks, &host, &p.expanded) == CELD_OK);
   CHECK (state[1] > 0.9);
@@ -342,9 +342,9 @@ static void
 levels_are_expanded_as_ranks (void)
 {
   const char *const drawing[] = { "..##..##..", "..##..##..", "..##..##..", NULL };
-  const float       level[3] = { -2.5f, 0, 1e-9f }, odd[3] = { -2.5f, NAN, 1e-9f };
-  CeldPlane         ink = art_plane (drawing), levels = art_plane (drawing), expanded = art_plane (drawing);
-  CeldLabels        ranks = art_labels (drawing);
+  const float level[3] = { -2.5f, 0, 1e-9f }, odd[3] = { -2.5f, NAN, 1e-9f };
+  CeldPlane   ink = art_plane (drawing), levels = art_plane (drawing), expanded = art_plane (drawing);
+  CeldLabels  ranks = art_labels (drawing);
 
   for (int i = 0; i < 30; i++)
     {

@@ -169,9 +169,9 @@ static void
 check_record (const Page *page, const CeldOwnership *own, const CeldOwnership *old, CeldRect changed)
 {
   CeldOwnershipInput in = input_of (page);
-  CeldOwnership   whole;
-  CeldRect        seen = { 0 };
-  int             wrong = 0;
+  CeldOwnership      whole;
+  CeldRect           seen = { 0 };
+  int                wrong = 0;
 
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &whole) == CELD_OK);
   CHECK (celd_own (in.ink, in.labels, in.level, in.n, in.corrections, CELD_EXPANSION_OUTLINES, NULL, &whole) ==
@@ -199,9 +199,9 @@ copy_record (const CeldOwnership *from, CeldOwnership *to)
 static void
 edit_page (uint32_t seed)
 {
-  Page            page;
-  CeldOwnershipCache  kept = { 0 };
-  CeldOwnership   own, old;
+  Page               page;
+  CeldOwnershipCache kept = { 0 };
+  CeldOwnership      own, old;
   CeldOwnershipInput in;
 
   page_new (&seed, &page);
@@ -336,13 +336,13 @@ refuse (void *host, double done)
 static void
 cancelled_edits_do_no_harm (void)
 {
-  uint32_t        seed = 5;
-  Page            page;
-  CeldHost        host = { .progress = refuse };
-  CeldOwnershipCache  kept = { 0 };
-  CeldOwnership   own, old;
+  uint32_t           seed = 5;
+  Page               page;
+  CeldHost           host = { .progress = refuse };
+  CeldOwnershipCache kept = { 0 };
+  CeldOwnership      own, old;
   CeldOwnershipInput in;
-  CeldRect        changed;
+  CeldRect           changed;
 
   page_new (&seed, &page);
   CHECK (celd_ownership_new (WIDTH, HEIGHT, &own) == CELD_OK && celd_ownership_new (WIDTH, HEIGHT, &old) == CELD_OK);

@@ -34,8 +34,8 @@ put_ellipse (Picture *p, double x0, double y0, double a, double b, float level)
   for (int y = 0; y < p->height; y++)
     for (int x = 0; x < p->width; x++)
       {
-        double  u = (x + 0.5 - x0) / a, v = (y + 0.5 - y0) / b, r = hypot (u, v), inside = (1 - r) * fmin (a, b);
-        size_t  i = (size_t) y * (size_t) p->width + (size_t) x;
+        double u = (x + 0.5 - x0) / a, v = (y + 0.5 - y0) / b, r = hypot (u, v), inside = (1 - r) * fmin (a, b);
+        size_t i = (size_t) y * (size_t) p->width + (size_t) x;
 
         if (r < 1)
           {

@@ -12,11 +12,11 @@
 static bool
 answer_one (void)
 {
-  size_t           n, m;
-  double          *k, *u;
-  CeldInequality  *one;
-  CeldCertificate  c = { 0 };
-  bool             read = scanf ("%zu %zu", &n, &m) == 2;
+  size_t          n, m;
+  double         *k, *u;
+  CeldInequality *one;
+  CeldCertificate c = { 0 };
+  bool            read = scanf ("%zu %zu", &n, &m) == 2;
 
   if (!read)
     return false;

@@ -12,7 +12,7 @@ typedef struct { CeldHierarchy levels; CeldKCycle cycle; LevelEdge *edge; const 
 static Grid *
 grid_new (int width, int height, int lanes)
 {
-  Grid     *g = calloc (1, sizeof *g);
+  Grid             *g = calloc (1, sizeof *g);
   CeldWeightedGraph graph = random_graph (width, height, 5);
 
   CHECK (celd_hierarchy_new (&graph, NULL, &g->levels) == CELD_OK);

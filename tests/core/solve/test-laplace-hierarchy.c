@@ -103,7 +103,7 @@ weights_and_diagonals_are_sums (void)
       CeldHierarchy     levels;
       uint32_t         *node = NULL;
       double            diagonal = 0, crossing = 0, edges = 0;
-      LevelEdge *edge;
+      LevelEdge        *edge;
 
       CHECK (celd_coarsen (&graph, NULL, &coarse, &node) == CELD_OK);
       for (int i = 0; i < W * H; i++)
@@ -140,8 +140,8 @@ the_layout_keeps_the_graph (void)
   CeldHierarchy     levels;
   float            *east = malloc (37 * 23 * sizeof *east), *south = malloc (37 * 23 * sizeof *south);
   double           *whole;
-  LevelEdge *edge;
-  uint32_t   found = 0;
+  LevelEdge        *edge;
+  uint32_t          found = 0;
 
   memcpy (east, graph.east, 37 * 23 * sizeof *east);
   memcpy (south, graph.south, 37 * 23 * sizeof *south);

@@ -307,10 +307,10 @@ lanes_equal_single_solutions (void)
 
   for (size_t round = 0; round < 2; round++)
     {
-      System   s = system_new (size[round][0], size[round][1], 1, 1);
-      size_t   n = pixels (&s);
-      uint8_t *stroke = calloc (n, 1), *fixed = calloc (n, 1);
-      float   *x = calloc (n * CELD_LANES, sizeof *x), *value = calloc (n, sizeof *value);
+      System       s = system_new (size[round][0], size[round][1], 1, 1);
+      size_t       n = pixels (&s);
+      uint8_t     *stroke = calloc (n, 1), *fixed = calloc (n, 1);
+      float       *x = calloc (n * CELD_LANES, sizeof *x), *value = calloc (n, sizeof *value);
       CeldLaplace *l = NULL;
       CeldSolve    how = { 0 };
       uint32_t     seed = 5;

@@ -204,10 +204,10 @@ largest_capacities_do_not_overflow (void)
 static void
 cancel_and_bad_sizes_leave_results (void)
 {
-  const int32_t capacity[4] = { 5, 5, 5, 5 }, terminal[4] = { 1, 0, 0, -1 };
+  const int32_t  capacity[4] = { 5, 5, 5, 5 }, terminal[4] = { 1, 0, 0, -1 };
   const CeldHost host = { check_refuse, NULL, NULL };
-  uint8_t       side[4] = { 9, 9, 9, 9 };
-  int64_t       flow = 77;
+  uint8_t        side[4] = { 9, 9, 9, 9 };
+  int64_t        flow = 77;
 
   CHECK (celd_maxflow (2, 2, capacity, capacity, terminal, &host, side, &flow) == CELD_CANCELLED);
   CHECK (celd_maxflow (0, 2, capacity, capacity, terminal, NULL, side, &flow) == CELD_BAD_SIZE);

@@ -1,0 +1,244 @@
+/* Normals at outlines: which side bends, gaps and virtual contours, the frame, painted hints.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "discs.h"
+
+/* n_x and n_y of a disc with a round hole: harmonic, those of the outline on the disc's edge, without slope across the
+ * hole's.  Gauss-Seidel with over-relaxation on the pixels, two planes of `side` x `side`. */
+static double *
+solve_disc_with_hole (int side, Disc disc, Disc hole)
+{
+  double *plane = calloc ((size_t) (2 * side * side), sizeof *plane);
+
+  for (int pass = 0; pass <= 600; pass++)
+    for (int y = 1; y < side - 1; y++)
+      for (int x = 1; x < side - 1; x++)
+        {
+          double  u = x + 0.5 - disc.x, v = disc.y - y - 0.5, r = hypot (u, v);
+          double *at = plane + 2 * (y * side + x);
+
+          if (r >= disc.radius)
+            {
+              at[0] = u / r;
+              at[1] = v / r;
+            }
+          else if (hypot (x + 0.5 - hole.x, y + 0.5 - hole.y) >= hole.radius)
+            for (int c = 0; c < 2; c++)
+              {
+                double sum = 0, n = 0;
+
+                for (int k = 0; k < 4; k++)
+                  {
+                    int dx = k < 2 ? 2 * k - 1 : 0, dy = k < 2 ? 0 : 2 * k - 5;
+
+                    if (hypot (x + dx + 0.5 - hole.x, y + dy + 0.5 - hole.y) < hole.radius)
+                      continue;
+                    sum += at[2 * (dy * side + dx) + c];
+                    n++;
+                  }
+                at[c] += 1.95 * (sum / n - at[c]);
+              }
+        }
+  return plane;
+}
+
+/* A small disc in front of a large one: the large one does not bend along it, but goes on as if cut out. */
+static void
+only_the_nearer_side_bends_at_an_outline (void)
+{
+  enum { SIDE = 180 };
+  Disc    large = { 90, 90, 80 }, small = { 120, 90, 30 };
+  Picture p = picture (SIDE, SIDE);
+  double *wanted = solve_disc_with_hole (SIDE, large, small), largest, sum = 0, count = 0, worst = 0;
+
+  put_disc (&p, large, 3, 1);
+  put_disc (&p, small, 3, 2);
+  make (&p, 1);
+  NEAR (compare_disc (&p, small, &largest), 0, 1.5);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        const double *n = wanted + 2 * (y * SIDE + x);
+        double        from_edge = large.radius - hypot (x + 0.5 - large.x, y + 0.5 - large.y);
+        double        from_hole = hypot (x + 0.5 - small.x, y + 0.5 - small.y) - small.radius;
+
+        if (from_edge > 4 && from_hole > 4)
+          {
+            double a = angle (&p, x, y, n[0], n[1], sqrt (fmax (0, 1 - n[0] * n[0] - n[1] * n[1])));
+
+            worst = fmax (worst, a);
+            sum += a;
+            count++;
+          }
+      }
+  NEAR (sum / count, 0, 0.5);
+  NEAR (worst, 0, 2);
+  free (wanted);
+  picture_free (&p);
+}
+
+/* Along a border the normal of the farther side does not change across it; that of the nearer side does. */
+static void
+the_farther_side_continues_behind (void)
+{
+  Disc    large = { 150, 150, 140 }, small = { 190, 150, 50 };
+  Picture p = picture (300, 300);
+  double  far = 0, near = 0;
+  int     n = 0;
+
+  put_disc (&p, large, 3, 1);
+  put_disc (&p, small, 3, 2);
+  make (&p, 1);
+  for (double turn = 0; turn < 6.28; turn += 0.05, n++)
+    {
+      double       c = cos (turn), s = sin (turn);
+      const float *at[4];
+
+      for (int k = 0; k < 4; k++) /* 1 and 6 pixels outside, 1 and 6 inside */
+        {
+          double r = small.radius + (k < 2 ? 1 + 5 * k : -1 - 5 * (k - 2));
+
+          at[k] = CELD_XYZ (&p.normals, (int) (small.x + r * c), (int) (small.y + r * s));
+        }
+      far += fabs ((double) (at[1][0] - at[0][0]) * c - (double) (at[1][1] - at[0][1]) * s) / 5;
+      near += fabs ((double) (at[3][0] - at[2][0]) * c - (double) (at[3][1] - at[2][1]) * s) / 5;
+      CHECK (at[0][2] > 0.3f && at[2][2] < 0.35f);
+    }
+  CHECK (near / n > 0.015); /* 1 / radius, and of n_z more */
+  CHECK (far / n < 0.0025);
+  picture_free (&p);
+}
+
+static void
+a_virtual_contour_neither_cuts_nor_bends (void)
+{
+  Picture p = picture (120, 100), q = picture (120, 100);
+  Disc    d = { 60, 50, 40 };
+
+  put_disc (&p, d, 3, 1);
+  put_disc (&q, d, 3, 1);
+  for (int i = 0; i < 120 * 100; i++) /* half of the disc is nearer, but no ink says so inside */
+    if (q.levels.data[i] > 0 && i % 120 >= 60)
+      q.levels.data[i] = 2;
+  make (&p, 1);
+  make (&q, 1);
+  for (int y = 20; y < 80; y += 3)
+    for (int x = 30; x < 90; x += 3)
+      {
+        const float *n = CELD_XYZ (&p.normals, x, y);
+
+        NEAR (angle (&q, x, y, (double) n[0], (double) n[1], (double) n[2]), 0, 6);
+      }
+  picture_free (&p);
+  picture_free (&q);
+}
+
+/* A contour with a gap: the disc still bends, the paper that it is joined with stays flat. */
+static void
+paper_stays_flat_behind_a_gap (void)
+{
+  Disc    d = { 60, 60, 40 };
+  Picture p = picture (120, 120);
+  double  largest;
+
+  put_disc (&p, d, 3, 1);
+  for (int y = 50; y < 70; y++)
+    for (int x = 90; x < 110; x++)
+      p.ink.data[y * 120 + x] = 1;
+  make (&p, 1);
+  CHECK (compare_disc (&p, d, &largest) < 10);
+  CHECK (angle (&p, 93, 60, 0, 0, 1) < angle (&p, 26, 60, 0, 0, 1) - 30); /* it flattens towards the gap */
+  for (int i = 0; i < 120 * 120; i += 7)
+    if (hypot (i % 120 - 60, i / 120 - 60) > 44)
+      NEAR (angle (&p, i % 120, i / 120, 0, 0, 1), 0, 2);
+  picture_free (&p);
+}
+
+/* A contour is closed or not, wherever it lies and however wide the picture is: cut ends are looked for in words of
+ * 64 pixels. */
+static void
+closed_contours_are_told_from_open_ones_anywhere (void)
+{
+  double wanted[2] = { 0, 0 };
+
+  for (int width = 60; width < 200; width += width < 70 || width > 124 ? 1 : 27)
+    for (int gap = 0; gap < 2; gap++)
+      {
+        Disc    d = { width - 26, 26, 20 };
+        Picture p = picture (width, 52);
+        double  sum = 0;
+
+        put_disc (&p, d, 3, 1);
+        for (int y = 22; gap && y < 30; y++)
+          for (int x = width - 12; x < width; x++)
+            p.ink.data[y * width + x] = 1;
+        make (&p, 1);
+        for (int y = 0; y < 52; y++)
+          for (int x = width - 52; x < width; x++)
+            sum += (double) CELD_XYZ (&p.normals, x, y)[2];
+        wanted[gap] = width == 60 ? sum : wanted[gap];
+        NEAR (sum, wanted[gap], 0.002 * wanted[gap]);
+        picture_free (&p);
+      }
+  CHECK (wanted[1] - wanted[0] > 20);
+}
+
+static void
+the_frame_is_an_outline_if_asked_for (void)
+{
+  Picture      p = picture (100, 100);
+  CeldSettings settings = celd_settings ();
+
+  put_disc (&p, (Disc) { 100, 50, 40 }, 3, 1);
+  make (&p, 1);
+  CHECK (CELD_XYZ (&p.normals, 99, 50)[0] < 0.3f);
+  settings.frame_outline = true;
+  CHECK (celd_normals (&p.ink, &p.levels, &settings, NULL, &p.normals) == CELD_OK);
+  CHECK (CELD_XYZ (&p.normals, 99, 50)[0] > 0.9f);
+  CHECK (CELD_XYZ (&p.normals, 61, 50)[0] < -0.9f);
+  NEAR (angle (&p, 0, 50, 0, 0, 1), 0, 0); /* not the paper */
+  memset (p.levels.data, 0, 100 * 100 * sizeof (float));
+  CHECK (celd_normals (&p.ink, &p.levels, &settings, NULL, &p.normals) == CELD_OK);
+  CHECK (CELD_XYZ (&p.normals, 0, 50)[0] < -0.9f && CELD_XYZ (&p.normals, 50, 99)[1] < -0.9f); /* a cushion */
+  picture_free (&p);
+}
+
+/* Of an outline, too: the paper bends where it is painted white, the disc does not where it is painted black. */
+static void
+hints_decide_which_side_of_an_outline_bends (void)
+{
+  Disc         d = { 60, 60, 40 };
+  Picture      p = picture (120, 120);
+  CeldPaint    hints = { 120, 120, 120, calloc (4, 120 * 120) };
+  CeldSettings settings = celd_settings ();
+
+  put_disc (&p, d, 3, 1);
+  for (int y = 0; y < 120; y++)
+    for (int x = 60; x < 120; x++)
+      {
+        bool inside = hypot (x + 0.5 - d.x, y + 0.5 - d.y) < d.radius;
+
+        memset (CELD_RGBA (&hints, x, y), inside ? 0 : 255, 3);
+        CELD_RGBA (&hints, x, y)[3] = 255;
+      }
+  CHECK (celd_normals_hinted (&p.ink, &p.levels, NULL, &hints, &settings, NULL, &p.normals) == CELD_OK);
+  CHECK (CELD_XYZ (&p.normals, 20, 60)[0] < -0.9f);  /* left: as ever */
+  CHECK (CELD_XYZ (&p.normals, 98, 60)[2] > 0.9f);   /* right: the disc runs under */
+  CHECK (CELD_XYZ (&p.normals, 101, 60)[0] < -0.8f); /* the paper falls towards it */
+  free (hints.data);
+  picture_free (&p);
+}
+
+int
+main (void)
+{
+  RUN (only_the_nearer_side_bends_at_an_outline);
+  RUN (the_farther_side_continues_behind);
+  RUN (a_virtual_contour_neither_cuts_nor_bends);
+  RUN (paper_stays_flat_behind_a_gap);
+  RUN (closed_contours_are_told_from_open_ones_anywhere);
+  RUN (the_frame_is_an_outline_if_asked_for);
+  RUN (hints_decide_which_side_of_an_outline_bends);
+  return DONE;
+}
