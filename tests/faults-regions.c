@@ -5,7 +5,6 @@
 #include "faults.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 static CeldStatus

@@ -341,3 +341,26 @@ celd_arrow_seeds_add (const CeldRelations *relations, const CeldHost *host, Celd
     }
   return status;
 }
+
+/* ------------------------------------------------------------------ ends that are separate already */
+
+static bool
+lies_on (const CeldPatches *patches, CeldRelationEnd end)
+{
+  for (size_t i = 0; i < patches->n; i++)
+    if (patches->item[i].y == end.y && patches->item[i].x <= end.x && patches->item[i].end > end.x)
+      return true;
+  return false;
+}
+
+bool
+celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation, const CeldLabels *labels,
+                           const CeldPatches *patches)
+{
+  CeldRelationEnd a = celd_relation_end_find (task, &relation->nearer);
+  CeldRelationEnd b = celd_relation_end_find (task, &relation->farther);
+
+  if (relation->equal || !a.there || !b.there)
+    return true;
+  return CELD_AT (labels, a.x, a.y) != CELD_AT (labels, b.x, b.y) && !lies_on (patches, a) && !lies_on (patches, b);
+}

@@ -203,8 +203,8 @@ add_row (Boundaries *b, int y)
   return CELD_OK;
 }
 
-static int
-compare (const void *a, const void *b)
+int
+celd_basin_boundary_compare (const void *a, const void *b)
 {
   const CeldBasinBoundary *p = a, *q = b;
 
@@ -237,7 +237,7 @@ celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent
       return status;
     }
   if (b.n)
-    qsort (b.boundary, b.n, sizeof *b.boundary, compare);
+    qsort (b.boundary, b.n, sizeof *b.boundary, celd_basin_boundary_compare);
   *boundary = b.boundary;
   *n = b.n;
   return CELD_OK;

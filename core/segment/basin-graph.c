@@ -174,14 +174,6 @@ merge_runs (const Update *u, const CeldBasins *made, const uint32_t *to, const u
 
 /* ------------------------------------------------------------------ boundaries */
 
-static int
-compare_boundaries (const CeldBasinBoundary *p, const CeldBasinBoundary *q)
-{
-  if (p->a != q->a)
-    return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
-
 /* The boundaries between kept basins joined with the recounted ones. */
 static CeldStatus
 merge_boundaries (const Update *u, const uint32_t *kept, const CeldBasinBoundary *more, size_t n_more,
@@ -201,9 +193,9 @@ merge_boundaries (const Update *u, const uint32_t *kept, const CeldBasinBoundary
         continue;
       boundary.a = kept[boundary.a];
       boundary.b = kept[boundary.b];
-      while (j < n_more && compare_boundaries (&more[j], &boundary) < 0)
+      while (j < n_more && celd_basin_boundary_compare (&more[j], &boundary) < 0)
         found->boundary[n++] = more[j++];
-      if (j < n_more && compare_boundaries (&more[j], &boundary) == 0)
+      if (j < n_more && celd_basin_boundary_compare (&more[j], &boundary) == 0)
         celd_basin_boundary_add (&boundary, &more[j++]);
       found->boundary[n++] = boundary;
     }

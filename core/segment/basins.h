@@ -74,6 +74,9 @@ uint32_t   celd_paper_count (const CeldBasins *basins, int y, int x, int end);
 CeldStatus celd_paper_new (const CeldPlane *ink, const CeldHost *host, uint8_t **bits);
 void       celd_paper_update (const CeldPlane *ink, const CeldRect *changed, const CeldHost *host, uint8_t *bits);
 
+/* basin-boundaries.c: the order of boundaries, by a, then b, for qsort and bsearch. */
+int celd_basin_boundary_compare (const void *a, const void *b);
+
 /* The index of the run that contains the pixel (x,y). */
 static inline size_t
 celd_basin_run (const CeldBasins *basins, int x, int y)

@@ -14,7 +14,6 @@
 #include "segment/basins.h"
 #include "segment/bridges.h"
 #include "segment/closures.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 #include <stdlib.h>
@@ -258,16 +257,6 @@ trace_patches (ChainTracer *t, const CeldPatches *windows)
   return status;
 }
 
-static int
-compare_boundaries (const void *a, const void *b)
-{
-  const CeldBasinBoundary *p = a, *q = b;
-
-  if (p->a != q->a)
-    return p->a < q->a ? -1 : 1;
-  return p->b < q->b ? -1 : p->b > q->b;
-}
-
 /* Counts the edges of the chains from number `first` on by the boundary of basins that they belong to. */
 static void
 count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, uint32_t *opening)
@@ -281,7 +270,7 @@ count_passes (const CeldBasins *basins, const CeldChains *chains, size_t first, 
         uint32_t          a = celd_basin_at (basins, x, y), b = celd_basin_at (basins, x + !south, y + south);
         CeldBasinBoundary key = { .a = a < b ? a : b, .b = a < b ? b : a }, *boundary;
 
-        boundary = bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key, compare_boundaries);
+        boundary = bsearch (&key, basins->boundary, basins->n_boundaries, sizeof key, celd_basin_boundary_compare);
         if (boundary)
           opening[boundary - basins->boundary]++;
       }

@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/closures.h"
-#include "segment/labelling.h"
+#include "segment/task.h"
 
 #include <stdlib.h>
 
@@ -141,6 +141,25 @@ centre (CeldCorner pixel)
   return (CeldPlace) { pixel.x + 0.5, pixel.y + 0.5 };
 }
 
+/* The index of the pixel of connected ink nearest to a place; there must be one. */
+static size_t
+nearest_pixel (const CeldLineEnd *end, CeldPlace place)
+{
+  double least = INFINITY;
+  size_t nearest = 0;
+
+  for (size_t i = 0; i < end->n; i++)
+    {
+      double dx = end->pixel[i].x + 0.5 - place.x, dy = end->pixel[i].y + 0.5 - place.y;
+
+      if (dx * dx + dy * dy >= least)
+        continue;
+      least   = dx * dx + dy * dy;
+      nearest = i;
+    }
+  return nearest;
+}
+
 /* Adds the path from the last corner of the old boundary through the ink at its end to the new one; or, if `back`, in
  * the opposite direction. */
 static CeldStatus
@@ -149,7 +168,7 @@ add_ink (CeldRedrawing *r, const CeldLineEnd *end, CeldCorner corner, CeldPlace 
   CeldPlace  place[2] = { to, end->inside };
   CeldStatus status = add_crossings (r, place[!back], place[back]);
 
-  for (size_t i = celd_line_end_nearest (end, end->inside); status == CELD_OK; i = end->from[i])
+  for (size_t i = nearest_pixel (end, end->inside); status == CELD_OK; i = end->from[i])
     {
       place[0] = place[1];
       place[1] = centre (end->pixel[i]);

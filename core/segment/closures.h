@@ -74,9 +74,6 @@ void       celd_line_end_clear (CeldLineEnd *end);              /* accepts a zer
 
 void celd_line_end_fit (const CeldPlane *ink, CeldCorner pixel, CeldLineEnd *end);
 
-/* The index of the pixel of connected ink nearest to a place; there must be one. */
-size_t celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place);
-
 /* Is this pixel of ink connected to the end? */
 bool celd_line_end_contains (const CeldLineEnd *end, int x, int y);
 

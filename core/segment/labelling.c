@@ -4,7 +4,7 @@
  */
 #include "base/vector.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
+#include "segment/task.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -351,24 +351,6 @@ celd_line_end_set_corner (CeldCorner corner, CeldLineEnd *end)
 
 /* ------------------------------------------------------------------ the side of a line */
 
-size_t
-celd_line_end_nearest (const CeldLineEnd *end, CeldPlace place)
-{
-  double least = INFINITY;
-  size_t nearest = 0;
-
-  for (size_t i = 0; i < end->n; i++)
-    {
-      double dx = end->pixel[i].x + 0.5 - place.x, dy = end->pixel[i].y + 0.5 - place.y;
-
-      if (dx * dx + dy * dy >= least)
-        continue;
-      least   = dx * dx + dy * dy;
-      nearest = i;
-    }
-  return nearest;
-}
-
 /* The ink that a boundary from the other end should go to.  A path of length l that turns by the angle a from a line's
  * direction costs l (1 + 2 (1 - cos a)): it goes straight on unless the shortest path is less than half as long. */
 static CeldPlace

@@ -4,9 +4,9 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "segment/pixel-graph.h"
 #include "base/unions.h"
 #include "base/vector.h"
+#include "segment/pixel-graph.h"
 
 #define MEASURED (-CELD_MOST_TO_PAPER) /* the true distance to paper is measured */
 

@@ -7,7 +7,6 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 #define SMALLEST_SHARE     2000 /* regions below 1/2000 of the picture are not reported (chosen) */

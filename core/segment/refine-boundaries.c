@@ -11,7 +11,6 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 

@@ -9,7 +9,6 @@
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/bridges.h"
-#include "segment/labelling.h"
 #include "segment/segment.h"
 #include "segment/task.h"
 

@@ -11,10 +11,8 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/pixel-graph.h"
 #include "segment/task.h"
-#include "segment/windows.h"
 
 #define WINDOW_PIXELS 4096 /* largest window that is solved on pixels (chosen) */
 #define WINDOW_BLOCKS 4096 /* blocks of larger windows, approximately (chosen) */

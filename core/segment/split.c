@@ -9,15 +9,12 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/splits.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 
 #include <math.h>
 #include <string.h>
-
-typedef struct { int left, top, right, bottom; } BasinBox; /* inclusive */
 
 typedef struct
 {
@@ -27,7 +24,6 @@ typedef struct
   CeldSeedRows      painted;    /* seeds before relations added any */
   size_t           *first;      /* of basin k: its boundaries are boundary[first[k]] .. boundary[first[k + 1] - 1] */
   uint32_t         *boundary;
-  BasinBox         *box;        /* of each basin */
   uint32_t         *basin, *at; /* the current region, as in CeldCut */
   uint8_t          *side;       /* of its basins, after a cut between basins */
   uint8_t          *mark;       /* of each pixel, for celd_cut_pixels; CELD_OUTSIDE between two cuts */
@@ -61,39 +57,16 @@ static CeldStatus
 split_new (Split *split)
 {
   const CeldBasins *basins = split->task->basins;
-  size_t            n_pixels = (size_t) basins->width * (size_t) basins->height;
+  size_t           *first = celd_alloc0 (basins->n + 2, sizeof *first);
 
-  split->first  = celd_alloc0 (basins->n + 2, sizeof *split->first);
+  split->first    = first;
   split->boundary = celd_alloc (2 * basins->n_boundaries, sizeof *split->boundary);
-  split->box    = celd_alloc (basins->n, sizeof *split->box);
-  split->basin  = celd_alloc (basins->n, sizeof *split->basin);
-  split->at     = celd_alloc0 (basins->n, sizeof *split->at);
-  split->side   = celd_alloc (basins->n, 1);
-  split->mark   = celd_alloc0 (n_pixels, 1);
-  return split->first && split->boundary && split->box && split->basin && split->at && split->side && split->mark
-         ? celd_seed_rows_copy (&split->task->seeds, &split->painted) : CELD_NO_MEMORY;
-}
-
-static void
-split_clear (Split *split)
-{
-  celd_seed_rows_clear (&split->taken);
-  celd_seed_rows_clear (&split->painted);
-  celd_free (split->first);
-  celd_free (split->boundary);
-  celd_free (split->box);
-  celd_free (split->basin);
-  celd_free (split->at);
-  celd_free (split->side);
-  celd_free (split->mark);
-}
-
-static void
-list_boundaries (Split *split)
-{
-  const CeldBasins *basins = split->task->basins;
-  size_t           *first = split->first;
-
+  split->basin    = celd_alloc (basins->n, sizeof *split->basin);
+  split->at       = celd_alloc0 (basins->n, sizeof *split->at);
+  split->side     = celd_alloc (basins->n, 1);
+  split->mark     = celd_alloc0 ((size_t) basins->width * (size_t) basins->height, 1);
+  if (!first || !split->boundary || !split->basin || !split->at || !split->side || !split->mark)
+    return CELD_NO_MEMORY;
   for (size_t i = 0; i < basins->n_boundaries; i++)
     {
       first[basins->boundary[i].a + 2]++;
@@ -106,26 +79,20 @@ list_boundaries (Split *split)
       split->boundary[first[basins->boundary[i].a + 1]++] = (uint32_t) i;
       split->boundary[first[basins->boundary[i].b + 1]++] = (uint32_t) i;
     }
+  return celd_seed_rows_copy (&split->task->seeds, &split->painted);
 }
 
 static void
-find_boxes (Split *split)
+split_clear (Split *split)
 {
-  const CeldBasins *basins = split->task->basins;
-
-  for (size_t k = 0; k < basins->n; k++)
-    split->box[k] = (BasinBox) { basins->width, basins->height, -1, -1 };
-  for (int y = 0; y < basins->height; y++)
-    for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
-      {
-        BasinBox *box = &split->box[basins->run[i].basin];
-        int       left = basins->run[i].x, right = celd_basin_run_end (basins, i, y) - 1;
-
-        box->left   = left < box->left ? left : box->left;
-        box->right  = right > box->right ? right : box->right;
-        box->top    = y < box->top ? y : box->top;
-        box->bottom = y;
-      }
+  celd_seed_rows_clear (&split->taken);
+  celd_seed_rows_clear (&split->painted);
+  celd_free (split->first);
+  celd_free (split->boundary);
+  celd_free (split->basin);
+  celd_free (split->at);
+  celd_free (split->side);
+  celd_free (split->mark);
 }
 
 /* ------------------------------------------------------------------ the region round an end */
@@ -149,18 +116,32 @@ continues (const Split *split, const CeldBasinBoundary *boundary, uint32_t label
 }
 
 static void
-join (Split *split, uint32_t k, CeldCut *cut)
+join (uint32_t k, CeldCut *cut)
 {
-  const BasinBox *box = &split->box[k];
-
   if (cut->at[k])
     return;
-  cut->basin[cut->n++] = k;
-  cut->at[k]  = (uint32_t) cut->n;
-  cut->left   = box->left < cut->left ? box->left : cut->left;
-  cut->right  = box->right > cut->right ? box->right : cut->right;
-  cut->top    = box->top < cut->top ? box->top : cut->top;
-  cut->bottom = box->bottom > cut->bottom ? box->bottom : cut->bottom;
+  cut->basin[cut->n] = k;
+  cut->at[k] = (uint32_t) ++cut->n;
+}
+
+/* Sets the bounding box of the region's basins. */
+static void
+find_box (const CeldBasins *basins, CeldCut *cut)
+{
+  cut->left = basins->width;
+  cut->top  = basins->height;
+  for (int y = 0; y < basins->height; y++)
+    for (size_t i = basins->row[y]; i < basins->row[y + 1]; i++)
+      {
+        int left = basins->run[i].x, right = celd_basin_run_end (basins, i, y) - 1;
+
+        if (!cut->at[basins->run[i].basin])
+          continue;
+        cut->left   = left < cut->left ? left : cut->left;
+        cut->right  = right > cut->right ? right : cut->right;
+        cut->top    = y < cut->top ? y : cut->top;
+        cut->bottom = y;
+      }
 }
 
 /* Finds the basins of the region round the first end; does it contain the second?  If earlier cuts have left only
@@ -173,20 +154,19 @@ find_region (Split *split, CeldCut *cut)
   uint32_t          second = celd_basin_at (basins, cut->end[1].x, cut->end[1].y);
   bool              whole = basin_has (split, first, cut->label) && basin_has (split, second, cut->label);
 
-  cut->left = cut->right = cut->end[0].x;
-  cut->top  = cut->bottom = cut->end[0].y;
-  join (split, first, cut);
+  join (first, cut);
   for (size_t i = 0; i < cut->n; i++)
     for (size_t j = split->first[cut->basin[i]]; j < split->first[cut->basin[i] + 1]; j++)
       {
         const CeldBasinBoundary *boundary = &basins->boundary[split->boundary[j]];
 
         if (continues (split, boundary, cut->label))
-          join (split, boundary->a == cut->basin[i] ? boundary->b : boundary->a, cut);
+          join (boundary->a == cut->basin[i] ? boundary->b : boundary->a, cut);
       }
   cut->any = !whole && !cut->at[second];
   for (uint32_t k = 0; k < basins->n && cut->any; k++)
-    join (split, k, cut);
+    join (k, cut);
+  find_box (basins, cut);
   return cut->at[second] != 0;
 }
 
@@ -358,19 +338,14 @@ split_relation (Split *split, const CeldRelations *relations, size_t i, const Ce
     .end  = { celd_relation_end_find (task, &relation->nearer), celd_relation_end_find (task, &relation->farther) },
   };
 
-  if (relation->equal || !cut.end[0].there || !cut.end[1].there)
+  if (relation->equal || !cut.end[0].there || !cut.end[1].there ||
+      (cut.end[0].x == cut.end[1].x && cut.end[0].y == cut.end[1].y))
     return CELD_OK;
   cut.label = label_at (split, cut.end[0].x, cut.end[0].y);
-  if ((cut.end[0].x == cut.end[1].x && cut.end[0].y == cut.end[1].y) ||
-      cut.label != label_at (split, cut.end[1].x, cut.end[1].y))
+  if (cut.label != label_at (split, cut.end[1].x, cut.end[1].y))
     return CELD_OK;
-  if (!split->first)
-    {
-      if (split_new (split) != CELD_OK)
-        return CELD_NO_MEMORY;
-      list_boundaries (split);
-      find_boxes (split);
-    }
+  if (!split->first && split_new (split) != CELD_OK)
+    return CELD_NO_MEMORY;
   if (on_hard_stroke (split, cut.end[0], cut.label) && on_hard_stroke (split, cut.end[1], cut.label))
     return CELD_OK; /* both labels are given */
   cut.basin = split->basin;
@@ -400,31 +375,9 @@ add_patches (const Split *split, CeldPatches *patches)
   return status;
 }
 
-static bool
-lies_on (const CeldPatches *patches, CeldRelationEnd end)
-{
-  for (size_t i = 0; i < patches->n; i++)
-    if (patches->item[i].y == end.y && patches->item[i].x <= end.x && patches->item[i].end > end.x)
-      return true;
-  return false;
-}
-
-bool
-celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation, const CeldLabels *labels,
-                           const CeldPatches *patches)
-{
-  CeldRelationEnd a = celd_relation_end_find (task, &relation->nearer),
-  b = celd_relation_end_find (task, &relation->farther);
-
-  if (relation->equal || !a.there || !b.there)
-    return true;
-  return CELD_AT (labels, a.x, a.y) != CELD_AT (labels, b.x, b.y) && !lies_on (patches, a) && !lies_on (patches, b);
-}
-
 CeldStatus
 celd_regions_split (const CeldRelations *relations, const CeldHost *host, const CeldLabels *labels,
-                    CeldSegmentTask *task,
-                    CeldPatches *patches)
+                    CeldSegmentTask *task, CeldPatches *patches)
 {
   Split      split = { .task = task, .labels = labels };
   CeldStatus status;

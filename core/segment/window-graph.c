@@ -10,7 +10,6 @@
 #include "segment/basins.h"
 #include "segment/pixel-graph.h"
 #include "segment/task.h"
-#include "segment/windows.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"
 

@@ -10,8 +10,8 @@
 #include "base/vector.h"
 #include "image/image.h"
 #include "segment/basins.h"
+#include "segment/pixel-graph.h"
 #include "segment/task.h"
-#include "segment/windows.h"
 #include "solve/maxflow.h"
 
 #include <stdlib.h>

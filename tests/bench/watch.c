@@ -5,7 +5,6 @@
 #include "bench.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 #include "solve/partition.h"

@@ -8,7 +8,6 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 #define MOST_LABELS 8

@@ -5,7 +5,6 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 typedef struct

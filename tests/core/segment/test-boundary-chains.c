@@ -4,7 +4,7 @@
  */
 #include "scene.h"
 #include "segment/closures.h"
-#include "segment/labelling.h"
+#include "segment/task.h"
 
 static void
 find (const char *const *art, const CeldPatches *windows, Scene *s, CeldChains *chains)

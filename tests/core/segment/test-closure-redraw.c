@@ -4,7 +4,6 @@
  */
 #include "image/image.h"
 #include "scene.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 
 /* Puts something on the straight line between two tips, while the old boundary makes a detour below it. */

@@ -4,7 +4,7 @@
  */
 #include "image/image.h"
 #include "scene.h"
-#include "segment/labelling.h"
+#include "segment/task.h"
 
 #define SIZE 161
 

@@ -4,7 +4,7 @@
  */
 #include "check.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
+#include "segment/task.h"
 
 /* Two basins side by side and one below, and a picture of labels over them. */
 static CeldBasin    three[] = { { 1, 0, 4, false, 8 }, { 6, 1, 9, false, 8 }, { 3, 3, 1, true, 16 } };

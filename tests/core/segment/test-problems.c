@@ -4,7 +4,6 @@
  */
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 #include "sketch.h"
 

@@ -6,7 +6,6 @@
 #include "check.h"
 #include "image/image.h"
 #include "segment/basins.h"
-#include "segment/labelling.h"
 #include "segment/task.h"
 #include "solve/maxflow.h"
 
