@@ -25,10 +25,10 @@
 #define SQUARES_BETWEEN_ENDS 8 /* squares between the ends; those as far away are as large (chosen) */
 #define FINER                4 /* ratio of the squares' sides in consecutive bands (chosen) */
 #define NO_CELLS             6 /* nodes may be as large as squares: 1 << 6 pixels a side */
-#define FINE_SQUARE          4 /* pixels: in squares up to this size the distance of ink to paper is measured (chosen) */
+#define FINE_SQUARE          4 /* pixels: in squares up to this size distances of ink to paper are measured (chosen) */
 #define MOST_TO_PAPER        4 /* pixels: ink farther from paper counts as this far (chosen) */
-#define COARSE_TO_PAPER      4 /* squared pixels: what ink counts as in larger squares, so that cuts prefer the middle of
-                           * lines (chosen) */
+#define COARSE_TO_PAPER      4 /* squared pixels: what ink counts as in larger squares: cuts prefer the middle of lines
+                                * (chosen) */
 
 /* ------------------------------------------------------------------ squares */
 
@@ -164,12 +164,11 @@ find_states (CeldCutGraph *graph, int x, int y, int right, int bottom)
 
       for (int u = x; u < right; u++)
         {
-          uint8_t mark = graph->cut->mark[celd_cut_index (graph->cut, u, v)];
+          uint8_t  mark = graph->cut->mark[celd_cut_index (graph->cut, u, v)];
+          uint32_t paper = celd_is_paper (CELD_AT (graph->cut->task->ink, u, v)) ? CELD_CUT_PAPER : 0;
 
-          if (u == celd_basin_run_end (basins, k, v))
-            k++;
-          *state++ = mark != CELD_INSIDE ? CELD_STATE_FIXED | mark
-                   : basins->run[k].basin | (celd_is_paper (CELD_AT (graph->cut->task->ink, u, v)) ? CELD_CUT_PAPER : 0);
+          k += u == celd_basin_run_end (basins, k, v);
+          *state++ = mark == CELD_INSIDE ? basins->run[k].basin | paper : CELD_STATE_FIXED | mark;
         }
     }
 }
@@ -246,11 +245,12 @@ force_disc (CeldCutGraph *graph, const CeldSeedDisc *disc, int i)
 static void
 add_seed_costs (CeldCutGraph *graph, uint32_t k, int x, int end, int y, int kept)
 {
-  const CeldCut *cut = graph->cut;
-  CeldCutNode   *node = &graph->node[k];
-  int32_t        vote = celd_task_data_cost (cut->task, cut->label);
+  const CeldCut       *cut = graph->cut;
+  const CeldSeedDiscs *others = &cut->discs[1 - kept];
+  CeldCutNode         *node = &graph->node[k];
+  int32_t              vote = celd_task_data_cost (cut->task, cut->label);
 
-  if (node->forced[1 - kept] && celd_seed_discs_contain (&cut->discs[1 - kept], x, y) && celd_seed_discs_contain (&cut->discs[1 - kept], end - 1, y))
+  if (node->forced[1 - kept] && celd_seed_discs_contain (others, x, y) && celd_seed_discs_contain (others, end - 1, y))
     return;
   if (vote == CELD_HARD)
     node->forced[kept] = true;

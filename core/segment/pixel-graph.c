@@ -220,8 +220,8 @@ add_edge (CeldPixelGraph *graph, const uint32_t *part, int x, int y, bool south)
   return celd_append (graph->link, graph->n_links, graph->link_capacity, (CeldLink) { least, most, cost });
 }
 
-/* Adds all edges inside the square of a node, and those that leave it: to nodes from the square on the left or above, to
- * fixed pixels from the square of the node. */
+/* Adds all edges inside the square of a node, and those that leave it: between two nodes from the square on the left or
+ * above, between a node and a fixed pixel from the square of the node. */
 static CeldStatus
 link_square (CeldPixelGraph *graph, const CeldPixelNode *node)
 {

@@ -1,4 +1,4 @@
-/* A graph of the pixels in a box, for minimum cuts: what windows, gaps and split regions are solved on.
+/* A graph of the pixels in a box, for minimum cuts, which windows, gaps and split regions are solved on; and windows.
  *
  * The caller goes over the box in squares and gives the pixels of each a state.  Connected pixels of equal state in a
  * square are one node; pixels whose label is fixed are no node.  An edge between two nodes is part of their link, an
@@ -128,8 +128,8 @@ typedef struct
 /* The graph of a window in square blocks of side 1 << shift; shift 0: of pixels.  The values of its nodes are their
  * present labels.  The window's outermost pixels are fixed, except along the frame of the picture.  Clear it also after
  * a failure. */
-CeldStatus celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box, int shift,
-                                  CeldPixelGraph *graph);
+CeldStatus celd_window_graph_new (const CeldSegmentTask *task, const CeldPresentLabels *present, CeldRect box,
+                                  int shift, CeldPixelGraph *graph);
 
 /* Divides the blocks that have a node with crossed[node], and fixes all other pixels to their labels.  label[node]
  * becomes the present label. */

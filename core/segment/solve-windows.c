@@ -85,14 +85,18 @@ add_patches (WindowSolver *s, const CeldPixelGraph *graph, const uint32_t *label
   CeldStatus        status = CELD_OK;
 
   for (int y = graph->box.y; y < graph->box.y + graph->box.height; y++)
-    for (size_t x = (size_t) left, i = celd_basin_run_at (basins, y, left, &s->hint); (int) x < right; i++)
-      for (int end = celd_basin_run_end (basins, i, y); (int) x < end && (int) x < right && status == CELD_OK; x++, part++)
+    {
+      size_t i = celd_basin_run_at (basins, y, left, &s->hint);
+
+      for (int x = left; x < right && status == CELD_OK; x++, part++)
         {
           uint32_t own = *part & CELD_PART_FIXED ? *part & ~CELD_PART_FIXED : label[*part];
 
+          i += x == celd_basin_run_end (basins, i, y);
           if (own != s->label[basins->run[i].basin])
-            status = celd_patch_add (&s->patches, (CeldPatch) { y, (int) x, (int) x + 1, own });
+            status = celd_patch_add (&s->patches, (CeldPatch) { y, x, x + 1, own });
         }
+    }
   return status;
 }
 

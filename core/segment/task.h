@@ -9,10 +9,10 @@
 #include "segment/basins.h"
 #include "segment/bridges.h"
 
-/* ------------------------------------------------------------------ labelling.c: labels of basins, and patches over them */
+/* ------------------------------------------------------------------ labelling.c: labels of basins, and patches */
 
-typedef struct { int32_t y, x, end; uint32_t label; } CeldPatch;  /* pixels x .. end - 1 of row y have this label */
-typedef struct { CeldPatch *item; size_t n, item_capacity; } CeldPatches;        /* no pixel twice in one record */
+typedef struct { int32_t y, x, end; uint32_t label; } CeldPatch; /* pixels x .. end - 1 of row y have this label */
+typedef struct { CeldPatch *item; size_t n, item_capacity; } CeldPatches; /* no pixel twice in one record */
 
 CeldStatus celd_patch_add (CeldPatches *patches, CeldPatch patch);
 void       celd_patches_clear (CeldPatches *patches);             /* accepts a zeroed record */

@@ -68,20 +68,19 @@ read_labels (Reader *r, int y, uint64_t *state)
 {
   const CeldPresentLabels *present = r->present;
   const CeldBasins        *basins = r->graph->task->basins;
-  int                      left = r->graph->box.x, end = left + r->graph->box.width, run_end;
+  int                      left = r->graph->box.x, end = left + r->graph->box.width;
+  size_t                   i = present->picture ? 0 : celd_basin_run_at (basins, y, left, &r->hint);
 
   for (int x = left; x < end && present->picture; x++)
     state[x - left] = CELD_AT (present->picture, x, y);
-  if (present->picture)
-    return;
-  for (size_t x = (size_t) left, i = celd_basin_run_at (basins, y, left, &r->hint); (int) x < end; i++)
+  for (int x = left, run_end; x < end && !present->picture; i++)
     {
       uint32_t basin = basins->run[i].basin;
       uint64_t here = present->label[basin] | (present->free[basin] == present->id ? 0 : CELD_STATE_FIXED);
 
       run_end = celd_basin_run_end (basins, i, y);
-      for (; (int) x < run_end && (int) x < end; x++)
-        state[(int) x - left] = here;
+      for (; x < run_end && x < end; x++)
+        state[x - left] = here;
     }
 }
 

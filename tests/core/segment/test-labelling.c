@@ -220,8 +220,8 @@ box_of_differences (const uint32_t *a, const uint32_t *b)
   return box;
 }
 
-/* Patches at random over basins that keep their labels: each pixel has the last patch over it, or its basin's label; the
- * rectangle is exactly that of what differs; and each label has as many pixels as are counted. */
+/* Random patches over basins that keep their labels: each pixel has the label of the last patch over it, or of its
+ * basin; the rectangle is exactly that of what differs; and each label has as many pixels as are counted. */
 static void
 patches_at_random (void)
 {

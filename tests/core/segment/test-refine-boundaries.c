@@ -1,5 +1,5 @@
-/* Boundaries of lower energy: the energy never rises, no segment of a boundary is left that would gain, hard strokes are
- * obeyed, and two labels across a gap cost what exact cuts of all pixels do.
+/* Boundaries of lower energy: the energy never rises, no segment of a boundary is left that would gain, hard strokes
+ * are obeyed, and two labels across a gap cost what exact cuts of all pixels do.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
