@@ -1,7 +1,7 @@
-/* What every test program of core uses: CHECK and NEAR, pictures written as text art, and hosts.
+/* For all test programs of core: CHECK and NEAR, pictures written as text, and hosts.
  *
  * A test program is a list of functions `static void name (void)` and a main that RUNs them and returns DONE.
- * A failed CHECK says where and goes on, so that one failure does not hide the next.
+ * After a failed CHECK, which prints its place, the test continues, so that one failure does not hide the next.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -114,7 +114,7 @@ check_refuse (void *host, double done)
   return false;
 }
 
-/* The same after some steps; `host` is an int, how many. */
+/* Progress that cancels after as many reports as the int `host` says. */
 static inline bool
 check_count_down (void *host, double done)
 {

@@ -1,4 +1,5 @@
-/* The steps from regions and relations to depth: order, suggestions, cycles, expansion, owners, smoothing, the program.
+/* Failing allocations and cancelling in the steps from regions to depth: order, suggestions, cycles, expansion, contour
+ * ownership, smooth depth, exact depth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -82,7 +83,7 @@ suggest_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* The two sheets before each other: one of them is split. */
+/* Two sheets, each in front of the other: one of them is split. */
 static CeldStatus
 split_step (const CeldHost *host, Results *r)
 {
@@ -157,7 +158,7 @@ own_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* From the beginning, and after an edit of everything at once. */
+/* Made from scratch, and updated after an edit of everything. */
 static CeldStatus
 owners_step (const CeldHost *host, Results *r)
 {
@@ -217,7 +218,7 @@ exact_depth_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* A program that is kept: one more point, and a scribble more. */
+/* A program that is kept, with one more point, and then one more scribble. */
 static CeldStatus
 program_step (const CeldHost *host, Results *r)
 {

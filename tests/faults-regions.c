@@ -1,4 +1,5 @@
-/* The steps from a drawing and its paint to regions: ink, contours, scribbles, relations, arrows, segmentation.
+/* Failing allocations and cancelling in the steps from a drawing to regions: ink, contours, scribbles, relations,
+ * arrows, segmentation.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -115,8 +116,8 @@ walker_step (const CeldHost *host, Results *r)
   return celd_segment (&ink, &seeds, &scene_relations, &walker, host, &labels, &r->palette, &r->problems);
 }
 
-/* An empty page of one label, and two hard bars of another close to each other: the window is large enough to be cut in
- * blocks first, and the border between the bars is looked at again. */
+/* An empty page of one label, with two hard bars of another close to each other: a window that is so large that it is
+ * first cut in blocks, and then refined between the bars. */
 static CeldStatus
 windows_step (const CeldHost *host, Results *r)
 {

@@ -1,4 +1,4 @@
-/* The small scene that the steps of faults-*.c are tried on: it gives each of them something to do.
+/* A small scene for the tests of faults-*.c, with input for each step.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -88,9 +88,9 @@ step_at (size_t i)
   return NULL;
 }
 
-/* ------------------------------------------------------------------ inputs of the later steps */
+/* ------------------------------------------------------------------ inputs of later steps */
 
-/* Takes the step of that name. */
+/* Does the step of that name. */
 static bool
 take (const char *name, Results *r)
 {

@@ -1,4 +1,4 @@
-/* The solvers beneath the steps, each on a problem of its own.
+/* Failing allocations and cancelling in the solvers, each with a problem of its own.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -6,7 +6,7 @@
 #include "solve/partition.h"
 #include "solve/quadratic.h"
 
-/* A grid of 8 x 6 nodes, of which four labels hold the corners and quarrel about the rest. */
+/* A grid of 8 x 6 nodes with a different label at each corner. */
 static size_t
 draw_graph (CeldLink *link, CeldVote *vote)
 {
@@ -50,7 +50,7 @@ partition_step (const CeldHost *host, Results *r)
   return celd_partition (&problem, host, r->pixels->labels, NULL, NULL);
 }
 
-/* Two springs in a row, held apart by more than they like, and a loose node in front. */
+/* Two springs in a row, with gaps longer than at rest, and a free node in front. */
 static CeldStatus
 quadratic_step (const CeldHost *host, Results *r)
 {

@@ -1,4 +1,4 @@
-/* The steps that use depth: layers, shading, views from the side, enhancing, reliefs.
+/* Failing allocations and cancelling in the steps that use depth: layers, shading, views, enhancement, reliefs.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -26,7 +26,8 @@ layers_step (const CeldHost *host, Results *r)
       for (int c = 0; c < 4; c++)
         art[4 * p + c] = c == 3 ? 1 : ink_pixels.plane[p] * (float) (p % W) / W;
     }
-  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, host, &layers);
+  status = celd_layers_cut (&ink, &own, level, label_palette.n, &colours, 3, CELD_STORE_8_BIT_SRGB, true, host,
+                            &layers);
   for (size_t k = 0; status == CELD_OK && k < celd_layers_count (layers); k++)
     r->pixels->labels[k] = (uint32_t) celd_layers_item (layers, k)->box.width;
   celd_layers_free (layers);
@@ -141,7 +142,7 @@ stereo_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* The same of levels. */
+/* A scene of levels. */
 static CeldStatus
 levels_scene_step (const CeldHost *host, Results *r)
 {
@@ -160,7 +161,7 @@ levels_scene_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* The same of depth alone. */
+/* A scene of depth alone. */
 static CeldStatus
 scene_step (const CeldHost *host, Results *r)
 {
@@ -201,7 +202,7 @@ unsharp_step (const CeldHost *host, Results *r)
   return celd_enhance (&levels, &unsharp, host, &change);
 }
 
-/* All of a relief as its heights. */
+/* The heights of a relief. */
 static CeldStatus
 make_relief (const CeldSettings *how, const CeldHost *host, Results *r)
 {

@@ -1,4 +1,4 @@
-/* Every allocation of every step fails once, and every step is cancelled at each of its reports of progress.
+/* Makes every allocation of every step fail once, and cancels every step at each of its reports of progress.
  *
  * A step then answers CELD_NO_MEMORY or CELD_CANCELLED (or succeeds all the same, with the same result), leaves its
  * results as they were, and gives back all it has taken.  A session delivers when it is asked again.
@@ -11,8 +11,8 @@
 
 /* ------------------------------------------------------------------ memory that fails */
 
-static size_t allocations, failing; /* counted from 1; the one that fails, 0 for none */
-static long   live;                 /* blocks not given back */
+static size_t allocations, failing; /* number so far; number of the one that fails, from 1, or 0 for none */
+static long   live;                 /* blocks that are not freed */
 
 void *__real_malloc (size_t size);
 void *__real_calloc (size_t count, size_t size);
@@ -59,7 +59,7 @@ __wrap_free (void *memory)
 
 /* ------------------------------------------------------------------ a host that cancels */
 
-typedef struct { int calls, last; double done; } Watch; /* calls of progress so far, the last one that is answered yes */
+typedef struct { int calls, last; double done; } Watch; /* reports so far; the last one that does not cancel */
 
 static bool
 report (void *data, double done)
@@ -108,7 +108,7 @@ add_bytes (uint64_t print, const void *data, size_t size)
   return print;
 }
 
-/* A number that tells results apart: pixels, colours, areas, relations, levels, and how many there are of all. */
+/* A hash of results: pixels, colours, areas, relations, levels, and their numbers. */
 static uint64_t
 fingerprint (const Results *r)
 {
@@ -129,7 +129,7 @@ fingerprint (const Results *r)
 
 /* ------------------------------------------------------------------ the tests of the steps */
 
-/* One try of a step that must answer `failure`, with everything as before, or succeed as it did undisturbed. */
+/* Runs a step, which must return `failure` and leave everything as before, or succeed with the undisturbed result. */
 static void
 try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, uint64_t wanted)
 {
@@ -156,7 +156,7 @@ try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, ui
     fprintf (stderr, "  in step %s: allocation %zu fails, cancelled after %d reports\n", step->name, fail, last_report);
 }
 
-/* An undisturbed try: how many allocations and reports it makes, and what it gives. */
+/* Runs a step undisturbed, to count its allocations and reports, and to hash its result. */
 static uint64_t
 try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
 {
@@ -178,7 +178,7 @@ try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
 }
 
 static void
-every_allocation_fails_once (void)
+steps_survive_every_failing_allocation (void)
 {
   const Step *step;
 
@@ -194,7 +194,7 @@ every_allocation_fails_once (void)
 }
 
 static void
-every_report_cancels (void)
+steps_can_be_cancelled_at_every_report (void)
 {
   const Step *step;
 
@@ -244,7 +244,7 @@ set_apart (CeldSession *s)
   return celd_session_set_settings (s, &settings);
 }
 
-/* The i-th call of a watch; false when there are no more. */
+/* The i-th call of a session; false after the last one. */
 static bool
 call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStatus *status)
 {
@@ -299,7 +299,7 @@ call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStat
   return true;
 }
 
-/* The whole route through a session; a call that fails is made once more.  Returns how many failed. */
+/* All results of a session; a call that fails is repeated once.  Returns the number of failures. */
 static int
 ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, uint64_t *print)
 {
@@ -339,7 +339,7 @@ ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, 
 }
 
 static void
-session_delivers_when_asked_again (void)
+a_session_works_after_failures (void)
 {
   size_t   n, ignored_n;
   int      reports, ignored_reports;
@@ -363,7 +363,7 @@ session_delivers_when_asked_again (void)
 }
 
 static void
-inputs_can_be_made (void)
+inputs_of_all_steps_can_be_made (void)
 {
   CHECK (make_inputs ());
 }
@@ -371,10 +371,10 @@ inputs_can_be_made (void)
 int
 main (void)
 {
-  RUN (inputs_can_be_made);
-  RUN (every_allocation_fails_once);
-  RUN (every_report_cancels);
-  RUN (session_delivers_when_asked_again);
+  RUN (inputs_of_all_steps_can_be_made);
+  RUN (steps_survive_every_failing_allocation);
+  RUN (steps_can_be_cancelled_at_every_report);
+  RUN (a_session_works_after_failures);
   free_inputs ();
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* What faults.c (memory that fails, hosts that cancel) and faults-*.c (the steps and what they are tried on) share.
+/* Shared by faults.c (failing allocations, hosts that cancel) and faults-*.c (the steps and their input).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -35,7 +35,7 @@ typedef struct
   bool               reports;    /* progress */
 } Step;
 
-/* The inputs of the steps: what is painted, and what the steps before made of it. */
+/* The inputs of the steps: painted pictures, and results of earlier steps. */
 extern Pixels        drawing_pixels;                                                /* plane: luma, alpha */
 extern Pixels        scribble_pixels, arrow_pixels, contour_pixels;                 /* paint */
 extern Pixels        lossy_pixels, crossing_pixels, colour_pixels;
@@ -57,7 +57,8 @@ extern const Step region_steps[], depth_steps[], use_steps[], solver_steps[];
 /* The i-th of all; NULL: there are no more. */
 const Step *step_at (size_t i);
 
-/* Draws the scene and makes the inputs of all steps; false if a step fails, or misses what it is meant to meet. */
+/* Draws the scene and makes the inputs of all steps; false if a step fails, or does not find what the scene has for
+ * it. */
 bool make_inputs (void);
 void free_inputs (void);
 

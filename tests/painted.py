@@ -1,4 +1,4 @@
-"""Paints arrows as an unsteady hand does, in every style.
+"""Paints arrows with an unsteady hand, in every style.
 
 A stroke bends, trembles, starts and ends thin or blunt, varies in width by a tenth; heads are askew, their barbs
 unequal and bent; brushes are hard or soft.  Everything is drawn SAMPLES times as large and reduced.

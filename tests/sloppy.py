@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Sloppy scribbles for a case: strokes that run on through a contour and stain the paper behind it.
+"""Sloppy scribbles for a case: strokes that spill through a contour onto the paper behind it.
 
 sloppy.py CASE OUT.png
 Every stroke goes on from both of its ends, in the direction in which it ends, until the foreign paper that it stains

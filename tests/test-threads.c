@@ -1,4 +1,4 @@
-/* The whole route with the host's threads: the same results, bit by bit, for any number of them.
+/* All results of a session are equal, bit by bit, for any number of the host's threads.
  *
  * Built with -fsanitize=thread as well, where a data race fails the test.
  *

@@ -1,4 +1,4 @@
-/* What the benchmarks share; most of it is the segmentation's.
+/* Shared by the benchmarks, mostly by that of segmentation.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -108,15 +108,15 @@ Stroke random_stroke (int width, int height, const CeldPalette *palette, double 
 
 /* ------------------------------------------------------------------ energy.c */
 
-/* The paper's energy of labels, after costs.h and the problem's seeds and votes.  Hard seeds are not part of it:
- * *disobeyed says how many of them have another label. */
+/* The energy of a labelling, from the smoothness costs and the problem's seeds and data costs.  Hard seeds are not part
+ * of it; *disobeyed is the number of those with another label. */
 typedef struct { int32_t *east, *south; } Costs;
 Costs   costs_of (const CeldPlane *ink, float threshold);
 int64_t energy_of (const Costs *costs, const Problem *problem, const uint32_t *label, size_t *disobeyed);
 
 /* ------------------------------------------------------------------ compare.c */
 
-/* Are the problem's costs these? */
+/* Whether the problem has these costs. */
 void compare_costs (const Costs *costs);
 
 /* Energies of two answers to the last problem, on how much white they agree, and who is right where they do not. */

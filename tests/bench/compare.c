@@ -1,4 +1,4 @@
-/* How the engine's labels compare with those of exact cuts, and both with the truth.
+/* Compares labels by basins with those of exact cuts, and both with the truth.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The exact method makes its costs itself; so do we. */
+/* The costs of the exact method, computed independently. */
 void
 compare_costs (const Costs *costs)
 {

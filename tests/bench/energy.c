@@ -1,4 +1,4 @@
-/* What a labelling costs, added up pixel by pixel, apart from the solvers:
+/* The energy of a labelling, summed over pixels, independently of the solvers:
  *   E(c) = sum over neighbours p, q with c_p != c_q of V_pq  +  sum over soft seeds p with c_p != seed_p of their vote.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later

@@ -1,4 +1,4 @@
-/* Figures as they are taken and printed.
+/* Takes and prints measurements.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* Memory: the program is linked with --wrap, so that the functions below stand before those of the C library.
+/* Measures memory: the program is linked with --wrap, which calls the functions below instead of the C library's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* Measures whose the ink is on one drawing: from the beginning, and in a session after single edits.
+/* Measures contour ownership of one drawing: from scratch, and in a session after single edits.
  *
  *   bench-ownership DRAWING SCRIBBLES RELATIONS RUNS EDITS
  *
@@ -70,7 +70,7 @@ page_clear (Page *page)
   free (page->corrections.data);
 }
 
-/* ------------------------------------------------------------------ from the beginning */
+/* ------------------------------------------------------------------ from scratch */
 
 static void
 measure_whole (const Page *page, const char *name, CeldExpansion method, int runs)
@@ -103,7 +103,7 @@ measure_whole (const Page *page, const char *name, CeldExpansion method, int run
 
 /* ------------------------------------------------------------------ in a session */
 
-/* Does the session have what comes out from the beginning? */
+/* Whether the session's ownership equals one made from scratch. */
 static void
 compare_with_whole (const Page *page, const CeldLabels *corrections)
 {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Measures whose the ink is on one core; tests/bench/ownership builds and calls it.
+"""Measures contour ownership on one core; tests/bench/ownership builds and calls it.
 
 Prints tables, and writes them to results/ under the version and the processor's name.  README.md says what the figures
 are.

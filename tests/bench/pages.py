@@ -1,4 +1,4 @@
-"""What the measurements share: drawings of tests/cases as pages of any size, one core, tables in results/.
+"""Shared by the measurements: drawings of tests/cases as pages of any size, one core, tables in results/.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """

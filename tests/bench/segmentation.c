@@ -19,8 +19,8 @@
 #include <string.h>
 
 #define MOST_RUNS  99
-#define MESS       8        /* random strokes that are put among those of the case */
-#define MOST_MESSY 2000000  /* pixels; larger pictures are not tried with them */
+#define MESS       8        /* random strokes in addition to those of the case (chosen) */
+#define MOST_MESSY 2000000  /* pixels: larger pictures are not measured with them (chosen) */
 
 /* ------------------------------------------------------------------ sessions */
 
@@ -266,7 +266,7 @@ measure_boost (const Case *c, const Costs *costs, const Answer *exact)
   free (label);
 }
 
-/* ------------------------------------------------------------------ the whole */
+/* ------------------------------------------------------------------ all measurements */
 
 /* The engine with all settings as they come: times, and its labels. */
 static Answer

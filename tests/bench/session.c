@@ -1,4 +1,4 @@
-/* Measures what an artist waits for: a session, from the drawing on and after edits.
+/* Measures a session: the results that artists wait for, at first and after edits.
  *
  *   bench-session DRAWING SCRIBBLES RELATIONS STROKES
  *

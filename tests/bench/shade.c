@@ -1,5 +1,4 @@
-/* Normals and shading, in milliseconds a megapixel of processor time, from the line art of a drawing and the levels
- * that its scribbles and relations make.
+/* Measures normals and shading, in milliseconds of processor time per megapixel, from ink and levels of a drawing.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-/* What happens within core: the program is linked with --wrap, so that the functions below stand before those of core.
+/* Measures steps within core: the program is linked with --wrap, which calls the functions below instead of core's.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,4 +1,4 @@
-"""Readers of meshes, by the formats' own descriptions: glTF 2.0, PLY, OBJ, STL.
+"""Readers of meshes by the specifications of their formats: glTF 2.0, PLY, OBJ, STL.
 
 Each gives places (n x 3), triangles (n x 3, numbers of vertices) and a dictionary of what else there is.
 
@@ -86,7 +86,7 @@ def read_obj(path):
 
 
 def read_stl(path):
-    """Vertices at the same place are one: the format has no numbers for them."""
+    """Joins vertices at the same place, since the format has no indices."""
     with open(path, 'rb') as file:
         data = file.read()
     assert not data.startswith(b'solid')
@@ -105,7 +105,7 @@ def read_mesh(path):
 
 
 def is_closed(triangles):
-    """Has each edge of a triangle just one other, the other way round?"""
+    """Whether each edge belongs to two triangles, in opposite directions."""
     ways = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
     size = ways.max() + 1
     there, back = ways[:, 0] * size + ways[:, 1], ways[:, 1] * size + ways[:, 0]

@@ -1,4 +1,4 @@
-"""What the tests of the command share: a small drawing with its layers, files to make and files to read back.
+"""Shared by the tests of the command: a small drawing with its layers, and files to write and to read.
 
 The readers are not ours: Pillow, numpy, and oiiotool for EXR.
 
@@ -55,7 +55,7 @@ class Test(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def celdepth(self, *words, code=0, **environment):
-        """Runs the command in the folder; what it said."""
+        """Runs the command in the folder; returns its messages."""
         result = subprocess.run([COMMAND, *words], cwd=self.folder, env={**os.environ, **environment},
                                 stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=100)
         self.assertEqual(result.returncode, code, f'{words}: {result.stdout}{result.stderr}')
@@ -77,7 +77,7 @@ class Test(unittest.TestCase):
             return np.array(picture)
 
     def channel(self, name, channel):
-        """One channel of an EXR, by way of oiiotool."""
+        """One channel of an EXR, read by oiiotool."""
         tiff = self.path('channel.tif')
         subprocess.run(['oiiotool', self.path(name), '--ch', channel, '-d', 'float', '-o', tiff], check=True)
         values = self.picture('channel.tif')

@@ -1,4 +1,4 @@
-"""Reads stacks of layers as their specifications say, and composites them; nothing here is celdepth's own.
+"""Reads stacks of layers by the specifications of their formats, and composites them, independently of celdepth.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """

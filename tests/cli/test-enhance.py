@@ -26,7 +26,7 @@ class Enhance(Test):
         self.art[:, :, 3] = 255
         Image.fromarray(self.art).save(self.path('art.png'))
 
-    def test_shadows_fall_on_what_is_behind(self):
+    def test_shadows_fall_on_farther_parts(self):
         self.celdepth('enhance', 'levels.npy', '--shadow', 'shadow.npy', '--shadow-size', '0.02')
         shadow = np.load(self.path('shadow.npy'))
         self.assertEqual(shadow.shape, (HEIGHT, WIDTH, 4))

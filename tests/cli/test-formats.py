@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every result in every format, read back by readers that are not ours, and by the single steps.
+"""Every result in every format, read by independent readers and by the single steps.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
@@ -64,7 +64,7 @@ class Formats(Test):
         self.check_planes('depth', values)
 
     def test_ranks(self):
-        """Ranks are numbers where the format has numbers; elsewhere near is white, and they come back as ranks."""
+        """Ranks are stored as numbers in .npy and .tif; in others near is white, and steps read them as ranks."""
         ranks = self.make('order', '--encoding', 'rank')
         self.assertEqual(sorted(set(ranks.flat)), [0, 1, 2])
         np.testing.assert_array_equal(self.picture('order.tif'), ranks)
@@ -114,7 +114,7 @@ class Formats(Test):
             return json.load(file)
 
     def test_closures(self):
-        """A red line over the gap on a transparent layer, and the same line in numbers in the report."""
+        """A red line over the gap on a transparent layer, and the same line in the report."""
         self.open_box()
         values = self.make('closures', '--report', 'report.json')
         self.assertEqual(values.shape, (HEIGHT, WIDTH, 4))
@@ -136,8 +136,8 @@ class Formats(Test):
             self.assertAlmostEqual(x, wanted_x, delta=3)
             self.assertAlmostEqual(y, wanted_y, delta=3)
 
-    def test_closures_come_back(self):
-        """Accepted as virtual contours they leave nothing to close, and the regions as they are."""
+    def test_closures_used_as_contours_change_nothing(self):
+        """Used as virtual contours they leave no gap to close, and regions as they are."""
         self.open_box()
         self.popup('--closures', 'closures.png', '--labels', 'a.png')
         self.popup('--contours', 'closures.png', '--labels', 'b.png', '--report', 'report.json')
@@ -210,7 +210,7 @@ class Formats(Test):
         self.fails(*popup, '--levels', 'levels.npy', '--depth-hint', 'hint.npy', naming='hint.npy')
 
     def test_blue_arrows_are_cracks(self):
-        """Painted in another colour they are arrows like any other."""
+        """In other colours they are arrows without the flag."""
         for colour, crack in (((0, 60, 255), True), ((200, 60, 0), False)):
             with self.subTest(colour):
                 layer = Image.new('RGBA', (WIDTH, HEIGHT))
@@ -223,8 +223,8 @@ class Formats(Test):
                 self.assertGreater(at(levels, IN_A), at(levels, IN_B))
                 self.assertEqual([(r['source'], r.get('crack', False)) for r in relations], [('arrow', crack)])
 
-    def test_steps_equal_the_route(self):
-        """segment, order, expand, smooth, shade one after the other, by way of files."""
+    def test_steps_equal_popup(self):
+        """segment, order, expand, smooth and shade, one after the other, with files."""
         self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',
                    '--depth', 'a-depth.npy', '--normals', 'a-normals.npy', '--shading', 'a-shading.npy')
         page = ('--drawing', 'drawing.png')
@@ -239,7 +239,7 @@ class Formats(Test):
             np.testing.assert_allclose(a, b, atol=1e-4)
 
     def test_parts_of_one_level(self):
-        """Two boxes of one level meet in the middle of their common outline, whether by steps or by the route."""
+        """Two boxes of one level meet in the middle of their common outline, by steps as by popup."""
         relations = ('--relations', '70,45 > 4,4; 20,20 > 4,4')
         self.popup(*relations, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy')
         self.celdepth('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'a.png', '--levels', 'b.npy')
@@ -247,7 +247,7 @@ class Formats(Test):
         self.fails('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'no.png', '--levels', 'c.npy',
                    naming='no.png')
 
-    def test_labels_come_back(self):
+    def test_order_reads_labels_of_segment(self):
         """order reads the labels that segment wrote."""
         for ending in ('png', 'exr', 'tif'):
             with self.subTest(ending):

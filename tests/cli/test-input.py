@@ -52,7 +52,7 @@ class Layers(Test):
         write_psd(self.path('no-scribbles.psd'), (WIDTH, HEIGHT), layers()[:1])
         self.fails('popup', 'no-scribbles.psd', '--depth', 'd.png', naming='nothing to go by')
 
-    def test_layers_without_our_names(self):
+    def test_layers_with_other_names(self):
         """A PSD with other layers is an ordinary picture: its merged one (white here)."""
         write_psd(self.path('plain.psd'), (WIDTH, HEIGHT), [('Layer 1', *layers()[0][1:])])
         Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
@@ -97,7 +97,7 @@ class Layers(Test):
         self.same_labels('page.tif')
 
     def test_drawing_option(self):
-        """The steps take the drawing out of a layered file too."""
+        """The steps also read the drawing of a layered file."""
         write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
         np.save(self.path('levels.npy'), np.load(self.path('labels.npy')))
         self.celdepth('expand', 'levels.npy', '--drawing', 'page.psd', '--levels', 'a.npy')
@@ -147,7 +147,7 @@ class Strokes(Test):
         self.assertGreater(levels[45, 70], levels[18, 75])
 
     def test_contours(self):
-        """A red stroke parts box B, whose halves have two colours, where the stroke is."""
+        """A red stroke divides box B into two regions."""
         page = scribbles()
         ImageDraw.Draw(page).line([(78, 30), (80, 53)], fill=(255, 0, 255, 255), width=3)
         page.save(self.path('scribbles.png'))
@@ -162,7 +162,7 @@ class Strokes(Test):
 
 
 class Drawings(Test):
-    """The same drawing in other clothes gives the same regions."""
+    """The same drawing in other formats has the same regions."""
 
     def same_labels(self, name, *words):
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'labels.npy')
@@ -204,7 +204,7 @@ class Drawings(Test):
 
 
 class BadInput(Test):
-    def test_missing_and_unfit_files(self):
+    def test_missing_and_unreadable_files(self):
         os.mkdir(self.path('folder.png'))
         self.fails('popup', 'none.png', '--depth', 'd.png', naming='"none.png": there is no such file')
         self.fails('popup', 'folder.png', '--depth', 'd.png', naming='"folder.png": it is a folder')
@@ -215,7 +215,7 @@ class BadInput(Test):
         open(self.path('empty.png'), 'wb').close()
         self.fails('popup', 'empty.png', '--depth', 'd.png', naming='empty.png')
 
-    def test_cut_short(self):
+    def test_truncated_files(self):
         noise = np.random.default_rng(1).integers(0, 256, (64, 64, 3), dtype=np.uint8)
         picture = Image.fromarray(noise)
         picture.save(self.path('whole.png'))
@@ -236,7 +236,7 @@ class BadInput(Test):
                     else:
                         self.fails('popup', name, '--depth', 'd.png', naming=name)
 
-    def test_absurd_sizes(self):
+    def test_sizes_out_of_range(self):
         for width, height in ((30000, 10), (10, 30000), (20000, 20000), (2 ** 31 - 1, 2 ** 31 - 1)):
             header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
             chunks = b''
@@ -254,7 +254,7 @@ class BadInput(Test):
         np.save(self.path('small.npy'), np.zeros((5, 5), np.float32))
         self.fails('smooth', 'small.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='96 x 64')
 
-    def test_nothing_to_go_by(self):
+    def test_neither_scribbles_nor_arrows(self):
         Image.new('RGBA', (WIDTH, HEIGHT)).save(self.path('blank.png'))
         self.fails('popup', 'drawing.png', '--depth', 'd.png', naming='nothing to go by')
         self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='nothing to go by')
@@ -275,7 +275,7 @@ class BadInput(Test):
         self.assertIn('not a text file', self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1))
 
     def test_contradictions(self):
-        """Code 3, both relations by name, and the best order of the rest."""
+        """Code 3, both relations are listed, and the others are ordered."""
         text = self.popup('--relations', '70,45 > 20,20 @2\n20,20 > 70,45', '--levels', 'l.npy', '--quiet', code=3)
         self.assertIn('70,45 > 20,20 @2  (line 1, column 1)', text)
         self.assertIn('20,20 > 70,45  (line 2, column 1)', text)
@@ -283,12 +283,12 @@ class BadInput(Test):
         self.assertGreater(levels[45, 70], levels[20, 20])
 
     def test_numbers_of_three_axes(self):
-        """Normals are no levels."""
+        """Normals are refused as levels."""
         np.save(self.path('normals.npy'), np.zeros((HEIGHT, WIDTH, 3), np.float32))
         self.fails('smooth', 'normals.npy', '--drawing', 'drawing.png', '--depth', 'd.png', naming='not an array')
 
     def test_colours_above_their_alpha(self):
-        """Premultiplied colours that cannot be are as bright as they can be."""
+        """Premultiplied colours above their alpha are clipped to full brightness."""
         strokes = np.array(scribbles())
         strokes[strokes[:, :, 3] > 0, 3] = 200
         Image.fromarray(strokes).save(self.path('s.tif'))
@@ -301,7 +301,7 @@ class BadInput(Test):
         self.assertEqual(tuple(at(self.picture('l.png'), IN_A)), RED + (255,))
 
     def test_devices(self):
-        """A report goes to a device; a picture would replace it."""
+        """A report may be written to a device, a picture may not."""
         os.symlink('/dev/full', self.path('full.json'))
         self.assertIn('full.json', self.popup('--report', 'full.json', code=1))
         self.assertTrue(os.path.islink(self.path('full.json')))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""celdepth layers: the layers make the drawing again, in each format, and whatever the drawing.
+"""celdepth layers: the layers composite to the drawing, in each format and for unusual drawings.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
@@ -89,7 +89,7 @@ class Layers(Test):
         self.assertAlmostEqual((x.max() + x.min()) / 2, 106.5, delta=1)
         self.assertAlmostEqual((x.max() - x.min()), 69, delta=2)  # with all of its line
 
-    def test_complete(self):
+    def test_complete_layers_fill_hidden_parts(self):
         self.layers('--output', 'plain.ora')
         self.layers('--output', 'complete.ora', '--complete', 'yes')
         plain, complete = self.open_raster('plain.ora'), self.open_raster('complete.ora')
@@ -106,7 +106,7 @@ class Layers(Test):
         self.assertGreater((complete[RED][line][:, 0] < 0.3).mean(), 0.9)
         self.assertEqual(complete[GREEN][..., 3].min(), 1)
 
-    def test_linear_light(self):
+    def test_linear_layers_composite_to_the_drawing(self):
         self.layers('--output', 'layers.ora', '--colours', 'painted.png', '--light', 'linear')
         layers, merged = read_open_raster(self.path('layers.ora'))
         made = composite([premultiplied(np.concatenate([decode(c[..., :3]), c[..., 3:]], 2)) for _, c in layers])
@@ -218,7 +218,7 @@ class Layers(Test):
         self.assertEqual(len(set(names)), 3)
         self.assertEqual(sum(name.startswith(RED) for name in names), 2)
 
-    def test_names_that_nobody_expects(self):
+    def test_unusual_names(self):
         self.layers('--output', 'o"dd & <ä> \n.ora')
         self.open_raster('o"dd & <ä> \n.ora')
         names = ['a & b', '<layer name="x"/>', '"quoted" \'too\'', 'ä ö 日本 🙂', '', 'x' * 3000, '../../etc/passwd',

@@ -33,7 +33,7 @@ class Relief(Test):
 
     # ------------------------------------------------------------------ heights
 
-    def test_what_is_nearer_is_higher(self):
+    def test_nearer_parts_are_higher(self):
         self.relief('--depth', 'depth.npy', '--height', 'h.npy')
         height = np.load(self.path('h.npy'))
         self.assertEqual(height.shape, (HEIGHT, WIDTH))
@@ -112,7 +112,7 @@ class Relief(Test):
         self.assertEqual(other['colours'].min(), 0)
         self.assertEqual(other['colours'].max(), 255)
 
-    def test_prints_are_closed(self):
+    def test_stl_is_closed(self):
         for words in ([], ['--from', 'normals'], ['--mesh-error', '20'], ['--bulge', '4', '--relief-depth', '0']):
             with self.subTest(words):
                 places, triangles, other = self.mesh('a.stl', '--mesh-plate', '3', *words)

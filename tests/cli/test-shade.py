@@ -38,7 +38,7 @@ class Shade(Test):
         return np.load(self.path(name))
 
     def test_layers_are_the_shaded_art(self):
-        """Art times tone, under the rim layer; on white that is the shading."""
+        """Art times tone, below the rim layer, is the shaded art; on white it is the shading."""
         Image.new('RGB', (SIDE, SIDE), (180, 90, 40)).save(self.path('art.png'))
         words = ('--specular', '0.5', '--rim-light', '0.5', '--light', 'point', '--light-height', '0.4',
                  '--shadow-size', '0.05')
@@ -64,7 +64,7 @@ class Shade(Test):
         self.assertEqual(set(np.round(bands)), {0, 1, 2, 3})
 
     def test_matcap(self):
-        """The ball's picture comes out on the ball."""
+        """A ball shaded with a matcap looks like the matcap."""
         u = (np.arange(256) + 0.5) / 256
         ball = np.stack(np.broadcast_arrays(u[None, :], 1 - u[:, None], 0.5), -1)
         Image.fromarray(np.round(255 * ball).astype(np.uint8)).save(self.path('ball.png'))
@@ -120,7 +120,7 @@ class Shade(Test):
         np.testing.assert_allclose(flipped[solid][:, 1], 255 - normal[solid][:, 1], atol=1)
         np.testing.assert_array_equal(flipped[solid][:, 0], normal[solid][:, 0])
 
-    def test_cells_of_a_sheet_know_nothing_of_each_other(self):
+    def test_cells_of_a_sheet_equal_single_sprites(self):
         """Balls that touch the edges of their cells: the maps of the sheet are those of its sprites."""
         sheet, levels, alone = Image.new('RGBA', (2 * SIDE, 2 * SIDE)), np.zeros((2 * SIDE, 2 * SIDE), np.float32), []
         for k, (x, y, radius) in enumerate(((42, 30, 22), (20, 30, 20), (30, 44, 20), (34, 20, 26))):

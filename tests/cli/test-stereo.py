@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""celdepth stereo and wiggle: views of a flat page, in front of each other, joined, moving, and what strains the eyes.
+"""celdepth stereo and wiggle: views, joined views, animations, and warnings.
 
 Files of several pictures are read back by Pillow.
 
@@ -27,7 +27,7 @@ class Stereo(Test):
         dark = 1 - row
         return (dark * np.arange(70, WIDTH)).sum() / dark.sum()
 
-    def test_what_is_near_is_crossed(self):
+    def test_near_parts_have_crossed_disparity(self):
         self.stereo('--left', 'l.npy', '--right', 'r.npy', '--disparity', '0.0625', '--convergence', '0')
         self.assertAlmostEqual(self.edge('l.npy') - self.edge('r.npy'), 0.0625 * WIDTH, delta=0.1)
         self.stereo('--left', 'l.npy', '--right', 'r.npy', '--disparity', '0.0625', '--convergence', '1')
@@ -54,7 +54,7 @@ class Stereo(Test):
         joined = np.load(self.path('j.npy'))
         self.assertGreater(joined[:3, :, :3].min(), 0.99)  # paper stays white
 
-    def test_strain_is_told(self):
+    def test_strain_is_reported(self):
         self.assertIn('disparity of 0.033', self.stereo('--left', 'l.npy', '--disparity', '0.05'))
         self.assertNotIn('disparity', self.stereo('--left', 'l.npy', '--disparity', '0.05', '--quiet'))
         self.assertNotIn('disparity', self.stereo('--left', 'l.npy'))
@@ -66,7 +66,7 @@ class Stereo(Test):
 
     # ---------------------------------------------------------------- windows, reports
 
-    def test_windows_float(self):
+    def test_floating_window_hides_what_the_frame_cuts(self):
         """The page lies before box A and behind box B: the frame cuts it before the screen."""
         words = ('--disparity', '0.0625', '--convergence', '0', '--relations', '70,45 > 20,20; 4,4 > 20,20')
         self.stereo('--left', 'l.npy', '--right', 'r.npy', *words)
@@ -110,7 +110,7 @@ class Stereo(Test):
         self.assertEqual(data[second:second + 2], b'\xff\xd8')
         self.assertEqual(data[second - 2:second], b'\xff\xd9')
 
-    def test_mpo_says_which_view_it_is(self):
+    def test_mpo_numbers_its_views(self):
         self.stereo('--sequence', 's.mpo', '--views', '3')
         with open(self.path('s.mpo'), 'rb') as f:
             heads = f.read().split(b'MPF\0')[1:]

@@ -1,5 +1,5 @@
-/* Writes a stack of layers with the names that it is given, for the test of names that nobody expects: one pixel each,
- * in the last corner of a wide canvas.
+/* Writes a stack of layers with given names, for the test of unusual names: one pixel each, in the last corner of a
+ * wide canvas.
  *
  *   write-stack OUT NAME...
  *

@@ -12,7 +12,7 @@
 #define H 40
 #define STROKES 6
 
-/* Everything that a host can set, drawn at random. */
+/* The input of a session, at random. */
 typedef struct
 {
   float        luma[W * H];
@@ -157,7 +157,7 @@ edit (State *s, uint32_t *r)
     }
 }
 
-/* The strokes that a session has become those of the state. */
+/* Changes the session's strokes to those of the state. */
 static inline void
 apply_strokes (CeldSession *session, const State *s)
 {

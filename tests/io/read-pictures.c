@@ -1,6 +1,6 @@
-/* Reads every part of every file that it is told of, for the test of damaged files.
+/* Reads all parts of the files that it is given, for the test of damaged files.
  *
- *   read-pictures < NAMES      one a line; says "good W H PARTS" or the error, a line for each
+ *   read-pictures < NAMES      reads a name from each line; prints "good W H PARTS" or the error on a line
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Files of the test are smaller: the memory of a larger canvas is the caller's affair. */
+/* Larger canvases are not read: their memory would be the caller's, not the reader's. */
 #define MOST_PIXELS ((size_t) 1 << 24)
 
 static bool

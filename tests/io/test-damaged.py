@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Damaged files of every kind: the reader never crashes, takes little memory, and says one sentence that names the file.
+"""Damaged files of every format: the reader does not crash, its memory is limited, and an error names the file.
 
   test-damaged.py [COPIES [SEED]]     damaged copies of each file; the same seed makes the same ones
 

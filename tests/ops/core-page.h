@@ -1,4 +1,4 @@
-/* What core makes of the page of page.h, step by step, for the operations to be compared with.
+/* Results of core for the page of page.h, which those of the operations are compared with.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -38,7 +38,7 @@ make_order (const CeldSettings *settings)
 }
 
 static void
-core_makes_the_page (void)
+core_makes_all_results_of_the_page (void)
 {
   CeldSettings settings = celd_settings ();
   CeldMask     anchors = { WIDTH, HEIGHT, WIDTH, malloc (PIXELS) };
@@ -62,7 +62,7 @@ core_makes_the_page (void)
 
 /* ------------------------------------------------------------------ comparing */
 
-/* What normals are stored as. */
+/* Normals as they are stored. */
 static inline const float *
 stored_normals (bool directx)
 {

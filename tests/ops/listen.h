@@ -1,4 +1,4 @@
-/* What the artist is told, caught.
+/* Catches messages to the artist.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,7 +12,7 @@
 static GString *said;
 static int      times_said, warnings;
 
-/* g_message without a domain is for the artist; all else would be a bug report in a host. */
+/* Counts g_message without a domain as a message to the artist; any other log is a failure. */
 static inline void
 listen (const gchar *domain, GLogLevelFlags level, const gchar *message, gpointer data)
 {

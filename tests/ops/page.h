@@ -1,4 +1,4 @@
-/* A small page for the tests of the operations, as core sees it and as GEGL does; and one call of an operation.
+/* A small page for the tests of the operations, as pictures of core and as buffers of GEGL; and calls of operations.
  *
  * Two discs with antialiased outlines, the left one (red) in front of the right one (green), before a background
  * (blue): a stroke of each colour, one arrow from the left disc to the right one, and one contour of each kind.

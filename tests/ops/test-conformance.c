@@ -1,4 +1,4 @@
-/* Every operation of the route against the step of core that it wraps: the same page in, the same numbers out.
+/* Operations from contours to depth have the results of the steps of core, bit by bit.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -56,9 +56,9 @@ order_is_that_of_core (void)
   g_object_unref (input);
 }
 
-/* Depth from elsewhere that knows the order better than the shapes do: it counts only if asked for. */
+/* A depth hint counts only if the settings ask for suggestions. */
 static void
-order_takes_a_depth_hint (void)
+order_uses_a_depth_hint (void)
 {
   GeglBuffer *input = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
   GeglBuffer *hint = page_buffer ("Y float", "Y float", flat.data);
@@ -141,7 +141,7 @@ popup_is_the_steps_of_core (void)
   SAME (stored_normals (false), 3);
 }
 
-/* The other engine, and the basins without their two extras, reach core as they are set. */
+/* The settings of segmentation have their effect. */
 static void
 method_is_that_of_core (void)
 {
@@ -286,11 +286,11 @@ main (int argc, char **argv)
   setlocale (LC_ALL, "");
   gegl_init (&argc, &argv);
   make_page ();
-  RUN (core_makes_the_page);
+  RUN (core_makes_all_results_of_the_page);
   RUN (contours_are_those_of_core);
   RUN (labels_are_those_of_core);
   RUN (order_is_that_of_core);
-  RUN (order_takes_a_depth_hint);
+  RUN (order_uses_a_depth_hint);
   RUN (levels_are_those_of_core);
   RUN (depth_is_that_of_core);
   RUN (exact_depth_is_that_of_core);

@@ -1,4 +1,4 @@
-/* Layers in and depth out, through the module over OpenImageIO: what is written is what is read.
+/* oiio-load and oiio-save: pictures are read as they were written, and errors are reported.
  *
  *   test-files EXAMPLES    the folder of the examples, for a PSD with layers
  *
@@ -51,7 +51,7 @@ load (const char *name, const char *content, const char *format, float *pixels)
 }
 
 static void
-depth_comes_back (void)
+depth_is_read_as_it_was_written (void)
 {
   static const struct { const char *name; double error; } cases[] = {
     { "d.exr", 1e-6 }, { "d.tif", 0 }, { "d.png", 2e-4 },
@@ -72,7 +72,7 @@ depth_comes_back (void)
   g_object_unref (picture);
 }
 
-/* A PNG of normals holds the numbers that the operations hand on. */
+/* A PNG of normals has the numbers of the operations. */
 static void
 normals_keep_their_numbers (void)
 {
@@ -144,7 +144,7 @@ layers_are_found_by_name (void)
 }
 
 static void
-what_cannot_be_read_is_said (void)
+unreadable_files_give_a_message (void)
 {
   GeglNode *graph = gegl_node_new (), *node = gegl_node_new_child (graph, "operation", "celdepth:oiio-load", NULL);
   char     *psd = g_build_filename (examples, "monkey", "monkey.psd", NULL);
@@ -190,9 +190,9 @@ kill_readers (void)
   return killed;
 }
 
-/* As a damaged file ends them: the host lives, says one sentence, and the next file is read. */
+/* After a crash of the reading process there is one message, and the next file can be read. */
 static void
-readers_may_die (void)
+a_crash_of_the_reader_gives_a_message (void)
 {
   GeglNode     *graph = gegl_node_new (), *node = gegl_node_new_child (graph, "operation", "celdepth:oiio-load", NULL);
   char         *psd = g_build_filename (examples, "monkey", "monkey.psd", NULL);
@@ -215,7 +215,7 @@ readers_may_die (void)
 }
 
 static void
-what_cannot_be_written_is_said (void)
+unwritable_files_give_a_message (void)
 {
   be_quiet ();
   save (drawing, "d.jpeg2000", NULL);
@@ -258,13 +258,13 @@ main (int argc, char **argv)
   g_setenv ("CELDEPTH_TEST_FOLDER", folder, TRUE);
   make_page ();
   start_to_listen ();
-  RUN (depth_comes_back);
+  RUN (depth_is_read_as_it_was_written);
   RUN (normals_keep_their_numbers);
   RUN (labels_keep_their_colours);
   RUN (layers_are_found_by_name);
-  RUN (what_cannot_be_read_is_said);
-  RUN (readers_may_die);
-  RUN (what_cannot_be_written_is_said);
+  RUN (unreadable_files_give_a_message);
+  RUN (a_crash_of_the_reader_gives_a_message);
+  RUN (unwritable_files_give_a_message);
   failed = DONE;
   stop_to_listen ();
   remove_folder ();

@@ -1,4 +1,4 @@
-/* What the artist is told when something is wrong: one message that names the cause, the input passed through.
+/* When something is wrong, one message names the cause, and the output is the input.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -7,7 +7,7 @@
 
 static float result[4 * PIXELS], input_light[4 * PIXELS];
 
-/* One call that must fail well: one message, no warning, the drawing comes out as it went in. */
+/* Checks a call that must fail with one message, without a warning, and with the input as output. */
 #define PASSES_THROUGH() \
   do { \
     CHECK (times_said == 1); \
@@ -34,7 +34,7 @@ missing_pads_are_named (void)
 }
 
 static void
-nothing_to_go_by_is_said (void)
+missing_scribbles_and_arrows_are_reported (void)
 {
   be_quiet ();
   operate ("celdepth:lazybrush-segment", (Pads) { { drawing } }, "RGBA float", result, NULL);
@@ -50,9 +50,9 @@ nothing_to_go_by_is_said (void)
   CHECK (SAYS ("Depth Exact: ") && SAYS ("scribble"));
 }
 
-/* Shading like a ball needs one, which may be of any size and lie anywhere. */
+/* A matcap may have any size and place. */
 static void
-a_ball_is_asked_for (void)
+a_missing_matcap_is_reported (void)
 {
   GeglBuffer *ball = gegl_buffer_new (GEGL_RECTANGLE (-500, 900, 3, 4), babl_format ("RGBA float"));
 
@@ -69,9 +69,9 @@ a_ball_is_asked_for (void)
   g_object_unref (ball);
 }
 
-/* Too much disparity: delivered all the same, and said. */
+/* With too much disparity there is a result and a message. */
 static void
-strain_is_said (void)
+strain_of_the_eyes_is_reported (void)
 {
   be_quiet ();
   operate ("celdepth:stereo", (Pads) { { drawing, drawing } }, "RGBA float", result, "disparity", 0.1, "screen-width",
@@ -83,9 +83,9 @@ strain_is_said (void)
   CHECK (times_said == 0 && warnings == 0);
 }
 
-/* Strokes in a colour that no region has, and none to look colours up in; a layer without a stroke is no mistake. */
+/* Strokes in a colour that no region has, or without regions, are errors; a layer without strokes is not. */
 static void
-foreign_corrections_are_refused (void)
+corrections_of_unknown_colours_are_errors (void)
 {
   GeglBuffer *blank = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH, HEIGHT), babl_format ("R'G'B'A u8"));
 
@@ -134,7 +134,7 @@ unreadable_arrow_paths_are_located (void)
 }
 
 static void
-layers_elsewhere_are_refused (void)
+layers_outside_the_picture_are_errors (void)
 {
   GeglBuffer *elsewhere = gegl_buffer_new (GEGL_RECTANGLE (500, 0, 10, 10), babl_format ("R'G'B'A u8"));
   GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
@@ -151,9 +151,9 @@ layers_elsewhere_are_refused (void)
   g_object_unref (elsewhere);
 }
 
-/* They are used as they lie, and the artist is told. */
+/* Such layers are used at their place, with a message. */
 static void
-layers_of_another_size_are_told (void)
+layers_of_another_size_are_reported (void)
 {
   GeglBuffer *narrow = gegl_buffer_new (GEGL_RECTANGLE (0, 0, WIDTH - 1, HEIGHT), babl_format ("R'G'B'A u8"));
 
@@ -167,7 +167,7 @@ layers_of_another_size_are_told (void)
 
 /* A dialog of GIMP that has just opened: its pickers are sources without a buffer. */
 static void
-open_pickers_are_no_mistake (void)
+empty_layer_pickers_are_no_error (void)
 {
   GeglNode *graph = gegl_node_new (), *picker = gegl_node_new_child (graph, "operation", "gegl:buffer-source", NULL);
   GeglNode *popup = add_operation (graph, "celdepth:popup", (Pads) { { drawing } });
@@ -190,7 +190,7 @@ open_pickers_are_no_mistake (void)
 }
 
 static void
-bad_settings_are_refused (void)
+settings_out_of_range_are_errors (void)
 {
   be_quiet ();
   operate ("celdepth:popup", (Pads) { { drawing, scribbles } }, "RGBA float", result,
@@ -200,7 +200,7 @@ bad_settings_are_refused (void)
 }
 
 static void
-an_endless_input_is_refused (void)
+an_infinite_input_is_an_error (void)
 {
   GeglNode *graph = gegl_node_new (), *node = add_operation (graph, "celdepth:popup", (Pads) { { NULL, scribbles } });
   GeglNode *endless = gegl_node_new_child (graph, "operation", "gegl:color", NULL);
@@ -214,7 +214,7 @@ an_endless_input_is_refused (void)
 }
 
 static void
-empty_and_single_pixels_do_no_harm (void)
+empty_and_single_pixel_pictures_are_handled (void)
 {
   static const char *const operations[] = {
     "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
@@ -238,7 +238,7 @@ empty_and_single_pixels_do_no_harm (void)
 }
 
 static void
-numbers_that_are_none_do_no_harm (void)
+nan_and_infinity_are_handled (void)
 {
   static float poisoned[4 * PIXELS];
   GeglBuffer  *bad;
@@ -261,9 +261,9 @@ numbers_that_are_none_do_no_harm (void)
   g_object_unref (bad);
 }
 
-/* Contradictions leave a result; they are said once, and again only after something else was true. */
+/* With contradictions there is a result; the message is repeated only after another one. */
 static void
-contradictions_are_said_once (void)
+contradictions_are_reported_once (void)
 {
   GeglNode *graph = gegl_node_new ();
   GeglNode *node = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles } });
@@ -296,7 +296,7 @@ hear_progress (GeglNode *node, double done, gpointer data)
 }
 
 static void
-progress_rises_to_the_end (void)
+progress_increases_to_the_end (void)
 {
   GeglNode *graph = gegl_node_new ();
   GeglNode *node = add_operation (graph, "celdepth:popup", (Pads) { { drawing, scribbles, arrows } });
@@ -318,21 +318,21 @@ main (int argc, char **argv)
   gegl_buffer_get (drawing, NULL, 1.0, babl_format ("RGBA float"), input_light, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
   start_to_listen ();
   RUN (missing_pads_are_named);
-  RUN (nothing_to_go_by_is_said);
-  RUN (a_ball_is_asked_for);
-  RUN (strain_is_said);
-  RUN (foreign_corrections_are_refused);
+  RUN (missing_scribbles_and_arrows_are_reported);
+  RUN (a_missing_matcap_is_reported);
+  RUN (strain_of_the_eyes_is_reported);
+  RUN (corrections_of_unknown_colours_are_errors);
   RUN (unreadable_relations_are_located);
   RUN (unreadable_arrow_paths_are_located);
-  RUN (layers_elsewhere_are_refused);
-  RUN (layers_of_another_size_are_told);
-  RUN (open_pickers_are_no_mistake);
-  RUN (bad_settings_are_refused);
-  RUN (an_endless_input_is_refused);
-  RUN (empty_and_single_pixels_do_no_harm);
-  RUN (numbers_that_are_none_do_no_harm);
-  RUN (contradictions_are_said_once);
-  RUN (progress_rises_to_the_end);
+  RUN (layers_outside_the_picture_are_errors);
+  RUN (layers_of_another_size_are_reported);
+  RUN (empty_layer_pickers_are_no_error);
+  RUN (settings_out_of_range_are_errors);
+  RUN (an_infinite_input_is_an_error);
+  RUN (empty_and_single_pixel_pictures_are_handled);
+  RUN (nan_and_infinity_are_handled);
+  RUN (contradictions_are_reported_once);
+  RUN (progress_increases_to_the_end);
   failed = DONE;
   stop_to_listen ();
   drop_page ();

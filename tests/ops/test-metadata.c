@@ -1,4 +1,4 @@
-/* What hosts read of the operations: names, menus, pads, properties.
+/* The description of the operations for hosts: names, menus, pads, properties.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -65,7 +65,7 @@ every_operation_is_described (void)
 
 /* GEGL lists the newest pad first, and GIMP's dialogs show the list from its end. */
 static void
-pads_are_those_of_the_contract (void)
+pads_are_those_of_the_documentation (void)
 {
   for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)
     {
@@ -113,7 +113,7 @@ choices (const char *operation, const char *property)
 }
 
 static void
-choices_have_the_nicks_of_the_contract (void)
+choices_have_the_documented_nicks (void)
 {
   static const struct { const char *operation, *property, *nicks; } cases[] = {
     { "celdepth:depth-expand", "result", "levels layer matte" },
@@ -196,7 +196,7 @@ defaults_are_those_of_core (void)
 
 /* Exactly: settings of core are floats, but hosts save what they read back. */
 static void
-values_come_back_as_they_were_set (void)
+values_are_read_as_they_were_set (void)
 {
   GeglNode  *graph = gegl_node_new (), *node;
   GeglColor *red = gegl_color_new ("#ff0000"), *colour = NULL;
@@ -224,11 +224,11 @@ main (int argc, char **argv)
 {
   gegl_init (&argc, &argv);
   RUN (every_operation_is_described);
-  RUN (pads_are_those_of_the_contract);
+  RUN (pads_are_those_of_the_documentation);
   RUN (properties_are_complete);
-  RUN (choices_have_the_nicks_of_the_contract);
+  RUN (choices_have_the_documented_nicks);
   RUN (defaults_are_those_of_core);
-  RUN (values_come_back_as_they_were_set);
+  RUN (values_are_read_as_they_were_set);
   gegl_exit ();
   return DONE;
 }

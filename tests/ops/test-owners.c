@@ -1,4 +1,4 @@
-/* Whose the ink is, and the layers that come of it: depth-expand against core.
+/* depth-expand has the contour ownership, layers and corrections of core.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,7 +8,7 @@
 
 /* Each layer over the one before, in linear light: the drawing again, complete or not. */
 static void
-layers_are_the_drawing (void)
+layers_composite_to_the_drawing (void)
 {
   static float  wanted[4 * PIXELS];
   static double sum[4 * PIXELS];
@@ -43,7 +43,7 @@ layers_are_the_drawing (void)
   g_object_unref (regions);
 }
 
-/* What core says of the page's labels, without the way over levels and colours. */
+/* The contour ownership of the page's labels, by core. */
 static void
 own_the_page (const CeldLabels *strokes, CeldOwnership *own)
 {
@@ -95,7 +95,7 @@ levels_of (const CeldOwnership *own, bool of_owner)
 
 /* Owner and alpha: in colours, or without regions the levels as greys, which part the page no less. */
 static void
-matte_is_owner_and_share (void)
+the_matte_has_owner_and_coverage (void)
 {
   GeglBuffer   *input = page_buffer ("Y float", "Y float", flat.data);
   GeglBuffer   *regions = page_buffer ("R'G'B'A u8", "R'G'B'A u8", colours.data);
@@ -125,7 +125,7 @@ matte_is_owner_and_share (void)
 
 /* A stroke in the background's colour over the outline of the left disc. */
 static void
-corrections_give_ink (void)
+corrections_give_ink_to_their_region (void)
 {
   static uint8_t  stroke[4 * PIXELS];
   static uint32_t given[PIXELS];
@@ -163,10 +163,10 @@ main (int argc, char **argv)
   setlocale (LC_ALL, "");
   gegl_init (&argc, &argv);
   make_page ();
-  RUN (core_makes_the_page);
-  RUN (layers_are_the_drawing);
-  RUN (matte_is_owner_and_share);
-  RUN (corrections_give_ink);
+  RUN (core_makes_all_results_of_the_page);
+  RUN (layers_composite_to_the_drawing);
+  RUN (the_matte_has_owner_and_coverage);
+  RUN (corrections_give_ink_to_their_region);
   celd_palette_clear (&palette);
   celd_relations_clear (&relations);
   drop_page ();

@@ -1,5 +1,5 @@
-/* What an operation keeps between calls: the built basins while the drawing is unchanged, nothing that another
- * operation could see; and the pictures that tell the artist how regions came about.
+/* Operations keep basins between calls while the drawing does not change, and share nothing with other operations; and
+ * the pictures of closures and problems.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -54,7 +54,7 @@ session_of (Kept k)
   return ((CeldOperation *) gegl_node_get_gegl_operation (k.node))->session;
 }
 
-/* Is the node's output what an operation makes that has never seen anything else? */
+/* Whether the node's output equals that of a new node. */
 static bool
 is_fresh (Kept k, GeglBuffer *input, GeglBuffer *aux)
 {
@@ -66,7 +66,7 @@ is_fresh (Kept k, GeglBuffer *input, GeglBuffer *aux)
 /* The segmenter keeps the basins of the ink that it was told of last, and is told when the ink differs: as long as it
  * has the same picture, nothing was built. */
 static void
-other_scribbles_build_nothing (void)
+new_scribbles_keep_the_basins (void)
 {
   Kept         k = keep (drawing, scribbles);
   const float *ink;
@@ -116,7 +116,7 @@ another_drawing_is_noticed (void)
 
 /* An operation that failed keeps what it can, and works again. */
 static void
-a_failed_call_is_no_harm (void)
+a_call_after_a_failed_one_works (void)
 {
   Kept k = keep (drawing, scribbles);
 
@@ -179,7 +179,7 @@ operations_in_threads_share_nothing (void)
 
 /* A red line over the gap, and nothing elsewhere. */
 static void
-closures_are_a_layer_of_red_lines (void)
+closures_are_red_lines_over_gaps (void)
 {
   int inside = 0, outside = 0, pale = 0;
 
@@ -203,7 +203,7 @@ closures_are_a_layer_of_red_lines (void)
     CHECK (!result[4 * i + 3]);
 }
 
-/* What the artist accepts as it is, as a layer of virtual contours, changes next to nothing. */
+/* Closures that are used as virtual contours, unchanged, leave labels nearly as they are. */
 static void
 closures_are_virtual_contours (void)
 {
@@ -270,11 +270,11 @@ main (int argc, char **argv)
   make_page ();
   make_others ();
   start_to_listen ();
-  RUN (other_scribbles_build_nothing);
+  RUN (new_scribbles_keep_the_basins);
   RUN (another_drawing_is_noticed);
-  RUN (a_failed_call_is_no_harm);
+  RUN (a_call_after_a_failed_one_works);
   RUN (operations_in_threads_share_nothing);
-  RUN (closures_are_a_layer_of_red_lines);
+  RUN (closures_are_red_lines_over_gaps);
   RUN (closures_are_virtual_contours);
   RUN (problems_are_marked_over_the_drawing);
   failed = DONE;

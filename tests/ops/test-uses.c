@@ -1,4 +1,4 @@
-/* What is made of depth: light, shadows, views, heights; every operation against the steps of core that it wraps.
+/* Operations that use depth (light, shadows, views, heights) have the results of the steps of core.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -246,7 +246,7 @@ main (int argc, char **argv)
   setlocale (LC_ALL, "");
   gegl_init (&argc, &argv);
   make_page ();
-  RUN (core_makes_the_page);
+  RUN (core_makes_all_results_of_the_page);
   RUN (shadows_are_those_of_core);
   RUN (heights_are_those_of_core);
   RUN (views_are_those_of_core);

@@ -1,4 +1,4 @@
-/* The session: results equal the steps', edits redo what they touch, the host hears what changed.
+/* The session: results, edits, relations, strokes, settings, cancelling and errors, on a sheet on a page.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -49,9 +49,9 @@ scene (void)
   return s;
 }
 
-/* A stroke in the colour of what is behind takes the outline away; without it, the sheet has it back. */
+/* A correction in the page's colour gives the outline to the page; without it, it is the sheet's again. */
 static void
-corrections_give_ink (void)
+corrections_give_ink_to_their_region (void)
 {
   CeldSession   *s = scene ();
   uint8_t        on[4 * W * H] = { 0 };
@@ -78,7 +78,7 @@ corrections_give_ink (void)
 }
 
 static void
-whole_route (void)
+results_of_a_sheet_on_a_page (void)
 {
   CeldSession     *s = scene ();
   CeldLabels       labels;
@@ -107,7 +107,7 @@ whole_route (void)
 }
 
 static void
-edits_say_what_changed (void)
+edits_report_the_rectangle_that_changed (void)
 {
   CeldSession *s = scene ();
   CeldLabels   labels;
@@ -135,7 +135,7 @@ edits_say_what_changed (void)
 }
 
 static void
-single_relations (void)
+single_relations_add_to_the_text (void)
 {
   CeldSession     *s = scene ();
   const CeldOrder *order;
@@ -175,9 +175,9 @@ anchors_keep_their_level (void)
   celd_session_free (s);
 }
 
-/* A run that would be cancelled at its first step is not even asked when everything set was set before. */
+/* No stage is made again, so a host that cancels at the first report is not called. */
 static void
-setting_the_same_makes_nothing_again (void)
+equal_input_invalidates_nothing (void)
 {
   static float   luma[W * H];
   static uint8_t pixels[4 * W * H];
@@ -204,7 +204,7 @@ setting_the_same_makes_nothing_again (void)
 /* Left of a straight grey line is red, right of a jagged black one is blue.  What lies between is red's while grey
  * ink costs more than black, and blue's when both cost the same, because the grey line is the shorter one. */
 static void
-a_new_ink_threshold_reaches_the_labels (void)
+a_new_ink_threshold_changes_the_labels (void)
 {
   static float luma[W * H];
   CeldDrawing  drawing = { .luma = { W, H, W, luma } };
@@ -233,7 +233,7 @@ a_new_ink_threshold_reaches_the_labels (void)
 }
 
 static void
-cancel_leaves_it_usable (void)
+a_cancelled_session_can_be_used (void)
 {
   CeldPlane depth;
 
@@ -250,7 +250,7 @@ cancel_leaves_it_usable (void)
       celd_session_free (s);
       if (status == CELD_OK)
         {
-          CHECK (k > 5); /* there were places to stop at */
+          CHECK (k > 5); /* reports */
           return;
         }
     }
@@ -258,7 +258,7 @@ cancel_leaves_it_usable (void)
 }
 
 static void
-bad_input (void)
+wrong_input_is_an_error (void)
 {
   static float   luma[W * H];
   static uint8_t rgba[4 * 16];
@@ -283,7 +283,7 @@ bad_input (void)
 }
 
 static void
-strokes_far_outside (void)
+strokes_far_outside_change_nothing (void)
 {
   CeldSession *s = scene ();
   CeldLabels   labels;
@@ -298,7 +298,7 @@ strokes_far_outside (void)
 }
 
 static void
-another_size_starts_anew (void)
+a_drawing_of_another_size_makes_new_labels (void)
 {
   static float luma[20 * 20];
   CeldDrawing  small = { .luma = { 20, 20, 20, luma } };
@@ -315,9 +315,10 @@ another_size_starts_anew (void)
   celd_session_free (s);
 }
 
-/* A blue sheet over a red one: nothing is applied unless asked for, and the artist is never overruled. */
+/* A blue sheet over a red one: suggestions_are_used_only_on_demand count only with settings.suggest, and never against
+ * a relation. */
 static void
-suggestions (void)
+suggestions_are_used_only_on_demand (void)
 {
   static const uint8_t green[3] = { 0, 255, 0 };
   static float         luma[W * H];
@@ -366,17 +367,17 @@ suggestions (void)
 int
 main (void)
 {
-  RUN (whole_route);
-  RUN (corrections_give_ink);
-  RUN (edits_say_what_changed);
-  RUN (single_relations);
+  RUN (results_of_a_sheet_on_a_page);
+  RUN (corrections_give_ink_to_their_region);
+  RUN (edits_report_the_rectangle_that_changed);
+  RUN (single_relations_add_to_the_text);
   RUN (anchors_keep_their_level);
-  RUN (setting_the_same_makes_nothing_again);
-  RUN (a_new_ink_threshold_reaches_the_labels);
-  RUN (suggestions);
-  RUN (cancel_leaves_it_usable);
-  RUN (bad_input);
-  RUN (strokes_far_outside);
-  RUN (another_size_starts_anew);
+  RUN (equal_input_invalidates_nothing);
+  RUN (a_new_ink_threshold_changes_the_labels);
+  RUN (suggestions_are_used_only_on_demand);
+  RUN (a_cancelled_session_can_be_used);
+  RUN (wrong_input_is_an_error);
+  RUN (strokes_far_outside_change_nothing);
+  RUN (a_drawing_of_another_size_makes_new_labels);
   return DONE;
 }

@@ -7,7 +7,7 @@
 
 /* ------------------------------------------------------------------ edits against a fresh session */
 
-/* Depth and preview of a session that is set to the state at once, as exactly as can be. */
+/* Depth and preview of a new session in this state, with the smallest tolerance. */
 static CeldStatus
 make_fresh (const State *state, float depth[W * H], float preview[W * H / 16])
 {
@@ -29,7 +29,7 @@ make_fresh (const State *state, float depth[W * H], float preview[W * H / 16])
   return status;
 }
 
-/* Brings the host's picture up to date. */
+/* Updates the host's picture within the reported rectangle. */
 static void
 see (const CeldPlane *depth, CeldRect changed, float seen[W * H])
 {
@@ -37,8 +37,7 @@ see (const CeldPlane *depth, CeldRect changed, float seen[W * H])
     memcpy (seen + y * W + changed.x, &CELD_AT (depth, changed.x, y), (size_t) changed.width * sizeof *seen);
 }
 
-/* The edited session answers as a fresh one does: with the same depth, or with the same error.  Returns whether there
- * is depth. */
+/* Checks that the edited session has the depth, or the error, of a new one.  Returns whether there is depth. */
 static bool
 agree (CeldSession *edited, const State *state, float seen[W * H])
 {
@@ -73,7 +72,7 @@ change_anchors (State *s, uint32_t *r)
   s->settings.encoding  = CELD_ENCODING_NORMALIZED;
 }
 
-/* Sometimes an edit is given up half way. */
+/* Some edits are cancelled half way. */
 static void
 cancel_some (CeldSession *edited, uint32_t *r, float seen[W * H])
 {
@@ -87,7 +86,7 @@ cancel_some (CeldSession *edited, uint32_t *r, float seen[W * H])
 }
 
 static void
-edits_make_what_a_fresh_session_makes (void)
+an_edited_session_equals_a_new_one (void)
 {
   int compared = 0;
 
@@ -222,14 +221,14 @@ the_preview_resembles_depth (void)
     }
 }
 
-/* The largest step of a plane between 4-neighbours within `reach` of (x,y). */
+/* The largest step of a plane between 4-neighbours within `radius` of (x,y). */
 static double
-largest_step (const CeldPlane *p, int x, int y, int reach)
+largest_step (const CeldPlane *p, int x, int y, int radius)
 {
   double most = 0;
 
-  for (int v = y - reach; v <= y + reach; v++)
-    for (int u = x - reach; u <= x + reach; u++)
+  for (int v = y - radius; v <= y + radius; v++)
+    for (int u = x - radius; u <= x + radius; u++)
       if (u >= 0 && v >= 0 && u + 1 < p->width && v + 1 < p->height)
         {
           most = fmax (most, fabs ((double) CELD_AT (p, u, v) - (double) CELD_AT (p, u + 1, v)));
@@ -238,9 +237,9 @@ largest_step (const CeldPlane *p, int x, int y, int reach)
   return most;
 }
 
-/* Closed contours: the steps of either lie at steps of the other, a block and a stroke apart at most. */
+/* With closed contours the discontinuities of each are at most a block and a stroke from those of the other. */
 static void
-the_preview_is_cut_where_depth_is (void)
+preview_and_depth_have_the_same_discontinuities (void)
 {
   static Page page;
 
@@ -268,9 +267,9 @@ the_preview_is_cut_where_depth_is (void)
     }
 }
 
-/* A line of one pixel, straight, slanting or round, is closed in the preview, too. */
+/* A line one pixel wide, straight, slanting or round, is closed in the preview, too. */
 static void
-thin_contours_stay_closed (void)
+thin_contours_stay_closed_in_the_preview (void)
 {
   static Page page;
 
@@ -306,7 +305,7 @@ thin_contours_stay_closed (void)
 }
 
 static void
-the_host_hears_of_changes (void)
+changes_of_depth_are_reported (void)
 {
   static Page  page;
   uint32_t     r = 8;
@@ -323,9 +322,9 @@ the_host_hears_of_changes (void)
   celd_session_free (s);
 }
 
-/* A relation and a stroke that say what is so already: levels stand, and are not expanded again. */
+/* A redundant relation and a redundant stroke leave levels valid, which are not expanded again. */
 static void
-what_changes_nothing_expands_nothing (void)
+redundant_edits_keep_expanded_levels (void)
 {
   static Page      page;
   uint32_t         r = 6;
@@ -356,7 +355,7 @@ what_changes_nothing_expands_nothing (void)
 
 /* ------------------------------------------------------------------ anchors */
 
-/* Two halves of a page, parted by a wall with a gap, each with a stroke.  Which of these places keep their level? */
+/* Two halves of a page, separated by a wall with a gap, each with a stroke: the places that keep their level. */
 enum { STROKE_LEFT = 1, END_LEFT = 2, CORE_LEFT = 4, CORE_RIGHT = 8 };
 static const int held_place[4][2] = { { 242, 22 }, { 255, 110 }, { 20, 110 }, { 325, 110 } };
 
@@ -390,7 +389,7 @@ what_holds (CeldAnchors anchors, bool hold_rest, const char *relations)
 }
 
 static void
-anchors_are_what_was_chosen (void)
+anchors_are_those_of_the_settings (void)
 {
   const char *colour = "#e60000 > #0000e6", *points = "255,110 > 290,110", *one = "255,110 > #0000e6";
   const char *marked = "255,110 > 290,110 !anchor";
@@ -403,19 +402,19 @@ anchors_are_what_was_chosen (void)
   CHECK (what_holds (CELD_ANCHORS_SCRIBBLES, false, marked) == (STROKE_LEFT | END_LEFT));
   CHECK (what_holds (CELD_ANCHORS_CORE, true, marked) == END_LEFT);
   CHECK (what_holds (CELD_ANCHORS_ARROWS, true, one) == (END_LEFT | CORE_RIGHT));
-  /* All that its end reaches takes its level. */
+  /* Everything connected to the relation's end has its level. */
   CHECK (what_holds (CELD_ANCHORS_ARROWS, false, one) == (STROKE_LEFT | END_LEFT | CORE_LEFT));
 }
 
 int
 main (void)
 {
-  RUN (edits_make_what_a_fresh_session_makes);
+  RUN (an_edited_session_equals_a_new_one);
   RUN (the_preview_resembles_depth);
-  RUN (the_preview_is_cut_where_depth_is);
-  RUN (thin_contours_stay_closed);
-  RUN (the_host_hears_of_changes);
-  RUN (what_changes_nothing_expands_nothing);
-  RUN (anchors_are_what_was_chosen);
+  RUN (preview_and_depth_have_the_same_discontinuities);
+  RUN (thin_contours_stay_closed_in_the_preview);
+  RUN (changes_of_depth_are_reported);
+  RUN (redundant_edits_keep_expanded_levels);
+  RUN (anchors_are_those_of_the_settings);
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* The exact program through a session: the background, edits, what is made again, the preview.
+/* The exact program in a session: the background, edits, invalidated stages, the preview.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -62,7 +62,7 @@ set (CeldSession *s, CeldBackground background, CeldSameColour same_colour)
 /* ------------------------------------------------------------------ the background */
 
 static void
-the_page_is_behind (void)
+the_page_is_the_farthest (void)
 {
   CeldSession *s = scene (true);
 
@@ -77,7 +77,7 @@ the_page_is_behind (void)
 }
 
 static void
-an_empty_page_becomes_a_node (void)
+a_page_without_scribble_becomes_a_node (void)
 {
   CeldSession *s = scene (false);
 
@@ -90,7 +90,7 @@ an_empty_page_becomes_a_node (void)
 }
 
 static void
-strokes_apart_are_both_behind (void)
+both_scribbles_of_the_page_are_the_farthest (void)
 {
   CeldSession *s = scene (true);
   uint8_t      on[4] = { 1, 1, 1, 1 };
@@ -106,7 +106,7 @@ strokes_apart_are_both_behind (void)
 
 /* ------------------------------------------------------------------ edits */
 
-/* Depth and energy are those of a session that is set to the same state at once. */
+/* Depth and energy equal those of a new session in the same state. */
 static void
 check_fresh (CeldSession *s)
 {
@@ -139,7 +139,7 @@ check_fresh (CeldSession *s)
 }
 
 static void
-edits_answer_as_a_new_session (void)
+an_edited_session_equals_a_new_one (void)
 {
   CeldSession *s = scene (true);
   uint8_t      on[30];
@@ -171,7 +171,7 @@ edits_answer_as_a_new_session (void)
 #define MADE(stage) s->valid[STAGE_##stage]
 
 static void
-an_edit_redoes_what_reads_it (void)
+an_edit_invalidates_the_stages_that_read_it (void)
 {
   CeldSession *s = scene (true);
   CeldSettings settings;
@@ -184,7 +184,7 @@ an_edit_redoes_what_reads_it (void)
   CHECK (celd_session_put_relation (s, 1, "#ff0000 > #00ff00", NULL) == CELD_OK);
   CHECK (MADE (NODES) && !MADE (EXACT) && !celd_session_exact_report (s));
   CHECK (celd_session_exact (s, NULL, &depth, &changed) == CELD_OK && changed.width > 10);
-  CHECK (!MADE (LABELS)); /* of the fast route nothing is needed */
+  CHECK (!MADE (LABELS)); /* exact depth needs no labels */
   settings = s->settings;
   settings.encoding = CELD_ENCODING_NORMALIZED;
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (NODES) && !MADE (EXACT));
@@ -200,7 +200,7 @@ an_edit_redoes_what_reads_it (void)
   celd_session_free (s);
 }
 
-/* A segmentation says which scribble is the background, so what changes regions may change that. */
+/* A segmentation finds the background scribble, so settings of regions may change it. */
 static void
 settings_of_regions_may_change_the_background (void)
 {
@@ -224,7 +224,7 @@ settings_of_regions_may_change_the_background (void)
 /* ------------------------------------------------------------------ contours and contradictions */
 
 static void
-virtual_contours_part_depth (void)
+virtual_contours_separate_depth (void)
 {
   CeldSession *s = scene (true);
   uint8_t      paint[4 * W * H] = { 0 };
@@ -242,7 +242,7 @@ virtual_contours_part_depth (void)
 }
 
 static void
-contradictions_are_told (void)
+contradictions_are_reported (void)
 {
   CeldSession        *s = scene (true);
   const CeldProblems *problems;
@@ -262,7 +262,7 @@ contradictions_are_told (void)
 /* ------------------------------------------------------------------ preview */
 
 static void
-a_preview_is_near_the_depth (void)
+the_preview_is_close_to_depth (void)
 {
   CeldSession *s = scene (true);
   CeldPlane    half, depth;
@@ -283,14 +283,14 @@ a_preview_is_near_the_depth (void)
 int
 main (void)
 {
-  RUN (the_page_is_behind);
-  RUN (an_empty_page_becomes_a_node);
-  RUN (strokes_apart_are_both_behind);
-  RUN (edits_answer_as_a_new_session);
-  RUN (an_edit_redoes_what_reads_it);
+  RUN (the_page_is_the_farthest);
+  RUN (a_page_without_scribble_becomes_a_node);
+  RUN (both_scribbles_of_the_page_are_the_farthest);
+  RUN (an_edited_session_equals_a_new_one);
+  RUN (an_edit_invalidates_the_stages_that_read_it);
   RUN (settings_of_regions_may_change_the_background);
-  RUN (virtual_contours_part_depth);
-  RUN (contradictions_are_told);
-  RUN (a_preview_is_near_the_depth);
+  RUN (virtual_contours_separate_depth);
+  RUN (contradictions_are_reported);
+  RUN (the_preview_is_close_to_depth);
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* A session that is edited step by step against one that is set to the same state at once; and what an edit redoes.
+/* An edited session compared with a new one in the same state; and the stages that an edit invalidates.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -56,7 +56,7 @@ same_rect (CeldRect a, CeldRect b)
 
 /* ------------------------------------------------------------------ random edits */
 
-/* Asks both; `seen` is the picture that the host has, brought up to date by the changed rectangle alone. */
+/* Compares both; `seen` is the host's picture, updated only within reported rectangles. */
 static bool
 agree (CeldSession *edited, const State *state, uint32_t *seen)
 {
@@ -90,7 +90,7 @@ agree (CeldSession *edited, const State *state, uint32_t *seen)
 }
 
 static void
-edits_make_what_a_fresh_session_makes (void)
+an_edited_session_equals_a_new_one (void)
 {
   for (uint32_t seed = 1; seed <= 12 && !check_bad; seed++)
     {
@@ -185,9 +185,9 @@ compare_orders (CeldSession *edited, const State *state, const Single *list, siz
   celd_session_free (fresh);
 }
 
-/* Relations are kept up one by one, or with all of the labels; what comes of it must be the same. */
+/* A session whose relations change one by one has the labels of one that gets all of them at once. */
 static void
-relations_one_by_one (void)
+relations_may_be_added_one_by_one (void)
 {
   for (uint32_t seed = 1; seed <= 60 && !check_bad; seed++)
     {
@@ -224,9 +224,9 @@ relations_one_by_one (void)
 
 /* ------------------------------------------------------------------ cancelled edits */
 
-/* An edit is cancelled at each of its reports; then another one follows, and all is as if nothing had happened. */
+/* Cancels an edit at each of its reports; after another edit the session equals a new one. */
 static void
-cancelled_edits_do_no_harm (void)
+an_edit_after_a_cancelled_one_equals_a_new_session (void)
 {
   int cancelled = 0, finished = 0;
 
@@ -266,7 +266,7 @@ cancelled_edits_do_no_harm (void)
   CHECK (cancelled >= 20 && finished >= 20); /* of 180 */
 }
 
-/* ------------------------------------------------------------------ what an edit redoes */
+/* ------------------------------------------------------------------ stages that an edit invalidates */
 
 /* A session that has made everything, of a drawing with a box, scribbled inside and outside. */
 static CeldSession *
@@ -312,7 +312,7 @@ still_made (const CeldSession *s)
   return made;
 }
 
-/* After the setting has changed, the stages that read it are missing, and what is made from them; no other. */
+/* After a change of the setting the stages that read it are invalid, with those made from them, and no others. */
 #define REDOES(change, stages) \
   do { \
     State        state_; \
@@ -326,7 +326,7 @@ still_made (const CeldSession *s)
   } while (0)
 
 static void
-a_setting_redoes_what_reads_it (void)
+a_setting_invalidates_the_stages_that_read_it (void)
 {
   REDOES ((void) 0, 0);
   REDOES (settings.ink = CELD_INK_DARK, FROM_INK);
@@ -363,7 +363,7 @@ a_setting_redoes_what_reads_it (void)
 }
 
 static void
-layers_redo_what_is_made_of_them (void)
+a_layer_invalidates_the_stages_that_read_it (void)
 {
   State        state;
   CeldSession *s = finished (&state);
@@ -378,9 +378,9 @@ layers_redo_what_is_made_of_them (void)
   celd_session_free (s);
 }
 
-/* What the segmenter has is the same picture until the ink differs: then it hears of it once. */
+/* The segmenter keeps its ink until the ink differs, and then gets it once. */
 static void
-the_segmenter_hears_of_new_ink_alone (void)
+the_segmenter_gets_ink_only_if_it_differs (void)
 {
   static uint8_t blank[4 * W * H];
   State          state;
@@ -396,7 +396,7 @@ the_segmenter_hears_of_new_ink_alone (void)
   CHECK (known && known == s->ink.data);
   CHECK (celd_session_put_stroke (s, 1, 30, 25, &(CeldMask) { 2, 2, 2, on }, colours[2]) == CELD_OK);
   settings.hardness = 1;
-  settings.ink = CELD_INK_DARK; /* which it is */
+  settings.ink = CELD_INK_DARK; /* as the automatic mode has found */
   CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
   CHECK (celd_session_set_contours (s, &(CeldPaint) { W, H, W, blank }) == CELD_OK);
   CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
@@ -407,15 +407,15 @@ the_segmenter_hears_of_new_ink_alone (void)
   CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
   CHECK (celd_session_ink (s, NULL, &ink, &changed) == CELD_OK);
   CHECK (changed.x >= 43 && changed.y >= 19 && changed.x + changed.width <= 54 && changed.y + changed.height <= 30);
-  CHECK (s->segmenter_ink.data == known && s->ink.data != known); /* it has not been asked yet */
+  CHECK (s->segmenter_ink.data == known && s->ink.data != known); /* labels have not been made yet */
   CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
   CHECK (s->segmenter_ink.data == s->ink.data && s->ink.data != known);
   celd_session_free (s);
 }
 
-/* A stroke that changes one region says so, and one that changes nothing too. */
+/* The reported rectangle is that of the region that a stroke changes, or empty if it changes none. */
 static void
-a_stroke_changes_its_region_alone (void)
+a_stroke_reports_only_its_region (void)
 {
   State        state;
   CeldSession *s = finished (&state);
@@ -444,9 +444,9 @@ a_stroke_changes_its_region_alone (void)
   celd_session_free (s);
 }
 
-/* The rectangle of the labels is not lost when the closures are asked for first. */
+/* The rectangle of the labels is still reported after celd_session_closures. */
 static void
-closures_leave_the_labels_to_be_seen (void)
+closures_do_not_consume_changes_of_labels (void)
 {
   State               state;
   CeldSession        *s = finished (&state);
@@ -474,13 +474,13 @@ closures_leave_the_labels_to_be_seen (void)
 int
 main (void)
 {
-  RUN (edits_make_what_a_fresh_session_makes);
-  RUN (relations_one_by_one);
-  RUN (cancelled_edits_do_no_harm);
-  RUN (a_setting_redoes_what_reads_it);
-  RUN (layers_redo_what_is_made_of_them);
-  RUN (the_segmenter_hears_of_new_ink_alone);
-  RUN (a_stroke_changes_its_region_alone);
-  RUN (closures_leave_the_labels_to_be_seen);
+  RUN (an_edited_session_equals_a_new_one);
+  RUN (relations_may_be_added_one_by_one);
+  RUN (an_edit_after_a_cancelled_one_equals_a_new_session);
+  RUN (a_setting_invalidates_the_stages_that_read_it);
+  RUN (a_layer_invalidates_the_stages_that_read_it);
+  RUN (the_segmenter_gets_ink_only_if_it_differs);
+  RUN (a_stroke_reports_only_its_region);
+  RUN (closures_do_not_consume_changes_of_labels);
   return DONE;
 }

@@ -1,4 +1,4 @@
-/* Single strokes over the scribbles layer: whose label they have, and which seeds are left of all.
+/* Single strokes over the scribbles layer: their labels, and the seeds that remain.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -57,7 +57,7 @@ put (CeldSession *s, uint32_t id, int x, int y, int width, int height, const uin
 }
 
 static void
-colours_are_those_of_the_layer_or_follow_them (void)
+strokes_have_labels_of_the_layer_or_new_ones (void)
 {
   static const char *const rows[] = {
     "AA..........", "AA..........", "............", "BBB.........",
@@ -69,7 +69,7 @@ colours_are_those_of_the_layer_or_follow_them (void)
 
   put (s, 1, 6, 0, 2, 2, green);
   put (s, 2, 6, 4, 2, 2, red);
-  put (s, 3, 0, 6, 3, 1, as_b);        /* as near to B's colour as colour management may bring it */
+  put (s, 3, 0, 6, 3, 1, as_b);        /* within the tolerance of colour management */
   put (s, 4, 9, 6, 1, 1, nearly_red);
   put (s, 5, 9, 0, 1, 1, green);
   CHECK (celd_strokes_compose (s->stroke, s->n_strokes, &layer.seeds, &layer.palette) == CELD_OK);
@@ -85,14 +85,14 @@ colours_are_those_of_the_layer_or_follow_them (void)
 }
 
 static void
-later_strokes_lie_above (void)
+later_strokes_cover_earlier_ones (void)
 {
   CeldSession *s = celd_session_new ();
   Layer        layer = layer_of (nothing);
 
   put (s, 1, 0, 0, 6, 2, red);
   put (s, 2, 4, 0, 6, 2, blue);
-  put (s, 1, 0, 0, 7, 2, red); /* in its old place: blue stays above */
+  put (s, 1, 0, 0, 7, 2, red); /* at its old place in the painting order: blue stays above */
   CHECK (celd_strokes_compose (s->stroke, s->n_strokes, &layer.seeds, &layer.palette) == CELD_OK);
   CHECK (celd_seed_rows_at (&layer.seeds, 3, 0) == 1 && celd_seed_rows_at (&layer.seeds, 4, 0) == 2);
   CHECK (layer.palette.item[0].seeds == 8 && layer.palette.item[1].seeds == 12);
@@ -102,7 +102,7 @@ later_strokes_lie_above (void)
 }
 
 static void
-covered_labels_do_not_count (void)
+covered_labels_are_removed (void)
 {
   static const char *const rows[] = {
     "AA..........", "AA...BB.....", ".....BB.....", "............",
@@ -122,7 +122,7 @@ covered_labels_do_not_count (void)
 }
 
 static void
-strokes_are_cut_to_the_picture (void)
+strokes_are_clipped_to_the_picture (void)
 {
   CeldSession *s = celd_session_new ();
   Layer        layer = layer_of (nothing);
@@ -136,9 +136,9 @@ strokes_are_cut_to_the_picture (void)
   celd_session_free (s);
 }
 
-/* Random masks over a random layer against painting pixel by pixel. */
+/* Random masks over a random layer, compared with painting pixel by pixel. */
 static void
-random_strokes_are_those_of_the_pixels (void)
+random_strokes_equal_painting_by_pixels (void)
 {
   static const uint8_t colour[5][3] = { { 10, 0, 0 }, { 20, 0, 0 }, { 0, 200, 0 }, { 0, 0, 200 }, { 90, 90, 90 } };
   uint32_t             state = 7;
@@ -194,10 +194,10 @@ random_strokes_are_those_of_the_pixels (void)
 int
 main (void)
 {
-  RUN (colours_are_those_of_the_layer_or_follow_them);
-  RUN (later_strokes_lie_above);
-  RUN (covered_labels_do_not_count);
-  RUN (strokes_are_cut_to_the_picture);
-  RUN (random_strokes_are_those_of_the_pixels);
+  RUN (strokes_have_labels_of_the_layer_or_new_ones);
+  RUN (later_strokes_cover_earlier_ones);
+  RUN (covered_labels_are_removed);
+  RUN (strokes_are_clipped_to_the_picture);
+  RUN (random_strokes_equal_painting_by_pixels);
   return DONE;
 }
