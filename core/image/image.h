@@ -74,6 +74,11 @@ bool celd_paper_near (const CeldPlane *ink, int radius, int *x, int *y);
  * The caller frees *pixel with celd_free. */
 CeldStatus celd_frame (const CeldPlane *ink, int width, int height, int stroke, size_t **pixel, size_t *n);
 
+/* ------------------------------------------------------------------ paint.c */
+
+/* Paints a colour, 0 .. 255, over a pixel with straight alpha; an opacity of 0 or less changes nothing. */
+void celd_blend (uint8_t *rgba, const double colour[3], double opacity);
+
 /* ------------------------------------------------------------------ labels.c */
 
 /* Sets area and (x,y) of each label in the palette: its number of pixels, and the pixel farthest from ink (may be NULL)

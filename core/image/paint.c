@@ -218,9 +218,8 @@ cover (double outside)
   return fmax (0, fmin (1, 0.5 - outside));
 }
 
-/* Draws a colour over a pixel with straight alpha. */
-static void
-blend (uint8_t *rgba, const uint8_t colour[3], double opacity)
+void
+celd_blend (uint8_t *rgba, const double colour[3], double opacity)
 {
   double below = rgba[3] / 255.0 * (1 - opacity), alpha = opacity + below;
 
@@ -234,10 +233,10 @@ blend (uint8_t *rgba, const uint8_t colour[3], double opacity)
 static void
 paint_mark (CeldPaint *paint, int x, int y, double radius)
 {
-  static const uint8_t red[3] = { 230, 0, 0 }, white[3] = { 255, 255, 255 };
-  double               line = fmax (1, MARK_LINE * radius) / 2, rim = line + fmax (1, MARK_RIM * radius);
-  double               dot = MARK_DOT * radius;
-  int                  half = (int) ceil (radius + rim) + 1;
+  static const double red[3] = { 230, 0, 0 }, white[3] = { 255, 255, 255 };
+  double              line = fmax (1, MARK_LINE * radius) / 2, rim = line + fmax (1, MARK_RIM * radius);
+  double              dot = MARK_DOT * radius;
+  int                 half = (int) ceil (radius + rim) + 1;
 
   for (int v = y - half; v <= y + half; v++)
     for (int u = x - half; u <= x + half; u++)
@@ -246,8 +245,8 @@ paint_mark (CeldPaint *paint, int x, int y, double radius)
 
         if (u < 0 || v < 0 || u >= paint->width || v >= paint->height)
           continue;
-        blend (CELD_RGBA (paint, u, v), white, fmax (cover (off - rim), cover (away - dot - (rim - line))));
-        blend (CELD_RGBA (paint, u, v), red, fmax (cover (off - line), cover (away - dot)));
+        celd_blend (CELD_RGBA (paint, u, v), white, fmax (cover (off - rim), cover (away - dot - (rim - line))));
+        celd_blend (CELD_RGBA (paint, u, v), red, fmax (cover (off - line), cover (away - dot)));
       }
 }
 

@@ -81,16 +81,6 @@ outside (const Arrow *a, double along, double off)
 }
 
 static void
-blend (uint8_t *rgba, const double colour[3], double opacity)
-{
-  double below = rgba[3] / 255.0 * (1 - opacity), alpha = opacity + below;
-
-  for (int k = 0; k < 3; k++)
-    rgba[k] = (uint8_t) lround ((opacity * colour[k] + below * rgba[k]) / alpha);
-  rgba[3] = (uint8_t) lround (255 * alpha);
-}
-
-static void
 paint_arrow (const Arrow *a, double confidence, CeldPaint *paint)
 {
   double away = HEAD_HALF * a->width + 1, end_x = a->x + a->length * a->dx, end_y = a->y + a->length * a->dy, colour[3];
@@ -108,7 +98,7 @@ paint_arrow (const Arrow *a, double confidence, CeldPaint *paint)
         double opacity = 0.5 - outside (a, u * a->dx + v * a->dy, u * a->dy - v * a->dx);
 
         if (opacity > 0)
-          blend (CELD_RGBA (paint, x, y), colour, fmin (1, opacity));
+          celd_blend (CELD_RGBA (paint, x, y), colour, fmin (1, opacity));
       }
 }
 

@@ -23,19 +23,20 @@
 
 /* ------------------------------------------------------------------ exact colours */
 
+static uint32_t
+packed_colour (const CeldScribbleColour *c)
+{
+  return (uint32_t) c->channel[0] << 16 | (uint32_t) c->channel[1] << 8 | (uint32_t) c->channel[2];
+}
+
+/* The slot that has a colour, or the free one for it. */
 static size_t
 slot_of (const CeldScribbleLayer *r, uint32_t rgb)
 {
   size_t s = (size_t) ((rgb * 2654435761u) >> 7) & (r->slots - 1);
 
-  while (r->slot[s])
-    {
-      const int *c = r->colour[r->slot[s]].channel;
-
-      if ((((uint32_t) c[0] << 16) | ((uint32_t) c[1] << 8) | (uint32_t) c[2]) == rgb)
-        break;
-      s = (s + 1) & (r->slots - 1);
-    }
+  while (r->slot[s] && packed_colour (&r->colour[r->slot[s]]) != rgb)
+    s = (s + 1) & (r->slots - 1);
   return s;
 }
 
@@ -54,11 +55,7 @@ grow_slots (CeldScribbleLayer *r)
   r->slots = slots;
   celd_free (old);
   for (size_t i = 1; i < r->n; i++)
-    {
-      const int *c = r->colour[i].channel;
-
-      r->slot[slot_of (r, ((uint32_t) c[0] << 16) | ((uint32_t) c[1] << 8) | (uint32_t) c[2])] = (uint32_t) i;
-    }
+    r->slot[slot_of (r, packed_colour (&r->colour[i]))] = (uint32_t) i;
   return CELD_OK;
 }
 

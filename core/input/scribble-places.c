@@ -228,9 +228,10 @@ strongest_of_broad (const CeldScribbleLayer *r, const uint32_t *line, size_t n)
   return strongest;
 }
 
-/* The label whose colour, mixed with paper, comes nearest to a colour; 0 if none is near. */
+/* The label whose colour comes nearest to a colour, or with `mixed` whose colour mixed with paper does; 0 if none is
+ * near. */
 static uint32_t
-label_of_tint (const CeldScribbleLayer *r, uint32_t id)
+label_of_colour (const CeldScribbleLayer *r, uint32_t id, bool mixed)
 {
   const int *paper = r->colour[r->paper].channel, *c = r->colour[id].channel;
   uint32_t   found = 0;
@@ -238,41 +239,21 @@ label_of_tint (const CeldScribbleLayer *r, uint32_t id)
 
   for (uint32_t k = 1; k < r->n_clusters; k++)
     {
-      double full = 0, share = 0;
-      int    tint[3], d;
+      const int *full = r->cluster[k].channel;
+      double     length = 0, along = 0, share = 1;
+      int        tint[3], d;
 
-      if (!r->cluster[k].is_label)
-        continue;
-      for (int i = 0; i < 3; i++)
+      for (int i = 0; i < 3 && mixed; i++)
         {
-          full += (r->cluster[k].channel[i] - paper[i]) * (r->cluster[k].channel[i] - paper[i]);
-          share += (r->cluster[k].channel[i] - paper[i]) * (c[i] - paper[i]);
+          length += (full[i] - paper[i]) * (full[i] - paper[i]);
+          along += (full[i] - paper[i]) * (c[i] - paper[i]);
         }
-      share = full > 0 ? share / full : 0;
+      if (mixed)
+        share = length > 0 ? along / length : 0;
       for (int i = 0; i < 3; i++)
-        tint[i] = (int) (paper[i] + share * (r->cluster[k].channel[i] - paper[i]));
+        tint[i] = (int) (paper[i] + share * (full[i] - paper[i]));
       d = celd_colour_distance (tint, c);
-      if (share > LEAST_MIXTURE && d < least)
-        {
-          least = d;
-          found = k;
-        }
-    }
-  return found;
-}
-
-/* The label of nearly this colour; 0 if there is none. */
-static uint32_t
-label_of_colour (const CeldScribbleLayer *r, uint32_t id)
-{
-  uint32_t found = 0;
-  int      least = TINT_ERROR * TINT_ERROR;
-
-  for (uint32_t k = 1; k < r->n_clusters; k++)
-    {
-      int d = celd_colour_distance (r->cluster[k].channel, r->colour[id].channel);
-
-      if (r->cluster[k].is_label && d < least)
+      if (r->cluster[k].is_label && share > LEAST_MIXTURE && d < least)
         {
           least = d;
           found = k;
@@ -305,7 +286,7 @@ assign_lost_lines (CeldScribbleLayer *r)
       if (!strongest || n < CELD_LEAST_DOT)
         continue;
       broad = strongest_of_broad (r, line, n);
-      k = broad ? label_of_colour (r, broad) : label_of_tint (r, strongest);
+      k = label_of_colour (r, broad ? broad : strongest, !broad);
       if (!k)
         {
           status = celd_scribble_cluster_add (r, broad ? broad : strongest);

@@ -1,16 +1,16 @@
 /* Depth order: topological sort of the regions (section 3.2 and appendix, [Kah62]) with longest-path heights.
  *
- * Equalities are contracted by union-find; then classes are taken from the farthest on, each when everything behind it
- * is placed, one level (or the relation's gap) in front of the nearest of those.  So every region lies as far back as
- * the relations allow, heights are the same whatever the order of equal choices, and two unrelated regions are both
- * directly in front of the background.  Of all heights from 0 on that keep the relations these are the least for every
- * region at once, and with them every sum that grows with heights: the convex program of fractional gaps, too, needs no
- * other method.  Linear time behind conflicts.c, which leaves no oriented loop.
+ * Equalities are contracted by union-find.  Then classes are placed from the farthest on, each when everything behind
+ * it is placed, one level (or the relation's gap) in front of the nearest of those.  So every region is as far back as
+ * the relations allow, heights do not depend on the order of choices, and two unrelated regions are both directly in
+ * front of the background.  Of all heights >= 0 that satisfy the relations, these are the least for every region at
+ * once, which also minimises every sum that increases with heights, such as the convex program of fractional gaps.
+ * Linear time; conflicts.c has broken all cycles.
  *
- * Choices where the paper is silent: gaps are at most CELD_LARGEST_GAP.  With whole gaps alone heights are levels; else
- * levels number the different heights.  A label without a pixel
- * (a colour that lost its region) still carries relations on to others but takes no level of its own: it sits on the
- * level of what is behind it, so that the levels that can be seen have no holes.
+ * Choices where the paper is silent: gaps are at most CELD_LARGEST_GAP.  If all gaps are whole numbers, heights are
+ * levels; else levels number the different heights.  A label without a pixel (a colour that lost its region) still
+ * transmits relations to others, but has no level of its own: it is on the level of what is behind it, so that there
+ * are no gaps between visible levels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -18,7 +18,7 @@
 
 #include <stdlib.h>
 
-#define SAME 1e-9 /* heights that differ by less are one level: sums of gaps in another order */
+#define SAME_HEIGHT 1e-9 /* levels; heights that differ by less are rounding errors of sums of gaps; chosen */
 
 /* The classes of equal depth, and the state of the sort. */
 typedef struct
@@ -102,7 +102,7 @@ mark_visible (Sort *s, const CeldLabels *labels)
       s->visible[class_of (s, k)] = true;
 }
 
-/* Counts what everything waits for. */
+/* Counts the nearer ends and farther ends that classes and links wait for; queues classes that wait for none. */
 static void
 count_waits (Sort *s)
 {
@@ -123,14 +123,14 @@ count_waits (Sort *s)
     }
 }
 
-/* Least distance in levels that a link asks for. */
+/* The least difference in levels that a link demands. */
 static double
 gap_of (const CeldGraph *g, size_t link)
 {
   return link < g->relations->n ? celd_gap (g->relations->item[link].gap) : 1;
 }
 
-/* The farther ends of a link are placed: so are its nearer ones as far as this link goes. */
+/* Raises the nearer ends of a link whose farther ends are all placed, and queues those that wait for nothing else. */
 static void
 raise_nearer (Sort *s, size_t link)
 {
@@ -148,7 +148,7 @@ raise_nearer (Sort *s, size_t link)
     }
 }
 
-/* A class has its level: tells every link in whose farther end it stands. */
+/* Places a class, whose level is known: updates all links that have one of its labels as a farther end. */
 static void
 place_class (Sort *s, uint32_t c)
 {
@@ -182,24 +182,25 @@ compare_heights (const void *one, const void *two)
   return a < b ? -1 : a > b;
 }
 
-/* The heights of visible labels, each once, by rising height; 0 is one of them. */
+/* Lists 0 and the heights of visible labels, each once, sorted; returns their number.  `height` has room for all labels
+ * and 0. */
 static size_t
-list_heights (CeldEquivalence *classes, const double *of_class, const bool *visible, size_t n_labels, double *height)
+list_heights (Sort *s, double *height)
 {
   size_t n = 1, kept = 1;
 
   height[0] = 0;
-  for (uint32_t k = 0; k < n_labels; k++)
-    if (!visible || visible[k])
-      height[n++] = of_class[celd_class_of (classes, k)];
+  for (uint32_t k = 0; k < s->graph->n_labels; k++)
+    if (s->visible[k])
+      height[n++] = s->level[class_of (s, k)];
   qsort (height, n, sizeof *height, compare_heights);
   for (size_t i = 1; i < n; i++)
-    if (height[i] > height[kept - 1] + SAME)
+    if (height[i] > height[kept - 1] + SAME_HEIGHT)
       height[kept++] = height[i];
   return kept;
 }
 
-/* The highest level of `n` whose height is not above the given one. */
+/* The highest of `n` levels whose height is at most the wanted one. */
 static uint32_t
 find_level (const double *height, size_t n, double wanted)
 {
@@ -209,7 +210,7 @@ find_level (const double *height, size_t n, double wanted)
     {
       size_t middle = (low + high) / 2;
 
-      if (height[middle] <= wanted + SAME)
+      if (height[middle] <= wanted + SAME_HEIGHT)
         low = middle;
       else
         high = middle;
@@ -217,11 +218,11 @@ find_level (const double *height, size_t n, double wanted)
   return (uint32_t) low;
 }
 
-/* Replaces the levels of an order, for labels whose classes have these heights. */
+/* Fills in the levels of an order that has none. */
 static CeldStatus
-write_levels (CeldEquivalence *classes, const double *of_class, const bool *visible, CeldOrder *order)
+write_levels (Sort *s, CeldOrder *order)
 {
-  size_t    n = order->n, n_heights;
+  size_t    n = s->graph->n_labels, n_heights;
   double   *height = celd_alloc (n + 1, sizeof *height), top;
   uint32_t *level = celd_alloc (n, sizeof *level);
   bool      whole = true;
@@ -232,18 +233,17 @@ write_levels (CeldEquivalence *classes, const double *of_class, const bool *visi
       celd_free (level);
       return CELD_NO_MEMORY;
     }
-  n_heights = list_heights (classes, of_class, visible, n, height);
+  n_heights = list_heights (s, height);
   top       = height[n_heights - 1];
   for (size_t i = 0; i < n_heights; i++)
     whole = whole && height[i] == floor (height[i]);
   for (uint32_t k = 0; k < n; k++)
     {
-      double wanted = fmin (fmax (of_class[celd_class_of (classes, k)], 0), top);
+      double wanted = fmin (fmax (s->level[class_of (s, k)], 0), top);
 
       level[k] = whole ? (uint32_t) wanted : find_level (height, n_heights, wanted);
     }
-  celd_free (order->level);
-  celd_free (order->height);
+  order->n      = n;
   order->level  = level;
   order->levels = whole ? (uint32_t) top + 1 : (uint32_t) n_heights;
   order->height = whole ? NULL : height;
@@ -265,8 +265,7 @@ sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order)
   count_waits (&sort);
   for (size_t i = 0; i < sort.n_queue; i++)
     place_class (&sort, sort.queue[i]);
-  order->n = graph->n_labels;
-  status = write_levels (&sort.classes, sort.level, sort.visible, order);
+  status = write_levels (&sort, order);
   sort_end (&sort);
   return status;
 }

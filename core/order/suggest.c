@@ -20,7 +20,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define BACKGROUND_ODDS  6.0    /* log-odds of the background being behind; chosen: as good as certain */
 #define CONFIDENCE_STEP 0.001   /* the least confidence, and what confidences are rounded to: people read them */
@@ -205,65 +204,6 @@ celd_suggest (const CeldLabels *labels, const CeldPalette *palette, const CeldPl
 
 /* ------------------------------------------------------------------ beside the artist's relations */
 
-/* Walks from nearer to farther labels over the first `n_own` links, which are the artist's. */
-typedef struct
-{
-  const CeldGraph *graph;
-  size_t           n_own;
-  CeldArcIndex     down;
-  uint32_t        *queue;
-  size_t          *seen, number;
-} Walk;
-
-static CeldStatus
-walk_new (const CeldGraph *graph, size_t n_own, Walk *w)
-{
-  *w = (Walk) { .graph = graph, .n_own = n_own, .queue = celd_alloc (graph->n_labels, sizeof *w->queue),
-                .seen = celd_alloc0 (graph->n_labels, sizeof *w->seen) };
-  return w->queue && w->seen ? celd_graph_index (graph, CELD_NEARER, NULL, &w->down) : CELD_NO_MEMORY;
-}
-
-static void
-walk_clear (Walk *w)
-{
-  celd_free (w->queue);
-  celd_free (w->seen);
-  celd_arc_index_clear (&w->down);
-}
-
-static size_t
-visit (Walk *w, size_t n, uint32_t label)
-{
-  if (w->seen[label] == w->number)
-    return n;
-  w->seen[label] = w->number;
-  w->queue[n]    = label;
-  return n + 1;
-}
-
-/* Do the artist's relations put the farther label of a link behind its nearer one? */
-static bool
-is_decided (Walk *w, size_t link)
-{
-  const CeldGraph *g = w->graph;
-  size_t           n;
-
-  w->number++;
-  n = visit (w, 0, g->end[g->first[2 * link + 1]]);
-  for (size_t i = 0; i < n; i++)
-    for (size_t j = w->down.first[w->queue[i]]; j < w->down.first[w->queue[i] + 1]; j++)
-      {
-        size_t        l = w->down.arc[j].link;
-        const size_t *f = &g->first[2 * l];
-
-        if (l >= w->n_own || !g->kept[l])
-          continue;
-        for (size_t e = f[0]; e < (celd_graph_equal (g, l) ? f[2] : f[1]); e++)
-          n = visit (w, n, g->end[e]);
-      }
-  return w->seen[g->end[g->first[2 * link]]] == w->number;
-}
-
 /* Both in one list, suggestions (may be NULL) last and each lighter than the artist's lightest relation. */
 static CeldStatus
 list_all (const CeldRelations *relations, const CeldRelations *suggested, CeldRelations *all)
@@ -286,20 +226,40 @@ list_all (const CeldRelations *relations, const CeldRelations *suggested, CeldRe
   return status;
 }
 
-/* Drops the suggestions in `all` that the resolved graph does not keep, or that are not wanted. */
+/* Do the links that a search may take put the farther label of a link behind its nearer one? */
+static bool
+is_decided (CeldCycleSearch *search, size_t link)
+{
+  const CeldGraph *g = search->graph;
+
+  celd_cycle_search_behind (search, g->first[2 * link + 1], g->first[2 * link + 1] + 1);
+  return celd_cycle_search_was_at (search, g->end[g->first[2 * link]]);
+}
+
+/* Drops the suggestions in `all`, behind the artist's n_own relations, that the resolved graph does not keep, or that
+ * are not wanted. */
 static CeldStatus
 select_kept (const CeldGraph *graph, size_t n_own, CeldSuggest suggest, CeldRelations *all)
 {
-  Walk       walk = { 0 };
-  size_t     n = n_own;
-  CeldStatus status = walk_new (graph, n_own, &walk);
+  CeldCycleSearch search;
+  CeldArcIndex    down = { 0 };
+  bool           *own = celd_alloc0 (graph->n_links, sizeof *own);
+  size_t          n = n_own;
+  CeldStatus      status = celd_cycle_search_new (graph, &search);
 
+  for (size_t i = 0; own && i < n_own; i++)
+    own[i] = graph->kept[i];
+  if (status == CELD_OK)
+    status = own ? celd_graph_index (graph, CELD_NEARER, own, &down) : CELD_NO_MEMORY;
+  search.arcs[CELD_FARTHER] = celd_arc_index_view (&down);
   for (size_t i = n_own; i < all->n && status == CELD_OK; i++)
-    if (graph->kept[i] && (suggest == CELD_SUGGEST_ALL || !is_decided (&walk, i)))
+    if (graph->kept[i] && (suggest == CELD_SUGGEST_ALL || !is_decided (&search, i)))
       all->item[n++] = all->item[i];
-  walk_clear (&walk);
   if (status == CELD_OK)
     all->n = n;
+  celd_cycle_search_clear (&search);
+  celd_arc_index_clear (&down);
+  celd_free (own);
   return status;
 }
 

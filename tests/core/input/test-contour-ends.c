@@ -169,8 +169,8 @@ nothing_is_joined_when_cancelled_or_without_strokes (void)
   picture_free (p);
 }
 
-/* The stroke's lowest pixel on the right, (20,19), is joined to one pixel of ink at a distance of five pixels, by blocks
- * of 2 x 2; a pixel of ink a little farther away is not near enough. */
+/* The stroke's lowest pixel on the right, (20,19), is joined to one pixel of ink at a distance of five pixels, by
+ * blocks of 2 x 2; a pixel of ink a little farther away is not near enough. */
 static void
 a_joint_is_two_pixels_wide (void)
 {

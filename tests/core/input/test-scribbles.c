@@ -1,4 +1,5 @@
-/* CeldScribbleLayer scribbles: exact colours, tiny solid strokes, and what soft brushes, overlaps and lossy storage add.
+/* CeldScribbleLayer scribbles: exact colours, tiny solid strokes, and what soft brushes, overlaps and lossy storage
+ * add.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
