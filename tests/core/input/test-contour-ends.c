@@ -196,8 +196,8 @@ static void
 large_pictures_have_longer_joints (void)
 {
   static const struct { int width, height, gap; bool joined; } given[] = {
-    { 255, 300, 6, false }, { 300, 255, 6, false }, { 256, 300, 6, true }, { 300, 256, 6, true }, { 300, 256, 7, false },
-    { 255, 300, 5, true },
+    { 255, 300, 5, true },  { 255, 300, 6, false }, { 300, 255, 6, false },
+    { 256, 300, 6, true },  { 300, 256, 6, true },  { 300, 256, 7, false },
   };
 
   for (size_t k = 0; k < sizeof given / sizeof *given; k++)
@@ -379,6 +379,42 @@ an_end_that_touches_ink_diagonally_needs_no_other_joint (void)
   picture_free (p);
 }
 
+/* The end is up to four pixels away from the edge of the picture, in each direction; one pixel more is too far. */
+static void
+all_sides_of_the_frame_are_joined (void)
+{
+  for (int k = 0; k < 8; k++)
+    {
+      Picture *p = picture_new (SIDE, SIDE);
+      int      from = 4 + k / 4, to = SIDE - 1 - from;
+
+      switch (k % 4)
+        {
+        case 0:  draw (p, 1, from, 18, 20, 19); break;
+        case 1:  draw (p, 1, 20, 18, to, 19); break;
+        case 2:  draw (p, 1, 18, from, 19, 20); break;
+        default: draw (p, 1, 18, 20, 19, to);
+        }
+      CHECK (celd_contour_join (&p->bake, NULL) == CELD_OK);
+      CHECK (!memchr (p->bake.wall.data, 1, p->bake.pixels) == (from == 5));
+      picture_free (p);
+    }
+}
+
+/* Ink to the right and ink above, from the column 17 on: joints at a right angle do not replace each other. */
+static void
+one_end_is_joined_to_two_sides (void)
+{
+  static const int walls[][4] = { { 21, 18, 24, 19 }, { 17, 14, 18, 18 } };
+  Picture         *p = picture_new (SIDE, SIDE);
+
+  draw (p, 1, 10, 18, 20, 19);
+  draw (p, 0, 23, 18, 23, 19);
+  draw (p, 0, 17, 14, 20, 14);
+  CHECK (walls_are (p, walls, 2));
+  picture_free (p);
+}
+
 int
 main (void)
 {
@@ -400,5 +436,7 @@ main (void)
   RUN (a_diagonal_end_is_joined);
   RUN (two_places_at_a_corner_and_opposite_are_two);
   RUN (an_end_that_touches_ink_diagonally_needs_no_other_joint);
+  RUN (all_sides_of_the_frame_are_joined);
+  RUN (one_end_is_joined_to_two_sides);
   return DONE;
 }
