@@ -1,13 +1,13 @@
 /* Geodesic distances along a painted stroke.
  *
- * Steps to the eight neighbours cost 1 or sqrt 2, so a distance is up to 8 % too long, the same for all pixels side by
- * side.  The pixels are swept in reading order and back until nothing changes: strokes are thin, a few sweeps do, one
- * more for each turn of a winding one.
+ * Steps to the eight neighbours cost 1 or sqrt 2, so that a distance is up to 8 % too long, by about the same factor
+ * for pixels side by side.  The pixels are swept in reading order and back until nothing changes.  Strokes are thin, so
+ * that this takes a few sweeps, and one more for each turn of a winding stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-
 #include "input/input.h"
+
 #include <math.h>
 
 /* Pixels in a row of a plane with its border. */
@@ -80,8 +80,9 @@ sweep_until_settled (CeldArrowStroke *stroke)
   while (changed);
 }
 
+/* Fills in the sums. */
 static void
-gather_fronts (CeldArrowStroke *stroke, float longest)
+sum_by_distance (CeldArrowStroke *stroke, float longest)
 {
   stroke->n_sums = (size_t) longest + 2;
   for (size_t i = 0; i < stroke->n_sums; i++)
@@ -118,7 +119,7 @@ celd_stroke_follow (CeldArrowStroke *stroke, const uint32_t *start, size_t n)
   for (size_t i = 0; i < stroke->n; i++)
     if (stroke->distance[stroke->pixel[i]] > stroke->distance[farthest])
       farthest = stroke->pixel[i];
-  gather_fronts (stroke, stroke->distance[farthest]);
+  sum_by_distance (stroke, stroke->distance[farthest]);
   return farthest;
 }
 
@@ -128,7 +129,7 @@ celd_stroke_length (const CeldArrowStroke *stroke)
   return (double) stroke->n_sums - 1;
 }
 
-/* The sums below a distance, between two fronts in proportion. */
+/* The sums below a distance, interpolated linearly between whole distances. */
 static CeldStrokeSums
 below (const CeldArrowStroke *stroke, double distance)
 {

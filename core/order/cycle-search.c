@@ -1,14 +1,15 @@
-/* A shortest path of relations, breadth first from both ends at once.
+/* Shortest paths of relations, by breadth-first search from both ends at once.
  *
- * A path walks from label to label, by links from nearer to farther ones; equalities lead both ways.  Its states are
- * 2 x (label - 1) + strict: strict says whether an inequality came before.  Both searches work through whole layers,
- * the one with fewer states first; where they meet first, they meet on a shortest path.
+ * A path leads from label to label by links from nearer to farther ones, and by equalities in both directions.  The
+ * states of a search are 2 (label - 1) + strict, where strict says whether the path has an inequality before.  Both
+ * searches proceed by whole layers, the one with fewer states in its next layer first; the first state in which they
+ * meet is on a shortest path.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "order/order.h"
 
-#define NOWHERE UINT32_MAX
+#define NO_STATE UINT32_MAX
 
 void
 celd_cycle_search_clear (CeldCycleSearch *s)
@@ -46,7 +47,7 @@ begin (CeldCycleSearch *s)
 {
   s->number++;
   s->n[CELD_FARTHER] = s->n[CELD_NEARER] = 0;
-  s->met = NOWHERE;
+  s->met = NO_STATE;
 }
 
 static void
@@ -59,7 +60,7 @@ visit (CeldCycleSearch *s, CeldSide to, size_t label, size_t strict, uint32_t fr
     return;
   *step = (CeldSearchStep) { s->number, from, link };
   s->queue[to][s->n[to]++] = (uint32_t) state;
-  if (s->step[!to][state].number == s->number && s->met == NOWHERE)
+  if (s->step[!to][state].number == s->number && s->met == NO_STATE)
     s->met = (uint32_t) state;
 }
 
@@ -74,9 +75,9 @@ within_limits (const CeldCycleSearch *s, uint32_t label)
   return place >= s->limit[CELD_FARTHER] && place <= s->limit[CELD_NEARER];
 }
 
-/* Has a search not passed the link yet? */
+/* Marks a link as taken; false if the search has taken it before. */
 static bool
-pass (CeldCycleSearch *s, CeldSide to, size_t link, size_t strict)
+take_link (CeldCycleSearch *s, CeldSide to, size_t link, size_t strict)
 {
   uint32_t *passed = &s->passed[to][2 * link + strict];
 
@@ -86,9 +87,10 @@ pass (CeldCycleSearch *s, CeldSide to, size_t link, size_t strict)
   return true;
 }
 
-/* Upwards through an inequality the path may or may not have passed another one before. */
+/* Adds a state.  Before an inequality the path may have another one or not, so that a search towards nearer labels adds
+ * both states. */
 static void
-reach (CeldCycleSearch *s, CeldSide to, uint32_t label, size_t strict, bool inequality, uint32_t from, size_t link)
+add_state (CeldCycleSearch *s, CeldSide to, uint32_t label, size_t strict, bool inequality, uint32_t from, size_t link)
 {
   if (!within_limits (s, label))
     return;
@@ -97,7 +99,7 @@ reach (CeldCycleSearch *s, CeldSide to, uint32_t label, size_t strict, bool ineq
     visit (s, to, label, 0, from, link);
 }
 
-/* The states that one step leads to; towards nearer labels, those that it leads from. */
+/* Adds the states after a state; in a search towards nearer labels, those before it. */
 static void
 expand (CeldCycleSearch *s, CeldSide to, uint32_t state)
 {
@@ -112,16 +114,16 @@ expand (CeldCycleSearch *s, CeldSide to, uint32_t state)
       size_t first = several ? g->first[2 * arc->link + (equal ? 0 : to)] : 0;
       size_t end = several ? g->first[2 * arc->link + (equal ? 2 : to + 1)] : 1;
 
-      if (arc->link == s->except || (!equal && !strict) || (several && !pass (s, to, arc->link, strict)))
+      if (arc->link == s->except || (!equal && !strict) || (several && !take_link (s, to, arc->link, strict)))
         continue;
       for (size_t e = first; e < end; e++)
-        reach (s, to, several ? g->end[e] : arc->end, strict, !equal, state, arc->link);
+        add_state (s, to, several ? g->end[e] : arc->end, strict, !equal, state, arc->link);
     }
 }
 
-/* ------------------------------------------------------------------ the whole */
+/* ------------------------------------------------------------------ searches */
 
-/* The places between which a path from farther ends end[f[0]] .. to nearer ones lies. */
+/* The range of places of a path from the farther ends end[first] .. end[middle - 1] to nearer ones. */
 static void
 find_limits (CeldCycleSearch *s, size_t first, size_t middle, size_t last)
 {
@@ -151,19 +153,19 @@ celd_cycle_search_contradiction (CeldCycleSearch *s, size_t i)
   if (s->sequence)
     find_limits (s, f[0], s->loose ? f[2] : f[1], f[2]);
   for (size_t e = f[0]; e < (s->loose ? f[2] : f[1]); e++)
-    visit (s, CELD_FARTHER, g->end[e], !s->loose, NOWHERE, i);
+    visit (s, CELD_FARTHER, g->end[e], !s->loose, NO_STATE, i);
   for (size_t e = s->loose ? f[0] : f[1]; e < f[2]; e++)
-    visit (s, CELD_NEARER, g->end[e], 1, NOWHERE, i);
-  while (s->met == NOWHERE && done[CELD_FARTHER] < s->n[CELD_FARTHER] && done[CELD_NEARER] < s->n[CELD_NEARER])
+    visit (s, CELD_NEARER, g->end[e], 1, NO_STATE, i);
+  while (s->met == NO_STATE && done[CELD_FARTHER] < s->n[CELD_FARTHER] && done[CELD_NEARER] < s->n[CELD_NEARER])
     {
       CeldSide to = s->n[CELD_NEARER] - done[CELD_NEARER] < s->n[CELD_FARTHER] - done[CELD_FARTHER] ? CELD_NEARER
                                                                                                      : CELD_FARTHER;
       size_t   layer = s->n[to];
 
-      while (done[to] < layer && s->met == NOWHERE)
+      while (done[to] < layer && s->met == NO_STATE)
         expand (s, to, s->queue[to][done[to]++]);
     }
-  return s->met != NOWHERE;
+  return s->met != NO_STATE;
 }
 
 void
@@ -172,7 +174,7 @@ celd_cycle_search_behind (CeldCycleSearch *s, size_t first, size_t last)
   begin (s);
   s->loose = false;
   for (size_t e = first; e < last; e++)
-    visit (s, CELD_FARTHER, s->graph->end[e], 0, NOWHERE, 0);
+    visit (s, CELD_FARTHER, s->graph->end[e], 0, NO_STATE, 0);
   for (size_t i = 0; i < s->n[CELD_FARTHER]; i++)
     expand (s, CELD_FARTHER, s->queue[CELD_FARTHER][i]);
 }
@@ -183,7 +185,7 @@ celd_cycle_search_was_at (const CeldCycleSearch *s, size_t k)
   return s->step[CELD_FARTHER][2 * k].number == s->number || s->step[CELD_FARTHER][2 * k + 1].number == s->number;
 }
 
-/* An equality may be led round a loop that it has no part in. */
+/* A path found for an equality may have a loop that the equality is not part of. */
 bool
 celd_cycle_search_is_simple (CeldCycleSearch *s)
 {
@@ -193,14 +195,14 @@ celd_cycle_search_is_simple (CeldCycleSearch *s)
   for (size_t k = 0; k < s->graph->n_labels; k++)
     label[k] = number - 1;
   for (int to = CELD_FARTHER; to <= CELD_NEARER; to++)
-    for (uint32_t t = s->met; t != NOWHERE; t = step->from)
+    for (uint32_t t = s->met; t != NO_STATE; t = step->from)
       {
         step = &s->step[to][t];
         if ((label[t / 2] == number && (to == CELD_FARTHER || t != s->met)) ||
-            (step->from != NOWHERE && link[2 * step->link] == number))
+            (step->from != NO_STATE && link[2 * step->link] == number))
           return false;
         label[t / 2] = number;
-        if (step->from != NOWHERE)
+        if (step->from != NO_STATE)
           link[2 * step->link] = number;
       }
   return true;
@@ -212,18 +214,18 @@ celd_cycle_search_cycle (const CeldCycleSearch *s, CeldCycle *cycle)
   const CeldSearchStep *down = s->step[CELD_FARTHER], *up = s->step[CELD_NEARER];
   size_t                before = 1, n;
 
-  for (uint32_t t = s->met; down[t].from != NOWHERE; t = down[t].from)
+  for (uint32_t t = s->met; down[t].from != NO_STATE; t = down[t].from)
     before++;
   n = before;
-  for (uint32_t t = s->met; up[t].from != NOWHERE; t = up[t].from)
+  for (uint32_t t = s->met; up[t].from != NO_STATE; t = up[t].from)
     n++;
   *cycle = (CeldCycle) { .item = celd_alloc (n, sizeof (size_t)), .n = n };
   if (!cycle->item)
     return CELD_NO_MEMORY;
   n = before;
-  for (uint32_t t = s->met; down[t].from != NOWHERE; t = down[t].from)
+  for (uint32_t t = s->met; down[t].from != NO_STATE; t = down[t].from)
     cycle->item[--before] = down[t].link;
-  for (uint32_t t = s->met; up[t].from != NOWHERE; t = up[t].from)
+  for (uint32_t t = s->met; up[t].from != NO_STATE; t = up[t].from)
     cycle->item[n++] = up[t].link;
   cycle->item[0] = s->relation;
   return CELD_OK;

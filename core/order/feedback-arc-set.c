@@ -1,11 +1,12 @@
-/* The relations of a small strongly connected component with the least total weight without which the others can hold:
- * a minimum weighted feedback arc set, exact, by dynamic programming over the sets of labels that lie farther than all
- * others [Lawler 1964].
+/* A minimum weighted feedback arc set of a small strongly connected component: the relations with the least total
+ * weight without which the others can hold.  Exact, by dynamic programming over sets of labels [Lawler 1964].
  *
- * Labels are placed from far to near in blocks of equal depth.  That a relation is broken shows when the first of its
- * nearer labels is placed, so the least weight that a set S of placed labels has cost does not depend on how S was
- * placed.  Blocks of more than one label need to be tried only if equalities hang them together.  Of relations whose
- * weights are equal later ones are broken rather than earlier ones: each weighs a little less than the one before it.
+ * Labels are placed from far to near in blocks of equal depth.  Whether a relation is broken is known when the first of
+ * its nearer labels is placed, so that the least weight broken by placing a set S of labels does not depend on the
+ * order in S.  Blocks of several labels are tried only if equalities connect them.  Of relations with equal weights
+ * later ones are broken first: each weighs a little less than the one before it.
+ *
+ * Cost: exponential in the number of labels, limited by MOST_LABELS and MOST_WORK.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,10 +15,10 @@
 
 #include <math.h>
 
-#define MOST_LABELS 18          /* of a component; more are left to the order by weight */
-#define SURE_LABELS 12          /* up to so many are solved whatever the number of relations */
-#define MOST_WORK   (1u << 26)  /* visits of a relation, about 0.1 s */
-#define AGE         1e-9        /* of the sum of weights: total influence of the age of relations */
+#define MOST_LABELS 18         /* of a component; larger ones are left to the order by weight; chosen */
+#define SURE_LABELS 12         /* components of up to so many are solved for any number of relations; chosen */
+#define MOST_WORK   (1u << 26) /* visits of a relation, about 0.1 s; bench */
+#define AGE_WEIGHT  1e-9       /* fraction of the sum of weights by which weights depend on the order; chosen */
 
 /* A relation between labels of the component, as sets of these. */
 typedef struct { uint32_t far, near; bool equal; double weight; } Arc;
@@ -82,13 +83,13 @@ read_arcs (Exact *x)
       double        age = (double) (x->scc->n - i) / (double) (x->scc->n * x->scc->n);
 
       x->arc[i] = (Arc) { set_of (x, f[0], f[1]), set_of (x, f[1], f[2]), celd_graph_equal (g, link),
-                          link_cost (g, link) + AGE * sum * age };
+                          link_cost (g, link) + AGE_WEIGHT * sum * age };
     }
 }
 
-/* Do equalities hang the set together? */
+/* Do equalities connect all labels of the set? */
 static bool
-hangs_together (const Exact *x, uint32_t set)
+is_connected (const Exact *x, uint32_t set)
 {
   uint32_t reached = set & -set, before;
 
@@ -103,6 +104,7 @@ hangs_together (const Exact *x, uint32_t set)
   return reached == set;
 }
 
+/* Lists the sets of labels that may have one depth: single labels, and those that equalities connect. */
 static CeldStatus
 list_blocks (Exact *x)
 {
@@ -111,7 +113,7 @@ list_blocks (Exact *x)
   for (size_t i = 0; i < x->scc->n; i++)
     any |= x->arc[i].equal;
   for (uint32_t set = 1; set < 1u << x->n; set++)
-    if (!(set & (set - 1)) || (any && hangs_together (x, set)))
+    if (!(set & (set - 1)) || (any && is_connected (x, set)))
       {
         if (celd_append (x->block, x->n_blocks, x->block_capacity, set) != CELD_OK)
           return CELD_NO_MEMORY;
@@ -137,6 +139,7 @@ broken_weight (const Exact *x, uint32_t set, uint32_t block)
   return sum;
 }
 
+/* Fills in cost and last for all sets of labels. */
 static CeldStatus
 place_labels (Exact *x)
 {
@@ -165,7 +168,7 @@ place_labels (Exact *x)
   return CELD_OK;
 }
 
-/* Marks what breaks on the cheapest way to place all labels. */
+/* Marks the relations that break when all labels are placed at the least cost. */
 static void
 mark_broken (const Exact *x, bool *broken)
 {

@@ -1,11 +1,11 @@
 /* A topological order of classes of labels, from far to near, to which relations are added one by one.
  *
- * A relation whose ends already stand in the right order costs nothing.  Otherwise one search goes up from its nearer
- * side, by rising places, another down from its farther side, by falling places; the one that has done less work goes
- * on until their places cross [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012, topological search].  If the searches
- * meet, the relation contradicts those before.  If not, classes below the crossing that the first has reached move up
- * to it, and classes above it that the second has reached move down to just below these; no class outside the
- * relation's ends moves.
+ * A relation whose ends are already in the right order costs nothing.  Otherwise two searches start, one from its
+ * nearer side by rising places and one from its farther side by falling places; the search that has done less work
+ * continues until their places cross (topological search [Haeupler, Kavitha, Mathew, Sen & Tarjan 2012]).  If the
+ * searches meet, the relation contradicts those before.  If not, classes below the crossing that the first search has
+ * reached move up to it, and classes above it that the second one has reached move to just below these; no class
+ * outside the places of the relation's ends moves.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,10 +1,10 @@
 /* Which labels a relation joins.
  *
- * A point means the label of its pixel.  A point on ink (I < 1/2) means the nearest paper within one stroke width:
- * labels end somewhere inside the ink, so the pixel's own label says little there.  The stroke width is the median run
- * of ink along rows and columns; farther from paper than that it is no stroke but a black area with a label of its own.
- * A colour means every label that has it; colours may be off by 2 of 255 (colour management), and then the nearest
- * counts.  An equality inside one region holds by itself and is kept without a word; an inequality there is reported.
+ * A point means the label of its pixel.  A point on ink (I < 1/2) means the label of the nearest paper within one
+ * stroke width, because labels meet somewhere inside the ink.  Ink farther from paper than that is a black area with a
+ * label of its own.  A colour means every label that has it, or else the nearest colour that differs by at most 2 of
+ * 255, as after colour management.  An equality inside one region always holds; an inequality there is reported as a
+ * problem.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -118,7 +118,7 @@ common_label (const CeldGraph *graph, size_t link)
   return 0;
 }
 
-/* The labels of relation i; a problem and no link if an end names nothing or both name the same. */
+/* Fills in link i.  It is not kept, but reported as a problem, if an end names no label or both name the same one. */
 static CeldStatus
 add_link (Picture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
 {
@@ -303,7 +303,7 @@ celd_equivalence_join (CeldEquivalence *classes, uint32_t a, uint32_t b)
   if (a == b)
     return;
   celd_join (classes->parent, a, b);
-  next             = classes->next[a]; /* two rings become one */
+  next             = classes->next[a]; /* joins the two rings */
   classes->next[a] = classes->next[b];
   classes->next[b] = next;
 }

@@ -1,9 +1,9 @@
-/* Which relations go round in circles with each other: strongly connected components [Tar72] of a graph whose nodes are
- * labels and links, by trials.
+/* Strongly connected components [Tar72] of the graph whose nodes are labels and, alternating with them, links:
+ * relations that lie on common cycles.
  *
- * Steps lead down: from a label to the links that have it on their nearer side, from a link to its farther labels; an
- * equality leads both ways.  Of a component with an inequality in it not all relations can hold; only such components
- * are listed.  All other relations can hold, whatever is kept of those.  Linear time.
+ * Edges lead from a label to the links that have it on their nearer side, and from a link to its farther labels; for an
+ * equality in both directions.  Only components with an inequality are listed, because not all of their relations can
+ * hold.  All other relations can, whatever is kept of those.  Linear time.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

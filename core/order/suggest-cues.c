@@ -2,8 +2,7 @@
  *
  * Two regions touch where the outline of one faces the other through the ink of their contour, or across paper where
  * the segmentation closed a gap.  Boundaries shorter than the stroke width are ignored.
- *
- * Cost: that of the outlines and junctions, and a look-up in a hash table for each piece of outline.
+ * Cost: that of the outlines and junctions, and a look-up in a hash table for each stretch of outline.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
