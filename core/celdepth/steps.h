@@ -102,9 +102,9 @@ CELD_API CeldStatus celd_order (const CeldLabels *labels, const CeldPalette *pal
 
 /* celd_order of the artist's relations, followed by those suggestions that contradict neither them (those that
  * settings->on_cycle keeps) nor heavier suggestions; with CELD_SUGGEST_FILL_GAPS only suggestions between regions whose
- * order does not follow from the relations, with CELD_SUGGEST_OFF none.  `joined` is replaced by all these relations and
- * may be `relations`; suggestions get weights below those of the artist's relations.  `suggested` and `ink` may be
- * NULL. */
+ * order does not follow from the relations, with CELD_SUGGEST_OFF none.  `joined` is replaced by all these relations
+ * and may be `relations`; suggestions get weights below those of the artist's relations.  `suggested` and `ink` may
+ * be NULL. */
 CELD_API CeldStatus celd_order_suggested (const CeldLabels *labels, const CeldPalette *palette,
                                           const CeldRelations *relations, const CeldRelations *suggested,
                                           const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
