@@ -58,7 +58,7 @@ static const char *const enclosures[] = {
   "........................", NULL };
 
 static void
-ends_make_regions (void)
+ends_of_arrows_on_unpainted_paper_make_two_regions (void)
 {
   Case c = segment (enclosures, "4.5,4.5 > 12.5,4.5", celd_settings ());
 
@@ -72,7 +72,7 @@ ends_make_regions (void)
 }
 
 static void
-equal_ends_make_one_region (void)
+ends_of_an_equality_make_one_region (void)
 {
   Case c = segment (enclosures, "4.5,4.5 = 19.5,4.5", celd_settings ());
 
@@ -83,7 +83,7 @@ equal_ends_make_one_region (void)
 
 /* An end on ink means the paper beside it; ends outside are left to others. */
 static void
-ends_on_ink_and_outside (void)
+ends_on_ink_move_to_paper_and_ends_outside_are_ignored (void)
 {
   Case c = segment (enclosures, "1.5,4.5 > 12.5,4.5; 19.5,4.5 > 900,3", celd_settings ());
 
@@ -93,7 +93,7 @@ ends_on_ink_and_outside (void)
 }
 
 static void
-scribbled_regions_stay (void)
+ends_in_painted_regions_add_no_seeds (void)
 {
   const char *const drawing[] = {
     "...CCC..................",
@@ -122,7 +122,7 @@ scribbled_regions_stay (void)
 
 /* New colours are opaque and differ clearly from each other and from the scribbles. */
 static void
-colours_differ (void)
+labels_of_arrows_get_colours_that_differ (void)
 {
   Case c = segment (enclosures, "4,4 > 12,4; 12,4 > 19,4; 19,4 > 0,0", celd_settings ());
 
@@ -179,7 +179,7 @@ figure_2_of_the_paper (void)
 
 /* The end nearer to the region's scribble keeps its label, whichever way the arrow points; equalities split nothing. */
 static void
-scribbled_regions_are_split (void)
+a_painted_region_with_both_ends_is_split (void)
 {
   const char *const drawing[] = {
     "........................................",
@@ -212,7 +212,7 @@ scribbled_regions_are_split (void)
 
 /* Ends so close that no disc has room: still a result. */
 static void
-close_ends (void)
+ends_next_to_each_other_are_separated (void)
 {
   const char *const blank[] = { "........", "........", "........", "........", NULL };
   Case              c = segment (blank, "3,1 > 4,1; 3,1 > 3.4,1.2", celd_settings ());
@@ -223,7 +223,7 @@ close_ends (void)
 
 /* Two chambers with a narrow place between them, and nothing but an arrow: each is a region up to there. */
 static void
-hourglasses_part_at_the_waist (void)
+an_hourglass_is_split_at_its_waist (void)
 {
   const char *const drawing[] = {
     "....................................",
@@ -253,7 +253,7 @@ hourglasses_part_at_the_waist (void)
 
 /* In a corridor any straight cut across is least: there is one, between the ends. */
 static void
-corridors_are_cut_across (void)
+a_corridor_is_cut_straight_across (void)
 {
   const char *const drawing[] = {
     "##############################################",
@@ -278,7 +278,7 @@ corridors_are_cut_across (void)
 
 /* The second relation splits what the first has left. */
 static void
-relations_split_in_turn (void)
+each_relation_splits_what_earlier_ones_left (void)
 {
   const char *const drawing[] = {
     "##############################################",
@@ -302,7 +302,7 @@ relations_split_in_turn (void)
 
 /* On paper without a line each end keeps the paper round it. */
 static void
-blank_paper (void)
+blank_paper_is_split_between_the_ends (void)
 {
   enum { SIDE = 160 };
   const char *rows[SIDE + 1] = { NULL };
@@ -324,7 +324,7 @@ blank_paper (void)
 
 /* Whatever is asked for at one place, no region holds both ends of an inequality, as long as they are two pixels. */
 static void
-thousands_of_relations (void)
+no_region_holds_both_ends_of_thousands_of_relations (void)
 {
   enum { SIDE = 48, N = 3000, LONGEST = 24 };
   const char *rows[SIDE + 1] = { NULL };
@@ -454,7 +454,7 @@ check_split (CeldSegmentTask *task, const CeldRelations *relations, CeldLabels *
 
 /* Two bands of one label are two regions; a basin may lie in two bands. */
 static void
-random_regions_are_split (void)
+ends_in_random_regions_get_two_labels (void)
 {
   static float    ink_data[PAGE * PAGE];
   static uint32_t label_data[PAGE * PAGE];
@@ -496,20 +496,20 @@ main (void)
 {
   for (method = CELD_METHOD_BASINS; method <= CELD_METHOD_EXACT; method++)
     {
-      RUN (ends_make_regions);
-      RUN (equal_ends_make_one_region);
-      RUN (ends_on_ink_and_outside);
-      RUN (scribbled_regions_stay);
-      RUN (colours_differ);
+      RUN (ends_of_arrows_on_unpainted_paper_make_two_regions);
+      RUN (ends_of_an_equality_make_one_region);
+      RUN (ends_on_ink_move_to_paper_and_ends_outside_are_ignored);
+      RUN (ends_in_painted_regions_add_no_seeds);
+      RUN (labels_of_arrows_get_colours_that_differ);
       RUN (figure_2_of_the_paper);
-      RUN (scribbled_regions_are_split);
-      RUN (close_ends);
-      RUN (hourglasses_part_at_the_waist);
-      RUN (corridors_are_cut_across);
-      RUN (relations_split_in_turn);
-      RUN (blank_paper);
-      RUN (thousands_of_relations);
+      RUN (a_painted_region_with_both_ends_is_split);
+      RUN (ends_next_to_each_other_are_separated);
+      RUN (an_hourglass_is_split_at_its_waist);
+      RUN (a_corridor_is_cut_straight_across);
+      RUN (each_relation_splits_what_earlier_ones_left);
+      RUN (blank_paper_is_split_between_the_ends);
+      RUN (no_region_holds_both_ends_of_thousands_of_relations);
     }
-  RUN (random_regions_are_split);
+  RUN (ends_in_random_regions_get_two_labels);
   return DONE;
 }

@@ -24,12 +24,25 @@ seed (Sketch *s, const char *const *wanted)
   return marked;
 }
 
+/* Of `n` labels painted, the background gets `label` and the seeds `wanted`; then there are `after` labels. */
+static void
+check_background (const char *const *paper, const char *const *painted, size_t n, const char *const *wanted,
+                  uint32_t label, size_t after)
+{
+  Sketch s;
+
+  sketch_open (&s, paper, painted, n);
+  NEAR (seed (&s, wanted), label, 0);
+  NEAR (s.task.palette.n, after, 0);
+  sketch_close (&s);
+}
+
 static const char *const ring[] = { "1111111", "1#####1", "1#222#1", "1#222#1", "1#####1", "1111111", NULL };
 static const char *const figure_only[] = { ".......", ".......", "...A...", "...A...", ".......", ".......", NULL };
 static const char *const framed[] = { "BBBBBBB", "B.....B", "B..A..B", "B..A..B", "B.....B", "BBBBBBB", NULL };
 
 static void
-nobodys_frame_is_a_transparent_label_of_its_own (void)
+a_frame_without_owner_gets_a_transparent_label (void)
 {
   Sketch s;
 
@@ -48,16 +61,12 @@ static void
 a_painted_frame_stays_as_it_is (void)
 {
   static const char *const painted[] = { ".......", ".......", "...A...", ".......", ".......", ".BB....", NULL };
-  Sketch                   s;
 
-  sketch_open (&s, ring, painted, 2);
-  NEAR (seed (&s, painted), 2, 0);
-  NEAR (s.task.palette.n, 2, 0);
-  sketch_close (&s);
+  check_background (ring, painted, 2, painted, 2, 2);
 }
 
 static void
-the_settings_choose (void)
+settings_name_the_background_or_turn_it_off (void)
 {
   Sketch s;
 
@@ -88,12 +97,8 @@ a_corner_cut_off_joins_the_background (void)
   static const char *const paper[] = { "1111#22", "11111#2", "111111#", "1111111", NULL };
   static const char *const painted[] = { ".......", ".AA....", ".......", ".......", NULL };
   static const char *const wanted[] = { ".....AA", ".AA...A", ".......", ".......", NULL };
-  Sketch                   s;
 
-  sketch_open (&s, paper, painted, 1);
-  NEAR (seed (&s, wanted), 1, 0);
-  NEAR (s.task.palette.n, 1, 0);
-  sketch_close (&s);
+  check_background (paper, painted, 1, wanted, 1, 1);
 }
 
 /* The frame cuts off a figure; with a fifth of the frame it is not the background. */
@@ -103,15 +108,12 @@ a_figure_that_the_frame_cuts_off_is_not_the_background (void)
   static const char *const paper[] = { "11111111", "11111111", "1######1", "1#2222#1", NULL };
   static const char *const painted[] = { "........", "........", "........", "...A....", NULL };
   static const char *const wanted[] = { "BBBBBBBB", "B......B", "B......B", "B..A...B", NULL };
-  Sketch                   s;
 
-  sketch_open (&s, paper, painted, 1);
-  NEAR (seed (&s, wanted), 2, 0);
-  sketch_close (&s);
+  check_background (paper, painted, 1, wanted, 2, 2);
 }
 
-/* A runs on out of the figure.  A soft stroke is at home where most of it is, and loses what lies in nobody's
- * enclosure; an obeyed one holds the frame. */
+/* A runs on out of the figure.  A soft stroke is at home where most of it is, and loses what lies in an
+ * enclosure without owner; an obeyed one holds the frame. */
 static void
 a_stroke_that_runs_out_does_not_hold_the_frame (void)
 {
@@ -130,7 +132,7 @@ a_stroke_that_runs_out_does_not_hold_the_frame (void)
   sketch_close (&s);
 }
 
-/* Lines from edge to edge cut the page into strips.  A runs over three of them, and is at home in none. */
+/* Lines from edge to edge cut the page into strips.  A runs over three of them, and is at home in none of them. */
 static void
 a_stroke_over_hatching_holds_the_frame (void)
 {
@@ -143,12 +145,8 @@ a_stroke_over_hatching_holds_the_frame (void)
   static const char *const wanted[] = {
     "AAAAAAA.......AAAAAAA", "A.......AAAAA.......A", "AAAAAAA.......AAAAAAA", NULL
   };
-  Sketch                   s;
 
-  sketch_open (&s, paper, painted, 1);
-  NEAR (seed (&s, wanted), 1, 0);
-  NEAR (s.task.palette.n, 1, 0);
-  sketch_close (&s);
+  check_background (paper, painted, 1, wanted, 1, 1);
 }
 
 /* A small enclosure behind a gap goes to the owner of its component, and gets no seeds. */
@@ -182,7 +180,7 @@ flecks_in_solid_ink_are_left_alone (void)
   sketch_close (&s);
 }
 
-/* B lies on paper that a bridge hides, in a corner that nobody holds otherwise. */
+/* B lies on paper that a bridge hides, in a corner that has no other owner. */
 static void
 an_obeyed_stroke_under_a_bridge_stays (void)
 {
@@ -359,9 +357,9 @@ seeds_are_those_of_the_pixels (void)
 int
 main (void)
 {
-  RUN (nobodys_frame_is_a_transparent_label_of_its_own);
+  RUN (a_frame_without_owner_gets_a_transparent_label);
   RUN (a_painted_frame_stays_as_it_is);
-  RUN (the_settings_choose);
+  RUN (settings_name_the_background_or_turn_it_off);
   RUN (a_corner_cut_off_joins_the_background);
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);

@@ -7,7 +7,7 @@
 #include "segment/basins.h"
 
 static void
-renewed_is_new (void)
+an_updated_graph_equals_a_new_one (void)
 {
   static const int size[][2] = { { 1, 1 }, { 1, 90 }, { 90, 1 }, { 40, 30 }, { 150, 140 }, { 400, 70 }, { 420, 400 } };
   uint32_t         state = 23;
@@ -43,7 +43,7 @@ renewed_is_new (void)
 
 /* Pairs of one boundary that are counted separately: sums, and the place of the saddle, the first of equal ones. */
 static void
-boundaries_add_up (void)
+parts_of_a_boundary_add_up_in_any_order (void)
 {
   CeldBasinBoundary sum = { .a = 1, .b = 2, .opening = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100 };
   CeldBasinBoundary lower = { .opening = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10 };
@@ -66,7 +66,7 @@ boundaries_add_up (void)
 int
 main (void)
 {
-  RUN (renewed_is_new);
-  RUN (boundaries_add_up);
+  RUN (an_updated_graph_equals_a_new_one);
+  RUN (parts_of_a_boundary_add_up_in_any_order);
   return DONE;
 }

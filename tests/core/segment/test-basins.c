@@ -89,7 +89,7 @@ a_corridor_and_a_corner_stay_with_their_enclosure (void)
 
 /* 8-connected ink parts paper: nothing ascends between two pixels of it. */
 static void
-a_diagonal_line_of_one_pixel_parts (void)
+a_diagonal_line_of_one_pixel_separates (void)
 {
   CeldPlane  ink = { 60, 40, 60, malloc (60 * 40 * sizeof (float)) };
   CeldBasins basins = { 0 };
@@ -139,7 +139,7 @@ a_black_disc_is_solid (void)
 }
 
 static void
-pictures_without_paper_or_without_ink (void)
+pictures_without_paper_or_ink_have_basins (void)
 {
   static const char *const black[] = { "###", "###", NULL };
   static const char *const paper_cost[] = { "...", "...", NULL };
@@ -163,7 +163,7 @@ pictures_without_paper_or_without_ink (void)
 
 /* Jobs in another order make the same; a cancelled call leaves what there was. */
 static void
-threads_and_cancel (void)
+threads_change_nothing_and_a_cancelled_update_keeps_the_old_graph (void)
 {
   CeldPlane  ink = { 300, 200, 300, malloc (300 * 200 * sizeof (float)) };
   CeldHost   backwards = { NULL, check_backwards, NULL };
@@ -202,7 +202,7 @@ threads_and_cancel (void)
 }
 
 static void
-bad_sizes (void)
+other_sizes_are_refused (void)
 {
   float      value[4] = { 0, 1, 1, 0 };
   CeldPlane  none = { 0, 2, 2, value }, missing = { 2, 2, 2, NULL }, wide = { CELD_MAX_SIDE + 1, 1, 4, value };
@@ -248,7 +248,7 @@ check_counts (const CeldPlane *ink, const CeldBasins *basins)
 }
 
 static void
-counts_are_those_of_the_drawing (void)
+counts_of_paper_are_those_of_the_drawing (void)
 {
   uint32_t state = 3;
 
@@ -283,11 +283,11 @@ main (void)
 {
   RUN (a_wall_separates_components_and_a_gap_enclosures);
   RUN (a_corridor_and_a_corner_stay_with_their_enclosure);
-  RUN (a_diagonal_line_of_one_pixel_parts);
+  RUN (a_diagonal_line_of_one_pixel_separates);
   RUN (a_black_disc_is_solid);
-  RUN (pictures_without_paper_or_without_ink);
-  RUN (threads_and_cancel);
-  RUN (bad_sizes);
-  RUN (counts_are_those_of_the_drawing);
+  RUN (pictures_without_paper_or_ink_have_basins);
+  RUN (threads_change_nothing_and_a_cancelled_update_keeps_the_old_graph);
+  RUN (other_sizes_are_refused);
+  RUN (counts_of_paper_are_those_of_the_drawing);
   return DONE;
 }

@@ -125,7 +125,7 @@ an_island_of_a_patch_is_a_loop (void)
 
 /* Every edge between two labels on paper lies on one chain, and on one only. */
 static void
-random_pictures (void)
+each_boundary_edge_on_paper_lies_on_one_chain (void)
 {
   uint32_t state = 3;
 
@@ -164,6 +164,6 @@ main (void)
   RUN (gaps_that_no_boundary_names_are_found);
   RUN (crossings_are_passed_one_way);
   RUN (an_island_of_a_patch_is_a_loop);
-  RUN (random_pictures);
+  RUN (each_boundary_edge_on_paper_lies_on_one_chain);
   return DONE;
 }

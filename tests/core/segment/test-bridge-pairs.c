@@ -91,7 +91,7 @@ random_tip (double width, double height, uint32_t outlines)
 
 /* From pages on which all ends are near to pages of hundreds of strokes. */
 static void
-random_ends (void)
+pairs_of_random_ends_come_in_the_order_of_an_exhaustive_search (void)
 {
   CeldTip tip[MOST];
 
@@ -109,7 +109,7 @@ random_ends (void)
 
 /* Hatching: rows of dashes, of which many pairs cost the same; numbers decide. */
 static void
-hatched_ends (void)
+pairs_of_hatching_come_in_the_order_of_an_exhaustive_search (void)
 {
   CeldTip tip[MOST];
   size_t  n = 0;
@@ -139,7 +139,7 @@ no_gap_is_too_wide (void)
 }
 
 static void
-a_place_with_many_ends (void)
+many_ends_in_one_place_are_paired (void)
 {
   CeldTip tip[40];
 
@@ -153,9 +153,9 @@ a_place_with_many_ends (void)
 int
 main (void)
 {
-  RUN (random_ends);
-  RUN (hatched_ends);
+  RUN (pairs_of_random_ends_come_in_the_order_of_an_exhaustive_search);
+  RUN (pairs_of_hatching_come_in_the_order_of_an_exhaustive_search);
   RUN (no_gap_is_too_wide);
-  RUN (a_place_with_many_ends);
+  RUN (many_ends_in_one_place_are_paired);
   return DONE;
 }

@@ -85,7 +85,7 @@ a_gap_in_a_circle_is_bridged (void)
 /* A third of the circle is missing: no narrow place of the paper says where it was.  Basins part all the same, but
  * components and enclosures do not. */
 static void
-basins_part_at_a_bridge (void)
+basins_meet_at_a_bridge (void)
 {
   CeldBasins  plain, bridged;
   CeldBridges bridges;
@@ -176,7 +176,7 @@ empty_pages_have_none (void)
 /* ------------------------------------------------------------------ comparing */
 
 static void
-what_two_records_do_not_share (void)
+the_changed_rectangle_holds_what_two_records_do_not_share (void)
 {
   CeldBridgePixel a[] = { { 3, 1 }, { 4, 1 }, { 9, 7 } }, b[] = { { 4, 1 }, { 3, 1 }, { 2, 5 } };
   CeldBridges     old = { .pixel = a, .n_pixels = 3 }, new = { .pixel = b, .n_pixels = 3 };
@@ -194,11 +194,11 @@ int
 main (void)
 {
   RUN (a_gap_in_a_circle_is_bridged);
-  RUN (basins_part_at_a_bridge);
+  RUN (basins_meet_at_a_bridge);
   RUN (the_straightest_pair_is_joined);
   RUN (nothing_is_joined_through_ink);
   RUN (unrelated_ends_stay_apart);
   RUN (empty_pages_have_none);
-  RUN (what_two_records_do_not_share);
+  RUN (the_changed_rectangle_holds_what_two_records_do_not_share);
   return DONE;
 }

@@ -105,7 +105,7 @@ faint_lines_are_followed (void)
 
 /* A stroke that a window gave back to its label, and nothing else: its boundary is a closed loop. */
 static void
-islands_and_rims_of_patches (void)
+the_loop_round_a_patch_stays_and_a_gap_at_its_side_is_closed (void)
 {
   static CeldPatch island[] = { { 20, 20, 30, 2 }, { 21, 20, 30, 2 } }, side[] = { { 31, 33, 67, 1 } };
   CeldPatches      windows = { island, 2, 0 };
@@ -128,7 +128,7 @@ islands_and_rims_of_patches (void)
 }
 
 static void
-cancelled_nothing_is_made (void)
+a_cancelled_call_makes_nothing (void)
 {
   static const CeldPatches none = { 0 };
   CeldHost                 host = { .progress = check_refuse };
@@ -149,7 +149,7 @@ main (void)
   RUN (a_third_label_is_never_enclosed);
   RUN (seeds_keep_their_label);
   RUN (faint_lines_are_followed);
-  RUN (islands_and_rims_of_patches);
-  RUN (cancelled_nothing_is_made);
+  RUN (the_loop_round_a_patch_stays_and_a_gap_at_its_side_is_closed);
+  RUN (a_cancelled_call_makes_nothing);
   return DONE;
 }

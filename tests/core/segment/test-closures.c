@@ -288,7 +288,7 @@ a_gap_one_pixel_wide_is_a_closure (void)
 /* ------------------------------------------------------------------ anything at all */
 
 static void
-random_pictures_stay_sound (void)
+random_pictures_give_the_same_closures_twice_and_lose_no_label (void)
 {
   uint32_t state = 7;
   size_t   patches = 0;
@@ -388,7 +388,7 @@ a_line_covers_its_width (void)
 }
 
 static void
-its_rim_is_antialiased (void)
+the_edge_of_a_line_is_antialiased (void)
 {
   CeldPlace place[] = { { 4, 5.5 }, { 15, 5.5 } };
   uint8_t   picture[4 * W * H];
@@ -400,7 +400,7 @@ its_rim_is_antialiased (void)
 }
 
 static void
-over_nothing_only_opacity_is_painted (void)
+over_a_transparent_pixel_the_line_keeps_its_colour (void)
 {
   CeldPlace place[] = { { 4, 5.5 }, { 15, 5.5 } };
   uint8_t   picture[4 * W * H];
@@ -413,7 +413,7 @@ over_nothing_only_opacity_is_painted (void)
 
 /* A line of many segments looks like that of one segment. */
 static void
-segments_do_not_show (void)
+joints_of_segments_are_painted_once (void)
 {
   CeldPlace one[] = { { 3, 3.3 }, { 17, 8.3 } }, many[15];
   uint8_t   picture[2][4 * W * H];
@@ -429,7 +429,7 @@ segments_do_not_show (void)
 }
 
 static void
-what_lies_outside_is_cut_off (void)
+a_line_is_clipped_by_the_picture (void)
 {
   CeldPlace place[] = { { -50, -3 }, { 8, 6 }, { 70, 40 } };
   uint8_t   picture[4 * W * H];
@@ -449,11 +449,11 @@ main (void)
   RUN (a_gap_at_the_frame_ends_there);
   RUN (a_junction_stays_where_it_is);
   RUN (a_gap_one_pixel_wide_is_a_closure);
-  RUN (random_pictures_stay_sound);
+  RUN (random_pictures_give_the_same_closures_twice_and_lose_no_label);
   RUN (a_line_covers_its_width);
-  RUN (its_rim_is_antialiased);
-  RUN (over_nothing_only_opacity_is_painted);
-  RUN (segments_do_not_show);
-  RUN (what_lies_outside_is_cut_off);
+  RUN (the_edge_of_a_line_is_antialiased);
+  RUN (over_a_transparent_pixel_the_line_keeps_its_colour);
+  RUN (joints_of_segments_are_painted_once);
+  RUN (a_line_is_clipped_by_the_picture);
   return DONE;
 }

@@ -160,7 +160,7 @@ scrawl (uint32_t *random, int lines)
 
 /* The cut on squares and bands costs hardly more than the least one, and both ends have their discs. */
 static void
-as_good_as_exact (void)
+a_cut_costs_little_more_than_the_exact_one (void)
 {
   static Page    page;
   static int32_t east[PIXELS], south[PIXELS];
@@ -197,7 +197,7 @@ as_good_as_exact (void)
 
 /* What the region does not hold stays outside; what does not join the ends is outside afterwards. */
 static void
-outside_stays (void)
+pixels_outside_the_region_stay_outside (void)
 {
   static Page              page;
   static const char *const art[] = {
@@ -226,7 +226,7 @@ outside_stays (void)
 
 /* Seeds decide which end is kept, along ways that go round lines. */
 static void
-nearer_end_is_kept (void)
+the_end_nearer_to_the_seeds_keeps_the_label (void)
 {
   static Page              page;
   static const char *const art[] = {
@@ -248,7 +248,7 @@ nearer_end_is_kept (void)
 
 /* Between whole basins: at the narrow place, seeds on either side of it. */
 static void
-basins_part_at_the_waist (void)
+whole_basins_are_cut_at_the_waist (void)
 {
   static Page              page;
   static uint8_t           side[PIXELS];
@@ -272,9 +272,9 @@ basins_part_at_the_waist (void)
 int
 main (void)
 {
-  RUN (as_good_as_exact);
-  RUN (outside_stays);
-  RUN (nearer_end_is_kept);
-  RUN (basins_part_at_the_waist);
+  RUN (a_cut_costs_little_more_than_the_exact_one);
+  RUN (pixels_outside_the_region_stay_outside);
+  RUN (the_end_nearer_to_the_seeds_keeps_the_label);
+  RUN (whole_basins_are_cut_at_the_waist);
   return DONE;
 }

@@ -63,7 +63,7 @@ changed_is (const Picture *p, int x, int y, int width, int height)
 }
 
 static void
-basins_change_by_themselves (void)
+only_basins_with_a_new_label_are_painted (void)
 {
   static const char *const first[] = { "11112222", "11112222", "33333333", "33333333", NULL };
   static const char *const second[] = { "11114444", "11114444", "33333333", "33333333", NULL };
@@ -82,7 +82,7 @@ basins_change_by_themselves (void)
 }
 
 static void
-patches_come_and_go (void)
+patches_that_are_gone_show_their_basins_again (void)
 {
   static const char *const patched[] = { "11555222", "11112222", "33333333", "33333333", NULL };
   static const char *const moved[] = { "11112222", "11112222", "33663333", "33333333", NULL };
@@ -104,7 +104,7 @@ patches_come_and_go (void)
 
 /* The later of two patches lies above; one that says what the basin says is none. */
 static void
-patches_are_tidied (void)
+patches_end_up_sorted_and_without_overlaps (void)
 {
   static const char *const art[] = { "17882222", "11112222", "33333333", "33333333", NULL };
   CeldPatch                patches[] = { { 3, 0, 8, 3 }, { 0, 1, 4, 7 }, { 0, 2, 4, 8 } };
@@ -136,7 +136,7 @@ a_basin_may_take_over_its_patch (void)
 }
 
 static void
-labels_are_measured (void)
+labels_have_their_area_and_their_place_farthest_from_ink (void)
 {
   CeldRegion  item[5] = { { .area = 77 } };
   CeldPalette palette = { item, 5 };
@@ -153,7 +153,7 @@ labels_are_measured (void)
 }
 
 static void
-a_whole_picture_replaces (void)
+a_whole_picture_replaces_the_labels (void)
 {
   static const char *const art[] = { "11112222", "11192222", "33333333", "33333333", NULL };
   CeldLabels               whole = art_labels (art);
@@ -196,7 +196,7 @@ runs_that_continue_one_another_are_one (void)
 
 /* The same row, label or end alone makes no neighbour. */
 static void
-others_are_apart (void)
+runs_of_other_labels_or_rows_stay_apart (void)
 {
   CeldPatches patches = { 0 };
 
@@ -223,7 +223,7 @@ box_of_differences (const uint32_t *a, const uint32_t *b)
 /* Random patches over basins that keep their labels: each pixel has the label of the last patch over it, or of its
  * basin; the rectangle is exactly that of what differs; and each label has as many pixels as are counted. */
 static void
-patches_at_random (void)
+random_patches_are_painted_over_one_another (void)
 {
   static const uint32_t basin_of[32] = { 1, 1, 1, 1, 2, 2, 2, 2, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3,
                                          3, 3, 3, 3, 3, 3, 3, 3 };
@@ -273,7 +273,7 @@ patches_at_random (void)
 
 /* A picture that replaces another at random: the rectangle is that of what differs. */
 static void
-whole_pictures_at_random (void)
+random_whole_pictures_replace_the_labels (void)
 {
   uint32_t seed = 6;
   Picture  p;
@@ -300,15 +300,15 @@ whole_pictures_at_random (void)
 int
 main (void)
 {
-  RUN (basins_change_by_themselves);
-  RUN (patches_come_and_go);
-  RUN (patches_are_tidied);
+  RUN (only_basins_with_a_new_label_are_painted);
+  RUN (patches_that_are_gone_show_their_basins_again);
+  RUN (patches_end_up_sorted_and_without_overlaps);
   RUN (a_basin_may_take_over_its_patch);
-  RUN (labels_are_measured);
-  RUN (a_whole_picture_replaces);
+  RUN (labels_have_their_area_and_their_place_farthest_from_ink);
+  RUN (a_whole_picture_replaces_the_labels);
   RUN (runs_that_continue_one_another_are_one);
-  RUN (others_are_apart);
-  RUN (patches_at_random);
-  RUN (whole_pictures_at_random);
+  RUN (runs_of_other_labels_or_rows_stay_apart);
+  RUN (random_patches_are_painted_over_one_another);
+  RUN (random_whole_pictures_replace_the_labels);
   return DONE;
 }

@@ -27,7 +27,7 @@ look (const Scene *s, int stroke, double x, double y, CeldLineEnd *end)
 
 /* From the corner of the tip as well as from its middle, thin lines and thick ones, at any angle. */
 static void
-tips_of_lines (void)
+tips_of_lines_are_found_with_their_direction (void)
 {
   static const double widths[] = { 1.6, 2, 3, 6, 14, 30 };
 
@@ -91,7 +91,7 @@ forks_do_not_hide_a_tip (void)
 
 /* A line that was rubbed out with a round rubber: the tip is at the bottom of the hollow. */
 static void
-hollow_tips (void)
+the_tip_of_a_hollow_line_is_at_its_ink (void)
 {
   Scene       s;
   CeldLineEnd end;
@@ -112,7 +112,7 @@ hollow_tips (void)
 
 /* From a tip that heads for another line's side the boundary goes on ahead, not along the shortest way. */
 static void
-sides_are_met_ahead (void)
+a_boundary_meets_a_side_straight_ahead_of_the_tip (void)
 {
   Scene       s;
   CeldLineEnd from, end;
@@ -137,10 +137,10 @@ sides_are_met_ahead (void)
 int
 main (void)
 {
-  RUN (tips_of_lines);
+  RUN (tips_of_lines_are_found_with_their_direction);
   RUN (sides_of_lines_and_blots_are_no_tips);
   RUN (forks_do_not_hide_a_tip);
-  RUN (hollow_tips);
-  RUN (sides_are_met_ahead);
+  RUN (the_tip_of_a_hollow_line_is_at_its_ink);
+  RUN (a_boundary_meets_a_side_straight_ahead_of_the_tip);
   return DONE;
 }

@@ -145,7 +145,7 @@ blots_and_areas_have_none (void)
 
 /* Pages too small for any line, and lines of one pixel. */
 static void
-small_pages (void)
+pages_of_a_few_pixels_have_no_ends (void)
 {
   static const char *const art[] = {
     "..............", "..............", "..############", "..............", "......#.......", "..............", NULL
@@ -171,6 +171,6 @@ main (void)
   RUN (crossing_lines_have_four);
   RUN (both_ends_at_a_gap_are_found);
   RUN (blots_and_areas_have_none);
-  RUN (small_pages);
+  RUN (pages_of_a_few_pixels_have_no_ends);
   return DONE;
 }

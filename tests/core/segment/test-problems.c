@@ -82,7 +82,7 @@ a_stroke_that_lost_its_majority_is_overruled (void)
 
 /* Less than an eighth of the colour's paint is a scrap. */
 static void
-half_a_stroke_and_scraps_are_not_worth_a_word (void)
+half_a_stroke_and_specks_are_not_reported (void)
 {
   static const char *const half[] = { "AAAA....", "........", "BBBB....", NULL };
   static const char *const ninth[] = { "AAAAAAAA", "........", "B......A", NULL };
@@ -102,7 +102,7 @@ half_a_stroke_and_scraps_are_not_worth_a_word (void)
 }
 
 static void
-a_lost_colour_is_told_once (void)
+a_lost_colour_is_reported_once (void)
 {
   static const char *const painted[] = { "AAAA....", "....B..B", "BBBB....", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
@@ -140,7 +140,7 @@ closed_regions_without_a_stroke_are_unreached (void)
 
 /* Paint of labels that the palette does not know was left out before. */
 static void
-unknown_labels_are_passed_over (void)
+unknown_labels_are_ignored (void)
 {
   static const char *const painted[] = { "AAAA....", "........", "........", NULL };
   static const char *const labels[] = { "AAAAAAAA", "AAAAAAAA", "AAAAAAAA", NULL };
@@ -263,10 +263,10 @@ int
 main (void)
 {
   RUN (a_stroke_that_lost_its_majority_is_overruled);
-  RUN (half_a_stroke_and_scraps_are_not_worth_a_word);
-  RUN (a_lost_colour_is_told_once);
+  RUN (half_a_stroke_and_specks_are_not_reported);
+  RUN (a_lost_colour_is_reported_once);
   RUN (closed_regions_without_a_stroke_are_unreached);
-  RUN (unknown_labels_are_passed_over);
+  RUN (unknown_labels_are_ignored);
   RUN (overruled_strokes_are_those_of_the_pixels);
   return DONE;
 }

@@ -159,7 +159,7 @@ some_run_gains (const Scene *s, CeldLabels *l)
 }
 
 static void
-random_boundaries_settle (void)
+random_boundaries_end_where_no_segment_gains (void)
 {
   uint32_t state = 7;
 
@@ -194,7 +194,7 @@ random_boundaries_settle (void)
 /* A ring with a gap on its right at some angle, one label inside, the other outside; parted by a vertical line far
  * from where the gap is narrowest. */
 static void
-gap_costs_what_exact_cuts_do (void)
+a_boundary_across_a_gap_costs_what_the_exact_cut_does (void)
 {
   for (int degrees = 0; degrees < 90; degrees += 15)
     {
@@ -233,7 +233,7 @@ gap_costs_what_exact_cuts_do (void)
 int
 main (void)
 {
-  RUN (random_boundaries_settle);
-  RUN (gap_costs_what_exact_cuts_do);
+  RUN (random_boundaries_end_where_no_segment_gains);
+  RUN (a_boundary_across_a_gap_costs_what_the_exact_cut_does);
   return DONE;
 }

@@ -103,7 +103,7 @@ static const char *const two_regions[] = {
   "AAAAAAAAAAAAAAAAAAAA", NULL };
 
 static void
-closed_regions (void)
+closed_regions_get_the_label_of_their_stroke (void)
 {
   Case c = segment (two_rooms, two_scribbles, 3, celd_settings ());
 
@@ -188,7 +188,7 @@ hard_strokes_are_obeyed (void)
 
 /* Paint of both in one enclosure: the smaller stroke loses, and that is reported. */
 static void
-overruled_and_lost_are_told (void)
+overruled_strokes_and_lost_colours_are_reported (void)
 {
   const char *const scribbles[] = {
     "AAAAAAA.............",
@@ -234,7 +234,7 @@ thin_grey_lines_close (void)
 }
 
 static void
-flat_colours (void)
+a_flat_colouring_gives_each_region_its_colour (void)
 {
   const char *const flats[] = {
     "AAAAAAAAAAAAAAAAAAAA",
@@ -273,7 +273,7 @@ static const char *const inside_only[] = {
   "....................", NULL };
 
 static void
-background_is_added (void)
+paper_along_the_frame_becomes_background (void)
 {
   const char *const wanted[] = {
     "CCCCCCCCCCCCCCCCCCCC",
@@ -311,7 +311,7 @@ background_is_added (void)
 
 /* The part behind a figure that spans the page has no stroke: it is background too. */
 static void
-background_on_both_sides (void)
+background_on_both_sides_is_one_label (void)
 {
   const char *const spanning[] = { "....#....#....", "....#....#....", "....#....#....", "....#....#....", NULL };
   const char *const scribbles[] = { "..............", ".AAA..BB......", "..............", "..............", NULL };
@@ -326,7 +326,7 @@ background_on_both_sides (void)
 /* ------------------------------------------------------------------ bad input */
 
 static void
-nothing_to_go_by (void)
+without_seed_or_relation_there_is_nothing_to_go_by (void)
 {
   const char *const none[] = { "....", "....", NULL };
   Case              c = segment (none, none, 0, celd_settings ());
@@ -336,7 +336,7 @@ nothing_to_go_by (void)
 }
 
 static void
-tiny_pictures (void)
+pictures_of_a_pixel_or_a_row_are_labelled (void)
 {
   const char *const ink[] = { ".", NULL }, *const black[] = { "#", NULL }, *const seed[] = { "A", NULL };
   const char *const row[] = { "...#...", NULL }, *const ends[] = { "A.....B", NULL };
@@ -383,7 +383,7 @@ cancel_at_any_time_leaves_results (void)
 
 /* Rows farther apart than their width, seeds in place, NaN for paper, seeds without a colour. */
 static void
-strides_aliases_and_nonsense (void)
+strides_aliases_nan_and_unknown_seeds_are_allowed (void)
 {
   CeldPlane    tight = art_plane (two_rooms), ink = { 20, 9, 23, malloc (9 * 23 * sizeof (float)) };
   CeldLabels   art = art_labels (two_scribbles), labels = { 20, 9, 31, malloc (9 * 31 * sizeof (uint32_t)) };
@@ -422,7 +422,7 @@ strides_aliases_and_nonsense (void)
 /* A circle of radius 120, its line 6 wide, with a gap of 60 pixels between the tips, at any angle; a stroke inside and
  * one outside.  The boundary in the gap is at most 3 pixels off the chord. */
 static void
-a_gap_is_closed_like_by_hand (void)
+a_gap_in_a_circle_is_closed_near_its_chord (void)
 {
   enum { SIDE = 300 };
   const double pi = 3.14159265358979, half = asin ((60 + 6) / 2. / 120); /* the tips are round */
@@ -475,19 +475,19 @@ a_gap_is_closed_like_by_hand (void)
 int
 main (void)
 {
-  RUN (closed_regions);
-  RUN (a_gap_is_closed_like_by_hand);
+  RUN (closed_regions_get_the_label_of_their_stroke);
+  RUN (a_gap_in_a_circle_is_closed_near_its_chord);
   RUN (a_stroke_closes_gaps_of_its_length);
   RUN (a_majority_of_paint_wins);
   RUN (hard_strokes_are_obeyed);
-  RUN (overruled_and_lost_are_told);
+  RUN (overruled_strokes_and_lost_colours_are_reported);
   RUN (thin_grey_lines_close);
-  RUN (flat_colours);
-  RUN (background_is_added);
-  RUN (background_on_both_sides);
-  RUN (nothing_to_go_by);
-  RUN (tiny_pictures);
+  RUN (a_flat_colouring_gives_each_region_its_colour);
+  RUN (paper_along_the_frame_becomes_background);
+  RUN (background_on_both_sides_is_one_label);
+  RUN (without_seed_or_relation_there_is_nothing_to_go_by);
+  RUN (pictures_of_a_pixel_or_a_row_are_labelled);
   RUN (cancel_at_any_time_leaves_results);
-  RUN (strides_aliases_and_nonsense);
+  RUN (strides_aliases_nan_and_unknown_seeds_are_allowed);
   return DONE;
 }

@@ -162,7 +162,7 @@ edit_strokes (CeldSettings settings, uint32_t seed)
 }
 
 static void
-strokes_are_answered_as_if_alone (void)
+an_edited_drawing_gets_the_labels_of_a_fresh_one (void)
 {
   CeldSettings soft = celd_settings (), hard = soft, plain = soft, exact = soft;
 
@@ -181,7 +181,7 @@ strokes_are_answered_as_if_alone (void)
 /* ------------------------------------------------------------------ settings, drawing, relations */
 
 static void
-methods_may_take_turns (void)
+methods_in_turn_give_what_each_gives_alone (void)
 {
   uint32_t     before[WIDTH * HEIGHT];
   CeldSettings settings = celd_settings ();
@@ -200,7 +200,7 @@ methods_may_take_turns (void)
 }
 
 static void
-a_drawing_may_change (void)
+a_changed_drawing_gets_the_labels_of_a_fresh_one (void)
 {
   uint32_t     before[WIDTH * HEIGHT];
   CeldSettings settings = celd_settings ();
@@ -333,7 +333,7 @@ cancel_everywhere (CeldSettings settings, uint32_t seed)
 }
 
 static void
-a_cancelled_answer_leaves_nothing_behind (void)
+a_cancelled_solve_does_not_change_the_next_one (void)
 {
   CeldSettings settings = celd_settings (), plain = settings;
 
@@ -346,7 +346,7 @@ a_cancelled_answer_leaves_nothing_behind (void)
 }
 
 static void
-nothing_to_go_by (void)
+without_seed_or_relation_there_is_nothing_to_go_by (void)
 {
   CeldSettings settings = celd_settings ();
   CeldPalette  palette = { 0 };
@@ -365,12 +365,12 @@ nothing_to_go_by (void)
 int
 main (void)
 {
-  RUN (strokes_are_answered_as_if_alone);
-  RUN (methods_may_take_turns);
-  RUN (a_drawing_may_change);
+  RUN (an_edited_drawing_gets_the_labels_of_a_fresh_one);
+  RUN (methods_in_turn_give_what_each_gives_alone);
+  RUN (a_changed_drawing_gets_the_labels_of_a_fresh_one);
   RUN (relations_make_and_split_regions);
   RUN (arrows_leave_hard_strokes_alone);
-  RUN (a_cancelled_answer_leaves_nothing_behind);
-  RUN (nothing_to_go_by);
+  RUN (a_cancelled_solve_does_not_change_the_next_one);
+  RUN (without_seed_or_relation_there_is_nothing_to_go_by);
   return DONE;
 }

@@ -72,7 +72,7 @@ paper_along_the_frame_stands_for_a_margin (void)
 }
 
 static void
-what_is_no_number_is_paper (void)
+not_a_number_counts_as_paper (void)
 {
   CeldSmoothnessCosts costs = costs_of (30, 20, 0.25f);
 
@@ -84,7 +84,7 @@ what_is_no_number_is_paper (void)
 
 /* The largest picture does not overflow, margin and all. */
 static void
-the_largest_page_fits (void)
+costs_of_the_largest_page_do_not_overflow (void)
 {
   CeldSmoothnessCosts costs = costs_of (CELD_MAX_SIDE, CELD_MAX_SIDE, 0);
 
@@ -99,7 +99,7 @@ main (void)
   RUN (the_darker_pixel_counts);
   RUN (deep_ink_costs_less);
   RUN (paper_along_the_frame_stands_for_a_margin);
-  RUN (what_is_no_number_is_paper);
-  RUN (the_largest_page_fits);
+  RUN (not_a_number_counts_as_paper);
+  RUN (costs_of_the_largest_page_do_not_overflow);
   return DONE;
 }

@@ -153,7 +153,7 @@ paint_on_a_line_does_not_count (void)
 
 /* Closed enclosures of random size, each with its stroke: the same labels on paper as by exact cuts. */
 static void
-closed_enclosures_come_out_as_by_exact_cuts (void)
+closed_enclosures_get_the_labels_of_exact_cuts (void)
 {
   enum { WIDTH = 64, HEIGHT = 48 };
   uint32_t state = 5;
@@ -207,6 +207,6 @@ main (void)
   RUN (a_part_with_paint_of_its_own_keeps_it);
   RUN (hard_labels_are_obeyed_and_the_greater_wins_a_basin);
   RUN (paint_on_a_line_does_not_count);
-  RUN (closed_enclosures_come_out_as_by_exact_cuts);
+  RUN (closed_enclosures_get_the_labels_of_exact_cuts);
   return DONE;
 }

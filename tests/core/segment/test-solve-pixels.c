@@ -54,7 +54,7 @@ walkers_stay_within_contours (void)
 }
 
 static void
-one_label_takes_all (void)
+a_single_label_gets_every_pixel (void)
 {
   CeldLabels labels = walk ((const char *[]) { "...#.B..#", NULL }, 2);
 
@@ -118,7 +118,7 @@ the_likeliest_label_wins (void)
 
 /* Through the whole step: the frame's background and arrows' regions come as with the other methods. */
 static void
-the_step_offers_it (void)
+the_segmentation_step_offers_the_random_walker (void)
 {
   const char *const rows[] = {
     "....................",
@@ -150,8 +150,8 @@ main (void)
 {
   RUN (the_boundary_is_half_way);
   RUN (walkers_stay_within_contours);
-  RUN (one_label_takes_all);
+  RUN (a_single_label_gets_every_pixel);
   RUN (the_likeliest_label_wins);
-  RUN (the_step_offers_it);
+  RUN (the_segmentation_step_offers_the_random_walker);
   return DONE;
 }

@@ -271,7 +271,7 @@ two_hard_strokes_share_an_enclosure (void)
 
 /* The tail of a stroke in the next enclosure is kept, and nothing else of that enclosure. */
 static void
-hard_stroke_through_a_contour (void)
+a_hard_stroke_through_a_contour_keeps_its_pixels (void)
 {
   static const char *const ink[] = {
     "###################", "#.....#...........#", "#.....#...........#", "#.....#...........#",
@@ -326,7 +326,7 @@ hard_strokes_on_ink_and_at_the_frame (void)
 /* ------------------------------------------------------------------ soft strokes */
 
 static void
-soft_minority_changes_nothing (void)
+a_soft_minority_in_an_open_region_changes_nothing (void)
 {
   static const char *const painted[] = {
     "....................", "..AAAAAAA...........", "..AAAAAAA...........", "....................",
@@ -343,7 +343,7 @@ soft_minority_changes_nothing (void)
 
 /* A dead end of one basin, whose paint pays for a cut across its mouth. */
 static void
-soft_stroke_in_a_dead_end (void)
+a_soft_stroke_gets_the_dead_end_it_lies_in (void)
 {
   static const char *const ink[] = {
     "################", "#......#########", "#......#########", "#..............#", "#......#########",
@@ -372,7 +372,7 @@ soft_stroke_in_a_dead_end (void)
 
 /* A page of enclosures of 60 x 60 pixels, one basin each, with label A; in some of them hard strokes of B and C. */
 static void
-several_windows_at_once (void)
+windows_far_apart_are_solved_independently (void)
 {
   enum { ROOMS = 5, SIDE = 60, ALL = ROOMS * SIDE };
   CeldPlane       ink = { ALL, ALL, ALL, malloc (ALL * ALL * sizeof (float)) };
@@ -464,7 +464,7 @@ random_scene (Scene *s, uint32_t *state, int w, int h, size_t n_labels, float ha
 }
 
 static void
-random_pictures_keep_the_rules (void)
+random_windows_obey_hard_seeds_and_never_raise_the_energy (void)
 {
   static const float hardness[] = { 0.05f, 0.3f, 0.9f, 1 };
   uint32_t           state = 23;
@@ -502,7 +502,7 @@ overrule_all (Scene *s)
 
 /* Small windows are cut on pixels. */
 static void
-small_pictures_are_exact (void)
+small_windows_are_cut_exactly (void)
 {
   uint32_t state = 5;
 
@@ -522,7 +522,7 @@ small_pictures_are_exact (void)
 
 /* Larger ones are cut in blocks first: within a percent of exact. */
 static void
-larger_pictures_come_close (void)
+large_windows_cost_at_most_a_percent_more_than_exact_cuts (void)
 {
   uint32_t state = 17;
   double   sum = 0, sum_exact = 0;
@@ -549,7 +549,7 @@ larger_pictures_come_close (void)
 /* ------------------------------------------------------------------ hosts */
 
 static void
-cancel_leaves_the_patches (void)
+after_a_cancel_the_patches_are_as_before (void)
 {
   static const char *const painted[] = {
     "....................", "..AAAAAAA...........", "..AAAAAAA...........", "....................",
@@ -569,14 +569,14 @@ int
 main (void)
 {
   RUN (two_hard_strokes_share_an_enclosure);
-  RUN (hard_stroke_through_a_contour);
+  RUN (a_hard_stroke_through_a_contour_keeps_its_pixels);
   RUN (hard_strokes_on_ink_and_at_the_frame);
-  RUN (soft_minority_changes_nothing);
-  RUN (soft_stroke_in_a_dead_end);
-  RUN (several_windows_at_once);
-  RUN (random_pictures_keep_the_rules);
-  RUN (small_pictures_are_exact);
-  RUN (larger_pictures_come_close);
-  RUN (cancel_leaves_the_patches);
+  RUN (a_soft_minority_in_an_open_region_changes_nothing);
+  RUN (a_soft_stroke_gets_the_dead_end_it_lies_in);
+  RUN (windows_far_apart_are_solved_independently);
+  RUN (random_windows_obey_hard_seeds_and_never_raise_the_energy);
+  RUN (small_windows_are_cut_exactly);
+  RUN (large_windows_cost_at_most_a_percent_more_than_exact_cuts);
+  RUN (after_a_cancel_the_patches_are_as_before);
   return DONE;
 }

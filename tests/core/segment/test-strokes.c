@@ -17,7 +17,7 @@ check_share (const CeldStrokes *strokes, size_t i, CeldStrokeOverlap wanted)
 
 /* A runs through the contour and back, in runs that add up; paint on ink is no share.  B touches only by a corner. */
 static void
-overlaps_of_strokes (void)
+overlaps_count_the_paper_of_strokes_by_part (void)
 {
   static const char *const paper[] = { "111#222", "111#222", "111#222", "111#222", NULL };
   static const char *const painted[] = { ".AAAAA.", ".....A.", ".AAAAAB", "B.....B", NULL };
@@ -254,7 +254,7 @@ at_home_or_alone_paint_is_none (void)
 
 /* A stroke with 2 of its 5 pixels elsewhere: 9 pixels of B do not outweigh the other 3, 10 do. */
 static void
-the_odds_of_a_spill (void)
+a_spill_has_odds_below_one_half (void)
 {
   static const char *const paper[] = { "1#22222", "1#22222", "1#22222", NULL };
   static const char *const nine[] = { "AAAAA..", "A.BBBBB", "...BBBB", NULL };
@@ -268,12 +268,12 @@ the_odds_of_a_spill (void)
 int
 main (void)
 {
-  RUN (overlaps_of_strokes);
+  RUN (overlaps_count_the_paper_of_strokes_by_part);
   RUN (pixels_that_touch_by_a_corner_are_one_stroke);
   RUN (runs_are_cut_where_basins_meet);
   RUN (stroke_pieces_overlaps_and_spills_are_those_of_the_pixels);
   RUN (paint_behind_a_contour_is_a_spill);
   RUN (at_home_or_alone_paint_is_none);
-  RUN (the_odds_of_a_spill);
+  RUN (a_spill_has_odds_below_one_half);
   return DONE;
 }

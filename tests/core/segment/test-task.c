@@ -137,7 +137,7 @@ data_costs_keep_their_bounds (void)
 }
 
 static void
-labels_come_by_falling_paint (void)
+labels_are_cut_in_the_order_of_falling_paint (void)
 {
   static const char *const paper[] = { "1111", "1111", NULL }, *const painted[] = { "ABBB", "C.DD", NULL };
   uint32_t                 order[5] = { 0 };
@@ -165,7 +165,7 @@ check_kept (const char *const *paper, const char *const *painted, int stroke, co
 
 /* A goes over a line and counts beside it; B is nothing but a line; C is a dark area, but only for thin strokes. */
 static void
-paint_on_lines_says_nothing (void)
+paint_on_lines_of_a_flat_colouring_is_dropped (void)
 {
   static const char *const paper[] = { "111##111##########", "1111#111##########", "1#11##############", NULL };
   static const char *const painted[] = { "AAAAAAA.BB.CCCCCCC", "AAAAA....B.CCCCCCC", "AAAA......CCCCCCCC", NULL };
@@ -190,7 +190,7 @@ dark_areas_are_on_ink (void)
 }
 
 static void
-kept_paint_is_that_of_the_pixels (void)
+kept_seeds_are_those_of_the_pixels (void)
 {
   uint32_t state = 9;
 
@@ -230,9 +230,9 @@ main (void)
 {
   RUN (paint_weighs_by_the_width_of_its_strokes);
   RUN (data_costs_keep_their_bounds);
-  RUN (labels_come_by_falling_paint);
-  RUN (paint_on_lines_says_nothing);
+  RUN (labels_are_cut_in_the_order_of_falling_paint);
+  RUN (paint_on_lines_of_a_flat_colouring_is_dropped);
   RUN (dark_areas_are_on_ink);
-  RUN (kept_paint_is_that_of_the_pixels);
+  RUN (kept_seeds_are_those_of_the_pixels);
   return DONE;
 }

@@ -276,7 +276,7 @@ compare (const CeldPlane *ink)
 }
 
 static void
-random_drawings (void)
+basins_of_random_drawings_are_those_of_single_ascents (void)
 {
   static const int size[][2] = { { 1, 1 }, { 1, 30 }, { 30, 1 }, { 2, 2 }, { 3, 7 }, { 17, 13 }, { 31, 40 }, { 20, 70 },
                                  { 70, 34 } };
@@ -300,6 +300,6 @@ random_drawings (void)
 int
 main (void)
 {
-  RUN (random_drawings);
+  RUN (basins_of_random_drawings_are_those_of_single_ascents);
   return DONE;
 }
