@@ -109,44 +109,32 @@ find_window (ExpansionWindow *w)
   return thickest > 0;
 }
 
+/* Allocates the planes, all 0. */
 static CeldStatus
 open_window (ExpansionWindow *w)
 {
-  w->front = celd_alloc (w->pixels, 1);
-  w->farther = celd_alloc (w->pixels, 1);
-  w->open = celd_alloc (w->pixels, 1);
-  w->contour = celd_alloc0 (w->pixels, 1);
-  w->axis = celd_alloc0 (w->pixels, 1);
-  w->taken = celd_alloc0 (w->pixels, 1);
-  w->d1 = celd_alloc (w->pixels, sizeof *w->d1);
-  w->d2 = celd_alloc (w->pixels, sizeof *w->d2);
-  w->near1 = celd_alloc (w->pixels, sizeof *w->near1);
-  w->near2 = celd_alloc (w->pixels, sizeof *w->near2);
-  w->t = celd_alloc (w->pixels, sizeof *w->t);
-  w->east = celd_alloc0 (w->pixels, sizeof *w->east);
-  w->south = celd_alloc0 (w->pixels, sizeof *w->south);
-  w->stack = celd_alloc (w->pixels, sizeof *w->stack);
-  return w->front && w->farther && w->open && w->contour && w->axis && w->taken && w->d1 && w->d2 && w->near1 &&
-         w->near2 && w->t && w->east && w->south && w->stack ? CELD_OK : CELD_NO_MEMORY;
+  uint8_t **mask[] = { &w->front, &w->farther, &w->open, &w->contour, &w->axis, &w->taken };
+  int32_t **number[] = { &w->d1, &w->d2, &w->near1, &w->near2, &w->stack };
+  float   **value[] = { &w->t, &w->east, &w->south };
+  bool      good = true;
+
+  for (size_t k = 0; k < sizeof mask / sizeof *mask; k++)
+    good = (*mask[k] = celd_alloc0 (w->pixels, 1)) && good;
+  for (size_t k = 0; k < sizeof number / sizeof *number; k++)
+    good = (*number[k] = celd_alloc0 (w->pixels, sizeof **number[k])) && good;
+  for (size_t k = 0; k < sizeof value / sizeof *value; k++)
+    good = (*value[k] = celd_alloc0 (w->pixels, sizeof **value[k])) && good;
+  return good ? CELD_OK : CELD_NO_MEMORY;
 }
 
 static void
 close_window (ExpansionWindow *w)
 {
-  celd_free (w->front);
-  celd_free (w->farther);
-  celd_free (w->open);
-  celd_free (w->contour);
-  celd_free (w->axis);
-  celd_free (w->taken);
-  celd_free (w->d1);
-  celd_free (w->d2);
-  celd_free (w->near1);
-  celd_free (w->near2);
-  celd_free (w->t);
-  celd_free (w->east);
-  celd_free (w->south);
-  celd_free (w->stack);
+  void *plane[] = { w->front, w->farther, w->open, w->contour, w->axis, w->taken, w->d1, w->d2, w->near1, w->near2,
+                    w->t, w->east, w->south, w->stack };
+
+  for (size_t k = 0; k < sizeof plane / sizeof *plane; k++)
+    celd_free (plane[k]);
 }
 
 /* Sets the masks; nearer regions, which are expanded already, are in none of them. */

@@ -33,42 +33,21 @@ end_of (int from, int side, int size)
 
 /* ------------------------------------------------------------------ tiles */
 
-/* Is the surface uncut within the block x .. end_x - 1, y .. end_y - 1? */
-static bool
-is_whole (const CeldSurface *s, int x, int y, int end_x, int end_y)
-{
-  for (int v = y; v < end_y; v++)
-    {
-      const float *east = s->east + (size_t) v * (size_t) s->width, *south = s->south + (size_t) v * (size_t) s->width;
-
-      for (int u = x; u < end_x; u++)
-        if ((u + 1 < end_x && east[u] <= 0) || (v + 1 < end_y && south[u] <= 0))
-          return false;
-    }
-  return true;
-}
-
 /* Joins the connected pixels of a block; `parent` is indexed by pixels. */
 static void
 join_block (const CeldSurface *s, int x, int y, int end_x, int end_y, uint32_t *parent)
 {
   uint32_t w = (uint32_t) s->width;
-  bool     whole = is_whole (s, x, y, end_x, end_y);
 
   for (int v = y; v < end_y; v++)
     for (int u = x; u < end_x; u++)
       {
         uint32_t p = (uint32_t) v * w + (uint32_t) u;
 
-        if (whole)
-          parent[p] = (uint32_t) y * w + (uint32_t) x;
-        else
-          {
-            if (u + 1 < end_x && s->east[p] > 0)
-              celd_join (parent, p, p + 1);
-            if (v + 1 < end_y && s->south[p] > 0)
-              celd_join (parent, p, p + w);
-          }
+        if (u + 1 < end_x && s->east[p] > 0)
+          celd_join (parent, p, p + 1);
+        if (v + 1 < end_y && s->south[p] > 0)
+          celd_join (parent, p, p + w);
       }
 }
 

@@ -45,18 +45,14 @@ strongest_of_row (uint32_t first, uint32_t w, const float *north, const float *s
     }
 }
 
-CELD_CLONES static void
-measure_strongest (uint32_t w, const CeldBits *best, uint32_t *most, uint32_t *count)
+CELD_CLONES static uint32_t
+count_linked (uint32_t w, const float *best)
 {
-  uint32_t largest = 0, linked = 0;
+  uint32_t linked = 0;
 
   for (uint32_t x = 0; x < w; x++)
-    {
-      largest = best[x] > largest ? best[x] : largest;
-      linked += best[x] > 0;
-    }
-  *most  = largest;
-  *count = linked;
+    linked += best[x] > 0;
+  return linked;
 }
 
 static void
@@ -72,7 +68,7 @@ strongest_of_strip (void *data, int strip)
       uint32_t i = (uint32_t) y * w;
 
       strongest_of_row (i, w, y ? g->south + i - w : NULL, g->south + i, g->east + i, a->best + i, a->link + i);
-      measure_strongest (w, (const CeldBits *) (a->best + i), &a->row_most[y], &a->row_count[y]);
+      a->row_count[y] = count_linked (w, a->best + i);
     }
 }
 
@@ -94,21 +90,16 @@ static uint32_t
 find_strongest (CeldAggregation *a)
 {
   const CeldWeightedGraph *g = a->graph;
-  uint32_t                 n = celd_grid_nodes (g), linked = 0, most = 0;
+  uint32_t                 n = celd_grid_nodes (g), linked = 0;
 
   celd_parallel_for (a->host, (g->height + CELD_STRIP - 1) / CELD_STRIP, strongest_of_strip, a);
   for (int y = 0; y < g->height; y++)
-    {
-      most = a->row_most[y] > most ? a->row_most[y] : most;
-      linked += a->row_count[y];
-    }
-  memcpy (&a->most, &most, sizeof most);
+    linked += a->row_count[y];
   for (uint32_t k = 0; k < g->n_extra; k++)
     for (uint32_t e = g->start[k]; e < g->start[k + 1]; e++)
       {
         linked += add_link (a, n + k, g->neighbour[e], g->weight[e]);
         linked += add_link (a, g->neighbour[e], n + k, g->weight[e]);
-        a->most = g->weight[e] > a->most ? g->weight[e] : a->most;
       }
   return linked;
 }
@@ -150,11 +141,9 @@ must_wait (const CeldAggregation *a, uint32_t i)
 static inline bool
 join_edge (CeldAggregation *a, bool attach, uint32_t i, uint32_t j, float w)
 {
-  bool weak_i, weak_j, waits_i, waits_j, strong = w >= STRONG_EDGE * a->most; /* at any two nodes */
+  bool weak_i, weak_j, waits_i, waits_j, strong;
 
-  if (strong && w > 0 && !attach)
-    celd_join (a->parent, i, j);
-  if (strong || !(w > 0))
+  if (!(w > 0))
     return false;
   weak_i = is_weakly_attached (a, i);
   weak_j = is_weakly_attached (a, j);
@@ -328,10 +317,9 @@ aggregation_new (const CeldWeightedGraph *fine, CeldWeightedGraph *coarse, const
     .link = celd_alloc (n, sizeof *a->link),
     .parent = celd_alloc (n, sizeof *a->parent),
     .divided = celd_alloc (n, 1),
-    .row_most = celd_alloc ((size_t) fine->height, sizeof *a->row_most),
     .row_count = celd_alloc ((size_t) fine->height, sizeof *a->row_count),
   };
-  if (!a->best || !a->link || !a->parent || !a->divided || !a->row_most || !a->row_count)
+  if (!a->best || !a->link || !a->parent || !a->divided || !a->row_count)
     return CELD_NO_MEMORY;
   memset (a->best + celd_grid_nodes (fine), 0, fine->n_extra * sizeof *a->best);
   return CELD_OK;
@@ -385,7 +373,6 @@ done:
   celd_free (a.best);
   celd_free (a.parent);
   celd_free (a.divided);
-  celd_free (a.row_most);
   celd_free (a.row_count);
   return status;
 }

@@ -86,12 +86,10 @@ typedef struct
   const CeldWeightedGraph *graph;
   CeldWeightedGraph       *coarse;
   const CeldHost          *host;
-  float                    most;        /* weight of the strongest edge of all */
   float                   *best;        /* of each node: the weight of its strongest edge, 0 without any */
   uint32_t                *link;        /* the node at the other end of that; in the end the aggregate */
   uint32_t                *parent;      /* the aggregates as sets, see base/unions.h */
   uint8_t                 *divided;     /* does the node's strong component go on beyond its coarse cell? */
-  uint32_t                *row_most;    /* of each fine row: bits of the strongest edge's weight */
   uint32_t                *row_count;   /* of each fine row: nodes with an edge; of each coarse row: aggregates */
   uint8_t                 *taken;       /* of each coarse cell: does an aggregate have its number? */
 } CeldAggregation;
