@@ -24,7 +24,7 @@ mark (void *data, int i)
 }
 
 static void
-nobody_listens (void)
+calls_without_a_host_succeed (void)
 {
   CeldHost silent = { 0 };
 
@@ -33,7 +33,7 @@ nobody_listens (void)
 }
 
 static void
-parts_of_parts (void)
+nested_parts_map_progress (void)
 {
   Host         host = { 0 };
   CeldHost     whole = { listen, NULL, &host };
@@ -50,7 +50,7 @@ parts_of_parts (void)
 }
 
 static void
-cancel_comes_through (void)
+cancel_reaches_the_caller (void)
 {
   Host         host = { .stop = true };
   CeldHost     whole = { listen, NULL, &host };
@@ -61,7 +61,7 @@ cancel_comes_through (void)
 }
 
 static void
-each_once (void)
+parallel_for_calls_each_index_once (void)
 {
   CeldHost     lent = { .each = check_backwards };
   CeldHostPart part;
@@ -79,9 +79,9 @@ each_once (void)
 int
 main (void)
 {
-  RUN (nobody_listens);
-  RUN (parts_of_parts);
-  RUN (cancel_comes_through);
-  RUN (each_once);
+  RUN (calls_without_a_host_succeed);
+  RUN (nested_parts_map_progress);
+  RUN (cancel_reaches_the_caller);
+  RUN (parallel_for_calls_each_index_once);
   return DONE;
 }

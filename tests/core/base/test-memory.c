@@ -13,7 +13,7 @@ sizes_do_not_overflow (void)
 }
 
 static void
-nothing_is_something (void)
+empty_allocations_are_not_null (void)
 {
   void *none = celd_alloc (0, 4), *cleared = celd_alloc0 (0, 0);
 
@@ -73,7 +73,7 @@ new_pictures (void)
 }
 
 static void
-records_end_twice (void)
+records_can_be_cleared_twice (void)
 {
   CeldPalette   palette = { 0 };
   CeldRelations relations = { 0 };
@@ -98,10 +98,10 @@ int
 main (void)
 {
   RUN (sizes_do_not_overflow);
-  RUN (nothing_is_something);
+  RUN (empty_allocations_are_not_null);
   RUN (refused_growth_changes_nothing);
   RUN (lists_keep_what_they_hold);
   RUN (new_pictures);
-  RUN (records_end_twice);
+  RUN (records_can_be_cleared_twice);
   return DONE;
 }

@@ -38,7 +38,7 @@ problems_say_what_and_where (void)
 }
 
 static void
-partners_of_a_contradiction (void)
+cycles_name_the_other_relations (void)
 {
   CeldRelation  relation[3] = {
     { .line = 1, .column = 1 }, { .id = 8 }, { .source = CELD_SOURCE_ARROW, .farther = { .y = 7 } }
@@ -64,6 +64,6 @@ main (void)
 {
   RUN (every_status_has_a_text);
   RUN (problems_say_what_and_where);
-  RUN (partners_of_a_contradiction);
+  RUN (cycles_name_the_other_relations);
   return DONE;
 }

@@ -14,7 +14,7 @@ defaults_are_legal (void)
 
 /* Each number of the settings, with one value inside and two outside its range. */
 static void
-ranges_are_kept (void)
+values_outside_their_range_are_refused (void)
 {
   CeldSettings s = celd_settings ();
   const struct { float *member, inside, below, above; } range[] = {
@@ -195,7 +195,7 @@ int
 main (void)
 {
   RUN (defaults_are_legal);
-  RUN (ranges_are_kept);
+  RUN (values_outside_their_range_are_refused);
   RUN (toon_has_two_to_five_steps);
   RUN (fixed_levels_need_a_span);
   RUN (rows_are_complete);

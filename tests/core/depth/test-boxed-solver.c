@@ -20,7 +20,7 @@ weigh (bool levels_alone)
 }
 
 static void
-parts_are_what_a_flood_finds (void)
+components_are_those_of_a_flood_fill (void)
 {
   for (uint32_t round = 0, r = 5; round < 60; round++)
     {
@@ -88,7 +88,7 @@ boxes_far_apart_stay_apart (void)
 int
 main (void)
 {
-  RUN (parts_are_what_a_flood_finds);
+  RUN (components_are_those_of_a_flood_fill);
   RUN (groups_hold_their_boxes);
   RUN (boxes_far_apart_stay_apart);
   return DONE;

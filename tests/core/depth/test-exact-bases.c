@@ -289,7 +289,7 @@ points_are_added_and_dropped (void)
 
 /* Other nodes, some of them where others were, start from the bases that there are. */
 static void
-nodes_are_made_anew (void)
+bases_can_be_made_from_earlier_ones (void)
 {
   uint32_t seed = 3;
 
@@ -408,7 +408,7 @@ main (void)
   RUN (an_uneven_strip_divides_by_resistance);
   RUN (bases_are_those_of_a_direct_solution);
   RUN (points_are_added_and_dropped);
-  RUN (nodes_are_made_anew);
+  RUN (bases_can_be_made_from_earlier_ones);
   RUN (depth_is_the_sum_of_bases);
   RUN (threads_change_nothing);
   RUN (a_cancel_leaves_no_nodes);

@@ -158,7 +158,7 @@ the_background_gives_way (void)
 /* ------------------------------------------------------------------ encodings */
 
 static void
-depth_leaves_as_asked (void)
+depth_has_the_encoding_asked_for (void)
 {
   Scene s = scene_new ((const char *[]) { "A....B....C", NULL }, "#010000 > #020000 > #030000 +3");
 
@@ -257,7 +257,7 @@ points_are_found (void)
 }
 
 static void
-a_point_before_itself_is_told (void)
+a_point_in_front_of_itself_is_reported (void)
 {
   Scene s = scene_new (two_rooms, "9,4 > 9.5,4.5");
 
@@ -332,13 +332,13 @@ main (void)
   RUN (equal_scribbles_are_one);
   RUN (strokes_of_a_colour_can_be_apart);
   RUN (the_background_gives_way);
-  RUN (depth_leaves_as_asked);
+  RUN (depth_has_the_encoding_asked_for);
   RUN (without_relations_all_is_level);
   RUN (without_scribbles_relations_are_enough);
   RUN (scribbles_may_cover_everything);
   RUN (a_hidden_scribble_does_not_count);
   RUN (points_are_found);
-  RUN (a_point_before_itself_is_told);
+  RUN (a_point_in_front_of_itself_is_reported);
   RUN (ink_may_be_anything);
   RUN (sizes_and_settings_are_checked);
   RUN (every_report_cancels);

@@ -251,7 +251,7 @@ anchors_keep_their_level_and_the_rest_is_harmonic (void)
 
 /* A page behind a figure, joined to it by a small gap: its depth is its own, unless it is let float. */
 static void
-the_rest_is_held (void)
+regions_without_an_anchor_are_held_by_their_core (void)
 {
   CeldSettings settings = celd_settings ();
   CeldMask     anchors = { 200, 120, 200, calloc (200 * 120, 1) };
@@ -367,7 +367,7 @@ main (void)
   RUN (a_gap_gives_a_smooth_monotone_transition);
   RUN (a_nick_does_not_leak);
   RUN (anchors_keep_their_level_and_the_rest_is_harmonic);
-  RUN (the_rest_is_held);
+  RUN (regions_without_an_anchor_are_held_by_their_core);
   RUN (what_no_anchor_reaches_keeps_its_level);
   RUN (a_speck_is_no_spike);
   RUN (pale_ink_cuts_as_far_as_the_threshold);

@@ -51,7 +51,7 @@ whole_pixels_stay_as_they_are (void)
 
 /* Black ink of the front layer covers half a pixel of blue: each layer gets its own colour. */
 static void
-an_edge_is_told_apart (void)
+antialiased_edges_are_unmixed (void)
 {
   for (CeldStore store = CELD_STORE_FLOAT; store <= CELD_STORE_8_BIT; store++)
     {
@@ -401,7 +401,7 @@ colours_run_on_across_a_hole (void)
 
 /* At equal levels it is unknown which one continues: nothing is completed. */
 static void
-equals_hide_nothing (void)
+equal_levels_hide_nothing (void)
 {
   LayerScene  s = layer_scene (110, 90);
   CeldLayers *plain, *complete;
@@ -458,7 +458,7 @@ int
 main (void)
 {
   RUN (whole_pixels_stay_as_they_are);
-  RUN (an_edge_is_told_apart);
+  RUN (antialiased_edges_are_unmixed);
   RUN (transparent_paper_stays_transparent);
   RUN (thin_ink_stays_ink);
   RUN (random_layers_make_the_drawing_again);
@@ -466,7 +466,7 @@ main (void)
   RUN (a_disc_is_round_behind_a_board);
   RUN (a_limb_runs_on_behind_a_post);
   RUN (colours_run_on_across_a_hole);
-  RUN (equals_hide_nothing);
+  RUN (equal_levels_hide_nothing);
   RUN (bad_input_is_refused);
   return DONE;
 }

@@ -147,7 +147,7 @@ a_straight_border_casts_an_error_function (void)
 }
 
 static void
-unsharp_masking_is_darker_behind_a_border_and_lighter_before_it (void)
+unsharp_masking_darkens_behind_a_boundary_and_lightens_in_front (void)
 {
   CeldSettings s = blur_of (6, CELD_ENHANCE_CONTRAST);
 
@@ -364,7 +364,7 @@ main (void)
   RUN (shadows_are_those_of_a_gaussian);
   RUN (shadows_lie_away_from_the_light);
   RUN (a_straight_border_casts_an_error_function);
-  RUN (unsharp_masking_is_darker_behind_a_border_and_lighter_before_it);
+  RUN (unsharp_masking_darkens_behind_a_boundary_and_lightens_in_front);
   RUN (the_scale_of_levels_does_not_matter);
   RUN (one_level_changes_nothing);
   RUN (any_values_give_shares_of_light);

@@ -88,7 +88,7 @@ a_detail_without_a_farther_region_is_taken_whole (void)
 
 /* Where all other regions are expanded already, the whole contour is taken. */
 static void
-nearer_regions_are_nobody (void)
+nearer_regions_are_ignored (void)
 {
   static const char *const picture[] = { "22222222", "########", "########", "333##333", NULL };
   static const char *const wanted[] = { "22222222", "22222222", "22222222", "33322333", NULL };
@@ -190,7 +190,7 @@ main (void)
   RUN (the_whole_line_goes_to_the_nearer_region);
   RUN (a_line_that_branches_off_stays_free);
   RUN (a_detail_without_a_farther_region_is_taken_whole);
-  RUN (nearer_regions_are_nobody);
+  RUN (nearer_regions_are_ignored);
   RUN (a_small_gap_is_filled);
   RUN (ink_that_is_not_connected_stays_free);
   RUN (only_the_region_s_surroundings_matter);

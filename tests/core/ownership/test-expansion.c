@@ -364,7 +364,7 @@ levels_are_expanded_as_ranks (void)
 }
 
 static void
-bad_sizes (void)
+bad_sizes_are_refused (void)
 {
   uint32_t   data[2] = { 1, 2 }, result[2] = { 7, 7 };
   float      white[2] = { 1, 1 };
@@ -390,6 +390,6 @@ main (void)
   RUN (facts_of_random_pictures);
   RUN (progress_rises_and_cancel_changes_nothing);
   RUN (levels_are_expanded_as_ranks);
-  RUN (bad_sizes);
+  RUN (bad_sizes_are_refused);
   return DONE;
 }

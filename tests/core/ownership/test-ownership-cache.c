@@ -233,7 +233,7 @@ edit_page (uint32_t seed)
 }
 
 static void
-edits_come_to_the_same (void)
+updates_equal_computation_from_scratch (void)
 {
   static const uint32_t seeds[] = { 1, 2, 3, 4, 15 }; /* in the last a line comes round a corner */
 
@@ -287,7 +287,7 @@ compare_levels (CeldSession *edited, CeldSession *fresh, float *old)
 
 /* An edited session equals a new one. */
 static void
-sessions_come_to_the_same (void)
+sessions_equal_computation_from_scratch (void)
 {
   static uint8_t corrections[4 * W * H];
   static float   old[W * H];
@@ -363,8 +363,8 @@ cancelled_edits_do_no_harm (void)
 int
 main (void)
 {
-  RUN (edits_come_to_the_same);
-  RUN (sessions_come_to_the_same);
+  RUN (updates_equal_computation_from_scratch);
+  RUN (sessions_equal_computation_from_scratch);
   RUN (cancelled_edits_do_no_harm);
   return DONE;
 }

@@ -137,7 +137,7 @@ a_black_patch_keeps_its_ink (void)
 
 /* A line with three quarters of a pixel of ink on a bright page: the coverage of the nearer label is the ink's. */
 static void
-edges_are_shared (void)
+antialiased_pixels_have_two_labels (void)
 {
   CeldPlane      ink;
   CeldLabels     labels;
@@ -165,7 +165,7 @@ edges_are_shared (void)
 
 /* A bar of ink between two regions meets another line: a dot of the farther region's colour takes the bar alone. */
 static void
-a_stroke_gives_a_piece_of_line (void)
+corrections_reassign_a_piece_of_line (void)
 {
   CeldPlane      ink;
   CeldLabels     labels, dots;
@@ -200,7 +200,7 @@ a_stroke_gives_a_piece_of_line (void)
 /* Blocks of ink and labels, where a level sometimes gets ink that is not connected with its labels: the result in
  * place is the same. */
 static void
-in_place_it_is_the_same (void)
+the_result_may_alias_the_labels (void)
 {
   enum { SIDE = 40, BLOCK = 5 };
   CeldPlane     ink;
@@ -236,7 +236,7 @@ in_place_it_is_the_same (void)
 
 /* Paper keeps its label, ink gets an existing one, and coverage is within (0,1]. */
 static void
-paper_stays (void)
+paper_keeps_its_label (void)
 {
   for (uint32_t seed = 1; seed <= 60 && !check_bad; seed++)
     {
@@ -303,10 +303,10 @@ main (void)
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
   RUN (a_black_patch_keeps_its_ink);
-  RUN (edges_are_shared);
-  RUN (a_stroke_gives_a_piece_of_line);
-  RUN (in_place_it_is_the_same);
-  RUN (paper_stays);
+  RUN (antialiased_pixels_have_two_labels);
+  RUN (corrections_reassign_a_piece_of_line);
+  RUN (the_result_may_alias_the_labels);
+  RUN (paper_keeps_its_label);
   RUN (bad_input_does_no_harm);
   return DONE;
 }

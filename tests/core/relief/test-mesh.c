@@ -269,7 +269,7 @@ check_body (double error)
 }
 
 static void
-bodies_are_closed (void)
+solids_are_closed (void)
 {
   draw_hills (3);
   check_body (0.5);
@@ -360,7 +360,7 @@ main (void)
   RUN (surfaces_are_as_near_as_asked_for);
   RUN (a_flat_picture_is_a_few_triangles);
   RUN (cracks_have_two_sides);
-  RUN (bodies_are_closed);
+  RUN (solids_are_closed);
   RUN (a_chessboard_is_closed);
   RUN (a_plate_has_the_volume_of_a_plate);
   RUN (too_many_vertices_make_it_coarser);

@@ -303,7 +303,7 @@ what_is_out_of_the_way_keeps_its_place (void)
 /* ------------------------------------------------------------------ hosts and bad input */
 
 static void
-numbers_that_are_none_do_no_harm (void)
+nan_does_no_harm (void)
 {
   uint32_t seed = 11;
 
@@ -398,7 +398,7 @@ main (void)
   RUN (only_the_nearer_side_bends);
   RUN (what_is_nearer_stays_in_front);
   RUN (what_is_out_of_the_way_keeps_its_place);
-  RUN (numbers_that_are_none_do_no_harm);
+  RUN (nan_does_no_harm);
   RUN (huge_depth_stays_finite);
   RUN (one_pixel_will_do);
   RUN (hosts_can_cancel_and_bad_input_is_refused);

@@ -86,7 +86,7 @@ nodes_round_a_hub_join_it (void)
 /* Random weights over six orders of magnitude: aggregates are of a piece, no more than asked for, and never join what
  * has no edge. */
 static void
-aggregates_are_of_a_piece (void)
+aggregates_are_connected (void)
 {
   enum { N = 200 };
 
@@ -129,6 +129,6 @@ main (void)
   RUN (a_chain_halves);
   RUN (weights_count_beside_what_a_node_has);
   RUN (nodes_round_a_hub_join_it);
-  RUN (aggregates_are_of_a_piece);
+  RUN (aggregates_are_connected);
   return DONE;
 }

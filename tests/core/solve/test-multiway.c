@@ -173,7 +173,7 @@ decided_pixels_keep_their_label (void)
 }
 
 static void
-cancel_stops (void)
+cancel_stops_the_solver (void)
 {
   uint32_t state = 3, label[MOST] = { 0 };
   Problem  p = random_problem (&state, 20, 20, 5, 100);
@@ -190,6 +190,6 @@ main (void)
   RUN (many_labels_keep_the_rules);
   RUN (every_field_its_own_label);
   RUN (decided_pixels_keep_their_label);
-  RUN (cancel_stops);
+  RUN (cancel_stops_the_solver);
   return DONE;
 }

@@ -238,7 +238,7 @@ cuts_are_those_of_the_definition (void)
 }
 
 static void
-no_expansion_is_left (void)
+no_expansion_lowers_the_energy (void)
 {
   static Problem p;
   Answer         a;
@@ -300,7 +300,7 @@ nodes_that_would_take (const Problem *p, const uint32_t *label, uint32_t alpha)
 
 /* Graphs as they come from drawings, too large to try all expansions. */
 static void
-no_expansion_is_left_of_large_graphs (void)
+no_expansion_lowers_the_energy_of_large_graphs (void)
 {
   static Problem p;
   static Answer  a;
@@ -343,7 +343,7 @@ expansion_takes_what_cuts_leave (void)
 }
 
 static void
-parts_that_no_label_reaches (void)
+unreached_components_get_the_first_label (void)
 {
   static Problem p = { .n = 5, .n_links = 2, .n_votes = 1, .n_labels = 3, .order = { 2, 3, 1 } };
   Answer         a;
@@ -361,7 +361,7 @@ parts_that_no_label_reaches (void)
 }
 
 static void
-one_label_no_links_no_nodes (void)
+trivial_problems_are_solved (void)
 {
   static Problem p = { .n = 3, .n_links = 1, .n_votes = 1, .n_labels = 1, .order = { 1 } };
   static Problem q = { .n = 2, .n_votes = 3, .n_labels = 2, .order = { 1, 2 } };
@@ -383,7 +383,7 @@ one_label_no_links_no_nodes (void)
 
 /* Every node is fixed, some against its vote. */
 static void
-all_nodes_fixed (void)
+fixed_nodes_keep_their_label (void)
 {
   static Problem p = { .n = 3, .n_links = 2, .n_votes = 1, .n_labels = 2, .fixed = { 1, 2, 2 }, .order = { 2, 1 } };
   Answer         a;
@@ -459,7 +459,7 @@ retell (uint32_t *state, const Problem *p, int64_t factor, uint32_t *number, Pro
 }
 
 static void
-same_problem_same_answer (void)
+the_order_of_input_does_not_matter (void)
 {
   static Problem p, q;
   static Answer  a, b;
@@ -516,14 +516,14 @@ main (void)
 {
   RUN (small_graphs_against_every_labelling);
   RUN (cuts_are_those_of_the_definition);
-  RUN (no_expansion_is_left);
-  RUN (no_expansion_is_left_of_large_graphs);
+  RUN (no_expansion_lowers_the_energy);
+  RUN (no_expansion_lowers_the_energy_of_large_graphs);
   RUN (expansion_takes_what_cuts_leave);
-  RUN (parts_that_no_label_reaches);
-  RUN (one_label_no_links_no_nodes);
-  RUN (all_nodes_fixed);
+  RUN (unreached_components_get_the_first_label);
+  RUN (trivial_problems_are_solved);
+  RUN (fixed_nodes_keep_their_label);
   RUN (every_field_its_own_label);
-  RUN (same_problem_same_answer);
+  RUN (the_order_of_input_does_not_matter);
   RUN (largest_sum_does_not_overflow);
   RUN (cancel_leaves_results);
   return DONE;

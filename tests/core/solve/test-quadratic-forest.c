@@ -111,7 +111,7 @@ trees_are_right (const CeldForest *f)
 }
 
 static void
-links_come_and_go (void)
+added_and_dropped_links_keep_h_exact (void)
 {
   uint32_t state = 3;
 
@@ -136,7 +136,7 @@ links_come_and_go (void)
 
 /* A link that is let go lets its ends part: by 1 along `way`, all else staying rigid, at the cost that is told. */
 static void
-the_way_apart (void)
+dropping_a_link_gives_the_cheapest_motion (void)
 {
   uint32_t state = 7;
 
@@ -190,8 +190,8 @@ flows_balance (void)
 int
 main (void)
 {
-  RUN (links_come_and_go);
-  RUN (the_way_apart);
+  RUN (added_and_dropped_links_keep_h_exact);
+  RUN (dropping_a_link_gives_the_cheapest_motion);
   RUN (flows_balance);
   return DONE;
 }

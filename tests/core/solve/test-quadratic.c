@@ -104,7 +104,7 @@ springs_in_a_row (void)
 
 /* A third sheet that must be in front of two others, which a strong spring holds together. */
 static void
-only_what_pulls_is_active (void)
+only_binding_inequalities_are_active (void)
 {
   start (3);
   spring (0, 1, 100);
@@ -122,7 +122,7 @@ only_what_pulls_is_active (void)
 
 /* Where nothing pulls, things are at their longest-path levels. */
 static void
-no_springs (void)
+without_springs_nodes_have_longest_path_levels (void)
 {
   start (6);
   ask (0, 1, 1);
@@ -174,7 +174,7 @@ components_hold_each_other (void)
 }
 
 static void
-next_to_nothing (void)
+empty_and_tiny_programs_are_solved (void)
 {
   start (0);
   CHECK (solve (&answer) == CELD_OK && answer.c.energy <= 0 && answer.c.active == 0);
@@ -447,7 +447,7 @@ rounding_of_k_does_no_harm (void)
 
 /* K may have entries > 0 beside its diagonal as long as it has no eigenvalue < 0: inexact bases make such. */
 static void
-some_weights_may_push (void)
+negative_weights_are_allowed_without_negative_eigenvalues (void)
 {
   uint32_t state = 31;
 
@@ -478,16 +478,16 @@ int
 main (void)
 {
   RUN (springs_in_a_row);
-  RUN (only_what_pulls_is_active);
-  RUN (no_springs);
+  RUN (only_binding_inequalities_are_active);
+  RUN (without_springs_nodes_have_longest_path_levels);
   RUN (components_move_freely);
   RUN (components_hold_each_other);
-  RUN (next_to_nothing);
+  RUN (empty_and_tiny_programs_are_solved);
   RUN (loops_are_refused);
   RUN (bad_numbers_are_refused);
   RUN (as_good_as_the_best_active_set);
   RUN (large_ones_are_optimal);
   RUN (rounding_of_k_does_no_harm);
-  RUN (some_weights_may_push);
+  RUN (negative_weights_are_allowed_without_negative_eigenvalues);
   return DONE;
 }
