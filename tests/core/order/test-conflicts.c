@@ -290,11 +290,13 @@ cancelled (void)
   while (c.n < 15);
   palette = (CeldPalette) { c.region, (size_t) c.n_labels };
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) ==
+         CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   calls = 2;
   CHECK (celd_order (&(CeldLabels) { c.n_labels, 1, (size_t) c.n_labels, c.pixel }, &palette,
-                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) == CELD_CANCELLED);
+                     &(CeldRelations) { c.item, (size_t) c.n }, NULL, NULL, &host, &order, &problems) ==
+         CELD_CANCELLED);
   CHECK (!order.level && !order.cycle && problems.n == 0);
   celd_problems_clear (&problems);
 }

@@ -2,19 +2,19 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "sheets.h"
+#include "shapes.h"
 #include "base/base.h"
 
-static const Sheet sheet[] = { { 0, 0, 0, 0, INFINITY }, { 40, 45, 40, 45, 25 }, { 75, 45, 75, 45, 25 } };
+static const Shape shape[] = { { 0, 0, 0, 0, INFINITY }, { 40, 45, 40, 45, 25 }, { 75, 45, 75, 45, 25 } };
 
-/* Opens three sheets and gives each this depth, with noise of this size. */
+/* Opens three shapes and gives each this depth, with noise of this size. */
 static CeldPlane
-open_depth (const float depth[3], float noise, Sheets *s)
+open_depth (const float depth[3], float noise, Scene *s)
 {
   CeldPlane plane;
   uint32_t  state = 3;
 
-  sheets_open (120, 90, sheet, 3, 3, s);
+  scene_open (120, 90, shape, 3, 3, s);
   s->region[0].background = false;
   CHECK (celd_plane_new (120, 90, &plane) == CELD_OK);
   for (int p = 0; p < 120 * 90; p++)
@@ -24,7 +24,7 @@ open_depth (const float depth[3], float noise, Sheets *s)
 
 /* The confidence with which one is in front of the other by the depth picture alone. */
 static double
-compare (const Sheets *s, const CeldPlane *depth, uint32_t a, uint32_t b)
+compare (const Scene *s, const CeldPlane *depth, uint32_t a, uint32_t b)
 {
   CeldRelations drawn = { 0 }, suggested = { 0 }, added;
   double        confidence;
@@ -35,7 +35,7 @@ compare (const Sheets *s, const CeldPlane *depth, uint32_t a, uint32_t b)
   for (size_t i = 0; i < drawn.n; i++) /* those of the drawing come first, unchanged */
     CHECK (!memcmp (&suggested.item[i], &drawn.item[i], sizeof drawn.item[i]));
   added      = (CeldRelations) { suggested.item + drawn.n, suggested.n - drawn.n };
-  confidence = sheets_confidence (s, &added, a, b);
+  confidence = scene_confidence (s, &added, a, b);
   celd_relations_clear (&drawn);
   celd_relations_clear (&suggested);
   return confidence;
@@ -50,12 +50,12 @@ larger_is_nearer (void)
   for (int k = 0; k < 3; k++)
     {
       const float depth[3] = { 1 * units[k], 5 * units[k], 3 * units[k] };
-      Sheets      s;
+      Scene       s;
       CeldPlane   plane = open_depth (depth, 0, &s);
 
       CHECK (compare (&s, &plane, 2, 3) > 0.5 && compare (&s, &plane, 2, 1) > 0.5 && compare (&s, &plane, 3, 1) > 0.5);
       free (plane.data);
-      sheets_close (&s);
+      scene_close (&s);
     }
 }
 
@@ -68,7 +68,7 @@ margin_and_spread (void)
   for (int k = 1; k <= 6; k++)
     {
       const float depth[3] = { 0, 0.5f * (float) k, 0 };
-      Sheets      s;
+      Scene       s;
       CeldPlane   plane = open_depth (depth, 1, &s); /* even noise from -1 to 1 lies half within 0.5 of its middle */
       double      confidence = compare (&s, &plane, 2, 3);
 
@@ -77,7 +77,7 @@ margin_and_spread (void)
         NEAR (confidence, 0.5, 0.03);
       last = k < 4 ? confidence : 0;
       free (plane.data);
-      sheets_close (&s);
+      scene_close (&s);
     }
 }
 
@@ -85,7 +85,7 @@ static void
 unknown_depth (void)
 {
   const float depth[3] = { 1, 2, 3 };
-  Sheets      s;
+  Scene       s;
   CeldPlane   plane = open_depth (depth, 0, &s);
 
   for (int p = 0; p < 120 * 90; p++)
@@ -96,7 +96,7 @@ unknown_depth (void)
     plane.data[p] = 7;
   CHECK (compare (&s, &plane, 2, 3) == 0 && compare (&s, &plane, 3, 1) == 0);
   free (plane.data);
-  sheets_close (&s);
+  scene_close (&s);
 }
 
 static void
@@ -104,13 +104,13 @@ bad_size (void)
 {
   const float   depth[3] = { 1, 2, 3 };
   CeldRelations suggested = { 0 };
-  Sheets        s;
+  Scene         s;
   CeldPlane     plane = open_depth (depth, 0, &s);
 
   plane.height--;
   CHECK (celd_suggest (&s.labels, &s.palette, &s.ink, &plane, NULL, &suggested) == CELD_BAD_SIZE && !suggested.n);
   free (plane.data);
-  sheets_close (&s);
+  scene_close (&s);
 }
 
 int

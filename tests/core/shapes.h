@@ -1,29 +1,29 @@
-/* Scenes of sheets laid over each other, each with its outline: what is in front is known.
+/* Scenes of shapes laid over each other, each with its outline: what is in front is known.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#ifndef SHEETS_H
-#define SHEETS_H
+#ifndef SHAPES_H
+#define SHAPES_H
 
 #include "image/image.h"
 #include "check.h"
 
-#define MOST_SHEETS 32
+#define MOST_SHAPES 32
 
 /* Everything within `radius` of the piece from (x0,y0) to (x1,y1): a disc, a limb; an infinite radius is the page. */
-typedef struct { double x0, y0, x1, y1, radius; } Sheet;
+typedef struct { double x0, y0, x1, y1, radius; } Shape;
 
-/* Sheet k has label k + 1; the first one is the background. */
+/* Shape k has label k + 1; the first one is the background. */
 typedef struct
 {
   CeldPlane   ink;
   CeldLabels  labels;
   CeldPalette palette;
-  CeldRegion  region[MOST_SHEETS];
-} Sheets;
+  CeldRegion  region[MOST_SHAPES];
+} Scene;
 
 static inline double
-sheet_outside (const Sheet *s, double x, double y)
+shape_outside (const Shape *s, double x, double y)
 {
   double dx = s->x1 - s->x0, dy = s->y1 - s->y0, square = dx * dx + dy * dy;
   double t = square > 0 ? fmax (0, fmin (1, ((x - s->x0) * dx + (y - s->y0) * dy) / square)) : 0;
@@ -31,9 +31,9 @@ sheet_outside (const Sheet *s, double x, double y)
   return hypot (x - s->x0 - t * dx, y - s->y0 - t * dy) - s->radius;
 }
 
-/* Labels meet in the middle of the ink, as those of a segmentation do; without a pixel of paper a sheet has none. */
+/* Labels meet in the middle of the ink, as those of a segmentation do; without a pixel of paper a shape has none. */
 static inline void
-sheets_label (Sheets *s, const uint32_t *owner)
+scene_label (Scene *s, const uint32_t *owner)
 {
   size_t   pixels = (size_t) s->ink.width * (size_t) s->ink.height;
   uint8_t *paper = malloc (pixels);
@@ -54,7 +54,7 @@ sheets_label (Sheets *s, const uint32_t *owner)
 
 /* Back to front, lines of this width. */
 static inline void
-sheets_open (int width, int height, const Sheet *sheet, size_t n, double line, Sheets *s)
+scene_open (int width, int height, const Shape *shape, size_t n, double line, Scene *s)
 {
   uint32_t *owner = malloc ((size_t) width * (size_t) height * sizeof *owner);
 
@@ -68,7 +68,7 @@ sheets_open (int width, int height, const Sheet *sheet, size_t n, double line, S
       owner[p]       = 1;
       for (size_t k = 0; k < n; k++)
         {
-          double out = sheet_outside (&sheet[k], p % width + 0.5, p / width + 0.5);
+          double out = shape_outside (&shape[k], p % width + 0.5, p / width + 0.5);
           double inside = fmin (1, fmax (0, 0.5 - line / 2 - out)), ink = fmin (1, fmax (0, out - line / 2 + 0.5));
 
           s->ink.data[p] = (float) fmin (1, fmax (inside, ink * (double) s->ink.data[p]));
@@ -78,35 +78,35 @@ sheets_open (int width, int height, const Sheet *sheet, size_t n, double line, S
     }
   for (size_t k = 0; k < n; k++)
     s->region[k] = (CeldRegion) { .colour = { (uint8_t) (k * 7 + 1), 0, 0, 255 }, .background = k == 0 };
-  sheets_label (s, owner);
+  scene_label (s, owner);
   free (owner);
 }
 
 static inline void
-sheets_close (Sheets *s)
+scene_close (Scene *s)
 {
   free (s->ink.data);
   free (s->labels.data);
 }
 
-static const Sheet page = { 0, 0, 0, 0, INFINITY };
+static const Shape page = { 0, 0, 0, 0, INFINITY };
 
 /* The label at an end of a relation. */
 static inline uint32_t
-sheets_at (const Sheets *s, const CeldTerm *term)
+scene_at (const Scene *s, const CeldTerm *term)
 {
   return CELD_AT (&s->labels, (int) term->x, (int) term->y);
 }
 
 /* The confidence with which a is said to be in front of b; negative if b is in front of a, 0 if nothing is said. */
 static inline double
-sheets_confidence (const Sheets *s, const CeldRelations *suggested, uint32_t a, uint32_t b)
+scene_confidence (const Scene *s, const CeldRelations *suggested, uint32_t a, uint32_t b)
 {
   double confidence = 0;
 
   for (size_t i = 0; i < suggested->n; i++)
     {
-      uint32_t nearer = sheets_at (s, &suggested->item[i].nearer), farther = sheets_at (s, &suggested->item[i].farther);
+      uint32_t nearer = scene_at (s, &suggested->item[i].nearer), farther = scene_at (s, &suggested->item[i].farther);
 
       if (nearer == a && farther == b)
         confidence = suggested->item[i].weight;
