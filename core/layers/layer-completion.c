@@ -27,7 +27,7 @@ typedef struct
   CeldGapCurve    *curve;
   size_t           n_curves;
   CeldRect         box;
-  float           *coverage;      /* coverage of each pixel by the shape; 0 where the layer is not occluded */
+  float           *coverage;   /* coverage of each pixel by the shape; 0 where the layer is not occluded */
   float           *line;       /* coverage by the line */
   float           *line_place; /* the line's curve and parameter, as index + t */
   size_t           n_hidden;

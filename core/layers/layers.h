@@ -64,7 +64,7 @@ typedef struct
 {
   double x, y;                 /* a corner */
   double tx, ty;               /* unit vector of the outline's direction */
-  bool   reliable;                 /* was the visible outline long enough to measure the direction? */
+  bool   reliable;             /* was the visible outline long enough to measure the direction? */
   double width;                /* in pixels, of the line along the visible outline; 0: none */
   float  colour[4];            /* of that line */
 } CeldGapEnd;
@@ -76,7 +76,7 @@ typedef struct
 {
   CeldCrackEdge  *crack;           /* of all loops in succession */
   size_t          n, crack_capacity;
-  size_t         *loop;        /* index of the first crack edge of each loop, and n at the end */
+  size_t         *loop;            /* index of the first crack edge of each loop, and n at the end */
   size_t          n_loops, loop_capacity;
   CeldOutlineGap *gap;
   size_t          n_gaps, gap_capacity;

@@ -39,21 +39,21 @@ typedef struct
 typedef struct
 {
   const CeldPlane      *ink;
-  const CeldPlane      *depth;       /* may be NULL */
-  const CeldPaint      *hints;       /* may be NULL */
+  const CeldPlane      *depth;        /* may be NULL */
+  const CeldPaint      *hints;        /* may be NULL */
   const CeldSettings   *settings;
   int                   width, height;
-  int                   stroke;      /* width of the drawing's strokes in pixels */
+  int                   stroke;       /* width of the drawing's strokes in pixels */
   CeldDepthEdges        edges;
   float                *level;
   float                *east, *south; /* weights; 0 where the surface is cut */
   CeldCrease           *crease;
   size_t                n_creases;
-  CeldRunComponents     regions;     /* connected regions of one level */
-  uint8_t              *flat;        /* of each region, 1: without an outline of its own, it faces the viewer */
-  CeldNormalConstraint *constraint;  /* in any order; several of one pixel add up */
+  CeldRunComponents     regions;      /* connected regions of one level */
+  uint8_t              *flat;         /* of each region, 1: without an outline of its own, it faces the viewer */
+  CeldNormalConstraint *constraint;   /* in any order; several of one pixel add up */
   size_t                n_constraints;
-  float                *tilt;        /* n_x and n_y of each pixel, y up */
+  float                *tilt;         /* n_x and n_y of each pixel, y up */
   size_t                crease_capacity, constraint_capacity;
 } CeldLumo;
 

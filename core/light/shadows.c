@@ -37,7 +37,7 @@ typedef struct
   const CeldSettings *settings;
   CeldPlane          *change;
   LevelNumbers        number;
-  float               full;                /* difference of levels from which shadows are full */
+  float               full;         /* difference of levels from which shadows are full */
 
   CeldBlurGrid cells;
   CeldKernel   along, down;

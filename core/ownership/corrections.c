@@ -24,7 +24,7 @@ typedef struct
   const CeldLabels      *corrections;
   CeldLabels            *owner;
   Reassignment          *change;           /* of each point */
-  CeldTiles              strokes; /* not 0 for tiles with strokes */
+  CeldTiles              strokes;          /* not 0 for tiles with strokes */
   CeldReassigned        *reassigned;
 } Corrector;
 

@@ -34,21 +34,21 @@
 typedef struct
 {
   CeldExpansionState *state;
-  uint32_t            k;    /* the level being expanded */
+  uint32_t            k;             /* the level being expanded */
   int                 left, top, width, height;
   size_t              pixels;
-  uint8_t            *front; /* the region's paper */
-  uint8_t            *farther; /* the paper of all farther regions */
-  uint8_t            *open; /* where the next flood fill may go */
-  uint8_t            *contour; /* free ink connected to the region */
-  uint8_t            *axis; /* its medial axis */
-  uint8_t            *taken; /* what the region takes of the contour */
-  int32_t            *d1, *d2; /* D1 and D2, squared */
+  uint8_t            *front;         /* the region's paper */
+  uint8_t            *farther;       /* the paper of all farther regions */
+  uint8_t            *open;          /* where the next flood fill may go */
+  uint8_t            *contour;       /* free ink connected to the region */
+  uint8_t            *axis;          /* its medial axis */
+  uint8_t            *taken;         /* what the region takes of the contour */
+  int32_t            *d1, *d2;       /* D1 and D2, squared */
   int32_t            *near1, *near2; /* the nearest pixels, at distance D1 and D2 */
-  float              *t;    /* thickness t of the contour */
-  float              *east, *south; /* Laplace's equation for t */
+  float              *t;             /* thickness t of the contour */
+  float              *east, *south;  /* Laplace's equation for t */
   int32_t            *stack;
-  double              mean, most; /* of t on the axis; infinite without an axis */
+  double              mean, most;    /* of t on the axis; infinite without an axis */
 } ExpansionWindow;
 
 /* The first pixel of row y of the window in the picture. */

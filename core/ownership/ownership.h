@@ -27,13 +27,13 @@ typedef struct
 {
   float   x, y;
   float   nx, ny;               /* unit normal, into the ink */
-  float   thickness;              /* distance through the ink along the normal, in pixels; INFINITY if no other side
-                                   * is found */
+  float   thickness;            /* distance through the ink along the normal, in pixels; INFINITY if no other side
+                                 * is found */
   float   step;                 /* distance to the next point of the loop, in pixels */
   int32_t paper, across;        /* pixels of paper, y * width + x: on this side, and on the other side of the ink; -1
                                  * = outside the picture */
   bool    corner;               /* the edge turns sharply here */
-  bool    skewed;                /* a corner is so close that the normal is unreliable */
+  bool    skewed;               /* a corner is so close that the normal is unreliable */
 } CeldEdgePoint;
 
 /* A closed edge: the points first .. first + n - 1, in an order that has paper on the right. */
@@ -130,9 +130,9 @@ typedef struct
   CeldRay  from, to;            /* band: its two sides; line: its beginning, in both; disc: its centre, in both */
   float    width;               /* of the pen, in pixels; of a disc the radius */
   float    length;              /* of a band behind the edge, or of a line along it, in pixels */
-  int      direction;                 /* of a line: along the loop (1) or against it (-1) */
-  uint32_t tentative;               /* 1: yields to every other claim (a line that is assumed to continue under
-                                     * another) */
+  int      direction;           /* of a line: along the loop (1) or against it (-1) */
+  uint32_t tentative;           /* 1: yields to every other claim (a line that is assumed to continue under
+                                 * another) */
 } CeldClaim;
 
 #define CELD_MAX_CLAIMS 6 /* largest number of claims of one point */
@@ -146,7 +146,7 @@ typedef struct
 {
   const CeldContourPens *pens;
   const CeldPlane       *ink;
-  CeldLabels            *owner; /* 0 = unclaimed ink */
+  CeldLabels            *owner;   /* 0 = unclaimed ink */
   CeldPlane             *excess;  /* of each ink pixel: its distance beyond its owner's pen in pixels, <= 0 if the
                                    * pen covers it; INFINITY if unclaimed; -INFINITY if settled without claims */
 } CeldClaimMap;
@@ -212,10 +212,10 @@ typedef struct
 {
   int       width, height;
   size_t    pixels;
-  uint32_t *level;          /* 1 .. n from back to front; 0 for ink that is still free */
-  int32_t  *distance_in_ink;   /* squared distance to the nearest pixel that was not free at the beginning */
-  uint32_t *rank;           /* the rank that level k stands for: rank[k-1] */
-  CeldRect *box;            /* bounding box of level k at the beginning: box[k-1]; width 0 if it has no pixels */
+  uint32_t *level;           /* 1 .. n from back to front; 0 for ink that is still free */
+  int32_t  *distance_in_ink; /* squared distance to the nearest pixel that was not free at the beginning */
+  uint32_t *rank;            /* the rank that level k stands for: rank[k-1] */
+  CeldRect *box;             /* bounding box of level k at the beginning: box[k-1]; width 0 if it has no pixels */
   size_t    n;
 } CeldExpansionState;
 
@@ -241,13 +241,13 @@ CeldRect celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger
 typedef struct
 {
   CeldContourEdges edges;
-  CeldTiles        antialiased;        /* not 0 for tiles with antialiased pixels */
-  CeldContourPens  pens;               /* includes level and n */
+  CeldTiles        antialiased; /* not 0 for tiles with antialiased pixels */
+  CeldContourPens  pens;        /* includes level and n */
   uint32_t        *level;       /* owned; NULL: the cache is empty */
   bool            *solid;
   CeldLabels       owner;       /* label that covers most of each pixel, after corrections */
-  CeldPlane        excess;        /* see CeldClaimMap */
-  CeldReassigned   reassigned;            /* pixels of `owner` that corrections changed */
+  CeldPlane        excess;      /* see CeldClaimMap */
+  CeldReassigned   reassigned;  /* pixels of `owner` that corrections changed */
 } CeldOwnershipCache;
 
 /* What ownership is computed from. */

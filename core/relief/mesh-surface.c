@@ -22,7 +22,7 @@ typedef struct
   ptrdiff_t pixel[4];
   bool      joined[4];          /* is each connected with the next one, clockwise? */
   bool      nearer[4];          /* if not: is it in front of the next one? */
-  int       part[4];           /* of each pixel */
+  int       part[4];            /* of each pixel */
   int       parts;
   float     z[4];               /* of each part */
 } Corner;

@@ -166,7 +166,7 @@ typedef struct
   const CeldReliefTiles    *tiles;
   const CeldReliefTilePair *cut;
   size_t                    cuts;
-  double                    hold; /* weight of u^2 for a pixel that is not flat */
+  double                    hold;   /* weight of u^2 for a pixel that is not flat */
   uint8_t                  *active; /* of each cut: is it violated? */
   double                   *u, *gradient, *step, *r, *p, *q, *diagonal;
 } Shift;

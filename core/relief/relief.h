@@ -59,7 +59,7 @@ typedef struct
   float              *area;     /* of each tile, in pixels */
   float              *flat;     /* number of its flat pixels */
   float              *x, *y;    /* its centre */
-  CeldReliefTilePair *link;           /* where the surface continues; a pair may occur several times */
+  CeldReliefTilePair *link;     /* where the surface continues; a pair may occur several times */
   size_t              links, link_capacity;
 } CeldReliefTiles;
 
@@ -89,7 +89,7 @@ typedef struct
 {
   int       width, height;      /* of the picture, which has one more corner each way */
   uint32_t *first;              /* the points of corner c are first[c] .. first[c + 1] - 1 */
-  uint8_t  *part;              /* of each corner: the parts that its four pixels belong to, two bits each */
+  uint8_t  *part;               /* of each corner: the parts that its four pixels belong to, two bits each */
   uint8_t  *cracked;            /* is there a cut at the corner? */
   float    *z;                  /* of each point */
   size_t    n, capacity;
@@ -120,7 +120,7 @@ celd_mesh_point_at (const CeldMeshPoints *points, int x, int y, int direction)
 /* A quadtree: its leaves are the squares of 1, 2, 4, ... pixels that are not part of a larger one. */
 typedef struct
 {
-  int      width, height;       /* of the picture */
+  int      width, height;              /* of the picture */
   uint8_t *whole[CELD_QUADTREE_SIZES]; /* is each square of 2^k pixels merged? [0] is NULL, because single pixels
                                         * always are */
 } CeldQuadtree;
@@ -140,11 +140,11 @@ typedef struct
   const CeldRelief     *relief;
   const CeldMeshPoints *points;
   const CeldQuadtree   *quadtree;
-  double                scale;  /* size of a pixel, in the mesh's unit */
-  uint32_t             *vertex; /* of each point, from 1; 0: unused */
+  double                scale;         /* size of a pixel, in the mesh's unit */
+  uint32_t             *vertex;        /* of each point, from 1; 0: unused */
   bool                  solid;
-  double                bottom; /* height of a solid's bottom, in pixels */
-  uint32_t             *bottom_vertex;  /* of each corner at the frame: its vertex at the bottom, from 1; 0: none yet */
+  double                bottom;        /* height of a solid's bottom, in pixels */
+  uint32_t             *bottom_vertex; /* of each corner at the frame: its vertex at the bottom, from 1; 0: none yet */
   uint32_t              bottom_centre; /* vertex in the middle of the bottom */
   CeldReliefMesh        mesh;
   size_t                triangle_capacity;

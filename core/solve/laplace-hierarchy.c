@@ -66,12 +66,12 @@ level_new (const CeldWeightedGraph *g, CeldGridLevel *level)
 typedef struct
 {
   const CeldWeightedGraph *graph;
-  const uint32_t          *coarser; /* of each node of the graph */
+  const uint32_t          *coarser;   /* of each node of the graph */
   const CeldGridLevel     *next;
   CeldGridLevel           *level;
   int                      doublings; /* to the next level */
   bool                     pixels;
-  uint32_t                *count; /* of each row */
+  uint32_t                *count;     /* of each row */
 } Layout;
 
 /* Nodes x = odd, odd + 2, ... of a row go to places 1, 2, ...: those whose sums they get in `inverse`. */

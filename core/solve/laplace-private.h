@@ -199,9 +199,9 @@ void       celd_hierarchy_clear (CeldHierarchy *hierarchy);               /* acc
 /* The vectors of a coarse level, `lanes` numbers a place. */
 typedef struct
 {
-  float  *b, *x, *step, *image; /* right-hand side; the x of either step of the Krylov iteration; A x */
+  float  *b, *x, *step, *image;         /* right-hand side; the x of either step of the Krylov iteration; A x */
   float   a[CELD_LANES], c[CELD_LANES]; /* the solution is a x + c step */
-  double *sum;                  /* workspace: CELD_SMOOTHER_SUMS sums of each row, of every lane */
+  double *sum;                          /* workspace: CELD_SMOOTHER_SUMS sums of each row, of every lane */
 } CeldLevelVectors;
 
 #define CELD_SMOOTHER_SUMS 3
@@ -210,13 +210,13 @@ typedef struct
 typedef struct
 {
   const CeldGridLevel *level;
-  const CeldHost      *host;    /* NULL where the level is too small to be worth threads */
-  int                  lanes;   /* 1 or CELD_LANES */
+  const CeldHost      *host;          /* NULL where the level is too small to be worth threads */
+  int                  lanes;         /* 1 or CELD_LANES */
   float               *b, *x, *image; /* image: A x of the grid nodes; NULL if it is not needed */
-  const float         *other;   /* NULL, or the x of the first step */
-  CeldLevelVectors    *next;    /* of the next coarser level */
+  const float         *other;         /* NULL, or the x of the first step */
+  CeldLevelVectors    *next;          /* of the next coarser level */
   float                a[CELD_LANES];
-  double              *sum;     /* of each row, as in CeldLevelVectors */
+  double              *sum;           /* of each row, as in CeldLevelVectors */
 } CeldSmootherPass;
 
 /* Relaxes x from 0 and restricts the residual to the next level's b, which is zero before. */
@@ -233,7 +233,7 @@ typedef struct
 {
   const CeldHierarchy *hierarchy;
   const CeldHost      *host;
-  int                  lanes;   /* 1 or CELD_LANES */
+  int                  lanes;    /* 1 or CELD_LANES */
   CeldLevelVectors     vectors[CELD_MAX_LEVELS];
   double              *coarsest; /* right-hand side and solution of the coarsest level */
 } CeldKCycle;

@@ -27,7 +27,7 @@ typedef struct
   const CeldMultiway *problem;
   const CeldHost     *host;
   uint32_t           *label;
-  uint32_t           *component;     /* 0: decided */
+  uint32_t           *component; /* 0: decided */
   uint32_t           *queue;     /* pixels of the component that is being filled */
   size_t             *rank;      /* of label l: rank[l - 1] */
   uint32_t           *seen;      /* by rank: the last component that this label reaches */

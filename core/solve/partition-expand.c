@@ -22,8 +22,8 @@
 typedef struct
 {
   CeldPartitionGraph *graph;
-  int64_t            *current; /* of each node: the votes for the label that it has */
-  int64_t            *for_alpha; /* the votes for alpha, while it expands; else 0 */
+  int64_t            *current;     /* of each node: the votes for the label that it has */
+  int64_t            *for_alpha;   /* the votes for alpha, while it expands; else 0 */
   uint32_t           *excess_node; /* nodes whose excess does not come from alpha; at first all nodes */
   size_t              n_excess;
   bool               *is_listed;

@@ -17,7 +17,7 @@ typedef struct
   CeldPartitionGraph *graph;
   uint32_t           *component;
   uint32_t           *item, *found; /* nodes by component; while components are looked for, the new ones */
-  uint32_t           *seen; /* by rank: the last component that this label reaches */
+  uint32_t           *seen;         /* by rank: the last component that this label reaches */
   uint32_t            last_id;
   NodeComponent      *todo;         /* a component has a node at least, so that there are never more than nodes */
   size_t              n_todo, decided;

@@ -28,10 +28,10 @@ typedef struct
   const CeldColours *art;
   const CeldPlane   *ink;
   CeldScene         *scene;
-  float             *depths;     /* of a row */
-  float              cut;      /* difference of depth that is a discontinuity */
-  double             shift;    /* largest shift in pixels for each unit of depth */
-  double             steps;    /* groups for each unit of depth */
+  float             *depths;         /* of a row */
+  float              cut;            /* difference of depth that is a discontinuity */
+  double             shift;          /* largest shift in pixels for each unit of depth */
+  double             steps;          /* groups for each unit of depth */
   size_t            *spans, *pixels; /* of each part, while spans are counted; then NULL */
   int                y;
 } SceneBuilder;

@@ -29,9 +29,9 @@ typedef struct
 typedef struct
 {
   float                *nearest, *t;
-  const CeldSceneSpan **span;       /* NULL: no sample */
+  const CeldSceneSpan **span;              /* NULL: no sample */
   int                  *at;
-  float                *colour; /* composite of the row so far, premultiplied */
+  float                *colour;            /* composite of the row so far, premultiplied */
   int                   width, first, end; /* pixels that the group may have reached */
 } Scanline;
 

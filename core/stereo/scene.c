@@ -189,7 +189,7 @@ typedef struct
   const CeldPlane     *depth;
   CeldLayer            layer;
   float               *art, *depths; /* of the layer's box; the art is premultiplied */
-  bool                *known;      /* of each row: does it have depth of the layer's own? */
+  bool                *known;        /* of each row: does it have depth of the layer's own? */
 } LayerDepth;
 
 /* Is the depth of this pixel the layer's?  It is that of the label that covers most of the pixel. */

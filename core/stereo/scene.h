@@ -36,11 +36,11 @@ typedef struct
 struct CeldScene
 {
   int             width, height;
-  bool            separate;       /* are spans of one group composited one by one, as separate surfaces? */
+  bool            separate;    /* are spans of one group composited one by one, as separate surfaces? */
   double          least, most; /* range of depth */
   CeldSceneSpans *part;
   size_t          n_parts;
-  CeldSceneSpan  *span;             /* of all parts, sorted by rows; within a row in the order of the parts */
+  CeldSceneSpan  *span;        /* of all parts, sorted by rows; within a row in the order of the parts */
   size_t         *row;         /* index of the first span of each row, and the number of spans at the end */
 };
 
