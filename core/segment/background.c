@@ -143,8 +143,8 @@ find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *fra
   uint32_t         *of_enclosure = celd_alloc0 (b->n_enclosures + 1, sizeof *of_enclosure);
   size_t           *component_along = celd_alloc0 (b->n_components + 1, sizeof *component_along);
   size_t           *enclosure_along = celd_alloc0 (b->n_enclosures + 1, sizeof *enclosure_along);
-  CeldStatus        status = of_component && of_enclosure && component_along && enclosure_along ? CELD_OK :
-  CELD_NO_MEMORY;
+  CeldStatus        status = of_component && of_enclosure && component_along && enclosure_along ? CELD_OK
+                           : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = find_part_owners (task, frame, b->enclosure, strokes, enclosure_along, of_enclosure);

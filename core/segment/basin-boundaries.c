@@ -215,10 +215,9 @@ celd_basin_boundary_compare (const void *a, const void *b)
 
 CeldStatus
 celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent, const CeldBasins *basins,
-                             const CeldHost *host,
-                             CeldBasinBoundary **boundary, size_t *n)
+                             const CeldHost *host, CeldBasinBoundary **boundary, size_t *n)
 {
-  Boundaries    b = { .ink = ink, .extent = extent, .basins = basins };
+  Boundaries b = { .ink = ink, .extent = extent, .basins = basins };
   int        top = extent->box.y, end = top + extent->box.height;
   CeldStatus status = CELD_OK;
 

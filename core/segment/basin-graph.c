@@ -28,8 +28,8 @@ static CeldStatus
 build (const CeldPlane *ink, const CeldHost *host, CeldBasins *basins)
 {
   CeldHostPart    parts[3];
-  CeldHost        measuring = celd_host_part (&parts[0], host, 0, 0.4),
-  ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
+  CeldHost        measuring = celd_host_part (&parts[0], host, 0, 0.4);
+  CeldHost        ascending = celd_host_part (&parts[1], host, 0.4, 0.9);
   CeldHost        touching = celd_host_part (&parts[2], host, 0.9, 1);
   int32_t        *squared = celd_alloc ((size_t) ink->width * (size_t) ink->height, sizeof *squared);
   CeldBasinExtent extent = { { 0, 0, ink->width, ink->height }, squared, (size_t) ink->width, basins->stroke, NULL,

@@ -27,8 +27,7 @@ CeldStatus celd_basins_ascend (const CeldBasinExtent *extent, const CeldHost *ho
 /* basin-boundaries.c: the boundaries of the basins that width, height, basin, row and run describe, counting only pairs
  * with a pixel that is assigned again.  The caller frees *boundary with celd_free. */
 CeldStatus celd_basins_find_boundaries (const CeldPlane *ink, const CeldBasinExtent *extent, const CeldBasins *basins,
-                                        const CeldHost *host,
-                                        CeldBasinBoundary **boundary, size_t *n);
+                                        const CeldHost *host, CeldBasinBoundary **boundary, size_t *n);
 
 /* Adds to a boundary another part of it. */
 void celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *more);

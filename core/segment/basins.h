@@ -1,9 +1,9 @@
 /* The basin graph of a drawing: the regions that a person sees in the line art alone, before any scribble.
  *
- * * The relief is the squared Euclidean distance to ink on paper, and minus the squared distance to paper in ink; in
- * solid areas, deeper than strokes are, it rises again. A basin is the catchment basin of one maximum of the relief:
- * the pixels that ascend to it. Basins meet in the middle of lines and at the narrowest place of a gap. The smoothness
- * cost along the boundary of two basins is summed up exactly.
+ * The relief is the squared Euclidean distance to ink on paper, and minus the squared distance to paper in ink; in
+ * solid areas, deeper than strokes are, it rises again.  A basin is the catchment basin of one maximum of the relief:
+ * the pixels that ascend to it.  Basins meet in the middle of lines and at the narrowest place of a gap.  The
+ * smoothness cost along the boundary of two basins is summed up exactly.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -157,8 +157,7 @@ end_of_chain (const ChainTracer *t, CeldCorner corner, int heading, CeldCorner *
 /* Adds a corner, reached with this heading, and all that follow, up to the chain's end or the edge `first`. */
 static CeldStatus
 follow (ChainTracer *t, CeldCorner corner, int heading, uint32_t left, uint32_t right, uint32_t first,
-        CeldChainEnd *end,
-        CeldCorner *ink)
+        CeldChainEnd *end, CeldCorner *ink)
 {
   CeldStatus status = add_corner (t->chains, corner);
 
@@ -361,13 +360,12 @@ trace_bridges (ChainTracer *t, const CeldBridges *bridges)
 
 CeldStatus
 celd_chains_find (const CeldSegmentTask *task, const uint32_t *label, const CeldLabels *labels,
-                  const CeldPatches *windows,
-                  CeldChains *chains)
+                  const CeldPatches *windows, CeldChains *chains)
 {
   const CeldBasins *basins = task->basins;
-  ChainTracer t = { .ink = task->ink, .labels = labels, .chains = chains };
-  size_t      wanted = 0, found = 0;
-  CeldStatus  status = CELD_OK;
+  ChainTracer       t = { .ink = task->ink, .labels = labels, .chains = chains };
+  size_t            wanted = 0, found = 0;
+  CeldStatus        status = CELD_OK;
 
   *chains = (CeldChains) { 0 };
   for (size_t i = 0; i < basins->n_boundaries && status == CELD_OK; i++)

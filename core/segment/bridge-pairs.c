@@ -17,10 +17,10 @@
 #include <stdlib.h>
 
 #define NEAR_END          6     /* stroke widths: up to here a line may turn sharply to meet another */
-#define FAR_END           12    /* from here on it must continue nearly straight */
-#define NEAR_COSINE -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
+#define FAR_END           12    /* stroke widths: from here on it must continue nearly straight */
+#define NEAR_COSINE       -0.17 /* cosines of the angle by which it may turn: 100, 60 and 20 degrees */
 #define MIDDLE_COSINE      0.5
-#define FAR_COSINE  0.94
+#define FAR_COSINE        0.94
 #define OWN_OUTLINE       0.5   /* factor of the cost between two ends of one outline: closing it is preferred */
 #define BOW_COSINE        0.8   /* if both cosines are less, both ends must turn to the same side */
 #define ROUND_OFF         1e-6  /* margin by which quick tests are less strict than the exact one */
@@ -62,8 +62,8 @@ may_join (const CeldTipPairs *s, const CeldTip *p, const CeldTip *q, double *cos
 
   if (length < 1 || length <= s->from || length > s->most)
     return false;
-  least = length <= NEAR_END * s->stroke ? NEAR_COSINE : length <= FAR_END * s->stroke ? MIDDLE_COSINE :
-  FAR_COSINE;
+  least = length <= NEAR_END * s->stroke ? NEAR_COSINE : length <= FAR_END * s->stroke ? MIDDLE_COSINE
+        : FAR_COSINE;
   if (turn < least || other < least || (turn < BOW_COSINE && other < BOW_COSINE && side * other_side < 0))
     return false;
   *cost = length * (2 - 0.5 * (turn + other)) * (p->outline == q->outline ? OWN_OUTLINE : 1);

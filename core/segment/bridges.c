@@ -304,11 +304,11 @@ CeldStatus
 celd_bridges_make_basins (const CeldPlane *ink, CeldRect *changed, float threshold, const CeldHost *host,
                           CeldBridges *bridges, CeldBasins *basins, uint32_t **bridged_component)
 {
-  CeldHostPart    part[2];
-  CeldHost    find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
-  CeldBridges made = { 0 };
-  CeldPlane   copy = { 0 };
-  CeldStatus  status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &made);
+  CeldHostPart part[2];
+  CeldHost     find = celd_host_part (&part[0], host, 0, 0.2), make = celd_host_part (&part[1], host, 0.2, 1);
+  CeldBridges  made = { 0 };
+  CeldPlane    copy = { 0 };
+  CeldStatus   status = celd_bridges_find (ink, celd_stroke_width (ink), &find, &made);
 
   if (status == CELD_OK && changed)
     status = celd_bridges_compare (bridges, &made, changed);

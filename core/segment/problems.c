@@ -92,8 +92,8 @@ static CeldStatus
 report_overruled (const CeldSegmentTask *task, const CeldStrokes *strokes, const CeldLabelling *labelling,
                   const CeldLabels *labels, CeldProblems *problems)
 {
-  StrokeOutcome      *outcome = celd_alloc0 (strokes->n_strokes, sizeof *outcome);
-  CeldStatus status = outcome ? CELD_OK : CELD_NO_MEMORY;
+  StrokeOutcome *outcome = celd_alloc0 (strokes->n_strokes, sizeof *outcome);
+  CeldStatus     status = outcome ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     follow_strokes (strokes, labelling, labels, outcome);
@@ -220,7 +220,7 @@ CeldStatus
 celd_segment_report (const CeldSegmentTask *task, const CeldSeedRows *seeds, const CeldLabelling *labelling,
                      const CeldLabels *labels, const CeldHost *host, CeldProblems *problems)
 {
-  bool       all = !task->settings->flats;
+  bool            all = !task->settings->flats;
   CeldSegmentTask before = *task;
   CeldStrokes     own = { 0 };
   CeldStatus      status = CELD_OK;

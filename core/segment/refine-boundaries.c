@@ -298,13 +298,13 @@ list_changes (Refinement *s, CeldPatches *patches)
 CeldStatus
 celd_boundaries_refine (const CeldSegmentTask *task, const CeldHost *host, CeldLabels *labels, CeldPatches *patches)
 {
-  size_t                 n = (size_t) labels->width * (size_t) labels->height;
-  CeldHostPart           part;
-  CeldHost               brief = celd_host_part (&part, host, 0, 0);
-  Refinement s = {
+  size_t       n = (size_t) labels->width * (size_t) labels->height;
+  CeldHostPart part;
+  CeldHost     brief = celd_host_part (&part, host, 0, 0);
+  Refinement   s = {
     .task = task, .host = &brief, .labels = labels, .to_paper = celd_alloc (n, sizeof *s.to_paper)
   };
-  CeldStatus             status = s.to_paper ? celd_distance_to_paper (task->ink, &brief, s.to_paper) : CELD_NO_MEMORY;
+  CeldStatus   status = s.to_paper ? celd_distance_to_paper (task->ink, &brief, s.to_paper) : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = refine_seeds (&s);

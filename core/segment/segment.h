@@ -38,8 +38,7 @@ size_t celd_segmenter_effective_relations (const CeldSegmenter *segmenter);
 /* Would this relation, added after those of the last solve, change nothing?  `settings` and `labels` are those of the
  * last solve.  Also false where that is not known without solving. */
 bool celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation,
-                                  const CeldSettings *settings,
-                                  const CeldLabels *labels);
+                                  const CeldSettings *settings, const CeldLabels *labels);
 
 /* The gaps that the last solve closed; borrowed, and valid until the next solve. */
 const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);

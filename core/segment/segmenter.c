@@ -65,11 +65,11 @@ celd_segmenter_set_ink (CeldSegmenter *segmenter, const CeldPlane *ink, const Ce
                         const CeldSettings *settings, const CeldHost *host)
 {
   CeldSegmenter *s = segmenter;
-  float      threshold = settings->ink_threshold;
-  bool       same_size = s->basins.width == ink->width && s->basins.height == ink->height;
-  bool       renew = changed && same_size && s->threshold == threshold && s->bridged == settings->close_gaps;
-  CeldRect   rect = changed ? *changed : (CeldRect) { 0 };
-  CeldStatus status;
+  float          threshold = settings->ink_threshold;
+  bool           same_size = s->basins.width == ink->width && s->basins.height == ink->height;
+  bool           renew = changed && same_size && s->threshold == threshold && s->bridged == settings->close_gaps;
+  CeldRect       rect = changed ? *changed : (CeldRect) { 0 };
+  CeldStatus     status;
 
   celd_strokes_clear (&s->strokes);
   celd_free (s->bridged_component);
@@ -187,7 +187,7 @@ repaint (CeldSegmenter *s, uint32_t *label, const CeldPatches *windows, const Ce
          const CeldHost *host, CeldSegmentTask *task, CeldLabels *labels)
 {
   CeldLabelling old;
-  CeldStatus status;
+  CeldStatus    status;
 
   celd_labelling_begin (&s->labelling, &s->basins, label, labels, &old);
   status = celd_labelling_add (&s->labelling, windows, labels);
@@ -273,11 +273,11 @@ static CeldStatus
 solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relations, const CeldHost *host,
        CeldSegmentTask *task, CeldLabels *labels, CeldProblems *problems)
 {
-  CeldHostPart   part[3];
-  CeldHost   first = celd_host_part (&part[0], host, 0, 0), solving = celd_host_part (&part[1], host, 0.1, 0.95);
-  CeldHost   last = celd_host_part (&part[2], host, 0.95, 0.95);
-  bool       arrows = relations && task->settings->seeds == CELD_SEEDS_AUTO;
-  CeldStatus status = prepare_seeds (arrows ? relations : NULL, &first, task);
+  CeldHostPart part[3];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0), solving = celd_host_part (&part[1], host, 0.1, 0.95);
+  CeldHost     last = celd_host_part (&part[2], host, 0.95, 0.95);
+  bool         arrows = relations && task->settings->seeds == CELD_SEEDS_AUTO;
+  CeldStatus   status = prepare_seeds (arrows ? relations : NULL, &first, task);
 
   if (status == CELD_OK && task->settings->method != CELD_METHOD_BASINS)
     status = solve_on_pixels (s, arrows ? relations : NULL, &solving, task, labels);
@@ -296,13 +296,13 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
                       const CeldSettings *settings, const CeldHost *host, CeldPalette *palette, CeldProblems *problems,
                       CeldLabels *labels, CeldRect *changed)
 {
-  CeldSegmentTask   task = {
+  CeldSegmentTask task = {
     .settings = settings, .ink = &segmenter->ink, .basins = &segmenter->basins, .bridges = &segmenter->bridges,
     .bridged_component = segmenter->bridged_component, .kept = &segmenter->strokes
   };
-  CeldProblems found = { 0 };
-  size_t       before = problems ? problems->n : 0;
-  CeldStatus   status = celd_settings_check (settings);
+  CeldProblems    found = { 0 };
+  size_t          before = problems ? problems->n : 0;
+  CeldStatus      status = celd_settings_check (settings);
 
   if (status == CELD_OK)
     status = celd_task_new (seeds, palette, &task);
@@ -362,12 +362,12 @@ celd_segment (const CeldPlane *ink, const CeldLabels *seeds, const CeldRelations
               CeldLabels *labels, CeldPalette *palette, CeldProblems *problems)
 {
   CeldSegmenter *segmenter = NULL;
-  CeldSeedRows rows = { 0 };
-  CeldLabels   result = { 0 };
-  CeldRect     changed;
-  CeldHostPart part[2];
-  CeldHost     build = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus   status;
+  CeldSeedRows   rows = { 0 };
+  CeldLabels     result = { 0 };
+  CeldRect       changed;
+  CeldHostPart   part[2];
+  CeldHost       build = celd_host_part (&part[0], host, 0, 0.3), solve = celd_host_part (&part[1], host, 0.3, 1);
+  CeldStatus     status;
 
   if (!CELD_SAME_SIZE (ink, seeds) || !CELD_SAME_SIZE (ink, labels))
     return CELD_BAD_SIZE;

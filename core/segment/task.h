@@ -38,8 +38,7 @@ void celd_labelling_invalidate (CeldLabelling *labelling, const CeldBasins *basi
  * patches, one over the other.  End: sorts the patches and adds to `changed` what differs from *old.  After a failure
  * call celd_labelling_invalidate. */
 void       celd_labelling_begin (CeldLabelling *labelling, const CeldBasins *basins, uint32_t *label,
-                                 CeldLabels *labels,
-                                 CeldLabelling *old);
+                                 CeldLabels *labels, CeldLabelling *old);
 CeldStatus celd_labelling_add   (CeldLabelling *labelling, const CeldPatches *patches, CeldLabels *labels);
 CeldStatus celd_labelling_end   (CeldLabelling *labelling, const CeldBasins *basins, const CeldLabelling *old,
                                  const CeldLabels *labels);
@@ -171,8 +170,7 @@ CeldStatus celd_regions_split (const CeldRelations *relations, const CeldHost *h
 /* Is there nothing to split for the relation?  False if an end lies on one of the patches, where labels changed after
  * regions were split. */
 bool       celd_regions_are_separate (const CeldSegmentTask *task, const CeldRelation *relation,
-                                      const CeldLabels *labels,
-                                      const CeldPatches *patches);
+                                      const CeldLabels *labels, const CeldPatches *patches);
 
 /* ------------------------------------------------------------------ solve-pixels.c, solve-basins.c */
 

@@ -174,8 +174,8 @@ keep_row (const CeldWatershed *a, int y, uint8_t *step, uint32_t *lead)
   const CeldBasins   *old = a->extent->old;
   const uint8_t      *rebuilt = a->extent->rebuilt + (size_t) y * (size_t) a->width;
   int                 left = a->extent->box.x;
-  const CeldBasinRun *run = old->run + old->row[a->extent->box.y + y], *end = old->run +
-  old->row[a->extent->box.y + y + 1];
+  const CeldBasinRun *run = old->run + old->row[a->extent->box.y + y];
+  const CeldBasinRun *end = old->run + old->row[a->extent->box.y + y + 1];
 
   for (int x = 0; x < a->width; x++)
     {
@@ -242,8 +242,8 @@ celd_watershed_lead_band (void *data, int job)
 {
   const CeldWatershed        *a = data;
   const CeldWatershedScratch *scratch = &a->scratch[job];
-  int                         w = a->width, at = a->first + job, top = celd_watershed_band_top (at),
-  n = celd_watershed_band_end (a, at) - top;
+  int                         w = a->width, at = a->first + job, top = celd_watershed_band_top (at);
+  int                         n = celd_watershed_band_end (a, at) - top;
   size_t                      row_size = (size_t) w + 2;
   uint32_t                   *lead = scratch->lead + row_size + 1, place = (uint32_t) (2 * at * w);
   CeldWatershedBand          *band = &a->band[at];

@@ -101,8 +101,8 @@ static void
 find_runs (void *data, int job)
 {
   const CeldWatershed *a = data;
-  int                  at = a->first + job, top = celd_watershed_band_top (at),
-  n = celd_watershed_band_end (a, at) - top;
+  int                  at = a->first + job, top = celd_watershed_band_top (at);
+  int                  n = celd_watershed_band_end (a, at) - top;
   CeldWatershedBand   *band = &a->band[at];
   bool                 good = true;
 
@@ -170,8 +170,8 @@ run_bands (CeldWatershed *a, void (*body) (void *data, int job), const CeldHost 
 static CeldStatus
 ascent_new (const CeldBasinExtent *extent, const CeldHost *host, CeldBasins *basins, CeldWatershed *a)
 {
-  size_t w = (size_t) extent->box.width, h = (size_t) extent->box.height,
-  n_bands = (h + CELD_WATERSHED_BAND - 1) / CELD_WATERSHED_BAND;
+  size_t w = (size_t) extent->box.width, h = (size_t) extent->box.height;
+  size_t n_bands = (h + CELD_WATERSHED_BAND - 1) / CELD_WATERSHED_BAND;
   bool   good;
 
   *a = (CeldWatershed) {
