@@ -1,7 +1,7 @@
 /* Writes docs/settings.md, the reference of all settings, from their table.
  *
  *   write-settings FILE           writes it
- *   write-settings --check FILE   fails if it is not what would be written
+ *   write-settings --check FILE   fails if it is out of date
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -16,11 +16,11 @@
 static const char introduction[] =
   "# Settings\n\n"
   "<!-- Made from core/base/settings-table.c by `ninja -C build settings-reference`. -->\n\n"
-  "The same settings are properties of the GEGL operations (`hardness=0.5`) and options of the command\n"
-  "(`--hardness 0.5`); `gegl --info celdepth:popup` and `celdepth popup --help` list what one of them has. In the\n"
-  "command a switch takes `yes` or `no`, and `--flats` takes nothing. A few have another name where that is clearer:\n"
-  "`expansion` is `method` in `depth-expand` and `celdepth expand`, `relief-from` is `from` in `relief` and\n"
-  "`celdepth relief`, `mesh` is `--mesh-kind`. `celdepth wiggle` has a `disparity` of 0.05 by default.\n";
+  "Settings are properties of the GEGL operations (`hardness=0.5`) and options of the command (`--hardness 0.5`).\n"
+  "`gegl --info celdepth:popup` and `celdepth popup --help` list those of one operation or sub-command. In the command\n"
+  "the values of switches are `yes` and `no`, but `--flats` has no value. Some settings have other names: `expansion` is\n"
+  "`method` in `depth-expand` and `celdepth expand`, `relief-from` is `from` in `relief` and `celdepth relief`, and\n"
+  "`mesh` is `--mesh-kind`. The default of `disparity` is 0.05 in `celdepth wiggle`.\n";
 
 typedef struct { char text[MOST]; size_t used; } Page;
 

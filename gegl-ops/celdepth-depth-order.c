@@ -1,4 +1,4 @@
-/* celdepth:depth-order: which region is in front of which (the paper's appendix: topological sorting).
+/* celdepth:depth-order: the depth order of regions, by topological sorting (the paper's appendix).
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -21,7 +21,7 @@ static const CeldPad pads[] = {
   { NULL, NULL, NULL, FALSE }
 };
 
-/* The colours of the input as labels of op->palette. */
+/* Reads the colours of the input as labels of op->palette. */
 static gboolean
 read_labels (CeldOp *op, const CeldPlane *ink, CeldLabels *labels)
 {
@@ -35,7 +35,8 @@ read_labels (CeldOp *op, const CeldPlane *ink, CeldLabels *labels)
          (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
 }
 
-/* The depth order with what the drawing, or without one the regions' shapes, and the depth hint suggest. */
+/* Makes the depth order, with suggestions if the settings ask for them: from the drawing, or without one from the shapes
+ * of regions, and from the depth hint. */
 static gboolean
 make_order (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
 {

@@ -57,7 +57,7 @@ CELD_API void celd_relations_clear (CeldRelations *relations);
 /* Where relations text or path data could not be read. */
 typedef struct { int line, column; char expected[48]; char found[24]; } CeldTextError;
 
-/* Something the artist should know; none of these stops the work. */
+/* A problem that the artist should know of; there is a result all the same. */
 typedef enum
 {
   CELD_PROBLEM_STROKE_OVERRULED,   /* most of a colour's stroke at (x,y) went to region `other` */

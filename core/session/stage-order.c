@@ -1,4 +1,4 @@
-/* The depth order in a session: what the drawing suggests, and the order of the relations.
+/* Suggestions and the depth order in a session.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

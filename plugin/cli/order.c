@@ -1,10 +1,10 @@
-/* celdepth order: regions in the order of their depth.
+/* celdepth order: the depth order of regions.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
 
-/* What order works on. */
+/* Input and results. */
 typedef struct
 {
   CliLayers     layers;
