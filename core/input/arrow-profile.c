@@ -1,10 +1,12 @@
-/* Strokes whose opacity or width says which end is nearer.
+/* Strokes whose opacity or width shows which end is nearer.
  *
- * The stroke is followed from one end to the other.  It must be a single line: a pixel off the way between the ends
- * belongs to another stroke that touches this one.  The thirds of the way decide; pieces of the way must then fall
- * about steadily from the strong end to the weak one, because two strokes that touch with their ends look like one.
- * For the same reason a stroke has one colour, no sharp corner, and none at all where it gets stronger again; and the
- * width of one that the picture's edge cuts lengthwise says nothing.
+ * The stroke is followed from one end to the other.  It must be a single line: pixels beside the path between the ends
+ * belong to another stroke that touches this one.  The difference between the first and the last third decides.  Values
+ * along the path must then fall about steadily from the strong end to the weak one, because two strokes that touch at
+ * their ends look like one.  For the same reason a stroke must have one colour and no sharp corner, and no corner at
+ * all where it gets stronger again.  The width of a stroke along the edge of the picture is unknown.
+ *
+ * Cost: a few passes over the pixels of the stroke.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -12,21 +14,22 @@
 
 #include <math.h>
 
-#define LEAST_SIGNAL 0.2  /* least difference of the outer thirds, as a share of the larger value */
-#define SLACK        0.1  /* the middle third may leave their range by this share: ends are round and soft */
-#define MOST_PIECES  12
-#define MOST_RISE    0.25 /* of a later piece above an earlier one: a share of the whole fall, */
-#define LAST_RISE    0.12 /* the same of the last two: the weak end is the weakest of all */
-#define NOISE        0.05 /* and of the largest value */
-#define SHORTEST_PROFILE 6 /* pixels */
-#define TELLING      64   /* opacity of pieces whose colour can be told */
-#define OTHER_COLOUR 60   /* of 255: colours of two strokes differ by more, */
-#define OTHER_COSINE 0.978 /* or their differences from the paper are not parallel */
-#define LEAST_RISE   0.3  /* of the rise that is too much anywhere: too much at a corner, */
-#define CORNER       0.8  /* whose cosine is less; */
-#define SHARP_CORNER 0.6  /* one that no hand makes in a single stroke */
+/* All chosen. */
+#define SHORTEST_PROFILE 6     /* pixels */
+#define MOST_PIECES      12    /* into which the path is divided */
+#define LEAST_SIGNAL     0.2   /* least difference of the outer thirds, as a fraction of the larger value */
+#define SLACK            0.1   /* the middle third may leave their range by this fraction: ends are round and soft */
+#define MOST_RISE        0.25  /* of a later piece above an earlier one, as a fraction of the range of values, ... */
+#define LAST_RISE        0.12  /* ... and of the last two pieces above the weakest one, ... */
+#define NOISE            0.05  /* ... each with this fraction of the largest value added */
+#define CORNER_RISE      0.3   /* fraction of the allowed rise that is too much at a corner */
+#define CORNER           0.8   /* largest cosine of the turn at a corner */
+#define SHARP_CORNER     0.6   /* and at one that is not drawn in a single stroke */
+#define COLOUR_OPACITY   64    /* of 255, least opacity of pieces whose colour is compared */
+#define OTHER_COLOUR     60    /* of 255, between colours of one stroke, at most; ... */
+#define OTHER_COSINE     0.978 /* ... on opaque paper between their differences from the paper, at least */
 
-/* Mean opacity of a stroke between two distances, strong pixels first: soft edges say little. */
+/* Mean opacity of a stroke between two distances, weighted by opacity, so that soft edges count little. */
 static double
 strength (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
 {
@@ -46,7 +49,7 @@ strength (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double fro
   return weights > 0 ? sum / weights : 0;
 }
 
-/* Opacity or width of pieces of the way, equally long, without the outermost pixels: ends are round. */
+/* Opacity or width of n pieces of the path, equally long, without a margin at the ends, which are round. */
 static void
 measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, double margin, int n,
          double *value)
@@ -64,7 +67,7 @@ measure (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowSt
 
 typedef struct { double red, green, blue, opacity; } Colour;
 
-/* Of a stroke between two distances: its mean, strong pixels first; in a layer without alpha, the difference from the
+/* Mean colour of a stroke between two distances, weighted by opacity; in a layer without alpha, its difference from the
  * paper. */
 static Colour
 colour_between (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, double from, double to)
@@ -101,8 +104,8 @@ same_colour (const CeldArrowLayer *layer, Colour a, Colour b)
   return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue) <= OTHER_COLOUR;
 }
 
-/* Are two pieces of the way, strong enough to tell, at one end of another colour than two at the other end?  A single
- * one may lie where another stroke crosses. */
+/* Do the first two pieces of sufficient opacity differ in colour from the last two? A single piece may be where another
+ * stroke crosses. */
 static bool
 changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
 {
@@ -113,13 +116,13 @@ changes_colour (const CeldArrowStroke *stroke, const CeldArrowLayer *layer)
   for (int i = 0; i < MOST_PIECES; i++)
     {
       colour[n] = colour_between (stroke, layer, i * piece, (i + 1) * piece);
-      n += colour[n].opacity >= TELLING;
+      n += colour[n].opacity >= COLOUR_OPACITY;
     }
   return n >= 4 && !same_colour (layer, colour[0], colour[n - 1]) && !same_colour (layer, colour[0], colour[n - 2]) &&
          !same_colour (layer, colour[1], colour[n - 1]) && !same_colour (layer, colour[1], colour[n - 2]);
 }
 
-/* Does more of a stroke than its ends lie on the picture's edge? */
+/* Does more of a stroke than its ends lie on the edge of the picture? */
 static bool
 runs_along_frame (const CeldArrowStroke *stroke, double widest)
 {
@@ -134,9 +137,10 @@ runs_along_frame (const CeldArrowStroke *stroke, double widest)
   return (double) n > 2 * widest + 4;
 }
 
-/* The cosine of the turn that the way takes at a distance, seen over a stroke width or two. */
+/* The cosine of the angle by which the path turns at a distance, measured over two stroke widths on either side; 1 near
+ * the ends. */
 static double
-turn_at (const CeldArrowStroke *stroke, double distance, double widest)
+turn_cosine (const CeldArrowStroke *stroke, double distance, double widest)
 {
   double    far = fmax (8, 2 * widest), near = far / 2;
   CeldPoint a = celd_stroke_centroid (stroke, distance - far, distance - near);
@@ -149,7 +153,8 @@ turn_at (const CeldArrowStroke *stroke, double distance, double widest)
   return length > 0 ? ((b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y)) / length : 1;
 }
 
-/* The most that a value lies above an earlier one, going on or back; *from is the index of that. */
+/* The largest rise of a value above an earlier one, or with `back` above a later one; *from is the index of the lower
+ * value. */
 static double
 largest_rise (const double *value, int n, bool back, int *from)
 {
@@ -171,7 +176,7 @@ largest_rise (const double *value, int n, bool back, int *from)
   return rise;
 }
 
-/* Does the value fall about steadily, all the more where the way turns: there one stroke may end at another? */
+/* Do the values fall about steadily?  Less rise is allowed at corners, where one stroke may end at another. */
 static bool
 falls (const CeldArrowStroke *stroke, const double *value, int n, bool back, double margin, double widest)
 {
@@ -187,8 +192,8 @@ falls (const CeldArrowStroke *stroke, const double *value, int n, bool back, dou
     return false;
   allowed = MOST_RISE * (most - least) + NOISE * most;
   rise    = largest_rise (value, n, back, &from);
-  for (int side = -1; side <= 1 && rise > LEAST_RISE * allowed; side++)
-    if (turn_at (stroke, margin + (from + 0.5 + 0.5 * side) * piece, widest) < CORNER)
+  for (int side = -1; side <= 1 && rise > CORNER_RISE * allowed; side++)
+    if (turn_cosine (stroke, margin + (from + 0.5 + 0.5 * side) * piece, widest) < CORNER)
       return false;
   return rise <= allowed;
 }
@@ -197,12 +202,12 @@ static bool
 has_sharp_corner (const CeldArrowStroke *stroke, double widest)
 {
   for (double d = 0; d < celd_stroke_length (stroke); d += 2)
-    if (turn_at (stroke, d, widest) < SHARP_CORNER)
+    if (turn_cosine (stroke, d, widest) < SHARP_CORNER)
       return true;
   return false;
 }
 
-/* Is all paint on the way between the two ends?  The stroke is followed from `start` when it returns. */
+/* Is all paint but a fiftieth on the path between the two ends?  On return the stroke is followed from `start`. */
 static bool
 is_single (CeldArrowStroke *stroke, uint32_t start, uint32_t last, double widest)
 {

@@ -27,7 +27,7 @@
 #define LEAST_STROKE  6    /* pixels; a smaller component is a speck and ignored */
 #define LEAST_HUE     195  /* degrees: the range of blue */
 #define LARGEST_HUE   265
-#define LEAST_CHROMA  0.25 /* of blue: its largest channel less its smallest, as a share of the largest */
+#define LEAST_CHROMA  0.25 /* of blue: its largest channel less its smallest, as a fraction of the largest */
 
 /* ------------------------------------------------------------------ one stroke */
 
@@ -99,8 +99,8 @@ unclear_arrow (const CeldArrowStroke *stroke)
   };
 }
 
-/* Appends the arrow that a stroke is; *clear becomes false if it is none.  Resets the distances of its pixels, as
- * crossing strokes share some. */
+/* Appends the relation of a stroke; *clear becomes false if it is no clear arrow.  Resets the distances of its pixels,
+ * because crossing strokes share some. */
 static CeldStatus
 read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
           bool *clear)
@@ -119,7 +119,7 @@ read_one (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle s
 
 /* ------------------------------------------------------------------ strokes that cross */
 
-/* Lets `stroke` be the one with index k. */
+/* Makes `stroke` the one with index k. */
 static void
 select_stroke (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *stroke)
 {
@@ -127,8 +127,8 @@ select_stroke (const CeldCrossingStrokes *strokes, size_t k, CeldArrowStroke *st
   stroke->n     = strokes->first[k + 1] - strokes->first[k];
 }
 
-/* Appends the arrows of all strokes; if one of them is no arrow none is appended and *clear becomes false, since what
- * looks like a crossing may be part of another figure. */
+/* Appends the relations of all strokes.  If one of them is no clear arrow, none is appended and *clear becomes false,
+ * because what looks like a crossing may be part of another figure. */
 static CeldStatus
 read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, const CeldArrowLayer *layer,
                CeldArrowStyle style, CeldRelations *relations, bool *clear)
