@@ -4,8 +4,9 @@
  * 2. Noise: median second differences at three scales (ink-noise.c).  A drawing without noise is not smoothed, and
  *    clean black on white comes out as it went in: its antialiasing says where between two pixels a contour lies.
  * 3. Ink: the contrast, divided by that of the drawing's dark strokes, or of the stroke itself where that is pale:
- *    LazyBrush [SDC09b] takes the response of a LoG filter for the same end, so that a faint contour is one.  Here a
- *    stroke is what a grey opening removes, so that flat grey areas stay as grey as they are.
+ *    LazyBrush [SDC09b] uses the response of a LoG filter for the same purpose, to keep faint contours.  Here a stroke
+ *    is what a grey opening removes, so that flat grey areas keep their grey.
+ *
  * Cost: O(pixels), independent of the width of strokes; 16 bytes a pixel.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -15,12 +16,12 @@
 #include <math.h>
 #include <string.h>
 
-#define FAINTEST 0.05f        /* least contrast of a stroke (chosen; yellow on white has 0.07) */
-#define NOISELESS 0.003f      /* noise below this comes from rounding to 8 bits */
-#define NEAR_CLEAN 5          /* pixels: a pale line so near to a dark one may be its antialiased tip (chosen) */
-#define NEAR_NOISY 2          /* pixels from the core of a pencil line to its edge (chosen) */
-#define CACHE_COLUMNS 16              /* columns of a strip: a cache line of floats */
-#define INK_PASSES 16             /* over the picture in the longest case, of about the same duration: for progress */
+#define FAINTEST      0.05f   /* least contrast of a stroke; chosen: yellow on white has 0.07 */
+#define NOISELESS     0.003f  /* noise below this comes from rounding to 8 bits */
+#define NEAR_CLEAN    5       /* pixels: a pale line so near to a dark one may be its antialiased tip; chosen */
+#define NEAR_NOISY    2       /* pixels from the core of a pencil line to its edge; chosen */
+#define CACHE_COLUMNS 16      /* columns of a strip: a cache line of floats */
+#define INK_PASSES    16      /* over the picture in the longest case, of about the same duration: for progress */
 
 typedef struct
 {
@@ -70,7 +71,8 @@ least_along_rows (CeldPlane *plane, int radius, float *line)
     }
 }
 
-/* Does that within columns, CACHE_COLUMNS at a time; `lines` has room for CACHE_COLUMNS (height + 2 radius). */
+/* As least_along_rows, within columns, CACHE_COLUMNS at a time; `lines` has room for CACHE_COLUMNS (height + 2
+ * radius). */
 static void
 least_along_columns (CeldPlane *plane, int radius, float *lines)
 {
@@ -214,11 +216,11 @@ measure_noise (InkWork *w, int step)
   return status;
 }
 
-/* Removes grain, and stains up to 16 pixels across, but no strokes.  The paper level is that of its light grain, so
- * paper has a contrast of about the noise.  Afterwards w->noise is what smoothing leaves: a quarter of grain, all of
- * stains. */
+/* Smooths grain and subtracts the noise from the contrast, because the paper level is that of light grain, so that
+ * paper has a contrast of about the noise.  Afterwards w->noise is the noise that smoothing leaves: a quarter of fine
+ * grain, all of stains up to 16 pixels across. */
 static CeldStatus
-quieten (InkWork *w)
+remove_noise (InkWork *w)
 {
   CeldStatus status = measure_noise (w, 1);
   float      zero;
@@ -229,14 +231,14 @@ quieten (InkWork *w)
   celd_ink_smooth (&w->contrast, &w->spare);
   celd_ink_smooth (&w->contrast, &w->spare);
   zero = celd_least (2 * w->noise, 0.5f);
-  status = measure_noise (w, 4); /* scales wider than the filter: noise that it has smeared has small differences */
+  status = measure_noise (w, 4); /* at scales wider than the filter, which reduces differences at its own scale */
   for (size_t i = 0; i < w->pixels && status == CELD_OK; i++)
     w->contrast.data[i] = celd_most (w->contrast.data[i] - zero, 0) / (1 - zero);
   return status == CELD_OK ? pass_done (w) : status;
 }
 
-/* Finds w->faintest and w->dark.  In a noisy drawing ink must be well above the noise, so that empty paper stays
- * empty. */
+/* Sets w->faintest and w->dark, and w->level to the largest contrast nearby.  In a noisy drawing the contrast of ink
+ * must be well above the noise, so that empty paper stays empty. */
 static CeldStatus
 measure_ink (InkWork *w)
 {
@@ -256,7 +258,7 @@ measure_ink (InkWork *w)
   else
     w->faintest = celd_most (w->faintest, 6 * celd_ink_echo (&w->contrast, &w->level, w->dark));
   if (w->dark > 0.9f && !w->noisy)
-    w->dark = 1; /* black lines of a pixel or less are nowhere quite black */
+    w->dark = 1; /* black lines a pixel wide or less are not quite black anywhere */
   return CELD_OK;
 }
 
@@ -302,7 +304,7 @@ find_levels (InkWork *w)
   return pale;
 }
 
-/* Fills in w->area, and w->level over the full width of each stroke. */
+/* Fills in w->area, and extends w->level over the full width of each stroke. */
 static CeldStatus
 spread_levels (InkWork *w)
 {
@@ -321,7 +323,7 @@ spread_levels (InkWork *w)
 static void
 write_ink (const InkWork *w, bool pale, CeldPlane *ink)
 {
-  float full = w->noisy ? 0.8f : 1; /* share of its level from which a stroke is full ink, in spite of grain */
+  float full = w->noisy ? 0.8f : 1; /* fraction of its level from which a stroke is full ink in spite of grain */
 
   for (int y = 0; y < ink->height; y++)
     for (int x = 0; x < ink->width; x++)
@@ -348,7 +350,7 @@ celd_ink (const CeldDrawing *drawing, CeldInkMode mode, const CeldHost *host, Ce
   if (status == CELD_OK)
     status = measure_contrast (&w, drawing, mode);
   if (status == CELD_OK)
-    status = quieten (&w);
+    status = remove_noise (&w);
   if (status == CELD_OK)
     status = measure_ink (&w);
   if (status == CELD_OK)

@@ -1,4 +1,4 @@
-/* The kind of drawing (dark lines, chalk, or lines on a transparent layer), and how light its paper is.
+/* The kind of drawing (dark lines, chalk, or lines on a transparent layer), its luma, and how light its paper is.
  *
  * Automatic detection: a layer of which little is opaque, and that little is thin and of one tone, has lines on a
  * transparent layer; a picture that is mostly dark, along its edge as well, is chalk.  Everything else is dark on
@@ -14,10 +14,12 @@
 #include <math.h>
 #include <string.h>
 
-#define DARKEST 1e-3f /* least paper level: values are divided by it */
+#define DARKEST 1e-3f /* least paper level, because values are divided by it; chosen */
 
 /* ------------------------------------------------------------------ one value a pixel */
 
+/* Luma of encoded colours, with the weights of Rec. 709.  All hosts use this function, because their own greys differ:
+ * babl's Y' is encoded luminance, which is much lighter for saturated colours. */
 void
 celd_luma (const float *rgba, size_t n, float *luma, float *alpha)
 {
