@@ -35,7 +35,7 @@ def enlarged(picture, megapixels):
 
 
 def true_colours(case):
-    """The colour that every pixel should have; transparent where nobody knows."""
+    """The right colour of every pixel; transparent where it is unknown."""
     shape = np.array(Image.open(os.path.join(case, 'truth.png')))
     with open(os.path.join(case, 'truth.json')) as f:
         facts = json.load(f)

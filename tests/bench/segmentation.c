@@ -3,7 +3,7 @@
  *   bench-segmentation DRAWING SCRIBBLES TRUTH RUNS STROKES EXACT-STROKES BOOST [PREFIX]
  *
  * Prints one JSON object.  DRAWING has the size that is measured; SCRIBBLES and TRUTH are enlarged to it.  TRUTH has
- * the colours that are right, and no alpha where nobody knows.  Times are medians of RUNS, in seconds of processor
+ * the right colours, and no alpha where these are unknown.  Times are medians of RUNS, in seconds of processor
  * time.  EXACT-STROKES -1: without exact cuts.  BOOST 1: the problem that the exact method solved is solved again with
  * Boost.  PREFIX: labels are kept in files.
  *

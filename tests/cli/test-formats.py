@@ -155,7 +155,7 @@ class Formats(Test):
                 self.assertEqual(self.report()['method'], words[1] if '--method' in words else 'basins')
 
     def test_suggestions(self):
-        """As text, as arrows that are read back, in the report; they count only when asked to, and never against the
+        """As text, as arrows that can be read, in the report; they count only if they are enabled, and never against the
         artist."""
         words = ('--levels', 'levels.npy', '--report', 'report.json')
         self.popup(*words, '--suggestions', 'suggestions.txt', '--suggested-arrows', 'arrows.png')
@@ -187,7 +187,7 @@ class Formats(Test):
         return pairs
 
     def test_depth_hint(self):
-        """Depth from elsewhere, in any unit, is one more voice, which counts only if asked for and never against the
+        """A depth hint in any unit adds suggestions, which count only if they are enabled and never against the
         artist."""
         popup = ('popup', 'drawing.png', '--scribbles', 'scribbles.png')
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'flat.png')
