@@ -1,10 +1,9 @@
 /* Heights and meshes: what the files of this theme share.
  *
  *   surface.c       where the surface is cut and where it stays flat
- *   inflation.c     height above the outline
  *   order-shift.c   shifts of tiles that keep the depth order
  *   order.c         shifts of pixels
- *   relief.c        celd_relief
+ *   relief.c        celd_relief: inflation, and the step
  *   mesh-surface.c  points of the surface at the corners of pixels, and the squares that are flat enough
  *   mesh-builder.c  vertices, triangles, walls and normals
  *   mesh.c          celd_relief_mesh
@@ -36,14 +35,6 @@ void       celd_surface_clear (CeldSurface *surface);         /* accepts a partl
  * one row. */
 typedef void (*CeldCutBody) (void *data, size_t near, size_t far, bool right);
 void celd_surface_cuts (const CeldSurface *surface, CeldCutBody body, void *data);
-
-/* ------------------------------------------------------------------ inflation.c */
-
-/* Computes the height above the outline, in pixels, for bulge 1. */
-CeldStatus celd_relief_inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, float *height);
-/* Computes the height by integrating normals, which include their bulge. */
-CeldStatus celd_relief_integrate (const CeldSurface *surface, const CeldVectors *normals, double tolerance,
-                                  const CeldHost *host, float *height);
 
 /* ------------------------------------------------------------------ order-shift.c */
 

@@ -4,7 +4,6 @@
  */
 #include "blobs.h"
 #include "random-session.h"
-#include "base/tiles.h"
 #include "ownership/ownership.h"
 #include "session/session.h"
 
