@@ -35,8 +35,8 @@ read_labels (CeldOp *op, const CeldPlane *ink, CeldLabels *labels)
          (s->same_colour == CELD_SAME_COLOUR_ONE || celd_op_try (op, celd_separate (&op->quiet, labels, &op->palette)));
 }
 
-/* Makes the depth order, with suggestions if the settings ask for them: from the drawing, or without one from the shapes
- * of regions, and from the depth hint. */
+/* Makes the depth order, with suggestions if the settings ask for them: from the drawing, or without one from the
+ * shapes of regions, and from the depth hint. */
 static gboolean
 make_order (CeldOp *op, const CeldLabels *labels, const CeldPlane *ink)
 {

@@ -162,16 +162,16 @@ own_step (const CeldHost *host, Results *r)
 static CeldStatus
 owners_step (const CeldHost *host, Results *r)
 {
-  CeldHostPart        part[2];
-  CeldHost        first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
-  CeldPlane       ink = plane_of (&ink_pixels);
-  CeldLabels      labels = labels_of (&label_pixels), all = { 0 };
-  uint32_t        level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
+  CeldHostPart       part[2];
+  CeldHost           first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
+  CeldPlane          ink = plane_of (&ink_pixels);
+  CeldLabels         labels = labels_of (&label_pixels), all = { 0 };
+  uint32_t           level[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
   CeldOwnershipInput input = { &ink, &labels, NULL, level, 8 };
-  CeldOwnershipCache  kept = { 0 };
-  CeldOwnership   own = { 0 };
-  CeldRect        changed;
-  CeldStatus      status = celd_ownership_new (W, H, &own);
+  CeldOwnershipCache kept = { 0 };
+  CeldOwnership      own = { 0 };
+  CeldRect           changed;
+  CeldStatus         status = celd_ownership_new (W, H, &own);
 
   if (status == CELD_OK)
     status = celd_ownership_cache_make (&input, &first, &kept, &own);
@@ -229,7 +229,7 @@ program_step (const CeldHost *host, Results *r)
   CeldExact     exact = { 0 };
   CeldStatus    status = program ? celd_relations_parse ("10,30 > 50,35", &one, NULL) : CELD_NO_MEMORY;
   CeldPlane     scratch = { W, H, W, celd_alloc (W * H, sizeof (float)) };
-  CeldHostPart      part[2];
+  CeldHostPart  part[2];
   CeldHost      first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
 
   if (status == CELD_OK)

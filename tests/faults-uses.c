@@ -121,7 +121,7 @@ stereo_step (const CeldHost *host, Results *r)
   uint32_t        level[2] = { 0, 1 };
   CeldLayers     *layers = NULL;
   CeldScene      *scene = NULL;
-  CeldHostPart        part[2];
+  CeldHostPart    part[2];
   CeldHost        first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus      status;
 
@@ -169,7 +169,7 @@ scene_step (const CeldHost *host, Results *r)
   CeldPlane    ink = plane_of (&ink_pixels), depth = plane_of (&expanded_pixels);
   CeldColours  colours = { W, H, W, art }, to = { W, H, W, view };
   CeldScene   *scene = NULL;
-  CeldHostPart     part[2];
+  CeldHostPart part[2];
   CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
   CeldStatus   status;
 

@@ -134,7 +134,7 @@ static void
 try_once (const Step *step, size_t fail, int last_report, CeldStatus failure, uint64_t wanted)
 {
   Results    r;
-  Watch       watch = { 0, last_report, 0 };
+  Watch      watch = { 0, last_report, 0 };
   CeldHost   host = { report, NULL, &watch };
   long       taken = live;
   uint64_t   before;
@@ -161,7 +161,7 @@ static uint64_t
 try_undisturbed (const Step *step, size_t *n_allocations, int *n_reports)
 {
   Results  r;
-  Watch     watch = { 0, INT32_MAX, 0 };
+  Watch    watch = { 0, INT32_MAX, 0 };
   CeldHost host = { report, NULL, &watch };
   long     taken = live;
   uint64_t print;
@@ -303,7 +303,7 @@ call_session (CeldSession *s, int i, const CeldHost *host, Pixels *out, CeldStat
 static int
 ask_session (size_t fail, int cancelled, size_t *n_allocations, int *n_reports, uint64_t *print)
 {
-  Watch         watch = { 0, cancelled, 0 };
+  Watch        watch = { 0, cancelled, 0 };
   CeldHost     host = { report, NULL, &watch };
   CeldStatus   status = CELD_OK, wanted = fail ? CELD_NO_MEMORY : CELD_CANCELLED;
   CeldSession *s;

@@ -25,8 +25,9 @@ CeldStatus
 celd_make_order (CeldSession *s, const CeldHost *host)
 {
   CeldProblems problems = { 0 };
-  CeldStatus   status = celd_order_suggested (celd_session_current_labels (s), &s->palette, &s->relations, &s->suggested,
-                                              &s->ink, &s->settings, host, &s->joined, &s->order, &problems);
+  CeldStatus   status = celd_order_suggested (celd_session_current_labels (s), &s->palette, &s->relations,
+                                              &s->suggested, &s->ink, &s->settings, host, &s->joined, &s->order,
+                                              &problems);
 
   if (status == CELD_OK)
     {

@@ -59,10 +59,10 @@ void parts_reset (void);
 /* The problem that method=exact last handed to celd_multiway, kept while `keep_problem`. */
 typedef struct
 {
-  int      width, height;
-  int32_t *east, *south, *vote;
+  int       width, height;
+  int32_t  *east, *south, *vote;
   uint32_t *seed, *order;
-  size_t   n_labels;
+  size_t    n_labels;
 } Problem;
 
 extern bool    keep_problem;

@@ -139,7 +139,7 @@ solve (const System *s, double error, const CeldHost *host, double (*clock) (voi
 {
   static float *none;
   CeldLaplace  *laplace = NULL;
-  Timed       answer;
+  Timed         answer;
   double        start;
 
   none = none ? none : celd_alloc0 (s->n, sizeof *none);
@@ -171,8 +171,8 @@ measure_ours (const System *s, const Matrix *m, const double *truth, double rang
 
   for (size_t k = 0; k < sizeof wanted / sizeof *wanted; k++)
     {
-      double  set_up[MOST_RUNS], whole[MOST_RUNS], worst = 0;
-      Timed answer = { 0 };
+      double set_up[MOST_RUNS], whole[MOST_RUNS], worst = 0;
+      Timed  answer = { 0 };
 
       for (int i = 0; i < runs; i++)
         {
@@ -194,8 +194,8 @@ measure_ours (const System *s, const Matrix *m, const double *truth, double rang
 static void
 measure_threads (const System *s, int runs)
 {
-  float  *x = celd_alloc (s->n, sizeof *x);
-  double  one[MOST_RUNS], two[MOST_RUNS];
+  float   *x = celd_alloc (s->n, sizeof *x);
+  double   one[MOST_RUNS], two[MOST_RUNS];
   CeldHost host = { NULL, each_on_two, NULL };
 
   pthread_barrier_init (&helper.gate, NULL, 2);

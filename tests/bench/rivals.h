@@ -19,12 +19,12 @@ typedef struct
 /* The same for the pixels that a fixed one reaches and that are not fixed themselves, with folded-in values. */
 typedef struct
 {
-  size_t   n;
-  size_t  *pixel;                   /* of unknown i */
+  size_t    n;
+  size_t   *pixel;                  /* of unknown i */
   uint32_t *unknown;                /* of a pixel; UINT32_MAX: none */
   uint32_t *right, *below;          /* the unknown there, or UINT32_MAX */
-  float   *to_right, *to_below;     /* weights */
-  double  *diagonal, *b;
+  float    *to_right, *to_below;    /* weights */
+  double   *diagonal, *b;
 } Matrix;
 
 Matrix matrix_of (const System *system);

@@ -221,8 +221,8 @@ empty_and_single_pixel_pictures_are_handled (void)
     "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:depth-enhance",
     "celdepth:relief", "celdepth:popup",
   };
-  GeglBuffer *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
-  GeglBuffer *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
+  GeglBuffer              *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
+  GeglBuffer              *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
 
   be_quiet ();
   for (size_t i = 0; i < G_N_ELEMENTS (operations); i++)

@@ -153,7 +153,7 @@ new_session (int way)
 static void
 another_size_changes_everything (void)
 {
-  static Result r;
+  static Result    r;
   static const int size[4][2] = { { 60, 36 }, { 48, 44 }, { 40, 30 }, { 48, 36 } };
 
   for (int way = 0; way < WAYS; way++)

@@ -143,9 +143,9 @@ static void
 change_relation (CeldSession *session, Single *list, size_t *n, uint32_t *r)
 {
   static const char *const flags[] = { "", "", "", "", "", "@2", "+2", "+0.5" };
-  uint32_t id = 1 + pick (r, MOST_SINGLE);
-  bool     there = false, take_out = pick (r, 6) == 0;
-  size_t   k = 0;
+  uint32_t                 id = 1 + pick (r, MOST_SINGLE);
+  bool                     there = false, take_out = pick (r, 6) == 0;
+  size_t                   k = 0;
 
   for (k = 0; k < *n && list[k].id != id; k++)
     ;

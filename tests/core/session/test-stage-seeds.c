@@ -63,9 +63,9 @@ strokes_have_labels_of_the_layer_or_new_ones (void)
     "AA..........", "AA..........", "............", "BBB.........",
     "............", "............", "............", "............", NULL
   };
-  static const uint8_t as_b[3] = { 22, 1, 0 };
-  CeldSession *s = celd_session_new ();
-  Layer        layer = layer_of (rows);
+  static const uint8_t     as_b[3] = { 22, 1, 0 };
+  CeldSession             *s = celd_session_new ();
+  Layer                    layer = layer_of (rows);
 
   put (s, 1, 6, 0, 2, 2, green);
   put (s, 2, 6, 4, 2, 2, red);
@@ -108,8 +108,8 @@ covered_labels_are_removed (void)
     "AA..........", "AA...BB.....", ".....BB.....", "............",
     "............", "............", "............", "............", NULL
   };
-  CeldSession *s = celd_session_new ();
-  Layer        layer = layer_of (rows);
+  CeldSession             *s = celd_session_new ();
+  Layer                    layer = layer_of (rows);
 
   put (s, 1, 0, 0, 3, 3, red);
   put (s, 2, 2, 2, 2, 2, green);
