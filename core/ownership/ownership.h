@@ -20,11 +20,11 @@
 
 #include "base/base.h"
 
-/* ------------------------------------------------------------------ tiles: a byte of marks for each square of a
- * picture */
+/* ------------------------------------------------------------------ tiles */
 
 #define CELD_TILE 16 /* pixels a side (chosen) */
 
+/* One byte of marks for each square tile of a picture. */
 typedef struct { int across, down; uint8_t *at; } CeldTiles;
 
 /* Tiles that cover the picture, all marks 0; the caller frees `at` with celd_free. */
