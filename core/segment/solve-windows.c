@@ -88,13 +88,18 @@ add_patches (WindowSolver *s, const CeldPixelGraph *graph, const uint32_t *label
     {
       size_t i = celd_basin_run_at (basins, y, left, &s->hint);
 
-      for (int x = left; x < right && status == CELD_OK; x++, part++)
+      for (int x = left; x < right && status == CELD_OK; i++)
         {
-          uint32_t own = *part & CELD_PART_FIXED ? *part & ~CELD_PART_FIXED : label[*part];
+          uint32_t present = s->label[basins->run[i].basin];
+          int      run_end = celd_basin_run_end (basins, i, y), end = run_end < right ? run_end : right;
 
-          i += x == celd_basin_run_end (basins, i, y);
-          if (own != s->label[basins->run[i].basin])
-            status = celd_patch_add (&s->patches, (CeldPatch) { y, x, x + 1, own });
+          for (; x < end && status == CELD_OK; x++, part++)
+            {
+              uint32_t own = *part & CELD_PART_FIXED ? *part & ~CELD_PART_FIXED : label[*part];
+
+              if (own != present)
+                status = celd_patch_add (&s->patches, (CeldPatch) { y, x, x + 1, own });
+            }
         }
     }
   return status;
