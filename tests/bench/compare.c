@@ -16,7 +16,7 @@ compare_costs (const Costs *costs)
 
   if (memcmp (costs->east, problem.east, n * sizeof *costs->east) ||
       memcmp (costs->south, problem.south, n * sizeof *costs->south))
-    fprintf (stderr, "warning: the exact method has other costs than costs.h\n");
+    fprintf (stderr, "warning: the exact method has other costs than smoothness-costs.c\n");
 }
 
 static bool

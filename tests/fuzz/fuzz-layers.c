@@ -20,7 +20,8 @@ paint (FuzzInput *input, CeldPaint *layer)
     {
       const uint8_t *ink = inks[fuzz_below (input, 8)];
       int            x = fuzz_below (input, layer->width), y = fuzz_below (input, layer->height);
-      int            dx = fuzz_below (input, 41) - 20, dy = fuzz_below (input, 41) - 20, wide = fuzz_below (input, 3) + 1;
+      int            dx = fuzz_below (input, 41) - 20, dy = fuzz_below (input, 41) - 20;
+      int            wide = fuzz_below (input, 3) + 1;
       int            steps = abs (dx) > abs (dy) ? abs (dx) : abs (dy);
 
       for (int s = 0; s <= steps; s++)

@@ -1,8 +1,8 @@
 /* A session that is edited at random gives what a new one gives that is told the same, and says what has changed.
  *
- * Ink, labels, levels and ownership are equal pixel by pixel; what is solved (depth, normals, shading, exact depth) within
- * the error that is asked for.  A picture has changed nowhere but in the rectangle that the session returns, and everywhere after
- * a drawing of another size.
+ * Ink, labels, levels and ownership are equal pixel by pixel; what is solved (depth, normals, shading, exact depth)
+ * within the error that is asked for.  A picture has changed nowhere but in the rectangle that the session returns, and
+ * everywhere after a drawing of another size.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,7 +13,7 @@
 #define STROKES    3
 #define RELATIONS  2
 #define MOST_EDITS 24
-#define CLOSE      0.02f /* share of the range of solved results, whose error is at most 1e-4 as measured by the solver */
+#define CLOSE      0.02f /* of the range of solved results, whose error is at most 1e-4 as the solver measures it */
 
 typedef enum { SCRIBBLES, ARROWS, CONTOURS, CORRECTIONS, LAYERS } Layer;
 
@@ -141,7 +141,8 @@ static void
 tell_drawing (CeldSession *session, Host *h)
 {
   size_t      w = (size_t) h->width;
-  CeldDrawing drawing = { { h->width, h->height, w, h->luma }, { h->width, h->height, w, h->has_alpha ? h->alpha : NULL } };
+  CeldDrawing drawing = { { h->width, h->height, w, h->luma },
+                          { h->width, h->height, w, h->has_alpha ? h->alpha : NULL } };
 
   FUZZ_CHECK (celd_session_set_drawing (session, &drawing) == CELD_OK);
 }

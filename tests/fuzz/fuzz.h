@@ -56,7 +56,8 @@ static inline float
 fuzz_odd (FuzzInput *input)
 {
   static const float odd[] = {
-    0, -0.f, 1, -1, NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e20f, -1e20f, 1e-38f, 1e-45f, 16777216, 2147483648.f, 7,
+    0, -0.f, 1, -1, NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 1e20f, -1e20f, 1e-38f, 1e-45f, 16777216,
+    2147483648.f, 7,
   };
   int which = fuzz_below (input, 48);
 

@@ -104,7 +104,8 @@ widths_and_centres (void)
   NEAR (celd_stroke_mean_width (&t, 12, 18), 4, 1e-9);
   NEAR (celd_stroke_centroid (&t, 2, 8).x, 5, 1e-9); /* columns 2 to 7 */
   NEAR (celd_stroke_centroid (&t, 2, 8).y, 3, 1e-9);
-  NEAR (celd_stroke_centroid (&t, 100, 200).x, (2 * 9 * 14.5 + 2 * 19 * 9.5) / 56, 1e-9); /* beyond the end: of all pixels */
+  /* Beyond the end: of all pixels. */
+  NEAR (celd_stroke_centroid (&t, 100, 200).x, (2 * 9 * 14.5 + 2 * 19 * 9.5) / 56, 1e-9);
   NEAR (celd_stroke_centroid (&t, 100, 200).y, 3, 1e-9);
   forget (&t, pixels);
 }
