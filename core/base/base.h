@@ -1,4 +1,5 @@
-/* Memory, access to pixels, progress and threads: what every file of core uses.
+/* What every file of core may use: memory, growable arrays, disjoint sets, access to pixels, progress and threads, the
+ * reading of text.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -14,7 +15,7 @@
 
 /* ------------------------------------------------------------------ memory.c */
 
-/* All allocation in core goes through these and celd_reserve (vector.h); NULL when count x size overflows or is
+/* All allocation in core goes through these and celd_reserve; NULL when count x size overflows or is
  * refused. */
 void *celd_alloc (size_t count, size_t size);                 /* not cleared */
 void *celd_alloc0 (size_t count, size_t size);                /* cleared */
@@ -37,6 +38,63 @@ static inline bool
 celd_term_same (const CeldTerm *a, const CeldTerm *b)
 {
   return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
+}
+
+/* ------------------------------------------------------------------ memory.c: growable arrays */
+
+/* Items, their number and their capacity, which are members of one record or variables side by side.  All zero is an
+ * empty array; the items end with celd_free.  Growth doubles the capacity, so that n appended items cost O(n).  Where a
+ * capacity is not known, 0 is valid for an array of any length: the next item reallocates it then. */
+
+/* Makes room for `count` items of a size; `items` is the address of the pointer to them.  False if memory is refused or
+ * the size overflows: then all is as before. */
+bool celd_reserve (void *items, size_t count, size_t *capacity, size_t size);
+
+/* Makes room for one item more than n, of the type of the items. */
+#define celd_reserve_one(items, n, capacity) \
+  ((n) < (capacity) || celd_reserve (&(items), (n) + 1, &(capacity), sizeof *(items)))
+
+/* Appends a value of the items' type and counts it: CELD_OK, or CELD_NO_MEMORY with all as before.  Evaluates its
+ * arguments several times. */
+#define celd_append(items, n, capacity, ...) \
+  (celd_reserve_one (items, n, capacity) ? ((items)[(n)++] = __VA_ARGS__, CELD_OK) : CELD_NO_MEMORY)
+
+/* For records that do not keep a capacity, as those of celdepth.h: each item reallocates them, so it is for rare
+ * additions.  Never for an array whose capacity is kept, because it may shrink. */
+#define celd_append_uncounted(items, n, ...) celd_append (items, n, (size_t) { 0 }, __VA_ARGS__)
+
+/* ------------------------------------------------------------------ disjoint sets */
+
+/* Sets of the numbers 0 .. n-1: union-find with path halving.  They are stored as one array, parent[k].  Of two joined
+ * sets the smaller root becomes the root of both, so a root is the smallest number of its set, and parent[k] <= k. */
+
+/* n sets of one number each. */
+static inline void
+celd_roots (uint32_t *parent, size_t n)
+{
+  for (size_t k = 0; k < n; k++)
+    parent[k] = (uint32_t) k;
+}
+
+/* The root of the set that k is in; shortens paths on the way. */
+static inline uint32_t
+celd_root (uint32_t *parent, uint32_t k)
+{
+  while (parent[k] != k)
+    k = parent[k] = parent[parent[k]];
+  return k;
+}
+
+/* Makes one set of those of a and b. */
+static inline void
+celd_join (uint32_t *parent, uint32_t a, uint32_t b)
+{
+  a = celd_root (parent, a);
+  b = celd_root (parent, b);
+  if (a < b)
+    parent[b] = a;
+  else
+    parent[a] = b;
 }
 
 /* ------------------------------------------------------------------ pictures */
@@ -141,5 +199,60 @@ void celd_parallel_for (const CeldHost *host, int n, void (*body) (void *data, i
  * body (data, i) is to do job *first + i.  CELD_CANCELLED as celd_progress. */
 CeldStatus celd_parallel_rounds (const CeldHost *host, int n, int at_once, void (*body) (void *data, int i), void *data,
                                  int *first, double from, double to);
+
+/* ------------------------------------------------------------------ text.c: reading text */
+
+/* The state of a reader. */
+typedef struct
+{
+  const char    *at;           /* next byte of a text that ends with 0 */
+  int            line, column; /* of that byte, both from 1 */
+  CeldTextError *error;        /* may be NULL */
+} CeldReader;
+
+/* Steps over one byte, which must be ASCII and no line end.  Grammars are ASCII and reading stops at anything else, so
+ * columns count characters. */
+void celd_text_advance (CeldReader *r);
+
+/* Line ends are \n, \r\n or \r.  The second function steps over one, which must be there. */
+bool celd_text_at_line_end (const CeldReader *r);
+void celd_text_skip_line_end (CeldReader *r);
+
+/* Fills in *r->error, if not NULL, with the place, what was expected there and what stands there instead.  Returns
+ * CELD_BAD_RELATION. */
+CeldStatus celd_text_refuse (const CeldReader *r, const char *expected);
+
+bool celd_text_is_digit (char c);
+
+/* Reads the number  [ "-" ] digits [ "." digits ],  where either group of digits may be missing but not both; with
+ * `svg` also a "+" in front and an exponent behind, as in SVG path data.  The decimal point is "." in every locale.
+ * CELD_BAD_RELATION, with `expected` in the error, if there is no number or its absolute value is 1e9 or more. */
+CeldStatus celd_text_number (CeldReader *r, bool svg, const char *expected, double *number);
+
+/* ------------------------------------------------------------------ stages of a session */
+
+/* Each is made from earlier ones only, by session/stages.c; the table of settings names those that a setting
+ * invalidates. */
+typedef enum
+{
+  STAGE_RELATIONS,   /* all of the artist's in one list: text, path, painted arrows, single ones */
+  STAGE_INK,         /* for segmentation, and for depth */
+  STAGE_SCRIBBLES,   /* the seeds of the scribbles layer */
+  STAGE_SEEDS,       /* with the single strokes over them */
+  STAGE_LABELS,
+  STAGE_SUGGESTIONS,
+  STAGE_ORDER,
+  STAGE_UNEXPANDED,  /* levels before expansion */
+  STAGE_OWNERSHIP,
+  STAGE_LEVELS,      /* after expansion */
+  STAGE_PREVIEW,     /* of smooth depth */
+  STAGE_DEPTH,
+  STAGE_NORMALS,
+  STAGE_SHADING,
+  STAGE_WEIGHTS,     /* of the exact program */
+  STAGE_NODES,       /* of the exact program: the scribbles */
+  STAGE_EXACT,
+  N_STAGES
+} CeldStage;
 
 #endif

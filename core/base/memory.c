@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
-#include "base/vector.h"
 
 #include <stdlib.h>
 

@@ -7,7 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "celdepth/settings.h"
-#include "base/stages.h"
+#include "base/base.h"
 
 /* ------------------------------------------------------------------ choices, by their numbers */
 

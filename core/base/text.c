@@ -5,7 +5,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/text.h"
+#include "base/base.h"
 
 #include <limits.h>
 #include <math.h>

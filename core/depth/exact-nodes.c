@@ -6,7 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "depth/depth.h"
 #include "solve/laplace.h"
 

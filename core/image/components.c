@@ -7,8 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "image/image.h"
 
 #define NUMBERED_ROWS 64 /* rows between two reports of progress */

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "image/image.h"
 
 #include <stdlib.h>

@@ -11,7 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/text.h"
+#include "base/base.h"
 
 #include <math.h>
 

@@ -7,8 +7,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "input/input.h"
 
 #include <math.h>

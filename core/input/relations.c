@@ -12,7 +12,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/text.h"
+#include "base/base.h"
 
 /* A term, and where it stands. */
 typedef struct { CeldTerm term; int line, column; } PlacedTerm;

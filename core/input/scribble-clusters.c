@@ -15,7 +15,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "input/input.h"
 
 #include <stdlib.h>

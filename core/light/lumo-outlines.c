@@ -12,7 +12,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "light/light.h"
 
 #include <stdlib.h>

@@ -19,7 +19,7 @@
 #ifndef CELD_ORDER_H
 #define CELD_ORDER_H
 
-#include "base/unions.h"
+#include "base/base.h"
 
 #include <math.h>
 

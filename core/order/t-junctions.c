@@ -9,7 +9,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "order/order.h"
 
 #include <math.h>

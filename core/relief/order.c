@@ -11,7 +11,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "relief/relief.h"
 
 #include <math.h>

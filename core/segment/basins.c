@@ -12,7 +12,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
+#include "base/base.h"
 #include "image/image.h"
 #include "segment/basin-steps.h"
 #include "segment/basins.h"
@@ -48,7 +48,7 @@ celd_basins_clear (CeldBasins *basins)
 
 /* ------------------------------------------------------------------ unions of basins */
 
-/* The unions so far (unions.h), and the largest squared distance in each, by root. */
+/* The unions so far (base/base.h), and the largest squared distance in each, by root. */
 typedef struct { uint32_t *parent; int32_t *widest; } Unions;
 
 static void

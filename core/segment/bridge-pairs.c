@@ -10,7 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "segment/bridges.h"
 
 #include <math.h>

@@ -14,7 +14,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/vector.h"
+#include "base/base.h"
 #include "segment/closures.h"
 #include "segment/task.h"
 

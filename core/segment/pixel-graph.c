@@ -4,8 +4,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "segment/pixel-graph.h"
 
 #define MEASURED (-CELD_MOST_TO_PAPER) /* the true distance to paper is measured */

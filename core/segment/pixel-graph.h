@@ -44,7 +44,7 @@ struct CeldPixelGraph
   CeldLink              *link;   /* a < b; each pair of nodes once */
   CeldVote              *vote;
   size_t                 n_links, n_votes;
-  uint32_t              *parent; /* of the pixels of a square: a disjoint-set forest (unions.h) */
+  uint32_t              *parent; /* of the pixels of a square: a disjoint-set forest (base/base.h) */
   size_t                 node_capacity, link_capacity, vote_capacity;
 
   /* celd_distance_to_paper of the picture, if that is known; NULL: distances are measured where they are needed. */

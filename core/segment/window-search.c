@@ -6,8 +6,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "image/image.h"
 #include "segment/basins.h"
 #include "segment/pixel-graph.h"
@@ -31,7 +30,7 @@ typedef struct
   size_t                 hint;
   MisplacedRun          *run;        /* in reading order */
   size_t                 n_runs;
-  uint32_t              *cluster_of; /* of each run: a disjoint-set forest (unions.h), in the end its cluster */
+  uint32_t              *cluster_of; /* of each run: a disjoint-set forest (base/base.h), in the end its cluster */
   PaintCluster          *cluster;
   size_t                 n_clusters;
   uint32_t              *group;      /* of each basin: a disjoint-set forest of groups */

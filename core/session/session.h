@@ -18,7 +18,7 @@
 #ifndef CELD_SESSION_H
 #define CELD_SESSION_H
 
-#include "base/stages.h"
+#include "base/base.h"
 #include "depth/depth.h"
 #include "image/image.h"
 #include "order/order.h"

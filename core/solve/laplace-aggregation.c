@@ -14,7 +14,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
+#include "base/base.h"
 #include "solve/laplace-private.h"
 
 #define STRONG_EDGE 0.5f /* times the strongest edge at either end: a strong edge; chosen by the bench */

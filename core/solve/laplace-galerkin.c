@@ -10,8 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "solve/laplace-private.h"
 
 /* ------------------------------------------------------------------ a graph */

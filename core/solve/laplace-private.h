@@ -88,7 +88,7 @@ typedef struct
   const CeldHost          *host;
   float                   *best;        /* of each node: the weight of its strongest edge, 0 without any */
   uint32_t                *link;        /* the node at the other end of that; in the end the aggregate */
-  uint32_t                *parent;      /* the aggregates as sets, see base/unions.h */
+  uint32_t                *parent;      /* the aggregates as sets, see base/base.h */
   uint8_t                 *divided;     /* does the node's strong component go on beyond its coarse cell? */
   uint32_t                *row_count;   /* of each fine row: nodes with an edge; of each coarse row: aggregates */
   uint8_t                 *taken;       /* of each coarse cell: does an aggregate have its number? */
@@ -99,7 +99,7 @@ typedef struct
 CeldStatus celd_leave_out_dominant (CeldWeightedGraph *graph, const CeldHost *host);
 
 /* laplace-quality.c: aggregates of all nodes, wherever they lie, at most `most` of them if that can be; parent as in
- * base/unions.h. */
+ * base/base.h. */
 CeldStatus celd_pairwise_aggregate (const CeldWeightedGraph *graph, uint32_t most, uint32_t *parent);
 
 /* laplace-galerkin.c: numbers the aggregates, a->link[i] becoming that of node i, and fills in the number of extra

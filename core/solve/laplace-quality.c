@@ -24,7 +24,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
+#include "base/base.h"
 #include "solve/laplace-private.h"
 
 #define DOMINANT      2    /* times all edge weights of a node together: its diagonal dominates; chosen */

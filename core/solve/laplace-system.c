@@ -12,8 +12,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
-#include "base/vector.h"
+#include "base/base.h"
 #include "solve/laplace-private.h"
 
 #define NEAR_FIXED 0x80

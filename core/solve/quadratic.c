@@ -10,7 +10,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/unions.h"
+#include "base/base.h"
 #include "solve/quadratic-private.h"
 #include "solve/quadratic.h"
 

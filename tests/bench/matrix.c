@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "rivals.h"
-#include "base/unions.h"
+#include "base/base.h"
 
 #include <stdlib.h>
 

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "base/vector.h"
+#include "base/base.h"
 
 static void
 sizes_do_not_overflow (void)

@@ -3,7 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "check.h"
-#include "base/unions.h"
+#include "base/base.h"
 #include "solve/laplace-private.h"
 
 #include <math.h>
