@@ -11,11 +11,14 @@
 
 /* ------------------------------------------------------------------ coverage */
 
+/* Rows y - 1, y and y + 1 of the labels that cover most of each pixel; outside the picture NULL. */
+typedef struct { const uint32_t *row[3]; } LargerRows;
+
 /* The label of the brightest, or darkest, pixel of the 3 x 3 round (x,y); ties: the first in reading order. */
 static uint32_t
-extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool brightest)
+extreme_label (const CeldPlane *ink, const LargerRows *larger, int x, int y, bool brightest)
 {
-  uint32_t found = CELD_AT (owner, x, y);
+  uint32_t found = larger->row[1][x];
   float    best = CELD_AT (ink, x, y);
 
   for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < ink->height; v++)
@@ -23,7 +26,7 @@ extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool
       if (brightest ? CELD_AT (ink, u, v) > best : CELD_AT (ink, u, v) < best)
         {
           best  = CELD_AT (ink, u, v);
-          found = CELD_AT (owner, u, v);
+          found = larger->row[v - y + 1][u];
         }
   return found;
 }
@@ -32,10 +35,10 @@ extreme_label (const CeldPlane *ink, const CeldLabels *owner, int x, int y, bool
 typedef struct { uint32_t owner, under; float coverage; } Mixture;
 
 static Mixture
-mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
+mixture_at (const CeldPlane *ink, const LargerRows *larger, int x, int y)
 {
   float   value = CELD_AT (ink, x, y), fraction = celd_is_paper (value) ? value : 1 - value;
-  Mixture s = { CELD_AT (larger, x, y), CELD_AT (larger, x, y), 1 };
+  Mixture s = { larger->row[1][x], larger->row[1][x], 1 };
 
   if (fraction < 1)
     s.under = extreme_label (ink, larger, x, y, !celd_is_paper (value));
@@ -46,11 +49,11 @@ mixture_at (const CeldPlane *ink, const CeldLabels *larger, int x, int y)
 
 /* The mixture that the record has. */
 static Mixture
-recorded_mixture (const CeldOwnership *own, const CeldLabels *larger, int x, int y)
+recorded_mixture (const CeldOwnership *own, const LargerRows *larger, int x, int y)
 {
   Mixture s = { CELD_AT (&own->owner, x, y), CELD_AT (&own->under, x, y), CELD_AT (&own->coverage, x, y) };
 
-  return s.owner == CELD_AT (larger, x, y) ? s : (Mixture) { s.under, s.owner, 1 - s.coverage };
+  return s.owner == larger->row[1][x] ? s : (Mixture) { s.under, s.owner, 1 - s.coverage };
 }
 
 /* Stores it with the nearer label as owner; true if that is a change. */
@@ -70,6 +73,26 @@ put_mixture (Mixture s, const uint32_t *level, int x, int y, CeldOwnership *own)
   return new;
 }
 
+/* Covers the pixels x .. end - 1 of row y; returns those that change. */
+static CeldRect
+cover_row (const CeldPlane *ink, const LargerRows *larger, const uint32_t *level, int x, int end, int y,
+           bool levels_only, CeldOwnership *own)
+{
+  int first = end, last = x - 1;
+
+  for (; x < end; x++)
+    {
+      bool one = levels_only && CELD_AT (&own->owner, x, y) == CELD_AT (&own->under, x, y);
+
+      if (one || !put_mixture (levels_only ? recorded_mixture (own, larger, x, y) : mixture_at (ink, larger, x, y),
+                               level, x, y, own))
+        continue;
+      first = x < first ? x : first;
+      last  = x;
+    }
+  return first <= last ? (CeldRect) { first, y, last + 1 - first, 1 } : (CeldRect) { 0 };
+}
+
 CeldRect
 celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const uint32_t *level, CeldRect rect,
                          bool levels_only, CeldOwnership *own)
@@ -78,20 +101,11 @@ celd_ownership_coverage (const CeldPlane *ink, const CeldLabels *larger, const u
 
   for (int y = rect.y; y < rect.y + rect.height; y++)
     {
-      int first = rect.x + rect.width, end = rect.x;
+      LargerRows rows = { { y > 0 ? &CELD_AT (larger, 0, y - 1) : NULL, &CELD_AT (larger, 0, y),
+                            y + 1 < larger->height ? &CELD_AT (larger, 0, y + 1) : NULL } };
 
-      for (int x = rect.x; x < rect.x + rect.width; x++)
-        {
-          bool one = levels_only && CELD_AT (&own->owner, x, y) == CELD_AT (&own->under, x, y);
-
-          if (one || !put_mixture (levels_only ? recorded_mixture (own, larger, x, y) : mixture_at (ink, larger, x, y),
-                                   level, x, y, own))
-            continue;
-          first = x < first ? x : first;
-          end   = x + 1;
-        }
-      if (first < end)
-        changed = celd_rect_union (changed, (CeldRect) { first, y, end - first, 1 });
+      changed = celd_rect_union (changed, cover_row (ink, &rows, level, rect.x, rect.x + rect.width, y, levels_only,
+                                                     own));
     }
   return changed;
 }
@@ -229,20 +243,25 @@ check (const CeldPlane *ink, const CeldLabels *labels, size_t n, const CeldLabel
   return CELD_OK;
 }
 
-/* Completes a record whose `owner` has the label that covers most of each pixel. */
+/* Completes a record whose `owner` has the label that covers most of each pixel.  As these are overwritten, the two
+ * rows that are still needed are copied. */
 static CeldStatus
 complete (const CeldPlane *ink, const uint32_t *level, CeldOwnership *own)
 {
-  CeldLabels larger;
-  CeldRect   whole = { 0, 0, ink->width, ink->height };
-  CeldStatus status = celd_labels_new (ink->width, ink->height, &larger);
+  size_t    w = (size_t) ink->width;
+  uint32_t *rows = celd_alloc (w, 2 * sizeof *rows);
 
-  if (status != CELD_OK)
-    return status;
+  if (!rows)
+    return CELD_NO_MEMORY;
   for (int y = 0; y < ink->height; y++)
-    memcpy (&CELD_AT (&larger, 0, y), &CELD_AT (&own->owner, 0, y), (size_t) ink->width * sizeof *larger.data);
-  celd_ownership_coverage (ink, &larger, level, whole, false, own);
-  celd_free (larger.data);
+    {
+      uint32_t  *here = rows + (y & 1 ? w : 0), *above = rows + (y & 1 ? 0 : w);
+      LargerRows larger = { { above, here, y + 1 < ink->height ? &CELD_AT (&own->owner, 0, y + 1) : NULL } };
+
+      memcpy (here, &CELD_AT (&own->owner, 0, y), w * sizeof *here);
+      cover_row (ink, &larger, level, 0, ink->width, y, false, own);
+    }
+  celd_free (rows);
   return CELD_OK;
 }
 
