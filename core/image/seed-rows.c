@@ -148,7 +148,7 @@ replace (CeldSeedRow *row, size_t first, size_t last, const CeldSeedRun *piece, 
 {
   size_t n = row->n - (last - first) + pieces;
 
-  if (!celd_reserve (&row->run, n, &row->run_capacity, sizeof *row->run))
+  if (n > row->n && !celd_reserve (&row->run, n, &row->run_capacity, sizeof *row->run))
     return CELD_NO_MEMORY;
   if (row->n > last)
     memmove (row->run + first + pieces, row->run + last, (row->n - last) * sizeof *piece);

@@ -135,6 +135,26 @@ rows_are_the_pixels_that_were_painted (void)
     }
 }
 
+/* A copy has no room to spare: fewer runs than before must not make it lose the last ones. */
+static void
+a_copy_keeps_what_lies_behind_a_long_stroke (void)
+{
+  const char  *rows[] = { "ABABABABABABABABABABABABABABABABABABABAB", NULL };
+  const char  *wanted_rows[] = { "CCCCCCCCCCCCCCCCCCCCCCCCCCCCCCCCCBABABAB", NULL };
+  CeldLabels   labels = art_labels (rows), wanted = art_labels (wanted_rows);
+  CeldSeedRows seeds = { 0 }, copy = { 0 };
+
+  CHECK (celd_seed_rows_read (&labels, &seeds) == CELD_OK);
+  CHECK (celd_seed_rows_copy (&seeds, &copy) == CELD_OK);
+  CHECK (celd_seed_rows_paint (&copy, 0, 0, 33, 3) == CELD_OK);
+  check_seeds (&copy, &wanted);
+  check_seeds (&seeds, &labels);
+  celd_seed_rows_clear (&seeds);
+  celd_seed_rows_clear (&copy);
+  free (labels.data);
+  free (wanted.data);
+}
+
 int
 main (void)
 {
@@ -142,5 +162,6 @@ main (void)
   RUN (runs_of_one_label_that_touch_are_one);
   RUN (paint_is_cut_to_the_picture);
   RUN (rows_are_the_pixels_that_were_painted);
+  RUN (a_copy_keeps_what_lies_behind_a_long_stroke);
   return DONE;
 }
