@@ -9,7 +9,6 @@
 #include <glib/gstdio.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define PREFIX      10  /* bytes of magic word, version, and length of the header */
 #define HEADER_SIZE 128 /* bytes with the prefix; numpy needs a multiple of 64 */
@@ -28,7 +27,7 @@ cli_npy_write (const char *path, int width, int height, int depth, size_t row, c
 {
   char    header[HEADER_SIZE] = "\x93NUMPY\x01", axes[64];
   size_t  pixel = sizeof (float) * (size_t) (depth ? depth : 1);
-  char   *beside = g_strdup_printf ("%s.new-%d", path, (int) getpid ());
+  char   *beside = cli_unfinished_name (path);
   FILE   *file = g_file_test (path, G_FILE_TEST_IS_DIR) ? NULL : fopen (beside, "wb");
   bool    good;
 

@@ -3,8 +3,10 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
+#include "json.h"
 
 #include <errno.h>
+#include <glib/gstdio.h>
 #include <stdio.h>
 
 /* ------------------------------------------------------------------ relations */
@@ -19,9 +21,13 @@ append_number (GString *text, const char *before, double value)
 }
 
 static void
-append_term (GString *text, const CeldTerm *term)
+append_term (GString *text, const CeldTerm *term, const char *const *names)
 {
-  if (term->by_colour)
+  if (names)
+    g_string_append_printf (text, "%s:", names[term->fragment]);
+  if (term->whole)
+    g_string_append_c (text, '*');
+  else if (term->by_colour)
     g_string_append_printf (text, "#%02x%02x%02x", term->colour[0], term->colour[1], term->colour[2]);
   else
     {
@@ -31,13 +37,13 @@ append_term (GString *text, const CeldTerm *term)
 }
 
 char *
-cli_relation_text (const CeldRelation *relation)
+cli_relation_text (const CeldRelation *relation, const char *const *names)
 {
   GString *text = g_string_new (NULL);
 
-  append_term (text, &relation->nearer);
+  append_term (text, &relation->nearer, names);
   g_string_append (text, relation->equal ? " = " : " > ");
-  append_term (text, &relation->farther);
+  append_term (text, &relation->farther, names);
   if (relation->weight < 1 || relation->weight > 1)
     append_number (text, " @", relation->weight);
   if (relation->gap < 1 || relation->gap > 1)
@@ -65,15 +71,35 @@ write_device (const char *path, const char *text)
 bool
 cli_write_text (const char *path, const char *text)
 {
-  GError *error = NULL;
-  bool    good;
+  char *unfinished;
+  FILE *file;
+  bool  good;
 
   if (cli_is_device (path))
     return write_device (path, text);
-  good = g_file_set_contents_full (path, text, -1, G_FILE_SET_CONTENTS_CONSISTENT, 0666, &error);
+  unfinished = cli_unfinished_name (path);
+  file = fopen (unfinished, "w");
+  good = file && fputs (text, file) >= 0;
+  good = file && !fclose (file) && good && !g_rename (unfinished, path);
   if (!good)
-    cli_say ("Cannot write \"%s\": %s", path, error->message);
-  g_clear_error (&error);
+    cli_say ("Cannot write \"%s\": %s.", path, g_strerror (errno));
+  if (!good && file)
+    g_unlink (unfinished);
+  g_free (unfinished);
+  return good;
+}
+
+bool
+cli_write_json (const char *path, JsonBuilder *json)
+{
+  JsonNode *root = json_builder_get_root (json);
+  char     *data = json_to_string (root, TRUE), *text = g_strconcat (data, "\n", NULL);
+  bool      good = cli_write_text (path, text);
+
+  g_free (text);
+  g_free (data);
+  json_node_unref (root);
+  g_object_unref (json);
   return good;
 }
 
@@ -85,7 +111,7 @@ cli_write_relations (const char *path, const CeldRelations *relations)
 
   for (size_t i = 0; i < relations->n; i++)
     {
-      char *text = cli_relation_text (&relations->item[i]);
+      char *text = cli_relation_text (&relations->item[i], NULL);
 
       g_string_append_printf (all, "%s\n", text);
       g_free (text);
