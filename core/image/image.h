@@ -107,6 +107,37 @@ CeldStatus celd_nearest (int width, int height, const uint8_t *inside, const Cel
  * ink. */
 CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int32_t *squared);
 
+/* ------------------------------------------------------------------ extension.c: smooth extension of values */
+
+/* Extends the values of pixels with known[i] != 0 over all others; `lanes` numbers a pixel, at most 4.  Tight planes; if
+ * nothing is known, all becomes 0. */
+CeldStatus celd_extend (int width, int height, int lanes, uint8_t *known, float *value);
+
+/* ------------------------------------------------------------------ morphology.c: with square windows */
+
+/* How many bytes of work space the functions below need for this radius, and for smaller ones. */
+size_t celd_erosion_work (int width, int height, int radius);
+
+/* Replaces each value by the least (dilation: largest) of those in the picture at most `radius` away in x and in y.
+ * Masks are tight planes. */
+void celd_erode        (CeldPlane *plane, int radius, void *work);
+void celd_erode_bytes  (CeldMask *mask, int radius, void *work);
+void celd_dilate_bytes (CeldMask *mask, int radius, void *work);
+/* Dilation and then erosion; `closed` must not alias `mask`. */
+void celd_close_bytes  (const CeldMask *mask, int radius, void *work, CeldMask *closed);
+void celd_invert_bytes (CeldMask *mask);
+
+/* ------------------------------------------------------------------ coloured.c and line-width.c: coloured drawings */
+
+/* Whether red, green and blue of an opaque drawing have fills of several hues. */
+bool celd_is_coloured (const CeldMask channel[3]);
+
+/* The radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius finds; if
+ * there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius; `work` is for
+ * twice the widest radius, `closed` is overwritten. */
+CeldStatus celd_line_radius (const CeldMask *luma, int widest, const CeldHost *host, void *work, CeldMask *closed,
+                             int *radius, float *share);
+
 /* ------------------------------------------------------------------ components.c: connected components */
 
 typedef struct

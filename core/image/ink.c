@@ -20,7 +20,6 @@
 #define NOISELESS     0.003f  /* noise below this comes from rounding to 8 bits */
 #define NEAR_CLEAN    5       /* pixels: a pale line so near to a dark one may be its antialiased tip; chosen */
 #define NEAR_NOISY    2       /* pixels from the core of a pencil line to its edge; chosen */
-#define CACHE_COLUMNS 16      /* columns of a strip: a cache line of floats */
 #define INK_PASSES    16      /* over the picture in the longest case, of about the same duration: for progress */
 
 typedef struct
@@ -33,7 +32,7 @@ typedef struct
   CeldPlane       area;          /* contrast without strokes: its grey opening */
   CeldPlane       level;         /* contrast of the dark core of the stroke at the pixel; 0: unknown */
   CeldPlane       spare;
-  float          *lines;         /* work space of least_along_rows and least_along_columns */
+  void           *lines;         /* work space of celd_erode */
   float           noise;         /* of the paper */
   bool            noisy;         /* by more than rounding */
   float           faintest;      /* least contrast of a stroke */
@@ -49,68 +48,11 @@ pass_done (InkWork *w)
 
 /* ------------------------------------------------------------------ grey morphology with square windows */
 
-/* Replaces each element by the least of those at most `radius` away in its row; `line` has room for width + 2
- * radius. */
-static void
-least_along_rows (CeldPlane *plane, int radius, float *line)
-{
-  int n = plane->width + 2 * radius, window = 2 * radius + 1, span;
-
-  for (int y = 0; y < plane->height; y++)
-    {
-      float *row = &CELD_AT (plane, 0, y);
-
-      for (int i = 0; i < radius; i++)
-        line[i] = line[n - 1 - i] = INFINITY;
-      memcpy (line + radius, row, (size_t) plane->width * sizeof *row);
-      for (span = 1; 2 * span <= window; span *= 2)
-        for (int i = 0; i < n - span; i++)
-          line[i] = celd_least (line[i], line[i + span]);
-      for (int x = 0; x < plane->width; x++)
-        row[x] = celd_least (line[x], line[x + window - span]);
-    }
-}
-
-/* As least_along_rows, within columns, CACHE_COLUMNS at a time; `lines` has room for CACHE_COLUMNS (height + 2
- * radius). */
-static void
-least_along_columns (CeldPlane *plane, int radius, float *lines)
-{
-  int window = 2 * radius + 1, span;
-
-  for (int left = 0; left < plane->width; left += CACHE_COLUMNS)
-    {
-      size_t breadth = plane->width - left < CACHE_COLUMNS ? (size_t) (plane->width - left) : CACHE_COLUMNS;
-      size_t edge = (size_t) radius * breadth, n = (size_t) plane->height * breadth + 2 * edge;
-
-      for (size_t i = 0; i < edge; i++)
-        lines[i] = lines[n - 1 - i] = INFINITY;
-      for (int y = 0; y < plane->height; y++)
-        memcpy (lines + edge + (size_t) y * breadth, &CELD_AT (plane, left, y), breadth * sizeof *lines);
-      for (span = 1; 2 * span <= window; span *= 2)
-        for (size_t i = 0, step = (size_t) span * breadth; i < n - step; i++)
-          lines[i] = celd_least (lines[i], lines[i + step]);
-      for (int y = 0; y < plane->height; y++)
-        {
-          float       *row = &CELD_AT (plane, left, y);
-          const float *first = lines + (size_t) y * breadth, *second = first + (size_t) (window - span) * breadth;
-
-          for (size_t x = 0; x < breadth; x++)
-            row[x] = celd_least (first[x], second[x]);
-        }
-    }
-}
-
 static CeldStatus
 erode (InkWork *w, CeldPlane *plane, int radius)
 {
-  CeldStatus status;
-
-  least_along_rows (plane, radius, w->lines);
-  status = pass_done (w);
-  if (status != CELD_OK)
-    return status;
-  least_along_columns (plane, radius, w->lines);
+  celd_erode (plane, radius, w->lines);
+  w->passes++; /* it takes as long as two others */
   return pass_done (w);
 }
 
@@ -166,11 +108,11 @@ dark_level (const CeldPlane *contrast, float faintest)
 static CeldStatus
 start_work (int width, int height, InkWork *w)
 {
-  int shorter = width < height ? width : height, longer = width < height ? height : width;
+  int shorter = width < height ? width : height;
 
   w->pixels = (size_t) width * (size_t) height;
   w->widest = shorter / 32 > 12 ? shorter / 32 : 12;
-  w->lines = celd_alloc (CACHE_COLUMNS * ((size_t) longer + 2 * (size_t) w->widest), sizeof *w->lines);
+  w->lines = celd_alloc (celd_erosion_work (width, height, w->widest), 1);
   if (!w->lines || celd_plane_new (width, height, &w->contrast) != CELD_OK ||
       celd_plane_new (width, height, &w->area) != CELD_OK || celd_plane_new (width, height, &w->level) != CELD_OK)
     return CELD_NO_MEMORY;

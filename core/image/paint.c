@@ -16,6 +16,7 @@
 #define MARK_LINE       0.3     /* width of the ring's line in radii; chosen */
 #define MARK_RIM        0.2     /* width of the white on either side in radii; chosen */
 #define MARK_DOT        0.2     /* radius of the dot in radii; chosen */
+#define MOST_BLACK      2       /* of 255, in each channel of a black stroke: colour management may shift it; chosen */
 #define SOLID_ALPHA     0.5f    /* from which a pixel's colour is used for transparent ones; chosen */
 
 /* ------------------------------------------------------------------ labels to colours */
@@ -186,8 +187,15 @@ done:
   return status;
 }
 
-CeldStatus
-celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels)
+static bool
+is_black (const uint8_t *colour)
+{
+  return colour[0] <= MOST_BLACK && colour[1] <= MOST_BLACK && colour[2] <= MOST_BLACK;
+}
+
+/* Writes the label of each opaque pixel's colour; 0 for others, and *black (NULL: the same) for black ones. */
+static CeldStatus
+read_strokes (const CeldPaint *paint, const CeldPalette *palette, const uint32_t *black, CeldLabels *labels)
 {
   uint8_t  last[4] = { 0 };
   uint32_t label = 0;
@@ -202,11 +210,25 @@ celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldL
         if (memcmp (pixel, last, 4))
           {
             memcpy (last, pixel, 4);
-            label = pixel[3] >= 128 ? celd_palette_find (palette, pixel) : 0;
+            label = pixel[3] < 128 ? 0 : black && is_black (pixel) ? *black : celd_palette_find (palette, pixel);
           }
         CELD_AT (labels, x, y) = label;
       }
   return CELD_OK;
+}
+
+CeldStatus
+celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels)
+{
+  return read_strokes (paint, palette, NULL, labels);
+}
+
+CeldStatus
+celd_hidden_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels)
+{
+  const uint32_t erase = CELD_HIDDEN_ERASE;
+
+  return read_strokes (paint, palette, &erase, labels);
 }
 
 /* ------------------------------------------------------------------ marks at problems */

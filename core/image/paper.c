@@ -138,6 +138,8 @@ celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode)
 
   if (mode == CELD_INK_DARK || mode == CELD_INK_LIGHT)
     return mode;
+  if (mode == CELD_INK_LINES)
+    return CELD_INK_DARK; /* as celd_coloured_lines draws them */
   transparent = has_transparency (drawing);
   if (transparent && (mode == CELD_INK_ALPHA || is_line_layer (drawing)))
     return CELD_INK_ALPHA;

@@ -1,0 +1,397 @@
+/* The lines of a coloured drawing, black on white, whatever colours they and the fills between them have.
+ *
+ * A line is darker in some channel than what lies on both sides of it (or lighter: then the picture is inverted first);
+ * a fill is not.
+ * 1. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
+ *    fill around; the largest of the three.
+ * 2. The width of lines: the closing by the right window finds nearly all that one twice as wide finds.
+ * 3. Strength: the contrast, divided by that of the core of the line.
+ * 4. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
+ *    colour of lines and fits into the widest window is a line as well.
+ * Large areas in the colour of lines remain fills: an artist can scribble on them.
+ *
+ * Cost: O(pixels), whatever the width of lines; 14 bytes a pixel.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DARKEST_PAPER 64     /* of 255: contrast against anything darker is against this; chosen */
+#define GRAINLESS     2      /* noise up to this, of 255, comes from rounding; chosen */
+#define FAINTEST_LINE      20     /* of 255: least contrast of the core of a line; chosen */
+#define COMPRESSED    8      /* pixels: a block of JPEG */
+#define EDGE          2      /* pixels from the core of a line to its antialiased edge */
+#define TONES         16     /* per channel, by which the colours of lines are counted; chosen */
+
+typedef struct
+{
+  const CeldHost *host;
+  CeldMask        channel[3];
+  CeldMask        closed, contrast, level;
+  void           *work;        /* of celd_erode_bytes */
+  int             widest;      /* radius of the widest window */
+  uint32_t        tone[TONES * TONES * TONES]; /* how many cores of lines have a tone, or one next to it */
+  uint32_t        cores;
+} Lines;
+
+/* ------------------------------------------------------------------ work space */
+
+static bool
+new_mask (int width, int height, CeldMask *mask)
+{
+  *mask = (CeldMask) { width, height, (size_t) width, celd_alloc ((size_t) width * (size_t) height, 1) };
+  return mask->data;
+}
+
+static CeldStatus
+start_work (Lines *l, int width, int height)
+{
+  int shorter = width < height ? width : height;
+
+  l->widest = shorter / 32 > 12 ? shorter / 32 : 12;
+  l->work = celd_alloc (celd_erosion_work (width, height, 2 * l->widest), 1);
+  for (int c = 0; c < 3; c++)
+    if (!new_mask (width, height, &l->channel[c]))
+      return CELD_NO_MEMORY;
+  return l->work && new_mask (width, height, &l->closed) && new_mask (width, height, &l->contrast) &&
+         new_mask (width, height, &l->level) ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+end_work (Lines *l)
+{
+  for (int c = 0; c < 3; c++)
+    celd_free (l->channel[c].data);
+  celd_free (l->closed.data);
+  celd_free (l->contrast.data);
+  celd_free (l->level.data);
+  celd_free (l->work);
+}
+
+static CeldStatus
+new_planes (const Lines *l, CeldPlane *a, CeldPlane *b)
+{
+  CeldStatus status = celd_plane_new (l->closed.width, l->closed.height, a);
+
+  return status == CELD_OK ? celd_plane_new (l->closed.width, l->closed.height, b) : status;
+}
+
+static size_t
+pixels (const Lines *l)
+{
+  return (size_t) l->closed.width * (size_t) l->closed.height;
+}
+
+/* Composites the drawing on white. */
+static void
+take_channels (Lines *l, const CeldPaint *art)
+{
+  for (int y = 0; y < art->height; y++)
+    for (int x = 0; x < art->width; x++)
+      {
+        const uint8_t *pixel = CELD_RGBA (art, x, y);
+
+        for (int c = 0; c < 3; c++)
+          CELD_AT (&l->channel[c], x, y) = (uint8_t) (255 - (255 - pixel[c]) * pixel[3] / 255);
+      }
+}
+
+/* ------------------------------------------------------------------ noise */
+
+/* The standard deviation of grain, of 255: from the median second difference along rows of the green channel. */
+static float
+measure_noise (const Lines *l)
+{
+  size_t of[511 * 2] = { 0 }, all = 0, below = 0;
+  int    difference = 0;
+
+  for (int y = 0; y < l->closed.height; y++)
+    for (int x = 1; x < l->closed.width - 1; x++)
+      {
+        const uint8_t *v = &CELD_AT (&l->channel[1], x, y);
+
+        of[abs (v[-1] - 2 * v[0] + v[1])]++;
+        all++;
+      }
+  while (2 * (below += of[difference]) < all)
+    difference++;
+  return (float) difference / (0.6745f * 2.4495f); /* as in celd_ink_noise */
+}
+
+/* Smooths grain in all channels. */
+static CeldStatus
+remove_noise (Lines *l)
+{
+  CeldPlane  smooth = { 0 }, spare = { 0 };
+  CeldStatus status = new_planes (l, &smooth, &spare);
+
+  for (int c = 0; c < 3 && status == CELD_OK; c++)
+    {
+      for (size_t i = 0; i < pixels (l); i++)
+        smooth.data[i] = l->channel[c].data[i];
+      celd_ink_smooth (&smooth, &spare);
+      celd_ink_smooth (&smooth, &spare);
+      for (size_t i = 0; i < pixels (l); i++)
+        l->channel[c].data[i] = (uint8_t) (smooth.data[i] + 0.5f);
+    }
+  celd_free (smooth.data);
+  celd_free (spare.data);
+  return status;
+}
+
+/* ------------------------------------------------------------------ contrast */
+
+/* Raises contrasts to those of a channel against its closing. */
+CELD_CLONES static void
+raise_contrast (const uint8_t *restrict value, const uint8_t *restrict closed, size_t n, uint8_t *restrict contrast)
+{
+  for (size_t i = 0; i < n; i++)
+    {
+      float   paper = celd_most (closed[i], DARKEST_PAPER);
+      uint8_t c = (uint8_t) (255 * (float) (closed[i] - value[i]) / paper + 0.5f);
+
+      contrast[i] = c > contrast[i] ? c : contrast[i];
+    }
+}
+
+/* Sets l->contrast for lines up to 2 radius + 1 wide.  `done` of all the work is finished before, a fifth more then. */
+static CeldStatus
+measure_contrast (Lines *l, int radius, double done)
+{
+  CeldStatus status = CELD_OK;
+
+  memset (l->contrast.data, 0, pixels (l));
+  for (int c = 0; c < 3 && status == CELD_OK; c++)
+    {
+      celd_close_bytes (&l->channel[c], radius, l->work, &l->closed);
+      raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
+      status = celd_progress (l->host, done + 0.2 * (c + 1) / 3);
+    }
+  return status;
+}
+
+/* ------------------------------------------------------------------ the width of lines */
+
+/* The luma of the channels, in l->level. */
+static void
+take_luma (Lines *l)
+{
+  size_t n = pixels (l);
+
+  for (size_t i = 0; i < n; i++)
+    l->level.data[i] = (uint8_t) (0.2126f * l->channel[0].data[i] + 0.7152f * l->channel[1].data[i] +
+                                  0.0722f * l->channel[2].data[i] + 0.5f);
+}
+
+/* Finds whether lines are darker or lighter than what is beside them: those of a drawing have one width.  If they are
+ * lighter, inverts the channels. */
+static CeldStatus
+find_polarity (Lines *l, int *radius)
+{
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], l->host, 0, 0.3), second = celd_host_part (&part[1], l->host, 0.3, 0.6);
+  int          other;
+  float        dark, light;
+  CeldStatus   status;
+
+  take_luma (l);
+  status = celd_line_radius (&l->level, l->widest, &first, l->work, &l->closed, radius, &dark);
+  if (status != CELD_OK || dark >= 0.95f)
+    return status;
+  celd_invert_bytes (&l->level);
+  status = celd_line_radius (&l->level, l->widest, &second, l->work, &l->closed, &other, &light);
+  if (status != CELD_OK || light <= dark)
+    return status;
+  for (int c = 0; c < 3; c++)
+    celd_invert_bytes (&l->channel[c]);
+  *radius = other;
+  return status;
+}
+
+/* ------------------------------------------------------------------ strength */
+
+static uint32_t *
+tone_of (Lines *l, size_t pixel)
+{
+  size_t tone = 0;
+
+  for (int c = 0; c < 3; c++)
+    tone = tone * TONES + (size_t) l->channel[c].data[pixel] * TONES / 256;
+  return &l->tone[tone];
+}
+
+/* Whether the pixel is in the middle of a line: none around has more contrast, and none within the window much more. */
+static bool
+is_core (const Lines *l, int x, int y, int faintest)
+{
+  int c = CELD_AT (&l->contrast, x, y);
+
+  if (c < faintest || 5 * c < 3 * CELD_AT (&l->closed, x, y))
+    return false;
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < l->contrast.height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < l->contrast.width; u++)
+      if (CELD_AT (&l->contrast, u, v) > c)
+        return false;
+  return true;
+}
+
+/* Sets l->level to the contrast of the core of a line at each pixel next to one, and counts the tones of cores. */
+static void
+find_cores (Lines *l, int radius, int faintest)
+{
+  memcpy (l->closed.data, l->contrast.data, pixels (l));
+  celd_dilate_bytes (&l->closed, radius, l->work);
+  for (int y = 0; y < l->level.height; y++)
+    for (int x = 0; x < l->level.width; x++)
+      {
+        bool core = is_core (l, x, y, faintest);
+
+        CELD_AT (&l->level, x, y) = core ? CELD_AT (&l->contrast, x, y) : 0;
+        l->cores += core;
+        *tone_of (l, (size_t) y * l->level.stride + (size_t) x) += core;
+      }
+  celd_dilate_bytes (&l->level, 1, l->work);
+}
+
+/* Between fills that differ, closing finds the darker one.  For antialiased pixels on the lighter side, which may be
+ * lighter than that, the paper is the lightest pixel next to them. */
+static void
+raise_edges (Lines *l)
+{
+  for (int c = 0; c < 3; c++)
+    {
+      memcpy (l->closed.data, l->channel[c].data, pixels (l));
+      celd_dilate_bytes (&l->closed, 1, l->work);
+      for (size_t i = 0; i < pixels (l); i++)
+        if (!l->level.data[i])
+          l->closed.data[i] = l->channel[c].data[i];
+      raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
+    }
+  celd_dilate_bytes (&l->level, EDGE - 1, l->work);
+}
+
+/* Adds to each tone the 26 around it. */
+static void
+blur_tones (Lines *l)
+{
+  uint32_t sum[TONES + 2];
+
+  for (size_t step = 1; step <= TONES * TONES; step *= TONES)
+    for (size_t i = 0; i < TONES * TONES * TONES; i++)
+      if (i / step % TONES == 0)
+        {
+          sum[0] = sum[TONES + 1] = 0;
+          for (size_t k = 0; k < TONES; k++)
+            sum[k + 1] = l->tone[i + k * step];
+          for (size_t k = 0; k < TONES; k++)
+            l->tone[i + k * step] = sum[k] + sum[k + 1] + sum[k + 2];
+        }
+}
+
+/* Replaces the level of each pixel by the strength of the line there. */
+static void
+find_strengths (Lines *l, int faintest)
+{
+  for (size_t i = 0; i < pixels (l); i++)
+    {
+      int contrast = l->contrast.data[i], level = l->level.data[i];
+
+      l->level.data[i] = (uint8_t) (contrast < faintest && !level ? 0 : !level ? contrast
+                                      : contrast < level ? 255 * contrast / level : 255);
+    }
+}
+
+/* Writes the lines by their strengths, and what has their tone and contrast in the widest window. */
+static void
+write_lines (Lines *l, CeldDrawing *drawing)
+{
+  for (int y = 0; y < drawing->luma.height; y++)
+    for (int x = 0; x < drawing->luma.width; x++)
+      {
+        size_t i = (size_t) y * l->level.stride + (size_t) x;
+        bool   thick = l->contrast.data[i] >= 128 && 100 * (size_t) *tone_of (l, i) >= l->cores;
+
+        CELD_AT (&drawing->luma, x, y) = thick ? 0 : 1 - l->level.data[i] / 255.0f;
+        if (drawing->alpha.data)
+          CELD_AT (&drawing->alpha, x, y) = 1;
+      }
+}
+
+/* The least contrast of the core of a line: well above the grain, and above what compression leaves beside lines. */
+static CeldStatus
+find_faintest (Lines *l, int *faintest)
+{
+  CeldPlane  contrast = { 0 }, around = { 0 };
+  CeldStatus status = new_planes (l, &contrast, &around);
+  float      least;
+
+  if (status == CELD_OK)
+    {
+      memcpy (l->closed.data, l->contrast.data, pixels (l));
+      celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
+      for (size_t i = 0; i < pixels (l); i++)
+        {
+          contrast.data[i] = l->contrast.data[i] / 255.0f;
+          around.data[i]   = l->closed.data[i] / 255.0f;
+        }
+      least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &around, 1));
+      *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
+    }
+  celd_free (contrast.data);
+  celd_free (around.data);
+  return status;
+}
+
+static CeldStatus
+find_lines (Lines *l, CeldDrawing *drawing)
+{
+  int        radius, faintest;
+  CeldStatus status = measure_noise (l) > GRAINLESS ? remove_noise (l) : CELD_OK;
+
+  if (status == CELD_OK)
+    status = find_polarity (l, &radius);
+  if (status == CELD_OK)
+    status = measure_contrast (l, radius, 0.6);
+  if (status == CELD_OK)
+    status = find_faintest (l, &faintest);
+  if (status != CELD_OK)
+    return status;
+  find_cores (l, radius, faintest);
+  blur_tones (l);
+  raise_edges (l);
+  find_strengths (l, faintest);
+  status = measure_contrast (l, radius > l->widest / 2 ? 2 * radius : l->widest, 0.8);
+  if (status == CELD_OK)
+    write_lines (l, drawing);
+  return status;
+}
+
+CeldStatus
+celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host, CeldDrawing *drawing)
+{
+  Lines     *l;
+  CeldStatus status;
+
+  if (!CELD_SAME_SIZE (art, &drawing->luma))
+    return CELD_BAD_SIZE;
+  if (mode != CELD_INK_LINES && (mode != CELD_INK_AUTO || celd_ink_mode (drawing, mode) == CELD_INK_ALPHA))
+    return CELD_OK;
+  l = celd_alloc (1, sizeof *l);
+  if (!l)
+    return CELD_NO_MEMORY;
+  *l     = (Lines) { .host = host };
+  status = start_work (l, art->width, art->height);
+  if (status == CELD_OK)
+    {
+      take_channels (l, art);
+      if (mode == CELD_INK_LINES || celd_is_coloured (l->channel))
+        status = find_lines (l, drawing);
+    }
+  end_work (l);
+  celd_free (l);
+  return status;
+}

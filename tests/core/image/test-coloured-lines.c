@@ -1,0 +1,270 @@
+/* Lines of coloured drawings: fills of all kinds vanish, lines of all kinds stay; drawings without fills stay as they
+ * are.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "celdepth.h"
+
+enum { SIDE = 200, BREADTH = 5 };
+
+typedef struct { float red, green, blue; } Tone;
+
+static const Tone white = { 1, 1, 1 }, brown = { 0.25f, 0.12f, 0.08f }, yellow = { 1, 0.85f, 0.3f },
+                  blue = { 0.3f, 0.45f, 0.9f }, pink = { 1, 0.7f, 0.75f };
+
+static uint8_t art_of[SIDE * SIDE * 4];
+static float   luma_of[SIDE * SIDE], alpha_of[SIDE * SIDE];
+
+static CeldPlane
+square (float *data)
+{
+  return (CeldPlane) { SIDE, SIDE, SIDE, data };
+}
+
+/* Of the ring round (x0,y0) with the given radius, and of what is inside its middle, the share of a pixel. */
+static float
+ring (int x, int y, float x0, float y0, float radius)
+{
+  float r = hypotf ((float) x + 0.5f - x0, (float) y + 0.5f - y0);
+
+  return fminf (fmaxf (0.5f * BREADTH + 0.5f - fabsf (r - radius), 0), 1);
+}
+
+static bool
+inside (int x, int y, float x0, float y0, float radius)
+{
+  return hypotf ((float) x + 0.5f - x0, (float) y + 0.5f - y0) < radius;
+}
+
+/* Two discs that overlap, the right one in front. */
+static float
+line_at (int x, int y)
+{
+  float left = inside (x, y, 125, 100, 45) ? 0 : ring (x, y, 75, 100, 45);
+
+  return fmaxf (left, ring (x, y, 125, 100, 45));
+}
+
+static Tone
+mixed (Tone a, Tone b, float share)
+{
+  return (Tone) { a.red + share * (b.red - a.red), a.green + share * (b.green - a.green),
+                  a.blue + share * (b.blue - a.blue) };
+}
+
+static void
+put (int x, int y, Tone tone)
+{
+  uint8_t *pixel = art_of + 4 * (y * SIDE + x);
+
+  pixel[0] = (uint8_t) (255 * tone.red + 0.5f);
+  pixel[1] = (uint8_t) (255 * tone.green + 0.5f);
+  pixel[2] = (uint8_t) (255 * tone.blue + 0.5f);
+  pixel[3] = 255;
+}
+
+static void
+draw (Tone page, Tone left, Tone right, Tone line)
+{
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      put (x, y, mixed (inside (x, y, 125, 100, 45) ? right : inside (x, y, 75, 100, 45) ? left : page, line,
+                        line_at (x, y)));
+}
+
+/* Sets luma_of as a host does. */
+static CeldStatus
+find (CeldInkMode mode, const CeldHost *host)
+{
+  CeldPaint   art = { SIDE, SIDE, SIDE, art_of };
+  CeldDrawing drawing = { square (luma_of), square (alpha_of) };
+
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      const uint8_t *p = art_of + 4 * i;
+      float          rgba[] = { p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f };
+
+      celd_luma (rgba, 1, &luma_of[i], &alpha_of[i]);
+    }
+  return celd_coloured_lines (&art, mode, host, &drawing);
+}
+
+/* How much the result differs at most from what would be drawn with black ink on white. */
+static float
+worst (void)
+{
+  float most = 0;
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      if (abs (x - 100) > 5) /* where the rings meet, corners are filled in */
+        most = fmaxf (most, fabsf (luma_of[y * SIDE + x] - (1 - line_at (x, y))));
+  return most;
+}
+
+static bool
+unchanged (void)
+{
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      const uint8_t *p = art_of + 4 * i;
+      float          luma, rgba[] = { p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f };
+
+      celd_luma (rgba, 1, &luma, NULL);
+      if (luma_of[i] < luma || luma_of[i] > luma)
+        return false;
+    }
+  return true;
+}
+
+static void
+fills_are_paper (void)
+{
+  draw (white, yellow, blue, brown);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  CHECK (worst () < 0.35f); /* antialiased pixels: between two fills a line's share of a pixel is not known exactly */
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      if (line_at (x, y) <= 0 || line_at (x, y) >= 1)
+        NEAR (luma_of[y * SIDE + x], 1 - line_at (x, y), 0.02);
+}
+
+/* Lines in the colours of fills elsewhere, and those that differ from the fills in one channel only. */
+static void
+lines_have_any_colour (void)
+{
+  draw (white, yellow, pink, (Tone) { 0.75f, 0.1f, 0.1f });
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && worst () < 0.35f);
+  draw (yellow, pink, yellow, (Tone) { 1, 0.7f, 0 });
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  CHECK (luma_of[100 * SIDE + 30] < 0.05f && luma_of[100 * SIDE + 170] < 0.05f);
+  CHECK (luma_of[100 * SIDE + 50] > 0.95f && luma_of[100 * SIDE + 150] > 0.95f);
+}
+
+static void
+lines_may_be_lighter (void)
+{
+  draw ((Tone) { 0.1f, 0.1f, 0.2f }, (Tone) { 0.4f, 0.1f, 0.1f }, (Tone) { 0, 0.3f, 0.15f }, (Tone) { 1, 1, 0.8f });
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && worst () < 0.35f);
+}
+
+/* A stroke three times as wide as the others is ink, an area in their colour paper with the same outline. */
+static void
+thick_strokes_are_lines_and_areas_are_not (void)
+{
+  draw (white, yellow, blue, brown);
+  for (int y = 5; y < 20; y++)
+    for (int x = 20; x < 180; x++)
+      put (x, y, brown);
+  for (int y = 150; y < 200; y++)
+    for (int x = 20; x < 180; x++)
+      put (x, y, brown);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  CHECK (luma_of[12 * SIDE + 100] < 0.05f && luma_of[175 * SIDE + 100] > 0.95f);
+}
+
+static void
+grain_makes_no_lines (void)
+{
+  uint32_t state = 1;
+
+  draw (white, yellow, blue, brown);
+  for (int i = 0; i < SIDE * SIDE * 4; i++)
+    {
+      state = state * 1664525 + 1013904223;
+      if (i % 4 < 3)
+        art_of[i] = (uint8_t) fminf (fmaxf ((float) art_of[i] + (float) (int) (state >> 24) / 16 - 8, 0), 255);
+    }
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int y = 4; y < SIDE - 4; y++)
+    for (int x = 4; x < SIDE - 4; x++)
+      if (fminf (line_at (x - 1, y), line_at (x + 1, y)) >= 1 && fminf (line_at (x, y - 1), line_at (x, y + 1)) >= 1)
+        CHECK (luma_of[y * SIDE + x] < 0.25f);
+      else if (fmaxf (line_at (x - 4, y), line_at (x + 4, y)) <= 0 && fmaxf (line_at (x, y - 4), line_at (x, y + 4)) <= 0)
+        CHECK (luma_of[y * SIDE + x] > 0.85f);
+}
+
+static void
+transparent_is_white (void)
+{
+  draw (white, yellow, blue, brown);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      if (!inside (x, y, 75, 100, 50) && !inside (x, y, 125, 100, 50))
+        memset (art_of + 4 * (y * SIDE + x), 0, 4);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && worst () < 0.35f);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    CHECK (alpha_of[i] >= 1);
+}
+
+static void
+line_art_stays (void)
+{
+  const Tone cream = { 1, 0.95f, 0.8f };
+
+  draw (white, white, white, (Tone) { 0, 0, 0 });
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && unchanged ());
+  draw (cream, cream, cream, brown);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && unchanged ());
+  draw (white, yellow, blue, brown);
+  CHECK (find (CELD_INK_DARK, NULL) == CELD_OK && unchanged ());
+  CHECK (find (CELD_INK_LIGHT, NULL) == CELD_OK && unchanged ());
+  for (int i = 0; i < SIDE * SIDE; i++)
+    art_of[4 * i + 3] = (uint8_t) (255 * line_at (i % SIDE, i / SIDE)); /* lines on a transparent layer */
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK && unchanged ());
+}
+
+/* Grey fills are found when the artist asks for it, and nothing is found where there is nothing. */
+static void
+by_request (void)
+{
+  const Tone light = { 0.8f, 0.8f, 0.8f }, dark = { 0.5f, 0.5f, 0.5f };
+
+  draw (white, light, dark, (Tone) { 0, 0, 0 });
+  CHECK (find (CELD_INK_LINES, NULL) == CELD_OK && worst () < 0.35f);
+  draw (blue, blue, blue, blue);
+  CHECK (find (CELD_INK_LINES, NULL) == CELD_OK);
+  for (int i = 0; i < SIDE * SIDE; i++)
+    CHECK (luma_of[i] >= 1);
+}
+
+static bool
+refuse (void *data, double done)
+{
+  (void) data;
+  (void) done;
+  return false;
+}
+
+static void
+bad_input (void)
+{
+  CeldPaint   art = { SIDE, SIDE, SIDE, art_of };
+  CeldDrawing small = { .luma = { SIDE, SIDE - 1, SIDE, luma_of } };
+  CeldHost    host = { .progress = refuse };
+  uint8_t     pixel[4] = { 10, 200, 30, 255 };
+  float       luma = 0.25f;
+  CeldPaint   one = { 1, 1, 1, pixel };
+  CeldDrawing point = { .luma = { 1, 1, 1, &luma } };
+
+  CHECK (celd_coloured_lines (&art, CELD_INK_LINES, NULL, &small) == CELD_BAD_SIZE);
+  draw (white, yellow, blue, brown);
+  CHECK (find (CELD_INK_AUTO, &host) == CELD_CANCELLED);
+  CHECK (celd_coloured_lines (&one, CELD_INK_LINES, NULL, &point) == CELD_OK && luma >= 1);
+}
+
+int
+main (void)
+{
+  RUN (fills_are_paper);
+  RUN (lines_have_any_colour);
+  RUN (lines_may_be_lighter);
+  RUN (thick_strokes_are_lines_and_areas_are_not);
+  RUN (grain_makes_no_lines);
+  RUN (transparent_is_white);
+  RUN (line_art_stays);
+  RUN (by_request);
+  RUN (bad_input);
+  return DONE;
+}
