@@ -270,7 +270,6 @@ free_weights (CeldBox *box)
 static CeldStatus
 solve_box (const CeldBoxedSystem *system, CeldBox *box, const CeldHost *host, CeldSolve *solve)
 {
-  size_t       rhs = (size_t) system->n_rhs;
   double       tolerance = 0;
   CeldLaplace *laplace = NULL;
   CeldHostPart part[2];
@@ -281,8 +280,8 @@ solve_box (const CeldBoxedSystem *system, CeldBox *box, const CeldHost *host, Ce
   box->east     = celd_alloc0 (box->n, sizeof *box->east);
   box->south    = celd_alloc0 (box->n, sizeof *box->south);
   box->diagonal = celd_alloc0 (box->n, sizeof *box->diagonal);
-  box->b        = celd_alloc0 (box->n, rhs * sizeof *box->b);
-  box->x        = celd_alloc0 (box->n, rhs * sizeof *box->x);
+  box->b        = celd_alloc0 (box->n, sizeof *box->b);
+  box->x        = celd_alloc0 (box->n, sizeof *box->x);
   status = box->east && box->south && box->diagonal && box->b && box->x ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
@@ -292,7 +291,7 @@ solve_box (const CeldBoxedSystem *system, CeldBox *box, const CeldHost *host, Ce
       free_weights (box); /* before the solution, which needs memory of its own */
     }
   if (status == CELD_OK)
-    status = celd_lap_solve (laplace, system->n_rhs, box->b, box->x, tolerance, &solving, solve);
+    status = celd_lap_solve (laplace, 1, box->b, box->x, tolerance, &solving, solve);
   if (status == CELD_OK)
     system->read (system->data, box, solve);
   celd_lap_free (laplace);

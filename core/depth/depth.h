@@ -108,7 +108,7 @@ void celd_box_add_run (CeldRect *box, const CeldPixelRun *run, int y);
 size_t celd_boxes_group (const CeldRect *box, size_t n, uint32_t *group, CeldRect bounds[CELD_MOST_GROUPS]);
 
 /* The Laplacian system of one group's components in their bounding box, zero before it is written.  Planes have
- * rect.width x rect.height pixels; b and x one plane for each right-hand side. */
+ * rect.width x rect.height pixels. */
 typedef struct
 {
   CeldRect                 rect;
@@ -136,7 +136,6 @@ typedef struct
 {
   const CeldRunComponents *components;
   const CeldRect          *bounds;       /* of each component */
-  int                      n_rhs;        /* right-hand sides, 1 or 2 */
   double (*write) (const void *data, CeldBox *box); /* fills in the system and the start x; returns the tolerance */
   void   (*read)  (void *data, const CeldBox *box, CeldSolve *solve); /* takes x; may rescale solve->error */
   void    *data;

@@ -274,7 +274,7 @@ celd_smooth_equations_solve (const CeldSmoothEquations *equations, const CeldHos
   status      = work.extent && work.bounds ? CELD_OK : CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
-      CeldBoxedSystem system = { &work.components, work.bounds, 1, write_box, read_box, &work };
+      CeldBoxedSystem system = { &work.components, work.bounds, write_box, read_box, &work };
 
       find_fixed (&work);
       measure_components (&work);

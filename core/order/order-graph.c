@@ -14,14 +14,6 @@
 
 #include <string.h>
 
-typedef struct
-{
-  const CeldLabels  *labels;
-  const CeldPalette *palette;
-  const CeldPlane   *ink;     /* may be NULL */
-  int                stroke;  /* width in pixels; 0 = not measured yet */
-} Picture;
-
 static bool
 on_ink (const CeldPlane *ink, int x, int y)
 {
@@ -29,7 +21,7 @@ on_ink (const CeldPlane *ink, int x, int y)
 }
 
 static uint32_t
-label_at (const Picture *picture, int x, int y)
+label_at (const CeldTermPicture *picture, int x, int y)
 {
   uint32_t label = CELD_AT (picture->labels, x, y);
 
@@ -38,7 +30,7 @@ label_at (const Picture *picture, int x, int y)
 
 /* The label of the nearest paper within one stroke width of a pixel on ink; else the pixel's own. */
 static uint32_t
-label_near (Picture *picture, int x, int y)
+label_near (CeldTermPicture *picture, int x, int y)
 {
   if (!picture->stroke)
     picture->stroke = celd_stroke_width (picture->ink);
@@ -54,32 +46,31 @@ inside (const CeldLabels *labels, const CeldTerm *term)
 
 /* The label that celd_palette_find finds, and all others of the same colour. */
 static CeldStatus
-add_colour (CeldGraph *graph, const CeldPalette *palette, const uint8_t colour[3])
+add_colour (const CeldPalette *palette, const uint8_t colour[3], size_t before, CeldGraph *graph)
 {
   uint32_t   first  = celd_palette_find (palette, colour);
   CeldStatus status = CELD_OK;
 
   for (size_t k = first; first && k <= palette->n && status == CELD_OK; k++)
     if (!memcmp (palette->item[k - 1].colour, palette->item[first - 1].colour, 4))
-      status = celd_graph_add (graph, (uint32_t) k);
+      status = celd_graph_add (graph, (uint32_t) (before + k));
   return status;
 }
 
-/* Appends the labels of a term, by rising number; none if it names nothing. */
-static CeldStatus
-add_term (Picture *picture, const CeldTerm *term, CeldGraph *graph)
+CeldStatus
+celd_graph_add_term (CeldTermPicture *picture, const CeldTerm *term, size_t before, CeldGraph *graph)
 {
   uint32_t label;
   int      x, y;
 
   if (term->by_colour)
-    return add_colour (graph, picture->palette, term->colour);
+    return add_colour (picture->palette, term->colour, before, graph);
   if (!inside (picture->labels, term))
     return CELD_OK;
   x     = (int) term->x;
   y     = (int) term->y;
   label = on_ink (picture->ink, x, y) ? label_near (picture, x, y) : label_at (picture, x, y);
-  return label ? celd_graph_add (graph, label) : CELD_OK;
+  return label ? celd_graph_add (graph, (uint32_t) (before + label)) : CELD_OK;
 }
 
 void
@@ -102,9 +93,8 @@ celd_relation_place (const CeldLabels *labels, const CeldPalette *palette, const
     }
 }
 
-/* A label on both sides of a link, or 0; both sides are sorted. */
-static uint32_t
-common_label (const CeldGraph *graph, size_t link)
+uint32_t
+celd_graph_common_label (const CeldGraph *graph, size_t link)
 {
   size_t a = graph->first[2 * link], b = graph->first[2 * link + 1], middle = b, last = graph->first[2 * link + 2];
 
@@ -120,7 +110,7 @@ common_label (const CeldGraph *graph, size_t link)
 
 /* Fills in link i.  It is not kept, but reported as a problem, if an end names no label or both name the same one. */
 static CeldStatus
-add_link (Picture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
+add_link (CeldTermPicture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
 {
   const CeldRelation *relation = &graph->relations->item[i];
   const CeldTerm     *term[2]  = { &relation->farther, &relation->nearer };
@@ -132,7 +122,7 @@ add_link (Picture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
   for (size_t side = 0; side < 2; side++)
     {
       graph->first[2 * i + side] = graph->n_ends;
-      if ((status = add_term (picture, term[side], graph)) != CELD_OK)
+      if ((status = celd_graph_add_term (picture, term[side], 0, graph)) != CELD_OK)
         return status;
       if (graph->n_ends == graph->first[2 * i + side])
         {
@@ -141,7 +131,7 @@ add_link (Picture *picture, size_t i, CeldGraph *graph, CeldProblems *problems)
         }
     }
   graph->first[2 * i + 2] = graph->n_ends;
-  if (graph->kept[i] && !relation->equal && (problem.label = common_label (graph, i)) != 0)
+  if (graph->kept[i] && !relation->equal && (problem.label = celd_graph_common_label (graph, i)) != 0)
     {
       problem.kind   = CELD_PROBLEM_SAME_REGION;
       graph->kept[i] = false;
@@ -242,9 +232,9 @@ CeldStatus
 celd_graph_new (const CeldLabels *labels, const CeldPalette *palette, const CeldRelations *relations,
                 const CeldPlane *ink, CeldGraph *graph, CeldProblems *problems)
 {
-  Picture    picture = { labels, palette, ink, 0 };
-  size_t     n_links = relations->n + 1;
-  CeldStatus status  = CELD_OK;
+  CeldTermPicture picture = { labels, palette, ink, 0 };
+  size_t          n_links = relations->n + 1;
+  CeldStatus      status  = CELD_OK;
 
   *graph = (CeldGraph) {
     .relations = relations, .n_labels = palette->n, .n_links = n_links,

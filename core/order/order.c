@@ -270,6 +270,33 @@ sort_levels (const CeldGraph *graph, const CeldLabels *labels, CeldOrder *order)
   return status;
 }
 
+/* Copies the links that are kept. */
+static CeldStatus
+copy_links (const CeldGraph *g, CeldOrderLinks *links)
+{
+  size_t n = 0;
+
+  links->first = celd_alloc (2 * g->n_links + 1, sizeof *links->first);
+  links->end   = celd_alloc (g->n_ends, sizeof *links->end);
+  links->equal = celd_alloc (g->n_links, sizeof *links->equal);
+  if (!links->first || !links->end || !links->equal)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < g->n_links; i++)
+    if (g->kept[i])
+      {
+        const size_t *f = &g->first[2 * i];
+
+        links->equal[links->n]         = celd_graph_equal (g, i);
+        links->first[2 * links->n]     = n;
+        links->first[2 * links->n + 1] = n + f[1] - f[0];
+        for (size_t e = f[0]; e < f[2]; e++)
+          links->end[n++] = g->end[e];
+        links->n++;
+      }
+  links->first[2 * links->n] = n;
+  return CELD_OK;
+}
+
 /* One problem for each relation that was left out. */
 static CeldStatus
 report_cycles (const CeldOrder *order, const CeldLabels *labels, const CeldPalette *palette,
@@ -305,6 +332,8 @@ celd_order (const CeldLabels *labels, const CeldPalette *palette, const CeldRela
     status = celd_graph_resolve (&graph, settings ? settings->on_cycle : CELD_ON_CYCLE_REPORT, host, &made);
   if (status == CELD_OK)
     status = sort_levels (&graph, labels, &made);
+  if (status == CELD_OK)
+    status = copy_links (&graph, &made.links);
   if (status == CELD_OK)
     status = celd_cycles_explain (labels, palette, ink, &graph, &made);
   if (status == CELD_OK)

@@ -7,6 +7,8 @@
  *   cycle-search.c        shortest cycles
  *   conflicts.c           which relations can hold together, and the cycles of those that cannot
  *   order.c               levels
+ *   label-levels.c        levels of labels that have them already
+ *   cracks.c              labels between which registration may tear
  *   split-cycles.c        contradictions resolved by splitting regions
  *   region-outlines.c     the outlines of all regions' surfaces
  *   t-junctions.c         where three regions meet, and which outline continues there without a corner: the bar of a T
@@ -68,8 +70,23 @@ celd_graph_equal (const CeldGraph *graph, size_t link)
   return graph->equal[link];
 }
 
-/* Appends a nearer label to the last link. */
+/* Appends a label to the ends of the last link. */
 CeldStatus celd_graph_add (CeldGraph *graph, uint32_t label);
+
+/* What the ends of relations refer to. */
+typedef struct
+{
+  const CeldLabels  *labels;
+  const CeldPalette *palette;
+  const CeldPlane   *ink;       /* may be NULL */
+  int                stroke;    /* width in pixels; 0 = not measured yet */
+} CeldTermPicture;
+
+/* Appends the labels of a term, each increased by `before`, by rising number; none if it names nothing. */
+CeldStatus celd_graph_add_term (CeldTermPicture *picture, const CeldTerm *term, size_t before, CeldGraph *graph);
+
+/* A label on both sides of a link, or 0; both sides are sorted. */
+uint32_t   celd_graph_common_label (const CeldGraph *graph, size_t link);
 
 /* A link as an arc that leads to one side. */
 CeldLinkArc celd_graph_arc (const CeldGraph *graph, size_t link, CeldSide to);

@@ -148,6 +148,28 @@ celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const C
   return status;
 }
 
+CeldStatus
+celd_expanded_ownership_new (const CeldPlane *ink, const CeldPlane *levels, CeldLevelOwnership *made)
+{
+  CeldLabels larger = { 0 };
+  CeldRect   all = { 0, 0, levels->width, levels->height };
+  CeldStatus status;
+
+  *made  = (CeldLevelOwnership) { 0 };
+  status = celd_ownership_new (levels->width, levels->height, &made->own);
+  if (status == CELD_OK)
+    status = number_labels (levels, NULL, made);
+  if (status == CELD_OK)
+    status = celd_labels_new (levels->width, levels->height, &larger);
+  if (status == CELD_OK)
+    {
+      memcpy (larger.data, made->own.owner.data, (size_t) all.width * (size_t) all.height * sizeof *larger.data);
+      celd_ownership_coverage (ink, &larger, made->order, all, false, &made->own);
+    }
+  celd_free (larger.data);
+  return status;
+}
+
 void
 celd_level_ownership_clear (CeldLevelOwnership *made)
 {

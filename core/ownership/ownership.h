@@ -369,9 +369,8 @@ typedef struct
 CeldStatus celd_level_ownership_new (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                      const CeldLabels *corrections, CeldExpansion method, const CeldHost *host,
                                      CeldLevelOwnership *made);
+/* The same of levels that are expanded already, which are the larger ones of each pixel; the pictures have one size. */
+CeldStatus celd_expanded_ownership_new (const CeldPlane *ink, const CeldPlane *levels, CeldLevelOwnership *made);
 void       celd_level_ownership_clear (CeldLevelOwnership *made);
-/* In layers/layers.c: cuts the art into layers by that. */
-CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art,
-                                  CeldStore store, bool complete, const CeldHost *host, CeldLayers **layers);
 
 #endif

@@ -74,4 +74,10 @@ CeldStatus celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, i
 /* The squared distance of a pixel of ink to the nearest paper, at most `most`. */
 int32_t celd_squared_to_paper (const CeldPlane *ink, int x, int y, int32_t most);
 
+/* closed-shapes.c: the shapes that a person sees in a drawing without scribbles.  Paper gets the number of its shape,
+ * which ends at narrow openings, and that of the connected paper that this is part of, both from 1; ink gets 0.  The
+ * caller provides both pictures, of the size of the ink. */
+CeldStatus celd_closed_shapes (const CeldPlane *ink, float threshold, const CeldHost *host, CeldLabels *shape,
+                               CeldLabels *component);
+
 #endif

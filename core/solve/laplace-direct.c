@@ -14,8 +14,9 @@
 #include "solve/laplace-private.h"
 
 #define BAND_LENGTH  (1u << 20) /* doubles in the band of a small system at most, 8 MB; chosen */
-#define BAND_WORK    (1u << 26) /* multiplications to eliminate it at most, a tenth of a second; chosen */
-#define WEAK_MORE    4          /* times both where weights differ much, which is hard for the cycle; chosen */
+#define BAND_WORK    (1u << 21) /* multiplications to eliminate it at most: a millisecond, which the cycle takes, too */
+#define WEAK_LENGTH  (1u << 22) /* both where weights differ much, which is hard for the cycle; chosen */
+#define WEAK_WORK    (1u << 23)
 
 /* ------------------------------------------------------------------ elimination */
 
@@ -177,9 +178,8 @@ bool
 celd_is_direct (const CeldWeightedGraph *g, bool weak)
 {
   size_t n = (size_t) g->width * (size_t) g->height, band = (size_t) (g->width < g->height ? g->width : g->height);
-  size_t more = weak ? WEAK_MORE : 1;
 
-  return n * band <= more * BAND_LENGTH && n * band * band <= more * BAND_WORK;
+  return n * band <= (weak ? WEAK_LENGTH : BAND_LENGTH) && n * band * band <= (weak ? WEAK_WORK : BAND_WORK);
 }
 
 /* Every pixel's edges are at most the shorter side long. */

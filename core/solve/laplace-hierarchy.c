@@ -15,7 +15,7 @@
 static void
 level_clear (CeldGridLevel *level)
 {
-  void *part[] = { level->near, level->far, level->north, level->south, level->diagonal, level->inverse, level->coarser,
+  void *part[] = { level->row, level->near, level->far, level->north, level->south, level->diagonal, level->inverse, level->coarser,
                    level->start, level->middle, level->neighbour, level->weight, level->link_row,
                    level->link_first, level->link_extra, level->link_weight };
 
@@ -52,14 +52,15 @@ static CeldStatus
 level_new (const CeldWeightedGraph *g, CeldGridLevel *level)
 {
   *level         = level_shape (g);
+  level->row     = celd_alloc ((size_t) level->height, sizeof *level->row);
   level->near    = celd_alloc0 (level->plane, sizeof *level->near);
   level->far     = celd_alloc0 (level->plane, sizeof *level->far);
   level->north   = celd_alloc0 (level->plane, sizeof *level->north);
   level->south   = celd_alloc0 (level->plane, sizeof *level->south);
   level->diagonal    = celd_alloc0 (level->n, sizeof *level->diagonal);
   level->inverse = celd_alloc0 (level->n, sizeof *level->inverse);
-  return level->near && level->far && level->north && level->south && level->diagonal && level->inverse ? CELD_OK
-                                                                                                    : CELD_NO_MEMORY;
+  return level->row && level->near && level->far && level->north && level->south && level->diagonal && level->inverse
+           ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* What the rows of a layout need. */
@@ -232,6 +233,20 @@ invert (size_t n, const float *diagonal, float *inverse)
   return linked;
 }
 
+/* The span of a row, from its first node with an edge or a diagonal to its last one. */
+static CeldPlaceSpan
+span_of_row (const CeldGridLevel *level, int y)
+{
+  size_t       start = (size_t) (y + 1) * level->stride + 1, first = start, end = start + (size_t) level->half;
+  const float *red = level->inverse, *black = red + level->plane;
+
+  while (end > start && !(red[end - 1] > 0) && !(black[end - 1] > 0))
+    end--;
+  while (first < end && !(red[first] > 0) && !(black[first] > 0))
+    first++;
+  return (CeldPlaceSpan) { first - (first - start) % UNIT, end };
+}
+
 static void
 invert_row (void *data, int y)
 {
@@ -241,6 +256,7 @@ invert_row (void *data, int y)
 
   o->count[y] = invert (level->stride, level->diagonal + at, level->inverse + at) +
                 invert (level->stride, level->diagonal + black, level->inverse + black);
+  level->row[y] = span_of_row (level, y);
 }
 
 /* *linked: nodes that have an edge. */

@@ -168,7 +168,7 @@ correct_row (const PixelPass *pass, int y, int lanes)
   float                  *z = pass->s->z, a = STRETCH * next->a[0], c = STRETCH * next->c[0];
   CeldEight               many_a = STRETCH * LANES (next->a), many_c = STRETCH * LANES (next->c);
 
-  for (size_t i = (size_t) (y + 1) * level->stride + 1, end = i + (size_t) level->half; i < end; i++)
+  for (size_t i = level->row[y].first; i < level->row[y].end; i++)
     if (lanes == 1)
       z[i] = level->inverse[i] * r[i] + a * next->x[coarser[i]] + c * next->step[coarser[i]];
     else

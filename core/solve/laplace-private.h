@@ -116,15 +116,22 @@ CeldStatus celd_coarsen (CeldWeightedGraph *fine, const CeldHost *host, CeldWeig
 
 /* ------------------------------------------------------------------ a level, laid out for red-black Gauss-Seidel */
 
+/* Places first .. end - 1 of a row. */
+typedef struct { size_t first, end; } CeldPlaceSpan;
+
 /* Grid nodes with x + y even are red, the others black.  Vectors of a level have a place for each node: first the red
  * ones, row by row, `stride` places a row, of which the first and at least the last are empty, as are the rows above
  * and below the grid; then the black ones in the same layout; then the extra ones.  Place j of a row is column 2 j or 2
- * j + 1.  Empty places have weight 0, so that no loop asks for the frame. */
+ * j + 1.  Empty places have weight 0, so that no loop asks for the frame.
+ *
+ * Loops leave out what is empty at both ends of a row: there vectors keep the 0 that they are made with.  A span begins
+ * a multiple of 8 places after the first one of its row, so that sums of eight do not depend on it. */
 typedef struct
 {
   int       width, height, half; /* half: nodes of one colour in a row */
   size_t    stride, plane;      /* plane: places of one colour */
   uint32_t  n, n_extra;         /* n: all places */
+  CeldPlaceSpan *row;           /* of the red places of each row, and of the black ones */
   float    *near, *far, *north, *south; /* edges of the red nodes: to the black node of the same place and of the one
                                          * beside it in the row, and to those above and below */
   float    *diagonal;           /* as in the graph */

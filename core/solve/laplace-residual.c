@@ -28,13 +28,14 @@ place_rhs_row (const CeldSolution *s, int y, int colour, float *out, int lanes)
 {
   const CeldLaplace   *l = s->laplace;
   const CeldGridLevel *level = &l->hierarchy.level[0];
-  size_t               many = (size_t) lanes, w = (size_t) l->width, first = (size_t) y * w;
-  const float         *inverse = level->inverse + (colour ? level->plane : 0) + (size_t) (y + 1) * level->stride;
+  size_t               many = (size_t) lanes, first = (size_t) y * (size_t) l->width;
+  size_t               start = (size_t) (y + 1) * level->stride, odd = (size_t) (y + colour) & 1;
+  const float         *inverse = level->inverse + (colour ? level->plane : 0) + start;
 
   memset (out, 0, level->stride * many * sizeof *out);
-  for (size_t x = (size_t) (y + colour) & 1, at = 1; x < w && s->b; x += 2, at++)
-    for (size_t k = 0; k < many; k++)
-      out[at * many + k] = inverse[at] > 0 ? s->b[(first + x) * many + k] : 0;
+  for (size_t at = level->row[y].first - start; at < level->row[y].end - start && s->b; at++)
+    for (size_t k = 0; k < many && inverse[at] > 0; k++)
+      out[at * many + k] = s->b[(first + 2 * (at - 1) + odd) * many + k];
   for (size_t f = s->b_mean ? l->floating_row[y] : 0; s->b_mean && f < l->floating_row[y + 1]; f++)
     for (size_t x = l->floating[f].first - first; x < l->floating[f].end - first; x++)
       for (size_t k = 0; k < many && (int) ((x + (size_t) y) & 1) == colour; k++)
@@ -113,18 +114,19 @@ CELD_INLINE void
 deliver_row (const ResidualPass *pass, int y, const double *black, int lanes)
 {
   const CeldGridLevel *level = pass->level;
-  size_t               first = (size_t) (y + 1) * level->stride, many = (size_t) lanes;
+  size_t               first = (size_t) (y + 1) * level->stride, many = (size_t) lanes, odd = (size_t) y & 1;
   float               *out = pass->s->user + (size_t) y * (size_t) level->width * many;
 
-  for (int x = 0; x < level->width; x++)
-    {
-      size_t at = (size_t) x / 2 + 1;
+  for (size_t i = level->row[y].first; i < level->row[y].end; i++)
+    for (size_t k = 0; k < many; k++)
+      {
+        size_t x = 2 * (i - first - 1);
 
-      if ((x + y) & 1 ? level->inverse[level->plane + first + at] > 0 : level->inverse[first + at] > 0)
-        for (size_t k = 0; k < many; k++)
-          out[(size_t) x * many + k] =
-            (x + y) & 1 ? (float) black[at * many + k] : pass->s->x[(first + at) * many + k];
-    }
+        if (level->inverse[i] > 0)
+          out[(x + odd) * many + k] = pass->s->x[i * many + k];
+        if (level->inverse[level->plane + i] > 0)
+          out[(x + !odd) * many + k] = (float) black[(i - first) * many + k];
+      }
 }
 
 CELD_INLINE void
@@ -164,12 +166,12 @@ read_strip (void *data, int strip, int lanes)
 
   for (int y = from; y < to; y++)
     {
-      const float *in = pass->s->user + (size_t) y * w * many;
-      size_t       place = (size_t) (y + 1) * level->stride + 1;
+      const float *in = pass->s->user + ((size_t) y * w + ((size_t) y & 1)) * many;
+      size_t       first = (size_t) (y + 1) * level->stride;
 
-      for (size_t x = (size_t) y & 1; x < w; x += 2, place++)
-        for (size_t k = 0; k < many; k++)
-          pass->s->x[place * many + k] = level->inverse[place] > 0 ? in[x * many + k] : 0;
+      for (size_t i = level->row[y].first; i < level->row[y].end; i++)
+        for (size_t k = 0; k < many && level->inverse[i] > 0; k++)
+          pass->s->x[i * many + k] = in[2 * (i - first - 1) * many + k];
     }
 }
 
@@ -188,9 +190,9 @@ settle_row (const ResidualPass *pass, int y)
 {
   const CeldGridLevel *level = pass->level;
   float               *x = pass->s->x, *r = pass->s->r;
-  size_t               many = (size_t) pass->s->lanes, first = (size_t) (y + 1) * level->stride + 1;
+  size_t               many = (size_t) pass->s->lanes;
 
-  for (size_t i = first; i < first + (size_t) level->half; i++)
+  for (size_t i = level->row[y].first; i < level->row[y].end; i++)
     for (size_t k = i * many; k < (i + 1) * many && !level->coarser[i] && !has_edge (level, i); k++)
       {
         x[k] += level->inverse[i] * r[k];

@@ -25,7 +25,7 @@ typedef float CeldLoose __attribute__ ((vector_size (32), aligned (4), may_alias
 
 /* Places i of row y: for (EACH_PLACE (level, y, i)). */
 #define EACH_PLACE(level, y, i) \
-  size_t i = (size_t) ((y) + 1) * (level)->stride + 1, end_ = i + (size_t) (level)->half; i < end_; \
+  size_t i = (level)->row[y].first, end_ = (level)->row[y].end; i < end_; \
   i += 8 / (size_t) lanes
 
 /* Sum of weight times value over the red neighbours of the black places from i on, in row y. */

@@ -72,9 +72,7 @@ prolong (const CeldSmootherPass *p, size_t from, size_t to, int lanes)
 CELD_INLINE void
 prolong_row (const CeldSmootherPass *p, int y, int lanes)
 {
-  size_t first = (size_t) (y + 1) * p->level->stride + 1;
-
-  prolong (p, first, first + (size_t) p->level->half, lanes);
+  prolong (p, p->level->row[y].first, p->level->row[y].end, lanes);
 }
 
 /* What extra nodes add to the relaxed grid nodes of a row; from, to: links. */

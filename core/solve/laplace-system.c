@@ -224,38 +224,51 @@ done:
 
 /* ------------------------------------------------------------------ null space */
 
-/* Runs of pixels in a row that edges join; a run ends where the next one begins. */
+/* Pixels first .. end - 1 of a row, which edges join; one alone has an edge to the row above or below. */
+typedef struct { uint32_t first, end; } LinkedRun;
+
 typedef struct
 {
-  uint32_t *first;              /* pixel; in the end the number of pixels */
-  uint32_t *parent;             /* the set of runs to which it belongs */
-  size_t   *row;                /* where the runs of each row begin */
-  size_t    n;
-  size_t    first_capacity;
+  LinkedRun *run;
+  uint32_t  *parent;            /* the set of runs to which each belongs */
+  size_t    *row;               /* where the runs of each row begin */
+  size_t     n, capacity;
 } Runs;
 
-/* Marks the pixels that no edge joins with the next one, which is so in the last column. */
+/* Marks the pixels of a row with an edge to the next one, above or below, and those without an edge to the next one,
+ * which is so in the last column; `north` is NULL above the first row. */
 CELD_CLONES static void
-mark_ends (size_t w, const float *east, uint8_t *mark)
+mark_links (size_t w, const float *north, const float *south, const float *east, uint8_t *linked, uint8_t *last)
 {
   for (size_t x = 0; x < w; x++)
-    mark[x] = east[x] > 0 ? 0 : 0x80;
+    {
+      last[x]   = east[x] > 0 ? 0 : 0x80;
+      linked[x] = east[x] > 0 || south[x] > 0 ? 0x80 : 0;
+    }
+  for (size_t x = 0; x < w && north; x++)
+    linked[x] |= north[x] > 0 ? 0x80 : 0;
 }
 
+/* mark: workspace for two rows. */
 static CeldStatus
 list_runs (const CeldWeightedGraph *g, Runs *runs, uint8_t *mark)
 {
-  int w = g->width;
+  int      w = g->width;
+  uint8_t *linked = mark, *last = mark + w;
 
   for (int y = 0; y < g->height; y++)
     {
-      size_t i = (size_t) y * (size_t) w;
+      uint32_t i = (uint32_t) y * (uint32_t) w;
 
       runs->row[y] = runs->n;
-      mark_ends ((size_t) w, g->east + i, mark);
-      for (int x = 0; x < w; x = celd_next_marked (w, mark, x) + 1)
+      mark_links ((size_t) w, y ? g->south + i - w : NULL, g->south + i, g->east + i, linked, last);
+      for (int x = celd_next_marked (w, linked, 0), end; x < w; x = celd_next_marked (w, linked, end))
         {
-          if (celd_append (runs->first, runs->n, runs->first_capacity, (uint32_t) (i + (size_t) x)) != CELD_OK)
+          LinkedRun run = { i + (uint32_t) x, i };
+
+          end      = celd_next_marked (w, last, x) + 1;
+          run.end += (uint32_t) end;
+          if (celd_append (runs->run, runs->n, runs->capacity, run) != CELD_OK)
             return CELD_NO_MEMORY;
         }
     }
@@ -281,8 +294,8 @@ join_rows (const CeldWeightedGraph *g, Runs *runs, size_t below)
 
   while (a < runs->row[below] && b < runs->row[below + 1])
     {
-      uint32_t from_a = runs->first[a], from_b = runs->first[b] - w;
-      uint32_t end_a = runs->first[a + 1], end_b = runs->first[b + 1] - w;
+      uint32_t from_a = runs->run[a].first, from_b = runs->run[b].first - w;
+      uint32_t end_a = runs->run[a].end, end_b = runs->run[b].end - w;
 
       if (leads_down (g->south, from_a > from_b ? from_a : from_b, end_a < end_b ? end_a : end_b))
         celd_join (runs->parent, (uint32_t) a, (uint32_t) b);
@@ -295,7 +308,7 @@ join_rows (const CeldWeightedGraph *g, Runs *runs, size_t below)
 static CeldStatus
 join_runs (const CeldWeightedGraph *g, Runs *runs)
 {
-  uint8_t   *mark = celd_alloc ((size_t) g->width, 1);
+  uint8_t   *mark = celd_alloc ((size_t) g->width, 2);
   CeldStatus status = CELD_NO_MEMORY;
 
   runs->row = celd_alloc ((size_t) g->height + 1, sizeof *runs->row);
@@ -304,19 +317,16 @@ join_runs (const CeldWeightedGraph *g, Runs *runs)
   celd_free (mark);
   if (status != CELD_OK)
     return status;
-  if (!celd_reserve_one (runs->first, runs->n, runs->first_capacity))
-    return CELD_NO_MEMORY;
   runs->parent = celd_alloc (runs->n, sizeof *runs->parent);
   if (!runs->parent)
     return CELD_NO_MEMORY;
-  runs->first[runs->n] = (uint32_t) g->width * (uint32_t) g->height;
   celd_roots (runs->parent, runs->n);
   for (size_t y = 1; y < (size_t) g->height; y++)
     join_rows (g, runs, y);
   return CELD_OK;
 }
 
-/* Numbers the sets of several pixels without a diagonal: number[k] of run k, 0 for all others; returns how many. */
+/* Numbers the sets without a diagonal: number[k] of run k, 0 for all others; returns how many. */
 static uint32_t
 number_runs (const CeldWeightedGraph *g, Runs *runs, uint32_t *number)
 {
@@ -326,15 +336,14 @@ number_runs (const CeldWeightedGraph *g, Runs *runs, uint32_t *number)
     {
       uint32_t *held = &number[celd_root (runs->parent, (uint32_t) k)];
 
-      for (size_t i = runs->first[k]; i < runs->first[k + 1] && !*held; i++)
+      for (size_t i = runs->run[k].first; i < runs->run[k].end && !*held; i++)
         *held = g->diagonal[i] > 0 ? CELD_NO_NODE : 0;
     }
-  for (size_t k = 0; k < runs->n; k++) /* a root comes before its members, and is numbered when it has a second pixel */
+  for (size_t k = 0; k < runs->n; k++) /* a root comes before its members */
     {
       uint32_t root = celd_root (runs->parent, (uint32_t) k);
-      bool     several = root != k || runs->first[k + 1] > runs->first[k] + 1;
 
-      if (number[root] == 0 && several)
+      if (number[root] == 0)
         number[root] = ++count;
       number[k] = number[root];
     }
@@ -362,9 +371,9 @@ keep_runs (const Runs *runs, const uint32_t *number, CeldLaplace *l)
   for (size_t k = 0; k < runs->n; k++)
     if (number[k])
       {
-        l->floating[kept++] = (CeldFloatingRun) { runs->first[k], runs->first[k + 1], number[k] };
-        l->floating_row[runs->first[k] / w + 1]++;
-        l->floating_size[number[k]] += runs->first[k + 1] - runs->first[k];
+        l->floating[kept++] = (CeldFloatingRun) { runs->run[k].first, runs->run[k].end, number[k] };
+        l->floating_row[runs->run[k].first / w + 1]++;
+        l->floating_size[number[k]] += runs->run[k].end - runs->run[k].first;
       }
   for (size_t y = 0; y < (size_t) l->height; y++)
     l->floating_row[y + 1] += l->floating_row[y];
@@ -386,7 +395,7 @@ celd_null_space_find (const CeldWeightedGraph *pixels, CeldLaplace *l)
       if (l->n_floating)
         status = keep_runs (&runs, number, l);
     }
-  celd_free (runs.first);
+  celd_free (runs.run);
   celd_free (runs.parent);
   celd_free (runs.row);
   celd_free (number);

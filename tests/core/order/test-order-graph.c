@@ -112,6 +112,32 @@ points_in_black_areas (void)
   free (ink.data);
 }
 
+/* Only relations marked as cracks count, of colours all their labels, and none that joins nothing. */
+static void
+cracks_are_pairs_of_labels (void)
+{
+  static const char *const rows[] = { "AABBCC", "AABBCC", NULL };
+  CeldPalette              palette = palette_of (3, false);
+  CeldLabels               labels = art_labels (rows);
+  CeldRelations            relations = { 0 };
+  CeldCracks               cracks = { 0 };
+
+  memcpy (palette.item[2].colour, palette.item[1].colour, 4);
+  CHECK (celd_relations_parse ("0,0 > 2,0; 4,1 > 0,1 !crack; 0,0 > #140000 !crack; 0,0 > 1,1 !crack; 9,9 > 0,0 !crack",
+                               &relations, NULL) == CELD_OK);
+  CHECK (celd_cracks_find (&labels, &palette, &relations, NULL, &cracks) == CELD_OK);
+  CHECK (cracks.n == 3);
+  CHECK (cracks.n == 3 && cracks.item[0].nearer == 3 && cracks.item[0].farther == 1);
+  CHECK (cracks.n == 3 && cracks.item[1].nearer == 1 && cracks.item[1].farther == 2);
+  CHECK (cracks.n == 3 && cracks.item[2].nearer == 1 && cracks.item[2].farther == 3);
+  labels.width = 0;
+  CHECK (celd_cracks_find (&labels, &palette, &relations, NULL, &cracks) == CELD_BAD_SIZE && cracks.n == 3);
+  celd_cracks_clear (&cracks);
+  celd_relations_clear (&relations);
+  celd_palette_clear (&palette);
+  free (labels.data);
+}
+
 int
 main (void)
 {
@@ -120,5 +146,6 @@ main (void)
   RUN (separate_regions_of_a_colour);
   RUN (points_on_ink);
   RUN (points_in_black_areas);
+  RUN (cracks_are_pairs_of_labels);
   return DONE;
 }

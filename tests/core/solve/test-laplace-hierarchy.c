@@ -183,6 +183,44 @@ count_nodes (const CeldGridLevel *level)
   return n;
 }
 
+/* A slanted band: the picture is empty on both sides of it, at one end of every row and in the rows above and below. */
+static void
+spans_hold_what_is_not_empty (void)
+{
+  CeldWeightedGraph graph = random_graph (W, H, 1);
+  CeldHierarchy     levels;
+
+  for (int i = 0; i < W * H; i++)
+    if (abs (i % W - i / W) > 20 || i / W < 11 || i / W > 90)
+      {
+        graph.diagonal[i] = graph.east[i] = graph.south[i] = 0;
+        if (i % W)
+          graph.east[i - 1] = 0;
+        if (i >= W)
+          graph.south[i - W] = 0;
+      }
+  levels_of (graph, &levels);
+  for (int l = 0; l < levels.n; l++)
+    for (int y = 0; y < levels.level[l].height; y++)
+      {
+        const CeldGridLevel *level = &levels.level[l];
+        CeldPlaceSpan        span = level->row[y];
+        size_t               start = (size_t) (y + 1) * level->stride + 1, least = SIZE_MAX, most = 0;
+
+        for (size_t i = start; i < start + (size_t) level->half; i++)
+          if (level->inverse[i] > 0 || level->inverse[level->plane + i] > 0)
+            {
+              least = least < i ? least : i;
+              most  = i;
+            }
+        CHECK (most ? span.first <= least && span.first + 8 > least && (span.first - start) % 8 == 0
+                      && span.end == most + 1 : span.first >= span.end);
+      }
+  CHECK (levels.level[0].row[10].first >= levels.level[0].row[10].end);
+  CHECK (levels.level[0].row[80].first - 81 * levels.level[0].stride > 16);
+  celd_hierarchy_clear (&levels);
+}
+
 static void
 levels_become_small_quickly (void)
 {
@@ -219,6 +257,7 @@ main (void)
   RUN (a_weakly_attached_node_joins_its_strongest_neighbour);
   RUN (weights_and_diagonals_are_sums);
   RUN (the_layout_keeps_the_graph);
+  RUN (spans_hold_what_is_not_empty);
   RUN (levels_become_small_quickly);
   RUN (pixels_without_an_edge_are_left_out);
   return DONE;

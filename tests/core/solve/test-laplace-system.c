@@ -47,10 +47,44 @@ a_floating_component_bends_under_its_right_hand_side (void)
   system_free (&s);
 }
 
+/* Lines one pixel wide, across and down, among pixels without an edge. */
+static void
+a_line_among_lone_pixels_floats_and_they_stay (void)
+{
+  enum { SIDE = 160 };
+  System   s = system_new (SIDE, SIDE, 1, 1);
+  uint32_t seed = 7;
+  double   start = 0;
+
+  memset (s.east, 0, SIDE * SIDE * sizeof (float));
+  memset (s.south, 0, SIDE * SIDE * sizeof (float));
+  for (int i = 0; i < SIDE * SIDE; i++)
+    s.x[i] = (float) check_random (&seed, 100);
+  for (int k = 0; k < 100; k++)
+    {
+      s.south[(k + 20) * SIDE + 50] = 1; /* down from row 20 to 120 of column 50, on to column 150 of row 120 */
+      s.east[120 * SIDE + 50 + k] = 1;
+    }
+  for (int k = 0; k < 100; k++)
+    start += (double) s.x[(k + 20) * SIDE + 50] + (double) s.x[120 * SIDE + 51 + k];
+  start += (double) s.x[120 * SIDE + 50];
+  CHECK (solve (&s, 1e-6).converged);
+  seed = 7;
+  for (int i = 0; i < SIDE * SIDE; i++)
+    {
+      int  x = i % SIDE, y = i / SIDE, before = (int) check_random (&seed, 100);
+      bool line = (x == 50 && y >= 20 && y <= 120) || (y == 120 && x >= 50 && x <= 150);
+
+      NEAR (s.x[i], line ? start / 201 : before, 1e-3);
+    }
+  system_free (&s);
+}
+
 int
 main (void)
 {
   RUN (a_floating_component_keeps_the_mean_of_its_start);
   RUN (a_floating_component_bends_under_its_right_hand_side);
+  RUN (a_line_among_lone_pixels_floats_and_they_stay);
   return DONE;
 }
