@@ -1,32 +1,38 @@
-/* Outlines: the constraints on normals.
+/* Outlines: the weights and constraints of a body.
  *
- * At a depth discontinuity the nearer region ends, so its normal lies in the picture plane and points outward.  The
- * farther region continues behind it and is not constrained, unless a painted hint says so.  Virtual contours neither
- * cut the surface nor constrain normals; nor do their ends, where they meet the ink of another contour: a discontinuity
- * counts only if no short detour leads around it.  A region without an outline of its own faces the viewer, so that the
- * paper stays flat behind a figure, even where a gap in the figure's contour connects the two.
+ * Along its outline, seen or hidden, the normal of a body lies in the picture plane and points outward.  Where
+ * something nearer hides how a body goes on, its seen and hidden pixels are connected.  The background has no outline:
+ * it faces the viewer, also where a gap in a contour connects it with a figure.  Painted hints say otherwise, as in
+ * [Joh02].
+ *
+ * Where a body meets itself at a depth discontinuity, as a spiral does, only its nearer side bends.  Virtual contours
+ * neither cut the surface nor constrain normals; nor do their ends, where they meet the ink of another contour: a
+ * discontinuity counts only if no short detour leads around it.
  *
  * The direction of an outline comes from the first moment, under a Gaussian around the middle of the edge, of the
- * pixels that are at least as near: this averages out pixel steps, and continues the outline straight where it is
- * hidden.
+ * pixels of the body: this averages out pixel steps.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/base.h"
 #include "light/light.h"
 
 #include <stdlib.h>
 
-#define OUTLINE_RADIUS  7      /* pixels around an edge that give its direction (chosen) */
-#define OUTLINE_DEVIATION 2.75   /* of the Gaussian, in pixels (chosen) */
+#define OUTLINE_RADIUS    7    /* pixels around an edge that give its direction (chosen) */
+#define OUTLINE_DEVIATION 2.75 /* of the Gaussian, in pixels (chosen) */
 
 typedef struct
 {
-  CeldLumo      *lumo;
-  CeldPixelLinks links;
-  uint8_t       *front, *behind;    /* of each region: whether it has an outline; whether it is behind one */
-  double         gauss[2 * OUTLINE_RADIUS + 2][2 * OUTLINE_RADIUS + 2]; /* at distances of half pixels: [i] is i/2 */
+  CeldBody              *body;
+  CeldNormalConstraints *seen, *hidden;
+  double                 gauss[2 * OUTLINE_RADIUS + 2][2 * OUTLINE_RADIUS + 2]; /* at distances of half pixels: [i] is
+                                                                                 * i/2 */
 } Outlines;
+
+/* A pixel of the body, and a neighbour of it. */
+typedef struct { int x, y, dx, dy; } Edge;
+
+typedef struct { double x, y; } Direction;
 
 /* ------------------------------------------------------------------ directions */
 
@@ -36,19 +42,21 @@ clamp (int x, int size)
   return x < 0 ? 0 : x < size ? x : size - 1;
 }
 
-/* The unit vector, y down, that points out of the region of level `near` at the edge from (x,y) to (x+east,y+south). */
-static void
-outward (const Outlines *o, float near, int x, int y, int east, int south, double *nx, double *ny)
+/* The unit vector, y down, that points out of the body at the edge; with `near` out of its pixels of that level or
+ * nearer ones. */
+static Direction
+outward (const Outlines *o, Edge e, const float *near)
 {
-  const CeldLumo *l = o->lumo;
+  const CeldLumo *l = o->body->lumo;
+  int             x = e.dx < 0 ? e.x - 1 : e.x, y = e.dy < 0 ? e.y - 1 : e.y, east = e.dx != 0, south = e.dy != 0;
   double          mx = 0, my = 0, length;
 
   for (int v = y - OUTLINE_RADIUS + south; v <= y + OUTLINE_RADIUS; v++)
-    {
-      const float *row = l->level + celd_lumo_pixel (l, 0, clamp (v, l->height));
+    for (int u = x - OUTLINE_RADIUS + east, py = clamp (v, l->height); u <= x + OUTLINE_RADIUS; u++)
+      {
+        int px = clamp (u, l->width);
 
-      for (int u = x - OUTLINE_RADIUS + east; u <= x + OUTLINE_RADIUS; u++)
-        if (row[clamp (u, l->width)] >= near)
+        if (near ? l->level[celd_lumo_pixel (l, px, py)] >= *near : celd_body_kind (o->body, px, py) != CELD_ELSEWHERE)
           {
             int    du = 2 * (u - x) - east, dv = 2 * (v - y) - south; /* half pixels from the edge's middle */
             double weight = o->gauss[abs (du)][abs (dv)];
@@ -56,188 +64,199 @@ outward (const Outlines *o, float near, int x, int y, int east, int south, doubl
             mx += weight * du;
             my += weight * dv;
           }
-    }
+      }
   length = hypot (mx, my);
-  *nx    = length > 0 ? -mx / length : 0;
-  *ny    = length > 0 ? -my / length : 0;
+  return length > 0 ? (Direction) { -mx / length, -my / length } : (Direction) { 0, 0 };
 }
 
-/* ------------------------------------------------------------------ constraints */
+/* ------------------------------------------------------------------ edges */
 
+static uint8_t
+kind_across (const Outlines *o, Edge e)
+{
+  return celd_body_kind (o->body, e.x + e.dx, e.y + e.dy);
+}
+
+/* Draws the normal of the edge's pixel in a direction, y down. */
 static CeldStatus
-add_constraint (CeldLumo *l, size_t pixel, double x, double y)
+constrain (const Outlines *o, Edge e, Direction d)
 {
-  return celd_append (l->constraint, l->n_constraints, l->constraint_capacity,
-                      (CeldNormalConstraint) { pixel, (float) x, (float) y });
-}
+  bool                   seen = celd_body_kind (o->body, e.x, e.y) == CELD_SEEN;
+  CeldNormalConstraints *list = seen ? o->seen : o->hidden;
 
-static uint32_t
-region_of (const CeldLumo *l, size_t pixel)
-{
-  return celd_lumo_component (l, &l->regions, pixel);
-}
-
-/* A depth discontinuity: constrains its nearer side, unless hints say otherwise. */
-static CeldStatus
-constrain_edge (Outlines *o, int x, int y, bool down)
-{
-  CeldLumo    *l = o->lumo;
-  size_t       p = celd_lumo_pixel (l, x, y), q = p + (down ? (size_t) l->width : 1);
-  size_t       near = l->level[p] > l->level[q] ? p : q, far = near == p ? q : p;
-  CeldLumoHint over = CELD_UNPAINTED, under = CELD_UNPAINTED;
-  double       nx, ny;
-  CeldStatus   status = CELD_OK;
-
-  if (celd_has_detour (&o->links, x, y, down))
-    return CELD_OK;
-  outward (o, l->level[near], x, y, !down, down, &nx, &ny);
-  if (l->hints)
-    {
-      double mx = x + (down ? 0.5 : 1), my = y + (down ? 1 : 0.5);
-
-      over  = celd_lumo_hint (l, mx, my, -nx, -ny);
-      under = celd_lumo_hint (l, mx, my, nx, ny);
-    }
-  o->behind[region_of (l, far)] = 1;
-  if (over != CELD_UNDER || under == CELD_BOTH)
-    {
-      o->front[region_of (l, near)] = 1;
-      status = add_constraint (l, near, nx, -ny);
-    }
-  if (status == CELD_OK && (under == CELD_OVER || under == CELD_BOTH || over == CELD_BOTH))
-    {
-      o->front[region_of (l, far)] = 1;
-      status = add_constraint (l, far, -nx, ny);
-    }
-  return status;
-}
-
-static CeldStatus
-constrain_edges (Outlines *o, const CeldHost *host)
-{
-  CeldLumo  *l = o->lumo;
-  CeldStatus status = CELD_OK;
-  size_t     i = 0;
-
-  for (int y = 0; y < l->height && status == CELD_OK; y++)
-    {
-      status = y % 16 ? CELD_OK : celd_progress (host, (double) y / l->height);
-      for (int x = 0; x < l->width && status == CELD_OK; x++, i++)
-        {
-          if (x + 1 < l->width && l->east[i] <= 0 && !celd_lumo_same_level (l, i, i + 1))
-            status = constrain_edge (o, x, y, false);
-          if (status == CELD_OK && y + 1 < l->height && l->south[i] <= 0 &&
-              !celd_lumo_same_level (l, i, i + (size_t) l->width))
-            status = constrain_edge (o, x, y, true);
-        }
-    }
-  return status;
+  return celd_append (list->item, list->n, list->capacity,
+                      (CeldNormalConstraint) { celd_lumo_pixel (o->body->lumo, e.x, e.y), (float) d.x, (float) -d.y });
 }
 
 static bool
-is_open (const Outlines *o, const CeldCrease *crease)
+is_page (const CeldLumo *l, int x, int y)
 {
-  size_t w = (size_t) o->lumo->width;
-
-  return celd_has_detour (&o->links, (int) (crease->pixel % w), (int) (crease->pixel / w), crease->down);
+  return celd_larger_label (l->own, x, y) == l->page;
 }
 
-/* Creases that were painted count as outlines of their region. */
-static void
-mark_painted_creases (Outlines *o)
+/* The weight of depth between two pixels of the picture. */
+static float
+weight_of (const CeldLumo *l, Edge e)
 {
-  for (size_t i = 0; i < o->lumo->n_creases; i++)
-    if (o->lumo->crease[i].painted && !is_open (o, &o->lumo->crease[i]))
-      o->front[region_of (o->lumo, o->lumo->crease[i].pixel)] = 1;
+  size_t first = celd_lumo_pixel (l, e.dx < 0 ? e.x - 1 : e.x, e.dy < 0 ? e.y - 1 : e.y);
+
+  return e.dx ? l->east[first] : l->south[first];
 }
 
-/* Constrains both sides of creases. */
+static bool
+has_detour (const CeldLumo *l, Edge e)
+{
+  return celd_has_detour (&l->links, e.dx < 0 ? e.x - 1 : e.x, e.dy < 0 ? e.y - 1 : e.y, e.dy != 0);
+}
+
+/* What hints make of an outline between a seen pixel and another level: whether they say anything, and whether the
+ * pixel bends. */
+static bool
+is_hinted (const Outlines *o, Edge e, Direction out, bool *bends)
+{
+  const CeldLumo *l = o->body->lumo;
+  double          mx = e.x + 0.5 + 0.5 * e.dx, my = e.y + 0.5 + 0.5 * e.dy;
+  CeldLumoHint    here = celd_lumo_hint (l, mx, my, -out.x, -out.y), across = celd_lumo_hint (l, mx, my, out.x, out.y);
+
+  if (here == CELD_UNPAINTED && across == CELD_UNPAINTED)
+    return false;
+  *bends = here == CELD_OVER || here == CELD_BOTH || across == CELD_BOTH;
+  if (here == CELD_UNPAINTED && across != CELD_BOTH) /* the other side does as it is told, this one as ever */
+    return false;
+  return true;
+}
+
+/* A seen pixel beside another level. */
 static CeldStatus
-constrain_creases (Outlines *o)
+meet_level (Outlines *o, Edge e, float *weight)
 {
-  CeldLumo  *l = o->lumo;
-  CeldStatus status = CELD_OK;
+  const CeldLumo *l = o->body->lumo;
+  size_t          p = celd_lumo_pixel (l, e.x, e.y), q = celd_lumo_pixel (l, e.x + e.dx, e.y + e.dy);
+  bool            near = l->level[p] > l->level[q], bends;
+  uint8_t         across = kind_across (o, e);
+  Direction       out;
 
-  for (size_t i = 0; i < l->n_creases && status == CELD_OK; i++)
+  if (l->hints)
     {
-      const CeldCrease *crease = &l->crease[i];
-      size_t            p = crease->pixel, q = p + (crease->down ? (size_t) l->width : 1);
-
-      if (l->flat[region_of (l, p)] || is_open (o, crease))
-        continue;
-      for (int side = 0; side < 2 && status == CELD_OK; side++)
+      out = outward (o, e, near ? &l->level[p] : &l->level[q]);
+      out = near ? out : (Direction) { -out.x, -out.y };
+      if (is_hinted (o, e, out, &bends))
         {
-          float s = side ? -crease->strength[1] : crease->strength[0];
-
-          if (crease->strength[side] > 0)
-            status = add_constraint (l, side ? q : p, (double) (s * crease->x), (double) (-s * crease->y));
+          *weight = 0;
+          o->body->page_bends = o->body->page_bends || (bends && is_page (l, e.x, e.y));
+          return bends ? constrain (o, e, out) : CELD_OK;
         }
     }
-  return status;
+  *weight = across == CELD_HIDDEN_PART;
+  if (across == CELD_HIDDEN_PART || (across == CELD_SEEN && !near) || is_page (l, e.x, e.y))
+    return CELD_OK;
+  return constrain (o, e, outward (o, e, across == CELD_SEEN ? &l->level[p] : NULL));
 }
 
-/* Constrains the regions that are not flat along the edge of the picture. */
+/* Looks at an edge from one of its pixels, which is of the body; sets its weight. */
 static CeldStatus
-constrain_frame (CeldLumo *l)
+look_at_edge (Outlines *o, Edge e, float *weight)
 {
-  CeldStatus status = CELD_OK;
+  const CeldLumo *l = o->body->lumo;
+  uint8_t         here = celd_body_kind (o->body, e.x, e.y), across = kind_across (o, e);
+  int             x = e.x + e.dx, y = e.y + e.dy;
 
-  for (int y = 0; y < l->height; y++)
-    for (int x = 0; x < l->width; x += y > 0 && y + 1 < l->height && x == 0 && l->width > 1 ? l->width - 1 : 1)
-      {
-        size_t p = celd_lumo_pixel (l, x, y);
-
-        if (l->flat[region_of (l, p)])
-          continue;
-        if (status == CELD_OK && (x == 0 || x + 1 == l->width))
-          status = add_constraint (l, p, (x + 1 == l->width) - (x == 0), 0);
-        if (status == CELD_OK && (y == 0 || y + 1 == l->height))
-          status = add_constraint (l, p, 0, (y == 0) - (y + 1 == l->height));
-      }
-  return status;
+  *weight = 0;
+  if (x < 0 || y < 0 || x >= l->width || y >= l->height)
+    return l->settings->frame_outline && !(here == CELD_SEEN && is_page (l, e.x, e.y))
+             ? constrain (o, e, (Direction) { e.dx, e.dy }) : CELD_OK;
+  if (here == CELD_SEEN && weight_of (l, e) > 0)
+    *weight = weight_of (l, e);
+  else if (here == CELD_SEEN && celd_lumo_same_level (l, celd_lumo_pixel (l, e.x, e.y), celd_lumo_pixel (l, x, y)))
+    return CELD_OK; /* a crease */
+  else if (here == CELD_SEEN)
+    return has_detour (l, e) ? CELD_OK : meet_level (o, e, weight);
+  else if (across == CELD_ELSEWHERE)
+    return constrain (o, e, outward (o, e, NULL));
+  else
+    *weight = 1;
+  return CELD_OK;
 }
 
 /* ------------------------------------------------------------------ */
 
-static CeldStatus
-outlines_new (CeldLumo *l, Outlines *o)
+/* An edge between a seen and a hidden pixel has the weight that the seen one gives it. */
+static void
+set_weight (const Outlines *o, Edge e, float weight)
 {
-  *o = (Outlines) { .lumo = l };
-  o->front  = celd_alloc0 (l->regions.n + 1, 1);
-  o->behind = celd_alloc0 (l->regions.n + 1, 1);
-  if (!o->front || !o->behind || celd_pixel_links_new (l->width, l->height, l->east, l->south, &o->links) != CELD_OK)
-    return CELD_NO_MEMORY;
-  for (int i = 0; i < 2 * OUTLINE_RADIUS + 2; i++)
-    for (int j = 0; j < 2 * OUTLINE_RADIUS + 2; j++)
-      o->gauss[i][j] = exp (-0.125 * (i * i + j * j) / (OUTLINE_DEVIATION * OUTLINE_DEVIATION));
-  return CELD_OK;
+  const CeldBody *b = o->body;
+  size_t          first = (size_t) (e.y - b->box.y - (e.dy < 0)) * b->stride +
+                          (size_t) (e.x - b->box.x - (e.dx < 0));
+  float          *plane = e.dx ? b->east : b->south;
+
+  if (kind_across (o, e) == CELD_ELSEWHERE)
+    return;
+  if (celd_body_kind (b, e.x, e.y) == CELD_SEEN || kind_across (o, e) == CELD_HIDDEN_PART)
+    plane[first] = weight;
+}
+
+/* Gives a pixel of the body that is cut on no side the weights of its edges; false for any other one. */
+static bool
+is_smooth (const Outlines *o, int x, int y)
+{
+  const CeldBody *b = o->body;
+  const CeldLumo *l = b->lumo;
+  size_t          p = celd_lumo_pixel (l, x, y), w = (size_t) l->width;
+  size_t          i = (size_t) (y - b->box.y) * b->stride + (size_t) (x - b->box.x);
+  const uint8_t  *kind = b->kind + i;
+
+  if (x == b->box.x || y == b->box.y || x + 1 == b->box.x + b->box.width || y + 1 == b->box.y + b->box.height)
+    return false;
+  if (*kind == CELD_SEEN)
+    {
+      if (!(l->east[p] > 0 && l->east[p - 1] > 0 && l->south[p] > 0 && l->south[p - w] > 0))
+        return false;
+      b->east[i]  = l->east[p];
+      b->south[i] = l->south[p];
+      return true;
+    }
+  if (kind[1] != CELD_HIDDEN_PART || kind[-1] != CELD_HIDDEN_PART || kind[b->stride] != CELD_HIDDEN_PART ||
+      *(kind - b->stride) != CELD_HIDDEN_PART)
+    return false;
+  b->east[i] = b->south[i] = 1;
+  return true;
+}
+
+/* Looks at all edges of a pixel of the body. */
+static CeldStatus
+look_at_pixel (Outlines *o, int x, int y)
+{
+  static const int step[4][2] = { { 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } };
+  CeldStatus       status = CELD_OK;
+
+  for (int k = 0; k < 4 && status == CELD_OK; k++)
+    {
+      Edge  e = { x, y, step[k][0], step[k][1] };
+      float weight;
+
+      status = look_at_edge (o, e, &weight);
+      set_weight (o, e, weight);
+    }
+  return status;
 }
 
 CeldStatus
-celd_lumo_outlines (CeldLumo *l, const CeldHost *host)
+celd_body_outlines (CeldBody *body, CeldNormalConstraints *seen, CeldNormalConstraints *hidden)
 {
-  Outlines     o = { 0 };
-  CeldHostPart part[2];
-  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.3), holding = celd_host_part (&part[1], host, 0.3, 1);
-  CeldStatus   status = celd_run_components_find (l->width, l->height, l->level, NULL, NULL, &finding, &l->regions);
+  CeldRect       box = body->box;
+  Outlines       o = { .body = body, .seen = seen, .hidden = hidden };
+  CeldStatus     status = CELD_OK;
 
-  if (status != CELD_OK)
-    return status;
-  l->flat = celd_alloc0 (l->regions.n + 1, 1);
-  status  = l->flat ? outlines_new (l, &o) : CELD_NO_MEMORY;
-  if (status == CELD_OK)
-    status = constrain_edges (&o, &holding);
-  if (status == CELD_OK)
+  for (int i = 0; i < 2 * OUTLINE_RADIUS + 2; i++)
+    for (int j = 0; j < 2 * OUTLINE_RADIUS + 2; j++)
+      o.gauss[i][j] = exp (-0.125 * (i * i + j * j) / (OUTLINE_DEVIATION * OUTLINE_DEVIATION));
+  for (int y = box.y; y < box.y + box.height && status == CELD_OK; y++)
     {
-      mark_painted_creases (&o);
-      for (size_t k = 0; k < l->regions.n; k++)
-        l->flat[k] = o.behind[k] && !o.front[k];
-      status = constrain_creases (&o);
+      const uint8_t *kind = body->kind + (size_t) (y - box.y) * body->stride;
+
+      for (int x = box.x; x < box.x + box.width && status == CELD_OK; x++, kind++)
+        if (*kind != CELD_ELSEWHERE && !is_smooth (&o, x, y))
+          status = look_at_pixel (&o, x, y);
     }
-  if (status == CELD_OK && l->settings->frame_outline)
-    status = constrain_frame (l);
-  celd_pixel_links_clear (&o.links);
-  celd_free (o.front);
-  celd_free (o.behind);
   return status;
 }

@@ -1,208 +1,48 @@
-/* Shading by light on normals (section 5, Figure 1f), in linear light: a factor for the art, and gloss on top of it.
+/* Shading: a factor for art, and gloss on top of it.
  *
- * With n the normal, l the direction to the light, v = (0,0,1) that to the viewer and h halfway between them:
- *   Lambert        max (0, n . l)
- *   half Lambert   (1/2 + 1/2 n . l)^2                  [MFE07]
- *   toon           Lambert in equal steps, with edges one pixel wide
- *   matcap         the picture of a lit ball, read where the ball has this normal
- *   gloss          s max (0, n . h)^e where n . l > 0 [Bli77], and r (1 - n_z)^g along rims; in toon shading both
- *                  are either on or off
- *
- *   [Bli77]  J. F. Blinn: Models of Light Reflection for Computer Synthesized Pictures.  SIGGRAPH 1977.
- *   [MFE07]  J. Mitchell, M. Francke, D. Eng: Illustrative Rendering in Team Fortress 2.  NPAR 2007.
+ * An antialiased pixel shows paper of one region and ink, which may be another's.  Ink is dark, so that light matters
+ * on paper alone: the pixel takes the light on the paper beside it.  Hence no pixel of an outline becomes brighter than
+ * what is beside it.  The background, the paper that figures are drawn on, takes no light.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "base/base.h"
+#include "image/image.h"
+#include "light/light.h"
 
-#include <math.h>
-
-#define STEEP   1e-6 /* change of brightness between pixels that counts as none (chosen) */
-
-typedef struct { double x, y, z; } Vector;
+typedef struct { double tone[3], gloss; } Light;
 
 typedef struct
 {
-  const CeldVectors  *normals;
-  const CeldPlane    *ink;         /* NULL: none */
-  const CeldColours  *matcap;
-  const CeldSettings *settings;
-  Vector              light, half; /* unit vectors, of a distant light */
-  Vector              place;       /* of a near light, in pixels */
-  CeldColours        *tone;
-  CeldPlane          *gloss;
+  CeldLamp         lamp;
+  const CeldPlane *ink;         /* NULL: none */
+  const CeldPlane *levels;      /* NULL: none */
+  bool             unlit;       /* whether there is a background that takes no light */
+  float            background;  /* its level */
+  CeldColours     *tone;
+  CeldPlane       *gloss;
 } Scene;
 
-/* ------------------------------------------------------------------ position of the light */
+/* ------------------------------------------------------------------ the background */
 
-static Vector
-unit (Vector v)
+/* The background is the farthest of several levels, if it has half of the frame or more. */
+static void
+find_background (Scene *s)
 {
-  double length = sqrt (v.x * v.x + v.y * v.y + v.z * v.z);
+  const CeldPlane *l = s->levels;
+  float            nearest;
+  int              count = 0;
 
-  return length > 0 ? (Vector) { v.x / length, v.y / length, v.z / length } : (Vector) { 0, 0, 1 };
-}
-
-static Vector
-halfway (Vector light)
-{
-  return unit ((Vector) { light.x, light.y, light.z + 1 });
-}
-
-static Scene
-scene (const CeldVectors *normals, const CeldSettings *s)
-{
-  double azimuth = (double) s->light_azimuth * CELD_RADIANS, elevation = (double) s->light_elevation * CELD_RADIANS;
-  double w = normals->width, h = normals->height;
-  Scene  made = { .normals = normals, .settings = s };
-
-  made.light = (Vector) { cos (elevation) * cos (azimuth), cos (elevation) * sin (azimuth), sin (elevation) };
-  made.half  = halfway (made.light);
-  made.place = (Vector) { (double) s->light_x * w, (double) s->light_y * h, (double) s->light_height * hypot (w, h) };
-  return made;
-}
-
-static Vector
-light_at (const Scene *s, int x, int y)
-{
-  if (s->settings->light == CELD_LIGHT_DIRECTION)
-    return s->light;
-  return unit ((Vector) { s->place.x - x - 0.5, y + 0.5 - s->place.y, s->place.z });
+  celd_level_range (l, &s->background, &nearest);
+  for (int x = 0; x < l->width; x++)
+    count += (celd_level_at (l, x, 0) <= s->background) + (celd_level_at (l, x, l->height - 1) <= s->background);
+  for (int y = 0; y < l->height; y++)
+    count += (celd_level_at (l, 0, y) <= s->background) + (celd_level_at (l, l->width - 1, y) <= s->background);
+  s->unlit = s->background < nearest && count >= l->width + l->height;
 }
 
 /* ------------------------------------------------------------------ light on one pixel */
 
-typedef double (*Measure) (const Scene *s, int x, int y);
-
-/* In [0,1]; a NaN normal is unlit. */
-static double
-lambert (const Scene *s, int x, int y)
-{
-  const float *n = CELD_XYZ (s->normals, x, y);
-  Vector       l = light_at (s, x, y);
-  double       lit = (double) n[0] * l.x + (double) n[1] * l.y + (double) n[2] * l.z;
-
-  return lit > 0 ? fmin (lit, 1) : 0;
-}
-
-static double
-highlight (const Scene *s, int x, int y)
-{
-  const float *n = CELD_XYZ (s->normals, x, y);
-  Vector       h = s->settings->light == CELD_LIGHT_DIRECTION ? s->half : halfway (light_at (s, x, y));
-  double       lit = (double) n[0] * h.x + (double) n[1] * h.y + (double) n[2] * h.z;
-
-  return lit > 0 && lambert (s, x, y) > 0 ? pow (fmin (lit, 1), (double) s->settings->shininess) : 0;
-}
-
-static double
-rim (const Scene *s, int x, int y)
-{
-  double turned = 1 - (double) CELD_XYZ (s->normals, x, y)[2];
-
-  return turned > 0 ? pow (fmin (turned, 1), (double) s->settings->rim_power) : 0;
-}
-
-static double
-half_lambert (const Scene *s, int x, int y)
-{
-  const float *n = CELD_XYZ (s->normals, x, y);
-  Vector       l = light_at (s, x, y);
-  double       lit = 0.5 + 0.5 * ((double) n[0] * l.x + (double) n[1] * l.y + (double) n[2] * l.z);
-
-  return lit > 0 ? fmin (lit * lit, 1) : 0;
-}
-
-/* ------------------------------------------------------------------ toon steps */
-
-/* The smaller of the changes to the two neighbours along (dx,dy): on one side there may be another surface. */
-static double
-change_along (const Scene *s, Measure measure, double here, int x, int y, int dx, int dy)
-{
-  int    w = s->normals->width, h = s->normals->height;
-  bool   back = x - dx >= 0 && y - dy >= 0, on = x + dx < w && y + dy < h;
-  double before = back ? fabs (here - measure (s, x - dx, y - dy)) : INFINITY;
-  double after = on ? fabs (here - measure (s, x + dx, y + dy)) : INFINITY;
-
-  return back || on ? fmin (before, after) : 0;
-}
-
-/* `measure` quantised to so many steps from 0 to 1, with edges as wide as a pixel. */
-static double
-bands (const Scene *s, Measure measure, int steps, int x, int y)
-{
-  double here = measure (s, x, y), sum = 0;
-  double change = hypot (change_along (s, measure, here, x, y, 1, 0), change_along (s, measure, here, x, y, 0, 1));
-
-  for (int k = 1; k < steps; k++)
-    sum += fmax (0, fmin (1, (here - (double) k / steps) / fmax (change, STEEP) + 0.5));
-  return sum / (steps - 1);
-}
-
-static double
-lit_at (const Scene *s, int x, int y)
-{
-  switch (s->settings->light_model)
-    {
-    case CELD_MODEL_HALF_LAMBERT: return half_lambert (s, x, y);
-    case CELD_MODEL_TOON:         return bands (s, lambert, s->settings->toon_steps, x, y);
-    default:                        return lambert (s, x, y);
-    }
-}
-
-static double
-gloss_at (const Scene *s, int x, int y)
-{
-  bool   toon = s->settings->light_model == CELD_MODEL_TOON;
-  double sum = 0;
-
-  if (s->settings->specular > 0)
-    sum += (double) s->settings->specular * (toon ? bands (s, highlight, 2, x, y) : highlight (s, x, y));
-  if (s->settings->rim_light > 0)
-    sum += (double) s->settings->rim_light * (toon ? bands (s, rim, 2, x, y) : rim (s, x, y));
-  return fmin (sum, 1);
-}
-
-/* ------------------------------------------------------------------ matcap */
-
-/* Bilinear interpolation, weighted by alpha; black where all is transparent. */
-static void
-sample (const CeldColours *picture, double u, double v, float rgb[3])
-{
-  double x = fmax (0, fmin (u * picture->width - 0.5, picture->width - 1));
-  double y = fmax (0, fmin (v * picture->height - 0.5, picture->height - 1));
-  int    left = (int) x, top = (int) y;
-  double sum = 0, colour[3] = { 0, 0, 0 };
-
-  for (int k = 0; k < 4; k++)
-    {
-      int          px = left + (k & 1 && left + 1 < picture->width), py = top + (k & 2 && top + 1 < picture->height);
-      const float *rgba = CELD_RGBA (picture, px, py);
-      double       weight = (k & 1 ? x - left : 1 - x + left) * (k & 2 ? y - top : 1 - y + top) * (double) rgba[3];
-
-      if (!(weight > 0))
-        continue;
-      sum += weight;
-      for (int c = 0; c < 3; c++)
-        colour[c] += weight * (double) rgba[c];
-    }
-  for (int c = 0; c < 3; c++)
-    rgb[c] = sum > 0 ? (float) (colour[c] / sum) : 0;
-}
-
-/* A NaN normal counts as facing the viewer. */
-static void
-matcap_at (const Scene *s, int x, int y, float rgb[3])
-{
-  const float *n = CELD_XYZ (s->normals, x, y);
-  double       nx = n[0] >= -1 && n[0] <= 1 ? (double) n[0] : 0, ny = n[1] >= -1 && n[1] <= 1 ? (double) n[1] : 0;
-
-  sample (s->matcap, 0.5 + 0.5 * nx, 0.5 - 0.5 * ny, rgb);
-}
-
-/* ------------------------------------------------------------------ */
-
-/* How much a pixel can shine: ink does not, so that lines stay visible; NaN reads as paper. */
+/* How much of a pixel is paper; NaN reads as paper. */
 static double
 paper_at (const Scene *s, int x, int y)
 {
@@ -211,47 +51,154 @@ paper_at (const Scene *s, int x, int y)
   return ink < 1 ? fmax (ink, 0) : 1;
 }
 
+/* The light on the surface whose normal the pixel has. */
+static Light
+light_at (const Scene *s, int x, int y)
+{
+  Light light = { { 1, 1, 1 }, 0 };
+
+  if (s->unlit && celd_level_at (s->levels, x, y) <= s->background)
+    return light;
+  if (s->lamp.settings->light_model == CELD_MODEL_MATCAP)
+    celd_matcap_at (&s->lamp, x, y, light.tone, &light.gloss);
+  else
+    light.tone[0] = light.tone[1] = light.tone[2] = celd_tone_at (&s->lamp, x, y);
+  light.gloss = fmin (1, light.gloss + celd_gloss_at (&s->lamp, x, y));
+  return light;
+}
+
+/* The level of the brightest of the 3 x 3 pixels round (x,y); ties: the first in reading order, but (x,y) itself before
+ * all others. */
+static float
+level_of_paper (const Scene *s, int x, int y)
+{
+  float level = celd_level_at (s->levels, x, y), best = CELD_AT (s->ink, x, y);
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < s->ink->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < s->ink->width; u++)
+      if (CELD_AT (s->ink, u, v) > best)
+        {
+          best  = CELD_AT (s->ink, u, v);
+          level = celd_level_at (s->levels, u, v);
+        }
+  return level;
+}
+
+/* The mean light of those of the 3 x 3 pixels round (x,y) that have this level and more paper, weighted by that.  If
+ * there are none, as in the tip between two lines, the light on (x,y), without gloss: no paper beside it might be as
+ * bright. */
+static Light
+light_beside (const Scene *s, float level, int x, int y)
+{
+  Light  mean = { { 0, 0, 0 }, 0 };
+  double sum = 0, least = paper_at (s, x, y);
+
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < s->levels->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < s->levels->width; u++)
+      {
+        float  there = celd_level_at (s->levels, u, v);
+        double weight = paper_at (s, u, v);
+
+        if (there < level || there > level || weight <= least)
+          continue;
+
+        Light light = light_at (s, u, v);
+
+        sum += weight;
+        for (int c = 0; c < 3; c++)
+          mean.tone[c] += weight * light.tone[c];
+        mean.gloss += weight * light.gloss;
+      }
+  if (!(sum > 0))
+    {
+      mean = light_at (s, x, y);
+      mean.gloss = 0;
+      return mean;
+    }
+  for (int c = 0; c < 3; c++)
+    mean.tone[c] /= sum;
+  mean.gloss /= sum;
+  return mean;
+}
+
+/* Whether the normal is exactly that of what faces the viewer. */
+static bool
+faces_viewer (const float *normal)
+{
+  return !(normal[0] < 0 || normal[0] > 0 || normal[1] < 0 || normal[1] > 0) && normal[2] >= 1;
+}
+
+/* Whether any of the 3 x 3 pixels round (x,y) is mostly ink. */
+static bool
+is_beside_ink (const Scene *s, int x, int y)
+{
+  for (int v = y > 0 ? y - 1 : 0; v <= y + 1 && v < s->ink->height; v++)
+    for (int u = x > 0 ? x - 1 : 0; u <= x + 1 && u < s->ink->width; u++)
+      if (paper_at (s, u, v) < 0.5)
+        return true;
+  return false;
+}
+
+/* The light on the paper that a pixel shows: if that is mixed with ink, the light beside it, on a farther level if the
+ * pixel is mostly ink.  What faces the viewer keeps its colour in any case. */
+static Light
+light_on_paper (const Scene *s, int x, int y)
+{
+  double paper = paper_at (s, x, y);
+  float  here, level;
+
+  if (!s->levels || !(paper > 0 && paper < 1) || faces_viewer (CELD_XYZ (s->lamp.normals, x, y)) ||
+      !is_beside_ink (s, x, y))
+    return light_at (s, x, y);
+  here  = celd_level_at (s->levels, x, y);
+  level = paper < 0.5 ? level_of_paper (s, x, y) : here;
+  return light_beside (s, level < here ? level : here, x, y);
+}
+
+/* Ink has no gloss, so that lines stay visible. */
 static void
 light_row (void *data, int y)
 {
   const Scene *s = data;
-  double       ambient = (double) s->settings->ambient;
 
-  for (int x = 0; x < s->normals->width; x++)
+  for (int x = 0; x < s->tone->width; x++)
     {
+      Light  light = light_on_paper (s, x, y);
       float *tone = CELD_RGBA (s->tone, x, y);
 
-      if (s->settings->light_model == CELD_MODEL_MATCAP)
-        matcap_at (s, x, y, tone);
-      else
-        tone[0] = tone[1] = tone[2] = (float) (ambient + (1 - ambient) * lit_at (s, x, y));
+      for (int c = 0; c < 3; c++)
+        tone[c] = (float) light.tone[c];
       tone[3] = 1;
-      CELD_AT (s->gloss, x, y) = (float) (paper_at (s, x, y) * gloss_at (s, x, y));
+      CELD_AT (s->gloss, x, y) = (float) (paper_at (s, x, y) * light.gloss);
     }
 }
 
+/* ------------------------------------------------------------------ */
+
 CeldStatus
-celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap, const CeldSettings *settings,
-            const CeldHost *host, CeldColours *tone, CeldPlane *gloss)
+celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldPlane *levels, const CeldColours *matcap,
+            const CeldSettings *settings, const CeldHost *host, CeldColours *tone, CeldPlane *gloss)
 {
-  if (!CELD_SAME_SIZE (normals, tone) || !CELD_SAME_SIZE (normals, gloss) || (ink && !CELD_SAME_SIZE (normals, ink)))
+  if (!CELD_SAME_SIZE (normals, tone) || !CELD_SAME_SIZE (normals, gloss) || (ink && !CELD_SAME_SIZE (normals, ink)) ||
+      (levels && !CELD_SAME_SIZE (normals, levels)))
     return CELD_BAD_SIZE;
   if (celd_settings_check (settings) != CELD_OK)
     return CELD_BAD_VALUE;
   if (settings->light_model == CELD_MODEL_MATCAP && (!matcap || !CELD_SAME_SIZE (matcap, matcap)))
     return CELD_BAD_VALUE;
 
-  Scene s = scene (normals, settings);
+  Scene s = { .lamp = celd_lamp (normals, settings), .ink = ink, .levels = levels, .tone = tone, .gloss = gloss };
 
-  s.ink    = ink;
-  s.matcap = matcap;
-  s.tone   = tone;
-  s.gloss  = gloss;
+  s.lamp.matcap = matcap;
+  if (levels && !settings->light_background)
+    find_background (&s);
   celd_parallel_for (host, normals->height, light_row, &s);
   return CELD_OK;
 }
 
-/* Replaces each colour c by  (1 - g) c t + g  with tone t and gloss g. */
+/* With tone t and gloss g each colour c becomes  (1 - g) c t + g,  and where t > 1
+ *   (1 - g) (c + (t - 1) c (1 - c)) + g,
+ * which is nearly c t of dark colours, and never more than white. */
 CeldStatus
 celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours)
 {
@@ -264,7 +211,11 @@ celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours
         const float *t = CELD_RGBA (tone, x, y);
 
         for (int c = 0; c < 3; c++)
-          rgba[c] = (1 - g) * rgba[c] * t[c] + g;
+          {
+            float room = rgba[c] > 0 && rgba[c] < 1 ? 1 - rgba[c] : rgba[c] < 1;
+
+            rgba[c] = (1 - g) * rgba[c] * (t[c] > 1 ? 1 + (t[c] - 1) * room : t[c]) + g;
+          }
       }
   return CELD_OK;
 }
@@ -293,15 +244,14 @@ celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane 
   if (celd_settings_check (settings) != CELD_OK || settings->light_model == CELD_MODEL_MATCAP)
     return CELD_BAD_VALUE;
 
-  Scene  s = scene (normals, settings);
-  double ambient = (double) settings->ambient;
+  CeldLamp lamp = celd_lamp (normals, settings);
 
   for (int y = 0; y < shading->height; y++)
     for (int x = 0; x < shading->width; x++)
       {
-        double gloss = gloss_at (&s, x, y);
+        double gloss = celd_gloss_at (&lamp, x, y);
 
-        CELD_AT (shading, x, y) = (float) ((1 - gloss) * (ambient + (1 - ambient) * lit_at (&s, x, y)) + gloss);
+        CELD_AT (shading, x, y) = (float) ((1 - gloss) * celd_light_at (&lamp, x, y) + gloss);
       }
   return CELD_OK;
 }

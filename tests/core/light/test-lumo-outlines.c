@@ -4,112 +4,6 @@
  */
 #include "discs.h"
 
-/* n_x and n_y of a disc with a round hole: harmonic, those of the outline on the disc's edge, without slope across the
- * hole's.  Gauss-Seidel with over-relaxation on the pixels, two planes of `side` x `side`. */
-static double *
-solve_disc_with_hole (int side, Disc disc, Disc hole)
-{
-  double *plane = calloc ((size_t) (2 * side * side), sizeof *plane);
-
-  for (int pass = 0; pass <= 600; pass++)
-    for (int y = 1; y < side - 1; y++)
-      for (int x = 1; x < side - 1; x++)
-        {
-          double  u = x + 0.5 - disc.x, v = disc.y - y - 0.5, r = hypot (u, v);
-          double *at = plane + 2 * (y * side + x);
-
-          if (r >= disc.radius)
-            {
-              at[0] = u / r;
-              at[1] = v / r;
-            }
-          else if (hypot (x + 0.5 - hole.x, y + 0.5 - hole.y) >= hole.radius)
-            for (int c = 0; c < 2; c++)
-              {
-                double sum = 0, n = 0;
-
-                for (int k = 0; k < 4; k++)
-                  {
-                    int dx = k < 2 ? 2 * k - 1 : 0, dy = k < 2 ? 0 : 2 * k - 5;
-
-                    if (hypot (x + dx + 0.5 - hole.x, y + dy + 0.5 - hole.y) < hole.radius)
-                      continue;
-                    sum += at[2 * (dy * side + dx) + c];
-                    n++;
-                  }
-                at[c] += 1.95 * (sum / n - at[c]);
-              }
-        }
-  return plane;
-}
-
-/* A small disc in front of a large one: the large one does not bend along it, but goes on as if cut out. */
-static void
-only_the_nearer_side_bends_at_an_outline (void)
-{
-  enum { SIDE = 180 };
-  Disc    large = { 90, 90, 80 }, small = { 120, 90, 30 };
-  Picture p = picture (SIDE, SIDE);
-  double *wanted = solve_disc_with_hole (SIDE, large, small), largest, sum = 0, count = 0, worst = 0;
-
-  put_disc (&p, large, 3, 1);
-  put_disc (&p, small, 3, 2);
-  make (&p, 1);
-  NEAR (compare_disc (&p, small, &largest), 0, 1.5);
-  for (int y = 0; y < SIDE; y++)
-    for (int x = 0; x < SIDE; x++)
-      {
-        const double *n = wanted + 2 * (y * SIDE + x);
-        double        from_edge = large.radius - hypot (x + 0.5 - large.x, y + 0.5 - large.y);
-        double        from_hole = hypot (x + 0.5 - small.x, y + 0.5 - small.y) - small.radius;
-
-        if (from_edge > 4 && from_hole > 4)
-          {
-            double a = angle (&p, x, y, n[0], n[1], sqrt (fmax (0, 1 - n[0] * n[0] - n[1] * n[1])));
-
-            worst = fmax (worst, a);
-            sum += a;
-            count++;
-          }
-      }
-  NEAR (sum / count, 0, 0.5);
-  NEAR (worst, 0, 2);
-  free (wanted);
-  picture_free (&p);
-}
-
-/* Along a border the normal of the farther side does not change across it; that of the nearer side does. */
-static void
-the_farther_side_continues_behind (void)
-{
-  Disc    large = { 150, 150, 140 }, small = { 190, 150, 50 };
-  Picture p = picture (300, 300);
-  double  far = 0, near = 0;
-  int     n = 0;
-
-  put_disc (&p, large, 3, 1);
-  put_disc (&p, small, 3, 2);
-  make (&p, 1);
-  for (double turn = 0; turn < 6.28; turn += 0.05, n++)
-    {
-      double       c = cos (turn), s = sin (turn);
-      const float *at[4];
-
-      for (int k = 0; k < 4; k++) /* 1 and 6 pixels outside, 1 and 6 inside */
-        {
-          double r = small.radius + (k < 2 ? 1 + 5 * k : -1 - 5 * (k - 2));
-
-          at[k] = CELD_XYZ (&p.normals, (int) (small.x + r * c), (int) (small.y + r * s));
-        }
-      far += fabs ((double) (at[1][0] - at[0][0]) * c - (double) (at[1][1] - at[0][1]) * s) / 5;
-      near += fabs ((double) (at[3][0] - at[2][0]) * c - (double) (at[3][1] - at[2][1]) * s) / 5;
-      CHECK (at[0][2] > 0.3f && at[2][2] < 0.35f);
-    }
-  CHECK (near / n > 0.015); /* 1 / radius, and of n_z more */
-  CHECK (far / n < 0.0025);
-  picture_free (&p);
-}
-
 static void
 a_virtual_contour_neither_cuts_nor_bends (void)
 {
@@ -233,8 +127,6 @@ hints_decide_which_side_of_an_outline_bends (void)
 int
 main (void)
 {
-  RUN (only_the_nearer_side_bends_at_an_outline);
-  RUN (the_farther_side_continues_behind);
   RUN (a_virtual_contour_neither_cuts_nor_bends);
   RUN (paper_stays_flat_behind_a_gap);
   RUN (closed_contours_are_told_from_open_ones_anywhere);
