@@ -1,381 +1,271 @@
-/* Completion of the hidden part of a layer: what the outline with its closed gaps encloses, where an opaque nearer
- * layer occludes it.  Holes that a nearer layer covers are closed; the background extends over the whole picture.
+/* Colours of what is hidden of layers, where sheets (core/sheets) go on.
  *
- * The colour is inpainted by Laplace's equation from the layer's visible paper; ink is excluded, because lines would
- * smear.  Along a closed gap the layer's own line continues, with the width and the colour that it has at the two ends,
- * interpolated.
+ * Colours come from the region's own paper (layer-paper.c).  Along the hidden outline goes the region's own line, as
+ * wide as along the visible one.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "image/image.h"
 #include "layers/layers.h"
-#include "solve/laplace.h"
 
 #include <math.h>
 
-#define MIN_LINE_WIDTH    0.7   /* pixels; a thinner line does not count as one; chosen */
-#define INPAINT_PAPER     0.97f /* ink above this is certainly paper; chosen */
-#define FLAT_TOLERANCE    (2.5f / 255)
-#define INPAINT_TOLERANCE 4e-3  /* relative to the range of colours */
-#define MARGIN_STROKES    4     /* stroke widths round the hidden part from which colours are taken; chosen */
+#define LINE_INK  0.25f /* ink below this has the colour of the line; chosen */
+#define LEAST_PEN 0.7   /* pixels; a thinner line does not count as one; chosen */
 
-/* A layer under completion; planes have the size of the box. */
 typedef struct
 {
   CeldLayers      *layers;
   size_t           layer;
   const CeldPlane *ink;
-  CeldGapCurve    *curve;
-  size_t           n_curves;
-  CeldRect         box;
-  float           *coverage;   /* coverage of each pixel by the shape; 0 where the layer is not occluded */
-  float           *line;       /* coverage by the line */
-  float           *line_place; /* the line's curve and parameter, as index + t */
-  size_t           n_hidden;
-} Completion;
+  const CeldSheet *sheet;
+  const CeldSheets *sheets;
+  CeldHiddenPaper  paper;       /* its box has all that is visible or hidden of the layer */
+  float            line[4];     /* colour of the line */
+  float           *cover;       /* of each pixel of the box by the sheet; NULL: no line */
+  int32_t         *depth;       /* squared distance of each pixel to the outside of the sheet */
+} Fill;
 
 static size_t
-index_of (const Completion *part, int x, int y)
+index_in (const Fill *f, int x, int y)
 {
-  return (size_t) (y - part->box.y) * (size_t) part->box.width + (size_t) (x - part->box.x);
+  return (size_t) (y - f->paper.box.y) * (size_t) f->paper.box.width + (size_t) (x - f->paper.box.x);
 }
 
-/* ------------------------------------------------------------------ shape */
-
-static CeldRect
-clip (const CeldLayers *layers, CeldRect box, int margin)
+static const float *
+art_at (const Fill *f, int x, int y)
 {
-  int left = box.x - margin > 0 ? box.x - margin : 0, top = box.y - margin > 0 ? box.y - margin : 0;
-  int right = box.x + box.width + margin, bottom = box.y + box.height + margin;
-
-  right  = right < layers->width ? right : layers->width;
-  bottom = bottom < layers->height ? bottom : layers->height;
-  return left < right && top < bottom ? (CeldRect) { left, top, right - left, bottom - top } : (CeldRect) { 0 };
+  return f->layers->art + 4 * ((size_t) y * (size_t) f->layers->width + (size_t) x);
 }
 
-/* Bounding box of the visible part and of the curves' control polygons. */
-static CeldRect
-whole_box (const Completion *part)
+/* ------------------------------------------------------------------ the line */
+
+/* The mean colour of the layer's ink; false if it has none. */
+static bool
+colour_of_line (Fill *f)
 {
-  CeldRect box = part->layers->seen[part->layer];
+  double   sum[4] = { 0 };
+  size_t   n = 0;
+  CeldRect seen = f->sheet->seen;
 
-  for (size_t i = 0; i < part->n_curves; i++)
-    for (int k = 0; k < 4; k++)
-      box = celd_rect_union (box, (CeldRect) { (int) floor (part->curve[i].x[k]), (int) floor (part->curve[i].y[k]),
-                                               1, 1 });
-  return clip (part->layers, box, 1);
-}
-
-/* Clears the coverage of pixels that are not occluded, and counts the others. */
-static void
-keep_hidden (Completion *part)
-{
-  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
-    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
-      {
-        float *coverage = &part->coverage[index_of (part, x, y)];
-
-        if (*coverage > 0 && celd_layer_visibility (part->layers, part->layer, x, y) != CELD_LAYER_OCCLUDED)
-          *coverage = 0;
-        part->n_hidden += *coverage > 0;
-      }
-}
-
-static CeldStatus
-cover_everything (Completion *part)
-{
-  size_t pixels;
-
-  part->box   = clip (part->layers, (CeldRect) { 0, 0, part->layers->width, part->layers->height }, 0);
-  pixels      = (size_t) part->box.width * (size_t) part->box.height;
-  part->coverage = celd_alloc (pixels, sizeof *part->coverage);
-  if (!part->coverage)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < pixels; i++)
-    part->coverage[i] = 1;
-  return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ line along closed gaps */
-
-/* An end in a corner between lines has no measurable width; it takes that of the other end. */
-static void
-copy_missing_line (CeldGapCurve *curve)
-{
-  for (int i = 0; i < 2; i++)
-    if (curve->width[i] < MIN_LINE_WIDTH)
-      {
-        curve->width[i] = curve->width[1 - i];
-        memcpy (curve->colour[i], curve->colour[1 - i], sizeof curve->colour[i]);
-      }
-}
-
-static double
-line_width_at (const CeldGapCurve *curve, double t)
-{
-  return curve->width[0] + t * (curve->width[1] - curve->width[0]);
-}
-
-/* Draws the line round its point at parameter t. */
-static void
-draw_dot (const Completion *part, size_t curve, double t)
-{
-  double x, y, width = line_width_at (&part->curve[curve], t);
-  int    radius = (int) ceil (width + 0.5);
-
-  celd_curve_at (&part->curve[curve], t, &x, &y);
-  for (int py = (int) floor (y) - radius; py <= (int) floor (y) + radius; py++)
-    for (int px = (int) floor (x) - radius; px <= (int) floor (x) + radius; px++)
-      if (px >= part->box.x && px < part->box.x + part->box.width && py >= part->box.y &&
-          py < part->box.y + part->box.height)
+  for (int y = seen.y; y < seen.y + seen.height; y++)
+    for (int x = seen.x; x < seen.x + seen.width; x++)
+      if (CELD_AT (f->ink, x, y) < LINE_INK
+          && f->layers->place[(size_t) y * (size_t) f->layers->width + (size_t) x] == f->layer)
         {
-          size_t p = index_of (part, px, py);
-          double dx = px + 0.5 - x, dy = py + 0.5 - y;
-          float  coverage = (float) fmin (fmax (width + 0.5 - sqrt (dx * dx + dy * dy), 0), 1);
+          const float *art = art_at (f, x, y);
 
-          if (part->coverage[p] > 0 && coverage > part->line[p])
-            {
-              part->line[p]       = coverage;
-              part->line_place[p] = (float) ((double) curve + fmin (t, 0.999));
-            }
+          n++;
+          for (int c = 0; c < 4; c++)
+            sum[c] += (double) art[c];
         }
+  for (int c = 0; c < 4 && n; c++)
+    f->line[c] = (float) (sum[c] / (double) n);
+  return n > 0;
 }
 
 static CeldStatus
-draw_lines (Completion *part)
+measure_depth (Fill *f, const CeldOwnership *own, const CeldHost *host)
 {
-  size_t pixels = (size_t) part->box.width * (size_t) part->box.height;
+  size_t   n = (size_t) f->paper.box.width * (size_t) f->paper.box.height;
+  uint8_t *outside;
+  CeldStatus status;
 
-  part->line       = celd_alloc0 (pixels, sizeof *part->line);
-  part->line_place = celd_alloc (pixels, sizeof *part->line_place);
-  if (!part->line || !part->line_place)
-    return CELD_NO_MEMORY;
-  for (size_t i = 0; i < part->n_curves; i++)
+  if (f->sheet->page || f->sheet->pen < LEAST_PEN || !colour_of_line (f))
+    return CELD_OK;
+  outside  = celd_alloc (n, 1);
+  f->cover = celd_alloc (n, sizeof *f->cover);
+  f->depth = celd_alloc (n, sizeof *f->depth);
+  if (!outside || !f->cover || !f->depth)
     {
-      int steps = celd_curve_steps (&part->curve[i]);
-
-      copy_missing_line (&part->curve[i]);
-      if (part->curve[i].width[0] >= MIN_LINE_WIDTH)
-        for (int k = 0; k <= 2 * steps; k++)
-          draw_dot (part, i, (double) k / (2 * steps));
+      celd_free (outside);
+      return CELD_NO_MEMORY;
     }
-  return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ inpainting */
-
-/* The pixels that provide colours, and those that are inpainted. */
-typedef struct
-{
-  CeldRect box;
-  uint8_t *kind;               /* FILL_ value of each pixel */
-  float   *value;              /* CELD_LANES numbers a pixel: premultiplied r, g, b and alpha; the rest is unused */
-  size_t   n_known;
-} Inpainting;
-
-enum { FILL_NONE, FILL_KNOWN, FILL_FREE };
-
-static CeldRect
-hidden_box (const Completion *part)
-{
-  CeldRect box = { 0 };
-
-  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
-    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
-      if (part->coverage[index_of (part, x, y)] > 0)
-        box = celd_rect_union (box, (CeldRect) { x, y, 1, 1 });
-  return box;
-}
-
-static bool
-is_hidden (const Completion *part, int x, int y)
-{
-  return x >= part->box.x && x < part->box.x + part->box.width && y >= part->box.y &&
-         y < part->box.y + part->box.height && part->coverage[index_of (part, x, y)] > 0;
-}
-
-/* Known pixels are paper of this layer alone, with `ink_too` also ink; its other pixels and hidden ones are free. */
-static void
-sort_pixels (const Completion *part, bool ink_too, Inpainting *fill)
-{
-  const CeldLayers *layers = part->layers;
-  size_t            p = 0;
-
-  fill->n_known = 0;
-  for (int y = fill->box.y; y < fill->box.y + fill->box.height; y++)
-    for (int x = fill->box.x; x < fill->box.x + fill->box.width; x++, p++)
-      {
-        size_t       at = (size_t) y * (size_t) layers->width + (size_t) x;
-        const float *art = layers->art + 4 * at;
-        bool         own = layers->place[at] == part->layer;
-
-        fill->kind[p] = is_hidden (part, x, y) ? FILL_FREE : FILL_NONE;
-        if (own && (ink_too || !(CELD_AT (part->ink, x, y) < INPAINT_PAPER)))
-          fill->kind[p] = FILL_KNOWN;
-        else if (celd_layer_visibility (layers, part->layer, x, y) == CELD_LAYER_VISIBLE)
-          fill->kind[p] = FILL_FREE;
-        if (fill->kind[p] != FILL_KNOWN)
-          continue;
-        fill->n_known++;
-        for (int c = 0; c < 4; c++)
-          fill->value[p * CELD_LANES + (size_t) c] = c < 3 ? art[c] * art[3] : art[3];
-      }
-}
-
-/* Sets free pixels to the mean of the known ones.  True if nearly all known pixels have that colour. */
-static bool
-fill_with_mean (Inpainting *fill)
-{
-  size_t pixels = (size_t) fill->box.width * (size_t) fill->box.height, others = 0;
-
-  for (size_t c = 0; c < 4; c++)
-    {
-      double sum = 0;
-      float  mean;
-
-      for (size_t p = 0; p < pixels; p++)
-        sum += fill->kind[p] == FILL_KNOWN ? (double) fill->value[p * CELD_LANES + c] : 0;
-      mean = (float) (sum / (double) fill->n_known);
-      for (size_t p = 0; p < pixels; p++)
-        if (fill->kind[p] != FILL_KNOWN)
-          fill->value[p * CELD_LANES + c] = mean;
-        else
-          others += fabsf (fill->value[p * CELD_LANES + c] - mean) > FLAT_TOLERANCE;
-    }
-  return others <= fill->n_known / 100;
-}
-
-/* Solves Laplace's equation on the free pixels, with insulated boundaries towards pixels of neither kind. */
-static CeldStatus
-solve_laplace (const CeldHost *host, Inpainting *fill)
-{
-  size_t       w = (size_t) fill->box.width, pixels = w * (size_t) fill->box.height;
-  float       *east = celd_alloc0 (pixels, sizeof *east), *south = celd_alloc0 (pixels, sizeof *south);
-  uint8_t     *fixed = celd_alloc0 (pixels, 1);
-  CeldLaplace *laplace = NULL;
-  CeldStatus   status = east && south && fixed ? CELD_OK : CELD_NO_MEMORY;
-
-  for (size_t p = 0; p < pixels && status == CELD_OK; p++)
-    {
-      fixed[p] = fill->kind[p] != FILL_FREE;
-      if (fill->kind[p] && (p + 1) % w && fill->kind[p + 1])
-        east[p] = 1;
-      if (fill->kind[p] && p + w < pixels && fill->kind[p + w])
-        south[p] = 1;
-    }
-  if (status == CELD_OK)
-    status = celd_lap_setup (fill->box.width, fill->box.height, east, south, NULL, fixed, host, &laplace);
-  if (status == CELD_OK)
-    status = celd_lap_solve_lanes (laplace, NULL, fill->value, INPAINT_TOLERANCE, host, NULL);
-  celd_lap_free (laplace);
-  celd_free (east);
-  celd_free (south);
-  celd_free (fixed);
+  celd_sheet_coverage (f->sheets, own, f->layer, f->paper.box, f->cover);
+  for (size_t i = 0; i < n; i++)
+    outside[i] = f->cover[i] < 0.5f;
+  status = celd_distance (f->paper.box.width, f->paper.box.height, outside, host, f->depth);
+  celd_free (outside);
   return status;
 }
 
-static CeldStatus
-inpaint (const Completion *part, int stroke, const CeldHost *host, Inpainting *fill)
+/* The share of a pixel that the line covers. */
+static float
+line_at (const Fill *f, size_t i)
 {
-  CeldRect hidden = hidden_box (part);
-  size_t   pixels;
+  double inside;
 
-  fill->box = clip (part->layers, hidden, MARGIN_STROKES * stroke + 4);
-  pixels = (size_t) fill->box.width * (size_t) fill->box.height;
-  fill->kind = celd_alloc (pixels, 1);
-  fill->value = celd_alloc0 (pixels, CELD_LANES * sizeof *fill->value);
-  if (!fill->kind || !fill->value)
-    return CELD_NO_MEMORY;
-  sort_pixels (part, false, fill);
-  if (!fill->n_known)
-    sort_pixels (part, true, fill);
-  if (!fill->n_known)
-    return CELD_OK; /* no pixel belongs to the layer alone: no hidden part is made */
-  return fill_with_mean (fill) ? CELD_OK : solve_laplace (host, fill);
+  if (!f->depth || f->depth[i] == INT32_MAX)
+    return 0;
+  inside = sqrt ((double) f->depth[i]) - 0.5;
+  return (float) fmin (fmax (f->sheet->pen - inside + 0.5, 0), 1);
 }
 
-/* ------------------------------------------------------------------ result */
+/* ------------------------------------------------------------------ parts */
 
-/* The line over the inpainted colour, with straight alpha. */
 static void
-hidden_colour (const Completion *part, const Inpainting *fill, int x, int y, float colour[4])
+write_pixel (const Fill *f, int x, int y, float coverage, bool margin, uint16_t *to)
 {
-  size_t       p = index_of (part, x, y);
-  size_t       at = (size_t) (y - fill->box.y) * (size_t) fill->box.width + (size_t) (x - fill->box.x);
-  const float *value = fill->value + at * CELD_LANES;
-  float        line = part->line[p], alpha = value[3];
+  size_t       i = index_in (f, x, y);
+  const float *colour = f->paper.value ? f->paper.value + 4 * i : f->paper.flat;
+  float        line = margin ? 0 : line_at (f, i), mixed[4];
 
-  for (int c = 0; c < 3; c++)
-    colour[c] = alpha > 0 ? fminf (fmaxf (value[c] / alpha, 0), 1) : 0;
-  if (line > 0)
-    {
-      const CeldGapCurve *curve = &part->curve[(size_t) part->line_place[p]];
-      float               t = part->line_place[p] - floorf (part->line_place[p]);
-
-      for (int c = 0; c < 3; c++)
-        colour[c] += line * (curve->colour[0][c] + t * (curve->colour[1][c] - curve->colour[0][c]) - colour[c]);
-      alpha = alpha + line * (1 - alpha);
-    }
-  colour[3] = fminf (fmaxf (alpha * part->coverage[p], 0), 1);
   for (int c = 0; c < 4; c++)
-    colour[c] = c < 3 ? celd_quantize_colour (part->layers, colour[c]) : celd_quantize_alpha (part->layers, colour[c]);
+    mixed[c] = colour[c] + line * (f->line[c] - colour[c]);
+  mixed[3] *= margin ? 1 : coverage;
+  for (int c = 0; c < 4; c++)
+    to[c] = (uint16_t) (fminf (fmaxf (mixed[c], 0), 1) * 65535 + 0.5f);
+}
+
+/* What lies over a hidden pixel has to be opaque, or else the pixel would be seen. */
+static bool
+is_covered (const Fill *f, int x, int y)
+{
+  const CeldLayers *layers = f->layers;
+  size_t            place = layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
+
+  return (place < layers->n ? art_at (f, x, y) : layers->blend[place - layers->n].colour[1])[3] >= 1;
+}
+
+/* Adds a pixel to a part that has room for it. */
+static CeldStatus
+add_pixel (const Fill *f, int x, int y, float coverage, bool margin, size_t *capacity, CeldHiddenPart *part)
+{
+  CeldStatus status = celd_sheet_run_add (&part->run, &part->n_runs, capacity, x, y, part->n_pixels);
+
+  if (status == CELD_OK)
+    write_pixel (f, x, y, coverage, margin, part->colour + 4 * part->n_pixels++);
+  return status;
+}
+
+/* The margin begins with the antialiased pixels of the silhouette, since a crack would be seen through these. */
+static CeldStatus
+add_sheet (const Fill *f, CeldHiddenPart *hidden, CeldHiddenPart *margin)
+{
+  const CeldSheet *sheet = f->sheet;
+  size_t           capacity[2] = { 0, 0 }, inside = 0, in_margin = 0;
+  CeldStatus       status = CELD_OK;
+
+  for (size_t i = 0; i < sheet->n_hidden; i++)
+    {
+      inside    += sheet->coverage[i] > 0;
+      in_margin += sheet->coverage[i] < 255;
+    }
+  hidden->colour = celd_alloc (inside, 4 * sizeof *hidden->colour);
+  margin->colour = celd_alloc (in_margin, 4 * sizeof *margin->colour);
+  if (!hidden->colour || !margin->colour)
+    return CELD_NO_MEMORY;
+  for (size_t r = 0; r < sheet->n_runs && status == CELD_OK; r++)
+    for (int k = 0; k < sheet->run[r].n && status == CELD_OK; k++)
+      {
+        uint8_t coverage = sheet->coverage[sheet->run[r].first + (size_t) k];
+        int     x = sheet->run[r].x + k, y = sheet->run[r].y;
+
+        if (!is_covered (f, x, y))
+          continue;
+        if (coverage > 0)
+          status = add_pixel (f, x, y, coverage / 255.f, false, &capacity[0], hidden);
+        if (coverage < 255 && status == CELD_OK)
+          status = add_pixel (f, x, y, 1, true, &capacity[1], margin);
+      }
+  return status;
+}
+
+/* Is a pixel not the page's, and only nearer layers' that cover it? */
+static bool
+hides_page (const Fill *f, int x, int y)
+{
+  const CeldLayers *layers = f->layers;
+  size_t            place = layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
+
+  if (place >= layers->n)
+    place = layers->blend[place - layers->n].layer[1];
+  return place > f->layer && is_covered (f, x, y);
+}
+
+/* The page goes on everywhere under nearer layers. */
+static CeldStatus
+add_page (const Fill *f, CeldHiddenPart *hidden)
+{
+  size_t     n = 0, capacity = 0;
+  CeldStatus status = CELD_OK;
+
+  for (int y = 0; y < f->paper.box.height; y++)
+    for (int x = 0; x < f->paper.box.width; x++)
+      n += hides_page (f, x, y);
+  hidden->colour = celd_alloc (n, 4 * sizeof *hidden->colour);
+  if (!hidden->colour)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < f->paper.box.height; y++)
+    for (int x = 0; x < f->paper.box.width && status == CELD_OK; x++)
+      if (hides_page (f, x, y))
+        status = add_pixel (f, x, y, 1, false, &capacity, hidden);
+  return status;
+}
+
+static void
+fill_clear (Fill *f)
+{
+  celd_free (f->paper.value);
+  celd_free (f->cover);
+  celd_free (f->depth);
 }
 
 static CeldStatus
-keep_pixels (const Completion *part, const Inpainting *fill)
+complete_one (CeldLayers *layers, size_t k, const CeldPlane *ink, const CeldOwnership *own, const CeldSheets *sheets,
+              const CeldHost *host)
 {
-  CeldHiddenPixel *hidden = celd_alloc (part->n_hidden, sizeof *hidden);
-  size_t           n = 0;
+  Fill         f = { .layers = layers, .layer = k, .ink = ink, .sheets = sheets, .sheet = &sheets->item[k] };
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
+  CeldStatus   status;
 
-  if (!hidden)
-    return CELD_NO_MEMORY;
-  for (int y = part->box.y; y < part->box.y + part->box.height; y++)
-    for (int x = part->box.x; x < part->box.x + part->box.width; x++)
-      if (part->coverage[index_of (part, x, y)] > 0)
+  f.paper.box = f.sheet->box;
+  if (!f.sheet->page && !f.sheet->n_hidden)
+    return CELD_OK;
+  status = celd_hidden_paper (layers, k, ink, f.sheet->seen, &first, &f.paper);
+  if (status == CELD_OK && f.paper.any) /* otherwise no pixel is its own, and nothing is completed */
+    {
+      status = measure_depth (&f, own, &second);
+      if (status == CELD_OK)
+        status = f.sheet->page ? add_page (&f, &layers->hidden[k])
+                               : add_sheet (&f, &layers->hidden[k], &layers->margin[k]);
+      if (!f.paper.value)
         {
-          CeldHiddenPixel pixel = { x, y, { 0 } };
-
-          hidden_colour (part, fill, x, y, pixel.colour);
-          if (pixel.colour[3] > 0)
-            hidden[n++] = pixel;
+          memcpy (layers->hidden[k].paper, f.paper.flat, sizeof f.paper.flat);
+          memcpy (layers->margin[k].paper, f.paper.flat, sizeof f.paper.flat);
         }
-  part->layers->hidden[part->layer]   = hidden;
-  part->layers->n_hidden[part->layer] = n;
-  return CELD_OK;
+    }
+  fill_clear (&f);
+  return status;
 }
 
 CeldStatus
-celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
-                     const CeldHost *host)
+celd_layers_complete (CeldLayers *layers, const CeldPlane *ink, const CeldOwnership *own, const CeldSheets *sheets,
+                      const CeldHost *host)
 {
-  Completion  part = { .layers = layers, .layer = layer, .ink = ink };
-  Inpainting  fill = { 0 };
-  CeldOutline outline = { 0 };
-  CeldStatus  status = everything ? CELD_OK : celd_layer_outline (layers, layer, ink, stroke, &outline);
+  CeldStatus status = CELD_OK;
 
-  if (status != CELD_OK)
-    return status;
-  part.n_curves = outline.n_gaps;
-  part.curve    = celd_alloc (part.n_curves, sizeof *part.curve);
-  status        = part.curve ? CELD_OK : CELD_NO_MEMORY;
-  if (status == CELD_OK && everything)
-    status = cover_everything (&part);
-  else if (status == CELD_OK)
+  for (size_t k = 0; k < layers->n && status == CELD_OK; k++)
     {
-      celd_layer_curves (layers, layer, &outline, part.curve);
-      part.box = whole_box (&part);
-      status = celd_coverage_of_outline (part.box, &outline, part.curve, &part.coverage);
+      CeldHostPart part;
+      double       turns = (double) layers->n;
+      CeldHost     turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
+
+      status = complete_one (layers, k, ink, own, sheets, &turn);
+      if (status == CELD_OK)
+        status = celd_progress (&turn, 1);
     }
-  if (status == CELD_OK)
-    keep_hidden (&part);
-  if (status == CELD_OK && part.n_hidden && (status = draw_lines (&part)) == CELD_OK &&
-      (status = inpaint (&part, stroke, host, &fill)) == CELD_OK && fill.n_known)
-    status = keep_pixels (&part, &fill);
-  celd_outline_clear (&outline);
-  celd_free (part.curve);
-  celd_free (part.coverage);
-  celd_free (part.line);
-  celd_free (part.line_place);
-  celd_free (fill.kind);
-  celd_free (fill.value);
   return status;
+}
+
+float
+celd_hidden_colour (const CeldHiddenPart *part, size_t pixel, float colour[4])
+{
+  for (size_t c = 0; c < 4; c++)
+    colour[c] = (float) part->colour[4 * pixel + c] / 65535;
+  for (size_t c = 0; c < 3; c++)
+    if (part->colour[4 * pixel + c] == (uint16_t) (part->paper[c] * 65535 + 0.5f))
+      colour[c] = part->paper[c];
+  return colour[3];
 }

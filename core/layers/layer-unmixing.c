@@ -8,7 +8,8 @@
  * layers with P's own colour.
  *
  * Coverage comes from the ink, but is corrected where the colours tell it better: a pixel between black and white that
- * is darker than its coverage allows would leave a dark speck on the layer behind.
+ * is darker than its coverage allows would leave a dark speck on the layer behind.  What the layer behind can still not
+ * explain with its own paper, such as the front layer's paint on the far side of its line, belongs to the front layer.
  *
  * Layers in 8 bits as linear light encoded by sRGB (IEC 61966-2-1) have 256 values; a colour is rounded to the value
  * with the nearest code, so that the limits between values lie half a code away.
@@ -25,6 +26,7 @@
 #define INK_MOBILITY   100.f /* weight of changes to the layer with ink, relative to the other one; chosen */
 #define MIN_CONTRAST   0.2f  /* colour distance of the layers from which coverage is corrected; chosen */
 #define MAX_CORRECTION 0.3f  /* of coverage, at most; chosen */
+#define SAME_COLOUR    0.05f /* difference of channels up to which paper has kept its colour; chosen */
 
 /* ------------------------------------------------------------------ expected colours */
 
@@ -154,13 +156,52 @@ split_channel (const CeldLayers *layers, int c, float wanted, const float of[2],
   *back  = celd_quantize_colour (layers, *back);
 }
 
+/* The least coverage by the front layer with which the back layer can have a colour of its own and the front layer some
+ * colour, as it can be stored. */
+static float
+least_coverage (const CeldLayers *layers, const float *pixel, const float *back)
+{
+  float most = 1, stored;       /* share of the back layer */
+
+  for (int c = 0; c < 3; c++)
+    {
+      if (back[c] > pixel[c])
+        most = fminf (most, pixel[c] / back[c]);
+      if (back[c] < pixel[c])
+        most = fminf (most, (1 - pixel[c]) / (1 - back[c]));
+    }
+  stored = celd_quantize_alpha (layers, 1 - most);
+  return stored < 1 - most && layers->store != CELD_STORE_FLOAT ? fminf (stored + 1 / 255.f, 1) : stored;
+}
+
+static bool
+keeps_colour (const float *one, const float *other)
+{
+  for (int c = 0; c < 3; c++)
+    if (fabsf (one[c] - other[c]) > SAME_COLOUR)
+      return false;
+  return true;
+}
+
+static void
+split (const CeldLayers *layers, const float *pixel, int inked, CeldBlend *blend)
+{
+  float of[2];
+
+  split_alpha (layers, pixel[3], inked == 1, blend);
+  of[0] = blend->colour[0][3];
+  of[1] = (1 - of[0]) * blend->colour[1][3];
+  for (int c = 0; c < 3; c++)
+    split_channel (layers, c, pixel[3] * pixel[c], of, inked, blend);
+}
+
 static void
 unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
 {
   const float *pixel = layers->art + 4 * ((size_t) blend->y * (size_t) layers->width + (size_t) blend->x);
   Neighbours   neighbours[2];
+  CeldBlend    expected;
   int          inked;
-  float        of[2];
 
   for (int side = 0; side < 2; side++)
     {
@@ -175,11 +216,15 @@ unmix (const CeldLayers *layers, const CeldPlane *ink, CeldBlend *blend)
     else
       mean_colour (neighbours[side].paper, neighbours[side].paper_weight, pixel, blend->colour[side]);
   correct_coverage (pixel, blend);
-  split_alpha (layers, pixel[3], inked == 1, blend);
-  of[0] = blend->colour[0][3];
-  of[1] = (1 - of[0]) * blend->colour[1][3];
-  for (int c = 0; c < 3; c++)
-    split_channel (layers, c, pixel[3] * pixel[c], of, inked, blend);
+  expected = *blend;
+  split (layers, pixel, inked, blend);
+  if (inked == 0 && pixel[3] >= 1 && expected.colour[0][3] >= 0.999f && expected.colour[1][3] >= 0.999f &&
+      neighbours[1].paper_weight > 0 && !keeps_colour (blend->colour[1], expected.colour[1]))
+    {
+      *blend = expected;
+      blend->coverage = fmaxf (expected.coverage, least_coverage (layers, pixel, expected.colour[1]));
+      split (layers, pixel, inked, blend);
+    }
 }
 
 /* ------------------------------------------------------------------ all pixels */

@@ -8,8 +8,6 @@
  * Hidden parts are added afterwards, only where a nearer opaque layer occludes them, so that the composite does not
  * change.
  *
- * For pictures of levels, the background is the farthest label, if it covers more of the frame than any other.
- *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
@@ -47,22 +45,39 @@ labels_fit (const CeldOwnership *own, size_t n)
   return true;
 }
 
-/* Makes a layer of each label that covers any pixel, from back to front; of_label[l - 1] is the layer of label l. */
-static CeldStatus
-list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, uint32_t *of_label, CeldLayers *layers)
+/* Finds the labels that cover any pixel: there[l - 1]. */
+static void
+find_labels (const CeldOwnership *own, bool *there)
 {
-  bool *there = celd_alloc0 (n, sizeof *there);
-
-  if (!there)
-    return CELD_NO_MEMORY;
   for (int y = 0; y < own->owner.height; y++)
     for (int x = 0; x < own->owner.width; x++)
       there[CELD_AT (&own->owner, x, y) - 1] = there[CELD_AT (&own->under, x, y) - 1] = true;
-  for (size_t l = 0; l < n; l++)
-    if (there[l])
-      layers->item[layers->n++] = (CeldLayer) { .label = (uint32_t) l + 1, .level = level[l] };
+}
+
+/* Makes a layer of each label that covers any pixel, from back to front, in the order of the sheets if there are any;
+ * of_label[l - 1] is the layer of label l. */
+static CeldStatus
+list_layers (const CeldOwnership *own, const uint32_t *level, size_t n, const CeldSheets *sheets, uint32_t *of_label,
+             CeldLayers *layers)
+{
+  bool      *there = celd_alloc0 (n, sizeof *there);
+  CeldStatus status = there ? CELD_OK : CELD_NO_MEMORY;
+
+  if (status == CELD_OK)
+    find_labels (own, there);
+  for (size_t l = 0; l < n && status == CELD_OK; l++)
+    {
+      if (sheets && there[l] != (sheets->of_label[l] != CELD_NO_SHEET))
+        status = CELD_BAD_VALUE;
+      if (there[l])
+        layers->item[layers->n++] = (CeldLayer) { .label = (uint32_t) l + 1, .level = level[l] };
+    }
   celd_free (there);
+  if (status != CELD_OK)
+    return status;
   qsort (layers->item, layers->n, sizeof *layers->item, compare_layers);
+  for (size_t k = 0; k < layers->n && sheets; k++)
+    layers->item[k] = (CeldLayer) { .label = sheets->item[k].label, .level = level[sheets->item[k].label - 1] };
   for (size_t k = 0; k < layers->n; k++)
     of_label[layers->item[k].label - 1] = (uint32_t) k;
   return CELD_OK;
@@ -130,7 +145,7 @@ copy_art (const CeldColours *art, CeldLayers *layers)
       }
 }
 
-/* Finds the visible box of each layer, and the box of its pixels that are not transparent. */
+/* Finds the box of the pixels of each layer that are not transparent. */
 static void
 find_boxes (CeldLayers *layers)
 {
@@ -141,8 +156,6 @@ find_boxes (CeldLayers *layers)
       {
         size_t place = layers->place[(size_t) y * (size_t) layers->width + (size_t) x];
 
-        if (place < layers->n)
-          extend_box (&layers->seen[place], x, y);
         if (place < layers->n && art[3] > 0)
           extend_box (&layers->item[place].box, x, y);
       }
@@ -151,7 +164,6 @@ find_boxes (CeldLayers *layers)
       {
         const CeldBlend *blend = &layers->blend[i];
 
-        extend_box (&layers->seen[blend->layer[side]], blend->x, blend->y);
         if (blend->colour[side][3] > 0)
           extend_box (&layers->item[blend->layer[side]].box, blend->x, blend->y);
       }
@@ -160,23 +172,18 @@ find_boxes (CeldLayers *layers)
 /* ------------------------------------------------------------------ hidden parts */
 
 static CeldStatus
-complete_layers (const CeldPlane *ink, uint32_t background, const CeldHost *host, CeldLayers *layers)
+complete_layers (const CeldPlane *ink, const CeldOwnership *own, const CeldSheets *sheets, const CeldHost *host,
+                 CeldLayers *layers)
 {
-  int        stroke = celd_stroke_width (ink);
-  CeldStatus status = CELD_OK;
+  CeldStatus status = celd_layers_complete (layers, ink, own, sheets, host);
 
   for (size_t k = 0; k < layers->n && status == CELD_OK; k++)
-    {
-      CeldHostPart part;
-      double       turns = (double) layers->n;
-      CeldHost     turn = celd_host_part (&part, host, (double) k / turns, (double) (k + 1) / turns);
+    for (size_t r = 0; r < layers->hidden[k].n_runs; r++)
+      {
+        const CeldSheetRun *run = &layers->hidden[k].run[r];
 
-      status = celd_layer_complete (layers, k, layers->item[k].label == background, ink, stroke, &turn);
-      if (status == CELD_OK)
-        status = celd_progress (&turn, 1);
-      for (size_t i = 0; i < layers->n_hidden[k] && status == CELD_OK; i++)
-        extend_box (&layers->item[k].box, layers->hidden[k][i].x, layers->hidden[k][i].y);
-    }
+        layers->item[k].box = celd_rect_union (layers->item[k].box, (CeldRect) { run->x, run->y, run->n, 1 });
+      }
   return status;
 }
 
@@ -194,13 +201,19 @@ new_layers (int width, int height, size_t n, CeldLayers **made)
   layers->width    = width;
   layers->height   = height;
   layers->item     = celd_alloc (n, sizeof *layers->item);
-  layers->seen     = celd_alloc0 (n, sizeof *layers->seen);
   layers->hidden   = celd_alloc0 (n, sizeof *layers->hidden);
-  layers->n_hidden = celd_alloc0 (n, sizeof *layers->n_hidden);
+  layers->margin   = celd_alloc0 (n, sizeof *layers->margin);
   layers->art      = celd_alloc (pixels, 4 * sizeof *layers->art);
   layers->place    = celd_alloc (pixels, sizeof *layers->place);
-  return layers->item && layers->seen && layers->hidden && layers->n_hidden && layers->art && layers->place
+  return layers->item && layers->hidden && layers->margin && layers->art && layers->place
            ? CELD_OK : CELD_NO_MEMORY;
+}
+
+static void
+clear_hidden (CeldHiddenPart *part)
+{
+  celd_free (part->run);
+  celd_free (part->colour);
 }
 
 void
@@ -209,10 +222,12 @@ celd_layers_free (CeldLayers *layers)
   if (!layers)
     return;
   for (size_t k = 0; k < layers->n; k++)
-    celd_free (layers->hidden[k]);
+    {
+      clear_hidden (&layers->hidden[k]);
+      clear_hidden (&layers->margin[k]);
+    }
   celd_free (layers->hidden);
-  celd_free (layers->seen);
-  celd_free (layers->n_hidden);
+  celd_free (layers->margin);
   celd_free (layers->item);
   celd_free (layers->art);
   celd_free (layers->place);
@@ -240,10 +255,18 @@ pixel_of (const CeldRect *box, float *rgba, int x, int y)
   return rgba + 4 * ((size_t) (y - box->y) * (size_t) box->width + (size_t) (x - box->x));
 }
 
-static bool
-is_inside (const CeldRect *box, int x, int y)
+static void
+paint_hidden (const CeldLayers *layers, const CeldHiddenPart *part, const CeldRect *box, float *rgba)
 {
-  return x >= box->x && x < box->x + box->width && y >= box->y && y < box->y + box->height;
+  for (size_t r = 0; r < part->n_runs; r++)
+    for (int k = 0; k < part->run[r].n; k++)
+      {
+        float *to = pixel_of (box, rgba, part->run[r].x + k, part->run[r].y);
+
+        celd_hidden_colour (part, part->run[r].first + (size_t) k, to);
+        for (int c = 0; c < 4; c++)
+          to[c] = c < 3 ? celd_quantize_colour (layers, to[c]) : celd_quantize_alpha (layers, to[c]);
+      }
 }
 
 void
@@ -265,34 +288,28 @@ celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba)
         if (colour && colour[3] > 0)
           memcpy (pixel_of (box, rgba, x, y), colour, 4 * sizeof *colour);
       }
-  for (size_t i = 0; i < layers->n_hidden[layer]; i++)
-    {
-      const CeldHiddenPixel *hidden = &layers->hidden[layer][i];
-
-      if (is_inside (box, hidden->x, hidden->y))
-        memcpy (pixel_of (box, rgba, hidden->x, hidden->y), hidden->colour, sizeof hidden->colour);
-    }
+  paint_hidden (layers, &layers->hidden[layer], box, rgba);
 }
 
 CeldStatus
 celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t *level, size_t n,
-                 const CeldColours *art, uint32_t background, CeldStore store, bool complete, const CeldHost *host,
+                 const CeldColours *art, const CeldSheets *sheets, CeldStore store, const CeldHost *host,
                  CeldLayers **result)
 {
   CeldLayers  *layers = NULL;
   uint32_t    *of_label;
   CeldHostPart part[2];
-  CeldHost     first = celd_host_part (&part[0], host, 0, complete ? 0.3 : 1);
+  CeldHost     first = celd_host_part (&part[0], host, 0, sheets ? 0.3 : 1);
   CeldHost     second = celd_host_part (&part[1], host, 0.3, 1);
   CeldStatus   status;
 
   if (!CELD_SAME_SIZE (ink, &own->owner) || !CELD_SAME_SIZE (ink, &own->under) ||
-      !CELD_SAME_SIZE (ink, &own->coverage) ||
-      !CELD_SAME_SIZE (ink, art))
+      !CELD_SAME_SIZE (ink, &own->coverage) || !CELD_SAME_SIZE (ink, art) ||
+      (sheets && (sheets->width != ink->width || sheets->height != ink->height)))
     return CELD_BAD_SIZE;
   if (!n)
     return CELD_NOTHING_TO_GO_BY;
-  if ((unsigned) store > CELD_STORE_8_BIT_SRGB || background > n || !labels_fit (own, n))
+  if ((unsigned) store > CELD_STORE_8_BIT_SRGB || (sheets && sheets->n_labels != n) || !labels_fit (own, n))
     return CELD_BAD_VALUE;
   of_label = celd_alloc (n, sizeof *of_label);
   status = of_label ? new_layers (ink->width, ink->height, n, &layers) : CELD_NO_MEMORY;
@@ -301,12 +318,12 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
   layers->store = store;
   celd_quantizer_prepare (layers);
   copy_art (art, layers);
-  if ((status = list_layers (own, level, n, of_label, layers)) == CELD_OK &&
+  if ((status = list_layers (own, level, n, sheets, of_label, layers)) == CELD_OK &&
       (status = place_pixels (own, of_label, layers)) == CELD_OK &&
       (status = celd_layers_unmix (layers, ink, &first)) == CELD_OK)
     find_boxes (layers);
-  if (status == CELD_OK && complete)
-    status = complete_layers (ink, background, &second, layers);
+  if (status == CELD_OK && sheets)
+    status = complete_layers (ink, own, sheets, &second, layers);
 done:
   celd_free (of_label);
   if (status != CELD_OK)
@@ -316,57 +333,36 @@ done:
   return status;
 }
 
-/* The farthest label if it has most pixels at the frame; else 0. */
-static CeldStatus
-find_background (const CeldLevelOwnership *made, uint32_t *background)
-{
-  const CeldLabels *label = &made->own.owner;
-  size_t           *count = celd_alloc0 (made->n, sizeof *count);
-  bool              most = true;
-
-  if (!count)
-    return CELD_NO_MEMORY;
-  for (int x = 0; x < label->width; x++)
-    {
-      count[CELD_AT (label, x, 0) - 1]++;
-      count[CELD_AT (label, x, label->height - 1) - 1]++;
-    }
-  for (int y = 0; y < label->height; y++)
-    {
-      count[CELD_AT (label, 0, y) - 1]++;
-      count[CELD_AT (label, label->width - 1, y) - 1]++;
-    }
-  for (size_t k = 1; k < made->n; k++)
-    most = most && count[k] < count[0];
-  celd_free (count);
-  *background = most;
-  return CELD_OK;
-}
-
 CeldStatus
 celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art, CeldStore store,
-                       bool complete, const CeldHost *host, CeldLayers **layers)
+                       const CeldSettings *settings, const CeldHost *host, CeldLayers **layers)
 {
-  uint32_t   background = 0;
-  CeldStatus status = find_background (made, &background);
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.5), second = celd_host_part (&part[1], host, 0.5, 1);
+  CeldSheets  *sheets = NULL;
+  CeldStatus   status = settings->complete ? celd_level_sheets (made, ink, settings, &first, &sheets) : CELD_OK;
 
-  if (status != CELD_OK)
-    return status;
-  return celd_layers_cut (ink, &made->own, made->order, made->n, art, background, store, complete, host, layers);
+  if (status == CELD_OK)
+    status = celd_layers_cut (ink, &made->own, made->order, made->n, art, sheets, store, &second, layers);
+  celd_sheets_free (sheets);
+  return status;
 }
 
 CeldStatus
 celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                       const CeldLabels *corrections, const CeldColours *art, CeldExpansion method, CeldStore store,
-                       bool complete, const CeldHost *host, CeldLayers **layers)
+                       const CeldLabels *corrections, const CeldColours *art, CeldStore store,
+                       const CeldSettings *settings, const CeldHost *host, CeldLayers **layers)
 {
   CeldLevelOwnership made;
   CeldHostPart       part[2];
   CeldHost           first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldStatus         status = celd_level_ownership_new (ink, levels, regions, corrections, method, &first, &made);
+  CeldStatus         status = celd_settings_check (settings);
 
+  if (status != CELD_OK)
+    return status;
+  status = celd_level_ownership_new (ink, levels, regions, corrections, settings->expansion, &first, &made);
   if (status == CELD_OK)
-    status = celd_level_layers_cut (&made, ink, art, store, complete, &second, layers);
+    status = celd_level_layers_cut (&made, ink, art, store, settings, &second, layers);
   celd_level_ownership_clear (&made);
   return status;
 }

@@ -2,16 +2,16 @@
  *
  *   layers.c            assigns pixels to layers, also for pictures of levels; layers as pictures
  *   layer-unmixing.c    colours of two layers that share a pixel; rounding to stored values
- *   layer-outline.c     traces the outline of a layer and its occluded gaps
- *   layer-shape.c       where a layer is visible; curves that close its gaps; the pixels that its outline covers
- *   layer-completion.c  hidden parts of a layer, their colours and their line
+ *   layer-paper.c       colours of what is hidden of a layer
+ *   layer-completion.c  hidden parts of layers, with their line
+ *   layer-joints.c      which layer each is attached to, and where
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #ifndef CELD_LAYERS_H
 #define CELD_LAYERS_H
 
-#include "base/base.h"
+#include "sheets/sheets.h"
 
 /* A pixel with two layers: index and colour (straight alpha), [0] of the front layer, [1] of the back one. */
 typedef struct
@@ -22,8 +22,14 @@ typedef struct
   float    colour[2][4];
 } CeldBlend;
 
-/* A hidden pixel of a layer. */
-typedef struct { int x, y; float colour[4]; } CeldHiddenPixel;
+/* Hidden pixels of a layer: runs in reading order, and of each pixel r, g, b, a in 1/65535. */
+typedef struct
+{
+  CeldSheetRun *run;
+  size_t        n_runs, n_pixels;
+  uint16_t     *colour;
+  float         paper[4];       /* flat paper: its exact colour; else 0 */
+} CeldHiddenPart;
 
 struct CeldLayers
 {
@@ -32,14 +38,14 @@ struct CeldLayers
   float             code_value[256], code_limit[256]; /* linear light of each sRGB code, and the upper limit of what is
                                                        * rounded to it */
   CeldLayer        *item;      /* from back to front */
-  CeldRect         *seen;      /* box of the pixels where each layer is CELD_LAYER_VISIBLE */
   size_t            n;
   float            *art;       /* r, g, b, a of each pixel without padding, rounded to what can be stored */
   uint32_t         *place;     /* of each pixel: its layer, or n + its index among the blends */
   CeldBlend        *blend;     /* in reading order */
   size_t            n_blends;
-  CeldHiddenPixel **hidden;         /* of each layer; NULL: none */
-  size_t           *n_hidden;
+  CeldHiddenPart   *hidden;    /* of each layer: its part of the sheet's silhouette */
+  CeldHiddenPart   *margin;    /* of each layer: the sheet's margin, opaque where its paper is, and what is
+                                * antialiased of its silhouette; for views only */
 };
 
 /* ------------------------------------------------------------------ layer-unmixing.c */
@@ -54,76 +60,35 @@ float celd_quantize_colour (const CeldLayers *layers, float value);
 /* Fills in the colours of the blends.  `ink` is that of the drawing. */
 CeldStatus celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const CeldHost *host);
 
-/* ------------------------------------------------------------------ layer-outline.c */
+/* ------------------------------------------------------------------ layers.c */
 
-/* A crack edge: a side of a pixel, from corner (x,y) to the corner of the next one; the layer is on its right. */
-typedef struct { int x, y; bool hidden; } CeldCrackEdge;
+/* Cuts the art into layers by the ownership of levels, completed with settings->complete. */
+CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art,
+                                  CeldStore store, const CeldSettings *settings, const CeldHost *host,
+                                  CeldLayers **layers);
 
-/* One end of a gap: where an outline disappears under a nearer layer, or reappears. */
+/* ------------------------------------------------------------------ layer-paper.c */
+
+/* Colours, with straight alpha, for the pixels of a box. */
 typedef struct
 {
-  double x, y;                 /* a corner */
-  double tx, ty;               /* unit vector of the outline's direction */
-  bool   reliable;             /* was the visible outline long enough to measure the direction? */
-  double width;                /* in pixels, of the line along the visible outline; 0: none */
-  float  colour[4];            /* of that line */
-} CeldGapEnd;
+  CeldRect box;
+  bool     any;                 /* has the layer any pixel of its own? otherwise there are no colours */
+  float    flat[4];             /* of all pixels, if `value` is NULL */
+  float   *value;               /* r, g, b, a of each pixel of the box; the caller frees it with celd_free */
+} CeldHiddenPaper;
 
-/* An occluded piece of outline, from `in` to `out`. */
-typedef struct { CeldGapEnd in, out; } CeldOutlineGap;
-
-typedef struct
-{
-  CeldCrackEdge  *crack;           /* of all loops in succession */
-  size_t          n, crack_capacity;
-  size_t         *loop;            /* index of the first crack edge of each loop, and n at the end */
-  size_t          n_loops, loop_capacity;
-  CeldOutlineGap *gap;
-  size_t          n_gaps, gap_capacity;
-} CeldOutline;
-
-/* Traces the outline of a layer.  Crack edges are `hidden` only where a gap replaces them; holes that nearer layers
- * cover wholly are left out.  `stroke` is the drawing's stroke width in pixels. */
-CeldStatus celd_layer_outline (const CeldLayers *layers, size_t layer, const CeldPlane *ink, int stroke,
-                               CeldOutline *outline);
-void celd_outline_clear (CeldOutline *outline);
-
-/* ------------------------------------------------------------------ layer-shape.c */
-
-typedef enum { CELD_LAYER_ABSENT, CELD_LAYER_VISIBLE, CELD_LAYER_OCCLUDED } CeldVisibility;
-
-/* The state of a pixel, inside or outside the picture, for one layer: the layer is visible there (by half at least),
- * is absent, or may be there but is occluded by an opaque layer of a nearer level. */
-CeldVisibility celd_layer_visibility (const CeldLayers *layers, size_t layer, int x, int y);
-
-/* A cubic Bezier curve, and width and colour of the line at its two ends. */
-typedef struct { double x[4], y[4], width[2]; float colour[2][4]; } CeldGapCurve;
-
-/* Makes one curve for each gap; gaps may exchange their ends. */
-void celd_layer_curves (const CeldLayers *layers, size_t layer, const CeldOutline *outline, CeldGapCurve *curve);
-
-/* The point at parameter t in [0,1]. */
-void celd_curve_at (const CeldGapCurve *curve, double t, double *x, double *y);
-/* A number of steps with which each is about a pixel long at most. */
-int celd_curve_steps (const CeldGapCurve *curve);
-
-/* An accumulator of directed edges, and then the coverage of each pixel by what is on their right. */
-typedef struct { CeldRect box; float *sum; } CeldCoverage;
-
-CeldStatus celd_coverage_new (CeldRect box, CeldCoverage *coverage);      /* sum has to be freed with celd_free */
-void celd_coverage_edge (CeldCoverage *coverage, double x, double y, double to_x, double to_y);
-/* Turns sum[] into coverage, a plane of the box without padding. */
-void celd_coverage_finish (CeldCoverage *coverage);
-
-/* The coverage of each pixel of the box by what the outline encloses, its gaps closed by one curve each; a plane to be
- * freed with celd_free. */
-CeldStatus celd_coverage_of_outline (CeldRect box, const CeldOutline *outline, const CeldGapCurve *curve,
-                                     float **coverage);
+/* Finds the colours in paper->box, which contains `seen`, the box of what is visible of the layer. */
+CeldStatus celd_hidden_paper (const CeldLayers *layers, size_t layer, const CeldPlane *ink, CeldRect seen,
+                              const CeldHost *host, CeldHiddenPaper *paper);
 
 /* ------------------------------------------------------------------ layer-completion.c */
 
-/* Finds the hidden part of a layer; with `everything`, that is the rest of the picture. */
-CeldStatus celd_layer_complete (CeldLayers *layers, size_t layer, bool everything, const CeldPlane *ink, int stroke,
-                                const CeldHost *host);
+/* Finds the hidden parts of all layers, in the order of the sheets.  `ink` is that of the drawing. */
+CeldStatus celd_layers_complete (CeldLayers *layers, const CeldPlane *ink, const CeldOwnership *own,
+                                 const CeldSheets *sheets, const CeldHost *host);
+
+/* The colour of a pixel of a hidden part, with straight alpha; returns its alpha. */
+float celd_hidden_colour (const CeldHiddenPart *part, size_t pixel, float colour[4]);
 
 #endif

@@ -86,13 +86,27 @@ layer_scene_paint (LayerScene *s, uint32_t label, const float colour[3], LayerSh
       }
 }
 
+/* The sheets of n labels, by their levels; the background is label 1. */
+static inline CeldSheets *
+layer_scene_sheets (const LayerScene *s, size_t n, const CeldHost *host)
+{
+  CeldSheets  *sheets = NULL;
+  CeldOrder    order = { .level = (uint32_t *) s->level, .n = n };
+  CeldSettings settings = celd_settings ();
+
+  CHECK (celd_sheets (&s->ink, &s->own, NULL, &order, 1, &settings, host, &sheets) == CELD_OK);
+  return sheets;
+}
+
 /* Cuts it into n labels; the background is label 1. */
 static inline CeldLayers *
-layer_scene_cut (LayerScene *s, size_t n, CeldStore store, bool complete)
+layer_scene_cut (const LayerScene *s, size_t n, CeldStore store, bool complete)
 {
   CeldLayers *layers = NULL;
+  CeldSheets *sheets = complete ? layer_scene_sheets (s, n, NULL) : NULL;
 
-  CHECK (celd_layers_cut (&s->ink, &s->own, s->level, n, &s->art, 1, store, complete, NULL, &layers) == CELD_OK);
+  CHECK (celd_layers_cut (&s->ink, &s->own, s->level, n, &s->art, sheets, store, NULL, &layers) == CELD_OK);
+  celd_sheets_free (sheets);
   return layers;
 }
 
