@@ -77,7 +77,8 @@ average (const float *a, const float *b, float *to)
   to[3] = alpha / 2;
 }
 
-/* Makes pixel (x,y) of the packed picture. */
+/* Makes pixel (x,y) of the packed picture, of the pixel (x,y) of each view or later ones where it has the size of a
+ * view. */
 static void
 join_pixel (const CeldColours *left, const CeldColours *right, CeldStereo format, int x, int y, float *to)
 {
@@ -131,6 +132,11 @@ celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo 
     return CELD_BAD_VALUE;
   for (int y = 0; y < height; y++)
     for (int x = 0; x < width; x++)
-      join_pixel (left, right, format, x, y, CELD_RGBA (joined, x, y));
+      {
+        float pixel[4];
+
+        join_pixel (left, right, format, x, y, pixel);
+        memcpy (CELD_RGBA (joined, x, y), pixel, sizeof pixel);
+      }
   return CELD_OK;
 }

@@ -261,6 +261,16 @@ make_row (SceneBuilder *m, const CeldPlane *depth, int y)
 
 /* ------------------------------------------------------------------ */
 
+static bool
+is_opaque (const CeldColours *art)
+{
+  for (int y = 0; y < art->height; y++)
+    for (int x = 0; x < art->width; x++)
+      if (!(CELD_RGBA (art, x, y)[3] >= 1))
+        return false;
+  return true;
+}
+
 static CeldStatus
 make_rows (SceneBuilder *m, const CeldPlane *depth, const CeldHost *host, double from)
 {
@@ -312,7 +322,8 @@ celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPla
       m.scene->least = least;
       m.scene->most  = most;
       m.scene->separate = true;
-      m.depths   = celd_alloc ((size_t) depth->width, sizeof *m.depths);
+      m.scene->opaque   = is_opaque (art);
+      m.depths = celd_alloc ((size_t) depth->width, sizeof *m.depths);
       m.spans  = celd_alloc0 (m.scene->n_parts, sizeof *m.spans);
       m.pixels = celd_alloc0 (m.scene->n_parts, sizeof *m.pixels);
       status = m.depths && m.spans && m.pixels ? make_scene (&m, depth, host) : CELD_NO_MEMORY;

@@ -33,29 +33,73 @@ typedef struct
   int                  *at;
   float                *colour;            /* composite of the row so far, premultiplied */
   int                   width, first, end; /* pixels that the group may have reached */
+  CeldSceneSpan        *painted;           /* spans of a group of layers, with their pixels */
+  float                *pixels;
 } Scanline;
 
 /* Memory of a scanline, rounded up for alignment. */
 static size_t
-scanline_bytes (int width)
+scanline_bytes (const CeldScene *scene)
 {
-  size_t pixel = 2 * sizeof (float) + sizeof (CeldSceneSpan *) + sizeof (int) + 4 * sizeof (float);
+  size_t align = sizeof (CeldSceneSpan *), pixel = 6 * sizeof (float) + sizeof (CeldSceneSpan *) + sizeof (int);
+  size_t painted = scene->layers ? scene->most_spans * sizeof (CeldSceneSpan) + scene->most_pixels * 5 * sizeof (float)
+                                 : 0;
 
-  return ((size_t) width * pixel + sizeof (CeldSceneSpan *) - 1) / sizeof (CeldSceneSpan *) * sizeof (CeldSceneSpan *);
+  return ((size_t) scene->width * pixel + painted + align - 1) / align * align;
 }
 
 static Scanline
-scanline_in (char *scratch, int width)
+scanline_in (char *scratch, const CeldScene *scene)
 {
-  size_t   w = (size_t) width;
-  Scanline line = { .width = width };
+  size_t   w = (size_t) scene->width, spans = scene->layers ? scene->most_spans : 0;
+  Scanline line = { .width = scene->width, .first = scene->width };
 
   line.span    = (const CeldSceneSpan **) (void *) scratch;
-  line.nearest = (float *) (void *) (scratch + w * sizeof *line.span);
+  line.painted = (CeldSceneSpan *) (void *) (line.span + w);
+  line.nearest = (float *) (void *) (line.painted + spans);
   line.t       = line.nearest + w;
   line.colour  = line.t + w;
-  line.at      = (int *) (void *) (line.colour + 4 * w);
+  line.pixels  = line.colour + 4 * w;
+  line.at      = (int *) (void *) (line.pixels + (scene->layers ? 5 * scene->most_pixels : 0));
+  memset (line.span, 0, w * sizeof *line.span);
   return line;
+}
+
+/* ------------------------------------------------------------------ spans of a group */
+
+/* Paints n spans of a layer in one row. */
+static void
+paint_spans (const CeldScene *scene, const CeldSceneSpan *span, size_t n, Scanline *line)
+{
+  float *colour = line->pixels, *depths = line->pixels + 4 * scene->most_pixels;
+
+  for (size_t k = 0; k < n; k++)
+    {
+      CeldSceneSpan *painted = &line->painted[k];
+
+      *painted = span[k];
+      painted->colour = colour + 4 * CELD_SPAN_END;
+      painted->depths = depths + CELD_SPAN_END;
+      celd_scene_paint_layer (scene, painted, painted->colour, painted->depths);
+      celd_scene_span_pad (painted, scene->width);
+      colour += 4 * (painted->n + 2 * CELD_SPAN_END);
+      depths += painted->n + 2 * CELD_SPAN_END;
+    }
+}
+
+/* The next spans of one group in a row, from number `first` of the scene on; returns how many they are. */
+static size_t
+take_group (const CeldScene *scene, size_t first, Scanline *line, const CeldSceneSpan **spans)
+{
+  const CeldSceneSpan *span = &scene->span[first];
+  size_t               n = 1, most = scene->row[span->y + 1] - first;
+
+  while (n < most && span[n].group == span->group)
+    n++;
+  if (scene->layers)
+    paint_spans (scene, span, n, line);
+  *spans = scene->layers ? line->painted : span;
+  return n;
 }
 
 /* ------------------------------------------------------------------ projection of a span */
@@ -198,25 +242,32 @@ draw_row (const SceneView *v, int y, Scanline *line)
   size_t           end = scene->row[y + 1];
 
   memset (line->colour, 0, 4 * (size_t) line->width * sizeof *line->colour);
-  for (size_t i = scene->row[y]; i < end; i++)
+  for (size_t i = scene->row[y], n; i < end; i += n)
     {
-      const CeldSceneSpan *s = &scene->span[i];
+      const CeldSceneSpan *spans;
 
-      project_span (&v->move, s, line);
-      if (scene->separate || i + 1 == end || s[1].group != s->group)
-        composite_group (line);
+      n = take_group (scene, i, line, &spans);
+      for (size_t k = 0; k < n; k++)
+        {
+          project_span (&v->move, &spans[k], line);
+          if (scene->separate || k + 1 == n)
+            composite_group (line);
+        }
     }
 }
 
-/* Writes straight alpha. */
+/* Writes straight alpha.  In an opaque scene a few hundredths of a pixel may be left open between two antialiased ends
+ * of spans; their colours share it. */
 static void
-unpremultiply (const float *from, int n, float *to)
+unpremultiply (const float *from, int n, bool opaque, float *to)
 {
   for (int x = 0; x < n; x++, from += 4, to += 4)
     {
       memcpy (to, from, 4 * sizeof *to);
       for (int c = 0; c < 3 && from[3] > 0 && from[3] < 1; c++)
         to[c] /= from[3];
+      if (opaque && from[3] > 0)
+        to[3] = 1;
     }
 }
 
@@ -225,14 +276,12 @@ draw_band (void *data, int band)
 {
   const SceneView *v = data;
   int              width = v->scene->width, end = (band + 1) * VIEW_BAND_ROWS;
-  Scanline         line = scanline_in (v->scratch + (size_t) band * scanline_bytes (width), width);
+  Scanline         line = scanline_in (v->scratch + (size_t) band * scanline_bytes (v->scene), v->scene);
 
-  memset (line.span, 0, (size_t) width * sizeof *line.span);
-  line.first = width;
   for (int y = band * VIEW_BAND_ROWS; y < end && y < v->scene->height; y++)
     {
       draw_row (v, y, &line);
-      unpremultiply (line.colour, width, CELD_RGBA (v->view, 0, y));
+      unpremultiply (line.colour, width, v->scene->opaque, CELD_RGBA (v->view, 0, y));
     }
 }
 
@@ -240,7 +289,7 @@ static CeldStatus
 draw (const CeldScene *scene, Projection move, const CeldHost *host, CeldColours *view)
 {
   int       bands = (scene->height + VIEW_BAND_ROWS - 1) / VIEW_BAND_ROWS;
-  SceneView v = { scene, move, view, celd_alloc ((size_t) bands, scanline_bytes (scene->width)) };
+  SceneView v = { scene, move, view, celd_alloc ((size_t) bands, scanline_bytes (scene)) };
 
   if (!v.scratch)
     return CELD_NO_MEMORY;
@@ -288,14 +337,20 @@ transpose_group (Transposition *t, uint32_t group, Scanline *line, const CeldHos
     t->depths[i] = 0;
   for (int y = 0; y < scene->height; y++)
     {
-      for (size_t i = scene->row[y]; i < scene->row[y + 1]; i++)
-        if (scene->span[i].group == group)
-          project_span (&t->view->move, &scene->span[i], line);
+      const CeldSceneSpan *spans;
+      size_t               i = scene->row[y], count;
+
+      while (i < scene->row[y + 1] && scene->span[i].group < group)
+        i++;
+      if (i == scene->row[y + 1] || scene->span[i].group > group)
+        continue;
+      count = take_group (scene, i, line, &spans);
+      for (size_t k = 0; k < count; k++)
+        project_span (&t->view->move, &spans[k], line);
       transpose_row (t, y, line);
     }
   return celd_scene_spans_of_picture ((CeldRect) { 0, 0, scene->height, scene->width }, scene->height, t->colour,
-                                      t->depths,
-                                group, host, to);
+                                      t->depths, group, host, to);
 }
 
 static uint32_t
@@ -313,7 +368,7 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
 {
   size_t        n = (size_t) scene->width * (size_t) scene->height;
   uint32_t      groups = count_groups (scene);
-  char         *scratch = celd_alloc (1, scanline_bytes (scene->width));
+  char         *scratch = celd_alloc (1, scanline_bytes (scene));
   SceneView     v = { scene, move, NULL, scratch };
   Transposition t = { &v, NULL, celd_alloc (n, 4 * sizeof (float)), celd_alloc (n, sizeof (float)) };
   CeldStatus    status = celd_scene_new (scene->height, scene->width, groups, transposed);
@@ -322,10 +377,8 @@ transpose_scene (const CeldScene *scene, Projection move, const CeldHost *host, 
     status = CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
-      Scanline line = scanline_in (scratch, scene->width);
+      Scanline line = scanline_in (scratch, scene);
 
-      memset (line.span, 0, (size_t) line.width * sizeof *line.span);
-      line.first = line.width;
       for (uint32_t k = 0; k < groups && status == CELD_OK; k++)
         {
           status = transpose_group (&t, k, &line, host, &(*transposed)->part[k]);

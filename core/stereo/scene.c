@@ -1,15 +1,10 @@
-/* A scene: the visible and the hidden pixels of layers with their depth, as spans of rows.
+/* A scene: spans of pixels with their depth, sorted by rows.
  *
- * Spans hold only pixels that are not transparent, so that memory and the cost of views are proportional to their
- * number.  Where a layer is occluded, its depth is interpolated along rows.
+ * Spans hold only pixels that are not transparent, so that the cost of views is proportional to their number.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "layers/layers.h"
-#include "ownership/ownership.h"
 #include "stereo/scene.h"
-
-#define BAND_ROWS 32 /* rows of one task */
 
 void
 celd_depth_range (const CeldPlane *depth, double *least, double *most)
@@ -40,7 +35,7 @@ celd_scene_spans_new (size_t n, size_t pixels, CeldSceneSpans *spans)
   *spans = (CeldSceneSpans) {
     .span   = celd_alloc (n, sizeof *spans->span),
     .colour = celd_alloc (all, 4 * sizeof *spans->colour),
-    .depths   = celd_alloc (all, sizeof *spans->depths),
+    .depths = celd_alloc (all, sizeof *spans->depths),
   };
   return spans->span && spans->colour && spans->depths ? CELD_OK : CELD_NO_MEMORY;
 }
@@ -51,7 +46,8 @@ celd_scene_spans_add (CeldSceneSpans *spans, int x, int y, int n, uint32_t group
   CeldSceneSpan *span = &spans->span[spans->n++];
   size_t         first = spans->pixels + CELD_SPAN_END;
 
-  *span = (CeldSceneSpan) { x, y, n, group, spans->colour + 4 * first, spans->depths + first };
+  *span = (CeldSceneSpan) { .x = x, .y = y, .n = n, .group = group, .colour = spans->colour + 4 * first,
+                            .depths = spans->depths + first };
   spans->pixels += (size_t) n + 2 * CELD_SPAN_END;
   return span;
 }
@@ -148,6 +144,10 @@ celd_scene_free (CeldScene *scene)
       celd_free (scene->part[k].colour);
       celd_free (scene->part[k].depths);
     }
+  for (size_t k = 0; scene->extended && k < scene->n_parts; k++)
+    celd_free (scene->extended[k].value);
+  celd_free (scene->extended);
+  celd_layers_free (scene->own_layers);
   celd_free (scene->part);
   celd_free (scene->span);
   celd_free (scene->row);
@@ -155,6 +155,38 @@ celd_scene_free (CeldScene *scene)
 }
 
 /* Counting sort: row[y + 2] first has the number of spans of row y, then row[y + 1] is the index of the next one. */
+static void
+sort_rows (CeldScene *scene)
+{
+  for (size_t k = 0; k < scene->n_parts; k++)
+    for (size_t i = 0; i < scene->part[k].n; i++)
+      scene->row[scene->part[k].span[i].y + 2]++;
+  for (int y = 0; y < scene->height; y++)
+    scene->row[y + 2] += scene->row[y + 1];
+  for (size_t k = 0; k < scene->n_parts; k++)
+    for (size_t i = 0; i < scene->part[k].n; i++)
+      scene->span[scene->row[scene->part[k].span[i].y + 1]++] = scene->part[k].span[i];
+}
+
+static void
+measure_groups (CeldScene *scene)
+{
+  const CeldSceneSpan *before = NULL;
+  size_t               spans = 0, pixels = 0;
+
+  for (size_t i = 0; i < scene->row[scene->height]; i++)
+    {
+      const CeldSceneSpan *span = &scene->span[i];
+      bool                 goes_on = before && before->y == span->y && before->group == span->group;
+
+      spans  = (goes_on ? spans : 0) + 1;
+      pixels = (goes_on ? pixels : 0) + (size_t) span->n + 2 * CELD_SPAN_END;
+      scene->most_spans  = spans > scene->most_spans ? spans : scene->most_spans;
+      scene->most_pixels = pixels > scene->most_pixels ? pixels : scene->most_pixels;
+      before = span;
+    }
+}
+
 CeldStatus
 celd_scene_sort (CeldScene *scene)
 {
@@ -165,179 +197,12 @@ celd_scene_sort (CeldScene *scene)
   scene->span = celd_alloc (n, sizeof *scene->span);
   if (!scene->span)
     return CELD_NO_MEMORY;
-  for (size_t k = 0; k < scene->n_parts; k++)
-    for (size_t i = 0; i < scene->part[k].n; i++)
-      scene->row[scene->part[k].span[i].y + 2]++;
-  for (int y = 0; y < scene->height; y++)
-    scene->row[y + 2] += scene->row[y + 1];
-  for (size_t k = 0; k < scene->n_parts; k++)
-    for (size_t i = 0; i < scene->part[k].n; i++)
-      scene->span[scene->row[scene->part[k].span[i].y + 1]++] = scene->part[k].span[i];
+  sort_rows (scene);
+  measure_groups (scene);
   for (size_t k = 0; k < scene->n_parts; k++)
     {
       celd_free (scene->part[k].span);
       scene->part[k].span = NULL;
     }
   return CELD_OK;
-}
-
-/* ------------------------------------------------------------------ scenes of layers */
-
-typedef struct
-{
-  const CeldOwnership *own;
-  const CeldPlane     *depth;
-  CeldLayer            layer;
-  float               *art, *depths; /* of the layer's box; the art is premultiplied */
-  bool                *known;        /* of each row: does it have depth of the layer's own? */
-} LayerDepth;
-
-/* Is the depth of this pixel the layer's?  It is that of the label that covers most of the pixel. */
-static bool
-is_own (const LayerDepth *p, int x, int y)
-{
-  const CeldLabels *larger = CELD_AT (&p->own->coverage, x, y) < 0.5f ? &p->own->under : &p->own->owner;
-
-  return CELD_AT (larger, x, y) == p->layer.label;
-}
-
-/* Copies the layer's own depth in row y of the box, and interpolates between, constant at both ends.  False if there
- * is none. */
-static bool
-fill_row (const LayerDepth *p, int y)
-{
-  CeldRect box = p->layer.box;
-  float   *depths = p->depths + (size_t) y * (size_t) box.width;
-  int      last = -1;
-
-  for (int x = 0; x < box.width; x++)
-    {
-      if (!is_own (p, box.x + x, box.y + y))
-        continue;
-      depths[x] = celd_scene_depth (CELD_AT (p->depth, box.x + x, box.y + y));
-      for (int k = last + 1; k < x; k++)
-        depths[k] = last < 0 ? depths[x] : depths[last] + (depths[x] - depths[last])
-                    * (float) (k - last) / (float) (x - last);
-      last = x;
-    }
-  for (int k = last + 1; k < box.width && last >= 0; k++)
-    depths[k] = depths[last];
-  return last >= 0;
-}
-
-static void
-prepare_band (void *data, int band)
-{
-  LayerDepth *p = data;
-  int         w = p->layer.box.width, end = (band + 1) * BAND_ROWS;
-
-  for (int y = band * BAND_ROWS; y < end && y < p->layer.box.height; y++)
-    {
-      float *art = p->art + 4 * (size_t) y * (size_t) w;
-
-      p->known[y] = fill_row (p, y);
-      for (int i = 0; i < 4 * w; i += 4)
-        for (int c = 0; c < 3; c++)
-          art[i + c] *= art[i + 3];
-    }
-}
-
-/* Rows without depth of their own copy the next one above, or at the top the next one below. */
-static void
-fill_rows (const LayerDepth *p)
-{
-  size_t w = (size_t) p->layer.box.width;
-  int    last = -1;
-
-  for (int y = 0; y < p->layer.box.height; y++)
-    {
-      if (p->known[y])
-        for (int k = last < 0 ? 0 : y; k < y; k++)
-          memcpy (p->depths + (size_t) k * w, p->depths + (size_t) y * w, w * sizeof *p->depths);
-      else if (last >= 0)
-        memcpy (p->depths + (size_t) y * w, p->depths + (size_t) last * w, w * sizeof *p->depths);
-      last = p->known[y] ? y : last;
-    }
-  for (size_t i = 0; last < 0 && i < w * (size_t) p->layer.box.height; i++)
-    p->depths[i] = 0;
-}
-
-static CeldStatus
-add_layer (LayerDepth *p, const CeldLayers *layers, size_t layer, const CeldHost *host, CeldScene *scene)
-{
-  CeldRect   box = celd_layers_item (layers, layer)->box;
-  size_t     n = (size_t) box.width * (size_t) box.height;
-  CeldStatus status = CELD_NO_MEMORY;
-
-  p->layer = *celd_layers_item (layers, layer);
-  p->art   = celd_alloc (n, 4 * sizeof *p->art);
-  p->depths  = celd_alloc (n, sizeof *p->depths);
-  p->known = celd_alloc ((size_t) box.height, sizeof *p->known);
-  if (p->art && p->depths && p->known)
-    {
-      celd_layers_paint (layers, layer, p->art);
-      celd_parallel_for (host, (box.height + BAND_ROWS - 1) / BAND_ROWS, prepare_band, p);
-      fill_rows (p);
-      status = celd_scene_spans_of_picture (box, scene->width, p->art, p->depths, (uint32_t) layer, host,
-                                            &scene->part[layer]);
-    }
-  celd_free (p->art);
-  celd_free (p->depths);
-  celd_free (p->known);
-  return status;
-}
-
-CeldStatus
-celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership, const CeldPlane *depth,
-                      const CeldHost *host, CeldScene **result)
-{
-  size_t     n = celd_layers_count (layers);
-  LayerDepth part = { .own = ownership, .depth = depth };
-  CeldScene *scene = NULL;
-  CeldStatus status;
-
-  if (layers->width != depth->width || layers->height != depth->height ||
-      !CELD_SAME_SIZE (depth, &ownership->owner) || !CELD_SAME_SIZE (depth, &ownership->under) ||
-      !CELD_SAME_SIZE (depth, &ownership->coverage))
-    return CELD_BAD_SIZE;
-  status = celd_scene_new (depth->width, depth->height, n, &scene);
-  for (size_t k = 0; k < n && status == CELD_OK; k++)
-    {
-      CeldHostPart turn;
-      CeldHost     short_run = celd_host_part (&turn, host, 0, 0);
-
-      status = add_layer (&part, layers, k, &short_run, scene);
-      if (status == CELD_OK)
-        status = celd_progress (host, (double) (k + 1) / (double) n);
-    }
-  if (status == CELD_OK)
-    {
-      celd_depth_range (depth, &scene->least, &scene->most);
-      status = celd_scene_sort (scene);
-    }
-  if (status != CELD_OK)
-    celd_scene_free (scene);
-  else
-    *result = scene;
-  return status;
-}
-
-CeldStatus
-celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth, const CeldColours *art,
-                      CeldExpansion method, const CeldHost *host, CeldScene **scene)
-{
-  CeldLevelOwnership made;
-  CeldLayers   *layers = NULL;
-  CeldHostPart      part[3];
-  CeldHost      first = celd_host_part (&part[0], host, 0, 0.3), second = celd_host_part (&part[1], host, 0.3, 0.9);
-  CeldHost      third = celd_host_part (&part[2], host, 0.9, 1);
-  CeldStatus    status = celd_level_ownership_new (ink, levels, NULL, NULL, method, &first, &made);
-
-  if (status == CELD_OK)
-    status = celd_level_layers_cut (&made, ink, art, CELD_STORE_FLOAT, true, &second, &layers);
-  if (status == CELD_OK)
-    status = celd_scene_of_layers (layers, &made.own, depth, &third, scene);
-  celd_layers_free (layers);
-  celd_level_ownership_clear (&made);
-  return status;
 }

@@ -123,6 +123,106 @@ views_have_no_holes (void)
   layer_scene_close (&s);
 }
 
+/* One of four kinds of depth pictures, as they are painted or estimated: discs of flat depth, slopes, both, and both in
+ * 256 steps with noise. */
+static void
+draw_depth (CeldPlane *depth, int kind, uint32_t *seed)
+{
+  double at[9][4], wave[3][3];
+
+  for (int k = 0; k < 9; k++)
+    for (int i = 0; i < 4; i++)
+      at[k][i] = check_random (seed, 1000) / 1000.0;
+  for (int k = 0; k < 3; k++)
+    for (int i = 0; i < 3; i++)
+      wave[k][i] = check_random (seed, 1000) / 1000.0;
+  for (int y = 0; y < depth->height; y++)
+    for (int x = 0; x < depth->width; x++)
+      {
+        double u = (double) x / depth->width, v = (double) y / depth->width, value = 0;
+
+        for (int k = 0; k < 3 && kind != 0; k++)
+          value += 0.15 * (1 + sin (30 * wave[k][0] * u + 40 * wave[k][1] * v + 6 * wave[k][2]));
+        for (int k = 0; k < 9 && kind != 1; k++)
+          if (hypot (u - at[k][0], v - 0.3 * at[k][1]) < 0.2 * at[k][2])
+            value = at[k][3] + 0.3 * value;
+        if (kind == 3)
+          value = (floor (255 * value) + check_random (seed, 3)) / 255;
+        CELD_AT (depth, x, y) = (float) value;
+      }
+}
+
+/* At each disparity up to a tenth of the width, with any convergence: opaque art has no hole. */
+static void
+depth_of_any_kind_leaves_no_hole (void)
+{
+  LayerScene   s = layer_scene (150, 40);
+  CeldSettings settings = celd_settings ();
+  uint32_t     seed = 17;
+
+  for (int i = 0; i < s.width * s.height; i++)
+    {
+      s.ink.data[i] = check_random (&seed, 4) ? 1 : (float) check_random (&seed, 5) / 4;
+      for (int c = 0; c < 3; c++)
+        s.art.data[4 * i + c] = s.ink.data[i];
+    }
+  for (int round = 0; round < 200; round++)
+    {
+      CeldScene *scene = NULL;
+
+      settings.disparity   = (float) (1 + round % 5) / 50;
+      settings.convergence = (float) check_random (&seed, 11) / 10;
+      draw_depth (&s.depth, round / 5 % 4, &seed);
+      CHECK (celd_scene_of_depth (&s.art, &s.ink, &s.depth, &settings, NULL, &scene) == CELD_OK);
+      for (int eye = -1; eye <= 1; eye += 2)
+        {
+          CeldColours view = new_colours (s.width, s.height);
+          float       least = 1;
+
+          CHECK (celd_scene_view (scene, celd_camera_eye (eye), &settings, NULL, &view) == CELD_OK);
+          for (int i = 3; i < 4 * s.width * s.height; i += 4)
+            least = fminf (least, view.data[i]);
+          NEAR (least, 1, 1e-5);
+          free (view.data);
+        }
+      celd_scene_free (scene);
+    }
+  layer_scene_close (&s);
+}
+
+/* A dark board in front of yellow paper that has a line close to it and one that goes on behind it: what comes into view
+ * is paper. */
+static void
+uncovered_paper_has_its_own_colour (void)
+{
+  static const float paper[4] = { 0.9f, 0.8f, 0.3f, 1 };
+  LayerScene         s = layer_scene (120, 30);
+
+  for (int y = 0; y < s.height; y++)
+    for (int x = 0; x < s.width; x++)
+      {
+        bool board = x >= 50 && x < 80, line = x == 44 || x == 45 || (y >= 20 && y < 22 && x < 60);
+
+        CELD_AT (&s.depth, x, y) = board;
+        CELD_AT (&s.ink, x, y) = board ? x >= 52 && x < 78 : !line;
+        for (int c = 0; c < 3; c++)
+          art_at (&s, x, y)[c] = board ? (x >= 52 && x < 78 ? 0.2f : 0) : line ? 0 : paper[c];
+      }
+  for (int step = 1; step <= 5; step++)
+    for (int eye = -1; eye <= 1; eye += 2)
+      {
+        CeldColours view = look_at_depth (&s, celd_camera_eye (eye), 0.02 * step * s.width);
+        double      moved = -eye * 0.01 * step * s.width;
+
+        for (int y = 0; y < s.height; y++)
+          for (int x = 50; x < 80; x++)
+            for (int c = 0; c < 4 && (x + 1 <= 50 + moved || x >= 80 + moved) && (y < 20 || y >= 22); c++)
+              NEAR (CELD_RGBA (&view, x, y)[c], paper[c], 1e-4);
+        free (view.data);
+      }
+  layer_scene_close (&s);
+}
+
 /* Any width and height, several bands of rows: without depth both ways give the art. */
 static void
 odd_sizes_give_the_art_without_depth (void)
@@ -191,6 +291,8 @@ main (void)
   RUN (outlines_leave_no_ghost);
   RUN (boxes_move_by_half_the_disparity);
   RUN (views_have_no_holes);
+  RUN (depth_of_any_kind_leaves_no_hole);
+  RUN (uncovered_paper_has_its_own_colour);
   RUN (odd_sizes_give_the_art_without_depth);
   RUN (constant_depth_gives_both_eyes_the_art);
   RUN (the_step_can_be_cancelled);

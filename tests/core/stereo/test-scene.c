@@ -3,14 +3,12 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "board.h"
+#include "stereo/scene.h"
 
 static CeldLayers *
 cut (const LayerScene *s)
 {
-  CeldLayers *layers = NULL;
-
-  CHECK (celd_layers_cut (&s->ink, &s->own, s->level, 2, &s->art, 1, 0, true, NULL, &layers) == CELD_OK);
-  return layers;
+  return layer_scene_cut (s, 2, CELD_STORE_FLOAT, true);
 }
 
 /* A view with that many pixels of disparity between depth 1 and 0. */
@@ -20,12 +18,14 @@ look_from (const LayerScene *s, CeldCamera camera, double pixels, double converg
   CeldSettings settings = celd_settings ();
   CeldLayers  *layers = cut (s);
   CeldScene   *scene = NULL;
+  CeldColours  view;
 
   settings.disparity   = (float) (pixels / s->width);
   settings.convergence = (float) convergence;
   CHECK (celd_scene_of_layers (layers, &s->own, &s->depth, host, &scene) == CELD_OK);
+  view = view_of (scene, s->width, s->height, camera, &settings, host);
   celd_layers_free (layers);
-  return view_of (scene, s->width, s->height, camera, &settings, host);
+  return view;
 }
 
 static CeldColours
@@ -183,6 +183,94 @@ the_order_of_jobs_does_not_matter (void)
   layer_scene_close (&s);
 }
 
+/* ------------------------------------------------------------------ what comes into view */
+
+static bool
+within (double x, double y, double left, double top, double right, double bottom)
+{
+  return x > left && x < right && y > top && y < bottom;
+}
+
+static double body (double x, double y) { return hypot (x - 45, y - 20) < 27; }
+static double body_line (double x, double y) { return body (x, y) && hypot (x - 45, y - 20) > 25; }
+static double coat (double x, double y) { return within (x, y, 70, 6, 110, 34); }
+static double coat_line (double x, double y) { return coat (x, y) && !within (x, y, 72, 8, 108, 32); }
+static double button (double x, double y) { return within (x, y, 85, 16, 95, 24); }
+
+/* A green ball, a red coat before its side, so that little of it is hidden, and a blue button on the coat: views move
+ * them apart.  Whatever the disparity, no page is seen between them; the page comes into view beside them. */
+static void
+parts_that_move_apart_show_no_page (void)
+{
+  static const float green[3] = { 0.1f, 0.7f, 0.2f }, red[3] = { 0.8f, 0.1f, 0.1f }, blue[3] = { 0.1f, 0.1f, 0.8f };
+  static const float depth_of[4] = { 0, 0.4f, 0.9f, 1 };
+  LayerScene         s = layer_scene (130, 40);
+  CeldSettings       settings = celd_settings ();
+  CeldLayers        *layers;
+  CeldScene         *scene = NULL;
+
+  layer_scene_paint (&s, 2, green, body, body_line);
+  layer_scene_paint (&s, 3, red, coat, coat_line);
+  layer_scene_paint (&s, 4, blue, button, NULL);
+  for (int i = 0; i < s.width * s.height; i++)
+    s.depth.data[i] = depth_of[s.own.owner.data[i] - 1];
+  layers = layer_scene_cut (&s, 4, CELD_STORE_FLOAT, true);
+  CHECK (celd_scene_of_layers (layers, &s.own, &s.depth, NULL, &scene) == CELD_OK);
+  for (int step = 1; step <= 10; step++)
+    for (int eye = -1; eye <= 1; eye += 2)
+      {
+        CeldColours view = new_colours (s.width, s.height);
+        double      shift = 0.005 * step * s.width;
+
+        settings.disparity   = (float) step / 100;
+        settings.convergence = 0;
+        CHECK (celd_scene_view (scene, celd_camera_eye (eye), &settings, NULL, &view) == CELD_OK);
+        for (int y = 13; y < 27; y++)
+          for (int x = 0; x < s.width; x++)
+            {
+              const float *colour = CELD_RGBA (&view, x, y);
+              bool         page = colour[0] > 0.95f && colour[1] > 0.95f && colour[2] > 0.95f;
+
+              if (x >= 45 && x + 1 <= 109 - shift)
+                CHECK (!page);
+              if (x + 1 < 18 - shift || x > 110 + shift)
+                CHECK (page);
+              CHECK (colour[3] > 0.9999f);
+            }
+        free (view.data);
+      }
+  celd_scene_free (scene);
+  celd_layers_free (layers);
+  layer_scene_close (&s);
+}
+
+/* Paper whose depth rises to the right, behind a board: under the board, too. */
+static void
+depth_goes_on_smoothly_under_what_is_nearer (void)
+{
+  LayerScene  s = draw_board ();
+  CeldLayers *layers = cut (&s);
+  CeldScene  *scene = NULL;
+  float       depths[W], colour[4 * W];
+
+  for (int y = 0; y < H; y++)
+    for (int x = 0; x < W; x++)
+      CELD_AT (&s.depth, x, y) = is_on_board (x, y) ? 1 : 0.5f * (float) x / W;
+  CHECK (celd_scene_of_layers (layers, &s.own, &s.depth, NULL, &scene) == CELD_OK);
+  for (int y = 0; y < H; y++)
+    {
+      const CeldSceneSpan *span = &scene->span[scene->row[y]];
+
+      CHECK (span->group == 0 && span->x == 0 && span->n == W);
+      celd_scene_paint_layer (scene, span, colour, depths);
+      for (int x = 0; x < W; x++)
+        NEAR (depths[x], 0.5 * x / W, is_on_board (x, y) ? 0.03 : 1e-6);
+    }
+  celd_scene_free (scene);
+  celd_layers_free (layers);
+  layer_scene_close (&s);
+}
+
 /* ------------------------------------------------------------------ the camera */
 
 /* Vertical views equal horizontal ones with rows and columns exchanged. */
@@ -312,6 +400,8 @@ main (void)
   RUN (the_depth_of_convergence_does_not_move);
   RUN (slopes_have_no_cracks);
   RUN (the_order_of_jobs_does_not_matter);
+  RUN (parts_that_move_apart_show_no_page);
+  RUN (depth_goes_on_smoothly_under_what_is_nearer);
   RUN (vertical_movement_shifts_columns);
   RUN (turned_pictures_are_narrower);
   RUN (constant_depth_gives_both_eyes_one_picture);

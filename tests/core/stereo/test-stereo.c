@@ -229,6 +229,15 @@ views_lie_where_the_format_says (void)
       CHECK (celd_stereo_join (&left, &right, cases[k].format, &joined) == CELD_OK);
       for (int i = 0; i < width * height; i++)
         NEAR (joined.data[4 * i + 1], cases[k].pixel[i], 0);
+      if (width == w && height == h) /* in the memory of the left view */
+        {
+          CeldColours over = new_colours (w, h);
+
+          memcpy (over.data, left.data, 4 * w * h * sizeof *over.data);
+          CHECK (celd_stereo_join (&over, &right, cases[k].format, &over) == CELD_OK);
+          CHECK (!memcmp (over.data, joined.data, 4 * w * h * sizeof *over.data));
+          free (over.data);
+        }
       joined.width--;
       CHECK (celd_stereo_join (&left, &right, cases[k].format, &joined) == CELD_BAD_SIZE);
       free (joined.data);
