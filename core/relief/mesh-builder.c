@@ -18,14 +18,13 @@
 uint32_t
 celd_mesh_add_vertex (CeldMeshBuilder *m, double x, double y, double z)
 {
-  double w = m->relief->width, h = m->relief->height;
   float *place = m->mesh.place + 3 * m->mesh.vertices, *art = m->mesh.art + 2 * m->mesh.vertices;
 
-  place[0] = (float) (m->scale * (x - w / 2));
-  place[1] = (float) (m->scale * (h / 2 - y));
+  place[0] = (float) (m->scale * (x - m->centre_x));
+  place[1] = (float) (m->scale * (m->centre_y - y));
   place[2] = (float) (m->scale * z);
-  art[0]   = (float) (x / w);
-  art[1]   = (float) (y / h);
+  art[0]   = (float) ((x + m->art_x) / m->art_width);
+  art[1]   = (float) ((y + m->art_y) / m->art_height);
   return (uint32_t) m->mesh.vertices++;
 }
 

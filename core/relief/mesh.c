@@ -11,9 +11,6 @@
 
 #include <math.h>
 
-#define ERROR_GROWTH    1.5 /* factor by which the error grows while there are too many vertices; chosen */
-#define MAX_ERROR_RATIO 1e4 /* largest permitted ratio to the requested error; chosen */
-
 /* ------------------------------------------------------------------ vertices */
 
 static void
@@ -47,7 +44,8 @@ for_squares (CeldMeshBuilder *m, const CeldHost *host, CeldStatus (*body) (CeldM
         if (y % 32 == 0)
           status = celd_progress (host, (k + (double) y / h) / CELD_QUADTREE_SIZES);
         for (int x = 0; x < w >> k && status == CELD_OK; x++)
-          if (celd_quadtree_is_leaf (m->quadtree, k, x, y))
+          if (celd_quadtree_is_leaf (m->quadtree, k, x, y) &&
+              !(k == 0 && m->skipped && m->skipped[(size_t) y * (size_t) w + (size_t) x]))
             status = body (m, x << k, y << k, 1 << k);
       }
   return status;
@@ -60,9 +58,8 @@ mark_square (CeldMeshBuilder *m, int x, int y, int side)
   return CELD_OK;
 }
 
-/* Marks the points that become vertices, and counts them. */
-static CeldStatus
-mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
+CeldStatus
+celd_mesh_mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
 {
   const CeldMeshPoints *c = m->points;
   size_t                points = ((size_t) c->width + 1) * ((size_t) c->height + 1);
@@ -79,9 +76,8 @@ mark_points (CeldMeshBuilder *m, const CeldHost *host, size_t *n)
   return status;
 }
 
-/* Adds a vertex for each marked point. */
-static void
-make_vertices (CeldMeshBuilder *m)
+void
+celd_mesh_make_vertices (CeldMeshBuilder *m)
 {
   const CeldMeshPoints *c = m->points;
 
@@ -162,6 +158,12 @@ fill_square (CeldMeshBuilder *m, int x, int y, int side)
   return status;
 }
 
+CeldStatus
+celd_mesh_fill_squares (CeldMeshBuilder *m, const CeldHost *host)
+{
+  return for_squares (m, host, fill_square);
+}
+
 /* ------------------------------------------------------------------ */
 
 /* Finds the least error for which there are not too many vertices. */
@@ -178,12 +180,12 @@ choose_squares (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost
     {
       status = celd_quadtree_new (m->points, m->relief, error / 2, quadtree->width ? &others : &first, quadtree);
       if (status == CELD_OK)
-        status = mark_points (m, &others, n);
+        status = celd_mesh_mark_points (m, &others, n);
       if (status != CELD_OK || (double) *n <= (double) settings->most_vertices)
         break;
-      if (error > MAX_ERROR_RATIO * (double) settings->mesh_error)
+      if (error > CELD_MESH_MAX_RATIO * (double) settings->mesh_error)
         return CELD_BAD_VALUE;
-      error *= ERROR_GROWTH;
+      error *= CELD_MESH_ERROR_GROWTH;
       celd_quadtree_clear (quadtree);
     }
   m->mesh.error = error;
@@ -231,13 +233,13 @@ make_mesh (CeldMeshBuilder *m, const CeldSettings *settings, const CeldHost *hos
     status = mesh_new (m, n);
   if (status != CELD_OK)
     return status;
-  make_vertices (m);
+  celd_mesh_make_vertices (m);
   if (m->solid)
     {
       m->bottom = find_bottom (m->points, (double) settings->mesh_plate / m->scale);
       m->bottom_centre = celd_mesh_add_vertex (m, 0.5 * m->relief->width, 0.5 * m->relief->height, m->bottom);
     }
-  status = for_squares (m, &filling, fill_square);
+  status = celd_mesh_fill_squares (m, &filling);
   if (status == CELD_OK)
     celd_mesh_normals (&m->mesh);
   return status;
@@ -270,7 +272,11 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
                         .solid = settings->mesh == CELD_MESH_SOLID };
   CeldStatus      status = celd_mesh_points_new (relief, &pointing, &points);
 
-  m.scale = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);
+  m.scale      = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);
+  m.centre_x   = 0.5 * relief->width;
+  m.centre_y   = 0.5 * relief->height;
+  m.art_width  = relief->width;
+  m.art_height = relief->height;
   if (status == CELD_OK)
     {
       m.vertex = celd_alloc (points.n, sizeof *m.vertex);

@@ -17,12 +17,10 @@
 
 #include <math.h>
 
-#define MIN_STEP            0.5  /* fraction of the difference of depth that is kept at a cut, at least; chosen */
-#define MAX_DEPTH           1e6  /* as a multiple of all levels; chosen: heights stay within CELD_MOST_HEIGHT */
-#define OUTLINE_WEIGHT      2.f  /* of a pixel to its outline: 1 / distance */
-#define MIN_NZ              0.1f /* of the sum of two normals, limits slopes; chosen */
-#define INFLATION_TOLERANCE 1e-5 /* relative to the largest f; heights are square roots, and small parts matter as
-                                  * much as large ones; chosen */
+#define MIN_STEP       0.5  /* fraction of the difference of depth that is kept at a cut, at least; chosen */
+#define MAX_DEPTH      1e6  /* as a multiple of all levels; chosen: heights stay within CELD_MOST_HEIGHT */
+#define OUTLINE_WEIGHT 2.f  /* of a pixel to its outline: 1 / distance */
+#define MIN_NZ         0.1f /* of the sum of two normals, limits slopes; chosen */
 
 /* ------------------------------------------------------------------ inflation */
 
@@ -140,7 +138,7 @@ inflate (const CeldSurface *surface, double tolerance, const CeldHost *host, flo
 {
   Inflation  r = { .surface = surface };
   size_t     n = (size_t) surface->width * (size_t) surface->height;
-  CeldStatus status = solve (&r, fmin (tolerance, INFLATION_TOLERANCE), host, height);
+  CeldStatus status = solve (&r, fmin (tolerance, CELD_INFLATION_TOLERANCE), host, height);
 
   for (size_t p = 0; p < n; p++)
     height[p] = sqrtf (fmaxf (height[p], 0));
@@ -199,15 +197,18 @@ make_round (const CeldSurface *surface, const CeldPlane *ink, const CeldPlane *l
 
   if (settings->relief_from == CELD_RELIEF_NORMALS)
     {
+      CeldSettings of_normals = *settings;
+
+      of_normals.bulge = settings->relief_bulge;
       p->normals = (CeldVectors) { ink->width, ink->height, (size_t) ink->width, celd_alloc (n, 3 * sizeof (float)) };
-      status     = p->normals.data ? celd_normals (ink, levels, settings, &first, &p->normals) : CELD_NO_MEMORY;
+      status     = p->normals.data ? celd_normals (ink, levels, &of_normals, &first, &p->normals) : CELD_NO_MEMORY;
       if (status != CELD_OK)
         return status;
       return integrate (surface, &p->normals, (double) settings->tolerance, &second, p->z);
     }
   status = inflate (surface, (double) settings->tolerance, host, p->z);
   for (size_t i = 0; i < n; i++)
-    p->z[i] *= settings->bulge;
+    p->z[i] *= settings->relief_bulge;
   return status;
 }
 

@@ -15,6 +15,10 @@
 
 #include "base/base.h"
 
+/* Of inflation, relative to the largest square of a height: heights are roots, and small parts matter as much as large
+ * ones; chosen. */
+#define CELD_INFLATION_TOLERANCE 1e-5
+
 /* ------------------------------------------------------------------ surface.c */
 
 /* A picture as a surface with cuts; planes without padding. */
@@ -123,7 +127,12 @@ void       celd_quadtree_clear (CeldQuadtree *quadtree);            /* accepts a
 /* Is the square of 2^k pixels in column x and row y of such squares a leaf? */
 bool       celd_quadtree_is_leaf (const CeldQuadtree *quadtree, int k, int x, int y);
 
-/* ------------------------------------------------------------------ mesh-builder.c */
+/* ------------------------------------------------------------------ mesh.c, mesh-builder.c */
+
+/* The error of a mesh grows by this factor while there are too many vertices, up to that ratio to the requested one;
+ * chosen. */
+#define CELD_MESH_ERROR_GROWTH 1.5
+#define CELD_MESH_MAX_RATIO    1e4
 
 /* A mesh under construction. */
 typedef struct
@@ -131,7 +140,10 @@ typedef struct
   const CeldRelief     *relief;
   const CeldMeshPoints *points;
   const CeldQuadtree   *quadtree;
+  const uint8_t        *skipped;       /* pixels without triangles; NULL: none */
   double                scale;         /* size of a pixel, in the mesh's unit */
+  double                centre_x, centre_y;                   /* the mesh's origin, in pixels */
+  double                art_x, art_y, art_width, art_height;  /* the place of corner (0,0) in the art, and its size */
   uint32_t             *vertex;        /* of each point, from 1; 0: unused */
   bool                  solid;
   double                bottom;        /* height of a solid's bottom, in pixels */
@@ -140,6 +152,13 @@ typedef struct
   CeldReliefMesh        mesh;
   size_t                triangle_capacity;
 } CeldMeshBuilder;
+
+/* Marks the points that become vertices, and counts them. */
+CeldStatus celd_mesh_mark_points (CeldMeshBuilder *builder, const CeldHost *host, size_t *n);
+/* Adds a vertex for each marked point. */
+void       celd_mesh_make_vertices (CeldMeshBuilder *builder);
+/* Adds the triangles of all squares, with the walls of a solid. */
+CeldStatus celd_mesh_fill_squares (CeldMeshBuilder *builder, const CeldHost *host);
 
 CeldStatus celd_mesh_add_triangle (CeldMeshBuilder *builder, uint32_t a, uint32_t b, uint32_t c);
 /* Adds a vertex at the corner (x,y) of the picture, in pixels, and returns it; the arrays have to be large enough. */

@@ -57,6 +57,17 @@ z_at (const Picture *p, int x, int y)
   return (double) p->relief.z[(size_t) y * (size_t) p->width + (size_t) x];
 }
 
+/* With a bulge and depth for which heights are known. */
+static CeldSettings
+known_settings (void)
+{
+  CeldSettings s = celd_settings ();
+
+  s.relief_bulge = 1;
+  s.relief_depth = 0.1f;
+  return s;
+}
+
 /* Mean difference from the ellipsoid of inflation, and the difference of the tops, relative to its height, which is
  * `top` for bulge 1. */
 static void
@@ -92,17 +103,17 @@ a_disc_is_a_sphere (void)
       {
         double       r = radius[i], x = r + 8 + 0.37 * k, y = r + 9 + 0.21 * k;
         Picture      p = picture ((int) (2 * r) + 18, (int) (2 * r) + 18);
-        CeldSettings s = celd_settings ();
+        CeldSettings s = known_settings ();
 
         if (r > 100 && k)
           {
             picture_free (&p);
             continue;
           }
-        s.bulge = k == 1 ? 0.5f : 1.f;
+        s.relief_bulge = k == 1 ? 0.5f : 1.f;
         put_ellipse (&p, x, y, r, r, 1);
         make (&p, &s, NULL);
-        compare_ellipsoid (&p, x, y, r, r, 0.1 * hypot (p.width, p.height), (double) s.bulge, 0.015, 0.015);
+        compare_ellipsoid (&p, x, y, r, r, 0.1 * hypot (p.width, p.height), (double) s.relief_bulge, 0.015, 0.015);
         NEAR (z_at (&p, 0, 0), 0, 1e-3); /* the paper stays flat */
         picture_free (&p);
       }
@@ -115,7 +126,7 @@ an_ellipse_is_an_ellipsoid (void)
     {
       double       a = 40 + 30 * k, b = 70 - 14 * k, x = a + 8.3, y = b + 9.1;
       Picture      p = picture ((int) (2 * a) + 18, (int) (2 * b) + 18);
-      CeldSettings s = celd_settings ();
+      CeldSettings s = known_settings ();
 
       put_ellipse (&p, x, y, a, b, 1);
       make (&p, &s, NULL);
@@ -131,7 +142,7 @@ normals_make_a_sphere_too (void)
   for (int r = 24; r <= 96; r *= 2)
     {
       Picture      p = picture (2 * r + 18, 2 * r + 18);
-      CeldSettings s = celd_settings ();
+      CeldSettings s = known_settings ();
 
       s.relief_from = CELD_RELIEF_NORMALS;
       put_ellipse (&p, r + 8.5, r + 8.5, r, r, 1);
@@ -145,9 +156,9 @@ static void
 without_bulge_there_are_the_steps_of_depth (void)
 {
   Picture      p = picture (120, 90);
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
-  s.bulge        = 0;
+  s.relief_bulge = 0;
   s.relief_depth = 0.2f;
   put_ellipse (&p, 50, 45, 40, 30, 0.5f);
   put_ellipse (&p, 70, 45, 20, 20, 1);
@@ -162,7 +173,7 @@ static void
 ranks_are_as_good_as_levels (void)
 {
   Picture      p = picture (160, 100), q = picture (160, 100);
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
   put_ellipse (&p, 60, 50, 40, 30, 0.5f);
   put_ellipse (&p, 90, 50, 30, 25, 1);
@@ -199,7 +210,7 @@ static void
 there_is_no_seam_where_depth_goes_on (void)
 {
   Picture      p = half_parted ();
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
   make (&p, &s, NULL);
   for (int y = 70; y < 100; y++)
@@ -224,7 +235,7 @@ static void
 only_the_nearer_side_bends (void)
 {
   Picture      p = picture (200, 120);
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
   put_ellipse (&p, 80, 60, 70, 50, 1);
   for (int y = 0; y < 120; y++) /* a wall before the right half of it */
@@ -273,7 +284,7 @@ what_is_nearer_stays_in_front (void)
   for (int round = 0; round < 12; round++)
     {
       Picture      p = picture (220, 160);
-      CeldSettings s = celd_settings ();
+      CeldSettings s = known_settings ();
 
       for (int k = 1; k <= 7; k++)
         put_ellipse (&p, check_random (&seed, 220), check_random (&seed, 160), 12 + check_random (&seed, 60),
@@ -290,7 +301,7 @@ static void
 what_is_out_of_the_way_keeps_its_place (void)
 {
   Picture      p = picture (240, 120);
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
   put_ellipse (&p, 60, 60, 50, 50, 0.5f);
   put_ellipse (&p, 180, 60, 50, 50, 1);
@@ -310,7 +321,7 @@ nan_does_no_harm (void)
   for (int from = 0; from < 2; from++)
     {
       Picture      p = half_parted ();
-      CeldSettings s = celd_settings ();
+      CeldSettings s = known_settings ();
 
       s.relief_from = (CeldReliefFrom) from;
       for (int k = 0; k < 400; k++)
@@ -336,7 +347,7 @@ huge_depth_stays_finite (void)
   for (size_t k = 0; k < 4 * sizeof huge / sizeof *huge; k++)
     {
       Picture        p = picture (40, 30), depth = picture (40, 30);
-      CeldSettings   s = celd_settings ();
+      CeldSettings   s = known_settings ();
       CeldReliefMesh mesh = { 0 };
       float          value = huge[k / 4];
 
@@ -361,7 +372,7 @@ one_pixel_will_do (void)
 {
   float        level = 3, ink = 0;
   CeldPlane    levels = { 1, 1, 1, &level }, drawing = { 1, 1, 1, &ink };
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
   CeldRelief   relief = { 0 };
 
   CHECK (celd_relief (&drawing, &levels, NULL, &s, NULL, &relief) == CELD_OK);
@@ -375,7 +386,7 @@ hosts_can_cancel_and_bad_input_is_refused (void)
   Picture      p = half_parted ();
   CeldPlane    small = { 159, 120, 160, p.levels.data };
   CeldHost     host = { check_refuse, NULL, NULL };
-  CeldSettings s = celd_settings ();
+  CeldSettings s = known_settings ();
 
   CHECK (celd_relief (&p.ink, &p.levels, NULL, &s, &host, &p.relief) == CELD_CANCELLED);
   CHECK (celd_relief (&p.ink, &small, NULL, &s, NULL, &p.relief) == CELD_BAD_SIZE);
