@@ -1,0 +1,226 @@
+/* Labels of a drawing that moves: a body, an arm that swings across it, a disc behind it, and a pocket of the page.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "check.h"
+#include "base/base.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define SIDE 320
+#define PIXELS (SIDE * SIDE)
+
+enum { PAGE = 1, BALL, BODY, ARM, LABELS = ARM };
+
+static const uint32_t level[LABELS] = { 0, 1, 2, 3 };
+
+/* Where the parts are in a frame: the arm's turn in degrees about its shoulder, the shift of all, and that of the ball. */
+typedef struct { double arm, x, y, ball; } Pose;
+
+typedef struct { CeldPlane ink; CeldLabels labels; } Frame;
+
+static double
+capsule (double x, double y, double x0, double y0, double x1, double y1)
+{
+  double along = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
+
+  along = fmin (1, fmax (0, along));
+  return hypot (x - x0 - along * (x1 - x0), y - y0 - along * (y1 - y0));
+}
+
+static uint32_t
+label_at (const Pose *pose, double x, double y)
+{
+  double turn = pose->arm * CELD_PI / 180, sx = 160 + pose->x, sy = 110 + pose->y;
+
+  if (capsule (x, y, sx, sy, sx + 90 * sin (turn), sy + 90 * cos (turn)) < 15)
+    return ARM;
+  if (hypot ((x - 160 - pose->x) / 45, (y - 165 - pose->y) / 80) < 1)
+    return BODY;
+  if (hypot (x - 205 - pose->x - pose->ball, y - 215 - pose->y) < 30)
+    return BALL;
+  return PAGE;
+}
+
+/* The frame: lines where labels meet, two pixels wide. */
+static Frame
+draw (const Pose *pose)
+{
+  Frame f = { { SIDE, SIDE, SIDE, malloc (PIXELS * sizeof (float)) },
+              { SIDE, SIDE, SIDE, malloc (PIXELS * sizeof (uint32_t)) } };
+
+  for (int i = 0; i < PIXELS; i++)
+    f.labels.data[i] = label_at (pose, i % SIDE + 0.5, i / SIDE + 0.5);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        uint32_t here = f.labels.data[y * SIDE + x];
+        bool     line = false;
+
+        for (int v = -1; v <= 1; v++)
+          for (int u = -1; u <= 1; u++)
+            if (x + u >= 0 && y + v >= 0 && x + u < SIDE && y + v < SIDE)
+              line |= f.labels.data[(y + v) * SIDE + x + u] != here;
+        f.ink.data[y * SIDE + x] = line ? 0 : 1;
+      }
+  return f;
+}
+
+static void
+drop (Frame *f)
+{
+  free (f->ink.data);
+  free (f->labels.data);
+}
+
+/* Carries labels, and returns the share of seeds that are right; `found` counts the seeds of each label. */
+static double
+carry (const Frame *from, const Frame *to, const uint32_t *levels, const CeldHost *host, uint32_t *seeds, double *sure,
+       int found[LABELS + 1])
+{
+  CeldLabels labels = { SIDE, SIDE, SIDE, seeds };
+  CeldPlane  certainty = { SIDE, SIDE, SIDE, malloc (PIXELS * sizeof (float)) };
+  int        n = 0, right = 0, paper = 0;
+
+  CHECK (celd_propagate (&from->ink, &from->labels, levels, PAGE, &to->ink, host, &labels, &certainty) == CELD_OK);
+  memset (found, 0, (LABELS + 1) * sizeof *found);
+  *sure = 0;
+  for (int i = 0; i < PIXELS; i++)
+    {
+      CHECK (seeds[i] <= LABELS && certainty.data[i] >= 0 && certainty.data[i] <= 1);
+      CHECK (to->ink.data[i] > 0 || !seeds[i]);
+      paper += to->ink.data[i] > 0;
+      *sure += (double) certainty.data[i];
+      n     += seeds[i] > 0;
+      right += seeds[i] == to->labels.data[i];
+      found[seeds[i]]++;
+    }
+  *sure /= paper;
+  free (certainty.data);
+  return n ? (double) right / n : 0;
+}
+
+static uint32_t seeds[PIXELS], again[PIXELS];
+
+/* Nothing moves: each label stays, with full certainty. */
+static void
+still_frames_keep_their_labels (void)
+{
+  Frame  f = draw (&(Pose) { 40, 0, 0, 0 });
+  double sure;
+  int    found[LABELS + 1];
+
+  NEAR (carry (&f, &f, level, NULL, seeds, &sure, found), 1, 0);
+  CHECK (sure > 0.98);
+  for (int l = 1; l <= LABELS; l++)
+    CHECK (found[l] > 100);
+  drop (&f);
+}
+
+/* The arm swings by up to 35 degrees, and all of the drawing shifts; with and without levels. */
+static void
+parts_are_followed (void)
+{
+  static const Pose to[] = { { 75, 0, 0, 0 }, { 20, 12, -8, 0 }, { 40, 25, 10, 20 }, { 60, -20, 15, -15 } };
+  Frame             from = draw (&(Pose) { 40, 0, 0, 0 });
+
+  for (size_t i = 0; i < sizeof to / sizeof *to; i++)
+    for (int deep = 0; deep < 2; deep++)
+      {
+        Frame  next = draw (&to[i]);
+        double sure;
+        int    found[LABELS + 1];
+
+        CHECK (carry (&from, &next, deep ? level : NULL, NULL, seeds, &sure, found) > 0.99);
+        for (int l = 1; l <= LABELS; l++)
+          CHECK (found[l] > 100);
+        CHECK (sure > 0.9);
+        drop (&next);
+      }
+  drop (&from);
+}
+
+/* A drawing of something else: certainty says so. */
+static void
+strangers_are_uncertain (void)
+{
+  Frame  from = draw (&(Pose) { 40, 0, 0, 0 }), next = draw (&(Pose) { 40, 0, 0, 0 });
+  double sure;
+  int    found[LABELS + 1];
+
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      next.ink.data[y * SIDE + x] = x % 53 < 2 || y % 61 < 2 ? 0 : 1;
+  carry (&from, &next, level, NULL, seeds, &sure, found);
+  CHECK (sure < 0.8);
+  drop (&from);
+  drop (&next);
+}
+
+/* In the opposite order, as threads would. */
+static void
+backwards (void *data, int n, void (*body) (void *data, int i), void *body_data)
+{
+  (void) data;
+  for (int i = n - 1; i >= 0; i--)
+    body (body_data, i);
+}
+
+static void
+order_of_work_does_not_matter (void)
+{
+  Frame    from = draw (&(Pose) { 40, 0, 0, 0 }), next = draw (&(Pose) { 60, 10, 5, 10 });
+  CeldHost host = { NULL, backwards, NULL };
+  double   sure;
+  int      found[LABELS + 1];
+
+  carry (&from, &next, level, NULL, seeds, &sure, found);
+  carry (&from, &next, level, &host, again, &sure, found);
+  CHECK (!memcmp (seeds, again, sizeof seeds));
+  drop (&from);
+  drop (&next);
+}
+
+static bool
+stop (void *data, double done)
+{
+  (void) data;
+  (void) done;
+  return false;
+}
+
+static void
+bad_input_is_refused (void)
+{
+  Frame      f = draw (&(Pose) { 40, 0, 0, 0 });
+  CeldLabels labels = { SIDE, SIDE, SIDE, seeds }, small = { SIDE, SIDE - 1, SIDE, seeds };
+  CeldPlane  certainty = { SIDE, SIDE, SIDE, malloc (PIXELS * sizeof (float)) }, blank = f.ink;
+  CeldHost   host = { stop, NULL, NULL };
+
+  CHECK (celd_propagate (&f.ink, &f.labels, level, PAGE, &f.ink, NULL, &small, &certainty) == CELD_BAD_SIZE);
+  CHECK (celd_propagate (&f.ink, &small, level, PAGE, &f.ink, NULL, &labels, &certainty) == CELD_BAD_SIZE);
+  CHECK (celd_propagate (&f.ink, &f.labels, level, PAGE, &f.ink, &host, &labels, &certainty) == CELD_CANCELLED);
+  blank.data = malloc (PIXELS * sizeof (float));
+  for (int value = 0; value < 3; value++) /* ink only, paper only, no numbers */
+    {
+      for (int i = 0; i < PIXELS; i++)
+        blank.data[i] = value < 2 ? (float) value : NAN;
+      CHECK (celd_propagate (&f.ink, &f.labels, level, PAGE, &blank, NULL, &labels, &certainty) == CELD_OK);
+      CHECK (celd_propagate (&blank, &f.labels, level, PAGE, &f.ink, NULL, &labels, &certainty) == CELD_OK);
+    }
+  free (blank.data);
+  free (certainty.data);
+  drop (&f);
+}
+
+int
+main (void)
+{
+  RUN (still_frames_keep_their_labels);
+  RUN (parts_are_followed);
+  RUN (strangers_are_uncertain);
+  RUN (order_of_work_does_not_matter);
+  RUN (bad_input_is_refused);
+  return DONE;
+}
