@@ -33,11 +33,12 @@ void       celd_ownership_clear (CeldOwnership *own);                      /* ac
 CeldStatus celd_problem_add (CeldProblems *problems, CeldProblem problem);
 CeldStatus celd_relation_add (CeldRelations *relations, CeldRelation relation);
 
-/* Whether two ends of relations name the same colour or the same point. */
+/* Whether two ends of relations name the same colour or the same point of one drawing. */
 static inline bool
 celd_term_same (const CeldTerm *a, const CeldTerm *b)
 {
-  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y;
+  return a->by_colour == b->by_colour && !memcmp (a->colour, b->colour, 3) && a->x == b->x && a->y == b->y &&
+         a->fragment == b->fragment && a->whole == b->whole;
 }
 
 /* ------------------------------------------------------------------ memory.c: growable arrays */
@@ -223,11 +224,17 @@ void celd_text_skip_line_end (CeldReader *r);
 CeldStatus celd_text_refuse (const CeldReader *r, const char *expected);
 
 bool celd_text_is_digit (char c);
+void celd_text_skip_blanks (CeldReader *r);               /* white space within a line */
 
 /* Reads the number  [ "-" ] digits [ "." digits ],  where either group of digits may be missing but not both; with
  * `svg` also a "+" in front and an exponent behind, as in SVG path data.  The decimal point is "." in every locale.
  * CELD_BAD_RELATION, with `expected` in the error, if there is no number or its absolute value is 1e9 or more. */
 CeldStatus celd_text_number (CeldReader *r, bool svg, const char *expected, double *number);
+
+/* Reads items with `read_item (data, r)`, which stand in lines or between semicolons, up to the end of the text.
+ * `expected` says what may follow an item. */
+CeldStatus celd_text_items (const char *text, CeldStatus (*read_item) (void *data, CeldReader *r), void *data,
+                            const char *expected, CeldTextError *error);
 
 /* ------------------------------------------------------------------ stages of a session */
 
@@ -244,6 +251,7 @@ typedef enum
   STAGE_ORDER,
   STAGE_UNEXPANDED,  /* levels before expansion */
   STAGE_OWNERSHIP,
+  STAGE_SHEETS,
   STAGE_LEVELS,      /* after expansion */
   STAGE_PREVIEW,     /* of smooth depth */
   STAGE_DEPTH,

@@ -8,8 +8,10 @@ static bool
 part_progress (void *data, double done)
 {
   const CeldHostPart *part = data;
+  double              whole = part->from + (part->to - part->from) * done;
 
-  return celd_progress (part->whole, part->from + (part->to - part->from) * done) == CELD_OK;
+  /* The sum is rounded, and may be beyond the end. */
+  return celd_progress (part->whole, whole < part->to ? whole : part->to) == CELD_OK;
 }
 
 static void

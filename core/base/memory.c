@@ -157,6 +157,9 @@ celd_order_clear (CeldOrder *order)
   clear_cycles (order->cycle, order->n_cycles, order->scc, order->n_sccs);
   celd_free (order->level);
   celd_free (order->height);
+  celd_free (order->links.first);
+  celd_free (order->links.end);
+  celd_free (order->links.equal);
   *order = (CeldOrder) { 0 };
 }
 

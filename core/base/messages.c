@@ -119,6 +119,11 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
                 "level of its own, and the sheet bends. Delete a relation of the circle if that is wrong.",
                 label, p->x, p->y);
       break;
+    case CELD_PROBLEM_HIDDEN_UNSURE:
+      snprintf (text, size, "It is unsure how the region%s goes on behind others at (%d, %d). If the guess is wrong, "
+                "paint what is hidden of it, in its colour, on a layer `hidden` (--hidden, or pad aux4 of Pop-up).",
+                label, p->x, p->y);
+      break;
     }
 }
 

@@ -16,6 +16,7 @@ static const CeldSettingChoice ink_modes[] = {
   [CELD_INK_DARK]  = { "dark", "Dark lines" },
   [CELD_INK_LIGHT] = { "light", "Light lines" },
   [CELD_INK_ALPHA] = { "alpha", "Opaque pixels" },
+  [CELD_INK_LINES] = { "lines", "Lines of a coloured drawing" },
 };
 
 static const CeldSettingChoice methods[] = {
@@ -123,9 +124,10 @@ static const CeldSettingChoice relief_sources[] = {
 };
 
 static const CeldSettingChoice mesh_kinds[] = {
-  [CELD_MESH_AUTO]    = { "auto", "Solid for STL" },
-  [CELD_MESH_SURFACE] = { "surface", "Surface" },
-  [CELD_MESH_SOLID]   = { "solid", "Solid, on a plate" },
+  [CELD_MESH_AUTO]        = { "auto", "Parts, solid for STL" },
+  [CELD_MESH_SURFACE]     = { "surface", "Surfaces of parts" },
+  [CELD_MESH_SOLID]       = { "solid", "Solid parts, on a plate" },
+  [CELD_MESH_HEIGHTFIELD] = { "heightfield", "One surface" },
 };
 
 /* ------------------------------------------------------------------ the table */
@@ -148,7 +150,8 @@ static const CeldSettingInfo infos[] = {
   { .theme = "Drawing",
     .name = "ink", .label = "Ink", CHOICE (ink, CeldInkMode, ink_modes),
     .help = "What counts as ink in the drawing. Lines may be darker than the paper, lighter than the paper (chalk), or "
-            "whatever is opaque on a transparent layer",
+            "whatever is opaque on a transparent layer. In a coloured drawing they are what is darker, or lighter, than the "
+            "fills on both sides of it",
     .stages = READ_BY (INK) },
 
   { .name = "ink-threshold", .label = "Ink threshold", NUMBER (ink_threshold),
@@ -242,6 +245,11 @@ static const CeldSettingInfo infos[] = {
   { .name = "complete", .label = "Complete", SWITCH (complete),
     .help = "Draws in layers also what nearer layers hide" },
 
+  { .name = "margin", .label = "Margin", NUMBER (margin),
+    .help = "How far each part goes on under nearer ones at least, as a fraction of the width, so that views and models "
+            "show no cracks",
+    .usual = 0.05, .least = 0, .most = 0.5, .shown = { 0, 0.1, 0.005, 0.01, .digits = 3 }, .stages = READ_BY (SHEETS) },
+
   { .theme = "Smooth depth",
     .name = "anchors", .label = "Anchors", CHOICE (anchors, CeldAnchors, anchors),
     .help = "Which pixels keep their level in smooth depth",
@@ -298,9 +306,13 @@ static const CeldSettingInfo infos[] = {
     .stages = READ_BY (SHADING) },
 
   { .name = "toon-steps", .label = "Steps", INTEGER (toon_steps),
-    .help = "The number of steps in toon shading",
+    .help = "The number of steps in toon shading, from darkness to the light on what faces the viewer",
     .usual = 3, .least = 2, .most = 5, .shown = { 2, 5, 1, 2, .digits = 0 }, .when = "light-model {toon}",
     .stages = READ_BY (SHADING) },
+
+  { .name = "light-background", .label = "Light on the background", SWITCH (light_background),
+    .help = "Whether the background takes light, too. It is the farthest level, if that has half of the picture's frame "
+            "or more" },
 
   { .name = "light", .label = "Light", CHOICE (light, CeldLight, lights),
     .help = "Whether the light comes from far away, or from a point in front of the picture",
@@ -411,20 +423,24 @@ static const CeldSettingInfo infos[] = {
     .name = "relief-from", .label = "Round from", CHOICE (relief_from, CeldReliefFrom, relief_sources),
     .help = "Whether parts bulge as if inflated, or follow their normals" },
 
+  { .name = "relief-bulge", .label = "Bulge", NUMBER (relief_bulge),
+    .help = "How round the parts are: flat at 0, discs become hemispheres at 1",
+    .usual = 0.6, .least = 0, .most = 4, .shown = { 0, 2, 0.001, 0.1, .digits = 2 } },
+
   { .name = "relief-depth", .label = "Depth", NUMBER (relief_depth),
     .help = "How far the nearest level stands in front of the farthest, as a fraction of the picture's diagonal",
-    .usual = 0.1, .least = 0, .most = 1, .shown = { 0, 0.5, 0.01, 0.05, .digits = 3 } },
+    .usual = 0.06, .least = 0, .most = 1, .shown = { 0, 0.5, 0.01, 0.05, .digits = 3 } },
 
   { .name = "mesh", .label = "Mesh", CHOICE (mesh, CeldMeshKind, mesh_kinds),
-    .help = "Whether the mesh is a surface with cracks where depth jumps, or a closed solid on a plate. 'auto' makes a "
-            "solid for STL files only" },
+    .help = "Whether each part is a surface of its own, or a closed solid on a plate, or all of the picture is one "
+            "surface with cracks where depth jumps. 'auto' makes solids for STL files only" },
 
   { .name = "mesh-size", .label = "Size", NUMBER (mesh_size),
     .help = "The length of the picture's longer side, in mm",
     .usual = 100, .least = 1, .most = 10000, .shown = { 10, 1000, 1, 10, .digits = 1 }, .unit = "mm" },
 
   { .name = "mesh-plate", .label = "Plate", NUMBER (mesh_plate),
-    .help = "The thickness of the plate under a solid, in mm",
+    .help = "The thickness of the plate under solids, in mm",
     .usual = 2, .least = 0.1, .most = 1000, .shown = { 0.1, 10, 0.1, 1, .digits = 1 }, .unit = "mm" },
 
   { .name = "mesh-error", .label = "Error", NUMBER (mesh_error),
@@ -434,6 +450,16 @@ static const CeldSettingInfo infos[] = {
   { .name = "most-vertices", .label = "Vertices", NUMBER (most_vertices),
     .help = "The largest number of vertices. The mesh becomes coarser rather than have more",
     .usual = 1e6, .least = 1000, .most = 16e6, .shown = { 1000, 2e6, 1000, 1e5, .digits = 0 } },
+
+  { .theme = "Registration",
+    .name = "cell-size", .label = "Cell size", INTEGER (cell_size),
+    .help = "The side of the squares that a drawing is embedded into, in pixels. Smaller squares follow smaller bends; 0 "
+            "chooses a side by the size of the picture",
+    .usual = 0, .least = 0, .most = 1000, .shown = { 0, 100, 1, 10, .digits = 0 } },
+
+  { .name = "stiffness", .label = "Stiffness", INTEGER (stiffness),
+    .help = "How rigid parts are. Stiffer parts bend less where lines of the two drawings differ",
+    .usual = 20, .least = 1, .most = 200, .shown = { 1, 50, 1, 5, .digits = 0 } },
 };
 
 const CeldSettingInfo *

@@ -80,6 +80,13 @@ celd_text_is_digit (char c)
   return c >= '0' && c <= '9';
 }
 
+void
+celd_text_skip_blanks (CeldReader *r)
+{
+  while (*r->at == ' ' || *r->at == '\t' || *r->at == '\v' || *r->at == '\f')
+    celd_text_advance (r);
+}
+
 /* Reads "e" and an exponent; returns 0 and reads nothing if there is none. */
 static int
 read_exponent (CeldReader *r)
@@ -132,4 +139,27 @@ celd_text_number (CeldReader *r, bool svg, const char *expected, double *number)
   if (!(fabs (*number) < LARGEST_NUMBER)) /* also refuses 0 * infinity */
     return celd_text_refuse (&start, "a smaller number");
   return CELD_OK;
+}
+
+CeldStatus
+celd_text_items (const char *text, CeldStatus (*read_item) (void *data, CeldReader *r), void *data,
+                 const char *expected, CeldTextError *error)
+{
+  CeldReader r = { text, 1, 1, error };
+  CeldStatus status = CELD_OK;
+
+  if (strncmp (text, "\xef\xbb\xbf", 3) == 0) /* a byte order mark */
+    r.at += 3;
+  for (celd_text_skip_blanks (&r); *r.at && status == CELD_OK; celd_text_skip_blanks (&r))
+    if (celd_text_at_line_end (&r))
+      celd_text_skip_line_end (&r);
+    else if (*r.at == ';')
+      celd_text_advance (&r);
+    else
+      {
+        status = read_item (data, &r);
+        if (status == CELD_OK && *r.at && *r.at != ';' && !celd_text_at_line_end (&r))
+          status = celd_text_refuse (&r, expected);
+      }
+  return status;
 }

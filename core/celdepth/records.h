@@ -31,8 +31,9 @@ typedef struct { CeldRegion *item; size_t n; } CeldPalette;
 
 CELD_API void celd_palette_clear (CeldPalette *palette);
 
-/* One end of a relation: a point of the drawing, or every region of a colour. */
-typedef struct { bool by_colour; uint8_t colour[3]; double x, y; } CeldTerm;
+/* One end of a relation: a point of the drawing, or every region of a colour.  In a composition the drawing is one of
+ * its fragments, of which `whole` means every region but the page. */
+typedef struct { bool by_colour; uint8_t colour[3]; double x, y; size_t fragment; bool whole; } CeldTerm;
 
 typedef enum { CELD_SOURCE_TEXT, CELD_SOURCE_ARROW, CELD_SOURCE_PATH, CELD_SOURCE_SUGGESTION } CeldSource;
 
@@ -69,7 +70,8 @@ typedef enum
   CELD_PROBLEM_SAME_REGION,        /* both ends of relation `relation` lie in one region; left out */
   CELD_PROBLEM_CONTRADICTION,      /* relation `relation` contradicts the others of cycle `other`; left out */
   CELD_PROBLEM_NOT_CONVERGED,      /* the error of smooth depth is larger than the tolerance */
-  CELD_PROBLEM_REGION_SPLIT        /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
+  CELD_PROBLEM_REGION_SPLIT,       /* label `other`, round (x,y), was split off `label` to resolve a contradiction */
+  CELD_PROBLEM_HIDDEN_UNSURE       /* what is hidden of `label`, round (x,y), is hardly more than a guess */
 } CeldProblemKind;
 
 #define CELD_NO_INDEX SIZE_MAX
@@ -111,6 +113,10 @@ typedef struct
  * cycle through the latest of them that lies on a cycle. */
 typedef struct { size_t *item; size_t n; CeldCycle newest; } CeldScc;
 
+/* The relations that hold, as labels: link i puts the labels end[first[2i]] + 1 .. behind the labels end[first[2i+1]]
+ * + 1 .., which end before first[2i+2], or gives all of them one depth if equal[i]. */
+typedef struct { size_t n, *first; uint32_t *end; bool *equal; } CeldOrderLinks;
+
 typedef struct
 {
   uint32_t  *level;             /* of label k: level[k-1]; 0 = farthest */
@@ -121,6 +127,7 @@ typedef struct
   size_t     n_cycles;
   CeldScc   *scc;
   size_t     n_sccs;
+  CeldOrderLinks links;         /* n is 0 where only levels are known */
 } CeldOrder;
 
 CELD_API void celd_order_clear (CeldOrder *order);
@@ -179,6 +186,11 @@ typedef struct
   CeldPlane  coverage;          /* how much of the pixel the owner covers, (0,1]; 1 where there is only one label */
 } CeldOwnership;
 
+/* The sheets of a drawing: the whole silhouette of each region, what others hide of it included. */
+typedef struct CeldSheets CeldSheets;
+
+CELD_API void celd_sheets_free (CeldSheets *sheets);          /* accepts NULL */
+
 /* A drawing cut into one layer for each region.  Layer 0 is the farthest; the layers, composited in their order by
  * `over` with straight alpha, are the drawing again. */
 typedef struct CeldLayers CeldLayers;
@@ -203,6 +215,167 @@ CELD_API const CeldLayer *celd_layers_item  (const CeldLayers *layers, size_t la
 /* Writes the layer's box as r, g, b, a with straight alpha: 4 x width x height numbers. */
 CELD_API void             celd_layers_paint (const CeldLayers *layers, size_t layer, float *rgba);
 CELD_API void             celd_layers_free  (CeldLayers *layers);            /* accepts NULL */
+
+/* Where a layer is most plausibly attached to another, as a start for rigging: of all layers that touch it, usually the
+ * one along which it has the longest contact.  Layers that touch, directly or through others, form a tree, whose root is
+ * the one with the most visible pixels. */
+typedef struct
+{
+  size_t parent;                /* index of a layer; CELD_NO_INDEX: the root of a tree, or the page */
+  double x, y;                  /* the middle of the contact with the parent, or of what is visible of a root; corners of
+                                 * pixels are whole numbers */
+} CeldJoint;
+
+/* Two labels that may move apart when a drawing is registered. */
+typedef struct { uint32_t nearer, farther; } CeldCrack;
+typedef struct { CeldCrack *item; size_t n; } CeldCracks;
+
+CELD_API void celd_cracks_clear (CeldCracks *cracks);         /* accepts a zeroed one */
+
+/* The parts of a drawing, for its registration.  Labels are 1 .. n, level[k - 1] is the level of label k.  Parts of
+ * different levels move apart, or with n_cracks > 0 only the parts that these name; and nearer ones hide farther ones. */
+typedef struct
+{
+  const CeldLabels *labels;     /* of each pixel, ink included: the owner of CeldOwnership; 0: does not move */
+  const uint32_t   *level;      /* NULL: all are equal */
+  size_t            n;
+  uint32_t          background; /* the label that does not move; 0: all do */
+  const CeldCrack  *crack;      /* of celd_cracks_find */
+  size_t            n_cracks;
+} CeldMovingParts;
+
+/* A square lattice that a drawing is embedded into, torn where parts move apart.  It carries the drawing from its rest
+ * pose to where its vertices are. */
+typedef struct CeldLattice CeldLattice;
+
+CELD_API void celd_lattice_free (CeldLattice *lattice);       /* accepts NULL */
+
+/* Where a drawing is put into another picture: it is mirrored if `flip` and enlarged by `scale`, with its upper left
+ * corner at (x,y), and then turned clockwise round its middle. */
+typedef struct
+{
+  double x, y;                  /* pixels */
+  double scale;                 /* CELD_LEAST_SCALE .. CELD_LARGEST_SCALE */
+  double turn;                  /* degrees */
+  bool   flip;
+} CeldPlacement;
+#define CELD_LEAST_SCALE   0.001
+#define CELD_LARGEST_SCALE 1000.0
+
+/* One drawing of a composition, cut into layers.  All of it is borrowed. */
+typedef struct
+{
+  const CeldLayers  *layers;
+  const CeldOrder   *order;     /* of their labels */
+  uint32_t           page;      /* the label of its page; 0: none */
+  CeldPlacement      placement;
+  const CeldLabels  *labels;    /* of each pixel, and their palette, for ends of relations; NULL: no relation has an end
+                                 * in this drawing */
+  const CeldPalette *palette;
+  const CeldPlane   *ink;       /* for ends on ink, and for strokes on a page that is left out; may be NULL */
+} CeldFragment;
+
+/* A picture with its ink and its expanded levels, all of one size. */
+typedef struct { const CeldColours *art; const CeldPlane *ink, *levels; } CeldLevelArt;
+
+/* Drawings put together in one picture, each of their regions with a place in one order. */
+typedef struct CeldComposition CeldComposition;
+
+/* One region of one drawing in a composition. */
+typedef struct
+{
+  size_t   fragment, layer;     /* index into its layers */
+  uint32_t label, level;        /* of the drawing; of the composition, 0 = farthest */
+  CeldRect box;                 /* in the composition; the layer is transparent outside it, width 0: everywhere */
+} CeldComposedLayer;
+
+CELD_API size_t                   celd_composition_count (const CeldComposition *composition);
+CELD_API const CeldComposedLayer *celd_composition_item  (const CeldComposition *composition, size_t layer);
+/* The relations that were left out, as cycles of indices into the relations of the composition: each begins with the
+ * one that was left out, and the others contradict it, together with the orders of the drawings. */
+CELD_API const CeldCycle         *celd_composition_cycles (const CeldComposition *composition, size_t *n);
+CELD_API void                     celd_composition_free  (CeldComposition *composition);     /* accepts NULL */
+
+/* A handle of a drawing that is deformed: takes the place (x,y) to (to_x,to_y), and what is near it `depth` levels
+ * forward.  Pixels have their centres at half numbers. */
+typedef struct { double x, y, to_x, to_y, depth; } CeldHandle;
+typedef struct { CeldHandle *item; size_t n; } CeldHandles;
+
+CELD_API void celd_handles_clear (CeldHandles *handles);
+
+/* A drawing that can be deformed: its layers, embedded into one lattice. */
+typedef struct CeldPuppet CeldPuppet;
+
+CELD_API void celd_puppet_free (CeldPuppet *puppet);          /* accepts NULL */
+
+/* A layer of a puppet in its pose. */
+typedef struct
+{
+  uint32_t label;
+  double   level;               /* the mean over the layer, -infinity for what lies still behind all; larger = nearer */
+  double   elsewhere;           /* the share of the layer that has another level, when rounded; 0 .. 1 */
+} CeldPosedLayer;
+
+/* What an artist should know of a pose; places are in the drawing. */
+typedef struct
+{
+  size_t outside;               /* handles that lay outside all parts */
+  size_t folded;                /* squares of the lattice that are folded over */
+  double stretch;               /* the largest length of a side of a square, relative to its rest pose */
+  double outside_x, outside_y;  /* the first of these handles */
+  double folded_x, folded_y;    /* the square that is folded most */
+  double stretch_x, stretch_y;  /* the one that is stretched most */
+} CeldPoseReport;
+
+/* A key drawing: its completed layers, its ink, and the label of its background, which does not move (0: none). */
+typedef struct { const CeldLayers *layers; const CeldPlane *ink; uint32_t background; } CeldKey;
+
+/* Two keys, and how the parts of the one move to the other. */
+typedef struct CeldInbetween CeldInbetween;
+
+CELD_API void celd_inbetween_free (CeldInbetween *inbetween); /* accepts NULL */
+
+/* A surface over the picture: heights in pixels, larger = nearer; depth 0 has height 0. */
+#define CELD_CUT_RIGHT  1
+#define CELD_CUT_BELOW  2
+#define CELD_NEAR_RIGHT 4
+#define CELD_NEAR_BELOW 8
+typedef struct
+{
+  int      width, height;
+  float   *z;                   /* of each pixel */
+  float   *outline;             /* of each pixel; the height of the outline where the surface ends in front of
+                                 * another one */
+  uint8_t *cut;                 /* of each pixel, bits: CELD_CUT towards neighbours that the surface does not continue
+                                 * to, CELD_NEAR towards those that it is in front of */
+} CeldRelief;
+
+/* A triangle mesh over the picture, whose centre is at x = y = 0; depth 0 is at z = 0. */
+typedef struct
+{
+  size_t    vertices, triangles;
+  float    *place;              /* of each vertex x, y, z: to the right, up, to the viewer, in millimetres */
+  float    *normal;             /* as many, unit length */
+  float    *art;                /* of each vertex, its place in the picture: 0 .. 1 to the right and down */
+  uint32_t *corner;             /* three vertices of each triangle, counter-clockwise seen from outside */
+  double    error;              /* largest distance to the surface, in pixels */
+} CeldReliefMesh;
+
+/* A model: one mesh for each region that has pixels, on its whole silhouette, from back to front, and their texture. */
+typedef struct
+{
+  uint32_t       label;
+  bool           page;          /* a plane, or with CELD_MESH_SOLID the plate, of the size of the picture */
+  CeldReliefMesh mesh;          /* its art is a place in the atlas */
+} CeldModelPart;
+
+typedef struct
+{
+  CeldModelPart *part;
+  size_t         n;
+  CeldColours    atlas;         /* the layers of all parts, on white; their colours go on beyond their outlines */
+  double         error;         /* largest distance of meshes to the surfaces, in pixels */
+} CeldModel;
 
 #ifdef __cplusplus
 }

@@ -20,6 +20,9 @@ typedef struct CeldSession CeldSession;
 
 CELD_API CeldSession *celd_session_new (void);                    /* NULL: no memory */
 CELD_API void         celd_session_free (CeldSession *session);   /* accepts NULL */
+/* Frees all pictures, those that the host set and those that were made, when only a report is left to be written: the
+ * palette, relations, order and problems that the session lent stay until it is freed or gets another drawing. */
+CELD_API void         celd_session_drop_pictures (CeldSession *session);
 
 CELD_API CeldStatus celd_session_set_settings  (CeldSession *session, const CeldSettings *settings);
 CELD_API CeldStatus celd_session_set_drawing   (CeldSession *session, const CeldDrawing *drawing);
@@ -32,6 +35,9 @@ CELD_API CeldStatus celd_session_set_depth_hint (CeldSession *session, const Cel
 /* Corrections of contour ownership: strokes over ink, each of which gives the piece of line below it to the region of
  * its colour. */
 CELD_API CeldStatus celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections);
+/* What is hidden: strokes in a region's colour add to its sheet wherever nearer sheets hide them, black ones take away
+ * from all sheets (celd_hidden_read, celd_sheets). */
+CELD_API CeldStatus celd_session_set_hidden (CeldSession *session, const CeldPaint *hidden);
 /* Relations as text (docs/relations.md), and arrows as SVG path data.  On CELD_BAD_RELATION *error (may be NULL) says
  * where the text cannot be read, and the previous relations stay.  NULL or "" removes them. */
 CELD_API CeldStatus celd_session_set_relations (CeldSession *session, const char *text, CeldTextError *error);
@@ -76,10 +82,19 @@ CELD_API CeldStatus celd_session_unexpanded_levels (CeldSession *session, const 
 /* Contour ownership: the label that each pixel belongs to, ink included. */
 CELD_API CeldStatus celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnership *ownership,
                                             CeldRect *changed);
+/* The sheets of all regions; borrowed, valid until the next call on the session. */
+CELD_API CeldStatus celd_session_sheets (CeldSession *session, const CeldHost *host, const CeldSheets **sheets);
 /* Cuts art into a layer for each label, completed with settings->complete: see celd_layers_cut.  The caller owns
  * *layers and frees it with celd_layers_free. */
 CELD_API CeldStatus celd_session_layers (CeldSession *session, const CeldColours *art, CeldStore store,
                                          const CeldHost *host, CeldLayers **layers);
+/* Makes a model of the sheets with layers of art, see celd_model. */
+CELD_API CeldStatus celd_session_model (CeldSession *session, const CeldColours *art, const CeldHost *host,
+                                        CeldModel *model);
+/* Makes a puppet of completed layers of art, see celd_puppet_new, which tears at relations marked `crack` if there are
+ * any.  The caller owns *puppet. */
+CELD_API CeldStatus celd_session_puppet (CeldSession *session, const CeldColours *art, const CeldHost *host,
+                                         CeldPuppet **puppet);
 /* Levels after expansion, in the encoding of the settings: of the label that covers more of each pixel. */
 CELD_API CeldStatus celd_session_levels (CeldSession *session, const CeldHost *host, CeldPlane *levels,
                                          CeldRect *changed);
@@ -92,6 +107,8 @@ CELD_API CeldStatus celd_session_depth_preview (CeldSession *session, const Celd
                                                 CeldRect *changed);
 CELD_API CeldStatus celd_session_depth (CeldSession *session, const CeldHost *host, CeldPlane *depth,
                                         CeldRect *changed);
+/* Makes the relief of levels and smooth depth, see celd_relief. */
+CELD_API CeldStatus celd_session_relief (CeldSession *session, const CeldHost *host, CeldRelief *relief);
 CELD_API CeldStatus celd_session_normals (CeldSession *session, const CeldHost *host, CeldVectors *normals,
                                           CeldRect *changed);
 CELD_API CeldStatus celd_session_shading (CeldSession *session, const CeldHost *host, CeldPlane *shading,

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-typedef enum { CELD_INK_AUTO, CELD_INK_DARK, CELD_INK_LIGHT, CELD_INK_ALPHA } CeldInkMode;
+typedef enum { CELD_INK_AUTO, CELD_INK_DARK, CELD_INK_LIGHT, CELD_INK_ALPHA, CELD_INK_LINES } CeldInkMode;
 typedef enum { CELD_METHOD_BASINS, CELD_METHOD_EXACT, CELD_METHOD_WALKER } CeldMethod;
 typedef enum { CELD_BACKGROUND_AUTO, CELD_BACKGROUND_NONE, CELD_BACKGROUND_COLOUR } CeldBackground;
 typedef enum { CELD_SEEDS_AUTO, CELD_SEEDS_SCRIBBLES } CeldSeeds;
@@ -35,7 +35,7 @@ typedef enum
   CELD_STEREO_COLOUR, CELD_STEREO_HALF_COLOUR, CELD_STEREO_DUBOIS
 } CeldStereo;
 typedef enum { CELD_RELIEF_INFLATION, CELD_RELIEF_NORMALS } CeldReliefFrom;
-typedef enum { CELD_MESH_AUTO, CELD_MESH_SURFACE, CELD_MESH_SOLID } CeldMeshKind;
+typedef enum { CELD_MESH_AUTO, CELD_MESH_SURFACE, CELD_MESH_SOLID, CELD_MESH_HEIGHTFIELD } CeldMeshKind;
 typedef enum { CELD_PATH_SWAY, CELD_PATH_CIRCLE, CELD_PATH_TURNTABLE } CeldPath;
 
 /* docs/settings.md explains each member, with its range and default, under its name with hyphens (ink-threshold). */
@@ -65,6 +65,7 @@ typedef struct
   /* contour ownership, and layers */
   CeldExpansion expansion;
   bool          complete;
+  float         margin;
 
   /* smooth depth */
   CeldAnchors anchors;                 /* the paper's U_o */
@@ -80,6 +81,7 @@ typedef struct
 
   /* shading */
   CeldLightModel light_model;
+  bool           light_background;
   CeldLight      light;
   float          light_azimuth, light_elevation;
   float          light_x, light_y, light_height;
@@ -99,13 +101,16 @@ typedef struct
   float      screen_width;
   CeldPath   path;
 
-  /* relief, which also has the bulge */
+  /* relief */
   CeldReliefFrom relief_from;
-  float          relief_depth;
+  float          relief_bulge, relief_depth;
 
   /* mesh */
   CeldMeshKind mesh;
   float        mesh_size, mesh_plate, mesh_error, most_vertices;
+
+  /* registration */
+  int cell_size, stiffness;
 } CeldSettings;
 
 /* The defaults. */

@@ -1,5 +1,5 @@
 /* The single steps of the method, in their order: ink, scribbles and relations, segmentation, order, contour ownership,
- * depth, normals and light, enhancement, stereo, relief.
+ * depth, normals and light, enhancement, stereo, relief, motion.
  *
  * Part of celdepth.h, which states the conventions of values, ownership and errors.
  *
@@ -17,6 +17,12 @@ extern "C" {
 /* Computes luma (Rec. 709 weights), and alpha if it is not NULL, of n pixels R'G'B'A of sRGB in [0,1].  Hosts should
  * use this function, so that all of them read the same ink. */
 CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
+
+/* Replaces a coloured drawing by its lines, black on white: what is darker, or lighter, than the fills on both sides of
+ * it.  For hosts, before a drawing is used: `art` has the colours of `drawing`, in its size.  With CELD_INK_LINES always,
+ * with CELD_INK_AUTO if there are fills in several hues; otherwise, and after a failure, the drawing stays as it is. */
+CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
+                                         CeldDrawing *drawing);
 
 /* Makes the ink of a drawing: composites it on paper, finds its polarity (with CELD_INK_AUTO), and normalises contrast
  * by the paper around each pixel, so that uneven paper becomes 1 and grey pencil 0.  `ink` has the drawing's size and
@@ -39,6 +45,11 @@ CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldS
 /* Reads the relations grammar of docs/relations.md and appends to `relations`; on CELD_BAD_RELATION nothing is added,
  * and *error (may be NULL) says where.  Locale-independent. */
 CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
+
+/* As celd_relations_parse, for relations across n drawings: a term is "NAME:" and then a term of that drawing, or "*" for
+ * all of it but the page.  Names are letters, digits, "-", "_" and ".". */
+CELD_API CeldStatus celd_fragment_relations_parse (const char *text, const char *const *name, size_t n,
+                                                   CeldRelations *relations, CeldTextError *error);
 
 /* Arrows as SVG path data (docs/relations.md): each sub-path becomes one relation from its first to its last point,
  * appended; errors as above. */
@@ -115,6 +126,12 @@ CELD_API CeldStatus celd_order_suggested (const CeldLabels *labels, const CeldPa
 CELD_API float celd_encode_level (double level, double levels, const CeldSettings *settings);
 CELD_API float celd_order_value (const CeldOrder *order, uint32_t level, const CeldSettings *settings);
 
+/* The levels of labels 1 .. n in a picture that has them already, in any encoding, expanded or not: value[k - 1] is the
+ * level that most pixels of label k have (the farthest of all for one without pixels; NaN reads as 0), and level[k - 1]
+ * the number of smaller values.  CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_label_levels (const CeldLabels *labels, size_t n, const CeldPlane *levels, float *value,
+                                       uint32_t *level);
+
 /* Contour ownership: paper belongs to its label, and ink to the region whose outline it is.  Labels are 1 .. n,
  * level[k - 1] is the level of label k.  `corrections` (may be NULL; 0 where there is none) are strokes over ink, each
  * of which gives the piece of line below it to its label.  With CELD_EXPANSION_OUTLINES each region has an outline of
@@ -127,6 +144,11 @@ CELD_API CeldStatus celd_own (const CeldPlane *ink, const CeldLabels *labels, co
 /* Reads corrections: opaque pixels get the label of their colour, the first if several have it; all others, and pixels
  * of a colour that no region has, get 0. */
 CELD_API CeldStatus celd_corrections_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels);
+
+/* Reads a layer `hidden` for celd_sheets: as corrections, but that black is CELD_HIDDEN_ERASE, even if a region is
+ * black. */
+#define CELD_HIDDEN_ERASE UINT32_MAX
+CELD_API CeldStatus celd_hidden_read (const CeldPaint *paint, const CeldPalette *palette, CeldLabels *labels);
 
 /* Depth expansion by celd_own, from levels before expansion in any encoding, larger = nearer; NaN reads as 0.  Every
  * level, or with `regions` (may be NULL) every region of one level, is a label.  `corrections` (may be NULL) are labels
@@ -148,24 +170,39 @@ CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane 
 CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *levels, const CeldHost *host,
                                  CeldLabels *expanded);
 
+/* Sheets: the whole silhouette of each label that has pixels, what others hide of it included.  Labels are 1 .. n of the
+ * order; with the order's links, regions that no relation compares may hide each other, without links only higher
+ * levels hide lower ones.  The label `background` (0: none) covers the whole picture.  Nothing goes on where it would be
+ * visible.  `hints` (may be NULL) are strokes, each of which adds what it covers to the sheet of its label, where nearer
+ * sheets hide that, or with CELD_HIDDEN_ERASE takes it away from all; 0 where there is none.  `ink` is the ink for depth.
+ * CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_sheets (const CeldPlane *ink, const CeldOwnership *ownership, const CeldLabels *hints,
+                                 const CeldOrder *order, uint32_t background, const CeldSettings *settings,
+                                 const CeldHost *host, CeldSheets **sheets);
+
 /* Cuts art (the drawing, or a coloured version of it) into one layer for each label that has pixels, in the order of
- * level[label - 1], labels being 1 .. n; of equal levels later labels are in front.  An antialiased pixel of two labels
- * goes to both layers, unmixed into two colours.
+ * the sheets, or without them (NULL) of level[label - 1], labels being 1 .. n; of equal levels later labels are in
+ * front.  An antialiased pixel of two labels goes to both layers, unmixed into two colours.
  * `art` is in [0,1] and in the space in which the layers will be composited, encoded colours or linear light.  Colours
  * are rounded to what `store` can hold; in 8 bits the composite is exact to one step.
- * `complete` adds what nearer layers hide: outlines continue smoothly, with the region's own line along them, holes are
- * closed, and the label `background` (0: none) fills the picture.  None of it is visible in the composite.
- * `ink` is the ink for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+ * Sheets of this ownership add what nearer layers hide, in the colours of the region's own paper and with its own line
+ * along its outline.  None of it is visible in the composite.
+ * `ink` is the ink for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n, and for sheets of
+ * other labels. */
 CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *ownership, const uint32_t *level,
-                                     size_t n, const CeldColours *art, uint32_t background, CeldStore store,
-                                     bool complete, const CeldHost *host, CeldLayers **layers);
+                                     size_t n, const CeldColours *art, const CeldSheets *sheets, CeldStore store,
+                                     const CeldHost *host, CeldLayers **layers);
+
+/* Finds the joint of each layer: joint[k], k from 0 to celd_layers_count - 1.  The layer of label `page` (0: none) has no
+ * part in it. */
+CELD_API CeldStatus celd_layers_joints (const CeldLayers *layers, uint32_t page, CeldJoint *joint);
 
 /* Cuts layers from levels before expansion, with the labels of celd_expand_levels.  The label of a layer is its number,
- * 1 for the farthest.  The farthest label is the background if it covers most of the frame. */
+ * 1 for the farthest.  The farthest label is the background if it covers most of the frame.  Of the settings, expansion,
+ * complete and margin count. */
 CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
-                                           const CeldLabels *corrections, const CeldColours *art,
-                                           CeldExpansion method, CeldStore store, bool complete, const CeldHost *host,
-                                           CeldLayers **layers);
+                                           const CeldLabels *corrections, const CeldColours *art, CeldStore store,
+                                           const CeldSettings *settings, const CeldHost *host, CeldLayers **layers);
 
 /* Smooth depth, eq. (3), from levels, expanded or not.  Anchors, the pixels that `anchors` marks (the paper's U_o),
  * keep their level; with settings->hold_rest, or if `anchors` is NULL, so does the core of each region without one.
@@ -193,8 +230,9 @@ CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *se
                                       const CeldHost *host, CeldPlane *depth, CeldExact *exact,
                                       CeldProblems *problems);
 
-/* Normals by Lumo [Joh02] (section 5), extended by depth: along a discontinuity only the nearer side bends, and a
- * region without an outline of its own, like the paper, faces the viewer.  `levels` are expanded. */
+/* Normals by Lumo [Joh02] (section 5) on whole sheets, which are made from the levels: what nearer levels hide of a
+ * level is as round as what is seen of it, and the background, if it is the farthest level, faces the viewer.  `levels`
+ * are expanded. */
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldHost *host, CeldVectors *normals);
 
@@ -205,18 +243,22 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
                                          const CeldPaint *hints, const CeldSettings *settings, const CeldHost *host,
                                          CeldVectors *normals);
 
-/* Lights normals as the settings say, in linear light: `tone` is a factor for art, and `gloss`, of highlights and rims,
- * blends the product towards white, in [0,1].  Ink (`ink` may be NULL) has no gloss.  `matcap`, used by
- * CELD_MODEL_MATCAP alone, is a picture of any size that a lit ball fills; CELD_BAD_VALUE if it is missing. */
-CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldColours *matcap,
-                                const CeldSettings *settings, const CeldHost *host, CeldColours *tone,
-                                CeldPlane *gloss);
-/* Applies tone and gloss to art in place; and makes a white layer of the gloss, to put over art multiplied by the
- * tone. */
+/* Lights normals as the settings say, in linear light: `tone` is a factor for art, 0 .. 2 and 1 where the surface faces
+ * the viewer, and `gloss`, of highlights and rims, blends the product towards white, 0 .. 1.  Ink (`ink` may be NULL) has
+ * no gloss.  With the expanded `levels` (may be NULL) an antialiased pixel takes the light of the region whose paper it
+ * shows, and the background none unless settings->light_background: it is the farthest of several levels, if that has
+ * half of the frame or more.  `matcap`, used by CELD_MODEL_MATCAP alone, is a picture of any size that a lit ball
+ * fills; CELD_BAD_VALUE if it is missing. */
+CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldPlane *levels,
+                                const CeldColours *matcap, const CeldSettings *settings, const CeldHost *host,
+                                CeldColours *tone, CeldPlane *gloss);
+/* Applies tone and gloss to art in place, so that colours in [0,1] stay there; and makes a white layer of the gloss, to
+ * put over art multiplied by the tone. */
 CELD_API CeldStatus celd_light_colours (const CeldColours *tone, const CeldPlane *gloss, CeldColours *colours);
 CELD_API CeldStatus celd_light_layer   (const CeldPlane *gloss, CeldColours *layer);
 
-/* Shading: the light of celd_light on white art without ink, in [0,1].  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
+/* Shading: the light itself with its gloss, in [0,1], also on the background; a tone is its quotient by the light on a
+ * surface that faces the viewer.  CELD_BAD_VALUE for CELD_MODEL_MATCAP. */
 CELD_API CeldStatus celd_shade (const CeldVectors *normals, const CeldSettings *settings, CeldPlane *shading);
 
 /* Replaces colours below transparent pixels, so that a game engine which blends neighbouring pixels shows no seams:
@@ -240,19 +282,22 @@ CELD_API CeldStatus celd_enhance_colours (const CeldPlane *change, CeldColours *
 CELD_API CeldStatus celd_enhance_layer   (const CeldPlane *change, CeldColours *layer);
 CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPlane *change, CeldPlane *view);
 
-/* A drawing that can be viewed from other places (section 5, Figure 1g).  It has copies of what it was made from. */
+/* A drawing that can be viewed from other places (section 5, Figure 1g). */
 typedef struct CeldScene CeldScene;
 
-/* A scene of layers; each moves by its own depth, which is interpolated where the layer is occluded.  Completed layers
- * leave no holes.  `ownership` is the one that the layers were cut by.  Views have the colour space of the layers. */
+/* A scene of layers; each moves by its own depth, which goes on smoothly where the layer is occluded.  Completed layers
+ * leave no holes, since their margins are seen where they move apart.  `ownership` is the one that the layers were cut by.  The scene reads the layers and the depth, which must
+ * outlive it.  Views have the colour space of the layers. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
                                           const CeldPlane *depth, const CeldHost *host, CeldScene **scene);
-/* A scene of levels, expanded or not, each of which becomes a completed layer of `art`. */
+/* A scene of levels, expanded or not, each of which becomes a completed layer of `art`.  The scene reads the depth, which
+ * must outlive it. */
 CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
-                                          const CeldColours *art, CeldExpansion method, const CeldHost *host,
-                                          CeldScene **scene);
+                                          const CeldColours *art, const CeldSettings *settings,
+                                          const CeldHost *host, CeldScene **scene);
 /* A scene of a depth map alone, of any origin: what comes into view is filled from its farther side, with the colour of
- * the paper there, without ink.  For horizontal views of at most settings->disparity. */
+ * the paper there, without ink.  For horizontal views of at most settings->disparity.  The scene has copies of its
+ * input. */
 CELD_API CeldStatus celd_scene_of_depth (const CeldColours *art, const CeldPlane *ink, const CeldPlane *depth,
                                          const CeldSettings *settings, const CeldHost *host, CeldScene **scene);
 CELD_API void       celd_scene_free     (CeldScene *scene);      /* accepts NULL */
@@ -285,25 +330,10 @@ CELD_API void       celd_comfort_text   (const CeldComfort *comfort, const CeldS
 CELD_API CeldStatus celd_stereo_window (const CeldPlane *depth, const CeldSettings *settings, CeldColours *left,
                                         CeldColours *right);
 /* Packs two views into one picture of the size that celd_stereo_size computes; anaglyphs are for glasses with red on
- * the left and cyan on the right, and in linear light. */
+ * the left and cyan on the right, and in linear light.  `joined` may be the left view if it has its size. */
 CELD_API void       celd_stereo_size (CeldStereo format, int *width, int *height);
 CELD_API CeldStatus celd_stereo_join (const CeldColours *left, const CeldColours *right, CeldStereo format,
                                       CeldColours *joined);
-
-/* A surface over the picture: heights in pixels, larger = nearer; depth 0 has height 0. */
-#define CELD_CUT_RIGHT  1
-#define CELD_CUT_BELOW  2
-#define CELD_NEAR_RIGHT 4
-#define CELD_NEAR_BELOW 8
-typedef struct
-{
-  int      width, height;
-  float   *z;                   /* of each pixel */
-  float   *outline;             /* of each pixel; the height of the outline where the surface ends in front of
-                                 * another one */
-  uint8_t *cut;                 /* of each pixel, bits: CELD_CUT towards neighbours that the surface does not continue
-                                 * to, CELD_NEAR towards those that it is in front of */
-} CeldRelief;
 
 /* Makes a relief: each region is inflated by settings->bulge, placed at its depth, and moved forward where it would
  * intersect what is behind it.  The surface is cut at depth discontinuities only.  `depth` is smooth depth; NULL:
@@ -312,23 +342,156 @@ CELD_API CeldStatus celd_relief (const CeldPlane *ink, const CeldPlane *levels, 
                                  const CeldSettings *settings, const CeldHost *host, CeldRelief *relief);
 CELD_API void       celd_relief_clear (CeldRelief *relief);   /* accepts a zeroed one */
 
-/* A triangle mesh over the picture, whose centre is at x = y = 0; depth 0 is at z = 0. */
-typedef struct
-{
-  size_t    vertices, triangles;
-  float    *place;              /* of each vertex x, y, z: to the right, up, to the viewer, in millimetres */
-  float    *normal;             /* as many, unit length */
-  float    *art;                /* of each vertex, its place in the picture: 0 .. 1 to the right and down */
-  uint32_t *corner;             /* three vertices of each triangle, counter-clockwise seen from outside */
-  double    error;              /* largest distance to the surface, in pixels */
-} CeldReliefMesh;
-
 /* Makes a mesh.  CELD_BAD_VALUE also if settings->most_vertices is too small for the cuts alone, or if heights are not
  * finite or beyond CELD_MOST_HEIGHT, as those of celd_relief never are.  Replaces `mesh`. */
 #define CELD_MOST_HEIGHT 1e12f /* pixels */
 CELD_API CeldStatus celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const CeldHost *host,
                                       CeldReliefMesh *mesh);
 CELD_API void       celd_relief_mesh_clear (CeldReliefMesh *mesh);         /* accepts a zeroed one */
+
+/* Makes a model of sheets: each region is inflated by settings->relief_bulge on its whole silhouette, and lies on those
+ * behind it, in front of all that it hides.  Where regions meet without a line their surfaces join.  Meshes are open at
+ * the back; with CELD_MESH_SOLID each is a closed body that stands in the plate, and bodies overlap.
+ * `ownership` and `layers` are those of the sheets; `ink` is the ink for depth.  CELD_BAD_VALUE also if
+ * settings->most_vertices is too small for the outlines alone.  Replaces `model`. */
+CELD_API CeldStatus celd_model (const CeldSheets *sheets, const CeldOwnership *ownership, const CeldLayers *layers,
+                                const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host,
+                                CeldModel *model);
+/* A model of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL. */
+CELD_API CeldStatus celd_model_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                          const CeldColours *art, const CeldSettings *settings, const CeldHost *host,
+                                          CeldModel *model);
+CELD_API void       celd_model_clear (CeldModel *model);      /* accepts a zeroed one */
+
+/* Embeds a drawing into a square lattice at rest [SDC09a] (section 3.4).  Without parts (NULL) what moves is all that
+ * paper along the frame does not reach, in one part.  Of the settings, cell_size counts.
+ * CELD_NOTHING_TO_GO_BY if nothing moves, CELD_BAD_VALUE for labels beyond n. */
+CELD_API CeldStatus celd_lattice_new (const CeldPlane *ink, const CeldMovingParts *parts, const CeldSettings *settings,
+                                      const CeldHost *host, CeldLattice **lattice);
+
+/* The lattice of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL.  The farthest label
+ * does not move if it has most of the frame. */
+CELD_API CeldStatus celd_lattice_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
+                                            const CeldSettings *settings, const CeldHost *host,
+                                            CeldLattice **lattice);
+
+/* Finds the labels of all relations marked `crack`, the only ones between which a lattice then tears.  Points on ink, if
+ * that is not NULL, mean what they mean to celd_order.  Replaces `cracks`. */
+CELD_API CeldStatus celd_cracks_find (const CeldLabels *labels, const CeldPalette *palette,
+                                      const CeldRelations *relations, const CeldPlane *ink, CeldCracks *cracks);
+
+/* Registers the drawing of a lattice to another one of its size: moves the vertices so that its lines lie on lines of
+ * the target, each part as rigidly as possible.  It starts from where the lattice lies, so that one registered to a frame
+ * goes on to the next; first all of it is aligned, then each part that is torn off the others.  `confidence` (may be NULL) says how well the lines around each
+ * pixel of the source fit, 0 .. 1; 0 outside, and where nearer parts hide it.
+ * CELD_NOTHING_TO_GO_BY if one of the drawings is blank; after a failure the lattice is as before. */
+CELD_API CeldStatus celd_register (const CeldPlane *source, const CeldPlane *target, const CeldSettings *settings,
+                                   const CeldHost *host, CeldLattice *lattice, CeldPlane *confidence);
+
+/* How far each pixel of the drawing is from its place; 0 outside the silhouette. */
+CELD_API CeldStatus celd_lattice_displacement (const CeldLattice *lattice, CeldShifts *shifts);
+
+/* Draws art of the lattice's size, such as the drawing, where the lattice has carried it, nearer parts over farther ones;
+ * all else becomes transparent. */
+CELD_API CeldStatus celd_lattice_warp (const CeldLattice *lattice, const CeldColours *art, CeldColours *warped);
+
+/* Puts n drawings into a picture of width x height pixels (section 5, Figure 1c, [SBv05]).  Each keeps its own order;
+ * relations between them (`relations` may be NULL) put a region of one between two of another.  Where drawings overlap
+ * and no relation says otherwise, directly or by others, the later one is in front.  Pages are left out but that of the
+ * first drawing, and strokes that hang on parts.  Relations that contradict heavier or earlier ones, or the order of a drawing, are left out and
+ * reported as cycles; problems (may be NULL) are appended.  The composition reads the layers, which must outlive it and
+ * have colours of one space.
+ * CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for a placement that is not finite, far outside or out of range. */
+CELD_API CeldStatus celd_compose (const CeldFragment *fragment, size_t n, const CeldRelations *relations, int width,
+                                  int height, const CeldHost *host, CeldProblems *problems,
+                                  CeldComposition **composition);
+/* The picture, straight alpha.  A drawing shows as it is, resampled as a whole, wherever nothing else covers it. */
+CELD_API CeldStatus celd_composition_flatten (const CeldComposition *composition, const CeldHost *host,
+                                              CeldColours *picture);
+/* The level of what covers most of each pixel, from 0; 0 also where nothing does. */
+CELD_API CeldStatus celd_composition_levels (const CeldComposition *composition, const CeldHost *host,
+                                             CeldPlane *levels);
+/* Writes the box of a layer as r, g, b, a with straight alpha.  The layers, composited from 0 on, are the picture again;
+ * where others hide it completely, a layer has the hidden part that it has in its drawing. */
+CELD_API CeldStatus celd_composition_paint (const CeldComposition *composition, size_t layer, const CeldHost *host,
+                                            float *rgba);
+/* Puts the second picture over the first one, behind those of its parts whose level is above `between`.  If the second
+ * one has several levels, the farthest is its page and left out.  `picture` and `levels`, of the size of the first
+ * picture, may be NULL; levels are in [0,1]. */
+CELD_API CeldStatus celd_compose_levels (const CeldLevelArt piece[2], const CeldPlacement *placement, float between,
+                                         const CeldHost *host, CeldColours *picture, CeldPlane *levels);
+/* Where a point of a drawing is in the composition. */
+CELD_API void       celd_composition_map (const CeldComposition *composition, size_t fragment, double x, double y,
+                                          double place[2]);
+
+/* Carries the labels of a frame of an animation to another frame of the same size, in which parts have moved; section
+ * 3.4 of the paper.  `source` has the labels of all pixels of the frame whose ink is `ink`; `background` (0: none) is the
+ * label that does not move where it touches the edge of the picture.  `labels` gets seeds for celd_segment of the frame
+ * whose ink is `next`; 0 on ink and close to it.  `certainty` gets how far
+ * moved parts and labels agree in each closed shape there, [0,1]; 0 on ink. */
+CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *source, const uint32_t *level,
+                                    uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
+                                    CeldPlane *certainty);
+
+/* Reads handles for celd_puppet_pose and appends them:  handles = handle { (";" | newline) handle },  handle = x "," y
+ * [ "->" x "," y ] [ "^" levels ].  Without an arrow a handle is a pin, which stays where it is.  On CELD_BAD_RELATION
+ * nothing is added, and *error (may be NULL) says where.  Locale-independent. */
+CELD_API CeldStatus celd_handles_parse (const char *text, CeldHandles *handles, CeldTextError *error);
+
+/* Reads painted handles and appends them: a dot is a pin, and any other stroke an arrow of celd_arrows_read from the
+ * place that is taken to where it is taken.  `problems` (may be NULL) gets those of celd_arrows_read. */
+CELD_API CeldStatus celd_handles_read (const CeldPaint *paint, CeldArrowStyle style, const CeldHost *host,
+                                       CeldHandles *handles, CeldProblems *problems);
+
+/* Makes a puppet of completed layers at rest: a square lattice for each, joined to others where depth is continuous,
+ * that is, where levels are equal or no ink of the drawing lies between them; with any cracks of celd_cracks_find
+ * (`cracks` may be NULL) wherever layers touch except there.  The layer of label `background` (0: none) does not move.
+ * Of the settings cell_size and ink_threshold count.  The puppet has copies of its input. */
+CELD_API CeldStatus celd_puppet_new (const CeldLayers *layers, const CeldPlane *ink, uint32_t background,
+                                     const CeldCracks *cracks, const CeldSettings *settings, const CeldHost *host,
+                                     CeldPuppet **puppet);
+/* A puppet of levels, expanded or not, each of which becomes a completed layer of `art`; the farthest does not move if
+ * it has most of the frame.  celd_puppet_draw then writes levels as numbers of that picture. */
+CELD_API CeldStatus celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldColours *art,
+                                           const CeldSettings *settings, const CeldHost *host, CeldPuppet **puppet);
+
+/* Poses a puppet [WXXC08]: takes the handles to where they are to be, and all else along as rigidly as possible, always
+ * from the rest pose, so that the result does not depend on earlier poses.  A handle holds the nearest part at its
+ * place; one outside all parts holds the nearest pixel of any.  Parts that touch move apart if both are held, and a part
+ * without a handle goes with the one that it has the longest contact with.  `report` may be NULL.
+ * CELD_BAD_VALUE for numbers that are not finite or beyond 1e6; the pose is then as before. */
+CELD_API CeldStatus celd_puppet_pose (CeldPuppet *puppet, const CeldHandle *handle, size_t n, const CeldHost *host,
+                                      CeldPoseReport *report);
+/* Says what is wrong with a pose and what to do, one English sentence on each line, cut to `size` bytes; "" if nothing
+ * is.  Stretching is reported from twice the length on. */
+CELD_API void       celd_pose_text   (const CeldPoseReport *report, char *text, size_t size);
+
+/* Draws a puppet in its pose, with straight alpha in the colour space of the layers: parts from back to front by their
+ * levels, changed by the depth of handles near them.  `levels` (may be NULL) gets the level of the nearest part that
+ * covers half of a pixel.  A puppet at rest gives its drawing back. */
+CELD_API CeldStatus celd_puppet_draw (CeldPuppet *puppet, const CeldHost *host, CeldColours *picture, CeldPlane *levels);
+
+/* The layers of a puppet, those that it was made of: their number, and each as it lies in the pose. */
+CELD_API size_t celd_puppet_count (const CeldPuppet *puppet);
+CELD_API void   celd_puppet_layer (const CeldPuppet *puppet, size_t layer, CeldPosedLayer *posed);
+
+/* Draws one of the layers alone. */
+CELD_API CeldStatus celd_puppet_draw_layer (CeldPuppet *puppet, size_t layer, const CeldHost *host,
+                                            CeldColours *picture);
+
+/* Finds how the parts of one key drawing move to those of another one of its size [SDC09a, ACOL00; section 3.4].  Layers of one label are one part, and are completed.  Each is registered to its lines in the other key as rigidly as
+ * possible.  A part that only one key has moves with the part that it is attached to, and in the other key behind what is
+ * in front of it, if there is room near it.  Of the settings cell_size, stiffness and ink_threshold count.  Copies of all
+ * input are kept.  CELD_BAD_SIZE for keys of different sizes. */
+CELD_API CeldStatus celd_inbetween_new (const CeldKey key[2], const CeldSettings *settings, const CeldHost *host,
+                                        CeldInbetween **inbetween);
+
+/* Draws what is between the keys at t, from 0, the first key, to 1, the second one: with straight alpha in the colour
+ * space of the layers.  Parts are interpolated as rigidly as possible, and drawn from back to front in the order of the
+ * first key while t < 0.5, then in that of the second.  Each pixel of a part is drawn from one key: the nearer one, or
+ * the other one where only that shows it.  CELD_BAD_VALUE for t outside [0,1]. */
+CELD_API CeldStatus celd_inbetween_draw (CeldInbetween *inbetween, double t, const CeldHost *host,
+                                         CeldColours *picture);
 
 #ifdef __cplusplus
 }

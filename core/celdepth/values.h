@@ -60,6 +60,7 @@ typedef struct { int width, height; size_t stride; uint32_t *data; } CeldLabels;
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldMask;    /* a byte per pixel, 0 = no */
 typedef struct { int width, height; size_t stride; uint8_t  *data; } CeldPaint;   /* R'G'B'A of sRGB, straight alpha */
 typedef struct { int width, height; size_t stride; float    *data; } CeldVectors; /* x, y, z */
+typedef struct { int width, height; size_t stride; float    *data; } CeldShifts;  /* x, y in pixels */
 typedef struct { int width, height; size_t stride; float    *data; } CeldColours; /* R, G, B, A, straight alpha */
 
 /* A rectangle of pixels; empty if its width is 0. */

@@ -5,6 +5,8 @@
  *   term      = x "," y | "#" rrggbb
  *   flag      = "@" number | "+" number | "!crack" | "!anchor"
  *
+ * Between several drawings a term is  name ":" (term | "*").
+ *
  * Read by recursive descent, one function a rule, in one pass.  Where the grammar is silent: empty relations (blank
  * lines, a final ";") say nothing; a lone term is an error, because it relates nothing; a flag given twice counts as
  * given last; numbers are plain decimals without exponent.  A line ends with \n, \r\n or \r; a byte order mark is
@@ -17,12 +19,8 @@
 /* A term, and where it stands. */
 typedef struct { CeldTerm term; int line, column; } PlacedTerm;
 
-static void
-skip_blanks (CeldReader *r)
-{
-  while (*r->at == ' ' || *r->at == '\t' || *r->at == '\v' || *r->at == '\f')
-    celd_text_advance (r);
-}
+/* The names of drawings; n 0: terms have none. */
+typedef struct { const char *const *name; size_t n; } Names;
 
 /* What stands behind "@" and "+". */
 static CeldStatus
@@ -33,7 +31,7 @@ read_positive (CeldReader *r, double *number)
   CeldStatus  status;
 
   celd_text_advance (r);
-  skip_blanks (r);
+  celd_text_skip_blanks (r);
   start  = *r;
   status = celd_text_number (r, false, expected, number);
   return status == CELD_OK && !(*number > 0) ? celd_text_refuse (&start, expected) : status;
@@ -70,23 +68,62 @@ read_point (CeldReader *r, CeldTerm *term)
 
   if (status != CELD_OK)
     return status;
-  skip_blanks (r);
+  celd_text_skip_blanks (r);
   if (*r->at != ',')
     return celd_text_refuse (r, "a comma between x and y");
   celd_text_advance (r);
-  skip_blanks (r);
+  celd_text_skip_blanks (r);
   return celd_text_number (r, false, "a number for y", &term->y);
 }
 
+static bool
+is_of_name (char c)
+{
+  return celd_text_is_digit (c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c && strchr ("-_.", c));
+}
+
+/* The name of a drawing and a colon. */
 static CeldStatus
-read_term (CeldReader *r, PlacedTerm *placed)
+read_name (CeldReader *r, const Names *names, CeldTerm *term)
+{
+  const CeldReader start = *r;
+  size_t           n;
+
+  while (is_of_name (*r->at))
+    celd_text_advance (r);
+  n = (size_t) (r->at - start.at);
+  celd_text_skip_blanks (r);
+  if (!n || *r->at != ':')
+    return celd_text_refuse (&start, "the name of a drawing and \":\"");
+  celd_text_advance (r);
+  celd_text_skip_blanks (r);
+  for (size_t i = 0; i < names->n; i++)
+    if (strlen (names->name[i]) == n && !strncmp (names->name[i], start.at, n))
+      {
+        term->fragment = i;
+        return CELD_OK;
+      }
+  return celd_text_refuse (&start, "the name of one of the drawings");
+}
+
+static CeldStatus
+read_term (CeldReader *r, const Names *names, PlacedTerm *placed)
 {
   CeldStatus status;
 
-  skip_blanks (r);
+  celd_text_skip_blanks (r);
   *placed = (PlacedTerm) { .line = r->line, .column = r->column };
-  status  = *r->at == '#' ? read_colour (r, &placed->term) : read_point (r, &placed->term);
-  skip_blanks (r);
+  status  = names->n ? read_name (r, names, &placed->term) : CELD_OK;
+  if (status != CELD_OK)
+    return status;
+  if (names->n && *r->at == '*')
+    {
+      placed->term.whole = true;
+      celd_text_advance (r);
+    }
+  else
+    status = *r->at == '#' ? read_colour (r, &placed->term) : read_point (r, &placed->term);
+  celd_text_skip_blanks (r);
   return status;
 }
 
@@ -115,7 +152,7 @@ read_flags (CeldReader *r, CeldRelation *flags)
 {
   CeldStatus status = CELD_OK;
 
-  for (; status == CELD_OK; skip_blanks (r))
+  for (; status == CELD_OK; celd_text_skip_blanks (r))
     switch (*r->at)
       {
       case '@': status = read_positive (r, &flags->weight); break;
@@ -135,14 +172,19 @@ append (CeldRelations *relations, const PlacedTerm *left, char sign, const Place
   });
 }
 
+/* What is read, and the names that ends may have. */
+typedef struct { const Names *names; CeldRelations *relations; } Reading;
+
 /* One chain; its flags count for every relation of it. */
 static CeldStatus
-read_relation (CeldReader *r, CeldRelations *relations)
+read_relation (void *data, CeldReader *r)
 {
-  PlacedTerm   left, right;
-  size_t       first  = relations->n;
-  CeldRelation flags  = { .weight = 1, .gap = 1 };
-  CeldStatus   status = read_term (r, &left);
+  const Names   *names = ((Reading *) data)->names;
+  CeldRelations *relations = ((Reading *) data)->relations;
+  PlacedTerm     left, right;
+  size_t         first  = relations->n;
+  CeldRelation   flags  = { .weight = 1, .gap = 1 };
+  CeldStatus     status = read_term (r, names, &left);
 
   if (status == CELD_OK && (!*r->at || !strchr ("<>=", *r->at)))
     return celd_text_refuse (r, "\">\", \"<\" or \"=\"");
@@ -151,7 +193,7 @@ read_relation (CeldReader *r, CeldRelations *relations)
       char sign = *r->at;
 
       celd_text_advance (r);
-      if ((status = read_term (r, &right)) == CELD_OK)
+      if ((status = read_term (r, names, &right)) == CELD_OK)
         status = append (relations, &left, sign, &right);
       left = right;
     }
@@ -167,27 +209,27 @@ read_relation (CeldReader *r, CeldRelations *relations)
   return status;
 }
 
-CeldStatus
-celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error)
+static CeldStatus
+read_relations (const char *text, const Names *names, CeldRelations *relations, CeldTextError *error)
 {
-  CeldReader r      = { text, 1, 1, error };
   size_t     before = relations->n;
-  CeldStatus status = CELD_OK;
+  CeldStatus status = celd_text_items (text, read_relation, &(Reading) { names, relations },
+                                       "\";\", a new line or a flag (@, +, !)", error);
 
-  if (strncmp (text, "\xef\xbb\xbf", 3) == 0) /* a byte order mark */
-    r.at += 3;
-  for (skip_blanks (&r); *r.at && status == CELD_OK; skip_blanks (&r))
-    if (celd_text_at_line_end (&r))
-      celd_text_skip_line_end (&r);
-    else if (*r.at == ';')
-      celd_text_advance (&r);
-    else
-      {
-        status = read_relation (&r, relations);
-        if (status == CELD_OK && *r.at && *r.at != ';' && !celd_text_at_line_end (&r))
-          status = celd_text_refuse (&r, "\";\", a new line or a flag (@, +, !)");
-      }
   if (status != CELD_OK)
     relations->n = before;
   return status;
+}
+
+CeldStatus
+celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error)
+{
+  return read_relations (text, &(Names) { NULL, 0 }, relations, error);
+}
+
+CeldStatus
+celd_fragment_relations_parse (const char *text, const char *const *name, size_t n, CeldRelations *relations,
+                               CeldTextError *error)
+{
+  return n ? read_relations (text, &(Names) { name, n }, relations, error) : CELD_NOTHING_TO_GO_BY;
 }

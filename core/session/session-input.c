@@ -107,7 +107,8 @@ clear_layers (CeldSession *s)
   celd_free (s->contours.data);
   celd_free (s->hint.data);
   celd_free (s->corrections.data);
-  s->scribbles = s->arrows = s->contours = s->corrections = (CeldPaint) { 0 };
+  celd_free (s->hidden.data);
+  s->scribbles = s->arrows = s->contours = s->corrections = s->hidden = (CeldPaint) { 0 };
   s->hint = (CeldPlane) { 0 };
 }
 
@@ -236,6 +237,12 @@ celd_session_set_corrections (CeldSession *session, const CeldPaint *corrections
 
   session->changed_corrections |= session->corrections.data != old;
   return status;
+}
+
+CeldStatus
+celd_session_set_hidden (CeldSession *session, const CeldPaint *hidden)
+{
+  return set_layer (session, hidden, &session->hidden, STAGE_SHEETS);
 }
 
 CeldStatus

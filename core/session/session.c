@@ -172,30 +172,87 @@ celd_session_ownership (CeldSession *session, const CeldHost *host, CeldOwnershi
   return status;
 }
 
-/* The label of the background if it is at the farthest level; 0 if there is none, or if relations put something behind
- * it. */
-static uint32_t
-background_label (const CeldSession *s)
+CeldStatus
+celd_session_sheets (CeldSession *session, const CeldHost *host, const CeldSheets **sheets)
 {
-  for (size_t k = 0; k < s->palette.n; k++)
-    if (s->palette.item[k].background)
-      return s->order.level[k] == 0 ? (uint32_t) k + 1 : 0;
-  return 0;
+  CeldStatus status = celd_session_make (session, STAGE_SHEETS, host);
+
+  if (status == CELD_OK)
+    *sheets = session->sheets;
+  return status;
 }
 
 /* Layers are large and rarely needed, so the session does not keep them. */
+static CeldStatus
+cut_layers (CeldSession *s, const CeldColours *art, CeldStore store, bool complete, const CeldHost *host,
+            CeldLayers **layers)
+{
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus   status = celd_session_make (s, complete ? STAGE_SHEETS : STAGE_OWNERSHIP, &first);
+
+  if (status == CELD_OK)
+    status = celd_layers_cut (celd_session_depth_ink (s), &s->ownership, s->order.level, s->order.n, art,
+                              complete ? s->sheets : NULL, store, &second, layers);
+  return status;
+}
+
 CeldStatus
 celd_session_layers (CeldSession *s, const CeldColours *art, CeldStore store, const CeldHost *host,
                      CeldLayers **layers)
 {
-  CeldHostPart  part[2];
-  CeldHost      first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
-  CeldOwnership own;
-  CeldStatus    status = celd_session_ownership (s, &first, &own, NULL);
+  return cut_layers (s, art, store, s->settings.complete, host, layers);
+}
+
+CeldStatus
+celd_session_model (CeldSession *s, const CeldColours *art, const CeldHost *host, CeldModel *model)
+{
+  CeldHostPart part[2];
+  CeldHost     cutting = celd_host_part (&part[0], host, 0, 0.5), making = celd_host_part (&part[1], host, 0.5, 1);
+  CeldLayers  *layers = NULL;
+  CeldStatus   status = cut_layers (s, art, CELD_STORE_FLOAT, true, &cutting, &layers);
 
   if (status == CELD_OK)
-    status = celd_layers_cut (celd_session_depth_ink (s), &own, s->order.level, s->order.n, art, background_label (s),
-                              store, s->settings.complete, &second, layers);
+    status = celd_model (s->sheets, &s->ownership, layers, celd_session_split_ink (s), &s->settings, &making, model);
+  celd_layers_free (layers);
+  return status;
+}
+
+CeldStatus
+celd_session_puppet (CeldSession *s, const CeldColours *art, const CeldHost *host, CeldPuppet **puppet)
+{
+  CeldHostPart part[2];
+  CeldHost     cutting = celd_host_part (&part[0], host, 0, 0.6), making = celd_host_part (&part[1], host, 0.6, 1);
+  CeldLayers  *layers = NULL;
+  CeldCracks   cracks = { 0 };
+  uint32_t     background = 0;
+  CeldStatus   status = cut_layers (s, art, CELD_STORE_FLOAT, true, &cutting, &layers);
+
+  for (uint32_t k = 0; k < s->palette.n && status == CELD_OK; k++)
+    if (s->palette.item[k].background)
+      background = k + 1;
+  if (status == CELD_OK)
+    status = celd_cracks_find (celd_session_current_labels (s), &s->palette, celd_session_relations (s),
+                               celd_session_depth_ink (s), &cracks);
+  if (status == CELD_OK)
+    status = celd_puppet_new (layers, celd_session_split_ink (s), background, &cracks, &s->settings, &making, puppet);
+  celd_cracks_clear (&cracks);
+  celd_layers_free (layers);
+  return status;
+}
+
+CeldStatus
+celd_session_relief (CeldSession *s, const CeldHost *host, CeldRelief *relief)
+{
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldPlane    levels, depth;
+  CeldStatus   status = celd_session_levels (s, &first, &levels, NULL);
+
+  if (status == CELD_OK)
+    status = celd_session_depth (s, &first, &depth, NULL);
+  if (status == CELD_OK)
+    status = celd_relief (celd_session_split_ink (s), &levels, &depth, &s->settings, &second, relief);
   return status;
 }
 

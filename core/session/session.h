@@ -6,6 +6,7 @@
  *   stage-seeds.c    seeds of the scribbles layer and of single strokes over it
  *   stage-labels.c   relations, ink and labels
  *   stage-order.c    suggestions and the depth order
+ *   stage-sheets.c   whole silhouettes of all regions
  *   stage-levels.c   levels before expansion, contour ownership, expanded levels
  *   stage-depth.c    smooth depth and its preview; normals and shading
  *   stage-exact.c    the exact program and its preview
@@ -40,7 +41,7 @@ struct CeldSession
   /* set by the host */
   CeldSettings  settings;
   CeldDrawing   drawing;                          /* luma.data NULL: none yet */
-  CeldPaint     scribbles, arrows, contours, corrections; /* data NULL: none */
+  CeldPaint     scribbles, arrows, contours, corrections, hidden; /* data NULL: none */
   CeldPlane     hint;                             /* depth picture for suggestions; data NULL: none */
   CeldStroke   *stroke;                           /* in painting order */
   size_t        n_strokes, stroke_capacity;
@@ -81,6 +82,9 @@ struct CeldSession
                                                    * ownership has to be made from scratch */
   size_t             n_ownership_levels;
   CeldOwnershipCache ownership_cache;             /* valid while ownership_level is not NULL */
+  CeldSheets        *sheets;
+  CeldRect           changed_sheets;              /* where the ownership is newer than the sheets */
+  CeldLabels         sheet_hints;                 /* `hidden` as the sheets have it; data NULL: none */
   CeldRect           changed_labels;              /* where labels may have changed since the ownership was made */
   bool               changed_corrections;         /* whether corrections may have */
   CeldPlane          unexpanded, levels;
@@ -160,6 +164,9 @@ CeldStatus celd_strokes_compose (const CeldStroke *stroke, size_t n, CeldSeedRow
 CeldStatus celd_make_relations (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_ink       (CeldSession *session, const CeldHost *host);
 CeldStatus celd_make_labels    (CeldSession *session, const CeldHost *host);
+
+/* stage-sheets.c */
+CeldStatus celd_make_sheets     (CeldSession *session, const CeldHost *host);
 
 /* stage-order.c */
 CeldStatus celd_make_suggestions (CeldSession *session, const CeldHost *host);

@@ -7,6 +7,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "depth/depth.h"
+#include "light/light.h"
 #include "image/image.h"
 #include "order/order.h"
 #include "session/session.h"
@@ -284,7 +285,8 @@ celd_make_normals (CeldSession *s, const CeldHost *host)
   CeldStatus  status = CELD_NO_MEMORY;
 
   if (normals.data)
-    status = celd_normals (celd_session_split_ink (s), &s->levels, &s->settings, host, &normals);
+    status = celd_normals_of_sheets (celd_session_split_ink (s), &s->levels, &s->ownership, s->sheets, NULL, NULL,
+                                     &s->settings, host, &normals);
   if (status != CELD_OK)
     {
       celd_free (normals.data);

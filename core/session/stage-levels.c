@@ -72,6 +72,7 @@ replace_ownership (CeldSession *s, CeldOwnership *new)
 
   celd_session_add_change (s, STAGE_OWNERSHIP, celd_rect_union (celd_rect_union (owner, under), coverage));
   celd_session_discard_label_levels (s);
+  s->changed_sheets = (CeldRect) { 0, 0, w, h };
   celd_ownership_clear (&s->ownership);
   s->ownership = *new;
   *new = (CeldOwnership) { 0 };
@@ -106,6 +107,7 @@ update_ownership (CeldSession *s, const CeldOwnershipInput *input, const CeldHos
     {
       celd_session_add_change (s, STAGE_OWNERSHIP, changed);
       s->changed_ownership = celd_rect_union (s->changed_ownership, changed);
+      s->changed_sheets    = celd_rect_union (s->changed_sheets, changed);
     }
   return status;
 }

@@ -2,7 +2,7 @@
  *
  *   drawing, contours ----> ink ------.--------------.----------------.
  *   scribbles, strokes -> seeds -> labels -> order -> unexpanded levels, levels -+-> preview of depth, depth
- *   arrows, text ---> relations ------'                                   levels -> normals -> shading
+ *   arrows, text ---> relations ------'                  ownership -> sheets      levels -> normals -> shading
  *
  *   ink -> weights -> nodes (of the seeds) -> exact depth (with the relations)
  *
@@ -27,6 +27,7 @@ static const struct
   [STAGE_ORDER]       = { celd_make_order,       0.02 },
   [STAGE_UNEXPANDED]  = { celd_make_unexpanded,  0.01 },
   [STAGE_OWNERSHIP]   = { celd_make_ownership,   0.20 },
+  [STAGE_SHEETS]      = { celd_make_sheets,      0.06 },
   [STAGE_LEVELS]      = { celd_make_levels,      0.01 },
   [STAGE_PREVIEW]     = { celd_make_preview,     0.02 },
   [STAGE_DEPTH]       = { celd_make_depth,       0.05 },
@@ -82,7 +83,8 @@ celd_session_make (CeldSession *session, CeldStage stage, const CeldHost *host)
     if ((wanted & (1u << s)) && !session->valid[s])
       {
         CeldHostPart part;
-        CeldHost     step = celd_host_part (&part, host, done / total, (done + stages[s].share) / total);
+        double       end = (done + stages[s].share) / total;
+        CeldHost     step = celd_host_part (&part, host, done / total, end < 1 ? end : 1); /* rounding can exceed 1 */
 
         status = stages[s].make (session, &step);
         session->valid[s] = status == CELD_OK;

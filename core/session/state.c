@@ -19,10 +19,11 @@ static const unsigned needs[N_STAGES] = {
   [STAGE_ORDER]       = NEEDS (LABELS) | NEEDS (RELATIONS),
   [STAGE_UNEXPANDED]  = NEEDS (ORDER),
   [STAGE_OWNERSHIP]   = NEEDS (ORDER),
+  [STAGE_SHEETS]      = NEEDS (OWNERSHIP),
   [STAGE_LEVELS]      = NEEDS (OWNERSHIP),
   [STAGE_PREVIEW]     = NEEDS (ORDER),
   [STAGE_DEPTH]       = NEEDS (LEVELS),
-  [STAGE_NORMALS]     = NEEDS (LEVELS),
+  [STAGE_NORMALS]     = NEEDS (LEVELS) | NEEDS (SHEETS),
   [STAGE_SHADING]     = NEEDS (NORMALS),
   [STAGE_WEIGHTS]     = NEEDS (INK),
   [STAGE_NODES]       = NEEDS (SEEDS) | NEEDS (WEIGHTS),
@@ -145,8 +146,9 @@ celd_session_new (void)
   return s;
 }
 
-void
-celd_session_clear_results (CeldSession *s)
+/* Frees all pictures that were made. */
+static void
+clear_made (CeldSession *s)
 {
   CeldPlane *plane[] = { &s->ink, &s->depth_ink, &s->split_ink, &s->segmenter_ink, &s->unexpanded, &s->levels,
                          &s->preview, &s->preview_ink, &s->depth, &s->shading, &s->exact_preview, &s->exact_depth };
@@ -155,31 +157,21 @@ celd_session_clear_results (CeldSession *s)
   celd_session_invalidate (s, STAGE_INK);
   celd_session_invalidate (s, STAGE_SCRIBBLES);
   for (int i = 0; i < N_STAGES; i++)
-    {
-      celd_problems_clear (&s->problems[i]);
-      s->unreported[i] = (CeldRect) { 0 };
-    }
-  celd_relations_clear (&s->relations);
-  celd_relations_clear (&s->suggested);
-  celd_relations_clear (&s->joined);
-  celd_palette_clear (&s->layer_palette);
-  celd_palette_clear (&s->seed_palette);
-  celd_palette_clear (&s->palette);
+    s->unreported[i] = (CeldRect) { 0 };
   celd_seed_rows_clear (&s->layer_seeds);
   celd_seed_rows_clear (&s->seeds);
-  celd_order_clear (&s->order);
-  celd_palette_clear (&s->exact_palette);
-  celd_exact_clear (&s->exact);
   celd_smooth_state_clear (&s->smooth_state);
   celd_smooth_state_clear (&s->preview_state);
   celd_session_discard_ownership (s);
   celd_session_discard_label_levels (s);
   celd_ownership_clear (&s->ownership);
+  celd_sheets_free (s->sheets);
   celd_segmenter_free (s->segmenter);
   celd_program_free (s->program);
   celd_free (s->splits.item);
   celd_free (s->segmented.data);
   celd_free (s->separated.data);
+  celd_free (s->sheet_hints.data);
   celd_free (s->normals.data);
   if (s->segmenter_ink.data == s->ink.data)
     s->segmenter_ink = (CeldPlane) { 0 };
@@ -188,12 +180,49 @@ celd_session_clear_results (CeldSession *s)
       celd_free (plane[i]->data);
       *plane[i] = (CeldPlane) { 0 };
     }
+  s->sheets      = NULL;
   s->segmenter   = NULL;
   s->program     = NULL;
   s->edge_radius = 0;
   s->splits      = (CeldSplits) { 0 };
-  s->segmented = s->separated = (CeldLabels) { 0 };
+  s->segmented = s->separated = s->sheet_hints = (CeldLabels) { 0 };
   s->normals = (CeldVectors) { 0 };
+}
+
+void
+celd_session_clear_results (CeldSession *s)
+{
+  clear_made (s);
+  for (int i = 0; i < N_STAGES; i++)
+    celd_problems_clear (&s->problems[i]);
+  celd_relations_clear (&s->relations);
+  celd_relations_clear (&s->suggested);
+  celd_relations_clear (&s->joined);
+  celd_palette_clear (&s->layer_palette);
+  celd_palette_clear (&s->seed_palette);
+  celd_palette_clear (&s->palette);
+  celd_order_clear (&s->order);
+  celd_palette_clear (&s->exact_palette);
+  celd_exact_clear (&s->exact);
+}
+
+void
+celd_session_drop_pictures (CeldSession *s)
+{
+  CeldPaint *paint[] = { &s->scribbles, &s->arrows, &s->contours, &s->corrections, &s->hidden };
+  CeldPlane *plane[] = { &s->hint, &s->drawing.luma, &s->drawing.alpha };
+
+  clear_made (s);
+  for (size_t i = 0; i < sizeof paint / sizeof *paint; i++)
+    {
+      celd_free (paint[i]->data);
+      *paint[i] = (CeldPaint) { 0 };
+    }
+  for (size_t i = 0; i < sizeof plane / sizeof *plane; i++)
+    {
+      celd_free (plane[i]->data);
+      *plane[i] = (CeldPlane) { 0 };
+    }
 }
 
 void
@@ -209,12 +238,6 @@ celd_session_free (CeldSession *session)
   for (size_t i = 0; i < session->n_strokes; i++)
     celd_free (session->stroke[i].span);
   celd_free (session->stroke);
-  celd_free (session->scribbles.data);
-  celd_free (session->corrections.data);
-  celd_free (session->arrows.data);
-  celd_free (session->contours.data);
-  celd_free (session->hint.data);
-  celd_free (session->drawing.luma.data);
-  celd_free (session->drawing.alpha.data);
+  celd_session_drop_pictures (session);
   celd_free (session);
 }

@@ -21,6 +21,7 @@ problems_say_what_and_where (void)
   CeldRelations relations = { &relation, 1 };
   CeldProblem   overruled = { CELD_PROBLEM_STROKE_OVERRULED, 12, 34, 1, 2, CELD_NO_INDEX };
   CeldProblem   outside = { CELD_PROBLEM_OUTSIDE, -1, -1, 0, 0, 0 };
+  CeldProblem   unsure = { CELD_PROBLEM_HIDDEN_UNSURE, 56, 78, 1, 0, CELD_NO_INDEX };
   char          text[400], small[8] = "xxxxxxx";
 
   celd_problem_text (&overruled, &palette, &relations, text, sizeof text);
@@ -29,6 +30,8 @@ problems_say_what_and_where (void)
   CHECK (!strchr (text, '#') && strstr (text, "(12, 34)"));
   celd_problem_text (&outside, &palette, &relations, text, sizeof text);
   CHECK (strstr (text, "line 3, column 9"));
+  celd_problem_text (&unsure, &palette, &relations, text, sizeof text);
+  CHECK (strstr (text, "the region #ff0010 goes on") && strstr (text, "(56, 78)") && strstr (text, "--hidden"));
   celd_problem_text (&outside, &palette, &relations, small, sizeof small);
   CHECK (strlen (small) == sizeof small - 1); /* cut, and ended */
   relation.source = CELD_SOURCE_ARROW;

@@ -58,6 +58,39 @@ colours (void)
 }
 
 static void
+bad_between (const char *text, int column, const char *expected)
+{
+  static const char *const names[] = { "man", "man-2" };
+  CeldRelations            relations = { 0 };
+  CeldTextError            error = { 0 };
+
+  CHECK (celd_fragment_relations_parse (text, names, 2, &relations, &error) == CELD_BAD_RELATION);
+  CHECK (relations.n == 0 && error.line == 1 && error.column == column && strstr (error.expected, expected));
+}
+
+static void
+terms_of_several_drawings (void)
+{
+  static const char *const names[] = { "man", "man-2" };
+  CeldRelations            r = { 0 };
+
+  CHECK (celd_fragment_relations_parse ("man-2:#ff0000 > man : 3,4 = man:* @2", names, 2, &r, NULL) == CELD_OK);
+  CHECK (r.n == 2 && r.item[1].equal && r.item[0].weight == 2);
+  CHECK (r.item[0].nearer.fragment == 1 && r.item[0].nearer.by_colour && !r.item[0].nearer.whole);
+  CHECK (r.item[0].farther.fragment == 0 && r.item[0].farther.x == 3 && r.item[0].farther.y == 4);
+  CHECK (r.item[1].farther.fragment == 0 && r.item[1].farther.whole);
+  celd_relations_clear (&r);
+  bad_between ("man:1,1 > 2,2", 11, "name of a drawing");
+  bad_between ("#ff0000 > man:2,2", 1, "name of a drawing");
+  bad_between ("man:1,1 > ma:2,2", 11, "one of the drawings");
+  bad_between ("man:1,1 > man-3:2,2", 11, "one of the drawings");
+  bad_between ("man:1,1 > man-2:", 17, "a point");
+  bad_between ("man:1,1 > man-2", 11, "name of a drawing");
+  bad ("*>1,2", 1, 1, "a point", "\"*\"");
+  CHECK (celd_fragment_relations_parse ("", names, 0, &r, NULL) == CELD_NOTHING_TO_GO_BY);
+}
+
+static void
 smaller_is_stored_the_other_way_round (void)
 {
   CeldRelations r = good ("1,2 < 3,4");
@@ -261,6 +294,7 @@ main (void)
 {
   RUN (one_relation);
   RUN (colours);
+  RUN (terms_of_several_drawings);
   RUN (smaller_is_stored_the_other_way_round);
   RUN (chains_share_their_flags);
   RUN (separators_and_white_space);

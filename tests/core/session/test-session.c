@@ -364,6 +364,35 @@ suggestions_are_used_only_on_demand (void)
   celd_session_free (s);
 }
 
+/* What a report says stays when pictures are dropped; nothing can be made until there is another drawing. */
+static void
+records_outlive_pictures (void)
+{
+  static float           luma[W * H];
+  CeldDrawing            drawing = sheet (luma);
+  CeldSession           *s = scene ();
+  const CeldOrder       *order;
+  const CeldRelations   *relations;
+  const CeldProblems    *problems;
+  CeldPlane              depth;
+  CeldLabels             labels;
+  size_t                 n;
+
+  CHECK (celd_session_order (s, NULL, &order) == CELD_OK);
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
+  relations = celd_session_relations (s);
+  problems  = celd_session_problems (s);
+  n         = problems->n;
+  celd_session_drop_pictures (s);
+  CHECK (order->n == 2 && order->level[0] == 1 && order->level[1] == 0);
+  CHECK (relations->n == 1 && problems->n == n && celd_session_palette (s)->n == 2);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) != CELD_OK);
+  CHECK (celd_session_depth (s, NULL, &depth, NULL) != CELD_OK);
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_labels (s, NULL, &labels, NULL) == CELD_OK);
+  celd_session_free (s);
+}
+
 int
 main (void)
 {
@@ -376,6 +405,7 @@ main (void)
   RUN (a_new_ink_threshold_changes_the_labels);
   RUN (suggestions_are_used_only_on_demand);
   RUN (a_cancelled_session_can_be_used);
+  RUN (records_outlive_pictures);
   RUN (wrong_input_is_an_error);
   RUN (strokes_far_outside_change_nothing);
   RUN (a_drawing_of_another_size_makes_new_labels);

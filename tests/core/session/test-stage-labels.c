@@ -275,6 +275,7 @@ finished (State *s)
   CeldSession         *session = celd_session_new ();
   CeldPlane            plane;
   const CeldRelations *suggested;
+  const CeldSheets    *sheets;
 
   *s = (State) { .has_scribbles = true, .text = "#e60000 > #0000e6", .settings = celd_settings () };
   for (int i = 0; i < W * H; i++)
@@ -288,6 +289,7 @@ finished (State *s)
   CHECK (celd_session_depth_preview (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_depth (session, NULL, &plane, NULL) == CELD_OK);
   CHECK (celd_session_shading (session, NULL, &plane, NULL) == CELD_OK);
+  CHECK (celd_session_sheets (session, NULL, &sheets) == CELD_OK);
   CHECK (celd_session_exact (session, NULL, &plane, NULL) == CELD_OK);
   return session;
 }
@@ -296,7 +298,7 @@ finished (State *s)
 #define STAGE(name) (1u << STAGE_##name)
 #define DEPTHS      (STAGE (PREVIEW) | STAGE (DEPTH))
 #define FROM_LEVELS (STAGE (LEVELS) | DEPTHS | STAGE (NORMALS) | STAGE (SHADING))
-#define FROM_ORDER  (STAGE (ORDER) | STAGE (UNEXPANDED) | STAGE (OWNERSHIP) | FROM_LEVELS)
+#define FROM_ORDER  (STAGE (ORDER) | STAGE (UNEXPANDED) | STAGE (OWNERSHIP) | STAGE (SHEETS) | FROM_LEVELS)
 #define FROM_LABELS (STAGE (LABELS) | STAGE (SUGGESTIONS) | FROM_ORDER)
 #define FROM_NODES  (STAGE (NODES) | STAGE (EXACT))
 #define FROM_INK    (STAGE (INK) | FROM_LABELS | STAGE (WEIGHTS) | FROM_NODES)
@@ -360,6 +362,7 @@ a_setting_invalidates_the_stages_that_read_it (void)
   REDOES (settings.shininess = 5, STAGE (SHADING));
   REDOES (settings.rim_light = 0.5f, STAGE (SHADING));
   REDOES (settings.rim_power = 5, STAGE (SHADING));
+  REDOES (settings.margin = 0.1f, STAGE (SHEETS) | STAGE (NORMALS) | STAGE (SHADING));
 }
 
 static void
