@@ -122,8 +122,17 @@ bool celd_io_write_light (const char *path, const CeldPlane *light, CeldIoError 
 
 /* ------------------------------------------------------------------ layers */
 
-/* Names may have any characters; EXR needs different names.  A box of width 0 is written as one transparent pixel. */
-typedef struct { const char *name; CeldRect box; } CeldIoLayer;
+/* Names may have any characters; EXR needs different names.  A box of width 0 is written as one transparent pixel.  The
+ * members after the box are written in the description of a folder alone. */
+typedef struct
+{
+  const char *name;
+  CeldRect    box;
+  uint8_t     colour[4];               /* of the region: r, g, b, a; a 0: none */
+  uint32_t    label, level;
+  bool        background;
+  CeldJoint   joint;
+} CeldIoLayer;
 
 typedef struct
 {
@@ -138,10 +147,11 @@ typedef struct
 
 /* The kind of file, by the ending of its name:
  *   .ora    OpenRaster 0.0.5: zip, PNG and XML; 8 bits, sRGB
+ *   .psd    Photoshop document, 8 bits; only in builds with ImageMagick
  *   .exr    a part for each layer, in this order, floats in linear light, with data windows
  *   none    a folder, empty or new, with a PNG of the whole canvas for each layer, numbered from the back; 8 bits,
- *           sRGB */
-typedef enum { CELD_IO_NO_STACK, CELD_IO_OPEN_RASTER, CELD_IO_EXR_PARTS, CELD_IO_FOLDER } CeldIoStackKind;
+ *           sRGB; and layers.json, which describes them (docs/layers.md) */
+typedef enum { CELD_IO_NO_STACK, CELD_IO_OPEN_RASTER, CELD_IO_PSD, CELD_IO_EXR_PARTS, CELD_IO_FOLDER } CeldIoStackKind;
 CeldIoStackKind celd_io_stack_kind (const char *path);
 
 /* Calls paint once for each layer.  If it returns false, nothing is written, and the error is empty. */
@@ -161,8 +171,11 @@ bool celd_io_write_heights (const char *path, const CeldPlane *heights, CeldIoEr
 typedef enum { CELD_IO_NO_MESH, CELD_IO_GLB, CELD_IO_OBJ, CELD_IO_PLY, CELD_IO_STL } CeldIoMeshKind;
 CeldIoMeshKind celd_io_mesh_kind (const char *path);
 
-/* The art is sRGB with straight alpha, and is composited on white; NULL: none. */
-bool celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error);
+/* Writes n meshes: .glb and .obj keep them apart, by their names.  The art of all of them is sRGB with straight alpha,
+ * and is composited on white; NULL: none. */
+typedef struct { const char *name; const CeldReliefMesh *mesh; } CeldIoMesh;
+bool celd_io_write_meshes (const char *path, const CeldIoMesh *mesh, size_t n, const CeldColours *art,
+                           CeldIoError *error);
 
 /* ------------------------------------------------------------------ several pictures of one size */
 
@@ -178,7 +191,7 @@ typedef struct
 } CeldIoFrames;
 
 /* The kind of file, by the ending of its name:
- *   .gif    an animation that repeats; 256 colours a frame, on white paper
+ *   .gif    an animation that repeats, on white paper; 256 colours, of which each that fills a thousandth of a frame is exact
  *   .mpo    views from left to right (CIPA DC-007), as JPEG on white paper
  *   none    a folder, empty or new, with 000.png, 001.png, ...; 8 bits, sRGB, with alpha */
 typedef enum { CELD_IO_NO_FRAMES, CELD_IO_GIF, CELD_IO_MPO, CELD_IO_PNG_FRAMES } CeldIoFramesKind;

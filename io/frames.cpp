@@ -1,19 +1,16 @@
-// Writes several pictures of one size: an animated GIF, views in one MPO file, or PNG files in a folder.
+// Writes several pictures of one size: an animated GIF (gif.cpp), views in one MPO file, or PNG files in a folder.
 //
 // An MPO file (CIPA DC-007, Multi-Picture Format) is a sequence of JPEG files.  Each has a segment APP2 with a
 // directory like that of TIFF; the first one also has the places of all others.  This file writes the directories
 // itself.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "layers.hpp"
+#include "frames.hpp"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
-#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -64,8 +61,7 @@ frame_pixels (const CeldIoFrames &frames, size_t frame)
   return rgba;
 }
 
-// A frame, encoded as sRGB, on white paper: R, G, B.
-static std::vector<float>
+std::vector<float>
 frame_on_paper (const CeldIoFrames &frames, size_t frame)
 {
   const std::vector<float> rgba = frame_pixels (frames, frame);
@@ -95,69 +91,6 @@ make_output (const char *format)
   if (!output)
     throw IoFailure (OIIO::geterror ());
   return output;
-}
-
-// ------------------------------------------------------------------ GIF
-
-// A frame on paper, scaled down to the size of the file.
-static std::vector<float>
-scaled_frame (const CeldIoFrames &frames, size_t frame, const ImageSpec &spec)
-{
-  std::vector<float> rgb = frame_on_paper (frames, frame), small;
-  OIIO::ImageBuf     whole (ImageSpec (frames.width, frames.height, 3, OIIO::TypeFloat), rgb.data ()), part;
-
-  if (spec.width == frames.width)
-    return rgb;
-  small.resize (3 * size_t (spec.width) * size_t (spec.height));
-  if (!OIIO::ImageBufAlgo::resize (part, whole, "", 0, OIIO::ROI (0, spec.width, 0, spec.height, 0, 1, 0, 3), 1) ||
-      !part.get_pixels (part.roi (), OIIO::TypeFloat, small.data ()))
-    throw IoFailure (part.geterror ());
-  return small;
-}
-
-// Sets the width and height of the file.
-static void
-set_size (const CeldIoFrames &frames, ImageSpec &spec)
-{
-  const double side = std::max (frames.width, frames.height), scale = frames.most_side / side;
-
-  if (frames.most_side > 0 && scale < 1)
-    {
-      spec.width  = std::max (1, int (std::lround (frames.width * scale)));
-      spec.height = std::max (1, int (std::lround (frames.height * scale)));
-    }
-}
-
-static void
-write_gif (const std::string &path, const CeldIoFrames &frames)
-{
-  const int              speed[2] = { int (std::lround (frames.per_second * 1000)), 1000 };
-  ImageSpec              spec = make_spec (frames);
-  std::vector<ImageSpec> specs;
-  NewFile                file (path);
-  auto                   output = make_output ("gif");
-
-  spec.attribute ("FramesPerSecond", OIIO::TypeRational, speed);
-  spec.attribute ("gif:LoopCount", 0); // endless
-  set_size (frames, spec);
-  spec.full_width  = spec.width;
-  spec.full_height = spec.height;
-  specs.assign (frames.frames, spec);
-  // OpenImageIO 2.5 uses the frame rate that the same writer had in the file before, so an empty file is written first.
-  if (!output->open (file.name (), spec) || !output->close ())
-    throw IoFailure (output->geterror ());
-  for (size_t i = 0; i < frames.frames; i++)
-    {
-      bool good = i ? output->open (file.name (), spec, OIIO::ImageOutput::AppendSubimage) :
-                      output->open (file.name (), int (specs.size ()), specs.data ());
-
-      if (!good || !output->write_image (OIIO::TypeFloat, scaled_frame (frames, i, spec).data ()))
-        throw IoFailure (output->geterror ());
-    }
-  if (!output->close ())
-    throw IoFailure (output->geterror ());
-  output.reset ();
-  file.commit ();
 }
 
 // ------------------------------------------------------------------ MPO
@@ -357,7 +290,11 @@ celd_io_write_frames (const char *path, const CeldIoFrames *frames, CeldIoError 
           throw IoFailure ("there are no frames.");
         switch (kind_of (path))
           {
+#ifdef CELD_GIF
           case CELD_IO_GIF:        write_gif (path, *frames); break;
+#else
+          case CELD_IO_GIF:        throw IoFailure ("this build of celdepth has no giflib.");
+#endif
           case CELD_IO_MPO:        write_mpo (path, *frames); break;
           case CELD_IO_PNG_FRAMES: write_folder (path, *frames); break;
           case CELD_IO_NO_FRAMES:  

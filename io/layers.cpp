@@ -1,4 +1,5 @@
-// Writes the layers of a picture as OpenRaster (open-raster.cpp), as an EXR of several parts, or as PNG files.
+// Writes the layers of a picture as OpenRaster (open-raster.cpp), as a PSD (psd.cpp), as an EXR of several parts, or as
+// PNG files with a description (layers-json.cpp).
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "layers.hpp"
@@ -21,6 +22,7 @@ kind_of (const std::string &path)
 
   return ending.empty () ? CELD_IO_FOLDER :
          OIIO::Strutil::iequals (ending, ".ora") ? CELD_IO_OPEN_RASTER :
+         OIIO::Strutil::iequals (ending, ".psd") ? CELD_IO_PSD :
          OIIO::Strutil::iequals (ending, ".exr") ? CELD_IO_EXR_PARTS : CELD_IO_NO_STACK;
 }
 
@@ -72,15 +74,22 @@ encode_png (int width, int height, const float *rgba)
 }
 
 void
-write_png (const std::string &path, int width, int height, const float *rgba)
+write_bytes (const std::string &path, const void *bytes, size_t size)
 {
-  const Bytes   bytes = encode_png (width, height, rgba);
   std::ofstream file (path, std::ios::binary);
 
-  file.write (reinterpret_cast<const char *> (bytes.data ()), std::streamsize (bytes.size ()));
+  file.write (static_cast<const char *> (bytes), std::streamsize (size));
   file.close ();
   if (!file)
     throw IoFailure ("there is not enough space for it.");
+}
+
+void
+write_png (const std::string &path, int width, int height, const float *rgba)
+{
+  const Bytes bytes = encode_png (width, height, rgba);
+
+  write_bytes (path, bytes.data (), bytes.size ());
 }
 
 // ------------------------------------------------------------------ EXR
@@ -150,9 +159,11 @@ file_name (const CeldIoStack &stack, size_t layer)
 static void
 write_folder (const std::string &path, const CeldIoStack &stack)
 {
-  NewFile            folder (path, true);
-  const size_t       row = 4 * size_t (stack.width);
-  std::vector<float> canvas (row * size_t (stack.height));
+  NewFile                  folder (path, true);
+  const size_t             row = 4 * size_t (stack.width);
+  std::vector<float>       canvas (row * size_t (stack.height));
+  std::vector<std::string> file;
+  std::string              json;
 
   for (size_t i = 0; i < stack.layers; i++)
     {
@@ -163,8 +174,11 @@ write_folder (const std::string &path, const CeldIoStack &stack)
       std::fill (canvas.begin (), canvas.end (), 0.f);
       for (int y = 0; y < box.height; y++)
         std::copy_n (&rgba[size_t (y) * part], part, &canvas[size_t (y + box.y) * row + 4 * size_t (box.x)]);
-      write_png (folder.name () + "/" + file_name (stack, i), stack.width, stack.height, canvas.data ());
+      file.push_back (file_name (stack, i));
+      write_png (folder.name () + "/" + file[i], stack.width, stack.height, canvas.data ());
     }
+  json = layers_json (stack, file);
+  write_bytes (folder.name () + "/layers.json", json.data (), json.size ());
   folder.commit ();
 }
 
@@ -190,10 +204,16 @@ celd_io_write_layers (const char *path, const CeldIoStack *stack, CeldIoError *e
         switch (kind_of (path))
           {
           case CELD_IO_OPEN_RASTER: write_open_raster (path, *stack); break;
+#ifdef CELD_PSD
+          case CELD_IO_PSD:         write_psd (path, *stack); break;
+#else
+          case CELD_IO_PSD:
+            throw IoFailure ("this build of celdepth has no ImageMagick, which writes PSD files.");
+#endif
           case CELD_IO_EXR_PARTS:   write_exr (path, *stack); break;
           case CELD_IO_FOLDER:      write_folder (path, *stack); break;
           case CELD_IO_NO_STACK:    
-            throw IoFailure ("its name must end in .ora or .exr; without an ending it is a folder.");
+            throw IoFailure ("its name must end in .ora, .psd or .exr; without an ending it is a folder.");
           }
       }
     catch (const IoStopped &)

@@ -25,7 +25,14 @@ std::vector<float> layer_pixels (const CeldIoStack &stack, size_t layer);
 Bytes encode_png (int width, int height, const float *rgba);
 void write_png (const std::string &path, int width, int height, const float *rgba);
 
-// Writes an OpenRaster file.
+void write_bytes (const std::string &path, const void *bytes, size_t size);
+
 void write_open_raster (const std::string &path, const CeldIoStack &stack);
+
+// Only in builds with ImageMagick.
+void write_psd (const std::string &path, const CeldIoStack &stack);
+
+// The text of a folder's layers.json; `file` has the name of each layer's file.
+std::string layers_json (const CeldIoStack &stack, const std::vector<std::string> &file);
 
 #endif

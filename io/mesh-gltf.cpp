@@ -3,9 +3,8 @@
 // In metres, y up, with the picture upright in front of the viewer.  The material is the art, without gloss.
 //
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include "json.hpp"
 #include "mesh.hpp"
-
-#include <json-glib/json-glib.h>
 
 #include <algorithm>
 #include <memory>
@@ -15,7 +14,7 @@ constexpr gint64   float_numbers = 5126, unsigned_numbers = 5125, vertex_data = 
 constexpr gint64   linear = 9729, linear_mipmaps = 9987, clamp_to_edge = 33071;
 constexpr float    metres = 0.001f; // a millimetre
 
-// Offsets in the binary chunk, in bytes.
+// Offsets in the binary chunk, in bytes: all meshes' places, then all their normals, and so on.
 struct Layout
 {
   size_t place, normal, art, corner, texture, end;
@@ -28,118 +27,35 @@ round_up (size_t n)
 }
 
 static Layout
-layout_of (const CeldReliefMesh &mesh, size_t texture)
+layout_of (const Meshes &meshes, size_t texture)
 {
-  Layout l = { 0, 12 * mesh.vertices, 24 * mesh.vertices, 32 * mesh.vertices, 0, 0 };
+  const size_t vertices = count_vertices (meshes);
+  Layout       l = { 0, 12 * vertices, 24 * vertices, 32 * vertices, 0, 0 };
 
-  l.texture = l.corner + 12 * mesh.triangles;
+  l.texture = l.corner + 12 * count_triangles (meshes);
   l.end     = round_up (l.texture + texture);
   return l;
 }
 
-// ------------------------------------------------------------------ JSON
-
-// Builds JSON; nested objects and lists are nested functions.
-class Json
-{
-public:
-  Json () : builder (json_builder_new ()) { json_builder_begin_object (builder); }
-  ~Json () { g_object_unref (builder); }
-  Json (const Json &) = delete;
-  Json &operator= (const Json &) = delete;
-
-  template <typename Body>
-  void
-  object (const char *name, Body body)
-  {
-    begin (name);
-    json_builder_begin_object (builder);
-    body ();
-    json_builder_end_object (builder);
-  }
-
-  template <typename Body>
-  void
-  list (const char *name, Body body)
-  {
-    begin (name);
-    json_builder_begin_array (builder);
-    body ();
-    json_builder_end_array (builder);
-  }
-
-  void
-  number (const char *name, gint64 value)
-  {
-    begin (name);
-    json_builder_add_int_value (builder, value);
-  }
-
-  void
-  real (const char *name, double value)
-  {
-    begin (name);
-    json_builder_add_double_value (builder, value);
-  }
-
-  void
-  truth (const char *name, bool value)
-  {
-    begin (name);
-    json_builder_add_boolean_value (builder, value);
-  }
-
-  void
-  text (const char *name, const char *value)
-  {
-    begin (name);
-    json_builder_add_string_value (builder, value);
-  }
-
-  std::string
-  end ()
-  {
-    JsonNode   *root;
-    char       *written;
-    std::string result;
-
-    json_builder_end_object (builder);
-    root    = json_builder_get_root (builder);
-    written = json_to_string (root, FALSE);
-    result  = written;
-    g_free (written);
-    json_node_unref (root);
-    return result;
-  }
-
-private:
-  // Starts a member of an object, or an item of a list if the name is null.
-  void
-  begin (const char *name)
-  {
-    if (name)
-      json_builder_set_member_name (builder, name);
-  }
-
-  JsonBuilder *builder;
-};
-
 static void
-add_view (Json &json, size_t from, size_t end, gint64 target)
+add_view (Json &json, size_t from, size_t end, gint64 target, size_t stride)
 {
   json.object (nullptr, [&] {
     json.number ("buffer", 0);
     json.number ("byteOffset", gint64 (from));
     json.number ("byteLength", gint64 (end - from));
+    if (stride)
+      json.number ("byteStride", gint64 (stride));
     if (target)
       json.number ("target", target);
   });
 }
 
 static void
-add_accessor (Json &json, gint64 view, gint64 component, size_t count, const char *type)
+add_accessor (Json &json, gint64 view, size_t offset, gint64 component, size_t count, const char *type)
 {
   json.number ("bufferView", view);
+  json.number ("byteOffset", gint64 (offset));
   json.number ("componentType", component);
   json.number ("count", gint64 (count));
   json.text ("type", type);
@@ -170,26 +86,41 @@ add_bounds (Json &json, const CeldReliefMesh &mesh)
   });
 }
 
+// The accessors of a mesh whose first vertex and first triangle have these numbers.
 static void
-add_buffers (Json &json, const CeldReliefMesh &mesh, const Layout &l, size_t texture)
+add_accessors (Json &json, const CeldReliefMesh &mesh, size_t vertex, size_t triangle)
+{
+  json.object (nullptr, [&] {
+    add_accessor (json, 0, 12 * vertex, float_numbers, mesh.vertices, "VEC3");
+    add_bounds (json, mesh);
+  });
+  json.object (nullptr, [&] { add_accessor (json, 1, 12 * vertex, float_numbers, mesh.vertices, "VEC3"); });
+  json.object (nullptr, [&] { add_accessor (json, 2, 8 * vertex, float_numbers, mesh.vertices, "VEC2"); });
+  json.object (nullptr,
+               [&] { add_accessor (json, 3, 12 * triangle, unsigned_numbers, 3 * mesh.triangles, "SCALAR"); });
+}
+
+static void
+add_buffers (Json &json, const Meshes &meshes, const Layout &l, size_t texture)
 {
   json.list ("buffers", [&] { json.object (nullptr, [&] { json.number ("byteLength", gint64 (l.end)); }); });
   json.list ("bufferViews", [&] {
-    add_view (json, l.place, l.normal, vertex_data);
-    add_view (json, l.normal, l.art, vertex_data);
-    add_view (json, l.art, l.corner, vertex_data);
-    add_view (json, l.corner, l.texture, index_data);
+    add_view (json, l.place, l.normal, vertex_data, 12);
+    add_view (json, l.normal, l.art, vertex_data, 12);
+    add_view (json, l.art, l.corner, vertex_data, 8);
+    add_view (json, l.corner, l.texture, index_data, 0);
     if (texture)
-      add_view (json, l.texture, l.texture + texture, 0);
+      add_view (json, l.texture, l.texture + texture, 0, 0);
   });
   json.list ("accessors", [&] {
-    json.object (nullptr, [&] {
-      add_accessor (json, 0, float_numbers, mesh.vertices, "VEC3");
-      add_bounds (json, mesh);
-    });
-    json.object (nullptr, [&] { add_accessor (json, 1, float_numbers, mesh.vertices, "VEC3"); });
-    json.object (nullptr, [&] { add_accessor (json, 2, float_numbers, mesh.vertices, "VEC2"); });
-    json.object (nullptr, [&] { add_accessor (json, 3, unsigned_numbers, 3 * mesh.triangles, "SCALAR"); });
+    size_t vertex = 0, triangle = 0;
+
+    for (const CeldIoMesh &each : meshes)
+      {
+        add_accessors (json, *each.mesh, vertex, triangle);
+        vertex += each.mesh->vertices;
+        triangle += each.mesh->triangles;
+      }
   });
 }
 
@@ -232,8 +163,52 @@ add_material (Json &json, bool texture)
   });
 }
 
+// A node for each mesh.
+static void
+add_nodes (Json &json, const Meshes &meshes)
+{
+  json.number ("scene", 0);
+  json.list ("scenes", [&] {
+    json.object (nullptr, [&] {
+      json.list ("nodes", [&] {
+        for (size_t k = 0; k < meshes.size (); k++)
+          json.number (nullptr, gint64 (k));
+      });
+    });
+  });
+  json.list ("nodes", [&] {
+    for (size_t k = 0; k < meshes.size (); k++)
+      json.object (nullptr, [&] {
+        json.text ("name", meshes[k].name);
+        json.number ("mesh", gint64 (k));
+      });
+  });
+}
+
+static void
+add_meshes (Json &json, const Meshes &meshes)
+{
+  json.list ("meshes", [&] {
+    for (size_t k = 0; k < meshes.size (); k++)
+      json.object (nullptr, [&] {
+        json.text ("name", meshes[k].name);
+        json.list ("primitives", [&] {
+          json.object (nullptr, [&] {
+            json.object ("attributes", [&] {
+              json.number ("POSITION", gint64 (4 * k));
+              json.number ("NORMAL", gint64 (4 * k + 1));
+              json.number ("TEXCOORD_0", gint64 (4 * k + 2));
+            });
+            json.number ("indices", gint64 (4 * k + 3));
+            json.number ("material", 0);
+          });
+        });
+      });
+  });
+}
+
 static std::string
-describe (const CeldReliefMesh &mesh, const Layout &l, size_t texture)
+describe (const Meshes &meshes, const Layout &l, size_t texture)
 {
   Json json;
 
@@ -241,44 +216,38 @@ describe (const CeldReliefMesh &mesh, const Layout &l, size_t texture)
     json.text ("version", "2.0");
     json.text ("generator", "celdepth");
   });
-  json.number ("scene", 0);
-  json.list ("scenes", [&] {
-    json.object (nullptr, [&] { json.list ("nodes", [&] { json.number (nullptr, 0); }); });
-  });
-  json.list ("nodes", [&] {
-    json.object (nullptr, [&] {
-      json.text ("name", "relief");
-      json.number ("mesh", 0);
-    });
-  });
-  json.list ("meshes", [&] {
-    json.object (nullptr, [&] {
-      json.list ("primitives", [&] {
-        json.object (nullptr, [&] {
-          json.object ("attributes", [&] {
-            json.number ("POSITION", 0);
-            json.number ("NORMAL", 1);
-            json.number ("TEXCOORD_0", 2);
-          });
-          json.number ("indices", 3);
-          json.number ("material", 0);
-        });
-      });
-    });
-  });
+  add_nodes (json, meshes);
+  add_meshes (json, meshes);
   add_material (json, texture > 0);
-  add_buffers (json, mesh, l, texture);
+  add_buffers (json, meshes, l, texture);
   return json.end ();
 }
 
 // ------------------------------------------------------------------ the file
 
+static void
+put_numbers (Writer &writer, const Meshes &meshes)
+{
+  for (const CeldIoMesh &each : meshes)
+    for (size_t i = 0; i < 3 * each.mesh->vertices; i++)
+      writer.put (metres * each.mesh->place[i]);
+  for (const CeldIoMesh &each : meshes)
+    for (size_t i = 0; i < 3 * each.mesh->vertices; i++)
+      writer.put (each.mesh->normal[i]);
+  for (const CeldIoMesh &each : meshes)
+    for (size_t i = 0; i < 2 * each.mesh->vertices; i++)
+      writer.put (each.mesh->art[i]);
+  for (const CeldIoMesh &each : meshes)
+    for (size_t i = 0; i < 3 * each.mesh->triangles; i++)
+      writer.put (each.mesh->corner[i]);
+}
+
 void
-write_gltf (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art)
+write_gltf (const std::string &path, const Meshes &meshes, const CeldColours *art)
 {
   const Bytes  texture = art ? encode_texture (*art) : Bytes ();
-  const Layout l = layout_of (mesh, texture.size ());
-  std::string  json = describe (mesh, l, texture.size ());
+  const Layout l = layout_of (meshes, texture.size ());
+  std::string  json = describe (meshes, l, texture.size ());
   Writer       writer (path);
 
   json.append (round_up (json.size ()) - json.size (), ' ');
@@ -289,14 +258,7 @@ write_gltf (const std::string &path, const CeldReliefMesh &mesh, const CeldColou
   writer.put (json);
   writer.put (uint32_t (l.end));
   writer.put (binary_chunk);
-  for (size_t i = 0; i < 3 * mesh.vertices; i++)
-    writer.put (metres * mesh.place[i]);
-  for (size_t i = 0; i < 3 * mesh.vertices; i++)
-    writer.put (mesh.normal[i]);
-  for (size_t i = 0; i < 2 * mesh.vertices; i++)
-    writer.put (mesh.art[i]);
-  for (size_t i = 0; i < 3 * mesh.triangles; i++)
-    writer.put (mesh.corner[i]);
+  put_numbers (writer, meshes);
   writer.put (texture.data (), texture.size ());
   writer.put (std::string (l.end - l.texture - texture.size (), '\0'));
   writer.close ();

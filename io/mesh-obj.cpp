@@ -54,8 +54,9 @@ put_vertices (Writer &writer, const CeldReliefMesh &mesh)
     writer.put (line_of ("vn", mesh.normal + 3 * i, 3));
 }
 
+// `first` is the number of the mesh's first vertex, from 1.
 static void
-put_faces (Writer &writer, const CeldReliefMesh &mesh)
+put_faces (Writer &writer, const CeldReliefMesh &mesh, size_t first)
 {
   for (size_t i = 0; i < mesh.triangles; i++)
     {
@@ -63,7 +64,7 @@ put_faces (Writer &writer, const CeldReliefMesh &mesh)
 
       for (size_t k = 0; k < 3; k++)
         {
-          const std::string vertex = std::to_string (size_t (mesh.corner[3 * i + k]) + 1);
+          const std::string vertex = std::to_string (first + mesh.corner[3 * i + k]);
 
           line += " " + vertex + "/" + vertex + "/" + vertex;
         }
@@ -72,14 +73,20 @@ put_faces (Writer &writer, const CeldReliefMesh &mesh)
 }
 
 void
-write_obj (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art)
+write_obj (const std::string &path, const Meshes &meshes, const CeldColours *art)
 {
   const std::string material = name_beside (path, ".mtl"), texture = name_beside (path, "-texture.png");
   Writer            object (path), library (place_of (path, material)), picture (place_of (path, texture));
+  size_t            first = 1;
 
-  object.put ("# celdepth: a relief in millimetres\nmtllib " + material + "\no relief\nusemtl art\n");
-  put_vertices (object, mesh);
-  put_faces (object, mesh);
+  object.put ("# celdepth: a relief in millimetres\nmtllib " + material + "\nusemtl art\n");
+  for (const CeldIoMesh &each : meshes)
+    {
+      object.put (std::string ("o ") + each.name + "\n");
+      put_vertices (object, *each.mesh);
+      put_faces (object, *each.mesh, first);
+      first += each.mesh->vertices;
+    }
   object.close ();
   library.put ("# celdepth\nnewmtl art\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\n");
   if (art)

@@ -29,22 +29,9 @@ colour_at (const CeldColours &art, const float *place, unsigned char rgb[3])
     rgb[i] = static_cast<unsigned char> (std::lround (255 * std::clamp (sum[i], 0.f, 1.f)));
 }
 
-void
-write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art)
+static void
+put_vertices (Writer &writer, const CeldReliefMesh &mesh, const CeldColours *art)
 {
-  Writer      writer (path);
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment celdepth: a relief in millimetres\n"
-                       "element vertex " + std::to_string (mesh.vertices) + "\n";
-
-  if (mesh.vertices > INT32_MAX)
-    throw IoFailure ("PLY files cannot have so many vertices. Allow fewer vertices.");
-  for (const char *name : { "x", "y", "z", "nx", "ny", "nz", "s", "t" })
-    header += std::string ("property float ") + name + "\n";
-  for (const char *name : { "red", "green", "blue" })
-    header += std::string ("property uchar ") + name + "\n";
-  header += "element face " + std::to_string (mesh.triangles) + "\n";
-  header += "property list uchar int vertex_indices\nend_header\n";
-  writer.put (header);
   for (size_t i = 0; i < mesh.vertices; i++)
     {
       unsigned char rgb[3] = { 255, 255, 255 };
@@ -59,13 +46,46 @@ write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColour
         colour_at (*art, mesh.art + 2 * i, rgb);
       writer.put (rgb, sizeof rgb);
     }
+}
+
+// `first` is the number of the mesh's first vertex.
+static void
+put_faces (Writer &writer, const CeldReliefMesh &mesh, uint32_t first)
+{
   for (size_t i = 0; i < mesh.triangles; i++)
     {
       const unsigned char three = 3;
 
       writer.put (&three, 1);
       for (size_t k = 0; k < 3; k++)
-        writer.put (mesh.corner[3 * i + k]);
+        writer.put (first + mesh.corner[3 * i + k]);
+    }
+}
+
+void
+write_ply (const std::string &path, const Meshes &meshes, const CeldColours *art)
+{
+  Writer       writer (path);
+  const size_t vertices = count_vertices (meshes);
+  uint32_t     first = 0;
+  std::string  header = "ply\nformat binary_little_endian 1.0\ncomment celdepth: a relief in millimetres\n"
+                        "element vertex " + std::to_string (vertices) + "\n";
+
+  if (vertices > INT32_MAX)
+    throw IoFailure ("PLY files cannot have so many vertices. Allow fewer vertices.");
+  for (const char *name : { "x", "y", "z", "nx", "ny", "nz", "s", "t" })
+    header += std::string ("property float ") + name + "\n";
+  for (const char *name : { "red", "green", "blue" })
+    header += std::string ("property uchar ") + name + "\n";
+  header += "element face " + std::to_string (count_triangles (meshes)) + "\n";
+  header += "property list uchar int vertex_indices\nend_header\n";
+  writer.put (header);
+  for (const CeldIoMesh &each : meshes)
+    put_vertices (writer, *each.mesh, art);
+  for (const CeldIoMesh &each : meshes)
+    {
+      put_faces (writer, *each.mesh, first);
+      first += uint32_t (each.mesh->vertices);
     }
   writer.close ();
   writer.commit ();

@@ -24,17 +24,11 @@ put_normal (Writer &writer, const float *const place[3])
     writer.put (length > 0 ? normal[k] / length : 0.f);
 }
 
-void
-write_stl (const std::string &path, const CeldReliefMesh &mesh)
+static void
+put_triangles (Writer &writer, const CeldReliefMesh &mesh)
 {
-  Writer     writer (path);
-  char       header[80] = "celdepth: binary STL, millimetres"; // must not begin with "solid"
   const char attributes[2] = { 0, 0 };
 
-  if (mesh.triangles > UINT32_MAX)
-    throw IoFailure ("STL files cannot have so many triangles. Allow fewer vertices.");
-  writer.put (header, sizeof header);
-  writer.put (uint32_t (mesh.triangles));
   for (size_t i = 0; i < mesh.triangles; i++)
     {
       const float *place[3];
@@ -47,6 +41,21 @@ write_stl (const std::string &path, const CeldReliefMesh &mesh)
           writer.put (p[k]);
       writer.put (attributes, sizeof attributes);
     }
+}
+
+void
+write_stl (const std::string &path, const Meshes &meshes)
+{
+  Writer       writer (path);
+  char         header[80] = "celdepth: binary STL, millimetres"; // must not begin with "solid"
+  const size_t triangles = count_triangles (meshes);
+
+  if (triangles > UINT32_MAX)
+    throw IoFailure ("STL files cannot have so many triangles. Allow fewer vertices.");
+  writer.put (header, sizeof header);
+  writer.put (uint32_t (triangles));
+  for (const CeldIoMesh &each : meshes)
+    put_triangles (writer, *each.mesh);
   writer.close ();
   writer.commit ();
 }

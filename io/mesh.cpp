@@ -36,19 +36,39 @@ encode_texture (const CeldColours &art)
   return encode_png (art.width, art.height, rgba.data ());
 }
 
+size_t
+count_vertices (const Meshes &meshes)
+{
+  size_t n = 0;
+
+  for (const CeldIoMesh &each : meshes)
+    n += each.mesh->vertices;
+  return n;
+}
+
+size_t
+count_triangles (const Meshes &meshes)
+{
+  size_t n = 0;
+
+  for (const CeldIoMesh &each : meshes)
+    n += each.mesh->triangles;
+  return n;
+}
+
 static void
-write_mesh (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art)
+write_meshes (const std::string &path, const Meshes &meshes, const CeldColours *art)
 {
   switch (kind_of (path))
     {
     case CELD_IO_GLB:
-      return write_gltf (path, mesh, art);
+      return write_gltf (path, meshes, art);
     case CELD_IO_OBJ:
-      return write_obj (path, mesh, art);
+      return write_obj (path, meshes, art);
     case CELD_IO_PLY:
-      return write_ply (path, mesh, art);
+      return write_ply (path, meshes, art);
     case CELD_IO_STL:
-      return write_stl (path, mesh);
+      return write_stl (path, meshes);
     case CELD_IO_NO_MESH:
       break;
     }
@@ -68,7 +88,7 @@ celd_io_mesh_kind (const char *path)
 }
 
 bool
-celd_io_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art, CeldIoError *error)
+celd_io_write_meshes (const char *path, const CeldIoMesh *mesh, size_t n, const CeldColours *art, CeldIoError *error)
 {
-  return guarded ("write", path, error, [&] { write_mesh (path, *mesh, art); });
+  return guarded ("write", path, error, [&] { write_meshes (path, Meshes (mesh, mesh + n), art); });
 }

@@ -65,11 +65,16 @@ private:
   std::ofstream stream;
 };
 
+using Meshes = std::vector<CeldIoMesh>;
+
+size_t count_vertices (const Meshes &meshes);
+size_t count_triangles (const Meshes &meshes);
+
 // Write a file of their format; art NULL: white, without a texture.
-void write_gltf (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
-void write_obj (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
-void write_ply (const std::string &path, const CeldReliefMesh &mesh, const CeldColours *art);
-void write_stl (const std::string &path, const CeldReliefMesh &mesh);
+void write_gltf (const std::string &path, const Meshes &meshes, const CeldColours *art);
+void write_obj (const std::string &path, const Meshes &meshes, const CeldColours *art);
+void write_ply (const std::string &path, const Meshes &meshes, const CeldColours *art);
+void write_stl (const std::string &path, const Meshes &meshes);
 
 // The art on white, as an opaque PNG.
 Bytes encode_texture (const CeldColours &art);

@@ -68,6 +68,7 @@ make_spec (const CeldIoPicture &picture, Format format, const CeldIoNote *notes,
     spec.attribute ("oiio:ColorSpace", "sRGB");
   if (picture.name)
     spec.attribute ("oiio:subimagename", picture.name);
+  spec.attribute ("DateTime", ""); // else the present one, and the same picture would be another file each time
   // PNG has text attributes only.
   for (size_t i = 0; i < n_notes; i++)
     if (notes[i].text)
