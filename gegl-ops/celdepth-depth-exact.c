@@ -28,7 +28,7 @@ render (CeldOp *op)
   CeldPlane        depth;
   CeldOrder        cycles = { 0 };
 
-  if (!celd_op_set_session (op) ||
+  if (!celd_op_set_session (op, "input", "aux", "aux2") ||
       !celd_op_set_layer (op, "aux3", celd_session_set_contours))
     return FALSE;
   session = op->operation->session;

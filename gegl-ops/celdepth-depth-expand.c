@@ -144,8 +144,8 @@ render_layer (CeldOp *op, const Inputs *in)
   gboolean            good;
 
   good = celd_op_read_colours (op, "aux", &art) &&
-         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, regions, corrections, &art, s->expansion,
-                                                 CELD_STORE_FLOAT, s->complete, &op->host, &layers)) &&
+         celd_op_try (op, celd_layers_of_levels (&in->ink, &in->levels, regions, corrections, &art,
+                                                 CELD_STORE_FLOAT, s, &op->host, &layers)) &&
          write_layer (op, layers, (size_t) op->own.layer);
   celd_layers_free (layers);
   return good;

@@ -68,7 +68,7 @@ write_result (CeldOp *op)
 static gboolean
 render (CeldOp *op)
 {
-  return celd_op_set_session (op) &&
+  return celd_op_set_session (op, "input", "aux", "aux2") &&
          write_result (op) &&
          celd_op_report_session (op, NULL);
 }

@@ -23,7 +23,7 @@ static const CeldSettingInfo result_row = {
 static const CeldProperty properties[] = {
   { .own = &result_row },
   { .name = "bulge" }, { .name = "bevel" }, { .name = "quilt" }, { .name = "frame-outline" },
-  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light" }, { .name = "light-azimuth" },
+  { .name = "light-model" }, { .name = "toon-steps" }, { .name = "light-background" }, { .name = "light" }, { .name = "light-azimuth" },
   { .name = "light-elevation" }, { .name = "ambient" }, { .name = "light-x" }, { .name = "light-y" },
   { .name = "light-height" }, { .name = "specular" }, { .name = "shininess" }, { .name = "rim-light" },
   { .name = "rim-power" },
@@ -79,7 +79,7 @@ write_lit (CeldOp *op, const CeldColours *tone, const CeldPlane *gloss)
 }
 
 static gboolean
-write_light (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
+write_light (CeldOp *op, const CeldPlane *ink, const CeldPlane *levels, const CeldVectors *normals)
 {
   const CeldSettings *s = &op->settings;
   gboolean            by_matcap = s->light_model == CELD_MODEL_MATCAP;
@@ -91,7 +91,7 @@ write_light (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
                              "another light model.");
   if ((by_matcap && !celd_op_read_sample (op, "aux5", &matcap)) || !celd_op_new_colours (op, &tone) ||
       !celd_op_new_plane (op, &gloss) ||
-      !celd_op_try (op, celd_light (normals, ink, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
+      !celd_op_try (op, celd_light (normals, ink, levels, by_matcap ? &matcap : NULL, s, &op->quiet, &tone, &gloss)))
     return FALSE;
   if (op->own.result == CELD_LUMO_TONE)
     return celd_op_write (op, tone.data);
@@ -103,14 +103,14 @@ write_light (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
 }
 
 static gboolean
-write_result (CeldOp *op, const CeldPlane *ink, const CeldVectors *normals)
+write_result (CeldOp *op, const CeldPlane *ink, const CeldPlane *levels, const CeldVectors *normals)
 {
   CeldPlane shading;
 
   if (op->own.result == CELD_LUMO_NORMALS)
     return celd_op_write_normals (op, normals);
   if (op->own.result != CELD_LUMO_SHADING || op->settings.light_model == CELD_MODEL_MATCAP)
-    return write_light (op, ink, normals);
+    return write_light (op, ink, levels, normals);
   return celd_op_new_plane (op, &shading) &&
          celd_op_try (op, celd_shade (normals, &op->settings, &shading)) &&
          celd_op_write (op, shading.data);
@@ -144,15 +144,14 @@ render (CeldOp *op)
          celd_op_new_vectors (op, &normals) &&
          celd_op_try (op, celd_normals_hinted (&ink, &levels, deep ? &depth : NULL, hinted ? &hints : NULL,
                                                &op->settings, &op->host, &normals)) &&
-         write_result (op, &ink, &normals);
+         write_result (op, &ink, &levels, &normals);
 }
 
 const CeldOperationInfo celd_lumo_shade_operation = {
   .name        = "celdepth:lumo-shade",
   .title       = "Lumo Shade",
   .categories  = "artistic:light",
-  .description = "Shades a drawing as if its parts were round. Parts in front bend at their contours, parts behind do "
-                 "not",
+  .description = "Shades a drawing as if its parts were round, also where nearer ones hide some of them",
   .reference   = CELD_REFERENCE " S. F. Johnston: Lumo: Illumination for Cel Animation. NPAR 2002.",
   .pads        = pads,
   .properties  = properties,

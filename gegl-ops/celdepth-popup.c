@@ -40,6 +40,8 @@ static const CeldPad pads[] = {
   { "aux2", "Arrows", "Arrows that point from nearer to farther parts", FALSE },
   { "aux3", "Virtual contours", "Red: a boundary of regions and depth; blue: a boundary of regions across which "
                                 "depth stays smooth; green: ink that is not a boundary", FALSE },
+  { "aux4", "Hidden", "What is hidden: strokes in a region's colour where it goes on behind nearer ones, black where "
+                      "it does not", FALSE },
   { NULL, NULL, NULL, FALSE }
 };
 
@@ -73,13 +75,13 @@ write_normals (CeldOp *op)
          celd_op_write_normals (op, &normals);
 }
 
-/* Includes the problems of the order, such as contradictions. */
+/* Problems up to the sheets, which need the order, so that the picture does not depend on what was asked for before. */
 static gboolean
 write_problems (CeldOp *op)
 {
-  const CeldOrder *order;
+  const CeldSheets *sheets;
 
-  return celd_op_try (op, celd_session_order (op->operation->session, &op->host, &order)) &&
+  return celd_op_try (op, celd_session_sheets (op->operation->session, &op->host, &sheets)) &&
          celd_op_write_problems (op);
 }
 
@@ -116,8 +118,9 @@ render (CeldOp *op)
   int              result = op->own.result;
   const CeldOrder *order = NULL;
 
-  if (!celd_op_set_session (op) ||
+  if (!celd_op_set_session (op, "input", "aux", "aux2") ||
       !celd_op_set_layer (op, "aux3", celd_session_set_contours) ||
+      !celd_op_set_layer (op, "aux4", celd_session_set_hidden) ||
       !write_result (op))
     return FALSE;
   /* All results but these two have made the order already. */

@@ -17,7 +17,7 @@ static const CeldSettingInfo unit_row = {
 static const CeldProperty properties[] = {
   { .own = &unit_row },
   { .name = "relief-from", .as = "from" },
-  { .name = "bulge" }, { .name = "relief-depth" }, { .name = "ink" }, { .name = "ink-threshold" },
+  { .name = "relief-bulge", .as = "bulge" }, { .name = "relief-depth" }, { .name = "ink" }, { .name = "ink-threshold" },
   { .name = "tolerance" },
   { 0 }
 };

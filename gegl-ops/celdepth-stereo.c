@@ -6,7 +6,7 @@
 
 static const CeldProperty properties[] = {
   { .name = "stereo" }, { .name = "disparity" }, { .name = "convergence" }, { .name = "floating-window" },
-  { .name = "screen-width" }, { .name = "expansion" }, { .name = "ink" },
+  { .name = "screen-width" }, { .name = "expansion" }, { .name = "margin" }, { .name = "ink" },
   { 0 }
 };
 
@@ -70,7 +70,7 @@ make_scene (CeldOp *op, const CeldColours *art, const CeldPlane *depth, CeldScen
   if (!celd_op_has_input (op, "aux2"))
     return celd_op_try (op, celd_scene_of_depth (art, &ink, depth, &op->settings, &op->host, scene));
   return celd_op_read_plane (op, "aux2", &levels) &&
-         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, op->settings.expansion, &op->host,
+         celd_op_try (op, celd_scene_of_levels (&ink, &levels, depth, art, &op->settings, &op->host,
                                                 scene));
 }
 

@@ -80,6 +80,8 @@ finalize (GObject *object)
   CeldOperation *self = (CeldOperation *) object;
 
   celd_session_free (self->session);
+  if (self->kept.result)
+    self->kept.destroy (self->kept.result);
   g_free (self->last_message);
   celd_operation_clear_values (self);
   g_rec_mutex_clear (&self->busy);

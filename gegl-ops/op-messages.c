@@ -60,6 +60,12 @@ celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error)
 }
 
 gboolean
+celd_op_try_handles (CeldOp *op, CeldStatus status, const CeldTextError *error)
+{
+  return try_text (op, status, error, "handles", "a handle is: 120,80 -> 200,60");
+}
+
+gboolean
 celd_op_report (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations,
               const CeldOrder *order)
 {

@@ -57,8 +57,10 @@ typedef struct
 {
   int         result;              /* the kind of output: an enumeration of properties.h */
   int         unit, layer;
-  bool        directx;
+  bool        directx, flip;
+  float       x, y, scale, turn, between; /* of celdepth:compose */
   const char *relations, *arrow_path;
+  const char *handles;             /* of celdepth:arap-deform */
 } CeldOwnValues;
 
 typedef struct
@@ -76,6 +78,9 @@ typedef struct
 
 /* ------------------------------------------------------------------ the class */
 
+/* A result that an operation keeps between calls, and the fingerprint of what it was made of. */
+typedef struct { gpointer result; GDestroyNotify destroy; guint64 input; } CeldKept;
+
 typedef struct
 {
   GeglOperation parent_instance;
@@ -86,6 +91,7 @@ typedef struct
   gboolean      rendering;
   char         *last_message;              /* of the last call; NULL if it had none */
   CeldSession  *session;           /* of operations that keep results between calls; made by celd_op_set_session */
+  CeldKept      kept;
 } CeldOperation;
 
 typedef struct
@@ -141,9 +147,10 @@ struct _CeldOp
 gboolean celd_op_fail (CeldOp *op, const char *format, ...) G_GNUC_PRINTF (2, 3);
 /* TRUE if the status of a step is CELD_OK; else its text is added to the message. */
 gboolean celd_op_try (CeldOp *op, CeldStatus status);
-/* As celd_op_try, for steps that read the relations text, or an arrow path. */
+/* As celd_op_try, for steps that read the relations text, an arrow path, or handles. */
 gboolean celd_op_try_text (CeldOp *op, CeldStatus status, const CeldTextError *error);
 gboolean celd_op_try_path (CeldOp *op, CeldStatus status, const CeldTextError *error);
+gboolean celd_op_try_handles (CeldOp *op, CeldStatus status, const CeldTextError *error);
 /* Add problems to the message; always TRUE, since there is a result all the same.  `order` has the cycles of
  * contradictions; NULL before there is an order. */
 gboolean celd_op_report (CeldOp *op, const CeldProblems *problems, const CeldPalette *palette,
@@ -193,9 +200,9 @@ gboolean celd_op_write_normals (CeldOp *op, const CeldVectors *normals); /* 0.5 
 
 /* ------------------------------------------------------------------ session.c */
 
-/* Sets the settings, drawing (input), scribbles (aux), arrows (aux2), relations and arrow path in the operation's
- * session, which it makes at the first call. */
-gboolean celd_op_set_session (CeldOp *op);
+/* Sets the settings, the drawing and the layers of these pads, relations and arrow path in the operation's session,
+ * which it makes at the first call. */
+gboolean celd_op_set_session (CeldOp *op, const char *drawing_pad, const char *scribbles_pad, const char *arrows_pad);
 
 /* Sets one more layer, from an optional pad. */
 gboolean celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *session,
@@ -206,5 +213,18 @@ gboolean celd_op_report_session (CeldOp *op, const CeldOrder *order);
 /* Write the session's labels as colours; and the input with marks for the problems of all valid stages. */
 gboolean celd_op_write_labels   (CeldOp *op);
 gboolean celd_op_write_problems (CeldOp *op);
+
+/* ------------------------------------------------------------------ kept.c */
+
+/* A fingerprint of what a result is made of: of the settings and the rectangle of the picture, with more input
+ * added. */
+guint64 celd_op_settings_input (CeldOp *op);
+guint64 celd_op_add_input      (guint64 fingerprint, const void *data, gsize size); /* data NULL: there is none */
+guint64 celd_op_add_text       (guint64 fingerprint, const char *text);             /* may be NULL */
+
+/* The result that was kept, if it was made of the same input; else that is freed, and NULL. */
+gpointer celd_op_kept (CeldOp *op, guint64 input);
+/* Keeps a result where there is none; `destroy` frees it. */
+void     celd_op_keep (CeldOp *op, guint64 input, gpointer result, GDestroyNotify destroy);
 
 #endif

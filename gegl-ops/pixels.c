@@ -122,10 +122,31 @@ celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours)
   return TRUE;
 }
 
+/* Whether some of n pixels is not grey. */
+static gboolean
+has_hue (const float *rgba, gsize n)
+{
+  for (gsize i = 0; i < n; i++, rgba += 4)
+    if (fabsf (rgba[0] - rgba[1]) > 0.02f || fabsf (rgba[1] - rgba[2]) > 0.02f)
+      return TRUE;
+  return FALSE;
+}
+
+/* Replaces the drawing by its lines if it is a coloured one. */
+static gboolean
+read_coloured_lines (CeldOp *op, const char *pad, CeldDrawing *drawing)
+{
+  CeldPaint art;
+
+  return celd_op_read_paint (op, pad, &art) &&
+         celd_op_try (op, celd_coloured_lines (&art, op->settings.ink, &op->quiet, drawing));
+}
+
 gboolean
 celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 {
   GeglRectangle row = { op->picture.x, op->picture.y, op->picture.width, 1 };
+  gboolean      hue = FALSE;
   gsize         start = 0, w = (gsize) row.width;
   float        *rgba = celd_op_alloc (op, w * 4 * sizeof (float));
 
@@ -137,8 +158,9 @@ celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
     {
       get (op, pad, &row, "R'G'B'A float", paper (op, pad), rgba);
       celd_luma (rgba, w, drawing->luma.data + start, drawing->alpha.data ? drawing->alpha.data + start : NULL);
+      hue = hue || has_hue (rgba, w);
     }
-  return TRUE;
+  return (!hue && op->settings.ink != CELD_INK_LINES) || read_coloured_lines (op, pad, drawing);
 }
 
 gboolean

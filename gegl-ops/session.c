@@ -29,7 +29,7 @@ celd_op_set_layer (CeldOp *op, const char *pad, CeldStatus (*set) (CeldSession *
 }
 
 gboolean
-celd_op_set_session (CeldOp *op)
+celd_op_set_session (CeldOp *op, const char *drawing_pad, const char *scribbles_pad, const char *arrows_pad)
 {
   CeldSession  *session = get_session (op);
   CeldTextError error = { 0 };
@@ -37,10 +37,10 @@ celd_op_set_session (CeldOp *op)
 
   return session &&
          celd_op_try (op, celd_session_set_settings (session, &op->settings)) &&
-         celd_op_read_drawing (op, "input", &drawing) &&
+         celd_op_read_drawing (op, drawing_pad, &drawing) &&
          celd_op_try (op, celd_session_set_drawing (session, &drawing)) &&
-         celd_op_set_layer (op, "aux", celd_session_set_scribbles) &&
-         celd_op_set_layer (op, "aux2", celd_session_set_arrows) &&
+         celd_op_set_layer (op, scribbles_pad, celd_session_set_scribbles) &&
+         celd_op_set_layer (op, arrows_pad, celd_session_set_arrows) &&
          celd_op_try_text (op, celd_session_set_relations (session, op->own.relations, &error), &error) &&
          celd_op_try_path (op, celd_session_set_arrow_path (session, op->own.arrow_path, &error), &error);
 }

@@ -141,6 +141,26 @@ popup_is_the_steps_of_core (void)
   SAME (stored_normals (false), 3);
 }
 
+/* Without its hidden side, the right disc bends at the left one as at an outline of its own. */
+static void
+popup_reads_what_is_hidden (void)
+{
+  static uint8_t hidden[4 * PIXELS];
+  static float   whole[3 * PIXELS];
+  GeglBuffer    *painted;
+  size_t         beside = 3 * (40 * WIDTH + 72), left = 3 * (40 * WIDTH + 30);
+
+  paint_line (hidden, 45, 14, 45, 40, 26, 0x000000); /* all of the left disc right of its middle */
+  painted = page_buffer ("R'G'B'A u8", "R'G'B'A u8", hidden);
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows } }, "RGB float", whole, "result", 4, NULL);
+  operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows, NULL, painted } }, "RGB float", result,
+           "result", 4, NULL);
+  CHECK (whole[beside] > 0.25f);
+  CHECK (result[beside] < whole[beside] - 0.1f);
+  NEAR (result[left], whole[left], 1e-3);
+  g_object_unref (painted);
+}
+
 /* The settings of segmentation have their effect. */
 static void
 method_is_that_of_core (void)
@@ -295,6 +315,7 @@ main (int argc, char **argv)
   RUN (depth_is_that_of_core);
   RUN (exact_depth_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
+  RUN (popup_reads_what_is_hidden);
   RUN (method_is_that_of_core);
   RUN (popup_follows_its_properties);
   RUN (chain_agrees_with_popup);

@@ -22,6 +22,8 @@ missing_pads_are_named (void)
     { "celdepth:virtual-contours", "Contours" }, { "celdepth:depth-expand", "Drawing" },
     { "celdepth:depth-smooth", "Drawing" }, { "celdepth:lumo-shade", "Drawing" },
     { "celdepth:depth-enhance", "Levels" }, { "celdepth:relief", "Drawing" }, { "celdepth:stereo", "Depth" },
+    { "celdepth:arap-register", "Target" }, { "celdepth:depth-propagate", "Drawing before" },
+    { "celdepth:compose", "Levels" },
   };
 
   for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
@@ -50,7 +52,63 @@ missing_scribbles_and_arrows_are_reported (void)
   CHECK (SAYS ("Depth Exact: ") && SAYS ("scribble"));
 }
 
-/* A matcap may have any size and place. */
+/* Scribbles of the drawing before, in one of two forms, and relations that can be read. */
+static void
+propagation_needs_something_to_carry (void)
+{
+  Pads pads = { { drawing, drawing } };
+
+  for (int flats = 0; flats < 2; flats++)
+    {
+      be_quiet ();
+      operate ("celdepth:depth-propagate", pads, "RGBA float", result, "flats", flats, NULL);
+      PASSES_THROUGH ();
+      CHECK (SAYS ("Depth Propagate: ") && SAYS ("scribble"));
+    }
+  pads.pad[2] = scribbles;
+  be_quiet ();
+  operate ("celdepth:depth-propagate", pads, "RGBA float", result, "relations", "1,1 >", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("line 1"));
+  be_quiet ();
+  operate ("celdepth:depth-propagate", pads, "RGBA float", result, "relations", "#ff0000 > #00ff00 > #ff0000", NULL);
+  CHECK (times_said == 1 && SAYS ("contradicts"));
+  CHECK (difference (result, input_light, 4 * PIXELS) > 0.1);
+}
+
+/* Parts, and handles that can be read and suit them. */
+static void
+deformation_says_what_is_wrong (void)
+{
+  static const struct { const char *handles, *says[2]; gboolean fails; } cases[] = {
+    { "45,40 ->", { "line 1, column 9", "120,80 -> 200,60" }, TRUE },
+    { "45,40; 2000000,2", { "handle", "between -1000000 and 1000000" }, TRUE },
+    { "45,40; 3,3", { "1 handle lies outside", "3,3" }, FALSE },
+    { "30,40; 60,40 -> 110,40", { "stretched to", "times its length" }, FALSE },
+    { "25,40; 45,40 -> 0,40; 65,40", { "folded over in", "around" }, FALSE },
+    { "45,40 -> 50,40", { "", "" }, FALSE },
+  };
+  Pads pads = { { drawing } };
+
+  be_quiet ();
+  operate ("celdepth:arap-deform", pads, "RGBA float", result, "handles", "45,40 -> 50,40", NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("'Levels'") && SAYS ("'Scribbles'"));
+  pads.pad[4] = scribbles;
+  for (size_t i = 0; i < G_N_ELEMENTS (cases); i++)
+    {
+      be_quiet ();
+      operate ("celdepth:arap-deform", pads, "RGBA float", result, "handles", cases[i].handles, NULL);
+      CHECK (warnings == 0 && times_said == (cases[i].says[0][0] != 0));
+      CHECK (SAYS (cases[i].says[0]) && SAYS (cases[i].says[1]));
+      if (cases[i].fails)
+        PASSES_THROUGH ();
+      else
+        CHECK (difference (result, input_light, 4 * PIXELS) > (i == 2 ? -1 : 0.1));
+    }
+}
+
+/* A matcap may have any size and place.  A ball that is all like its middle, here black, changes nothing. */
 static void
 a_missing_matcap_is_reported (void)
 {
@@ -65,8 +123,31 @@ a_missing_matcap_is_reported (void)
   operate ("celdepth:lumo-shade", (Pads) { { drawing, drawing, NULL, NULL, NULL, ball } }, "RGBA float", result,
            "light-model", CELD_MODEL_MATCAP, NULL);
   CHECK (times_said == 0 && warnings == 0);
-  NEAR (result[4 * PIXELS / 2], 0, 0); /* it is black */
+  NEAR (difference (result, input_light, 4 * PIXELS), 0, 1e-6);
   g_object_unref (ball);
+}
+
+/* The second picture may have any size and place, but its levels must have the same. */
+static void
+a_second_picture_has_levels_of_its_size (void)
+{
+  GeglBuffer *art = gegl_buffer_new (GEGL_RECTANGLE (-50, 900, 30, 4), babl_format ("RGBA float"));
+  GeglBuffer *levels = gegl_buffer_new (GEGL_RECTANGLE (-50, 900, 30, 5), babl_format ("Y float"));
+
+  be_quiet ();
+  operate ("celdepth:compose", (Pads) { { drawing, drawing } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("Second art") && SAYS ("aux2"));
+  be_quiet ();
+  operate ("celdepth:compose", (Pads) { { drawing, drawing, art, levels } }, "RGBA float", result, NULL);
+  PASSES_THROUGH ();
+  CHECK (SAYS ("30 x 5 pixels at -50, 900") && SAYS ("30 x 4"));
+  be_quiet ();
+  operate ("celdepth:compose", (Pads) { { drawing, drawing, art } }, "RGBA float", result, NULL);
+  CHECK (times_said == 0 && warnings == 0);
+  NEAR (difference (result, input_light, 4 * PIXELS), 0, 1e-4); /* it is transparent */
+  g_object_unref (art);
+  g_object_unref (levels);
 }
 
 /* With too much disparity there is a result and a message. */
@@ -219,7 +300,7 @@ empty_and_single_pixel_pictures_are_handled (void)
   static const char *const operations[] = {
     "celdepth:virtual-contours", "celdepth:lazybrush-segment", "celdepth:depth-order", "celdepth:depth-expand",
     "celdepth:depth-smooth", "celdepth:depth-exact", "celdepth:lumo-shade", "celdepth:depth-enhance",
-    "celdepth:relief", "celdepth:popup",
+    "celdepth:relief", "celdepth:arap-register", "celdepth:popup",
   };
   GeglBuffer              *empty = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 0, 0), babl_format ("R'G'B'A u8"));
   GeglBuffer              *pixel = gegl_buffer_new (GEGL_RECTANGLE (0, 0, 1, 1), babl_format ("R'G'B'A u8"));
@@ -319,7 +400,10 @@ main (int argc, char **argv)
   start_to_listen ();
   RUN (missing_pads_are_named);
   RUN (missing_scribbles_and_arrows_are_reported);
+  RUN (propagation_needs_something_to_carry);
+  RUN (deformation_says_what_is_wrong);
   RUN (a_missing_matcap_is_reported);
+  RUN (a_second_picture_has_levels_of_its_size);
   RUN (strain_of_the_eyes_is_reported);
   RUN (corrections_of_unknown_colours_are_errors);
   RUN (unreadable_relations_are_located);

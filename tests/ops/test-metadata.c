@@ -23,15 +23,24 @@ static const struct { const char *name; const char *pads; const char *properties
     "far-level "
     "tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux5 aux4 aux3 aux2 aux input",
-    "result bulge bevel quilt frame-outline light-model toon-steps light light-azimuth light-elevation ambient "
-    "light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
+    "result bulge bevel quilt frame-outline light-model toon-steps light-background light light-azimuth "
+    "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
     "ink ink-threshold" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
   { "celdepth:relief", "aux2 aux input", "unit from bulge relief-depth ink ink-threshold tolerance" },
   { "celdepth:stereo", "aux3 aux2 aux input",
-    "stereo disparity convergence floating-window screen-width expansion ink" },
-  { "celdepth:popup", "aux3 aux2 aux input",
+    "stereo disparity convergence floating-window screen-width expansion margin ink" },
+  { "celdepth:arap-register", "aux2 aux input", "result cell-size stiffness expansion ink" },
+  { "celdepth:depth-propagate", "aux4 aux3 aux2 aux input",
+    "result flats relations arrow-path arrow-style on-cycle ink ink-threshold method close-gaps keep-necks hardness "
+    "background background-colour encoding near-level far-level expansion tolerance" },
+  { "celdepth:arap-deform", "aux5 aux4 aux3 aux2 aux input",
+    "result handles cell-size relations arrow-path arrow-style on-cycle suggest ink ink-threshold method close-gaps "
+    "keep-necks hardness flats background background-colour seeds same-colour encoding near-level far-level expansion "
+    "margin" },
+  { "celdepth:compose", "aux3 aux2 aux input", "result between x y scale turn flip ink" },
+  { "celdepth:popup", "aux4 aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
     "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
     "hold-rest tolerance bulge light-azimuth light-elevation ambient directx" },
@@ -124,9 +133,13 @@ choices_have_the_documented_nicks (void)
     { "celdepth:lumo-shade", "light", "direction point" },
     { "celdepth:depth-enhance", "result", "art layer view" },
     { "celdepth:depth-enhance", "enhance", "stack darken contrast" },
+    { "celdepth:arap-register", "result", "displacement warped confidence" },
+    { "celdepth:depth-propagate", "result", "labels scribbles levels depth confidence" },
+    { "celdepth:arap-deform", "result", "art levels" },
+    { "celdepth:compose", "result", "art levels" },
     { "celdepth:relief", "unit", "relative pixels" },
     { "celdepth:relief", "from", "inflation normals" },
-    { "celdepth:popup", "ink", "auto dark light alpha" },
+    { "celdepth:popup", "ink", "auto dark light alpha lines" },
     { "celdepth:popup", "method", "basins exact walker" },
     { "celdepth:popup", "background", "auto none colour" },
     { "celdepth:popup", "seeds", "auto scribbles" },
@@ -176,7 +189,8 @@ defaults_are_those_of_core (void)
       for (guint k = 0; k < n; k++)
         {
           const char            *name = g_param_spec_get_name (specs[k]);
-          const CeldSettingInfo *row = celd_setting_find (name);
+          bool                   of_relief = !strcmp (operations[i].name, "celdepth:relief") && !strcmp (name, "bulge");
+          const CeldSettingInfo *row = celd_setting_find (of_relief ? "relief-bulge" : name);
           GValue                 value = G_VALUE_INIT;
 
           if (!row || row->type == CELD_SETTING_COLOUR ||

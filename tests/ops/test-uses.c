@@ -6,17 +6,19 @@
 
 #include <locale.h>
 
-/* The drawing as grey light, under the shading. */
+/* The drawing in linear light, lit as by default. */
 static const float *
 lit_drawing (void)
 {
-  static float lit[4 * PIXELS];
+  static float lit[4 * PIXELS], colour[4 * PIXELS], shine[PIXELS];
   const Babl  *fish = babl_fish (babl_format ("Y' float"), babl_format ("RGBA float"));
+  CeldColours  art = { WIDTH, HEIGHT, WIDTH, lit }, tone = { WIDTH, HEIGHT, WIDTH, colour };
+  CeldPlane    gloss = { WIDTH, HEIGHT, WIDTH, shine };
+  CeldSettings settings = celd_settings ();
 
   babl_process (fish, page_luma, lit, PIXELS);
-  for (int i = 0; i < 4 * PIXELS; i++)
-    if (i % 4 != 3)
-      lit[i] *= shading.data[i / 4];
+  CHECK (celd_light (&normals, &ink, &levels, NULL, &settings, NULL, &tone, &gloss) == CELD_OK);
+  CHECK (celd_light_colours (&tone, &gloss, &art) == CELD_OK);
   return lit;
 }
 
@@ -90,7 +92,7 @@ views_are_those_of_core (void)
       Pads       pads = { { drawing, deep, layers ? flats : NULL, layers ? drawing : NULL } };
       CeldScene *scene = NULL;
 
-      CHECK ((layers ? celd_scene_of_levels (&ink, &levels, &depth, &art, CELD_EXPANSION_OUTLINES, NULL, &scene)
+      CHECK ((layers ? celd_scene_of_levels (&ink, &levels, &depth, &art, &settings, NULL, &scene)
                      : celd_scene_of_depth (&art, &ink, &depth, &settings, NULL, &scene)) == CELD_OK);
       for (int eye = 0; eye < 2; eye++)
         {
@@ -123,6 +125,49 @@ views_are_those_of_core (void)
   g_object_unref (flats);
 }
 
+/* A red square behind the left disc, which is nearest, and in front of the right one. */
+static void
+compositions_are_those_of_core (void)
+{
+  enum { SIDE = 20 };
+  static float  red[4 * SIDE * SIDE], blank[SIDE * SIDE], wanted[4 * PIXELS], own[4 * PIXELS], stacked[PIXELS];
+  CeldColours   art = { WIDTH, HEIGHT, WIDTH, own }, square = { SIDE, SIDE, SIDE, red };
+  CeldColours   picture = { WIDTH, HEIGHT, WIDTH, wanted };
+  CeldPlane     paper = { SIDE, SIDE, SIDE, blank }, one = { SIDE, SIDE, SIDE, (float[SIDE * SIDE]) { 0 } };
+  CeldPlane     made = { WIDTH, HEIGHT, WIDTH, stacked };
+  CeldLevelArt  piece[2] = { { &art, &ink, &levels }, { &square, &paper, &one } };
+  CeldPlacement placement = { 52, 28, 1.25, 30, true };
+  GeglBuffer   *input = page_buffer ("Y float", "Y float", levels.data);
+  GeglBuffer   *second = gegl_buffer_new (GEGL_RECTANGLE (7, -3, SIDE, SIDE), babl_format ("RGBA float"));
+  const float  *pixel;
+
+  for (int p = 0; p < SIDE * SIDE; p++)
+    {
+      memcpy (red + 4 * p, (float[]) { 1, 0, 0, 1 }, 4 * sizeof (float));
+      blank[p] = 1;
+    }
+  gegl_buffer_set (second, NULL, 0, babl_format ("RGBA float"), red, GEGL_AUTO_ROWSTRIDE);
+  gegl_buffer_get (drawing, NULL, 1, babl_format ("RGBA float"), own, GEGL_AUTO_ROWSTRIDE, GEGL_ABYSS_NONE);
+  CHECK (celd_compose_levels (piece, &placement, 0.6f, NULL, &picture, &made) == CELD_OK);
+  operate ("celdepth:compose", (Pads) { { drawing, input, second } }, "RGBA float", result, "between", 0.6, "x", 52.0,
+           "y", 28.0, "scale", 1.25, "turn", 30.0, "flip", TRUE, NULL);
+  NEAR (difference (result, wanted, 4 * PIXELS), 0, 1e-3);
+  pixel = result + 4 * (40 * WIDTH + 74);
+  CHECK (pixel[0] == 1 && pixel[1] == 0);
+  pixel = result + 4 * (40 * WIDTH + 62);
+  CHECK (pixel[0] == 1 && pixel[1] == 1); /* the paper of the left disc */
+  operate ("celdepth:compose", (Pads) { { drawing, input, second } }, "Y float", result, "between", 0.6, "x", 52.0,
+           "y", 28.0, "scale", 1.25, "turn", 30.0, "flip", TRUE, "result", 1, NULL);
+  SAME (stacked, 1);
+  NEAR (result[40 * WIDTH + 74], 2.0 / 3, 1e-6);
+  NEAR (result[40 * WIDTH + 62], 1, 1e-6);
+  NEAR (result[40 * WIDTH + 95], 1.0 / 3, 1e-6);
+  operate ("celdepth:compose", (Pads) { { drawing, input, second } }, "RGBA float", result, "x", 52.0, "y", 28.0, NULL);
+  CHECK (result[4 * (40 * WIDTH + 62) + 1] == 0); /* in front of all */
+  g_object_unref (input);
+  g_object_unref (second);
+}
+
 static void
 heights_are_those_of_core (void)
 {
@@ -132,7 +177,7 @@ heights_are_those_of_core (void)
   CeldSettings settings = celd_settings ();
   CeldRelief   relief = { 0 };
 
-  settings.bulge = 0.5f;
+  settings.relief_bulge = 0.5f;
   CHECK (celd_relief (&ink, &levels, &depth, &settings, NULL, &relief) == CELD_OK);
   operate ("celdepth:relief", pads, "Y float", result, "unit", 1, "bulge", 0.5, NULL);
   SAME (relief.z, 1);
@@ -207,7 +252,7 @@ all_light_is_that_of_core (void)
         if (result_of == 2 || (result_of == 1 && model != CELD_MODEL_MATCAP))
           continue;
         s.light_model = (CeldLightModel) model;
-        CHECK (celd_light (&bent, &ink, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
+        CHECK (celd_light (&bent, &ink, &levels, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
         operate ("celdepth:lumo-shade", (Pads) { { input, drawing, art, deep, hints, sample } },
                  "RGBA float", result, "result", result_of, "light-model", model, "quilt", 0.7, "bevel", 0.1,
                  "frame-outline", TRUE, "light", CELD_LIGHT_POINT, "light-x", 0.75, "light-y", 0.25,
@@ -248,6 +293,7 @@ main (int argc, char **argv)
   make_page ();
   RUN (core_makes_all_results_of_the_page);
   RUN (shadows_are_those_of_core);
+  RUN (compositions_are_those_of_core);
   RUN (heights_are_those_of_core);
   RUN (views_are_those_of_core);
   RUN (light_is_that_of_core);
