@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "sequence.h"
 
 #include <locale.h>
 #ifdef __GLIBC__
@@ -15,6 +15,8 @@ static const CliCommand *const commands[] = {
   &cli_popup_command,  &cli_segment_command, &cli_order_command,  &cli_expand_command,
   &cli_smooth_command, &cli_shade_command,   &cli_enhance_command, &cli_stereo_command,
   &cli_wiggle_command, &cli_relief_command,  &cli_exact_command,  &cli_layers_command,
+  &cli_register_command, &cli_compose_command, &cli_propagate_command,
+  &cli_deform_command,  &cli_inbetween_command,
 };
 
 static void
@@ -24,7 +26,7 @@ print_help (FILE *where)
          "Depth for hand-drawn cartoons from scribbles and arrows.\n\n"
          "Commands:\n", where);
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
-    fprintf (where, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    fprintf (where, "  %-9s %s\n", commands[i]->name, commands[i]->summary);
   fprintf (where, "\n'celdepth COMMAND --help' shows the options and examples of a command.\n"
                   "Exit codes: 0 success, 1 failure, 2 wrong usage, 3 success, but relations contradict each other.\n");
 }
@@ -36,7 +38,7 @@ run_command (const CliCommand *command, int argc, char **argv)
   int        code = cli_options_parse (command, argc, argv, &options);
 
   if (code == CLI_DONE)
-    code = command->run (&options);
+    code = options.clip ? cli_clip_run (command, &options) : command->run (&options);
   cli_options_clear (&options);
   return code;
 }

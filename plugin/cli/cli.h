@@ -1,7 +1,7 @@
 /* Functions that the files of the celdepth command share.
  *
  * Each sub-command is in a file of its name: popup, segment, order, expand, smooth, shade, enhance, stereo, wiggle,
- * relief, exact, layers.  The other files:
+ * relief, exact, layers, register, compose, propagate, deform, inbetween.  The other files:
  *
  *   cli.c       chooses the sub-command         pictures.c  reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
@@ -10,7 +10,10 @@
  *   route.c     for popup and segment           messages.c  messages on stderr
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
  *               relief                          threads.c   threads for loops of core
- *   scene.c     for stereo and wiggle
+ *   scene.c     for stereo and wiggle           model.c     for relief
+ *   composition.c  for compose
+ *   sequence.c  frames of a clip                clip.c      --clip
+ *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -30,23 +33,31 @@ enum { CLI_DONE = 0, CLI_FAILED = 1, CLI_USAGE = 2, CLI_CONTRADICTED = 3 };
 typedef enum
 {
   CLI_POPUP = 1, CLI_SEGMENT = 2, CLI_ORDER = 4, CLI_EXPAND = 8, CLI_SMOOTH = 16, CLI_SHADE = 32,
-  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024, CLI_WIGGLE = 2048
+  CLI_EXACT = 64, CLI_ENHANCE = 128, CLI_LAYERS = 256, CLI_STEREO = 512, CLI_RELIEF = 1024, CLI_WIGGLE = 2048,
+  CLI_REGISTER = 4096, CLI_COMPOSE = 8192, CLI_PROPAGATE = 16384,
+  CLI_DEFORM = 32768, CLI_INBETWEEN = 65536
 } CliSteps;
 
 /* The values of all options.  Names of files, and texts, that are not given are NULL. */
 typedef struct
 {
   CliSteps     step;
-  char        *input;
-  char        *drawing, *scribbles, *contours, *corrections, *arrows, *anchors, *depth_hint;
+  char        *input, *target, *clip;
+  char        *drawing, *scribbles, *contours, *corrections, *hidden, *arrows, *anchors, *depth_hint;
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt, *wiggle;
-  char        *colours, *output, *light;
+  char        *colours, *output, *composed, *light;
+  char        *source_levels, *displacement, *warped, *confidence;
+  char        *second_scribbles, *second_arrows, *second_colours, *between; /* of inbetween */
+  char        *handles, *handles_file, *handles_layer, *handle_keys, *deformed;
   char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid;
   char        *padding_text;
   int          grid_columns, grid_rows, padding; /* of --grid and --padding */
-  int          views, columns, frames, fps, size;
+  int          views, columns, frames, fps, size, jobs, part;
+  char       **inputs, **keys, **key_scribbles, **key_arrows; /* of propagate */
+  char       **command_line;  /* as it was given, without --emit-slurm */
+  char        *labels_dir, *depth_dir, *emit_slurm, *review;
   bool         quiet, directx;
   bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
@@ -57,7 +68,7 @@ typedef struct
 {
   const char *name;
   CliSteps    step;
-  const char *input;       /* the name of its argument in --help */
+  const char *input, *second; /* names of its arguments in --help; second NULL: there is one */
   const char *summary, *examples;
   const char *settings;    /* names of settings, with spaces between; "option=name" gives the option another name,
                             * "+name" is an option without a value that switches the setting on */
@@ -70,6 +81,9 @@ typedef struct
 /* CLI_DONE, or another exit code after a message.  The caller clears `options` in either case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
+
+/* A file's name with a number in place of its #, or else before its ending; free with g_free. */
+char *cli_file_numbered (const char *name, int number);
 
 /* ------------------------------------------------------------------ messages.c */
 
@@ -113,7 +127,7 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
 
 /* ------------------------------------------------------------------ pictures.c, npy.c */
 
-bool cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing);
+bool cli_read_drawing (CeldIoFile *file, size_t part, CeldInkMode mode, CeldDrawing *drawing);
 bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
 /* Colours of a part, in linear light or encoded as sRGB; and of the first part of a file, in linear light.  Free data
  * with g_free. */
@@ -122,17 +136,28 @@ bool cli_read_colours (const char *path, CeldColours *colours);
 bool cli_colours_new  (int width, int height, CeldColours *colours);
 bool cli_read_levels  (const char *path, CeldPlane *levels);
 
+/* The name under which a file is written, to be renamed when it is complete; free with g_free. */
+char *cli_unfinished_name   (const char *path);
+/* Removes what runs that were killed left of a file.  No other process may be writing it. */
+void  cli_remove_unfinished (const char *path);
+
+/* Converts rows without padding in place, between linear light and encoded colours. */
+void cli_convert_light (bool from_linear, bool to_linear, int width, int height, float *rgba);
+
 bool cli_is_device     (const char *path); /* not a file or folder, but a terminal, a pipe, /dev/null */
 bool cli_is_png        (const char *path);
 bool cli_can_write     (const char *path);
+bool cli_is_motion     (const char *path); /* a .gif, or a folder of frames */
 bool cli_write_depth   (const char *path, const CeldPlane *depth, float nearest);
 bool cli_write_labels  (const char *path, const CeldLabels *labels, const CeldPalette *palette);
 bool cli_write_layer   (const char *path, const CeldPaint *layer);
 bool cli_write_normals (const char *path, const CeldVectors *normals);
 bool cli_write_shading (const char *path, const CeldPlane *shading);
 bool cli_write_colours (const char *path, const CeldColours *colours);
+/* Shifts in pixels, as two channels X and Y. */
+bool cli_write_shifts  (const char *path, const CeldShifts *shifts);
 bool cli_write_heights (const char *path, const CeldPlane *heights);
-bool cli_write_mesh    (const char *path, const CeldReliefMesh *mesh, const CeldColours *art);
+bool cli_write_meshes  (const char *path, const CeldIoMesh *mesh, size_t n, const CeldColours *art);
 /* Numbers in [0,1] that are no colours: in .png 16 bits; maps in 8 bits with alpha. */
 bool cli_write_values  (const char *path, const CeldPlane *values);
 bool cli_write_map     (const char *path, const CeldColours *map);
@@ -151,14 +176,14 @@ bool cli_npy_write (const char *path, int width, int height, int depth, size_t r
 /* ------------------------------------------------------------------ input.c */
 
 typedef enum { CLI_DRAWING = 1, CLI_SCRIBBLES = 2, CLI_ARROWS = 4, CLI_CONTOURS = 8,
-               CLI_CORRECTIONS = 16 } CliRoles;
+               CLI_CORRECTIONS = 16, CLI_HIDDEN = 32 } CliRoles;
 
 /* data NULL where there is none. */
 typedef struct
 {
   int         width, height;
   CeldDrawing drawing;
-  CeldPaint   scribbles, arrows, contours, corrections;
+  CeldPaint   scribbles, arrows, contours, corrections, hidden;
 } CliLayers;
 
 /* Reads the layers of the wanted roles, from the files that the options name, or else from the parts of `input` (may be
@@ -174,6 +199,9 @@ bool cli_layer_read (const char *path, const char *role, CliLayers *layers, Celd
  * first part. */
 bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
 
+/* The text of the file, or if `path` is NULL `given`; "" if neither is given, NULL, with a message, if it cannot be
+ * read. */
+char *cli_text_or_file (const char *given, const char *path);
 /* The text of --relations or --relations-file; "" if neither is given, NULL, with a message, if it cannot be read. */
 char *cli_relations_text (const CliOptions *options);
 /* The name of that text in messages. */
@@ -205,8 +233,9 @@ int  cli_finish (const CliOptions *options, const CliReport *report);
 
 /* ------------------------------------------------------------------ text.c */
 
-/* A relation in the grammar of docs/relations.md, such as "3,4 > #ff0000 @2 !crack"; free with g_free. */
-char *cli_relation_text (const CeldRelation *relation);
+/* A relation in the grammar of docs/relations.md, such as "3,4 > #ff0000 @2 !crack", with the names of the drawings
+ * that its ends are in (NULL: none); free with g_free. */
+char *cli_relation_text (const CeldRelation *relation, const char *const *names);
 /* Writes a text file completely or not at all; a device may get a part of it. */
 bool cli_write_text (const char *path, const char *text);
 /* Writes one relation on each line. */
@@ -235,10 +264,17 @@ bool cli_step_begin (const CliOptions *options, CliStep *step);
 /* The exit code. */
 int  cli_step_end   (CliStep *step, bool good);
 
+/* Reads regions as flat colours, as segment writes them; free data with g_free. */
+bool cli_regions_read (const char *path, CliLayers *layers, CeldLabels *regions, CeldPalette *palette);
 /* Makes the ink of the drawing for one purpose, with virtual contours; free data with g_free. */
 bool  cli_make_ink (CliLayers *layers, CeldPurpose purpose, const CliOptions *options, CliRun *run, CeldPlane *ink);
 /* The nearest level if the encoding is unknown: 1, or the largest level if that is more. */
 float cli_nearest_level (const CeldPlane *levels);
+
+/* ------------------------------------------------------------------ layers.c */
+
+/* The label of the background; 0: there is none. */
+uint32_t cli_page_of (const CeldPalette *palette);
 
 /* ------------------------------------------------------------------ shade.c */
 
@@ -246,15 +282,25 @@ float cli_nearest_level (const CeldPlane *levels);
 /* The name of a map for --maps: "hero_n.png", "hero_o.png", "hero_s.png" for "hero.png"; free with g_free. */
 char *cli_map_name (const char *path, int map);
 
+/* ------------------------------------------------------------------ layers.c */
+
+/* The name of a label's layer: its colour, and its number if several labels have that colour; free with g_free. */
+char *cli_layer_name (const CeldPalette *palette, uint32_t label);
+/* Whether --light has a value that fits the output; if not, prints why. */
+bool  cli_light_check (CliOptions *options);
+
 /* ------------------------------------------------------------------ scene.c */
 
 /* A drawing that can be viewed from other places. */
 typedef struct
 {
   CeldSession        *session;
-  CeldScene          *scene;
-  CeldPlane           depth;       /* a view of the session's, like the order */
-  const CeldOrder    *order;
+  CeldLayers         *layers;
+  CeldScene          *scene;       /* of the layers */
+  CeldPlane           depth;       /* a copy, since the session's pictures are dropped */
+  const CeldOrder     *order;      /* the session's */
+  const CeldRelations *relations;
+  const CeldProblems  *problems;
   const CeldSettings *settings;    /* borrowed from the options */
   CliRun             *run;
   int                 frames;
@@ -263,16 +309,55 @@ typedef struct
 /* Makes a scene of the input that the options name.  The caller clears it in either case. */
 bool cli_scene_new   (const CliOptions *options, CliRun *run, CliScene *s);
 void cli_scene_clear (CliScene *s);
+/* Frees what views are made from; there can be no others. */
+void cli_scene_release (CliScene *s);
 /* Writes the view of each frame's camera to a file or folder. */
 bool cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) (const CliScene *s, int frame),
                       int frames, const CliOptions *options);
 /* Writes the report, prints messages, and returns the exit code. */
 int  cli_scene_finish  (const CliOptions *options, const char *command, const CliScene *s);
 
+/* ------------------------------------------------------------------ deform-handles.c, deform-keys.c */
+
+/* A frame of an animation whose handles are given; those between are interpolated. */
+typedef struct { int frame; CeldHandles handles; } CliHandleKey;
+typedef struct { CliHandleKey *item; size_t n; } CliHandleKeys;
+
+/* Reads the handles that the options name: from text, a text file, a painted layer of the size of `layers`. */
+bool cli_handles_read (const CliOptions *options, CliLayers *layers, CliRun *run, CeldHandles *handles);
+/* Reads --keys. */
+bool cli_handle_keys_read  (const char *path, CliHandleKeys *keys);
+void cli_handle_keys_clear (CliHandleKeys *keys);
+/* Interpolates the handles of a frame, with eases at keys; free them with celd_handles_clear. */
+bool cli_handle_keys_at    (const CliHandleKeys *keys, int frame, CeldHandles *handles);
+
+/* ------------------------------------------------------------------ deform-layers.c */
+
+/* Writes a puppet in its pose, whose picture this is, as a file with one layer for each region; with `encode` colours
+ * are converted from linear light, `picture` in place. */
+bool cli_deformed_layers_write (const char *path, CeldPuppet *puppet, const CeldPalette *palette, bool encode,
+                                CeldColours *picture, CliRun *run);
+
+/* ------------------------------------------------------------------ model.c, relief.c */
+
+/* The names of the meshes of labels 1 .. n, by colour and number; and of the labels of celd_layers_of_levels, with
+ * regions (may be NULL: then by number) in their colours. */
+char       **cli_model_names (const CeldPalette *palette);
+char       **cli_model_names_of_regions (const CeldPlane *levels, const CeldLabels *regions, const CeldPalette *palette);
+/* Gives each region one level, its median: expanded levels differ from it in ink. */
+void         cli_levels_flatten (const CeldLabels *regions, CeldPlane *levels);
+/* The settings with the kind of mesh that the file needs: solid parts for STL, for printing, and else surfaces. */
+CeldSettings cli_model_settings (const CliOptions *options);
+/* Takes over the names. */
+bool         cli_model_write (const char *path, const CeldModel *model, char **name);
+/* Whether making meshes succeeded; if not, prints why.  Says where the error had to be increased. */
+bool         cli_mesh_finish (const CliOptions *options, CliRun *run, CeldStatus status, double error);
+
 /* ------------------------------------------------------------------ the sub-commands */
 
 extern const CliCommand cli_popup_command, cli_segment_command, cli_order_command, cli_expand_command,
   cli_smooth_command, cli_shade_command, cli_enhance_command, cli_stereo_command, cli_wiggle_command,
-  cli_relief_command, cli_exact_command, cli_layers_command;
+  cli_relief_command, cli_exact_command, cli_layers_command, cli_register_command, cli_compose_command,
+  cli_propagate_command, cli_deform_command, cli_inbetween_command;
 
 #endif

@@ -11,7 +11,7 @@ _celdepth ()
   local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}" options values
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=( $(compgen -W "popup segment order expand smooth shade enhance stereo wiggle relief exact layers --help --version" -- "$word") )
+    COMPREPLY=( $(compgen -W "popup segment order expand smooth shade enhance stereo wiggle relief exact layers register compose propagate deform inbetween --help --version" -- "$word") )
     return
   fi
   options=$(_celdepth_options "$1" "${COMP_WORDS[1]}")

@@ -4,28 +4,14 @@
  */
 #include "cli.h"
 
-/* Reads regions as flat colours, as segment writes them. */
-static bool
-read_regions (const char *path, CliLayers *layers, CeldLabels *regions)
-{
-  CeldPaint   paint = { 0 };
-  CeldPalette palette = { 0 };
-  bool        good = cli_layer_read (path, "labels", layers, &paint) &&
-                     cli_labels_new (paint.width, paint.height, regions) &&
-                     cli_check (celd_labels_read (&paint, regions, &palette));
-
-  g_free (paint.data);
-  celd_palette_clear (&palette);
-  return good;
-}
-
 static int
 run_expand (const CliOptions *options)
 {
-  CliStep    step;
-  CeldLabels regions = { 0 };
-  bool       good = cli_step_begin (options, &step) &&
-                    (!options->regions || read_regions (options->regions, &step.layers, &regions));
+  CliStep     step;
+  CeldLabels  regions = { 0 };
+  CeldPalette palette = { 0 };
+  bool        good = cli_step_begin (options, &step) &&
+                     (!options->regions || cli_regions_read (options->regions, &step.layers, &regions, &palette));
 
   if (good)
     {
@@ -36,6 +22,7 @@ run_expand (const CliOptions *options)
              cli_write_depth (options->levels, &step.levels, cli_nearest_level (&step.levels));
     }
   g_free (regions.data);
+  celd_palette_clear (&palette);
   return cli_step_end (&step, good);
 }
 

@@ -8,7 +8,7 @@
 
 static const struct { CliRoles role; const char *name; } roles[] = {
   { CLI_DRAWING, "drawing" }, { CLI_SCRIBBLES, "scribbles" }, { CLI_ARROWS, "arrows" }, { CLI_CONTOURS, "contours" },
-  { CLI_CORRECTIONS, "corrections" },
+  { CLI_CORRECTIONS, "corrections" }, { CLI_HIDDEN, "hidden" },
 };
 
 /* ------------------------------------------------------------------ one file */
@@ -101,14 +101,16 @@ static CeldPaint *
 paint_of (CliLayers *layers, CliRoles role)
 {
   return role == CLI_SCRIBBLES ? &layers->scribbles : role == CLI_ARROWS ? &layers->arrows
-       : role == CLI_CONTOURS ? &layers->contours : &layers->corrections;
+       : role == CLI_CONTOURS ? &layers->contours
+       : role == CLI_CORRECTIONS ? &layers->corrections : &layers->hidden;
 }
 
 static const char *
 path_of (const CliOptions *options, CliRoles role)
 {
   return role == CLI_SCRIBBLES ? options->scribbles : role == CLI_ARROWS ? options->arrows
-       : role == CLI_CONTOURS ? options->contours : options->corrections;
+       : role == CLI_CONTOURS ? options->contours
+       : role == CLI_CORRECTIONS ? options->corrections : options->hidden;
 }
 
 /* Reads the drawing, and from the same file the layers for which no option names another file. */
@@ -118,7 +120,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
   CeldIoFile *file = open_file (path);
   size_t      part = file ? find_drawing (file, path) : CELD_NO_INDEX;
   bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) &&
-                     cli_read_drawing (file, part, &layers->drawing);
+                     cli_read_drawing (file, part, options->settings.ink, &layers->drawing);
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
@@ -150,33 +152,39 @@ cli_layers_clear (CliLayers *layers)
   g_free (layers->arrows.data);
   g_free (layers->contours.data);
   g_free (layers->corrections.data);
+  g_free (layers->hidden.data);
   *layers = (CliLayers) { 0 };
 }
 
 /* ------------------------------------------------------------------ relations */
 
 char *
-cli_relations_text (const CliOptions *options)
+cli_text_or_file (const char *given, const char *path)
 {
   char   *text = NULL;
   gsize   length = 0;
   GError *error = NULL;
 
-  if (!options->relations_file)
-    return g_strdup (options->relations ? options->relations : "");
-  if (!g_file_get_contents (options->relations_file, &text, &length, &error))
+  if (!path)
+    return g_strdup (given ? given : "");
+  if (!g_file_get_contents (path, &text, &length, &error))
     {
-      cli_say ("Cannot read \"%s\": %s", options->relations_file, error->message);
+      cli_say ("Cannot read \"%s\": %s", path, error->message);
       g_error_free (error);
       return NULL;
     }
   if (strlen (text) < length)
     {
-      cli_say ("Cannot read \"%s\": it is not a text file.", options->relations_file);
-      g_free (text);
-      return NULL;
+      cli_say ("Cannot read \"%s\": it is not a text file.", path);
+      g_clear_pointer (&text, g_free);
     }
   return text;
+}
+
+char *
+cli_relations_text (const CliOptions *options)
+{
+  return cli_text_or_file (options->relations, options->relations_file);
 }
 
 const char *

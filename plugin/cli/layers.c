@@ -4,7 +4,6 @@
  */
 #include "options.h"
 
-#include <babl/babl.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------ names */
@@ -15,9 +14,8 @@ same_colour (const CeldPalette *palette, size_t a, size_t b)
   return !memcmp (palette->item[a].colour, palette->item[b].colour, sizeof palette->item[a].colour);
 }
 
-/* The name of a label's layer: its colour, and its number if several labels have that colour. */
-static char *
-name_of (const CeldPalette *palette, uint32_t label)
+char *
+cli_layer_name (const CeldPalette *palette, uint32_t label)
 {
   const uint8_t *c = palette->item[label - 1].colour;
   size_t         alike = 0;
@@ -36,7 +34,7 @@ typedef struct
 {
   const CeldLayers *layers;
   CliRun           *run;
-  const Babl       *fish;      /* converts from the colours of compositing to those of storing; NULL: they are equal */
+  bool              encode;    /* are colours linear light, and stored encoded? */
 } Painter;
 
 static bool
@@ -46,14 +44,40 @@ paint (void *host, size_t layer, float *rgba)
   const CeldRect *box = &celd_layers_item (painter->layers, layer)->box;
 
   celd_layers_paint (painter->layers, layer, rgba);
-  for (int y = 0; painter->fish && y < box->height; y++)
-    {
-      float *row = rgba + 4 * (size_t) y * (size_t) box->width;
-
-      babl_process (painter->fish, row, row, box->width);
-    }
+  cli_convert_light (painter->encode, false, box->width, box->height, rgba);
   return painter->run->host.progress (painter->run->host.data,
                                       (double) layer / (double) celd_layers_count (painter->layers));
+}
+
+uint32_t
+cli_page_of (const CeldPalette *palette)
+{
+  for (size_t k = 0; k < palette->n; k++)
+    if (palette->item[k].background)
+      return (uint32_t) k + 1;
+  return 0;
+}
+
+/* Describes the layers for a file; the names end with g_free. */
+static CeldStatus
+describe (const CeldLayers *layers, const CeldPalette *palette, CeldIoLayer *item, char **name)
+{
+  size_t     n = celd_layers_count (layers);
+  CeldJoint *joint = g_new0 (CeldJoint, n);
+  CeldStatus status = celd_layers_joints (layers, cli_page_of (palette), joint);
+
+  for (size_t i = 0; i < n; i++)
+    {
+      const CeldLayer  *layer = celd_layers_item (layers, i);
+      const CeldRegion *region = &palette->item[layer->label - 1];
+
+      name[i] = cli_layer_name (palette, layer->label);
+      item[i] = (CeldIoLayer) { .name = name[i], .box = layer->box, .label = layer->label, .level = layer->level,
+                                .background = region->background, .joint = joint[i] };
+      memcpy (item[i].colour, region->colour, sizeof item[i].colour);
+    }
+  g_free (joint);
+  return status;
 }
 
 static bool
@@ -63,28 +87,16 @@ write_layers (const char *path, const CeldLayers *layers, const CeldPalette *pal
   size_t       n = celd_layers_count (layers);
   CeldIoLayer *item = g_new (CeldIoLayer, n);
   char       **name = g_new0 (char *, n + 1);
-  Painter      painter = { layers, run, NULL };
+  Painter      painter = { layers, run, encode };
   CeldIoStack  stack = { art->width, art->height, item, n, art->data, paint, &painter };
   CeldIoError  error;
-  bool         good;
+  bool         good = cli_check (describe (layers, palette, item, name));
 
-  for (size_t i = 0; i < n; i++)
-    {
-      name[i] = name_of (palette, celd_layers_item (layers, i)->label);
-      item[i] = (CeldIoLayer) { name[i], celd_layers_item (layers, i)->box };
-    }
   cli_run_stage (run, "writing");
-  if (encode)
-    {
-      painter.fish = babl_fish (babl_format ("RGBA float"), babl_format ("R'G'B'A float"));
-      for (int y = 0; y < art->height; y++)
-        babl_process (painter.fish, art->data + 4 * (size_t) y * art->stride,
-                      art->data + 4 * (size_t) y * art->stride, art->width);
-    }
-  good = celd_io_write_layers (path, &stack, &error);
-  cli_run_stage (run, NULL);
-  if (!good)
+  cli_convert_light (encode, false, art->width, art->height, art->data);
+  if (good && !celd_io_write_layers (path, &stack, &error))
     good = error.text[0] ? cli_error ("%s", error.text) : cli_check (CELD_CANCELLED);
+  cli_run_stage (run, NULL);
   g_strfreev (name);
   g_free (item);
   return good;
@@ -158,17 +170,25 @@ run_layers (const CliOptions *options)
   return code;
 }
 
-static bool
-check (CliOptions *options)
+bool
+cli_light_check (CliOptions *options)
 {
-  const char *light = options->light;
+  const char *light = options->light, *output = options->output ? options->output : options->composed;
 
   if (light && strcmp (light, "encoded") && strcmp (light, "linear"))
     return cli_error ("--light cannot be '%s': the value must be encoded|linear.", light);
-  if (light && !strcmp (light, "encoded") && options->output &&
-      celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS)
+  if (light && !strcmp (light, "encoded") && output &&
+      celd_io_stack_kind (output) == CELD_IO_EXR_PARTS)
     return cli_error ("--light encoded cannot be used with .exr, whose colours are linear light.");
   return true;
+}
+
+static bool
+check (CliOptions *options)
+{
+  return cli_light_check (options) &&
+         (!options->hidden || options->settings.complete ||
+          cli_error ("--hidden needs --complete yes: other layers have nothing that is hidden."));
 }
 
 const CliCommand cli_layers_command = {

@@ -55,7 +55,7 @@ say_cycles (const CeldOrder *order, const CeldRelations *relations)
       for (size_t k = 0; k < cycle->n; k++)
         {
           const CeldRelation *relation = &relations->item[cycle->item[k]];
-          char               *text = cli_relation_text (relation);
+          char               *text = cli_relation_text (relation, NULL);
 
           if (relation->source == CELD_SOURCE_ARROW)
             fprintf (stderr, "    %s  (painted arrow)\n", text);

@@ -10,6 +10,7 @@
 typedef struct
 {
   const char *name;
+  char        letter;      /* 0: none */
   int         steps;
   size_t      offset;      /* in CliOptions */
   int         least, most, usual;
@@ -19,21 +20,43 @@ typedef struct
 #define MEMBER(name) offsetof (CliOptions, name)
 
 static const CountOption counts[] = {
-  { "views", CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
+  { "views", 0, CLI_STEREO, MEMBER (views), 2, 1000, 8, "2-1000",
     "the number of views from the left eye to the right eye (default: 8)" },
-  { "columns", CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
+  { "columns", 0, CLI_STEREO, MEMBER (columns), 1, 1000, 0, "1-1000",
     "the number of tiles in a row of a quilt (default: as many as rows)" },
-  { "frames", CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
+  { "frames", 0, CLI_WIGGLE, MEMBER (frames), 2, 10000, 24, "2-10000",
     "the number of pictures in one round of the camera (default: 24)" },
-  { "size", CLI_STEREO | CLI_WIGGLE, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
+  { "frames", 0, CLI_DEFORM, MEMBER (frames), 2, 10000, 24, "2-10000",
+    "the number of pictures of a motion (default: 24)" },
+  { "frames", 'n', CLI_INBETWEEN, MEMBER (frames), 1, 10000, 1, "1-10000",
+    "the number of pictures between the two drawings (default: 1)" },
+  { "size", 0, CLI_STEREO | CLI_WIGGLE | CLI_DEFORM | CLI_INBETWEEN, MEMBER (size), 16, CELD_MAX_SIDE, 640, "16-20000",
     "the longest side of a .gif in pixels; larger ones are scaled down (default: 640)" },
-  { "fps", CLI_STEREO | CLI_WIGGLE, MEMBER (fps), 1, 50, 12, "1-50", "pictures per second of a .gif (default: 12)" },
+  { "fps", 0, CLI_STEREO | CLI_WIGGLE | CLI_DEFORM | CLI_INBETWEEN, MEMBER (fps), 1, 50, 12, "1-50",
+    "pictures per second of a .gif (default: 12)" },
+  { "jobs", 0, CLI_PROPAGATE, MEMBER (jobs), 1, 1024, 0, "1-1024",
+    "the number of chains of frames to make at the same time (default: the number of processors)" },
+  { "part", 0, CLI_PROPAGATE, MEMBER (part), 1, CELD_MAX_SIDE, 0, "1-20000",
+    "make one chain only: those of the first key come first; run the command without --part when all are made" },
 };
+
+static bool
+counts_for (const CountOption *count, const CliOptions *options)
+{
+  return (count->steps & (int) options->step) != 0;
+}
 
 static int *
 count_of (CliOptions *options, const CountOption *count)
 {
   return (int *) (void *) ((char *) options + count->offset);
+}
+
+/* Whether a word such as "--frames" or "-n" is an option of this command. */
+static bool
+is_named (const CountOption *count, const CliOptions *options, const char *word)
+{
+  return counts_for (count, options) && (word[1] == '-' ? !strcmp (count->name, word + 2) : count->letter == word[1]);
 }
 
 static gboolean
@@ -42,7 +65,7 @@ take_count (const char *name, const char *value, gpointer data, GError **error)
   const CountOption *count = counts;
   gint64             number;
 
-  while (strcmp (count->name, name + 2))
+  while (!is_named (count, data, name))
     count++;
   if (g_ascii_string_to_signed (value, 10, count->least, count->most, &number, NULL))
     {
@@ -60,14 +83,14 @@ cli_counts_append (const CliCommand *command, GArray *entries)
   for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
     if (counts[i].steps & (int) command->step)
       g_array_append_val (entries, ((GOptionEntry) {
-        counts[i].name, 0, 0, G_OPTION_ARG_CALLBACK, (gpointer) take_count, counts[i].help, counts[i].value }));
+        counts[i].name, counts[i].letter, 0, G_OPTION_ARG_CALLBACK, (gpointer) take_count, counts[i].help, counts[i].value }));
 }
 
 void
 cli_counts_complete (CliOptions *options)
 {
   for (size_t i = 0; i < G_N_ELEMENTS (counts); i++)
-    if (!*count_of (options, &counts[i]))
+    if (counts_for (&counts[i], options) && !*count_of (options, &counts[i]))
       *count_of (options, &counts[i]) = counts[i].usual;
   for (int i = 1; !options->columns; i++) /* the smallest square */
     if (i * i >= options->views)

@@ -10,8 +10,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Kinds from OUTPUT on are written.  JOINED is a picture or an MPO file. */
-typedef enum { INPUT, TEXT, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH } FileKind;
+/* Kinds from OUTPUT on are written.  MAPS stands for the names of several pictures, JOINED is a picture or an MPO file,
+ * COMPOSED a picture or layers, MOVING a picture or frames, DEFORMED any of these. */
+typedef enum { INPUT, TEXT, MAPS, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH, COMPOSED, MOVING, DEFORMED } FileKind;
 
 typedef struct
 {
@@ -26,21 +27,32 @@ typedef struct
 #define MEMBER(name) offsetof (CliOptions, name)
 
 static const FileOption files[] = {
-  { "drawing", CLI_ORDER | OF_LEVELS, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
-    "the line drawing" },
-  { "scribbles", WITH_LAYERS, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour per region" },
+  { "clip", CLI_SHADE | CLI_ENHANCE | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, TEXT, MEMBER (clip), "FOLDER",
+    "work on each frame of a clip that propagate has written (--labels-dir), instead of one input; outputs get the "
+    "frame's number, and a # in a name stands for a digit of it" },
+  { "labels-dir", CLI_PROPAGATE, CLI_PROPAGATE, TEXT, MEMBER (labels_dir), "FOLDER",
+    "write labels_NNN.png and levels_NNN.exr of each frame, clip.json for --clip, and relations.txt" },
+  { "depth-dir", CLI_PROPAGATE, 0, TEXT, MEMBER (depth_dir), "FOLDER", "write depth_NNN.exr of each frame" },
+  { "emit-slurm", CLI_PROPAGATE, 0, REPORT, MEMBER (emit_slurm), "OUT",
+    "write a script that runs this command as an array job of Slurm, and do nothing else" },
+  { "drawing", CLI_ORDER | OF_LEVELS | CLI_RELIEF, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
+    "the line drawing; relief then reads levels" },
+  { "scribbles", WITH_PARTS | CLI_INBETWEEN, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour per region" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
     "virtual contours: red ones separate regions and depth, blue ones regions only, green ones erase ink" },
-  { "corrections", CLI_POPUP | CLI_LAYERS, 0, INPUT, MEMBER (corrections), "PICTURE",
+  { "corrections", CLI_POPUP | CLI_LAYERS | CLI_RELIEF | CLI_REGISTER | CLI_DEFORM, 0, INPUT, MEMBER (corrections),
+    "PICTURE",
     "strokes over ink, each of which gives the line below it to the region of its colour" },
-  { "arrows", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
+  { "hidden", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_DEFORM, 0, INPUT, MEMBER (hidden), "PICTURE",
+    "what is hidden: strokes in the colour of a region add to it behind nearer ones, black strokes take away" },
+  { "arrows", WITH_PARTS | CLI_ORDER | CLI_INBETWEEN, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
   { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
     "painted pixels keep their level (default: the pixels deep inside each region do)" },
-  { "relations", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (relations), "TEXT",
+  { "relations", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
-  { "relations-file", WITH_LAYERS | CLI_ORDER, 0, INPUT, MEMBER (relations_file), "FILE",
+  { "relations-file", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, INPUT, MEMBER (relations_file), "FILE",
     "a text file with relations" },
-  { "arrow-path", WITH_LAYERS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
+  { "arrow-path", WITH_PARTS | CLI_ORDER, 0, TEXT, MEMBER (arrow_path), "PATH",
     "arrows as SVG path data such as 'M 120,80 L 300,90', each from its nearer end" },
   { "depth-hint", GIVES_LABELS | CLI_ORDER, 0, INPUT, MEMBER (depth_hint), "PICTURE",
     "a depth picture from another source, near = white, for suggestions" },
@@ -53,11 +65,14 @@ static const FileOption files[] = {
     "write suggestions as arrows on a transparent layer" },
   { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT",
     "write levels before expansion, with boundaries in the middle of contours" },
-  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND, CLI_ORDER | CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
+  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND | CLI_COMPOSE | CLI_DEFORM, CLI_ORDER | CLI_EXPAND, OUTPUT,
+    MEMBER (levels), "OUT",
     "write levels" },
   { "depth", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, CLI_SMOOTH | CLI_EXACT, OUTPUT, MEMBER (depth), "OUT",
     "write smooth depth" },
-  { "regions", CLI_EXPAND, 0, INPUT, MEMBER (regions), "PICTURE",
+  { "levels", CLI_REGISTER, 0, INPUT, MEMBER (source_levels), "LEVELS",
+    "levels of the first drawing, instead of its scribbles and arrows: parts of different levels move on their own" },
+  { "regions", CLI_EXPAND | CLI_RELIEF | CLI_REGISTER, 0, INPUT, MEMBER (regions), "PICTURE",
     "the regions that segment has written, to distinguish those of the same level" },
   { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture to shade or enhance" },
   { "depth", CLI_SHADE | CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
@@ -80,7 +95,7 @@ static const FileOption files[] = {
     "write a white layer of highlights and rims, to put over the product" },
   { "occlusion", CLI_SHADE, 0, OUTPUT, MEMBER (occlusion), "OUT",
     "write ambient occlusion: the fraction of light that nearer parts let through" },
-  { "maps", CLI_SHADE, 0, TEXT, MEMBER (maps), "NAME.png",
+  { "maps", CLI_SHADE, 0, MAPS, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
   { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
     "the number of transparent pixels around a sprite that maps fill (default: 4)" },
@@ -94,18 +109,49 @@ static const FileOption files[] = {
     "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the animation: .gif, or a folder of PNG files" },
-  { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, INPUT, MEMBER (colours), "PICTURE",
-    "a coloured version of the drawing, used instead of it for layers, views and meshes" },
-  { "light", CLI_LAYERS, 0, TEXT, MEMBER (light), "encoded|linear",
+  { "colours", CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_REGISTER | CLI_DEFORM | CLI_INBETWEEN, 0, INPUT,
+    MEMBER (colours), "PICTURE",
+    "a coloured version of the drawing, used instead of it for layers, views, meshes and motion" },
+  { "light", CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, TEXT, MEMBER (light), "encoded|linear",
     "the colours in which layers will be composited: encoded (Krita) or linear light (GIMP 3); default: encoded, but "
     "linear for .exr" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
-    "write layers: .ora (OpenRaster), .exr (one part per layer), or a folder of PNG files" },
+    "write layers: .ora (OpenRaster), .psd, .exr (one part per layer), or a folder of PNG files" },
+  { "output", CLI_COMPOSE, 0, COMPOSED, MEMBER (composed), "OUT",
+    "write the picture: .png, .tif, .npy; or its layers: .ora (OpenRaster), .psd, .exr (one part per layer), or a "
+    "folder of PNG files" },
   { "height", CLI_RELIEF, 0, OUTPUT, MEMBER (height), "OUT",
     "write heights in pixels; in .png from 0, the lowest, to 1, the highest" },
   { "mesh", CLI_RELIEF, 0, MESH, MEMBER (mesh), "OUT", "write a mesh: .glb, .obj, .ply, or .stl for printing" },
+  { "displacement", CLI_REGISTER, 0, OUTPUT, MEMBER (displacement), "OUT",
+    "write how far each pixel of the first drawing moves, in pixels to the right and down: .npy, .exr or .tif" },
+  { "warped", CLI_REGISTER, 0, OUTPUT, MEMBER (warped), "OUT",
+    "write the first drawing, or its --colours, moved to where the second one has it" },
+  { "confidence", CLI_REGISTER, 0, OUTPUT, MEMBER (confidence), "OUT",
+    "write how well the lines around each pixel fit, from 0 to 1" },
+  { "handles", CLI_DEFORM, 0, TEXT, MEMBER (handles), "TEXT",
+    "handles such as '120,80 -> 200,60; 300,400; 310,90 -> 320,95 ^1': places that are taken elsewhere, pins, and by "
+    "how many levels what is near moves forward" },
+  { "handles-file", CLI_DEFORM, 0, INPUT, MEMBER (handles_file), "FILE", "a text file with handles" },
+  { "handles-layer", CLI_DEFORM, 0, INPUT, MEMBER (handles_layer), "PICTURE",
+    "painted handles: dots are pins, arrows take what is at their tail to their tip" },
+  { "keys", CLI_DEFORM, 0, INPUT, MEMBER (handle_keys), "FILE",
+    "a JSON file with the handles of some frames of an animation; those of the others are interpolated" },
+  { "output", CLI_DEFORM, CLI_DEFORM, DEFORMED, MEMBER (deformed), "OUT",
+    "write the deformed drawing: .png, .exr, .tif or .npy; its layers: .ora (OpenRaster) or .psd; or its motion: .gif, "
+    "or a folder of PNG files" },
+  { "scribbles-b", CLI_INBETWEEN, 0, INPUT, MEMBER (second_scribbles), "PICTURE",
+    "scribbles of the second drawing, in the colours of those of the first (default: regions are found by propagation)" },
+  { "arrows-b", CLI_INBETWEEN, 0, INPUT, MEMBER (second_arrows), "PICTURE",
+    "arrows of the second drawing, for parts that the first one does not show; with --scribbles-b" },
+  { "colours-b", CLI_INBETWEEN, 0, INPUT, MEMBER (second_colours), "PICTURE", "a coloured version of the second drawing" },
+  { "output", CLI_INBETWEEN, CLI_INBETWEEN, MOVING, MEMBER (between), "OUT",
+    "write the drawings between: .png, .exr, .tif or .npy, with a # for each digit of the number; or with the keys: .gif, "
+    "or a folder of PNG files" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT",
     "write a report of regions, relations and problems, as JSON" },
+  { "report", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
+    "write which frames and regions to look at, as JSON, and beside it a picture of them" },
 };
 
 static char **
@@ -122,6 +168,32 @@ cli_files_append (const CliCommand *command, CliOptions *options, GArray *entrie
       g_array_append_val (entries, ((GOptionEntry) {
         files[i].name, 0, 0, files[i].kind == TEXT ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
         file_name (options, &files[i]), files[i].help, files[i].value }));
+}
+
+/* ------------------------------------------------------------------ frames */
+
+char *
+cli_file_numbered (const char *name, int number)
+{
+  const char *first = strchr (name, '#'), *base = strrchr (name, G_DIR_SEPARATOR);
+  const char *dot = strrchr (base ? base + 1 : name, '.'), *end = dot && dot != name ? dot : name + strlen (name);
+
+  if (!first)
+    return g_strdup_printf ("%.*s_%03d%s", (int) (end - name), name, number, end);
+  end = first + strspn (first, "#");
+  return g_strdup_printf ("%.*s%0*d%s", (int) (first - name), name, (int) (end - first), number, end);
+}
+
+void
+cli_files_number (const CliOptions *all, int number, CliOptions *frame)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    {
+      const char *name = *file_name ((CliOptions *) all, &files[i]);
+      bool        counts = name && files[i].kind != TEXT && (files[i].kind != INPUT || strchr (name, '#'));
+
+      *file_name (frame, &files[i]) = counts ? cli_file_numbered (name, number) : g_strdup (name);
+    }
 }
 
 /* ------------------------------------------------------------------ checks */
@@ -158,22 +230,36 @@ cli_files_check (const CliCommand *command, CliOptions *options)
       if (files[i].kind == FRAMES && !celd_io_frames_kind (name))
         return cli_error ("--%s %s: the name must end in .gif or .mpo, or have no ending for a folder.",
                           files[i].name, name);
+      if (files[i].kind == MOVING && !cli_can_write (name) && !cli_is_motion (name))
+        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy or .gif, or have no ending for a "
+                          "folder.", files[i].name, name);
+      if (files[i].kind == DEFORMED && !cli_can_write (name) && !cli_is_motion (name) && !celd_io_stack_kind (name))
+        return cli_error ("--%s %s: the name must end in .png, .exr, .tif, .npy, .ora, .psd or .gif, or have no ending "
+                          "for a folder.", files[i].name, name);
       if (files[i].kind == STACK && !celd_io_stack_kind (name))
-        return cli_error ("--%s %s: the name must end in .ora or .exr, or have no ending for a folder.",
+        return cli_error ("--%s %s: the name must end in .ora, .psd or .exr, or have no ending for a folder.",
                           files[i].name, name);
+      if (files[i].kind == COMPOSED && !cli_can_write (name) && !celd_io_stack_kind (name))
+        return cli_error ("--%s %s: the name must end in .png, .tif, .npy, .ora, .psd or .exr, or have no ending for a "
+                          "folder.", files[i].name, name);
       if (files[i].kind == MESH && !celd_io_mesh_kind (name))
         return cli_error ("--%s %s: the name must end in .glb, .obj, .ply or .stl.", files[i].name, name);
-      if (same_file (name, options->input))
-        return cli_error ("--%s would overwrite %s.", files[i].name, options->input);
+      for (int k = 0; k < 2; k++)
+        {
+          const char *read = k ? options->target : options->input;
+
+          if (read && same_file (name, read))
+            return cli_error ("--%s would overwrite %s.", files[i].name, read);
+        }
       for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
         {
           const char *other = *file_name (options, &files[k]);
 
-          if (k != i && other && files[k].kind != TEXT && same_file (name, other))
+          if (k != i && other && files[k].kind != TEXT && files[k].kind != MAPS && same_file (name, other))
             return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
         }
     }
-  return outputs || options->maps ||
+  return outputs || options->maps || options->labels_dir ||
          cli_error ("There is nothing to write: give at least one output, such as --%s.", command->output);
 }
 
@@ -203,8 +289,8 @@ check_place (const char *name, FileKind kind)
   bool  device = cli_is_device (name), good = true;
 
   if (g_file_test (name, G_FILE_TEST_IS_DIR) &&
-      ((kind == STACK && celd_io_stack_kind (name) == CELD_IO_FOLDER) ||
-       (kind == FRAMES && celd_io_frames_kind (name) == CELD_IO_PNG_FRAMES)))
+      (((kind == STACK || kind == COMPOSED) && celd_io_stack_kind (name) == CELD_IO_FOLDER) ||
+       ((kind == FRAMES || kind == MOVING || kind == DEFORMED) && celd_io_frames_kind (name) == CELD_IO_PNG_FRAMES)))
     good = is_empty (name) || cli_error ("Cannot write \"%s\": it is a folder that is not empty.", name);
   else if (g_file_test (name, G_FILE_TEST_IS_DIR))
     good = cli_error ("Cannot write \"%s\": it is a folder.", name);

@@ -13,7 +13,8 @@ static bool
 parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
 {
   GArray         *entries = g_array_new (TRUE, TRUE, sizeof (GOptionEntry));
-  GOptionContext *context = g_option_context_new (command->input);
+  char           *names = g_strjoin (" ", command->input, command->second, NULL);
+  GOptionContext *context = g_option_context_new (names);
   GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
   char           *description = g_strdup_printf ("Examples:\n%s\n", command->examples);
   char           *program = g_strdup_printf ("celdepth %s", command->name);
@@ -28,6 +29,8 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
     g_array_append_val (entries, ((GOptionEntry) {
       "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green in normals points down, as in DirectX, instead of up",
       NULL }));
+  if (command->step == CLI_PROPAGATE)
+    cli_clip_options_append (options, entries);
   g_array_append_val (entries, ((GOptionEntry) {
     "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "print errors only, no progress and no hints", NULL }));
   g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
@@ -44,16 +47,37 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   g_option_context_free (context);
   g_array_free (entries, TRUE);
   g_free (description);
+  g_free (names);
   g_free (program);
   return good;
+}
+
+/* Takes over the words that are not options. */
+static bool
+check_input (const CliCommand *command, int argc, char **argv, CliOptions *options)
+{
+  bool many = command->step == CLI_PROPAGATE;
+
+  if (options->clip && argc != 1)
+    return cli_error ("Give either %s or --clip.", command->input);
+  if (options->clip && (options->drawing || options->scribbles || options->regions))
+    return cli_error ("A clip has a drawing and regions for each frame: leave out --drawing, --scribbles and "
+                      "--regions.");
+  if (!options->clip && (argc < 2 || (argc < 3 && command->second)))
+    return cli_error ("%s is missing.", argc < 2 ? command->input : command->second);
+  if (!many && argc > (command->second ? 3 : 2))
+    return cli_error ("There is more than one %s.", command->second ? command->second : command->input);
+  options->input  = g_strdup (argv[1]);
+  options->target = argc > 2 ? g_strdup (argv[2]) : NULL;
+  options->inputs = g_strdupv (argv + 1);
+  return true;
 }
 
 static bool
 check (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
-  if (argc != 2)
-    return cli_error (argc < 2 ? "%s is missing." : "There is more than one %s.", command->input);
-  options->input = g_strdup (argv[1]);
+  if (!check_input (command, argc, argv, options))
+    return false;
   cli_counts_complete (options);
   if (options->relations && options->relations_file)
     return cli_error ("Give either --relations or --relations-file.");
@@ -61,7 +85,7 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
     return cli_error ("--near-level must be above --far-level.");
-  return (!command->check || command->check (options)) && cli_files_check (command, options);
+  return options->clip || ((!command->check || command->check (options)) && cli_files_check (command, options));
 }
 
 int
@@ -70,8 +94,9 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
   *options = (CliOptions) { .step = command->step, .settings = celd_settings () };
   if (command->begin)
     command->begin (options);
+  cli_command_line_keep (argc, argv, options);
   if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
-    return cli_files_check_places (options) ? CLI_DONE : CLI_FAILED;
+    return options->clip || cli_files_check_places (options) ? CLI_DONE : CLI_FAILED; /* of a clip, for each frame */
   fprintf (stderr, "'celdepth %s --help' shows its usage.\n", command->name);
   return CLI_USAGE;
 }
@@ -81,5 +106,7 @@ cli_options_clear (CliOptions *options)
 {
   cli_files_clear (options);
   cli_settings_clear (options);
+  cli_clip_options_clear (options);
   g_free (options->input);
+  g_free (options->target);
 }

@@ -90,7 +90,7 @@ colours_read (CeldIoFile *file, size_t part, const char *wanted, Colours *colour
   return true;
 }
 
-/* Converts a row; grey pixels have a value and alpha only. */
+/* Converts a row; grey pixels have a value and alpha only.  `to` may be the row itself. */
 static void
 colours_convert (const Colours *colours, int y, void *to)
 {
@@ -102,8 +102,29 @@ colours_convert (const Colours *colours, int y, void *to)
   babl_process (colours->fish, colours->row, to, colours->width);
 }
 
+/* Replaces the drawing by its lines if it is a coloured one. */
+static bool
+take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *drawing)
+{
+  int       width = drawing->luma.width, height = drawing->luma.height;
+  CeldPaint art = { width, height, (size_t) width, g_try_new (uint8_t, 4 * (gsize) width * (gsize) height) };
+  float    *row = g_new (float, 4 * (gsize) width);
+  bool      good = cli_check (art.data ? CELD_OK : CELD_NO_MEMORY);
+
+  for (int y = 0; good && y < height; y++)
+    {
+      colours_convert (colours, y, row);
+      for (int i = 0; i < 4 * width; i++)
+        art.data[4 * (size_t) y * (size_t) width + (size_t) i] = (uint8_t) (255 * CLAMP (row[i], 0, 1) + 0.5f);
+    }
+  good = good && cli_check (celd_coloured_lines (&art, mode, NULL, drawing));
+  g_free (art.data);
+  g_free (row);
+  return good;
+}
+
 bool
-cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
+cli_read_drawing (CeldIoFile *file, size_t part, CeldInkMode mode, CeldDrawing *drawing)
 {
   int     width = celd_io_width (file), height = celd_io_height (file);
   bool    alpha = celd_io_part (file, part)->alpha;
@@ -120,6 +141,8 @@ cli_read_drawing (CeldIoFile *file, size_t part, CeldDrawing *drawing)
       colours_convert (&colours, y, row);
       celd_luma (row, (size_t) width, drawing->luma.data + start, alpha ? drawing->alpha.data + start : NULL);
     }
+  if (good && (colours.channels > 2 || mode == CELD_INK_LINES))
+    good = take_coloured_lines (&colours, mode, drawing);
   g_free (row);
   colours_clear (&colours);
   return good;
@@ -147,11 +170,14 @@ bool
 cli_read_part (CeldIoFile *file, size_t part, bool linear, CeldColours *to)
 {
   Colours colours = { 0 };
-  bool    good = colours_read (file, part, linear ? "RGBA float" : "R'G'B'A float", &colours) &&
-                 cli_colours_new (celd_io_width (file), celd_io_height (file), to);
+  bool    good = colours_read (file, part, linear ? "RGBA float" : "R'G'B'A float", &colours);
 
+  if (good)
+    *to = (CeldColours) { colours.width, celd_io_height (file), (size_t) colours.width, colours.rgba };
   for (int y = 0; good && y < to->height; y++)
     colours_convert (&colours, y, to->data + 4 * (size_t) y * to->stride);
+  if (good)
+    colours.rgba = NULL;
   colours_clear (&colours);
   return good;
 }
@@ -192,6 +218,20 @@ cli_encode (const float *linear, int n, float *encoded)
   babl_process (babl_fish (babl_format ("RGBA float"), babl_format ("R'G'B'A float")), linear, encoded, n);
 }
 
+void
+cli_convert_light (bool from_linear, bool to_linear, int width, int height, float *rgba)
+{
+  const Babl *linear = babl_format ("RGBA float"), *encoded = babl_format ("R'G'B'A float");
+  const Babl *fish = babl_fish (from_linear ? linear : encoded, to_linear ? linear : encoded);
+
+  for (int y = 0; y < height && from_linear != to_linear; y++)
+    {
+      float *row = rgba + 4 * (size_t) y * (size_t) width;
+
+      babl_process (fish, row, row, width);
+    }
+}
+
 /* ------------------------------------------------------------------ writing, in the format of the name's ending */
 
 bool
@@ -200,6 +240,14 @@ cli_is_png (const char *path)
   size_t length = strlen (path);
 
   return length > 4 && !g_ascii_strcasecmp (path + length - 4, ".png");
+}
+
+bool
+cli_is_motion (const char *path)
+{
+  CeldIoFramesKind kind = celd_io_frames_kind (path);
+
+  return kind == CELD_IO_GIF || kind == CELD_IO_PNG_FRAMES;
 }
 
 bool
@@ -302,6 +350,19 @@ cli_write_colours (const char *path, const CeldColours *colours)
 }
 
 bool
+cli_write_shifts (const char *path, const CeldShifts *shifts)
+{
+  size_t        row = 2 * shifts->stride;
+  CeldIoChannel channels[] = { { "X", shifts->data, 2, row }, { "Y", shifts->data + 1, 2, row } };
+  CeldIoPicture picture = { NULL, shifts->width, shifts->height, CELD_IO_FLOAT, false, channels, 2 };
+  CeldIoError   error;
+
+  if (cli_is_npy (path))
+    return cli_npy_write (path, shifts->width, shifts->height, 2, row, shifts->data);
+  return check_written (celd_io_write (path, &picture, 1, NULL, 0, &error), &error);
+}
+
+bool
 cli_write_heights (const char *path, const CeldPlane *heights)
 {
   CeldIoError error;
@@ -312,11 +373,11 @@ cli_write_heights (const char *path, const CeldPlane *heights)
 }
 
 bool
-cli_write_mesh (const char *path, const CeldReliefMesh *mesh, const CeldColours *art)
+cli_write_meshes (const char *path, const CeldIoMesh *mesh, size_t n, const CeldColours *art)
 {
   CeldIoError error;
 
-  return check_written (celd_io_write_mesh (path, mesh, art, &error), &error);
+  return check_written (celd_io_write_meshes (path, mesh, n, art, &error), &error);
 }
 
 bool

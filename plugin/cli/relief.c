@@ -1,48 +1,72 @@
-/* celdepth relief: heights and meshes from levels.
+/* celdepth relief: heights and meshes, of a drawing with its layers or from levels.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
-#include "cli.h"
+#include "options.h"
 
-/* The settings with the kind of mesh that the file needs: a closed solid for STL, for printing, and else a surface. */
-static CeldSettings
-mesh_settings (const CliOptions *options)
+static bool
+wants_parts (const CliOptions *options)
 {
-  CeldSettings s = options->settings;
-
-  if (s.mesh == CELD_MESH_AUTO)
-    s.mesh = celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
-  return s;
+  return options->mesh && options->settings.mesh != CELD_MESH_HEIGHTFIELD;
 }
 
 static bool
-make_mesh (const CliOptions *options, const CeldRelief *relief, CliRun *run)
+wants_heights (const CliOptions *options)
 {
-  CeldSettings   s = mesh_settings (options);
-  CeldReliefMesh mesh = { 0 };
-  CeldColours    art = { 0 };
-  CliLayers      layers = { .width = relief->width, .height = relief->height };
-  CeldStatus     status;
-  bool           good;
+  return options->height || (options->mesh && !wants_parts (options));
+}
 
-  cli_run_stage (run, "mesh");
-  status = celd_relief_mesh (relief, &s, &run->host, &mesh);
-  if (status == CELD_BAD_VALUE) /* with valid settings: the cuts alone have too many vertices */
+/* ------------------------------------------------------------------ heights */
+
+bool
+cli_mesh_finish (const CliOptions *options, CliRun *run, CeldStatus status, double error)
+{
+  if (status == CELD_BAD_VALUE) /* with valid settings: the outlines alone have too many vertices */
     {
       cli_run_stage (run, NULL);
       return cli_error ("The outlines alone have more than %.0f vertices: increase --most-vertices.",
-                        (double) s.most_vertices);
+                        (double) options->settings.most_vertices);
     }
-  good = cli_run_finish (run, status) && cli_art_read (options->drawing, options->colours, false, &layers, &art) &&
-         cli_write_mesh (options->mesh, &mesh, &art);
-  if (good && !options->quiet && mesh.error > 1.01 * (double) s.mesh_error)
+  if (!cli_run_finish (run, status))
+    return false;
+  if (!options->quiet && error > 1.01 * (double) options->settings.mesh_error)
     cli_say ("With %.0f vertices at most, the mesh deviates by up to %.1f pixels from the heights; increase "
-             "--most-vertices to allow more.", (double) s.most_vertices, mesh.error);
+             "--most-vertices to allow more.", (double) options->settings.most_vertices, error);
+  return true;
+}
+
+/* Writes one surface: closed for STL, for printing, and else open. */
+static bool
+write_surface (const CliOptions *options, const CeldRelief *relief, CliLayers *input, CliRun *run)
+{
+  CeldSettings   s = options->settings;
+  CeldReliefMesh mesh = { 0 };
+  CeldColours    art = { 0 };
+  CeldStatus     status;
+  bool           good;
+
+  s.mesh = celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
+  cli_run_stage (run, "mesh");
+  status = celd_relief_mesh (relief, &s, &run->host, &mesh);
+  good   = cli_mesh_finish (options, run, status, mesh.error) &&
+           cli_art_read (options->drawing ? options->drawing : options->input, options->colours, false, input,
+                         &art) &&
+           cli_write_meshes (options->mesh, &(CeldIoMesh) { "relief", &mesh }, 1, &art);
   celd_relief_mesh_clear (&mesh);
-  cli_layers_clear (&layers);
   g_free (art.data);
   return good;
 }
+
+static bool
+write_relief (const CliOptions *options, const CeldRelief *relief, CliLayers *input, CliRun *run)
+{
+  CeldPlane heights = { relief->width, relief->height, (size_t) relief->width, relief->z };
+
+  return (!options->height || cli_write_heights (options->height, &heights)) &&
+         (!options->mesh || wants_parts (options) || write_surface (options, relief, input, run));
+}
+
+/* ------------------------------------------------------------------ of levels */
 
 /* Reads smooth depth if --depth is given. */
 static bool
@@ -57,40 +81,192 @@ read_depth (const CliOptions *options, const CeldPlane *levels, CeldPlane *depth
                     options->smooth_depth, depth->width, depth->height, options->input, levels->width, levels->height);
 }
 
-static int
-run_relief (const CliOptions *options)
+static bool
+relief_of_levels (const CliOptions *options, CliStep *step)
 {
-  CliStep    step;
   CeldPlane  depth = { 0 };
   CeldRelief relief = { 0 };
-  bool       good = cli_step_begin (options, &step) && read_depth (options, &step.levels, &depth);
+  bool       good = read_depth (options, &step->levels, &depth);
 
   if (good)
     {
-      cli_run_stage (&step.run, "relief");
-      good = cli_run_finish (&step.run, celd_relief (&step.ink, &step.levels, depth.data ? &depth : NULL,
-                                                     &options->settings, &step.run.host, &relief));
+      cli_run_stage (&step->run, "relief");
+      good = cli_run_finish (&step->run, celd_relief (&step->ink, &step->levels, depth.data ? &depth : NULL,
+                                                      &options->settings, &step->run.host, &relief)) &&
+             write_relief (options, &relief, &step->layers, &step->run);
     }
-  if (good && options->height)
-    good = cli_write_heights (options->height, &(CeldPlane) { relief.width, relief.height, (size_t) relief.width,
-                                                              relief.z });
-  if (good && options->mesh)
-    good = make_mesh (options, &relief, &step.run);
   g_free (depth.data);
   celd_relief_clear (&relief);
-  return cli_step_end (&step, good);
+  return good;
+}
+
+static bool
+model_of_levels (const CliOptions *options, CliStep *step)
+{
+  CeldLabels  regions = { 0 };
+  CeldPalette palette = { 0 };
+  CeldColours art = { 0 };
+  CeldModel   model = { 0 };
+  CeldStatus  status;
+  bool        good = (!options->regions ||
+                      cli_regions_read (options->regions, &step->layers, &regions, &palette)) &&
+                     cli_art_read (options->drawing, options->colours, false, &step->layers, &art);
+
+  if (good)
+    {
+      const CeldLabels  *known = regions.data ? &regions : NULL;
+      CeldSettings       settings = cli_model_settings (options);
+
+      if (known)
+        cli_levels_flatten (known, &step->levels);
+      cli_run_stage (&step->run, "mesh");
+      status = celd_model_of_levels (&step->ink, &step->levels, known, &art, &settings, &step->run.host, &model);
+      good = cli_mesh_finish (options, &step->run, status, model.error) &&
+             cli_model_write (options->mesh, &model, cli_model_names_of_regions (&step->levels, known, &palette));
+    }
+  g_free (regions.data);
+  g_free (art.data);
+  celd_palette_clear (&palette);
+  celd_model_clear (&model);
+  return good;
+}
+
+static int
+run_on_levels (const CliOptions *options)
+{
+  CliStep step;
+
+  return cli_step_end (&step, cli_step_begin (options, &step) &&
+                              (!wants_heights (options) || relief_of_levels (options, &step)) &&
+                              (!wants_parts (options) || model_of_levels (options, &step)));
+}
+
+/* ------------------------------------------------------------------ of a drawing with its layers */
+
+static CeldStatus
+make_order (CeldSession *session, CliRun *run, CeldLabels *labels, const CeldOrder **order)
+{
+  CeldStatus status;
+
+  cli_run_stage (run, "labels");
+  status = celd_session_labels (session, &run->host, labels, NULL);
+  cli_run_stage (run, "order");
+  if (status == CELD_OK)
+    status = celd_session_order (session, &run->host, order);
+  return status;
+}
+
+static bool
+relief_of_session (CeldSession *session, const CliOptions *options, CliLayers *input, CliRun *run)
+{
+  CeldRelief relief = { 0 };
+  bool       good;
+
+  cli_run_stage (run, "relief");
+  good = cli_run_finish (run, celd_session_relief (session, &run->host, &relief)) &&
+         write_relief (options, &relief, input, run);
+  celd_relief_clear (&relief);
+  return good;
+}
+
+static bool
+model_of_session (CeldSession *session, const CliOptions *options, CliLayers *input, CliRun *run)
+{
+  CeldColours art = { 0 };
+  CeldModel   model = { 0 };
+  bool        good = cli_art_read (options->input, options->colours, false, input, &art);
+
+  if (good)
+    {
+      CeldStatus status;
+
+      cli_run_stage (run, "mesh");
+      status = celd_session_model (session, &art, &run->host, &model);
+      good   = cli_mesh_finish (options, run, status, model.error) &&
+               cli_model_write (options->mesh, &model, cli_model_names (celd_session_palette (session)));
+    }
+  g_free (art.data);
+  celd_model_clear (&model);
+  return good;
+}
+
+static int
+finish (CeldSession *session, const CliOptions *options, const CliRun *run, const CeldLabels *labels,
+        const CeldOrder *order)
+{
+  return cli_finish (options, &(CliReport) {
+    .command   = "relief",
+    .width     = labels->width,
+    .height    = labels->height,
+    .palette   = celd_session_palette (session),
+    .relations = celd_session_relations (session),
+    .order     = order,
+    .problems  = celd_session_problems (session),
+    .settings  = &options->settings,
+    .timings   = run->timings,
+  });
+}
+
+static int
+run_on_drawing (const CliOptions *options)
+{
+  CeldSession     *session = celd_session_new ();
+  CliOptions       whole = *options;
+  CliLayers        input = { 0 };
+  CliRun           run;
+  CeldLabels       labels;
+  const CeldOrder *order = NULL;
+  int              code = CLI_FAILED;
+  bool             good;
+
+  whole.settings = cli_model_settings (options);
+  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input);
+  cli_run_begin (&run, options->quiet);
+  if (good && cli_run_finish (&run, make_order (session, &run, &labels, &order)) &&
+      (!wants_heights (options) || relief_of_session (session, options, &input, &run)) &&
+      (!wants_parts (options) || model_of_session (session, options, &input, &run)))
+    code = finish (session, options, &run, &labels, order);
+  cli_run_end (&run);
+  cli_layers_clear (&input);
+  celd_session_free (session);
+  return code;
+}
+
+/* ------------------------------------------------------------------ the command */
+
+static int
+run_relief (const CliOptions *options)
+{
+  return options->drawing ? run_on_levels (options) : run_on_drawing (options);
+}
+
+static bool
+check (CliOptions *options)
+{
+  bool painted = options->scribbles || options->arrows || options->relations || options->relations_file ||
+                 options->arrow_path || options->corrections || options->hidden ||
+                 options->report;
+
+  if (options->drawing && painted)
+    return cli_error ("With --drawing the input is levels: give scribbles, arrows, relations, corrections, what is "
+                      "hidden and a report with the drawing as input, without --drawing.");
+  if (!options->drawing && (options->regions || options->smooth_depth))
+    return cli_error ("--regions and --depth need levels as input, and their --drawing.");
+  return true;
 }
 
 const CliCommand cli_relief_command = {
   .name     = "relief",
   .step     = CLI_RELIEF,
-  .input    = "LEVELS",
-  .summary  = "Makes rounded heights of the parts of a drawing, or a mesh to view or to print.",
-  .examples = "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr\n"
-              "  celdepth relief levels.npy --drawing bee.png --colours art.png --mesh bee.glb\n"
-              "  celdepth relief levels.npy --drawing bee.png --mesh bee.stl --bulge 0.3 --mesh-size 80",
-  .settings = "ink ink-threshold tolerance bulge from=relief-from relief-depth mesh-kind=mesh mesh-size mesh-plate "
-              "mesh-error most-vertices",
+  .input    = "DRAWING|LAYERED|LEVELS",
+  .summary  = "Makes a model of the parts of a drawing to view or to print, or rounded heights.",
+  .examples = "  celdepth relief bee.png --scribbles strokes.png --arrows arrows.png --mesh bee.glb\n"
+              "  celdepth relief page.psd --mesh page.stl --mesh-size 80\n"
+              "  celdepth relief levels.npy --drawing bee.png --regions flat.png --colours art.png --mesh bee.glb\n"
+              "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion tolerance bulge=relief-bulge from=relief-from "
+              "relief-depth mesh-kind=mesh mesh-size mesh-plate mesh-error most-vertices",
   .output   = "mesh",
+  .check    = check,
   .run      = run_relief,
 };

@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
+#include "json.h"
 
-#include <json-glib/json-glib.h>
 #include <sys/resource.h>
 
 #define SCHEMA 1 /* increases when a member is removed or changes its meaning, but not when one is added */
@@ -128,7 +128,7 @@ static const char *const sources[] = {
 static void
 add_relation (JsonBuilder *json, const CeldRelation *relation, const char *why)
 {
-  char *text = cli_relation_text (relation);
+  char *text = cli_relation_text (relation, NULL);
 
   json_builder_begin_object (json);
   add_text (json, "text", text);
@@ -242,7 +242,7 @@ add_problem (JsonBuilder *json, const CliReport *report, const CeldProblem *prob
 {
   static const char *kinds[] = {
     "stroke-overruled", "region-unreached", "colour-lost", "arrow-unclear", "outside", "unknown-colour", "same-region",
-    "contradiction", "not-converged", "region-split",
+    "contradiction", "not-converged", "region-split", "hidden-unsure",
   };
   char               text[400];
 
@@ -343,13 +343,10 @@ add_order (JsonBuilder *json, const CliReport *report)
   json_builder_end_array (json);
 }
 
-static char *
-make_text (const CliReport *report)
+static JsonBuilder *
+build (const CliReport *report)
 {
-  JsonBuilder   *json = json_builder_new ();
-  JsonGenerator *generator = json_generator_new ();
-  JsonNode      *root;
-  char          *text;
+  JsonBuilder *json = json_builder_new ();
 
   json_builder_begin_object (json);
   add_text (json, "celdepth", CELDEPTH_VERSION);
@@ -376,24 +373,11 @@ make_text (const CliReport *report)
   json_builder_end_array (json);
   add_cost (json, report->timings);
   json_builder_end_object (json);
-
-  root = json_builder_get_root (json);
-  json_generator_set_root (generator, root);
-  json_generator_set_pretty (generator, TRUE);
-  text = json_generator_to_data (generator, NULL);
-  json_node_unref (root);
-  g_object_unref (generator);
-  g_object_unref (json);
-  return text;
+  return json;
 }
 
 bool
 cli_report_write (const char *path, const CliReport *report)
 {
-  char *data = make_text (report), *text = g_strconcat (data, "\n", NULL);
-  bool  good = cli_write_text (path, text);
-
-  g_free (text);
-  g_free (data);
-  return good;
+  return cli_write_json (path, build (report));
 }

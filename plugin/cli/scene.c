@@ -4,14 +4,41 @@
  */
 #include "cli.h"
 
+#include <string.h>
+
 /* ------------------------------------------------------------------ the scene */
 
+static CeldStatus
+copy_depth (CliRun *run, CliScene *s)
+{
+  CeldPlane  depth;
+  CeldStatus status = celd_session_depth (s->session, &run->host, &depth, NULL);
+
+  if (status != CELD_OK)
+    return status;
+  s->depth = (CeldPlane) { depth.width, depth.height, (size_t) depth.width,
+                           g_try_new (float, (gsize) depth.width * (gsize) depth.height) };
+  for (int y = 0; s->depth.data && y < depth.height; y++)
+    memcpy (s->depth.data + (size_t) y * s->depth.stride, depth.data + (size_t) y * depth.stride,
+            s->depth.stride * sizeof *depth.data);
+  return s->depth.data ? CELD_OK : CELD_NO_MEMORY;
+}
+
+/* Keeps what the report says, and frees all else of the session. */
+static void
+drop_pictures (CliScene *s)
+{
+  s->relations = celd_session_relations (s->session);
+  s->problems  = celd_session_problems (s->session);
+  celd_session_drop_pictures (s->session);
+}
+
+/* Frees the art as soon as the layers have it, and the session's pictures when the scene is made. */
 static bool
-make (const CeldColours *art, CliRun *run, CliScene *s)
+make (CeldColours *art, CliRun *run, CliScene *s)
 {
   CeldOwnership own;
   CeldLabels    labels;
-  CeldLayers   *layers = NULL;
   CeldStatus    status;
 
   cli_run_stage (run, "labels");
@@ -21,16 +48,18 @@ make (const CeldColours *art, CliRun *run, CliScene *s)
     status = celd_session_order (s->session, &run->host, &s->order);
   cli_run_stage (run, "depth");
   if (status == CELD_OK)
-    status = celd_session_depth (s->session, &run->host, &s->depth, NULL);
+    status = copy_depth (run, s);
   cli_run_stage (run, "layers");
   if (status == CELD_OK)
-    status = celd_session_layers (s->session, art, CELD_STORE_FLOAT, &run->host, &layers);
+    status = celd_session_layers (s->session, art, CELD_STORE_FLOAT, &run->host, &s->layers);
+  g_clear_pointer (&art->data, g_free);
   cli_run_stage (run, "scene");
   if (status == CELD_OK)
     status = celd_session_ownership (s->session, &run->host, &own, NULL);
   if (status == CELD_OK)
-    status = celd_scene_of_layers (layers, &own, &s->depth, &run->host, &s->scene);
-  celd_layers_free (layers);
+    status = celd_scene_of_layers (s->layers, &own, &s->depth, &run->host, &s->scene);
+  if (status == CELD_OK)
+    drop_pictures (s);
   return cli_run_finish (run, status);
 }
 
@@ -45,8 +74,8 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
 
   whole.settings.complete = true;
   *s   = (CliScene) { .session = celd_session_new (), .settings = &options->settings, .run = run };
-  good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input) &&
-         cli_art_read (options->input, options->colours, true, &input, &art);
+  good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input);
+  good = good && cli_art_read (options->input, options->colours, true, &input, &art);
   cli_layers_clear (&input);
   good = good && make (&art, run, s);
   g_free (art.data);
@@ -61,18 +90,28 @@ cli_scene_finish (const CliOptions *options, const char *command, const CliScene
     .width     = s->depth.width,
     .height    = s->depth.height,
     .palette   = celd_session_palette (s->session),
-    .relations = celd_session_relations (s->session),
+    .relations = s->relations,
     .order     = s->order,
-    .problems  = celd_session_problems (s->session),
+    .problems  = s->problems,
     .settings  = &options->settings,
     .timings   = s->run->timings,
   });
 }
 
 void
-cli_scene_clear (CliScene *s)
+cli_scene_release (CliScene *s)
 {
   celd_scene_free (s->scene);
+  celd_layers_free (s->layers);
+  s->scene  = NULL;
+  s->layers = NULL;
+}
+
+void
+cli_scene_clear (CliScene *s)
+{
+  cli_scene_release (s);
+  g_free (s->depth.data);
   celd_session_free (s->session);
 }
 

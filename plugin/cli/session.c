@@ -26,7 +26,8 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
                        cli_check_text (celd_session_set_arrow_path (session, options->arrow_path, &error),
                                        "Arrow path", &error) &&
                        cli_layers_read (options->input, options,
-                                        CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS, layers) &&
+                                        CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS | CLI_HIDDEN,
+                                        layers) &&
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
 
@@ -40,6 +41,8 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
     good = load_hint (session, options, layers);
   if (good && layers->corrections.data)
     good = cli_check (celd_session_set_corrections (session, &layers->corrections));
+  if (good && layers->hidden.data)
+    good = cli_check (celd_session_set_hidden (session, &layers->hidden));
   g_free (text);
   return good;
 }

@@ -242,7 +242,8 @@ shade_cell (const CliOptions *options, const CeldHost *host, Shade *s)
   if (status == CELD_OK && s->shading.data)
     status = celd_shade (&s->normals, settings, &s->shading);
   if (status == CELD_OK && s->tone.data)
-    status = celd_light (&s->normals, &s->ink, s->matcap.data ? &s->matcap : NULL, settings, host, &s->tone, &s->gloss);
+    status = celd_light (&s->normals, &s->ink, &s->levels, s->matcap.data ? &s->matcap : NULL, settings, host, &s->tone,
+                         &s->gloss);
   if (status == CELD_OK && s->occlusion.data)
     status = celd_occlusion (&s->levels, settings, host, &s->occlusion);
   if (status == CELD_OK && options->directx)
@@ -353,9 +354,9 @@ const CliCommand cli_shade_command = {
               "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png \\\n"
               "      --light-model toon --specular 0.4 --rim-light 0.3\n"
               "  celdepth shade levels.npy --drawing walk.png --maps walk.png --grid 8x1",
-  .settings = "ink ink-threshold bulge bevel quilt frame-outline light-model toon-steps light light-azimuth "
-              "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size "
-              "shadow-strength",
+  .settings = "ink ink-threshold bulge bevel quilt frame-outline light-model toon-steps light-background light "
+              "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
+              "rim-power shadow-size shadow-strength",
   .output   = "shading",
   .check    = check,
   .run      = run_shade,

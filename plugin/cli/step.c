@@ -44,6 +44,18 @@ cli_step_begin (const CliOptions *options, CliStep *step)
          cli_make_ink (&step->layers, CELD_FOR_DEPTH, options, &step->run, &step->ink);
 }
 
+bool
+cli_regions_read (const char *path, CliLayers *layers, CeldLabels *regions, CeldPalette *palette)
+{
+  CeldPaint paint = { 0 };
+  bool      good = cli_layer_read (path, "labels", layers, &paint) &&
+                   cli_labels_new (paint.width, paint.height, regions) &&
+                   cli_check (celd_labels_read (&paint, regions, palette));
+
+  g_free (paint.data);
+  return good;
+}
+
 int
 cli_step_end (CliStep *step, bool good)
 {

@@ -8,14 +8,38 @@
 
 /* ------------------------------------------------------------------ two views */
 
+/* Two views, and the picture that both are joined to.  They take its memory: for two views side by side or over each
+ * other each is a half of it, else the left one becomes it. */
+typedef struct { CeldColours joined, view[2]; float *right; } ViewPair;
+
 static bool
-make_pair (const CliScene *s, CeldColours view[2])
+pair_new (const CliScene *s, CeldStereo format, ViewPair *pair)
+{
+  int         w = s->depth.width, h = s->depth.height, width = w, height = h;
+  CeldColours one = { w, h, 0, NULL };
+
+  celd_stereo_size (format, &width, &height);
+  if (!cli_colours_new (width, height, &pair->joined))
+    return false;
+  one.stride = pair->joined.stride;
+  one.data   = pair->joined.data;
+  pair->view[0] = pair->view[1] = one;
+  if (width > w)
+    pair->view[format == CELD_STEREO_SIDE_BY_SIDE].data += 4 * w;
+  else if (height > h)
+    pair->view[1].data += 4 * pair->joined.stride * (size_t) h;
+  else if (cli_colours_new (w, h, &pair->view[1]))
+    pair->right = pair->view[1].data;
+  else
+    return false;
+  return true;
+}
+
+static bool
+draw_pair (const CliScene *s, CeldColours view[2])
 {
   CeldStatus status = CELD_OK;
 
-  for (int i = 0; i < 2; i++)
-    if (!cli_colours_new (s->depth.width, s->depth.height, &view[i]))
-      return false;
   for (int i = 0; i < 2 && status == CELD_OK; i++)
     {
       cli_run_stage (s->run, i ? "right" : "left");
@@ -32,7 +56,9 @@ paint_view (void *host, size_t frame, float *rgba)
 {
   const CeldColours *view = (const CeldColours *) host + frame;
 
-  memcpy (rgba, view->data, 4 * sizeof *rgba * (size_t) view->width * (size_t) view->height);
+  for (int y = 0; y < view->height; y++)
+    memcpy (rgba + 4 * (size_t) y * (size_t) view->width, view->data + 4 * (size_t) y * view->stride,
+            4 * sizeof *rgba * (size_t) view->width);
   return true;
 }
 
@@ -46,34 +72,31 @@ write_both (const char *path, CeldColours view[2])
 }
 
 static bool
-write_joined (const CliOptions *options, CeldColours view[2])
+write_joined (const CliOptions *options, ViewPair *pair)
 {
-  int         width = view[0].width, height = view[0].height;
-  CeldColours joined = { 0 };
-  bool        good;
-
   if (celd_io_frames_kind (options->stereo) == CELD_IO_MPO)
-    return write_both (options->stereo, view);
-  celd_stereo_size (options->settings.stereo, &width, &height);
-  good = cli_colours_new (width, height, &joined) &&
-         cli_check (celd_stereo_join (&view[0], &view[1], options->settings.stereo, &joined)) &&
-         cli_write_colours (options->stereo, &joined);
-  g_free (joined.data);
-  return good;
+    return write_both (options->stereo, pair->view);
+  return (!pair->right || cli_check (celd_stereo_join (&pair->view[0], &pair->view[1], options->settings.stereo,
+                                                       &pair->joined))) &&
+         cli_write_colours (options->stereo, &pair->joined);
 }
 
+/* Frees the scene if no other views are wanted, because writing takes memory. */
 static bool
-write_pair (const CliOptions *options, const CliScene *s)
+write_pair (const CliOptions *options, CliScene *s)
 {
-  CeldColours view[2] = { 0 };
-  bool        good = !(options->left || options->right || options->stereo) ||
-                     (make_pair (s, view) &&
-                      (!options->left || cli_write_colours (options->left, &view[0])) &&
-                      (!options->right || cli_write_colours (options->right, &view[1])) &&
-                      (!options->stereo || write_joined (options, view)));
+  ViewPair pair = { 0 };
+  bool     wanted = options->left || options->right || options->stereo;
+  bool     good = !wanted || (pair_new (s, options->settings.stereo, &pair) && draw_pair (s, pair.view));
 
-  g_free (view[0].data);
-  g_free (view[1].data);
+  if (!options->quilt && !options->sequence)
+    cli_scene_release (s);
+  good = good && (!options->left || cli_write_colours (options->left, &pair.view[0])) &&
+         (!options->right || cli_write_colours (options->right, &pair.view[1])) &&
+         (!options->stereo || write_joined (options, &pair));
+
+  g_free (pair.joined.data);
+  g_free (pair.right);
   return good;
 }
 

@@ -1,6 +1,7 @@
 """Readers of meshes by the specifications of their formats: glTF 2.0, PLY, OBJ, STL.
 
-Each gives places (n x 3), triangles (n x 3, numbers of vertices) and a dictionary of what else there is.
+Each gives places (n x 3), triangles (n x 3, numbers of vertices) and a dictionary of what else there is: glTF and OBJ
+have `parts`, pairs of the name and the triangles of each mesh.
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
@@ -32,14 +33,25 @@ def read_gltf(path):
         about = scene['accessors'][index]
         kind = {5126: '<f4', 5125: '<u4'}[about['componentType']]
         columns = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3}[about['type']]
-        return np.frombuffer(view(about['bufferView']), kind).reshape(about['count'], columns)
+        numbers = np.frombuffer(view(about['bufferView']), kind, about['count'] * columns, about.get('byteOffset', 0))
+        return numbers.reshape(about['count'], columns)
 
-    part = scene['meshes'][0]['primitives'][0]
-    attributes = {name: accessor(index) for name, index in part['attributes'].items()}
-    other = {'normals': attributes['NORMAL'], 'art': attributes['TEXCOORD_0'], 'scene': scene}
+    parts, first = [], 0
+    values = {'POSITION': [], 'NORMAL': [], 'TEXCOORD_0': []}
+    triangles = []
+    for number in scene['scenes'][scene['scene']]['nodes']:
+        node = scene['nodes'][number]
+        part, = scene['meshes'][node['mesh']]['primitives']
+        for name, index in part['attributes'].items():
+            values[name].append(accessor(index))
+        triangles.append(accessor(part['indices']).reshape(-1, 3) + first)
+        parts.append((node['name'], triangles[-1]))
+        first += len(values['POSITION'][-1])
+    places, normals, art = (np.concatenate(values[name]) for name in ('POSITION', 'NORMAL', 'TEXCOORD_0'))
+    other = {'normals': normals, 'art': art, 'scene': scene, 'parts': parts}
     if 'images' in scene:
         other['texture'] = np.array(Image.open(io.BytesIO(view(scene['images'][0]['bufferView']))))
-    return attributes['POSITION'], accessor(part['indices']).reshape(-1, 3), other
+    return places, np.concatenate(triangles), other
 
 
 def read_ply(path):
@@ -70,17 +82,21 @@ def lines_of(path):
 
 def read_obj(path):
     rows = {'v': [], 'vt': [], 'vn': [], 'f': []}
-    names = {}
+    names, begins = {}, []
     for text in lines_of(path):
         word, *values = text.split()
         if word in rows:
             rows[word].append(values)
+        elif word == 'o':
+            begins.append((values[0], len(rows['f'])))
         else:
             names[word] = ' '.join(values)
     corners = np.array([[corner.split('/') for corner in face] for face in rows['f']]).astype(int) - 1
     assert (corners == corners[:, :, :1]).all()
     material = dict(text.split(None, 1) for text in lines_of(os.path.join(os.path.dirname(path), names['mtllib'])))
+    ends = [begin for _, begin in begins[1:]] + [len(rows['f'])]
     return np.array(rows['v'], float), corners[:, :, 0], {
+        'parts': [(name, corners[begin:end, :, 0]) for (name, begin), end in zip(begins, ends)],
         'normals': np.array(rows['vn'], float), 'art': np.array(rows['vt'], float),
         'texture': np.array(Image.open(os.path.join(os.path.dirname(path), material['map_Kd'])))}
 

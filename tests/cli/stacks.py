@@ -38,7 +38,33 @@ def read_open_raster(path):
 
 
 def read_folder(path):
-    return [(name, picture(os.path.join(path, name))) for name in sorted(os.listdir(path))]
+    return [(name, picture(os.path.join(path, name))) for name in sorted(os.listdir(path)) if name.endswith('.png')]
+
+
+def read_psd(path):
+    """([(name, canvas)] from back to front, merged picture), all premultiplied: names, boxes and the merged picture by
+    Pillow, layers by oiiotool."""
+    data = subprocess.run(['oiiotool', '-a', '--dumpdata', path], check=True, capture_output=True, text=True).stdout
+    layers = []
+    with Image.open(path) as image:
+        merged = np.array(image.convert('RGBA')) / 255
+        for (name, _, (left, top, right, bottom), *_), part in zip(image.layers, data.split(' subimage ')[2:]):
+            pixels = np.array([numbers.split() for numbers in re.findall(r'\(([-0-9. e]+)\)$', part, re.M)], float)
+            layers.append((name, canvas_of(pixels.reshape(bottom - top, right - left, 4), left, top, *image.size)))
+    # The merged picture lies on white.
+    return layers, np.concatenate([merged[..., :3] - (1 - merged[..., 3:]), merged[..., 3:]], 2)
+
+
+def lengths_of_psd(path):
+    """How many bytes the section of layers has, by its own number, and by those of its parts."""
+    with open(path, 'rb') as file:
+        data = file.read()
+    at = 26
+    for _ in range(2):
+        at += 4 + int.from_bytes(data[at:at + 4], 'big')
+    section, layers = (int.from_bytes(data[k:k + 4], 'big') for k in (at, at + 4))
+    mask = int.from_bytes(data[at + 8 + layers:at + 12 + layers], 'big')
+    return section, 4 + layers + 4 + mask
 
 
 def read_exr(path, width, height):

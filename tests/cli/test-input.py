@@ -13,7 +13,7 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import HEIGHT, IN_A, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_psd
+from pictures import HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_psd
 
 
 def layers():
@@ -190,6 +190,20 @@ class Drawings(Test):
     def test_chalk(self):
         ImageOps.invert(drawing()).save(self.path('chalk.png'))
         self.same_labels('chalk.png', '--ink', 'light')
+
+    def test_coloured(self):
+        """One coloured picture is drawing and art."""
+        page = drawing().convert('RGB')
+        for place, colour in ((IN_A, (250, 190, 60)), (IN_B, (90, 160, 70)), (IN_PAGE, (200, 225, 250))):
+            ImageDraw.floodfill(page, place, colour)
+        page.save(self.path('page.png'))
+        self.same_labels('page.png')
+        self.same_labels('page.png', '--ink', 'lines')
+        page.convert('L').save(self.path('grey.png'))
+        self.same_labels('grey.png', '--ink', 'lines')
+        self.celdepth('popup', 'page.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS, '--levels', 'l.npy')
+        self.celdepth('shade', 'l.npy', '--drawing', 'page.png', '--shaded', 'lit.png')
+        np.testing.assert_array_equal(self.picture('lit.png')[IN_PAGE[::-1]][:3], (200, 225, 250))
 
     def test_palette(self):
         drawing().convert('RGB').quantize(4).save(self.path('palette.png'))

@@ -13,9 +13,11 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from pictures import Test
-from stacks import composite, decode, encode, picture, premultiplied, read_exr, read_folder, read_open_raster
+from stacks import composite, decode, encode, lengths_of_psd, picture, premultiplied, read_exr, \
+    read_folder, read_open_raster, read_psd
 
 SIZE = WIDTH, HEIGHT = 160, 120
+CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../cases')
 RED, BLUE, GREEN = '#ff0000', '#0000ff', '#00a000'
 ORDER = f'{BLUE} > {RED} > {GREEN}'
 # A place of the red disc behind the blue one.
@@ -121,6 +123,30 @@ class Layers(Test):
         layers = self.open_raster('layers.ora', 'painted.png')
         np.testing.assert_allclose(layers[RED][HIDDEN[::-1]], np.array([220, 90, 80, 255]) / 255, atol=2 / 255)
 
+    def test_completed_layers_of_real_drawings(self):
+        for case in 'frog', 'people', 'campfire', 'bee':
+            folder = os.path.join(CASES, case)
+            with Image.open(os.path.join(folder, 'drawing.png')) as image:
+                ink = image.convert('L')
+            half = ink.width // 2, ink.height // 2
+            ink = ink.resize(half, Image.BOX)
+            with Image.open(os.path.join(folder, 'scribbles.png')) as image:
+                image.convert('RGBA').resize(half, Image.NEAREST).save(self.path('marks.png'))
+            with open(os.path.join(folder, 'arrows.txt'), encoding='ascii') as file:
+                places = [[float(v) / 2 for v in line.split()[:4]] for line in file if line.strip()]
+            relations = ';'.join('{:.1f},{:.1f} > {:.1f},{:.1f}'.format(*place) for place in places)
+            # Opaque with smooth colours, and ink and translucent paint on nothing.
+            x, y = np.meshgrid(np.linspace(0.3, 1, half[0]), np.linspace(0.4, 1, half[1]))
+            line = np.array(ink) / 255
+            opaque = np.dstack([line * x, line * y, line * (1.3 - x), np.ones_like(x)])
+            clear = np.dstack([line * x, line * y, line * 0, 1 - line * (1 - 0.5 * y)])
+            for name, art in ('opaque.png', opaque), ('clear.png', clear):
+                Image.fromarray(np.round(255 * art).astype(np.uint8)).save(self.path(name))
+                ink.save(self.path('ink.png'))
+                self.celdepth('layers', 'ink.png', '--scribbles', 'marks.png', '--relations', relations, '--complete',
+                              'yes', '--colours', name, '--output', 'real.ora')
+                self.open_raster('real.ora', name)
+
     def test_transparent_drawing(self):
         ink = smooth('L', 255, discs([255, 255]))
         Image.merge('LA', [Image.new('L', SIZE, 30), Image.eval(ink, lambda v: 255 - v)]).save(self.path('ink.png'))
@@ -155,6 +181,87 @@ class Layers(Test):
             self.assertLessEqual(np.abs(composite([premultiplied(c) for _, c in layers])
                                         - picture(self.path('drawing.png'))).max(), 1 / 255)
 
+    def test_folder_is_described(self):
+        # A neck and a head behind it, an ear before that; the page; a stone by itself.
+        parts = {'#ff0000': (60, 60, 79, 99), '#0000ff': (50, 20, 89, 59), '#ffff00': (90, 30, 99, 39),
+                 '#00a000': (120, 90, 139, 99)}
+        flats = Image.new('RGBA', SIZE, '#808080')
+        art = Image.new('RGB', SIZE, 'white')
+        for colour, box in parts.items():
+            ImageDraw.Draw(flats).rectangle(box, fill=colour)
+            ImageDraw.Draw(art).rectangle(box, fill=colour)
+        flats.save(self.path('flats.png'))
+        art.save(self.path('art.png'))
+        Image.new('L', SIZE, 255).save(self.path('paper.png'))
+        self.celdepth('layers', 'paper.png', '--scribbles', 'flats.png', '--flats', '--relations',
+                      '#ffff00 > #0000ff; #0000ff > #808080; #ff0000 > #0000ff; #00a000 > #808080',
+                      '--colours', 'art.png', '--output', 'parts', '--report', 'report.json')
+        with open(self.path('parts/layers.json'), encoding='utf-8') as file:
+            made = json.load(file)
+        with open(self.path('report.json'), encoding='utf-8') as file:
+            labels = {label['colour']: label for label in json.load(file)['labels']}
+        self.assertEqual([made[k] for k in ('format', 'version', 'width', 'height')],
+                         ['celdepth-layers', 1, WIDTH, HEIGHT])
+        layers = {layer['colour']: layer for layer in made['layers']}
+        self.assertEqual([layer['file'] for layer in made['layers']],
+                         [name for name, _ in read_folder(self.path('parts'))])
+        self.assertEqual({c: layer['level'] for c, layer in layers.items()},
+                         {'#808080': 0, '#0000ff': 1, '#00a000': 1, '#ffff00': 2, '#ff0000': 2})
+        for colour, layer in layers.items():
+            self.assertEqual((layer['name'], layer['label']), (colour, labels[colour]['label']))
+            self.assertEqual(layer['background'], colour == '#808080')
+            canvas = picture(self.path('parts/' + layer['file']))
+            y, x = np.nonzero(canvas[..., 3])
+            self.assertEqual(layer['box'], [x.min(), y.min(), x.max() - x.min() + 1, y.max() - y.min() + 1])
+        head = layers['#0000ff']
+        self.assertEqual(head['box'], [50, 20, 40, 40])
+        self.assertEqual({c: layer.get('parent') for c, layer in layers.items()},
+                         {'#808080': None, '#0000ff': None, '#00a000': None, '#ffff00': head['file'],
+                          '#ff0000': head['file']})
+        for colour, pivot in (('#ff0000', (70, 60)), ('#ffff00', (90, 35)), ('#0000ff', (70, 40)),
+                              ('#00a000', (130, 95))):
+            np.testing.assert_allclose(layers[colour]['pivot'], pivot, atol=1e-9)
+
+    @unittest.skipUnless(os.environ.get('PSD') == 'yes', 'built without ImageMagick')
+    def test_psd(self):
+        smooth('RGBA', (0, 0, 0, 0), discs([(220, 90, 80, 255), (90, 120, 230, 128)])).save(self.path('clear.png'))
+        for art, words in (('drawing.png', []), ('painted.png', ['--colours', 'painted.png']),
+                           ('clear.png', ['--colours', 'clear.png', '--complete', 'yes'])):
+            self.layers('--output', 'layers.psd', *words)
+            self.layers('--output', 'layers.ora', *words)
+            layers, merged = read_psd(self.path('layers.psd'))
+            expected = self.open_raster('layers.ora', art)
+            self.assertEqual([name for name, _ in layers], list(expected))
+            for name, canvas in layers:
+                np.testing.assert_allclose(canvas, premultiplied(expected[name]), atol=1.01 / 255)
+            np.testing.assert_allclose(merged, premultiplied(picture(self.path(art))), atol=1.01 / 255)
+            # Another reader, OpenImageIO's: the names of layers, and the merged picture.
+            info = subprocess.run(['oiiotool', '--info', '-v', '-a', self.path('layers.psd')], check=True,
+                                  capture_output=True, text=True).stdout
+            self.assertEqual([line.split('"')[1] for line in info.split('\n') if 'oiio:subimagename' in line],
+                             list(expected))
+            self.layers('--output', 'again.ora', '--colours', 'layers.psd')
+            again = read_open_raster(self.path('again.ora'))[1]
+            np.testing.assert_allclose(premultiplied(again), premultiplied(picture(self.path(art))), atol=2.01 / 255)
+
+    @unittest.skipUnless(os.environ.get('PSD') == 'yes', 'built without ImageMagick')
+    def test_psd_of_any_length_is_consistent(self):
+        lengths = []
+        for width in range(155, 161):
+            for name in 'drawing.png', 'scribbles.png':
+                with Image.open(self.path(name)) as whole:
+                    whole.crop((0, 0, width, HEIGHT)).save(self.path('cut-' + name))
+            self.celdepth('layers', 'cut-drawing.png', '--scribbles', 'cut-scribbles.png', '--output', 'cut.psd')
+            section, parts = lengths_of_psd(self.path('cut.psd'))
+            self.assertEqual(section, parts)
+            lengths.append(section % 2)
+        self.assertEqual(lengths, [0] * len(lengths))
+
+    @unittest.skipUnless(os.environ.get('PSD') == 'no', 'built with ImageMagick')
+    def test_no_psd(self):
+        self.fails('layers', 'drawing.png', '--scribbles', 'scribbles.png', '--output', 'layers.psd',
+                   naming='ImageMagick')
+
     def test_same_input_makes_the_same_file(self):
         self.layers('--output', 'one.ora')
         self.layers('--output', 'two.ora')
@@ -172,7 +279,7 @@ class Layers(Test):
         self.fails(*words, '/proc/layers.ora', naming='/proc')
         self.fails(*words, '/dev/null', naming='ordinary')
         self.fails('layers', 'drawing.png', '--output', 'layers.ora', naming='scribble')
-        self.assertIn('.ora', self.layers('--output', 'layers.psd', code=2))
+        self.assertIn('.ora', self.layers('--output', 'layers.xcf', code=2))
         self.assertIn('missing', self.layers(code=2))
         self.fails(*words, 'layers.ora', '--colours', 'full/none.png', naming='none.png')
 
@@ -232,9 +339,16 @@ class Layers(Test):
         _, pixels = read_open_raster(self.path('names.ora'))[0][0]
         self.assertEqual(np.argwhere(pixels[..., 3]).tolist(), [[1, 19999]])
         subprocess.run([program, self.path('names'), *names, *bad], check=True)
-        self.assertEqual(len(os.listdir(self.path('names'))), len(names) + len(bad))
-        self.assertTrue(all(name.replace('-', '').replace('.', '').isalnum()
-                            for name in os.listdir(self.path('names'))))
+        files = sorted(os.listdir(self.path('names')))
+        self.assertEqual(files.pop(), 'layers.json')
+        self.assertEqual(len(files), len(names) + len(bad))
+        self.assertTrue(all(name.replace('-', '').replace('.', '').isalnum() for name in files))
+        with open(self.path('names/layers.json'), encoding='utf-8') as file:
+            layers = json.load(file)['layers']
+        self.assertEqual([layer['file'] for layer in layers], files)
+        self.assertEqual([layer['name'] for layer in layers][:len(names)], names)
+        self.assertEqual(layers[0]['box'], [19999, 1, 1, 1])
+        self.assertFalse('parent' in layers[0] or 'colour' in layers[0])
 
 
 if __name__ == '__main__':

@@ -38,7 +38,8 @@ class Shade(Test):
         return np.load(self.path(name))
 
     def test_layers_are_the_shaded_art(self):
-        """Art times tone, below the rim layer, is the shaded art; on white it is the shading."""
+        """Art times tone, less so where light is bright, below the rim layer is the shaded art; the shading is the
+        light itself."""
         Image.new('RGB', (SIDE, SIDE), (180, 90, 40)).save(self.path('art.png'))
         words = ('--specular', '0.5', '--rim-light', '0.5', '--light', 'point', '--light-height', '0.4',
                  '--shadow-size', '0.05')
@@ -47,11 +48,15 @@ class Shade(Test):
         art, tone, rim, shading = (self.load(name) for name in ('a.npy', 't.npy', 'r.npy', 's.npy'))
         linear = ((np.array([180, 90, 40]) / 255 + 0.055) / 1.055) ** 2.4
         alpha = rim[:, :, 3:]
-        np.testing.assert_allclose(art[:, :, :3], (1 - alpha) * linear * tone[:, :, :3] + alpha * rim[:, :, :3],
-                                   atol=1e-5)
-        white = (1 - alpha[:, :, 0]) * tone[:, :, 0] + alpha[:, :, 0]
-        self.assertTrue((shading > white - 1e-5).all())   # more of it where there is ink, which does not shine
-        np.testing.assert_allclose(shading[28:40, 24:36], white[28:40, 24:36], atol=1e-5)
+        bright = np.maximum(tone[:, :, :3] - 1, 0)
+        toned = linear * (np.minimum(tone[:, :, :3], 1) + bright * (1 - linear))
+        np.testing.assert_allclose(art[:, :, :3], (1 - alpha) * toned + alpha * rim[:, :, :3], atol=1e-5)
+        np.testing.assert_allclose(art[0, 0, :3], linear, rtol=1e-6)   # the background
+        self.assertGreater(tone.max(), 1.05)
+        inside = self.levels > 0
+        alone = (shading - alpha[:, :, 0]) / (1 - alpha[:, :, 0])
+        self.assertGreater(np.corrcoef(alone[28:40, 24:36].ravel(), tone[28:40, 24:36, 0].ravel())[0, 1], 0.9)
+        self.assertGreater(shading[inside].max() - shading[inside].min(), 0.5)
         self.assertGreater(alpha.max(), 0.4)
         occlusion = self.load('o.npy')
         self.assertLess(occlusion[34, 54], 0.9)
@@ -59,20 +64,39 @@ class Shade(Test):
 
     def test_toon_has_steps(self):
         self.shade('--shading', 's.npy', '--light-model', 'toon', '--toon-steps', '4', '--ambient', '0')
-        bands = 3 * self.load('s.npy')[self.levels > 0]
-        self.assertGreater((np.abs(bands - np.round(bands)) < 1e-4).mean(), 0.85)
-        self.assertEqual(set(np.round(bands)), {0, 1, 2, 3})
+        bands = 3 * self.load('s.npy')[self.levels > 0] / np.sqrt(0.5)   # of what faces the viewer: 3
+        steps = (np.abs(bands - np.round(bands)) < 1e-4) | (np.abs(bands - 3 * np.sqrt(2)) < 1e-4)
+        self.assertGreater(steps.mean(), 0.85)
+        self.assertEqual(set(np.round(bands)), {0, 1, 2, 3, 4})
 
     def test_matcap(self):
-        """A ball shaded with a matcap looks like the matcap."""
+        """Grey art shaded with a matcap looks like the matcap, whose middle is as grey; the background does not."""
         u = (np.arange(256) + 0.5) / 256
         ball = np.stack(np.broadcast_arrays(u[None, :], 1 - u[:, None], 0.5), -1)
+        ball[np.hypot(u[None, :] - 0.5, u[:, None] - 0.5) > 0.5] = (1, 0, 1)
         Image.fromarray(np.round(255 * ball).astype(np.uint8)).save(self.path('ball.png'))
-        self.shade('--shading', 's.npy', '--normals', 'n.npy', '--matcap', 'ball.png')
+        Image.new('RGB', (SIDE, SIDE), (128, 128, 128)).save(self.path('grey.png'))
+        self.shade('--art', 'grey.png', '--shaded', 's.npy', '--normals', 'n.npy', '--matcap', 'ball.png')
         place = 0.5 + 0.5 * self.load('n.npy')[:, :, :2]
         wanted = np.where(place <= 0.04045, place / 12.92, ((place + 0.055) / 1.055) ** 2.4)
-        np.testing.assert_allclose(self.load('s.npy')[:, :, :2], wanted, atol=0.01)
+        lit, (y, x) = self.load('s.npy'), np.mgrid[0:SIDE, 0:SIDE]
+        inside = np.hypot(x - 30, y - 34) < 17
+        dark = inside[:, :, None] & (place < 0.5) & (place > 0.02)
+        np.testing.assert_allclose(lit[:, :, :2][dark], wanted[dark], atol=0.01)
+        np.testing.assert_allclose(lit[inside][:, 2], lit[0, 0, 2], atol=2e-3)   # no magenta
+        bright = inside[:, :, None] & (place > 0.6)
+        self.assertTrue((lit[:, :, :2][bright] > lit[0, 0, 0] + 0.03).all())
+        self.assertEqual(np.ptp(lit[self.levels == 0], axis=0).max(), 0)
         self.shade('--shading', 's.png', '--light-model', 'matcap', code=2)
+
+    def test_light_on_the_background(self):
+        """The background bends at a hint; light on it is an option."""
+        Image.new('RGBA', (SIDE, SIDE), (128, 128, 128, 255)).save(self.path('hints.png'))
+        Image.new('RGB', (SIDE, SIDE), (128, 128, 128)).save(self.path('grey.png'))
+        outside = self.levels == 0
+        for switch, varies in (('no', False), ('yes', True)):
+            self.shade('--art', 'grey.png', '--shaded', 's.npy', '--hints', 'hints.png', '--light-background', switch)
+            self.assertEqual(np.ptp(self.load('s.npy')[outside], axis=0)[0] > 0.05, varies)
 
     def test_hints(self):
         """Black inside the outline at the right: there the ball does not bend; white outside: the paper does."""

@@ -14,7 +14,8 @@ from PIL import Image
 
 from pictures import COMMAND, RELATIONS, Test
 
-STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle')
+STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle', 'register',
+         'compose', 'deform', 'inbetween')
 
 
 class Usage(Test):

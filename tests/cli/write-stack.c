@@ -32,7 +32,8 @@ main (int argc, char **argv)
   bool         good = argc > 1 && layer && merged;
 
   for (size_t i = 0; good && i < n; i++)
-    layer[i] = (CeldIoLayer) { argv[i + 2], { WIDTH - 1, HEIGHT - 1, 1, 1 } };
+    layer[i] = (CeldIoLayer) { .name = argv[i + 2], .box = { WIDTH - 1, HEIGHT - 1, 1, 1 },
+                               .joint = { CELD_NO_INDEX, 0, 0 } };
   good = good && celd_io_write_layers (argv[1], &stack, &error);
   if (!good && argc > 1)
     fprintf (stderr, "%s\n", error.text);

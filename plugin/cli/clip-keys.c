@@ -1,0 +1,243 @@
+/* The keys of a clip: frames with scribbles.  One palette and one order hold for the whole clip, so that the depth of a
+ * region does not flicker.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "propagate.h"
+
+#include <string.h>
+
+/* ------------------------------------------------------------------ fingerprints */
+
+static bool
+add_file (GChecksum *sum, const char *path)
+{
+  GError *error = NULL;
+  char   *data = NULL;
+  gsize   size = 0;
+
+  if (!path)
+    return true;
+  if (!g_file_get_contents (path, &data, &size, &error))
+    {
+      cli_say ("Cannot read \"%s\": %s.", path, error->message);
+      g_error_free (error);
+      return false;
+    }
+  g_checksum_update (sum, (const guchar *) data, (gssize) size);
+  g_free (data);
+  return true;
+}
+
+static void
+add_settings (GChecksum *sum, const CeldSettings *settings)
+{
+  size_t                 n;
+  const CeldSettingInfo *info = celd_setting_infos (&n);
+
+  for (size_t i = 0; i < n; i++)
+    {
+      char text[G_ASCII_DTOSTR_BUF_SIZE];
+
+      g_ascii_dtostr (text, sizeof text, celd_setting_get (&info[i], settings));
+      g_checksum_update (sum, (const guchar *) text, -1);
+      g_checksum_update (sum, (const guchar *) ";", 1);
+    }
+}
+
+/* Of the program, the settings and the files that a key is made from. */
+static bool
+take_fingerprint (const CliMotion *motion, const char *relations, CliKey *key)
+{
+  GChecksum *sum = g_checksum_new (G_CHECKSUM_SHA256);
+  bool       good;
+
+  g_checksum_update (sum, (const guchar *) CELDEPTH_VERSION, -1);
+  add_settings (sum, &motion->options->settings);
+  g_checksum_update (sum, (const guchar *) relations, -1);
+  good = add_file (sum, motion->frames.frame[key->frame].path) && add_file (sum, key->scribbles) &&
+         add_file (sum, key->arrows);
+  key->fingerprint = g_strdup (g_checksum_get_string (sum));
+  g_checksum_free (sum);
+  return good;
+}
+
+/* ------------------------------------------------------------------ the palette of the clip */
+
+/* The label of a region of a key in the clip's palette, to which it is added if it is new. */
+static uint32_t
+clip_label (CliMotion *motion, const CeldRegion *region)
+{
+  CeldPalette *palette = &motion->palette;
+
+  if (region->background && motion->background)
+    return motion->background;
+  for (size_t k = 0; k < palette->n; k++)
+    if (!region->background && !memcmp (palette->item[k].colour, region->colour, 4))
+      return (uint32_t) k + 1;
+  palette->item = g_renew (CeldRegion, palette->item, palette->n + 1);
+  palette->item[palette->n++] = *region;
+  if (region->background)
+    motion->background = (uint32_t) palette->n;
+  return (uint32_t) palette->n;
+}
+
+static bool
+take_labels (CliMotion *motion, const CeldLabels *labels, const CeldPalette *palette, CliKey *key)
+{
+  uint32_t *number = g_new0 (uint32_t, palette->n + 1);
+  bool      good = cli_labels_new (labels->width, labels->height, &key->labels);
+
+  for (size_t k = 0; k < palette->n; k++)
+    number[k + 1] = clip_label (motion, &palette->item[k]);
+  for (int y = 0; good && y < labels->height; y++)
+    for (int x = 0; x < labels->width; x++)
+      key->labels.data[(size_t) y * key->labels.stride + (size_t) x] =
+        number[labels->data[(size_t) y * labels->stride + (size_t) x]];
+  g_free (number);
+  return good;
+}
+
+static bool
+take_ink (const CeldPlane *ink, CliKey *key)
+{
+  bool good = cli_plane_new (ink->width, ink->height, &key->ink);
+
+  for (int y = 0; good && y < ink->height; y++)
+    memcpy (key->ink.data + (size_t) y * key->ink.stride, ink->data + (size_t) y * ink->stride,
+            (size_t) ink->width * sizeof *ink->data);
+  return good;
+}
+
+/* ------------------------------------------------------------------ relations */
+
+/* Makes an end of a relation one by colour; false for a transparent background, which has none. */
+static bool
+name_by_colour (const CliMotion *motion, const CliKey *key, CeldTerm *term)
+{
+  const CeldRegion *region;
+
+  if (term->by_colour)
+    return true;
+  if (!(term->x >= 0 && term->y >= 0 && term->x < motion->width && term->y < motion->height))
+    return false;
+  region = &motion->palette.item[key->labels.data[(size_t) term->y * key->labels.stride + (size_t) term->x] - 1];
+  term->by_colour = true;
+  memcpy (term->colour, region->colour, 3);
+  return region->colour[3] > 0;
+}
+
+/* Appends the relations of a key that are not there yet, one on each line. */
+static void
+take_relations (const CliMotion *motion, const CliKey *key, const CeldRelations *relations, GString *all)
+{
+  for (size_t i = 0; i < relations->n; i++)
+    {
+      CeldRelation relation = relations->item[i];
+      char        *text, *line;
+
+      if (!name_by_colour (motion, key, &relation.nearer) || !name_by_colour (motion, key, &relation.farther) ||
+          !memcmp (relation.nearer.colour, relation.farther.colour, 3))
+        continue;
+      text = cli_relation_text (&relation, NULL);
+      line = g_strdup_printf ("%s\n", text);
+      if (!strstr (all->str, line))
+        g_string_append (all, line);
+      g_free (text);
+      g_free (line);
+    }
+}
+
+static CeldStatus
+make_order (CliMotion *motion, CliRun *run)
+{
+  CeldRelations relations = { 0 };
+  CeldStatus    status = celd_relations_parse (motion->relations, &relations, NULL);
+
+  if (status == CELD_OK)
+    status = celd_order (&motion->key[0].labels, &motion->palette, &relations, NULL, &motion->options->settings,
+                         &run->host, &motion->order, NULL);
+  celd_relations_clear (&relations);
+  return status;
+}
+
+/* ------------------------------------------------------------------ reading */
+
+static CeldStatus
+make_key (CliMotion *motion, CeldSession *session, CliRun *run, CliKey *key, GString *relations)
+{
+  CeldLabels       labels;
+  CeldPlane        ink;
+  const CeldOrder *order;
+  CeldStatus       status = celd_session_ink (session, &run->host, &ink, NULL);
+  bool             good = status == CELD_OK && take_ink (&ink, key);
+
+  if (status == CELD_OK)
+    status = celd_session_labels (session, &run->host, &labels, NULL);
+  if (status == CELD_OK)
+    good = good && take_labels (motion, &labels, celd_session_palette (session), key);
+  if (status == CELD_OK)
+    status = celd_session_order (session, &run->host, &order);
+  if (status == CELD_OK && good)
+    take_relations (motion, key, celd_session_relations (session), relations);
+  return status == CELD_OK && !good ? CELD_NO_MEMORY : status;
+}
+
+static bool
+read_key (CliMotion *motion, CliRun *run, CliKey *key, GString *relations)
+{
+  CliOptions   options = *motion->options;
+  CeldSession *session = celd_session_new ();
+  CliLayers    layers = { .width = motion->width, .height = motion->height };
+  bool         good;
+
+  options.input     = motion->frames.frame[key->frame].path;
+  options.scribbles = key->scribbles;
+  options.arrows    = key->arrows;
+  if (key->bare)
+    options.relations = options.relations_file = NULL;
+  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &options, &layers);
+  if (good)
+    {
+      motion->width  = layers.width;
+      motion->height = layers.height;
+    }
+  cli_layers_clear (&layers);
+  if (good)
+    cli_run_stage (run, "keys");
+  good = good && cli_run_finish (run, make_key (motion, session, run, key, relations));
+  if (good)
+    cli_say_problems (celd_session_problems (session), celd_session_palette (session),
+                      celd_session_relations (session));
+  celd_session_free (session);
+  return good;
+}
+
+bool
+cli_keys_read (CliMotion *motion, CliRun *run)
+{
+  GString *relations = g_string_new (NULL);
+  bool     good = true;
+
+  for (size_t i = 0; i < motion->n_keys && good; i++)
+    good = read_key (motion, run, &motion->key[i], relations);
+  motion->relations = g_string_free (relations, FALSE);
+  for (size_t i = 0; i < motion->n_keys && good; i++)
+    good = take_fingerprint (motion, motion->relations, &motion->key[i]);
+  return good && cli_check (make_order (motion, run));
+}
+
+void
+cli_keys_clear (CliMotion *motion)
+{
+  for (size_t i = 0; i < motion->n_keys; i++)
+    {
+      g_free (motion->key[i].labels.data);
+      g_free (motion->key[i].ink.data);
+      g_free (motion->key[i].fingerprint);
+    }
+  g_free (motion->key);
+  g_free (motion->palette.item);
+  g_free (motion->relations);
+  celd_order_clear (&motion->order);
+}

@@ -1,0 +1,14 @@
+/* Writing JSON, for files that build it.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CLI_JSON_H
+#define CLI_JSON_H
+
+#include <json-glib/json-glib.h>
+#include <stdbool.h>
+
+/* Writes what was built, indented, as cli_write_text does, and frees the builder. */
+bool cli_write_json (const char *path, JsonBuilder *json);
+
+#endif

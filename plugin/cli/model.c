@@ -1,0 +1,145 @@
+/* Models for relief: names, settings and files.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <stdlib.h>
+
+/* ------------------------------------------------------------------ names */
+
+/* "e0a030-3" for label 3. */
+static char *
+name_of_label (const CeldPalette *palette, uint32_t label)
+{
+  const uint8_t *c = palette->item[label - 1].colour;
+
+  return c[3] ? g_strdup_printf ("%02x%02x%02x-%u", c[0], c[1], c[2], label) : g_strdup ("background");
+}
+
+char **
+cli_model_names (const CeldPalette *palette)
+{
+  char **name = g_new0 (char *, palette->n + 1);
+
+  for (size_t k = 0; k < palette->n; k++)
+    name[k] = name_of_label (palette, (uint32_t) k + 1);
+  return name;
+}
+
+typedef struct { float level; uint32_t region; } LevelRegion;
+
+static int
+compare (gconstpointer first, gconstpointer second)
+{
+  const LevelRegion *a = first, *b = second;
+
+  if (a->level != b->level)
+    return a->level < b->level ? -1 : 1;
+  return (a->region > b->region) - (a->region < b->region);
+}
+
+/* The regions of each level, in the order of celd_layers_of_levels. */
+static GArray *
+list_regions (const CeldPlane *levels, const CeldLabels *regions)
+{
+  GArray *list = g_array_new (FALSE, FALSE, sizeof (LevelRegion));
+  guint   n = 0;
+
+  for (size_t i = 0; i < (size_t) levels->width * (size_t) levels->height; i++)
+    {
+      LevelRegion found = { levels->data[i] == levels->data[i] ? levels->data[i] + 0.f : 0,
+                            regions ? regions->data[i] : 0 };
+
+      if (!list->len || compare (&found, &g_array_index (list, LevelRegion, list->len - 1)))
+        g_array_append_val (list, found);
+    }
+  g_array_sort (list, compare);
+  for (guint i = 0; i < list->len; i++)
+    if (!n || compare (&g_array_index (list, LevelRegion, i), &g_array_index (list, LevelRegion, n - 1)))
+      g_array_index (list, LevelRegion, n++) = g_array_index (list, LevelRegion, i);
+  g_array_set_size (list, n);
+  return list;
+}
+
+char **
+cli_model_names_of_regions (const CeldPlane *levels, const CeldLabels *regions, const CeldPalette *palette)
+{
+  GArray *list = list_regions (levels, regions);
+  char  **name = g_new0 (char *, (gsize) list->len + 1);
+
+  for (guint k = 0; k < list->len; k++)
+    {
+      uint32_t region = g_array_index (list, LevelRegion, k).region;
+
+      name[k] = region ? name_of_label (palette, region) : g_strdup_printf ("level-%u", k + 1);
+    }
+  g_array_free (list, TRUE);
+  return name;
+}
+
+/* ------------------------------------------------------------------ levels of regions */
+
+static int
+compare_levels (const void *first, const void *second)
+{
+  const float *a = first, *b = second;
+
+  return (*a > *b) - (*a < *b);
+}
+
+void
+cli_levels_flatten (const CeldLabels *regions, CeldPlane *levels)
+{
+  size_t   n = (size_t) levels->width * (size_t) levels->height;
+  uint32_t most = 0;
+  size_t  *first;
+  float   *sorted = g_new (float, n);
+
+  for (size_t i = 0; i < n; i++)
+    most = MAX (most, regions->data[i]);
+  first = g_new0 (size_t, (gsize) most + 2); /* of region k: sorted[first[k]] .. sorted[first[k + 1] - 1] */
+  for (size_t i = 0; i < n; i++)
+    first[regions->data[i] + 1]++;
+  for (uint32_t k = 0; k <= most; k++)
+    first[k + 1] += first[k];
+  for (size_t i = 0; i < n; i++)
+    sorted[first[regions->data[i]]++] = levels->data[i];
+  for (uint32_t k = most + 1; k-- > 0;) /* each first[k] is the end of region k by now */
+    {
+      size_t begin = k ? first[k - 1] : 0, end = first[k];
+
+      qsort (sorted + begin, end - begin, sizeof *sorted, compare_levels);
+      first[k] = begin + (end - begin) / 2;
+    }
+  for (size_t i = 0; i < n; i++)
+    levels->data[i] = sorted[first[regions->data[i]]];
+  g_free (first);
+  g_free (sorted);
+}
+
+/* ------------------------------------------------------------------ settings and files */
+
+CeldSettings
+cli_model_settings (const CliOptions *options)
+{
+  CeldSettings s = options->settings;
+
+  if (s.mesh == CELD_MESH_AUTO)
+    s.mesh = options->mesh && celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
+  return s;
+}
+
+bool
+cli_model_write (const char *path, const CeldModel *model, char **name)
+{
+  CeldIoMesh *mesh = g_new (CeldIoMesh, model->n);
+  bool        good;
+
+  for (size_t i = 0; i < model->n; i++)
+    mesh[i] = (CeldIoMesh) { name[model->part[i].label - 1], &model->part[i].mesh };
+  good = cli_write_meshes (path, mesh, model->n, &model->atlas);
+  g_free (mesh);
+  g_strfreev (name);
+  return good;
+}

@@ -1,0 +1,89 @@
+/* What the files of celdepth propagate share.
+ *
+ *   propagate.c   the command: keys, chains of frames, outputs
+ *   clip-keys.c   what keys say: palette, relations, order
+ *   clip-frame.c  one frame: labels, levels, depth, and its state
+ *   review.c      frames that a person should look at
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#ifndef CLI_PROPAGATE_H
+#define CLI_PROPAGATE_H
+
+#include "sequence.h"
+
+/* ------------------------------------------------------------------ clip-keys.c */
+
+typedef struct
+{
+  size_t     frame;         /* index in the sequence */
+  char      *scribbles, *arrows;
+  bool       bare;          /* relations of the options have no meaning in it */
+  CeldLabels labels;        /* of the clip's palette */
+  CeldPlane  ink;
+  char      *fingerprint;   /* of all that its results are made from */
+} CliKey;
+
+/* What holds in the whole clip. */
+typedef struct
+{
+  const CliOptions *options;
+  CliSequence       frames;
+  CliKey           *key;           /* by frames */
+  size_t            n_keys;
+  CeldPalette       palette;       /* of all keys; `item` ends with g_free */
+  uint32_t          background;    /* its label; 0: none */
+  char             *relations;     /* of all keys, between colours */
+  CeldOrder         order;
+  int               width, height;
+} CliMotion;
+
+/* Reads the keys and makes their labels and the order of the clip.  False with a message. */
+bool cli_keys_read (CliMotion *motion, CliRun *run);
+void cli_keys_clear (CliMotion *motion);
+
+/* ------------------------------------------------------------------ clip-frame.c */
+
+/* What a person should know of a region of a frame. */
+typedef enum { CLI_REGION_UNSURE, CLI_REGION_GONE, CLI_REGION_NEW } CliRegionChange;
+typedef struct { uint32_t label; CliRegionChange change; double certainty; int x, y; } CliRegionNote;
+
+/* A frame on its way through a chain. */
+typedef struct
+{
+  size_t        frame;
+  CeldPlane     ink;
+  CeldLabels    labels;
+  double        certainty;     /* of this frame, or of an earlier one of the chain if that is less; 1 for a key */
+  GArray       *notes;         /* CliRegionNote */
+  char         *fingerprint;
+} CliFrameState;
+
+void  cli_frame_clear (CliFrameState *state);
+/* The file of a result: "labels", "levels", "depth", "state"; free with g_free. */
+char *cli_frame_path (const CliMotion *motion, const char *result, size_t frame);
+/* Makes the state of a key. */
+bool  cli_frame_of_key (const CliMotion *motion, const CliKey *key, CliFrameState *state);
+/* Carries the labels of a frame to another one, whose ink is given; the caller provides both pictures. */
+CeldStatus cli_frame_carry (const CliMotion *motion, const CeldHost *host, const CeldPlane *ink, const CeldLabels *from,
+                            const CeldPlane *next, CeldLabels *labels, CeldPlane *certainty);
+/* Notes what of the labels is unsure, vanishes or appears, beside those before, and lowers the certainty. */
+void  cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
+                            const CeldPlane *certainty, CliFrameState *state);
+/* Reads a frame, and makes its ink; false with a message. */
+bool  cli_frame_ink (const CliMotion *motion, const CeldHost *host, size_t frame, CeldPlane *ink);
+/* Replaces the state of a frame by that of the next one in the chain, from its files if they are what would be made,
+ * and else by propagation.  *made says which. */
+bool  cli_frame_next (const CliMotion *motion, const CeldHost *host, size_t frame, CliFrameState *state, bool *made);
+/* Reads certainty and notes of a frame that has been written, into a state with an empty array of notes; false if it
+ * has another fingerprint (may be NULL: any). */
+bool  cli_frame_read_state (const CliMotion *motion, size_t frame, const char *fingerprint, CliFrameState *state);
+/* Writes the results of a frame, its state last. */
+bool  cli_frame_write (const CliMotion *motion, const CeldHost *host, const CliFrameState *state);
+
+/* ------------------------------------------------------------------ review.c */
+
+/* Writes the frames and regions to look at as JSON, and beside it a picture of them. */
+bool cli_review_write (const char *path, const CliMotion *motion);
+
+#endif
