@@ -17,6 +17,16 @@ ink_step (const CeldHost *host, Results *r)
   return celd_ink (&drawing, CELD_INK_AUTO, host, &ink);
 }
 
+/* Of the noisy layer, so that it is smoothed first. */
+static CeldStatus
+coloured_lines_step (const CeldHost *host, Results *r)
+{
+  CeldPaint   art = paint_of (&lossy_pixels);
+  CeldDrawing drawing = drawing_of (r->pixels);
+
+  return celd_coloured_lines (&art, CELD_INK_LINES, host, &drawing);
+}
+
 static CeldStatus
 contours_step (const CeldHost *host, Results *r)
 {
@@ -255,6 +265,7 @@ background_step (const CeldHost *host, Results *r)
 
 const Step region_steps[] = {
   { "ink", ink_step, NULL, true },
+  { "coloured lines", coloured_lines_step, NULL, true },
   { "contours", contours_step, NULL, true },
   { "scribbles", scribbles_step, NULL, true },
   { "lossy scribbles", lossy_step, NULL, true },

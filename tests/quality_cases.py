@@ -23,3 +23,9 @@ def cases_in(folder, kinds):
                 yield name, kind, path
             if kind == 'clean' and 'sloppy' in kinds:
                 yield name + '-sloppy', 'sloppy', path
+
+
+def relations_of(path):
+    """A case's arrows in the grammar of relations."""
+    with open(os.path.join(path, 'arrows.txt')) as f:
+        return ''.join('{},{} > {},{}\n'.format(*line.split()) for line in f if line.strip())

@@ -15,7 +15,7 @@
 #define MOST_EDITS 24
 #define CLOSE      0.02f /* of the range of solved results, whose error is at most 1e-4 as the solver measures it */
 
-typedef enum { SCRIBBLES, ARROWS, CONTOURS, CORRECTIONS, LAYERS } Layer;
+typedef enum { SCRIBBLES, ARROWS, CONTOURS, CORRECTIONS, HIDDEN, LAYERS } Layer;
 
 /* What a host has told a session. */
 typedef struct
@@ -152,6 +152,7 @@ tell_layer (CeldSession *session, Host *h, Layer layer)
 {
   static CeldStatus (*const set[LAYERS]) (CeldSession *, const CeldPaint *) = {
     celd_session_set_scribbles, celd_session_set_arrows, celd_session_set_contours, celd_session_set_corrections,
+    celd_session_set_hidden,
   };
   CeldPaint paint = { h->width, h->height, (size_t) h->width, h->layer[layer] };
 
@@ -281,9 +282,10 @@ edit_relation (CeldSession *session, Host *h, FuzzInput *input)
 static void
 edit (CeldSession *session, Host *h, FuzzInput *input)
 {
-  switch (fuzz_below (input, 16))
+  switch (fuzz_below (input, 17))
     {
     default: edit_stroke (session, h, input); break;
+    case 16: edit_layer (session, h, HIDDEN, input); break;
     case 0: edit_drawing (session, h, input); break;
     case 1: edit_layer (session, h, SCRIBBLES, input); break;
     case 2: edit_layer (session, h, SCRIBBLES, input); break;

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "fuzz.h"
+#include "sheets/sheets.h"
 
 #define MOST_SIDE 24
 #define PIXELS    (MOST_SIDE * MOST_SIDE)
@@ -71,10 +72,10 @@ make_settings (FuzzInput *input, CeldSettings *s)
 {
   float *const numbers[] = {
     &s->ink_threshold, &s->hardness, &s->near_level, &s->far_level, &s->tolerance, &s->contrast, &s->weight_floor,
-    &s->bulge, &s->bevel, &s->quilt, &s->light_azimuth, &s->light_elevation, &s->light_x, &s->light_y,
+    &s->bulge, &s->relief_bulge, &s->bevel, &s->quilt, &s->light_azimuth, &s->light_elevation, &s->light_x, &s->light_y,
     &s->light_height, &s->ambient, &s->specular, &s->shininess, &s->rim_light, &s->rim_power, &s->shadow_size,
     &s->shadow_strength, &s->shadow_offset, &s->shadow_range, &s->disparity, &s->convergence, &s->relief_depth,
-    &s->mesh_size, &s->mesh_plate, &s->mesh_error,
+    &s->mesh_size, &s->mesh_plate, &s->mesh_error, &s->margin,
   };
 
   *s = celd_settings ();
@@ -87,14 +88,14 @@ make_settings (FuzzInput *input, CeldSettings *s)
   s->light_model   = (CeldLightModel) fuzz_below (input, 4);
   s->light         = (CeldLight) fuzz_below (input, 2);
   s->relief_from   = (CeldReliefFrom) fuzz_below (input, 2);
-  s->mesh          = (CeldMeshKind) fuzz_below (input, 3);
+  s->mesh          = (CeldMeshKind) fuzz_below (input, 4);
   s->stereo        = (CeldStereo) fuzz_below (input, 13);
   s->same_colour   = (CeldSameColour) fuzz_below (input, 2);
   s->on_cycle      = (CeldOnCycle) fuzz_below (input, 3);
   s->suggest       = (CeldSuggest) fuzz_below (input, 3);
   s->frame_outline = fuzz_below (input, 2);
   for (int changes = fuzz_below (input, 4); changes > 0; changes--)
-    *numbers[fuzz_below (input, 30)] = fuzz_odd (input);
+    *numbers[fuzz_below (input, 32)] = fuzz_odd (input);
 }
 
 static void
@@ -200,6 +201,15 @@ try_light (Page *page)
   check_status (celd_occlusion (&levels, &page->settings, NULL, &made));
 }
 
+static void
+check_mesh (const CeldReliefMesh *mesh)
+{
+  FUZZ_CHECK (are_finite (mesh->place, 3 * mesh->vertices) && are_finite (mesh->normal, 3 * mesh->vertices) &&
+              are_finite (mesh->art, 2 * mesh->vertices));
+  for (size_t i = 0; i < 3 * mesh->triangles; i++)
+    FUZZ_CHECK (mesh->corner[i] < mesh->vertices);
+}
+
 /* What is made of finite depth is finite. */
 static void
 try_relief (Page *page)
@@ -216,13 +226,83 @@ try_relief (Page *page)
       FUZZ_CHECK (are_finite (relief.z, n) && are_finite (relief.outline, n));
       status = celd_relief_mesh (&relief, &page->settings, NULL, &mesh);
       check_status (status);
-      FUZZ_CHECK (status != CELD_OK || are_finite (mesh.place, 3 * mesh.vertices));
-      FUZZ_CHECK (status != CELD_OK || are_finite (mesh.normal, 3 * mesh.vertices));
-      for (size_t i = 0; status == CELD_OK && i < 3 * mesh.triangles; i++)
-        FUZZ_CHECK (mesh.corner[i] < mesh.vertices);
+      if (status == CELD_OK)
+        check_mesh (&mesh);
     }
   celd_relief_mesh_clear (&mesh);
   celd_relief_clear (&relief);
+}
+
+/* Hidden pixels lie in the picture, under later sheets. */
+static void
+check_sheets (const CeldSheets *sheets, const CeldOwnership *own)
+{
+  for (size_t k = 0; k < sheets->n; k++)
+    for (size_t i = 0; i < sheets->item[k].n_runs; i++)
+      {
+        const CeldSheetRun *run = &sheets->item[k].run[i];
+
+        FUZZ_CHECK (run->n > 0 && run->x >= 0 && run->x + run->n <= sheets->width && run->y < sheets->height);
+        for (int x = run->x; x < run->x + run->n; x++)
+          {
+            bool mixed = CELD_AT (&own->coverage, x, run->y) < 1;
+
+            FUZZ_CHECK (sheets->of_label[CELD_AT (&own->owner, x, run->y) - 1] > k);
+            FUZZ_CHECK (!mixed || sheets->of_label[CELD_AT (&own->under, x, run->y) - 1] > k);
+          }
+      }
+}
+
+/* By relations, and cut into layers. */
+static void
+try_sheets (FuzzInput *input, Page *page)
+{
+  CeldPlane     ink = plane (page, page->ink);
+  CeldOwnership own = { labels (page, page->labels), labels (page, page->under), plane (page, page->depth) };
+  CeldColours   art = { page->width, page->height, (size_t) page->width, page->art };
+  CeldRegion    regions[LABELS - 1];
+  CeldPalette   palette = { regions, 4 };
+  CeldRelation  item[8];
+  CeldRelations relations;
+  CeldOrder     order = { 0 };
+  CeldSheets   *sheets = NULL;
+  CeldLayers   *layers = NULL;
+  CeldStatus    status;
+
+  for (uint32_t k = 0; k < 4; k++)
+    regions[k] = (CeldRegion) { .colour = { (uint8_t) (k * 60), 9, 9, 255 }, .seeds = 1, .area = 1 };
+  make_relations (input, &relations, item);
+  for (int p = 0; p < page->width * page->height; p++)
+    page->under[p] = page->labels[p < 3 ? 0 : p - 3];
+  status = celd_order (&own.owner, &palette, &relations, &ink, &page->settings, NULL, &order, NULL);
+  check_status (status);
+  if (status == CELD_OK)
+    {
+      status = celd_sheets (&ink, &own, NULL, &order, (uint32_t) fuzz_below (input, LABELS), &page->settings, NULL,
+                            &sheets);
+      check_status (status);
+    }
+  if (status == CELD_OK)
+    {
+      check_sheets (sheets, &own);
+      check_status (celd_layers_cut (&ink, &own, order.level, order.n, &art, sheets, CELD_STORE_8_BIT, NULL, &layers));
+    }
+  celd_layers_free (layers);
+  celd_sheets_free (sheets);
+  celd_order_clear (&order);
+}
+
+static void
+try_model (Page *page)
+{
+  CeldPlane   ink = plane (page, page->ink), levels = plane (page, page->levels);
+  CeldColours art = { page->width, page->height, (size_t) page->width, page->art };
+  CeldModel   model = { 0 };
+
+  check_status (celd_model_of_levels (&ink, &levels, NULL, &art, &page->settings, NULL, &model));
+  for (size_t k = 0; k < model.n; k++)
+    check_mesh (&model.part[k].mesh);
+  celd_model_clear (&model);
 }
 
 static void
@@ -240,7 +320,7 @@ try_views (Page *page)
     check_status (celd_scene_view (scene, celd_camera_eye (1), &page->settings, NULL, &view));
   celd_scene_free (scene);
   scene = NULL;
-  status = celd_scene_of_levels (&ink, &levels, &depth, &art, page->settings.expansion, NULL, &scene);
+  status = celd_scene_of_levels (&ink, &levels, &depth, &art, &page->settings, NULL, &scene);
   check_status (status);
   if (status == CELD_OK)
     check_status (celd_scene_view (scene, celd_camera_on_path (page->settings.path, 1, 7), &page->settings, NULL,
@@ -256,12 +336,14 @@ LLVMFuzzerTestOneInput (const uint8_t *data, size_t size)
   FuzzInput   input = { data, data + size };
 
   make_page (&input, &page);
-  switch (fuzz_below (&input, 4))
+  switch (fuzz_below (&input, 6))
     {
     case 0: try_regions (&input, &page); break;
     case 1: try_light (&page); break;
     case 2: try_relief (&page); break;
     case 3: try_views (&page); break;
+    case 4: try_model (&page); break;
+    case 5: try_sheets (&input, &page); break;
     }
   return 0;
 }

@@ -78,6 +78,12 @@ def people(bits):
     depth = step(levels, 'depth-smooth', 'depth', {'aux': drawing, 'aux2': scribbles})
     if bits == 32:  # depth of 8 bits moves by other parts of a pixel
         step(drawing, 'stereo', 'stereo', {'aux': depth, 'aux2': levels})
+        step(drawing, 'compose', 'compose', {'aux': levels, 'aux2': scribbles}, between=0.5, scale=0.7)
+        step(drawing, 'arap-register', 'confidence', {'aux': drawing, 'aux2': levels}, result='confidence')
+    step(drawing, 'arap-deform', 'deformed', {'aux4': scribbles, 'aux5': arrows}, handles='200,150 -> 210,140')
+    step(drawing, 'depth-propagate', 'propagated', {'aux': drawing, 'aux2': scribbles, 'aux4': arrows})
+    step(drawing, 'depth-propagate', 'propagated-levels', {'aux': drawing, 'aux2': labels, 'aux3': levels},
+         result='levels', flats=True)
     step(levels, 'relief', 'relief', {'aux': drawing, 'aux2': depth})
     for result in ('shading', 'normals', 'occlusion'):
         step(levels, 'lumo-shade', result, {'aux': drawing}, result=result)

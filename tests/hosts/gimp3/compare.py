@@ -16,11 +16,10 @@ import numpy as np
 from PIL import Image
 
 EXAMPLES = os.environ['CELDEPTH_EXAMPLES']
-RESULTS = ['labels', 'order', 'levels', 'depth', 'normals', 'shading']
-WANTED = {name: name for name in RESULTS}
-WANTED.update({'popup-' + name: name for name in RESULTS})
-WANTED.update({name: name for name in ('contours-segmentation', 'contours-depth', 'popup-contours', 'popup-problems',
-                                       'tone', 'occlusion')})
+WANTED = {'popup-' + name: name for name in ('labels', 'order', 'levels', 'depth')}
+WANTED.update({name: name for name in ('labels', 'propagated', 'order', 'levels', 'depth', 'normals', 'shading', 'tone',
+                                       'occlusion', 'popup-normals', 'popup-shading', 'popup-problems',
+                                       'popup-contours', 'contours-segmentation', 'contours-depth')})
 
 
 def encode(linear):
@@ -35,10 +34,10 @@ def decode(encoded):
 
 def reference(out, name):
     """Linear values, three a pixel."""
-    if name == 'labels':
-        return decode(np.array(Image.open(os.path.join(out, 'labels.png')).convert('RGB')) / 255)
-    if name == 'normals':
-        return 0.5 + 0.5 * np.load(os.path.join(out, 'normals.npy'))
+    if name in ('labels', 'propagated'):
+        return decode(np.array(Image.open(os.path.join(out, name + '.png')).convert('RGB')) / 255)
+    if name.endswith('normals'):
+        return 0.5 + 0.5 * np.load(os.path.join(out, name + '.npy'))
     values = np.atleast_3d(np.squeeze(np.load(os.path.join(out, name + '.npy')))).astype(float)
     if name == 'relief':
         values = (values - values.min()) / np.ptp(values)
