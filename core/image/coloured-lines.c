@@ -2,9 +2,9 @@
  *
  * A line is darker in some channel than what lies on both sides of it (or lighter: then the picture is inverted first);
  * a fill is not.
- * 1. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
+ * 1. The width of lines: the closing by the right window finds nearly all that one twice as wide finds.
+ * 2. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
  *    fill around; the largest of the three.
- * 2. The width of lines: the closing by the right window finds nearly all that one twice as wide finds.
  * 3. Strength: the contrast, divided by that of the core of the line.
  * 4. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
  *    colour of lines and fits into the widest window is a line as well.
@@ -16,15 +16,15 @@
  */
 #include "image/image.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define DARKEST_PAPER 64     /* of 255: contrast against anything darker is against this; chosen */
 #define GRAINLESS     2      /* noise up to this, of 255, comes from rounding; chosen */
-#define FAINTEST_LINE      20     /* of 255: least contrast of the core of a line; chosen */
+#define FAINTEST_LINE 20     /* of 255: least contrast of the core of a line; chosen */
 #define COMPRESSED    8      /* pixels: a block of JPEG */
 #define EDGE          2      /* pixels from the core of a line to its antialiased edge */
+#define FLAT_RUN      128    /* pixels that are looked at together; chosen */
 #define TONES         16     /* per channel, by which the colours of lines are counted; chosen */
 
 typedef struct
@@ -106,7 +106,7 @@ take_channels (Lines *l, const CeldPaint *art)
 static float
 measure_noise (const Lines *l)
 {
-  size_t of[511 * 2] = { 0 }, all = 0, below = 0;
+  size_t of[2 * 255 + 1] = { 0 }, all = 0, below = 0;
   int    difference = 0;
 
   for (int y = 0; y < l->closed.height; y++)
@@ -143,11 +143,46 @@ remove_noise (Lines *l)
   return status;
 }
 
+/* ------------------------------------------------------------------ the width of lines */
+
+CELD_CLONES static void
+take_luma (const uint8_t *restrict red, const uint8_t *restrict green, const uint8_t *restrict blue, size_t n,
+           uint8_t *restrict luma)
+{
+  for (size_t i = 0; i < n; i++)
+    luma[i] = (uint8_t) (0.2126f * red[i] + 0.7152f * green[i] + 0.0722f * blue[i] + 0.5f);
+}
+
+/* Finds whether lines are darker or lighter than what is beside them: those of a drawing have one width.  If they are
+ * lighter, inverts the channels.  l->level is overwritten. */
+static CeldStatus
+find_polarity (Lines *l, int *radius)
+{
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], l->host, 0, 0.3), second = celd_host_part (&part[1], l->host, 0.3, 0.6);
+  int          other;
+  float        dark, light;
+  CeldStatus   status;
+
+  take_luma (l->channel[0].data, l->channel[1].data, l->channel[2].data, pixels (l), l->level.data);
+  status = celd_line_radius (&l->level, l->widest, &first, l->work, &l->closed, radius, &dark);
+  if (status != CELD_OK || dark >= 0.95f)
+    return status;
+  celd_invert_bytes (&l->level);
+  status = celd_line_radius (&l->level, l->widest, &second, l->work, &l->closed, &other, &light);
+  if (status != CELD_OK || light <= dark)
+    return status;
+  for (int c = 0; c < 3; c++)
+    celd_invert_bytes (&l->channel[c]);
+  *radius = other;
+  return status;
+}
+
 /* ------------------------------------------------------------------ contrast */
 
-/* Raises contrasts to those of a channel against its closing. */
 CELD_CLONES static void
-raise_contrast (const uint8_t *restrict value, const uint8_t *restrict closed, size_t n, uint8_t *restrict contrast)
+raise_contrast_of_piece (const uint8_t *restrict value, const uint8_t *restrict closed, size_t n,
+                         uint8_t *restrict contrast)
 {
   for (size_t i = 0; i < n; i++)
     {
@@ -155,6 +190,19 @@ raise_contrast (const uint8_t *restrict value, const uint8_t *restrict closed, s
       uint8_t c = (uint8_t) (255 * (float) (closed[i] - value[i]) / paper + 0.5f);
 
       contrast[i] = c > contrast[i] ? c : contrast[i];
+    }
+}
+
+/* Raises contrasts to those of a channel against its closing. */
+static void
+raise_contrast (const uint8_t *value, const uint8_t *closed, size_t n, uint8_t *contrast)
+{
+  for (size_t i = 0; i < n; i += FLAT_RUN)
+    {
+      size_t piece = n - i < FLAT_RUN ? n - i : FLAT_RUN;
+
+      if (memcmp (value + i, closed + i, piece)) /* most pieces are fill */
+        raise_contrast_of_piece (value + i, closed + i, piece, contrast + i);
     }
 }
 
@@ -174,41 +222,28 @@ measure_contrast (Lines *l, int radius, double done)
   return status;
 }
 
-/* ------------------------------------------------------------------ the width of lines */
-
-/* The luma of the channels, in l->level. */
-static void
-take_luma (Lines *l)
-{
-  size_t n = pixels (l);
-
-  for (size_t i = 0; i < n; i++)
-    l->level.data[i] = (uint8_t) (0.2126f * l->channel[0].data[i] + 0.7152f * l->channel[1].data[i] +
-                                  0.0722f * l->channel[2].data[i] + 0.5f);
-}
-
-/* Finds whether lines are darker or lighter than what is beside them: those of a drawing have one width.  If they are
- * lighter, inverts the channels. */
+/* The least contrast of the core of a line: well above the grain, and above what compression leaves beside lines. */
 static CeldStatus
-find_polarity (Lines *l, int *radius)
+find_faintest (Lines *l, int *faintest)
 {
-  CeldHostPart part[2];
-  CeldHost     first = celd_host_part (&part[0], l->host, 0, 0.3), second = celd_host_part (&part[1], l->host, 0.3, 0.6);
-  int          other;
-  float        dark, light;
-  CeldStatus   status;
+  CeldPlane  contrast = { 0 }, around = { 0 };
+  CeldStatus status = new_planes (l, &contrast, &around);
+  float      least;
 
-  take_luma (l);
-  status = celd_line_radius (&l->level, l->widest, &first, l->work, &l->closed, radius, &dark);
-  if (status != CELD_OK || dark >= 0.95f)
-    return status;
-  celd_invert_bytes (&l->level);
-  status = celd_line_radius (&l->level, l->widest, &second, l->work, &l->closed, &other, &light);
-  if (status != CELD_OK || light <= dark)
-    return status;
-  for (int c = 0; c < 3; c++)
-    celd_invert_bytes (&l->channel[c]);
-  *radius = other;
+  if (status == CELD_OK)
+    {
+      memcpy (l->closed.data, l->contrast.data, pixels (l));
+      celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
+      for (size_t i = 0; i < pixels (l); i++)
+        {
+          contrast.data[i] = l->contrast.data[i] / 255.0f;
+          around.data[i]   = l->closed.data[i] / 255.0f;
+        }
+      least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &around, 1));
+      *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
+    }
+  celd_free (contrast.data);
+  celd_free (around.data);
   return status;
 }
 
@@ -251,10 +286,20 @@ find_cores (Lines *l, int radius, int faintest)
         bool core = is_core (l, x, y, faintest);
 
         CELD_AT (&l->level, x, y) = core ? CELD_AT (&l->contrast, x, y) : 0;
-        l->cores += core;
-        *tone_of (l, (size_t) y * l->level.stride + (size_t) x) += core;
+        if (core)
+          {
+            l->cores++;
+            ++*tone_of (l, (size_t) y * l->level.stride + (size_t) x);
+          }
       }
   celd_dilate_bytes (&l->level, 1, l->work);
+}
+
+CELD_CLONES static void
+keep_where_level (const uint8_t *restrict level, const uint8_t *restrict value, size_t n, uint8_t *restrict raised)
+{
+  for (size_t i = 0; i < n; i++)
+    raised[i] = level[i] ? raised[i] : value[i];
 }
 
 /* Between fills that differ, closing finds the darker one.  For antialiased pixels on the lighter side, which may be
@@ -266,9 +311,7 @@ raise_edges (Lines *l)
     {
       memcpy (l->closed.data, l->channel[c].data, pixels (l));
       celd_dilate_bytes (&l->closed, 1, l->work);
-      for (size_t i = 0; i < pixels (l); i++)
-        if (!l->level.data[i])
-          l->closed.data[i] = l->channel[c].data[i];
+      keep_where_level (l->level.data, l->channel[c].data, pixels (l), l->closed.data);
       raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
     }
   celd_dilate_bytes (&l->level, EDGE - 1, l->work);
@@ -293,16 +336,14 @@ blur_tones (Lines *l)
 }
 
 /* Replaces the level of each pixel by the strength of the line there. */
-static void
-find_strengths (Lines *l, int faintest)
+CELD_CLONES static void
+find_strengths (const uint8_t *restrict contrast, int faintest, size_t n, uint8_t *restrict level)
 {
-  for (size_t i = 0; i < pixels (l); i++)
-    {
-      int contrast = l->contrast.data[i], level = l->level.data[i];
-
-      l->level.data[i] = (uint8_t) (contrast < faintest && !level ? 0 : !level ? contrast
-                                      : contrast < level ? 255 * contrast / level : 255);
-    }
+  for (size_t i = 0; i < n; i++)
+    if (level[i])
+      level[i] = (uint8_t) celd_least (255.0f * contrast[i] / level[i], 255);
+    else
+      level[i] = contrast[i] < faintest ? 0 : contrast[i];
 }
 
 /* Writes the lines by their strengths, and what has their tone and contrast in the widest window. */
@@ -319,31 +360,6 @@ write_lines (Lines *l, CeldDrawing *drawing)
         if (drawing->alpha.data)
           CELD_AT (&drawing->alpha, x, y) = 1;
       }
-}
-
-/* The least contrast of the core of a line: well above the grain, and above what compression leaves beside lines. */
-static CeldStatus
-find_faintest (Lines *l, int *faintest)
-{
-  CeldPlane  contrast = { 0 }, around = { 0 };
-  CeldStatus status = new_planes (l, &contrast, &around);
-  float      least;
-
-  if (status == CELD_OK)
-    {
-      memcpy (l->closed.data, l->contrast.data, pixels (l));
-      celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
-      for (size_t i = 0; i < pixels (l); i++)
-        {
-          contrast.data[i] = l->contrast.data[i] / 255.0f;
-          around.data[i]   = l->closed.data[i] / 255.0f;
-        }
-      least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &around, 1));
-      *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
-    }
-  celd_free (contrast.data);
-  celd_free (around.data);
-  return status;
 }
 
 static CeldStatus
@@ -363,7 +379,7 @@ find_lines (Lines *l, CeldDrawing *drawing)
   find_cores (l, radius, faintest);
   blur_tones (l);
   raise_edges (l);
-  find_strengths (l, faintest);
+  find_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
   status = measure_contrast (l, radius > l->widest / 2 ? 2 * radius : l->widest, 0.8);
   if (status == CELD_OK)
     write_lines (l, drawing);
@@ -378,7 +394,9 @@ celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *hos
 
   if (!CELD_SAME_SIZE (art, &drawing->luma))
     return CELD_BAD_SIZE;
-  if (mode != CELD_INK_LINES && (mode != CELD_INK_AUTO || celd_ink_mode (drawing, mode) == CELD_INK_ALPHA))
+  if (mode != CELD_INK_LINES && mode != CELD_INK_AUTO)
+    return CELD_OK;
+  if (mode == CELD_INK_AUTO && celd_is_line_layer (drawing))
     return CELD_OK;
   l = celd_alloc (1, sizeof *l);
   if (!l)

@@ -14,6 +14,9 @@
 /* The mode to use for a drawing: never CELD_INK_AUTO, and CELD_INK_ALPHA only if the drawing has transparency. */
 CeldInkMode celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode);
 
+/* Whether a drawing is lines on a transparent layer. */
+bool celd_is_line_layer (const CeldDrawing *drawing);
+
 /* Brightness of each pixel as if drawn dark on white, 1 = white paper, 0 = full ink.  `mode` as returned by
  * celd_ink_mode; `value` has the drawing's size. */
 void celd_ink_values (const CeldDrawing *drawing, CeldInkMode mode, CeldPlane *value);

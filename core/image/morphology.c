@@ -46,10 +46,11 @@ celd_erode_bytes (CeldMask *mask, int radius, void *work)
 void
 celd_invert_bytes (CeldMask *mask)
 {
-  size_t n = (size_t) mask->width * (size_t) mask->height;
+  size_t   n = (size_t) mask->width * (size_t) mask->height;
+  uint8_t *value = mask->data; /* not read anew for each byte, which could have changed it */
 
   for (size_t i = 0; i < n; i++)
-    mask->data[i] = (uint8_t) ~mask->data[i];
+    value[i] = (uint8_t) ~value[i];
 }
 
 void

@@ -55,14 +55,27 @@ paper_value (const CeldDrawing *drawing, CeldInkMode mode, int x, int y)
   return mode == CELD_INK_ALPHA ? 1 - alpha : mode == CELD_INK_LIGHT ? 1 - luma * alpha : 1 - (1 - luma) * alpha;
 }
 
+static bool
+has_transparency (const CeldDrawing *drawing)
+{
+  if (drawing->alpha.data)
+    for (int y = 0; y < drawing->alpha.height; y++)
+      for (int x = 0; x < drawing->alpha.width; x++)
+        if (opacity (drawing, x, y) < 1)
+          return true;
+  return false;
+}
+
 /* Lines on a transparent layer: most of it is transparent, the rest is thin, and there is no contrast inside it as
  * there is between the outline and the fill of a sprite. */
-static bool
-is_line_layer (const CeldDrawing *drawing)
+bool
+celd_is_line_layer (const CeldDrawing *drawing)
 {
   int    width = drawing->luma.width, height = drawing->luma.height, side = width < height ? width : height;
   double opaque = 0, outline = 0, inside = 0;
 
+  if (!has_transparency (drawing))
+    return false;
   for (int y = 0; y < height; y++)
     for (int x = 0; x < width; x++)
       {
@@ -119,29 +132,15 @@ is_chalk (const CeldDrawing *drawing)
   return 2 * dark > all && 2 * dark_frame > framed;
 }
 
-static bool
-has_transparency (const CeldDrawing *drawing)
-{
-  if (drawing->alpha.data)
-    for (int y = 0; y < drawing->alpha.height; y++)
-      for (int x = 0; x < drawing->alpha.width; x++)
-        if (opacity (drawing, x, y) < 1)
-          return true;
-  return false;
-}
-
 /* An opaque picture has no lines in its alpha, so CELD_INK_ALPHA is treated as CELD_INK_AUTO then. */
 CeldInkMode
 celd_ink_mode (const CeldDrawing *drawing, CeldInkMode mode)
 {
-  bool transparent;
-
   if (mode == CELD_INK_DARK || mode == CELD_INK_LIGHT)
     return mode;
   if (mode == CELD_INK_LINES)
     return CELD_INK_DARK; /* as celd_coloured_lines draws them */
-  transparent = has_transparency (drawing);
-  if (transparent && (mode == CELD_INK_ALPHA || is_line_layer (drawing)))
+  if (mode == CELD_INK_ALPHA ? has_transparency (drawing) : celd_is_line_layer (drawing))
     return CELD_INK_ALPHA;
   return is_chalk (drawing) ? CELD_INK_LIGHT : CELD_INK_DARK;
 }
