@@ -13,6 +13,17 @@
 #define CELD_PI      3.14159265358979323846
 #define CELD_RADIANS (CELD_PI / 180) /* in a degree */
 
+/* The inner product of two vectors of n numbers. */
+static inline double
+celd_dot (const double *a, const double *b, size_t n)
+{
+  double sum = 0;
+
+  for (size_t i = 0; i < n; i++)
+    sum += a[i] * b[i];
+  return sum;
+}
+
 /* ------------------------------------------------------------------ memory.c */
 
 /* All allocation in core goes through these and celd_reserve; NULL when count x size overflows or is

@@ -243,16 +243,6 @@ fill_right (const CeldInbetween *between, float t, double *right)
       }
 }
 
-static double
-dot (const double *a, const double *b, size_t n)
-{
-  double sum = 0;
-
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* Finds the places for a share of the way by conjugate gradients, starting from the straight way; x is the result. */
 static const double *
 solve (const CeldInbetween *between, float t)
@@ -267,13 +257,13 @@ solve (const CeldInbetween *between, float t)
   multiply (between, x, q);
   for (size_t i = 0; i < n; i++)
     d[i] = r[i] -= q[i];
-  square = dot (r, r, n);
+  square = celd_dot (r, r, n);
   for (int step = 0; step < MOST_STEPS && square > RESIDUAL * RESIDUAL * LEAD * LEAD * (double) n; step++)
     {
       double curve, length, next;
 
       multiply (between, d, q);
-      curve = dot (d, q, n);
+      curve = celd_dot (d, q, n);
       if (!(curve > 0))
         break;
       length = square / curve;
@@ -282,7 +272,7 @@ solve (const CeldInbetween *between, float t)
           x[i] += length * d[i];
           r[i] -= length * q[i];
         }
-      next = dot (r, r, n);
+      next = celd_dot (r, r, n);
       for (size_t i = 0; i < n; i++)
         d[i] = r[i] + next / square * d[i];
       square = next;

@@ -183,16 +183,6 @@ hold_of (const Shift *s, uint32_t k)
   return s->hold * (double) s->tiles->area[k] + (double) s->tiles->flat[k];
 }
 
-static double
-dot (const double *a, const double *b, size_t n)
-{
-  double sum = 0;
-
-  for (size_t i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* to = A v, the quadratic form of links and weights, and with `with_cuts` of the violated cuts. */
 static void
 multiply (const Shift *s, const double *v, bool with_cuts, double *to)
@@ -266,7 +256,7 @@ newton_step (Shift *s)
       double alpha, next = 0;
 
       multiply (s, s->p, true, s->q);
-      alpha = left / dot (s->p, s->q, n);
+      alpha = left / celd_dot (s->p, s->q, n);
       for (size_t k = 0; k < n; k++)
         {
           s->step[k] += alpha * s->p[k];
@@ -303,9 +293,9 @@ line_search (Shift *s)
   double low = 0, high = 1, slope, curvature;
 
   multiply (s, s->u, false, s->q);
-  slope = dot (s->q, s->step, n);
+  slope = celd_dot (s->q, s->step, n);
   multiply (s, s->step, false, s->q);
-  curvature = dot (s->q, s->step, n);
+  curvature = celd_dot (s->q, s->step, n);
   while (high < 64 && derivative_at (s, high, slope, curvature) < 0)
     {
       low   = high;
@@ -336,7 +326,7 @@ minimize (Shift *s, const CeldHost *host)
       if (celd_progress (host, (double) i / MAX_NEWTON_STEPS) != CELD_OK)
         return CELD_CANCELLED;
       evaluate (s);
-      size  = sqrt (dot (s->gradient, s->gradient, n));
+      size  = sqrt (celd_dot (s->gradient, s->gradient, n));
       first = i ? first : size;
       if (size <= GRADIENT_TOLERANCE * first)
         break;

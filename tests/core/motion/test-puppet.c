@@ -241,14 +241,6 @@ no_gaps_open (void)
 }
 
 static void
-each_backwards (void *data, int n, void (*body_of) (void *body_data, int i), void *body_data)
-{
-  (void) data;
-  while (n--)
-    body_of (body_data, n);
-}
-
-static void
 poses_do_not_depend_on_order_or_threads (void)
 {
   static float first[4 * SIDE * SIDE];
@@ -256,7 +248,7 @@ poses_do_not_depend_on_order_or_threads (void)
   CeldPuppet  *puppet = puppet_of (&s, 4), *other = puppet_of (&s, 4);
   CeldHandle   a[2] = { { 80, 180, 90, 170, 0 }, { 180, 92, 90, 132.4, 0 } };
   CeldHandle   b[2] = { { 80, 180, 20, 100, 1 }, { 180, 92, 190, 30, 0 } };
-  CeldHost     host = { .each = each_backwards };
+  CeldHost     host = { .each = check_backwards };
 
   pose_and_draw (puppet, a, 2, NULL);
   memcpy (first, canvas_data, sizeof first);
