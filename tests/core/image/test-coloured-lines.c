@@ -229,20 +229,12 @@ by_request (void)
     CHECK (luma_of[i] >= 1);
 }
 
-static bool
-refuse (void *data, double done)
-{
-  (void) data;
-  (void) done;
-  return false;
-}
-
 static void
 bad_input (void)
 {
   CeldPaint   art = { SIDE, SIDE, SIDE, art_of };
   CeldDrawing small = { .luma = { SIDE, SIDE - 1, SIDE, luma_of } };
-  CeldHost    host = { .progress = refuse };
+  CeldHost    host = { .progress = check_refuse };
   uint8_t     pixel[4] = { 10, 200, 30, 255 };
   float       luma = 0.25f;
   CeldPaint   one = { 1, 1, 1, pixel };
