@@ -35,6 +35,8 @@ celd_op_set_session (CeldOp *op, const char *drawing_pad, const char *scribbles_
   CeldTextError error = { 0 };
   CeldDrawing   drawing;
 
+  if (op->settings.flats && !celd_op_has_input (op, scribbles_pad))
+    scribbles_pad = drawing_pad; /* a coloured drawing has its regions itself */
   return session &&
          celd_op_try (op, celd_session_set_settings (session, &op->settings)) &&
          celd_op_read_drawing (op, drawing_pad, &drawing) &&

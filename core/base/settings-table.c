@@ -182,7 +182,8 @@ static const CeldSettingInfo infos[] = {
     .stages = READ_BY (LABELS) | READ_BY (NODES) },
 
   { .name = "flats", .label = "Scribbles are flat colours", SWITCH (flats),
-    .help = "The scribbles layer is a finished flat colouring, in which each colour is a region",
+    .help = "The scribbles layer is a finished flat colouring, in which each colour is a region. Without that layer a "
+            "coloured drawing is its own",
     .stages = READ_BY (SCRIBBLES) },
 
   { .name = "background", .label = "Background", CHOICE (background, CeldBackground, backgrounds),

@@ -113,19 +113,23 @@ path_of (const CliOptions *options, CliRoles role)
        : role == CLI_CORRECTIONS ? options->corrections : options->hidden;
 }
 
-/* Reads the drawing, and from the same file the layers for which no option names another file. */
+/* Reads the drawing, and from the same file the layers for which no option names another file.  With --flats a coloured
+ * drawing can be its own scribbles. */
 static bool
 read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLayers *layers)
 {
   CeldIoFile *file = open_file (path);
-  size_t      part = file ? find_drawing (file, path) : CELD_NO_INDEX;
-  bool        good = part != CELD_NO_INDEX && check_size (file, path, layers) &&
-                     cli_read_drawing (file, part, options->settings.ink, &layers->drawing);
+  size_t      drawing = file ? find_drawing (file, path) : CELD_NO_INDEX;
+  bool        good = drawing != CELD_NO_INDEX && check_size (file, path, layers) &&
+                     cli_read_drawing (file, drawing, options->settings.ink, &layers->drawing);
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
       {
-        part = celd_io_find (file, roles[i].name);
+        size_t part = celd_io_find (file, roles[i].name);
+
+        if (part == CELD_NO_INDEX && roles[i].role == CLI_SCRIBBLES && options->settings.flats)
+          part = drawing;
         good = part == CELD_NO_INDEX || cli_read_paint (file, part, paint_of (layers, roles[i].role));
       }
   celd_io_close (file);

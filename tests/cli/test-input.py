@@ -205,6 +205,24 @@ class Drawings(Test):
         self.celdepth('shade', 'l.npy', '--drawing', 'page.png', '--shaded', 'lit.png')
         np.testing.assert_array_equal(self.picture('lit.png')[IN_PAGE[::-1]][:3], (200, 225, 250))
 
+    def test_flat_colours_are_regions(self):
+        """A coloured drawing needs no scribbles: its fills are the regions, its lines none."""
+        fills = {IN_A: (250, 190, 60), IN_B: (90, 160, 70), IN_PAGE: (200, 225, 250)}
+        page = drawing().convert('RGB')
+        for place, colour in fills.items():
+            ImageDraw.floodfill(page, place, colour)
+        page.save(self.path('page.png'))
+        self.celdepth('popup', 'page.png', '--flats', '--relations', RELATIONS, '--labels', 'f.png', '--levels', 'l.npy')
+        labels = self.picture('f.png')[..., :3]
+        self.assertEqual({tuple(colour) for colour in labels.reshape(-1, 3)}, set(fills.values()))
+        given, line = np.array(page), np.array(drawing()) < 255
+        np.testing.assert_array_equal(labels[~line], given[~line])
+        levels = np.load(self.path('l.npy'))
+        self.assertGreater(levels[IN_B[::-1]], levels[IN_A[::-1]])
+        self.celdepth('segment', 'page.png', '--scribbles', 'scribbles.png', '--flats', '--labels', 'given.npy')
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--flats', '--labels', 'lines.npy')
+        np.testing.assert_array_equal(np.load(self.path('given.npy')), np.load(self.path('lines.npy')))
+
     def test_palette(self):
         drawing().convert('RGB').quantize(4).save(self.path('palette.png'))
         self.same_labels('palette.png')

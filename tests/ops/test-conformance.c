@@ -288,6 +288,31 @@ colour_is_read_as_luma (void)
   g_object_unref (nothing);
 }
 
+/* With flats and no scribbles, a coloured drawing has its regions itself, in the colours of its fills. */
+static void
+fills_can_be_regions (void)
+{
+  static uint8_t art[4 * PIXELS], found[4 * PIXELS];
+  static const uint8_t fill[][4] = { { 250, 190, 60, 255 }, { 90, 160, 70, 255 }, { 200, 225, 250, 255 } };
+  GeglBuffer *coloured;
+  int         wrong = 0;
+
+  for (int i = 0; i < PIXELS; i++)
+    {
+      float x = (float) (i % WIDTH) + 0.5f, y = (float) (i / WIDTH) + 0.5f;
+      bool  left = hypotf (x - 45, y - 40) < 24, right = hypotf (x - 80, y - 40) < 22;
+
+      for (int c = 0; c < 4; c++)
+        art[4 * i + c] = (uint8_t) (fill[left ? 0 : right ? 1 : 2][c] * (c < 3 ? page_luma[i] : 1));
+    }
+  coloured = page_buffer ("R'G'B'A u8", "R'G'B'A u8", art);
+  operate ("celdepth:lazybrush-segment", (Pads) { { coloured } }, "R'G'B'A u8", found, "flats", TRUE, NULL);
+  for (int i = 0; i < PIXELS; i++)
+    wrong += page_luma[i] >= 1 && memcmp (found + 4 * i, art + 4 * i, 4) != 0;
+  NEAR (wrong, 0, 0);
+  g_object_unref (coloured);
+}
+
 /* A layer that is smaller than the canvas is read at its place. */
 static void
 small_layers_keep_their_place (void)
@@ -321,6 +346,7 @@ main (int argc, char **argv)
   RUN (chain_agrees_with_popup);
   RUN (every_depth_of_colour_gives_the_same);
   RUN (colour_is_read_as_luma);
+  RUN (fills_can_be_regions);
   RUN (small_layers_keep_their_place);
   celd_palette_clear (&palette);
   celd_relations_clear (&relations);
