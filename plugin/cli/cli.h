@@ -11,6 +11,7 @@
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
  *               relief                          threads.c   threads for loops of core
  *   scene.c     for stereo and wiggle           model.c     for relief
+ *   uses.c      for popup
  *   composition.c  for compose
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
@@ -47,7 +48,7 @@ typedef struct
   char        *relations, *relations_file, *arrow_path;
   char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
   char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt, *wiggle;
-  char        *colours, *output, *composed, *light;
+  char        *colours, *output, *composed, *light, *layers;
   char        *source_levels, *displacement, *warped, *confidence;
   char        *second_scribbles, *second_arrows, *second_colours, *between; /* of inbetween */
   char        *handles, *handles_file, *handles_layer, *handle_keys, *deformed;
@@ -288,6 +289,12 @@ char *cli_map_name (const char *path, int map);
 char *cli_layer_name (const CeldPalette *palette, uint32_t label);
 /* Whether --light has a value that fits the output; if not, prints why. */
 bool  cli_light_check (CliOptions *options);
+/* Whether a file of layers gets linear light: `light` is the value of --light, or NULL. */
+bool  cli_layers_are_linear (const char *path, const char *light);
+/* Makes the layers of a session with art in that light, and writes them.  Converts the art, and the caller frees *layers,
+ * in either case. */
+bool  cli_layers_write (const char *path, CeldSession *session, bool linear, CeldColours *art, CliRun *run,
+                        CeldLayers **layers);
 
 /* ------------------------------------------------------------------ scene.c */
 
@@ -308,6 +315,9 @@ typedef struct
 
 /* Makes a scene of the input that the options name.  The caller clears it in either case. */
 bool cli_scene_new   (const CliOptions *options, CliRun *run, CliScene *s);
+/* The same of a session that makes completed layers, with the settings and the run that the record has.  Frees the data
+ * of the art, in linear light, as soon as the layers have it. */
+bool cli_scene_make  (CeldColours *art, CliScene *s);
 void cli_scene_clear (CliScene *s);
 /* Frees what views are made from; there can be no others. */
 void cli_scene_release (CliScene *s);
@@ -316,6 +326,18 @@ bool cli_scene_write (const char *path, const CliScene *s, CeldCamera (*camera) 
                       int frames, const CliOptions *options);
 /* Writes the report, prints messages, and returns the exit code. */
 int  cli_scene_finish  (const CliOptions *options, const char *command, const CliScene *s);
+
+/* ------------------------------------------------------------------ stereo.c */
+
+/* Writes the views of two eyes that the options name.  Frees the scene if no others are wanted, because writing takes
+ * memory. */
+bool cli_views_write (const CliOptions *options, CliScene *s);
+
+/* ------------------------------------------------------------------ uses.c */
+
+/* Writes the lit art, the art with shadows, the layers and the views that the options name.  `art`, in linear light, stays
+ * as it is; the session's settings change. */
+bool cli_uses_write (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run);
 
 /* ------------------------------------------------------------------ deform-handles.c, deform-keys.c */
 

@@ -81,8 +81,8 @@ describe (const CeldLayers *layers, const CeldPalette *palette, CeldIoLayer *ite
 }
 
 static bool
-write_layers (const char *path, const CeldLayers *layers, const CeldPalette *palette, bool encode, CeldColours *art,
-              CliRun *run)
+write_stack (const char *path, const CeldLayers *layers, const CeldPalette *palette, bool encode, CeldColours *art,
+             CliRun *run)
 {
   size_t       n = celd_layers_count (layers);
   CeldIoLayer *item = g_new (CeldIoLayer, n);
@@ -102,11 +102,31 @@ write_layers (const char *path, const CeldLayers *layers, const CeldPalette *pal
   return good;
 }
 
+bool
+cli_layers_are_linear (const char *path, const char *light)
+{
+  return celd_io_stack_kind (path) == CELD_IO_EXR_PARTS || (light && !strcmp (light, "linear"));
+}
+
+bool
+cli_layers_write (const char *path, CeldSession *session, bool linear, CeldColours *art, CliRun *run,
+                  CeldLayers **layers)
+{
+  bool       exr = celd_io_stack_kind (path) == CELD_IO_EXR_PARTS;
+  CeldStore  store = exr ? CELD_STORE_FLOAT : linear ? CELD_STORE_8_BIT_SRGB : CELD_STORE_8_BIT;
+  CeldStatus status;
+
+  cli_run_stage (run, "layers");
+  status = celd_session_layers (session, art, store, &run->host, layers);
+  return cli_run_finish (run, status) &&
+         write_stack (path, *layers, celd_session_palette (session), linear && !exr, art, run);
+}
+
 /* ------------------------------------------------------------------ the command */
 
+/* Labels and order first, so that each has its own time and progress bar. */
 static bool
-make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run, const CeldOrder **order,
-      CeldLayers **layers)
+make (CeldSession *session, CliRun *run, const CeldOrder **order)
 {
   CeldLabels labels;
   CeldStatus status;
@@ -116,9 +136,6 @@ make (CeldSession *session, const CeldColours *art, CeldStore store, CliRun *run
   cli_run_stage (run, "order");
   if (status == CELD_OK)
     status = celd_session_order (session, &run->host, order);
-  cli_run_stage (run, "layers");
-  if (status == CELD_OK)
-    status = celd_session_layers (session, art, store, &run->host, layers);
   return cli_run_finish (run, status);
 }
 
@@ -148,9 +165,7 @@ run_layers (const CliOptions *options)
   CeldColours      art = { 0 };
   CeldLayers      *layers = NULL;
   const CeldOrder *order = NULL;
-  bool             exr = celd_io_stack_kind (options->output) == CELD_IO_EXR_PARTS;
-  bool             linear = exr || (options->light && !strcmp (options->light, "linear"));
-  CeldStore        store = exr ? CELD_STORE_FLOAT : linear ? CELD_STORE_8_BIT_SRGB : CELD_STORE_8_BIT;
+  bool             linear = cli_layers_are_linear (options->output, options->light);
   CliRun           run;
   int              code = CLI_FAILED;
   bool             good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) &&
@@ -159,8 +174,8 @@ run_layers (const CliOptions *options)
 
   cli_layers_clear (&input);
   cli_run_begin (&run, options->quiet);
-  good = good && make (session, &art, store, &run, &order, &layers) &&
-         write_layers (options->output, layers, celd_session_palette (session), linear && !exr, &art, &run);
+  good = good && make (session, &run, &order) &&
+         cli_layers_write (options->output, session, linear, &art, &run, &layers);
   if (good)
     code = finish (session, options, &run, order, &art, layers);
   cli_run_end (&run);

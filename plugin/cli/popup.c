@@ -4,6 +4,13 @@
  */
 #include "options.h"
 
+static bool
+check (CliOptions *options)
+{
+  return options->settings.light_model != CELD_MODEL_MATCAP ||
+         cli_error ("--light-model matcap needs a picture of a ball: use celdepth shade with --matcap.");
+}
+
 static int
 run_popup (const CliOptions *options)
 {
@@ -14,13 +21,19 @@ const CliCommand cli_popup_command = {
   .name     = "popup",
   .step     = CLI_POPUP,
   .input    = "DRAWING|LAYERED",
-  .summary  = "Makes regions, order, depth, normals and shading of a drawing, in one run.",
+  .summary  = "Makes regions, order, depth, normals, light, layers and views of a drawing, in one run.",
   .examples = "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth popup bee.png --scribbles strokes.png --relations '#ff0000 > #0000ff' \\\n"
               "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"
+              "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --shaded lit.png \\\n"
+              "      --enhanced popup.png --layers bee.ora --joined glasses.png --stereo dubois\n"
               "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
-              "tolerance bulge light-azimuth light-elevation ambient",
+              "tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light light-azimuth "
+              "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power enhance "
+              "shadow-size shadow-strength shadow-offset shadow-range complete margin stereo disparity convergence "
+              "floating-window screen-width",
   .output   = "depth",
+  .check    = check,
   .run      = run_popup,
 };

@@ -105,22 +105,33 @@ finish (CeldSession *session, const char *command, const CliOptions *options, co
   });
 }
 
+/* Whether results show the drawing itself. */
+static bool
+needs_art (const CliOptions *options)
+{
+  return options->shaded || options->enhanced || options->layers || options->left || options->right || options->stereo;
+}
+
 int
 cli_run_route (const CliOptions *options, const char *command, bool whole_route)
 {
   CeldSession *session = celd_session_new ();
   CliLayers    layers = { 0 };
+  CeldColours  art = { 0 };
   Results      results = { 0 };
   CliRun       run;
   int          code = CLI_FAILED;
   bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
 
+  if (good && needs_art (options))
+    good = cli_art_read (options->input, options->colours, true, &layers, &art);
   cli_layers_clear (&layers);
   cli_run_begin (&run, options->quiet);
   if (good && cli_run_finish (&run, make (session, options, whole_route, &run, &results)) &&
-      write_results (session, options, &results))
+      write_results (session, options, &results) && (!art.data || cli_uses_write (session, options, &art, &run)))
     code = finish (session, command, options, &run, &results);
   cli_run_end (&run);
   celd_session_free (session);
+  g_free (art.data);
   return code;
 }

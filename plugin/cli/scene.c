@@ -33,10 +33,10 @@ drop_pictures (CliScene *s)
   celd_session_drop_pictures (s->session);
 }
 
-/* Frees the art as soon as the layers have it, and the session's pictures when the scene is made. */
-static bool
-make (CeldColours *art, CliRun *run, CliScene *s)
+bool
+cli_scene_make (CeldColours *art, CliScene *s)
 {
+  CliRun       *run = s->run;
   CeldOwnership own;
   CeldLabels    labels;
   CeldStatus    status;
@@ -58,8 +58,6 @@ make (CeldColours *art, CliRun *run, CliScene *s)
     status = celd_session_ownership (s->session, &run->host, &own, NULL);
   if (status == CELD_OK)
     status = celd_scene_of_layers (s->layers, &own, &s->depth, &run->host, &s->scene);
-  if (status == CELD_OK)
-    drop_pictures (s);
   return cli_run_finish (run, status);
 }
 
@@ -77,7 +75,9 @@ cli_scene_new (const CliOptions *options, CliRun *run, CliScene *s)
   good = cli_check (s->session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (s->session, &whole, &input);
   good = good && cli_art_read (options->input, options->colours, true, &input, &art);
   cli_layers_clear (&input);
-  good = good && make (&art, run, s);
+  good = good && cli_scene_make (&art, s);
+  if (good)
+    drop_pictures (s);
   g_free (art.data);
   return good;
 }

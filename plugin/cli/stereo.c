@@ -81,9 +81,8 @@ write_joined (const CliOptions *options, ViewPair *pair)
          cli_write_colours (options->stereo, &pair->joined);
 }
 
-/* Frees the scene if no other views are wanted, because writing takes memory. */
-static bool
-write_pair (const CliOptions *options, CliScene *s)
+bool
+cli_views_write (const CliOptions *options, CliScene *s)
 {
   ViewPair pair = { 0 };
   bool     wanted = options->left || options->right || options->stereo;
@@ -168,7 +167,7 @@ run_stereo (const CliOptions *options)
   if (cli_scene_new (options, &run, &s))
     {
       s.frames = options->views;
-      if (write_pair (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
+      if (cli_views_write (options, &s) && (!options->quilt || write_quilt (options, &s)) &&
           (!options->sequence || cli_scene_write (options->sequence, &s, camera, options->views, options)))
         code = cli_scene_finish (options, "stereo", &s);
       if (code != CLI_FAILED && !options->quiet)

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""All results of popup in one run, of a coloured drawing that is drawing and art: those that single commands make.
+
+SPDX-License-Identifier: LGPL-3.0-or-later
+"""
+import unittest
+
+import numpy as np
+from PIL import ImageDraw
+
+from pictures import IN_A, IN_B, IN_PAGE, RELATIONS, Test, at, drawing
+
+FILLS = {IN_A: (250, 190, 60), IN_B: (90, 160, 70), IN_PAGE: (200, 225, 250)}
+INPUT = ['page.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS]
+
+
+class OneRun(Test):
+    def setUp(self):
+        super().setUp()
+        page = drawing().convert('RGB')
+        for place, colour in FILLS.items():
+            ImageDraw.floodfill(page, place, colour)
+        page.save(self.path('page.png'))
+
+    def same(self, one, other):
+        with open(self.path(one), 'rb') as a, open(self.path(other), 'rb') as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_single_commands(self):
+        self.celdepth('popup', *INPUT, '--levels', 'levels.npy', '--enhanced', 'enhanced.png', '--layers', 'page.ora',
+                      '--left', 'left.png', '--right', 'right.png', '--joined', 'joined.png', '--report', 'report.json')
+        self.celdepth('enhance', 'levels.npy', '--art', 'page.png', '--enhanced', 'enhanced-alone.png')
+        self.celdepth('layers', *INPUT, '--output', 'alone.ora')
+        self.celdepth('stereo', *INPUT, '--left', 'left-alone.png', '--right', 'right-alone.png', '--joined',
+                      'joined-alone.png')
+        self.same('page.ora', 'alone.ora')
+        for name in 'enhanced', 'left', 'right', 'joined':
+            np.testing.assert_array_equal(self.picture(f'{name}.png'), self.picture(f'{name}-alone.png'))
+        self.celdepth('popup', *INPUT, '--encoding', 'rank', '--enhanced', 'enhanced-ranks.png', '--left',
+                      'left-ranks.png')
+        for name in 'enhanced', 'left':
+            np.testing.assert_array_equal(self.picture(f'{name}-ranks.png'),
+                                          self.picture(f'{name}.png'))
+        self.celdepth('popup', *INPUT, '--layers', 'linear.exr')
+        self.celdepth('layers', *INPUT, '--output', 'alone.exr')
+        self.same('linear.exr', 'alone.exr')
+
+    def test_light(self):
+        """From the upper left: parts are lighter there than at the lower right, and the page is as it was."""
+        self.celdepth('popup', *INPUT, '--shaded', 'lit.png', '--light-azimuth', '135')
+        lit = self.picture('lit.png').astype(int)
+        self.assertEqual(tuple(at(lit, IN_PAGE)[:3]), FILLS[IN_PAGE])
+        self.assertGreater(lit[29, 44, 1], lit[53, 81, 1] + 30)
+        self.celdepth('popup', *INPUT, '--shaded', 'flat.png', '--bulge', '0')
+        for place, colour in FILLS.items():
+            np.testing.assert_allclose(at(self.picture('flat.png'), place)[:3], colour, atol=1)
+
+    def test_other_colours(self):
+        """--colours is the art in place of the drawing."""
+        drawing().save(self.path('lines.png'))
+        words = ['--scribbles', 'scribbles.png', '--relations', RELATIONS, '--enhanced']
+        self.celdepth('popup', 'lines.png', *words, 'other.png', '--colours', 'page.png')
+        self.celdepth('popup', 'lines.png', *words, 'plain.png')
+        other, plain = self.picture('other.png'), self.picture('plain.png')
+        self.assertEqual(tuple(at(other, IN_B)[:3]), FILLS[IN_B])
+        self.assertEqual(tuple(at(plain, IN_B)[:3]), (255, 255, 255))
+
+    def test_bad_input(self):
+        self.assertIn('celdepth shade with --matcap', self.celdepth('popup', *INPUT, '--shaded', 'lit.png',
+                                                                    '--light-model', 'matcap', code=2))
+        self.fails('popup', *INPUT, '--shaded', 'lit.png', '--colours', 'none.png', naming='"none.png"')
+        self.assertIn('--layers page.jpg: the name must end in', self.celdepth('popup', *INPUT, '--layers', 'page.jpg',
+                                                                              code=2))
+
+
+if __name__ == '__main__':
+    unittest.main()
