@@ -52,6 +52,7 @@ make_spec (int width, int height, OIIO::TypeDesc sample)
 
   spec.channelnames  = { "R", "G", "B", "A" };
   spec.alpha_channel = 3;
+  spec.attribute ("DateTime", ""); // else the present one, and equal layers would be other files each time
   return spec;
 }
 
