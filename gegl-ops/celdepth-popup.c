@@ -29,8 +29,8 @@ static const CeldProperty properties[] = {
   { .name = "arrow-path" }, { .name = "arrow-style" }, { .name = "on-cycle" }, { .name = "suggest" },
   { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" }, { .name = "expansion" },
   { .name = "anchors", .when = "result {depth}" },
-  { .name = "hold-rest" }, { .name = "tolerance" }, { .name = "bulge" }, { .name = "light-azimuth" },
-  { .name = "light-elevation" }, { .name = "ambient" }, { .name = "directx" },
+  { .name = "hold-rest" }, { .name = "hold-gaps" }, { .name = "tolerance" }, { .name = "bulge" },
+  { .name = "light-azimuth" }, { .name = "light-elevation" }, { .name = "ambient" }, { .name = "directx" },
   { 0 }
 };
 

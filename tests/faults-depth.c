@@ -196,7 +196,7 @@ smooth_step (const CeldHost *host, Results *r)
 {
   CeldPlane ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels), depth = plane_of (r->pixels);
 
-  return celd_smooth (&ink, &levels, NULL, &scene_settings, host, &depth, NULL);
+  return celd_smooth (&ink, NULL, &levels, NULL, &scene_settings, host, &depth, NULL);
 }
 
 /* The relations of the scene, and one between points off every scribble. */

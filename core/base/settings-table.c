@@ -261,6 +261,12 @@ static const CeldSettingInfo infos[] = {
             "through gaps in their contours",
     .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) },
 
+  { .name = "hold-gaps", .label = "Hold at gaps", SWITCH (hold_gaps),
+    .help = "Depth changes abruptly also where a contour between two levels is broken, for up to about seven stroke "
+            "widths. Wider openings, and blue virtual contours, stay smooth; without it every gap is smooth, as in the "
+            "paper",
+    .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) },
+
   { .name = "tolerance", .label = "Tolerance", NUMBER (tolerance),
     .help = "The largest error of smooth depth, as a fraction of its range",
     .usual = 1e-4, .least = 1e-7, .most = 0.1, .shown = { 1e-5, 1e-2, 0.001, 0.1, .gamma = 3, .digits = 5 },

@@ -69,7 +69,7 @@ typedef struct
 
   /* smooth depth */
   CeldAnchors anchors;                 /* the paper's U_o */
-  bool        hold_rest;
+  bool        hold_rest, hold_gaps;
   float       tolerance;
 
   /* exact depth, and the random walker */

@@ -207,11 +207,13 @@ CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane
 /* Smooth depth, eq. (3), from levels, expanded or not.  Anchors, the pixels that `anchors` marks (the paper's U_o),
  * keep their level; with settings->hold_rest, or if `anchors` is NULL, so does the core of each region without one.
  * Depth is discontinuous where levels differ and the least ink within half a stroke width is at or below ink_threshold,
- * so it is smooth across virtual contours.  Components without an anchor keep their level.  A result that misses the
+ * so it is smooth across virtual contours.  With settings->hold_gaps it is discontinuous also where such ink is
+ * interrupted for no more than about seven stroke widths, but not at ink that is only in `borders` (NULL: there is
+ * none), the ink for segmentation.  Components without an anchor keep their level.  A result that misses the
  * tolerance is delivered all the same, and *solve (may be NULL) says so.  `depth` may alias `levels`. */
-CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors,
-                                 const CeldSettings *settings, const CeldHost *host, CeldPlane *depth,
-                                 CeldSolve *solve);
+CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *borders, const CeldPlane *levels,
+                                 const CeldMask *anchors, const CeldSettings *settings, const CeldHost *host,
+                                 CeldPlane *depth, CeldSolve *solve);
 
 /* Exact depth, eq. (1) and (2): of all depths that satisfy the relations the one of least energy
  *   sum w_pq (d_p - d_q)^2   with   w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)),

@@ -4,6 +4,7 @@
  *   smooth-equations.c  its equations, solved component by component
  *   cores.c             which pixels hold a region that has no anchor
  *   discontinuities.c   the weights v_pq: where depth is cut, and whether a cut ends nearby
+ *   held-gaps.c         gaps in the ink at which depth is cut too
  *   boxed-solver.c      connected components, and Laplacian systems solved in their bounding boxes
  *   exact-program.c     the exact program: relations to inequalities, its solution, depth
  *   exact-kept.c        what is kept of it between edits
@@ -23,9 +24,12 @@
 
 /* ------------------------------------------------------------------ discontinuities.c */
 
+/* Edges of a pixel that are cut, in one byte: the right one (down 0) and the lower one (down 1). */
+#define CELD_CUT(down) (uint8_t) (1u << (down))
+
 /* What decides v_pq where levels differ: the least ink within `radius` pixels of both pixels; at or below the threshold
- * it counts as 0. */
-typedef struct { const CeldPlane *ink; float threshold; int radius; } CeldDepthEdges;
+ * it counts as 0.  Edges that are marked in `cut` (NULL: none), of the size of the ink, have v_pq = 0 in any case. */
+typedef struct { const CeldPlane *ink; float threshold; int radius; const uint8_t *cut; } CeldDepthEdges;
 
 /* The radius for a drawing with strokes of this width, in pixels: half of it, 1 .. 12. */
 int celd_edge_radius (int stroke);
@@ -57,6 +61,17 @@ void       celd_pixel_links_clear (CeldPixelLinks *links);
 /* Whether a path connects pixel (x,y) with its right neighbour (`down`: its lower one) within the square of 15 pixels
  * around it: then a cut between the two ends nearby, and separates nothing. */
 bool       celd_has_detour (const CeldPixelLinks *links, int x, int y, bool down);
+
+/* ------------------------------------------------------------------ held-gaps.c */
+
+#define CELD_LONGEST_GAP 12 /* edge radii that a gap may be long, ink at its ends not counted: about 6 stroke widths,
+                             * hence 7 from one end of the line to the other (chosen) */
+
+/* Fills in `cut`: the edges at which ink cuts depth, and the gaps that hold it.  A gap is a boundary of levels on paper
+ * that meets ink and spans at most `longest` pixels.  Where `borders` (NULL: nowhere), the ink for segmentation, is ink
+ * within the radius, but that of `edges` is not, depth stays smooth.  cut of `edges` must be NULL. */
+CeldStatus celd_gaps_hold (const CeldDepthEdges *edges, const CeldPlane *borders, const float *level, double longest,
+                           const CeldHost *host, uint8_t *cut);
 
 /* ------------------------------------------------------------------ levels: smooth.c */
 
@@ -178,12 +193,13 @@ CeldStatus celd_smooth_equations_solve (const CeldSmoothEquations *equations, co
 
 /* ------------------------------------------------------------------ smooth.c */
 
-/* What smooth depth was last made from; 5 bytes a pixel.  Starts as zero. */
+/* What smooth depth was last made from; 6 bytes a pixel.  Starts as zero. */
 typedef struct
 {
   int      width, height;
   float   *level;               /* NULL: nothing is kept */
   uint8_t *fixed;
+  uint8_t *cut;                 /* as in CeldDepthEdges; NULL: gaps did not hold */
   float    threshold;
   double   error;               /* largest error that depth was allowed, in the unit of the levels */
   int      radius;
@@ -193,9 +209,11 @@ typedef struct
 typedef struct
 {
   const CeldPlane    *ink, *levels;
+  const CeldPlane    *borders;  /* as for celd_gaps_hold */
   const CeldMask     *anchors;  /* NULL: none */
   const CeldSettings *settings;
   int                 radius;   /* celd_edge_radius of the ink */
+  double              gap;      /* pixels, the longest gap that holds depth */
   size_t              speck;    /* least pixels of a region that is held by its core, as CELD_SPECK */
   const float        *last;     /* the depth that the state belongs to; NULL: none */
 } CeldSmoothInput;

@@ -43,8 +43,11 @@ least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
 float
 celd_discontinuity_weight (const CeldDepthEdges *b, int x, int y, int right, int down)
 {
-  float least = least_ink (b, x, y, x + right, y + down); /* usually decides on closed contours */
+  float least;
 
+  if (b->cut && b->cut[(size_t) y * (size_t) b->ink->width + (size_t) x] & CELD_CUT (down))
+    return 0;
+  least = least_ink (b, x, y, x + right, y + down); /* usually decides on closed contours */
   if (least > b->threshold)
     least = least_ink (b, x - b->radius, y - b->radius, x + right + b->radius, y + down + b->radius);
   return least <= b->threshold ? 0 : least;
@@ -74,7 +77,7 @@ CeldStatus
 celd_depth_weights (const CeldPlane *ink, const float *level, float threshold, const CeldHost *host, float *east,
                     float *south)
 {
-  CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)) };
+  CeldDepthEdges b = { ink, threshold, celd_edge_radius (celd_stroke_width (ink)), NULL };
   size_t         w = (size_t) ink->width;
   uint8_t       *differs = celd_alloc (w, 1);
   CeldStatus     status = differs ? CELD_OK : CELD_NO_MEMORY;

@@ -33,7 +33,7 @@ weigh (CeldLumo *l, const CeldPlane *levels, const CeldHost *host)
   if (!l->level || !l->east || !l->south)
     return CELD_NO_MEMORY;
   l->stroke = celd_stroke_width (l->ink);
-  l->edges  = (CeldDepthEdges) { l->ink, threshold, celd_edge_radius (l->stroke) };
+  l->edges  = (CeldDepthEdges) { l->ink, threshold, celd_edge_radius (l->stroke), NULL };
   celd_depth_levels (levels, l->level);
   return celd_depth_weights (l->ink, l->level, threshold, host, l->east, l->south);
 }

@@ -302,7 +302,7 @@ celd_puppet_embed (CeldPuppet *puppet, const CeldPlane *ink, const CeldCracks *c
   LayerEmbedding e = { .puppet = puppet, .cracks = cracks };
   CeldStatus     status;
 
-  e.edges = (CeldDepthEdges) { ink, settings->ink_threshold, celd_edge_radius (celd_stroke_width (ink)) };
+  e.edges = (CeldDepthEdges) { ink, settings->ink_threshold, celd_edge_radius (celd_stroke_width (ink)), NULL };
   status  = embed_layers (puppet, ink, settings, host);
   if (status == CELD_OK)
     status = join_layers (&e);

@@ -254,6 +254,9 @@ celd_splits_have (const CeldSplits *splits, uint32_t label)
 /* Turns ink along the new boundaries into paper, but not within `stroke` pixels of the regions' outlines. */
 void celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink);
 
+/* Draws the new boundaries into the ink, one pixel wide. */
+void celd_splits_draw (const CeldSplits *splits, const CeldLabels *labels, CeldPlane *ink);
+
 /* ------------------------------------------------------------------ region-outlines.c */
 
 #define CELD_FACES_FRAME   UINT32_MAX

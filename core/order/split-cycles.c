@@ -379,6 +379,17 @@ erase_near (const CeldSplits *splits, const CeldLabels *labels, int x, int y, in
         CELD_AT (ink, u, v) = 1;
 }
 
+/* Is the pixel's right (down 0) or lower edge part of a boundary that a split made? */
+static bool
+on_split (const CeldSplits *splits, const CeldLabels *labels, int x, int y, int down)
+{
+  int      u = x + !down, v = y + down;
+  uint32_t here = CELD_AT (labels, x, y), there;
+
+  return u < labels->width && v < labels->height && (there = CELD_AT (labels, u, v)) != here &&
+         origin_of (splits, here) == origin_of (splits, there);
+}
+
 void
 celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int stroke, CeldPlane *ink)
 {
@@ -386,14 +397,16 @@ celd_splits_erase (const CeldSplits *splits, const CeldLabels *labels, int strok
 
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
-      for (int k = 0; k < 2; k++)
-        {
-          int      u = x + (k == 0), v = y + (k == 1);
-          uint32_t here = CELD_AT (labels, x, y), there;
-
-          if (u >= labels->width || v >= labels->height || (there = CELD_AT (labels, u, v)) == here ||
-              origin_of (splits, here) != origin_of (splits, there))
-            continue;
+      for (int down = 0; down < 2; down++)
+        if (on_split (splits, labels, x, y, down))
           erase_near (splits, labels, x, y, radius, ink);
-        }
+}
+
+void
+celd_splits_draw (const CeldSplits *splits, const CeldLabels *labels, CeldPlane *ink)
+{
+  for (int y = 0; y < labels->height; y++)
+    for (int x = 0; x < labels->width; x++)
+      if (on_split (splits, labels, x, y, 0) || on_split (splits, labels, x, y, 1))
+        CELD_AT (ink, x, y) = 0;
 }

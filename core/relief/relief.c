@@ -180,7 +180,7 @@ read_depth (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *give
   CeldPlane made = { ink->width, ink->height, (size_t) ink->width, depth };
 
   if (!given)
-    return celd_smooth (ink, levels, NULL, settings, host, &made, NULL);
+    return celd_smooth (ink, NULL, levels, NULL, settings, host, &made, NULL);
   celd_depth_levels (given, depth);
   return CELD_OK;
 }

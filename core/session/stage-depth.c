@@ -13,6 +13,7 @@
 #include "session/session.h"
 
 #include <math.h>
+#include <string.h>
 
 #define BLOCK_SIDE 4   /* pixels: width and height of a block of the preview (chosen: 1/16 of the work) */
 #define END_RADIUS 2.0 /* pixels round a relation's end that are anchors (chosen) */
@@ -169,6 +170,26 @@ smooth (CeldSession *s, CeldStage stage, const Anchors *anchors, CeldSmoothInput
   return status;
 }
 
+/* The ink of boundaries across which depth stays smooth, among others: that for segmentation, and the boundaries of
+ * splits.  `drawn` is an own copy if there are any, and has to be freed; NULL: there is no such boundary. */
+static CeldStatus
+make_borders (const CeldSession *s, CeldPlane *drawn, const CeldPlane **borders)
+{
+  const CeldPlane *ink = &s->ink;
+  CeldStatus       status;
+
+  *borders = s->depth_ink.data ? ink : NULL;
+  if (!s->splits.n || !s->settings.hold_gaps)
+    return CELD_OK;
+  status = celd_plane_new (ink->width, ink->height, drawn);
+  if (status != CELD_OK)
+    return status;
+  memcpy (drawn->data, ink->data, (size_t) ink->width * (size_t) ink->height * sizeof *ink->data);
+  celd_splits_draw (&s->splits, celd_session_current_labels (s), drawn);
+  *borders = drawn;
+  return CELD_OK;
+}
+
 static void
 measure_edge_radius (CeldSession *s)
 {
@@ -182,15 +203,20 @@ celd_make_depth (CeldSession *s, const CeldHost *host)
   Anchors         anchors = { .session = s, .side = 1 };
   CeldSmoothInput smoothing = { .ink = celd_session_split_ink (s), .levels = &s->levels, .settings = &s->settings,
                               .speck = CELD_SPECK };
-  CeldStatus      status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
+  CeldPlane       drawn = { 0 };
+  CeldStatus      status = make_borders (s, &drawn, &smoothing.borders);
 
+  if (status == CELD_OK)
+    status = celd_mask_new (s->levels.width, s->levels.height, &anchors.mask);
   if (status == CELD_OK)
     {
       measure_edge_radius (s);
       smoothing.radius = s->edge_radius;
+      smoothing.gap    = CELD_LONGEST_GAP * s->edge_radius;
       choose_anchors (&anchors);
       status = smooth (s, STAGE_DEPTH, &anchors, &smoothing, host, &s->smooth_state, &s->depth);
     }
+  celd_free (drawn.data);
   celd_free (anchors.mask.data);
   return status;
 }
@@ -231,6 +257,20 @@ reduce_ink (const CeldPlane *ink, CeldPlane *blocks)
   return status;
 }
 
+/* The borders of make_borders by blocks; data NULL: there are none. */
+static CeldStatus
+reduce_borders (const CeldSession *s, CeldPlane *blocks)
+{
+  CeldPlane        drawn = { 0 };
+  const CeldPlane *borders;
+  CeldStatus       status = make_borders (s, &drawn, &borders);
+
+  if (status == CELD_OK && borders)
+    status = reduce_ink (borders, blocks);
+  celd_free (drawn.data);
+  return status;
+}
+
 /* The unexpanded level of each block's central pixel. */
 static void
 sample_levels (const CeldSession *s, CeldPlane *levels)
@@ -250,7 +290,7 @@ sample_levels (const CeldSession *s, CeldPlane *levels)
 CeldStatus
 celd_make_preview (CeldSession *s, const CeldHost *host)
 {
-  CeldPlane       levels = { 0 };
+  CeldPlane       levels = { 0 }, borders = { 0 };
   Anchors         anchors = { .session = s, .side = BLOCK_SIDE, .levels = &levels };
   CeldSettings    settings = s->settings;
   CeldSmoothInput smoothing = { .ink = &s->preview_ink, .levels = &levels, .settings = &settings,
@@ -258,19 +298,24 @@ celd_make_preview (CeldSession *s, const CeldHost *host)
   CeldStatus      status = s->preview_ink.data ? CELD_OK : reduce_ink (celd_session_split_ink (s), &s->preview_ink);
 
   if (status == CELD_OK)
+    status = reduce_borders (s, &borders);
+  if (status == CELD_OK)
     status = celd_plane_new (s->preview_ink.width, s->preview_ink.height, &levels);
   if (status == CELD_OK)
     status = celd_mask_new (levels.width, levels.height, &anchors.mask);
   if (status == CELD_OK)
     {
       measure_edge_radius (s);
-      smoothing.radius    = s->edge_radius / BLOCK_SIDE;
+      smoothing.radius   = s->edge_radius / BLOCK_SIDE;
+      smoothing.gap      = (double) CELD_LONGEST_GAP * s->edge_radius / BLOCK_SIDE;
+      smoothing.borders  = borders.data ? &borders : NULL;
       settings.tolerance = fmaxf (settings.tolerance, CELD_PREVIEW_TOLERANCE);
       sample_levels (s, &levels);
       choose_anchors (&anchors);
       status = smooth (s, STAGE_PREVIEW, &anchors, &smoothing, host, &s->preview_state, &s->preview);
     }
   celd_free (levels.data);
+  celd_free (borders.data);
   celd_free (anchors.mask.data);
   return status;
 }

@@ -375,7 +375,7 @@ write_levels_and_depth (const CliMotion *motion, const CeldHost *host, const Cli
   if (good && motion->options->depth_dir)
     {
       depth = cli_frame_path (motion, "depth", state->frame);
-      good  = cli_check (celd_smooth (&state->ink, &levels, NULL, settings, host, &levels, NULL)) &&
+      good  = cli_check (celd_smooth (&state->ink, NULL, &levels, NULL, settings, host, &levels, NULL)) &&
               cli_write_depth (depth, &levels, nearest);
       g_free (depth);
     }

@@ -31,7 +31,7 @@ void cli_files_number (const CliOptions *all, int number, CliOptions *frame);
 #define CLI_SETTINGS_OF_LABELS \
   "ink ink-threshold method close-gaps keep-necks hardness +flats background background-colour seeds same-colour " \
   "arrow-style"
-#define CLI_SETTINGS_OF_SCENES " on-cycle suggest expansion margin anchors hold-rest"
+#define CLI_SETTINGS_OF_SCENES " on-cycle suggest expansion margin anchors hold-rest hold-gaps"
 
 /* ------------------------------------------------------------------ options-settings.c */
 

@@ -29,8 +29,8 @@ const CliCommand cli_popup_command = {
               "      --enhanced popup.png --layers bee.ora --joined glasses.png --stereo dubois\n"
               "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
-              "tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light light-azimuth "
-              "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power enhance "
+              "hold-gaps tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light "
+              "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power enhance "
               "shadow-size shadow-strength shadow-offset shadow-range complete margin stereo disparity convergence "
               "floating-window screen-width",
   .output   = "depth",

@@ -158,7 +158,22 @@ def cycle():
     return f
 
 
-FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle]
+def broken():
+    """An outline with a gap on each side of the line between two rooms; the right one is covered by a blue contour."""
+    f = Figure()
+    f.shape(box(20, 30, 220, 170))
+    f.line([(30, 100), (210, 100)])
+    for x in 70, 170:
+        f.ink.ellipse([v * SCALE for v in (x - 8, 92, x + 8, 108)], 255)
+    f.stroke('contours', [(155, 100), (185, 100)], BLUE, 5)
+    f.stroke('scribbles', [(35, 60), (205, 60)], A, 6)
+    f.stroke('scribbles', [(35, 140), (205, 140)], B, 6)
+    f.stroke('scribbles', [(10, 10), (230, 10)], C, 6)
+    f.relations = '#dc3c3c > #3c8cdc > #f0b428'
+    return f
+
+
+FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken]
 
 
 if __name__ == '__main__':

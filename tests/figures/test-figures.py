@@ -37,6 +37,14 @@ class Result:
         self.depth = np.load(layer('depth.npy'))
         self.drawing = np.array(Image.open(layer('drawing.png')))
         self.owner = np.array(Image.open(layer('owner.png')))
+        self.celdepth, self.layer = celdepth, layer
+
+    def smoothed_again(self):
+        """Smooth depth by `celdepth smooth`, from the levels of this run."""
+        subprocess.run([self.celdepth, 'smooth', self.layer('levels.npy'), '--quiet',
+                        '--drawing', self.layer('drawing.png'), '--contours', self.layer('contours.png'),
+                        '--anchors', self.layer('scribbles.png'), '--depth', self.layer('again.npy')], check=True)
+        return np.load(self.layer('again.npy'))
 
     def level(self, x, y):
         return float(self.levels[y, x])
@@ -119,7 +127,21 @@ def cycle(run):
     yield 'all three are named', all(f'line {n}' in r.said for n in (1, 2, 3))
 
 
-OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle]
+def broken(run):
+    r = run()
+    a, b = r.level(50, 60), r.level(50, 140)
+    yield 'the gap holds depth: a step', largest_step(r.depth[90:110, 70]) > 0.5 * (a - b)
+    yield 'the blue contour keeps the other gap smooth', largest_step(r.depth[70:130, 170]) < 0.25 * (a - b)
+    yield 'the closed line is a step', largest_step(r.depth[90:110, 120]) > 0.5 * (a - b)
+    yield 'the single step gives the same', np.array_equal(r.depth, r.smoothed_again())
+    published = run('--hold-gaps', 'no')
+    steps = [largest_step(published.depth[70:130, x]) for x in (70, 170)]
+    yield 'as published both gaps are smooth', max(steps) < 0.25 * (a - b)
+    yield 'labels and levels are the same', (np.array_equal(r.labels, published.labels) and
+                                             np.array_equal(r.levels, published.levels))
+
+
+OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken]
 
 
 def main():

@@ -106,7 +106,7 @@ new_drawing (Host *h, FuzzInput *input, bool resized)
 static void
 change_settings (CeldSettings *s, FuzzInput *input)
 {
-  switch (fuzz_below (input, 24))
+  switch (fuzz_below (input, 25))
     {
     case 0: s->ink = (CeldInkMode) fuzz_below (input, 4); break;
     case 1: s->ink_threshold = fuzz_between (input, 0, 0.9f); break;
@@ -131,7 +131,8 @@ change_settings (CeldSettings *s, FuzzInput *input)
     case 20: s->frame_outline = !s->frame_outline; break;
     case 21: s->light_azimuth = fuzz_between (input, -360, 360); break;
     case 22: s->near_level = fuzz_between (input, 1, 9); break;
-    case 23: memcpy (s->background_colour, colours[fuzz_below (input, 8)], 3); break;
+    case 23: s->hold_gaps = !s->hold_gaps; break;
+    case 24: memcpy (s->background_colour, colours[fuzz_below (input, 8)], 3); break;
     }
 }
 

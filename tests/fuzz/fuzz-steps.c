@@ -84,6 +84,7 @@ make_settings (FuzzInput *input, CeldSettings *s)
   s->expansion     = (CeldExpansion) fuzz_below (input, 2);
   s->anchors       = (CeldAnchors) fuzz_below (input, 4);
   s->hold_rest     = fuzz_below (input, 2);
+  s->hold_gaps     = fuzz_below (input, 2);
   s->enhance       = (CeldEnhance) fuzz_below (input, 3);
   s->light_model   = (CeldLightModel) fuzz_below (input, 4);
   s->light         = (CeldLight) fuzz_below (input, 2);
@@ -185,7 +186,7 @@ try_light (Page *page)
   CeldVectors normals = { page->width, page->height, (size_t) page->width, page->normals };
   CeldStatus  status;
 
-  check_status (celd_smooth (&ink, &levels, &anchors, &page->settings, NULL, &made, NULL));
+  check_status (celd_smooth (&ink, NULL, &levels, &anchors, &page->settings, NULL, &made, NULL));
   status = celd_normals (&ink, &levels, &page->settings, NULL, &normals);
   check_status (status);
   FUZZ_CHECK (status != CELD_OK || are_finite (page->normals, 3 * n));

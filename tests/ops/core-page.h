@@ -53,7 +53,7 @@ core_makes_all_results_of_the_page (void)
   CHECK (palette.n == 3);
   CHECK (celd_labels_paint (&labels, &palette, &colours) == CELD_OK);
   CHECK (make_order (&settings) == CELD_OK);
-  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
   CHECK (celd_normals (&ink, &levels, &settings, NULL, &normals) == CELD_OK);
   CHECK (celd_shade (&normals, &settings, &shading) == CELD_OK);
   NEAR (range (flat.data, PIXELS), 1, 0);

@@ -94,6 +94,33 @@ depth_is_that_of_core (void)
   g_object_unref (input);
 }
 
+/* Of the page with breaks in its contours, which stay smooth if the whole page is the drawing for segmentation. */
+static void
+smooth_gaps_are_those_of_core (void)
+{
+  static float broken[PIXELS], opened[PIXELS], wanted[2][PIXELS];
+  CeldDrawing  page = { .luma = { WIDTH, HEIGHT, WIDTH, broken } };
+  CeldPlane    open = { WIDTH, HEIGHT, WIDTH, opened };
+  CeldSettings settings = celd_settings ();
+  GeglBuffer  *input = page_buffer ("Y float", "Y float", levels.data), *gaps;
+
+  for (int i = 0; i < PIXELS; i++)
+    broken[i] = i / WIDTH % 16 < 5 ? 1 : page_luma[i];
+  gaps = page_buffer ("Y' float", "Y' float", broken);
+  CHECK (celd_ink (&page, CELD_INK_AUTO, NULL, &open) == CELD_OK);
+  for (int k = 0; k < 2; k++)
+    {
+      CeldPlane made = { WIDTH, HEIGHT, WIDTH, wanted[k] };
+
+      CHECK (celd_smooth (&open, k ? &ink : NULL, &levels, NULL, &settings, NULL, &made, NULL) == CELD_OK);
+      operate ("celdepth:depth-smooth", (Pads) { { input, gaps, NULL, k ? drawing : NULL } }, "Y float", result, NULL);
+      SAME (wanted[k], 1);
+    }
+  CHECK (difference (wanted[0], wanted[1], PIXELS) > 0.1);
+  g_object_unref (gaps);
+  g_object_unref (input);
+}
+
 /* With the scribbles of the page, of which the green one is the background, and contours. */
 static void
 exact_depth_is_that_of_core (void)
@@ -239,6 +266,7 @@ chain_agrees_with_popup (void)
   join (cut_depth, expand, "aux");
   join (expand, smooth, "input");
   join (cut_depth, smooth, "aux");
+  join (cut_labels, smooth, "aux3");
   get_output (smooth, "Y float", result);
   operate ("celdepth:popup", (Pads) { { drawing, scribbles, arrows, contours } }, "Y float", one, NULL);
   NEAR (difference (result, one, PIXELS), 0, 1e-4);
@@ -338,6 +366,7 @@ main (int argc, char **argv)
   RUN (order_uses_a_depth_hint);
   RUN (levels_are_those_of_core);
   RUN (depth_is_that_of_core);
+  RUN (smooth_gaps_are_those_of_core);
   RUN (exact_depth_is_that_of_core);
   RUN (popup_is_the_steps_of_core);
   RUN (popup_reads_what_is_hidden);

@@ -17,7 +17,7 @@ static const struct { const char *name; const char *pads; const char *properties
     "relations arrow-path arrow-style on-cycle suggest same-colour background background-colour encoding near-level "
     "far-level ink" },
   { "celdepth:depth-expand", "aux3 aux2 aux input", "result layer complete method ink" },
-  { "celdepth:depth-smooth", "aux2 aux input", "ink ink-threshold hold-rest tolerance" },
+  { "celdepth:depth-smooth", "aux3 aux2 aux input", "ink ink-threshold hold-rest hold-gaps tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
     "far-level "
@@ -43,7 +43,7 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:popup", "aux4 aux3 aux2 aux input",
     "result ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds "
     "same-colour relations arrow-path arrow-style on-cycle suggest encoding near-level far-level expansion anchors "
-    "hold-rest tolerance bulge light-azimuth light-elevation ambient directx" },
+    "hold-rest hold-gaps tolerance bulge light-azimuth light-elevation ambient directx" },
 };
 
 static bool

@@ -121,7 +121,7 @@ make_next (void)
     next.flat.data[i] = celd_order_value (&order, order.level[next.labels.data[i] - 1], &settings);
   CHECK (celd_expand_levels (&later_ink[1], &next.flat, &next.labels, NULL, settings.expansion, NULL, &next.levels) ==
          CELD_OK);
-  CHECK (celd_smooth (&later_ink[1], &next.levels, NULL, &settings, NULL, &next.depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&later_ink[1], NULL, &next.levels, NULL, &settings, NULL, &next.depth, NULL) == CELD_OK);
   celd_order_clear (&order);
 }
 

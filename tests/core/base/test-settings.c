@@ -186,7 +186,7 @@ known_defaults (void)
 {
   CeldSettings s = celd_settings ();
 
-  CHECK (s.stereo == CELD_STEREO_DUBOIS && s.close_gaps && s.keep_necks && s.hold_rest && !s.flats && !s.complete);
+  CHECK (s.stereo == CELD_STEREO_DUBOIS && s.close_gaps && s.keep_necks && s.hold_rest && s.hold_gaps && !s.flats && !s.complete);
   CHECK (s.background_colour[0] == 255 && s.background_colour[1] == 255 && s.background_colour[2] == 255);
   CHECK (s.toon_steps == 3 && s.near_level == 1 && s.far_level == 0);
 }

@@ -25,7 +25,7 @@ components_are_those_of_a_flood_fill (void)
   for (uint32_t round = 0, r = 5; round < 60; round++)
     {
       CeldPlane         ink = ink_of (&picture);
-      CeldDepthEdges    edges = { &ink, 0.25f, 1 };
+      CeldDepthEdges    edges = { &ink, 0.25f, 1, NULL };
       CeldRunComponents parts = { 0 };
       bool              regions = round % 2;
       int               part[N], n, covered = 0;

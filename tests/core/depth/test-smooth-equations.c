@@ -70,8 +70,8 @@ static void
 solve (Picture *p, float depth[N])
 {
   CeldPlane           ink = ink_of (p);
-  CeldSmoothEquations system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH }, NULL, NULL, TOLERANCE,
-                                 RANGE };
+  CeldSmoothEquations system = { W, H, p->level, p->fixed, { &ink, THRESHOLD / 100.f, REACH, NULL }, NULL, NULL,
+                                 TOLERANCE, RANGE };
   CeldSolve           how = { 0 };
 
   CHECK (celd_smooth_equations_solve (&system, NULL, depth, &how) == CELD_OK);
@@ -167,10 +167,12 @@ again (CeldSmoothState *smoother, Picture *p, const CeldPlane *last, CeldPlane *
   CeldSettings    settings = celd_settings ();
   CeldPlane       ink = ink_of (p), levels = { W, H, W, p->level };
   CeldMask        anchors = { W, H, W, p->fixed };
-  CeldSmoothInput smoothing = { &ink, &levels, &anchors, &settings, REACH, CELD_SPECK, last->data };
+  CeldSmoothInput smoothing = { .ink = &ink, .levels = &levels, .anchors = &anchors, .settings = &settings,
+                                .radius = REACH, .speck = CELD_SPECK, .last = last->data };
   CeldSolve       how;
 
   settings.hold_rest     = false;
+  settings.hold_gaps     = false;
   settings.ink_threshold = THRESHOLD / 100.f;
   settings.tolerance     = (float) TOLERANCE;
   CHECK (celd_smooth_update (smoother, &smoothing, NULL, depth, &how) == CELD_OK);

@@ -87,7 +87,7 @@ leak (const CeldPlane *ink, const CeldPlane *levels, const CeldMask *anchors)
   CeldSolve    how = { 0 };
   double       share;
 
-  CHECK (celd_smooth (ink, levels, anchors, &settings, NULL, &depth, &how) == CELD_OK);
+  CHECK (celd_smooth (ink, NULL, levels, anchors, &settings, NULL, &depth, &how) == CELD_OK);
   CHECK (how.converged);
   share = largest_change (&depth, levels) / 2;
   free (depth.data);
@@ -182,12 +182,13 @@ a_gap_gives_a_smooth_monotone_transition (void)
 {
   CeldSettings settings = celd_settings ();
 
+  settings.hold_gaps = false;
   for (int gap = 12; gap <= 60; gap *= 2)
     {
       CeldPlane ink, levels, depth = plane (200, 120, 0);
 
       gap_picture (gap, &ink, &levels);
-      CHECK (celd_smooth (&ink, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+      CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
       for (int x = 1; x < 200; x++)
         {
           double step = (double) depth.data[60 * 200 + x] - (double) depth.data[60 * 200 + x - 1];
@@ -238,10 +239,10 @@ anchors_keep_their_level_and_the_rest_is_harmonic (void)
         levels.data[y * 120 + x]  = x < 30 ? 0 : 2;
         anchors.data[y * 120 + x] = x == 10 || x == 110;
       }
-  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
   for (int x = 0; x < 120; x++)
     NEAR (depth.data[55 * 120 + x], x < 10 ? 0 : x > 110 ? 2 : 2 * (x - 10) / 100., 4e-4);
-  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &levels, NULL) == CELD_OK); /* in place */
+  CHECK (celd_smooth (&ink, NULL, &levels, &anchors, &settings, NULL, &levels, NULL) == CELD_OK); /* in place */
   NEAR (largest_change (&levels, &depth), 0, 0);
   free (ink.data);
   free (levels.data);
@@ -259,11 +260,12 @@ regions_without_an_anchor_are_held_by_their_core (void)
 
   gap_picture (8, &ink, &levels);
   anchors.data[60 * 200 + 190] = 1;
-  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  settings.hold_gaps = false;
+  CHECK (celd_smooth (&ink, NULL, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
   NEAR (depth.data[60 * 200 + 190], levels.data[60 * 200 + 190], 0);
   NEAR (depth.data[60 * 200 + 20], levels.data[60 * 200 + 20], 1e-3);
   settings.hold_rest = false;
-  CHECK (celd_smooth (&ink, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, &anchors, &settings, NULL, &depth, NULL) == CELD_OK);
   NEAR (depth.data[60 * 200 + 20], levels.data[60 * 200 + 190], 1e-3);
   free (ink.data);
   free (levels.data);
@@ -278,14 +280,14 @@ what_no_anchor_reaches_keeps_its_level (void)
   CeldPlane    ink, levels, depth = plane (200, 120, 0);
   CeldMask     none = { 200, 120, 200, calloc (200 * 120, 1) };
 
-  settings.hold_rest = false;
+  settings.hold_rest = settings.hold_gaps = false;
   gap_picture (-1, &ink, &levels); /* closed: two components */
-  CHECK (celd_smooth (&ink, &levels, &none, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, &none, &settings, NULL, &depth, NULL) == CELD_OK);
   NEAR (largest_change (&depth, &levels), 0, 0);
   free (ink.data);
   free (levels.data);
   gap_picture (20, &ink, &levels); /* open: one component of two levels */
-  CHECK (celd_smooth (&ink, &levels, &none, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, &none, &settings, NULL, &depth, NULL) == CELD_OK);
   for (int i = 0; i < 200 * 120; i += 77)
     NEAR (depth.data[i], 0.5, 1e-4);
   free (ink.data);
@@ -301,7 +303,7 @@ a_speck_is_no_spike (void)
   CeldSettings settings = celd_settings ();
 
   levels.data[25 * 60 + 30] = levels.data[25 * 60 + 31] = 3;
-  CHECK (celd_smooth (&ink, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
   for (int i = 0; i < 60 * 50; i++)
     NEAR (depth.data[i], 1, 1e-3);
   free (ink.data);
@@ -332,11 +334,11 @@ bad_input_does_no_harm (void)
   CeldPlane    one = plane (1, 1, 1), level = plane (1, 1, 4), ink = plane (6, 5, 1), levels = plane (6, 5, 2);
   CeldPlane    wide = { 4, 5, 6, ink.data }, narrow = { 4, 5, 6, levels.data }, depth = plane (4, 5, 0);
 
-  CHECK (celd_smooth (&one, &levels, NULL, &settings, NULL, &levels, NULL) == CELD_BAD_SIZE);
-  CHECK (celd_smooth (&one, &level, NULL, &settings, NULL, &level, NULL) == CELD_OK);
+  CHECK (celd_smooth (&one, NULL, &levels, NULL, &settings, NULL, &levels, NULL) == CELD_BAD_SIZE);
+  CHECK (celd_smooth (&one, NULL, &level, NULL, &settings, NULL, &level, NULL) == CELD_OK);
   NEAR (level.data[0], 4, 0);
   settings.tolerance = NAN;
-  CHECK (celd_smooth (&one, &level, NULL, &settings, NULL, &level, NULL) == CELD_BAD_VALUE);
+  CHECK (celd_smooth (&one, NULL, &level, NULL, &settings, NULL, &level, NULL) == CELD_BAD_VALUE);
   settings.tolerance = 1e-4f;
 
   for (int y = 0; y < 5; y++) /* beyond the width lies what must not be read */
@@ -345,12 +347,12 @@ bad_input_does_no_harm (void)
   levels.data[9] = INFINITY;
   levels.data[13] = 1;
   ink.data[7] = NAN;
-  CHECK (celd_smooth (&wide, &narrow, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
+  CHECK (celd_smooth (&wide, NULL, &narrow, NULL, &settings, NULL, &depth, NULL) == CELD_OK);
   for (int i = 0; i < 20; i++)
     CHECK (depth.data[i] >= 1 && depth.data[i] <= 2);
   for (int i = 0; i < 30; i++)
     levels.data[i] = NAN;
-  CHECK (celd_smooth (&ink, &levels, NULL, &settings, NULL, &levels, NULL) == CELD_OK);
+  CHECK (celd_smooth (&ink, NULL, &levels, NULL, &settings, NULL, &levels, NULL) == CELD_OK);
   NEAR (levels.data[0], 0, 0);
   free (one.data);
   free (level.data);

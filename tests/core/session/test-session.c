@@ -161,11 +161,14 @@ anchors_keep_their_level (void)
   static float luma[W * H];
   CeldDrawing  drawing = sheet (luma);
   CeldSession *s = scene ();
+  CeldSettings settings = celd_settings ();
   CeldPlane    depth;
 
+  settings.hold_gaps = false;
   for (int y = 13; y < 19; y++) /* open the sheet to the right */
     luma[y * W + 34] = luma[y * W + 35] = 1;
   CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
   CHECK (celd_session_set_relations (s, "#ff0000 > #0000ff; 40,16 = 44,30 !anchor", NULL) == CELD_OK);
   CHECK (celd_session_depth (s, NULL, &depth, NULL) == CELD_OK);
   NEAR (CELD_AT (&depth, 22, 15), 1, 1e-6);  /* the stroke */

@@ -69,6 +69,7 @@ change_anchors (State *s, uint32_t *r)
 {
   s->settings.anchors   = (CeldAnchors) pick (r, 4);
   s->settings.hold_rest = pick (r, 3) != 0;
+  s->settings.hold_gaps = pick (r, 3) != 0;
   s->settings.encoding  = CELD_ENCODING_NORMALIZED;
 }
 
