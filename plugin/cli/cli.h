@@ -6,6 +6,7 @@
  *   cli.c       chooses the sub-command         pictures.c  reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
+ *   input-checks.c  refuses what makes no sense
  *   session.c   sets a session's input          report.c    --report
  *   route.c     for popup and segment           messages.c  messages on stderr
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
@@ -83,6 +84,8 @@ typedef struct
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
 
+/* Whether two names are the same, written in different ways or not. */
+bool  cli_same_file     (const char *a, const char *b);
 /* A file's name with a number in place of its #, or else before its ending; free with g_free. */
 char *cli_file_numbered (const char *name, int number);
 
@@ -199,6 +202,18 @@ bool cli_layer_read (const char *path, const char *role, CliLayers *layers, Celd
 /* Reads the colours of the drawing in `input`, or if `path` is not NULL the part "colours" of that file, or else its
  * first part. */
 bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *layers, CeldColours *art);
+
+/* ------------------------------------------------------------------ input-checks.c */
+
+/* All print why and what to do instead if they are false. */
+bool cli_check_different_files (const CliOptions *options);                  /* each layer has its own file */
+bool cli_check_not_exchanged   (const CliOptions *options, CliLayers *layers); /* the drawing with the scribbles */
+bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* there is ink, and paper */
+bool cli_check_grey            (const char *path);                           /* of depth or levels */
+bool cli_check_levels          (const char *path, const CeldPlane *levels);  /* no photograph */
+bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
+
+/* ------------------------------------------------------------------ input.c, texts */
 
 /* The text of the file, or if `path` is NULL `given`; "" if neither is given, NULL, with a message, if it cannot be
  * read. */

@@ -139,7 +139,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
 bool
 cli_layers_read (const char *input, const CliOptions *options, CliRoles wanted, CliLayers *layers)
 {
-  bool good = !input || read_input (input, options, wanted, layers);
+  bool good = cli_check_different_files (options) && (!input || read_input (input, options, wanted, layers));
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && path_of (options, roles[i].role))

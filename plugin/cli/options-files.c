@@ -200,8 +200,8 @@ cli_files_number (const CliOptions *all, int number, CliOptions *frame)
 
 /* ------------------------------------------------------------------ checks */
 
-static bool
-same_file (const char *a, const char *b)
+bool
+cli_same_file (const char *a, const char *b)
 {
   char *full_a = g_canonicalize_filename (a, NULL), *full_b = g_canonicalize_filename (b, NULL);
   bool  same = !strcmp (full_a, full_b);
@@ -250,14 +250,14 @@ cli_files_check (const CliCommand *command, CliOptions *options)
         {
           const char *read = k ? options->target : options->input;
 
-          if (read && same_file (name, read))
+          if (read && cli_same_file (name, read))
             return cli_error ("--%s would overwrite %s.", files[i].name, read);
         }
       for (size_t k = 0; k < G_N_ELEMENTS (files); k++)
         {
           const char *other = *file_name (options, &files[k]);
 
-          if (k != i && other && files[k].kind != TEXT && files[k].kind != MAPS && same_file (name, other))
+          if (k != i && other && files[k].kind != TEXT && files[k].kind != MAPS && cli_same_file (name, other))
             return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
         }
     }
@@ -315,7 +315,7 @@ check_maps (const CliOptions *options)
     {
       char *name = cli_map_name (options->maps, map);
 
-      if (same_file (name, options->input) || same_file (name, options->drawing))
+      if (cli_same_file (name, options->input) || cli_same_file (name, options->drawing))
         good = cli_error ("--maps would overwrite %s.", name);
       good = good && check_place (name, OUTPUT);
       g_free (name);

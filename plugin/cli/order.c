@@ -32,7 +32,8 @@ load_ordering (const CliOptions *options, Ordering *o)
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
                        (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint)) &&
                        cli_labels_new (o->paint.width, o->paint.height, &o->labels) &&
-                       cli_check (celd_labels_read (&o->paint, &o->labels, &o->palette));
+                       cli_check (celd_labels_read (&o->paint, &o->labels, &o->palette)) &&
+                       cli_check_regions (options->input, &o->labels, &o->palette);
 
   g_free (text);
   return good && (!options->drawing || cli_make_ink (&o->layers, CELD_FOR_SEGMENTATION, options, &o->run, &o->ink));

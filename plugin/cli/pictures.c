@@ -202,6 +202,8 @@ cli_read_levels (const char *path, CeldPlane *levels)
 
   if (cli_is_npy (path))
     return cli_npy_read (path, levels);
+  if (!cli_check_grey (path))
+    return false;
   file = celd_io_open (path, &error);
   if (!file)
     return cli_error ("%s", error.text);

@@ -20,6 +20,7 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
 {
   char         *text = cli_relations_text (options);
   CeldTextError error;
+  CeldPlane     ink;
   bool          good = text &&
                        cli_check_text (celd_session_set_relations (session, text, &error),
                                        cli_relations_name (options), &error) &&
@@ -28,6 +29,7 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
                        cli_layers_read (options->input, options,
                                         CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS | CLI_HIDDEN,
                                         layers) &&
+                       cli_check_not_exchanged (options, layers) &&
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
 
@@ -43,6 +45,8 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
     good = cli_check (celd_session_set_corrections (session, &layers->corrections));
   if (good && layers->hidden.data)
     good = cli_check (celd_session_set_hidden (session, &layers->hidden));
+  if (good && !options->settings.flats)
+    good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) && cli_check_lines (options->input, &ink);
   g_free (text);
   return good;
 }

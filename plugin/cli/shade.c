@@ -99,7 +99,8 @@ check_grid (const CliOptions *options, const CeldPlane *levels)
 static bool
 read_all (const CliOptions *options, Shade *s)
 {
-  if (!cli_read_levels (options->input, &s->levels) || !check_grid (options, &s->levels))
+  if (!cli_read_levels (options->input, &s->levels) || !cli_check_levels (options->input, &s->levels) ||
+      !check_grid (options, &s->levels))
     return false;
   s->layers.width  = s->levels.width;
   s->layers.height = s->levels.height;

@@ -36,7 +36,7 @@ cli_step_begin (const CliOptions *options, CliStep *step)
 {
   *step = (CliStep) { 0 };
   cli_run_begin (&step->run, options->quiet);
-  if (!cli_read_levels (options->input, &step->levels))
+  if (!cli_read_levels (options->input, &step->levels) || !cli_check_levels (options->input, &step->levels))
     return false;
   step->layers.width  = step->levels.width;
   step->layers.height = step->levels.height;
@@ -50,7 +50,8 @@ cli_regions_read (const char *path, CliLayers *layers, CeldLabels *regions, Celd
   CeldPaint paint = { 0 };
   bool      good = cli_layer_read (path, "labels", layers, &paint) &&
                    cli_labels_new (paint.width, paint.height, regions) &&
-                   cli_check (celd_labels_read (&paint, regions, palette));
+                   cli_check (celd_labels_read (&paint, regions, palette)) &&
+                   cli_check_regions (path, regions, palette);
 
   g_free (paint.data);
   return good;

@@ -55,9 +55,8 @@ class Layers(Test):
     def test_layers_with_other_names(self):
         """A PSD with other layers is an ordinary picture: its merged one (white here)."""
         write_psd(self.path('plain.psd'), (WIDTH, HEIGHT), [('Layer 1', *layers()[0][1:])])
-        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
-        self.celdepth('segment', 'white.png', '--scribbles', 'scribbles.png', '--labels', 'white.npy')
-        self.same_labels('plain.psd', '--scribbles', 'scribbles.png', reference='white.npy')
+        self.fails('segment', 'plain.psd', '--scribbles', 'scribbles.png', '--labels', 'l.png',
+                   naming='"plain.psd" has no lines')
 
     def test_exr_parts(self):
         """Linear light and premultiplied alpha."""
@@ -233,6 +232,66 @@ class Drawings(Test):
         self.celdepth('popup', 'line.png', '--scribbles', 'red.png', '--flats', '--labels', 'l.png', '--depth', 'd.npy',
                       '--normals', 'n.png')
         self.assertEqual(tuple(self.picture('l.png')[0, 0]), RED + (255,))
+
+
+class Nonsense(Test):
+    """Input that is something else than it was given for."""
+
+    def test_blank_pages(self):
+        for name, mode, colour in (('white', 'L', 255), ('black', 'L', 0), ('blue', 'RGB', (90, 120, 200)),
+                                   ('clear', 'RGBA', (0, 0, 0, 0))):
+            Image.new(mode, (WIDTH, HEIGHT), colour).save(self.path(f'{name}.png'))
+            for command, *words in (('popup', '--depth', 'd.png'), ('layers', '--output', 'l.ora'),
+                                    ('stereo', '--joined', 's.png')):
+                self.fails(command, f'{name}.png', '--scribbles', 'scribbles.png', *words, naming='has no lines')
+        noise = np.random.default_rng(1).normal(250, 1.5, (HEIGHT, WIDTH)).clip(0, 255)
+        Image.fromarray(noise.astype(np.uint8)).save(self.path('scan.png'))
+        self.fails('popup', 'scan.png', '--scribbles', 'scribbles.png', '--depth', 'd.png', naming='has no lines')
+
+    def test_lines_by_contours_alone(self):
+        """A blank page with painted boundaries is a drawing."""
+        contours = Image.new('RGBA', (WIDTH, HEIGHT))
+        ImageDraw.Draw(contours).rectangle([30, 15, 85, 57], outline=RED + (255,), width=3)
+        contours.save(self.path('contours.png'))
+        Image.new('L', (WIDTH, HEIGHT), 255).save(self.path('white.png'))
+        self.celdepth('segment', 'white.png', '--scribbles', 'scribbles.png', '--contours', 'contours.png', '--labels',
+                      'l.png')
+
+    def test_exchanged(self):
+        self.fails('popup', 'scribbles.png', '--scribbles', 'drawing.png', '--depth', 'd.png', naming='exchange them')
+        on_white = Image.new('RGB', (WIDTH, HEIGHT), 'white')
+        on_white.paste(scribbles(), mask=scribbles())
+        on_white.save(self.path('white-scribbles.png'))
+        drawing().convert('RGBA').save(self.path('other.png'))
+        self.fails('popup', 'white-scribbles.png', '--scribbles', 'other.png', '--depth', 'd.png', naming='exchange them')
+        grey = Image.new('RGBA', (WIDTH, HEIGHT))
+        ImageDraw.Draw(grey).line([(16, 20), (32, 22)], fill=(90, 90, 90, 255), width=3)
+        grey.save(self.path('grey.png'))
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'grey.png', '--labels', 'l.png')
+
+    def test_one_file_twice(self):
+        twice = ['--scribbles', 'scribbles.png', '--arrows', os.path.join('.', 'scribbles.png')]
+        self.fails('popup', 'drawing.png', *twice, '--depth', 'd.png', naming='given as --scribbles and as --arrows')
+        self.fails('popup', 'drawing.png', '--scribbles', 'drawing.png', '--depth', 'd.png',
+                   naming='given as the drawing and as --scribbles')
+        self.popup('--levels', 'levels.png', '--relations', RELATIONS)
+        self.fails('shade', 'levels.png', '--drawing', 'levels.png', '--shading', 's.png',
+                   naming='given as the drawing and as levels')
+        write_psd(self.path('page.psd'), (WIDTH, HEIGHT), layers())
+        self.celdepth('segment', 'page.psd', '--scribbles', 'page.psd', '--labels', 'l.png')
+
+    def test_colours_or_a_photograph_as_levels(self):
+        self.popup('--labels', 'labels.png', '--relations', RELATIONS)
+        rough = np.random.default_rng(2).integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
+        Image.fromarray(rough).save(self.path('photo.png'))
+        Image.fromarray(rough[..., 0]).save(self.path('grey.png'))
+        for command, *words in (('expand', '--levels', 'l.png'), ('smooth', '--depth', 'd.png'),
+                                ('shade', '--shading', 's.png')):
+            for name in 'labels.png', 'photo.png':
+                self.fails(command, name, '--drawing', 'drawing.png', *words, naming='is coloured')
+            self.fails(command, 'grey.png', '--drawing', 'drawing.png', *words, naming='looks like a photograph')
+        self.fails('enhance', 'labels.png', '--view', 'v.png', naming='is coloured')
+        self.fails('order', 'photo.png', '--levels', 'l.png', naming='looks like a photograph')
 
 
 class BadInput(Test):

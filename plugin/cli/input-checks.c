@@ -1,0 +1,182 @@
+/* Input that is something else than it was given for: a picture given twice, drawing and scribbles exchanged, a page
+ * without lines, colours or a photograph in place of levels.  Each is refused, with a message that says what to do.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "cli.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAST_HUE 0.25f /* difference of the channels of a clear colour, of 1; chosen */
+#define FAINT_HUE 0.05f /* of the channels of a picture that is not grey, of 1: more than JPEG makes; chosen */
+
+/* ------------------------------------------------------------------ the same file twice */
+
+static bool
+has_layer (const char *path, const char *role)
+{
+  CeldIoError error;
+  CeldIoFile *file = celd_io_open (path, &error);
+  bool        found = file && celd_io_find (file, role) != CELD_NO_INDEX;
+
+  celd_io_close (file);
+  return found;
+}
+
+bool
+cli_check_different_files (const CliOptions *options)
+{
+  const struct { const char *name, *role, *path; } layer[] = {
+    { "the drawing", "drawing", options->drawing ? options->drawing : options->input },
+    { "levels or regions", "levels", options->drawing ? options->input : NULL },
+    { "--scribbles", "scribbles", options->scribbles }, { "--arrows", "arrows", options->arrows },
+    { "--contours", "contours", options->contours }, { "--corrections", "corrections", options->corrections },
+    { "--hidden", "hidden", options->hidden },
+  };
+
+  for (size_t i = 0; i < G_N_ELEMENTS (layer); i++)
+    for (size_t k = 0; k < i; k++)
+      if (layer[i].path && layer[k].path && cli_same_file (layer[i].path, layer[k].path) &&
+          !(options->settings.flats && layer[i].path == options->scribbles) && !has_layer (layer[i].path, layer[i].role))
+        return cli_error ("\"%s\" is given as %s and as %s: give each its own file.", layer[i].path, layer[k].name,
+                          layer[i].name);
+  return true;
+}
+
+/* ------------------------------------------------------------------ drawing and scribbles exchanged */
+
+static bool
+is_grey_paint (const CeldPaint *paint)
+{
+  for (size_t i = 0; i < paint->stride * (size_t) paint->height; i++)
+    {
+      const uint8_t *p = paint->data + 4 * i;
+
+      if (p[3] && (MAX (MAX (p[0], p[1]), p[2]) - MIN (MIN (p[0], p[1]), p[2]) > 255 * FAINT_HUE))
+        return false;
+    }
+  return true;
+}
+
+/* Whether a picture is strokes in several clear colours, and else blank. */
+static bool
+is_coloured_strokes (const CeldColours *picture)
+{
+  size_t n = picture->stride * (size_t) picture->height, painted = 0, clear = 0, of[6] = { 0 };
+  int    hues = 0;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      const float *c = picture->data + 4 * i;
+      float        least = MIN (MIN (c[0], c[1]), c[2]), most = MAX (MAX (c[0], c[1]), c[2]);
+
+      if (c[3] < 0.5f || least > 0.9f)
+        continue;
+      painted++;
+      if (most - least < LEAST_HUE)
+        continue;
+      clear++;
+      of[(c[0] >= c[1]) + (c[1] >= c[2]) + 3 * (c[0] >= c[2])]++;
+    }
+  for (int i = 0; i < 6; i++)
+    hues += 20 * of[i] > painted;
+  return painted && 2 * painted < n && 10 * clear > 9 * painted && hues > 1;
+}
+
+bool
+cli_check_not_exchanged (const CliOptions *options, CliLayers *layers)
+{
+  CeldColours picture = { 0 };
+  bool        good, exchanged;
+
+  if (!layers->scribbles.data || !options->scribbles || !is_grey_paint (&layers->scribbles))
+    return true;
+  good      = cli_art_read (options->input, NULL, false, layers, &picture);
+  exchanged = good && is_coloured_strokes (&picture);
+  g_free (picture.data);
+  return good && (!exchanged ||
+                  cli_error ("\"%s\" looks like scribbles and \"%s\" like a drawing: exchange them, or scribble in clear "
+                             "colours.", options->input, options->scribbles));
+}
+
+/* ------------------------------------------------------------------ no lines */
+
+bool
+cli_check_lines (const char *path, const CeldPlane *ink)
+{
+  bool lines = false, paper = false;
+
+  for (int y = 0; y < ink->height && !(lines && paper); y++)
+    for (int x = 0; x < ink->width; x++)
+      {
+        bool dark = ink->data[(size_t) y * ink->stride + (size_t) x] < 0.5f;
+
+        lines = lines || dark;
+        paper = paper || !dark;
+      }
+  return (lines && paper) ||
+         cli_error ("\"%s\" has no lines: it is blank, or its lines are too faint (--ink says what they are).", path);
+}
+
+/* ------------------------------------------------------------------ levels */
+
+/* Of a file whose colours are encoded. */
+static bool
+has_hue (CeldIoFile *file)
+{
+  CeldColours picture = { 0 };
+  size_t      hued = 0, n;
+
+  if (celd_io_part (file, 0)->grey || celd_io_part (file, 0)->linear || !cli_read_part (file, 0, false, &picture))
+    return false;
+  n = picture.stride * (size_t) picture.height;
+  for (size_t i = 0; i < n; i++)
+    {
+      const float *c = picture.data + 4 * i;
+
+      hued += c[3] > 0 && MAX (MAX (c[0], c[1]), c[2]) - MIN (MIN (c[0], c[1]), c[2]) > FAINT_HUE;
+    }
+  g_free (picture.data);
+  return 100 * hued > n;
+}
+
+bool
+cli_check_grey (const char *path)
+{
+  CeldIoError error;
+  CeldIoFile *file = cli_is_npy (path) ? NULL : celd_io_open (path, &error);
+  bool        coloured = file && has_hue (file);
+
+  celd_io_close (file);
+  return !coloured || cli_error ("\"%s\" is coloured, but depth and levels are grey, such as popup writes them with "
+                                 "--levels or --depth.", path);
+}
+
+bool
+cli_check_regions (const char *path, const CeldLabels *regions, const CeldPalette *palette)
+{
+  size_t pixels = (size_t) regions->width * (size_t) regions->height;
+
+  return palette->n < 1000 || 20 * palette->n < pixels ||
+         cli_error ("\"%s\" looks like a photograph: regions are flat colours, such as segment writes them with "
+                    "--labels.", path);
+}
+
+bool
+cli_check_levels (const char *path, const CeldPlane *levels)
+{
+  size_t n = (size_t) levels->width * (size_t) levels->height, changes = 0;
+  float  least = INFINITY, most = -INFINITY;
+
+  for (size_t i = 0; i < n; i++)
+    {
+      least = fminf (least, levels->data[i]);
+      most  = fmaxf (most, levels->data[i]);
+    }
+  for (size_t i = 1; i < n; i++)
+    changes += fabsf (levels->data[i] - levels->data[i - 1]) > (most - least) / 300;
+  return 10 * changes < 3 * n ||
+         cli_error ("\"%s\" looks like a photograph: levels have one value for each part, such as popup writes them "
+                    "with --levels.", path);
+}
