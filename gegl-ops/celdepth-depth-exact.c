@@ -8,7 +8,7 @@ static const CeldProperty properties[] = {
   { .name = "ink" }, { .name = "flats" }, { .name = "background" }, { .name = "background-colour" },
   { .name = "same-colour" }, { .name = "relations" }, { .name = "arrow-path" }, { .name = "arrow-style" },
   { .name = "on-cycle" }, { .name = "encoding" }, { .name = "near-level" }, { .name = "far-level" },
-  { .name = "tolerance" }, { .name = "contrast" }, { .name = "weight-floor" },
+  { .name = "hold-gaps" }, { .name = "tolerance" }, { .name = "contrast" }, { .name = "weight-floor" },
   { 0 }
 };
 

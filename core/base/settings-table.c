@@ -265,7 +265,7 @@ static const CeldSettingInfo infos[] = {
     .help = "Depth changes abruptly also where a contour between two levels is broken, for up to about seven stroke "
             "widths. Wider openings, and blue virtual contours, stay smooth; without it every gap is smooth, as in the "
             "paper",
-    .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) },
+    .usual = true, .stages = READ_BY (PREVIEW) | READ_BY (DEPTH) | READ_BY (NODES) },
 
   { .name = "tolerance", .label = "Tolerance", NUMBER (tolerance),
     .help = "The largest error of smooth depth, as a fraction of its range",

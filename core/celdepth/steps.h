@@ -218,7 +218,8 @@ CELD_API CeldStatus celd_smooth (const CeldPlane *ink, const CeldPlane *borders,
 /* Exact depth, eq. (1) and (2): of all depths that satisfy the relations the one of least energy
  *   sum w_pq (d_p - d_q)^2   with   w_pq = max (weight_floor, exp (-(I_p - I_q)^2 / sigma)),
  * where I_p - I_q is the contrast within the 3 x 3 pixels around p or around q, whichever is smaller, and sigma is
- * settings->contrast times the mean of (I_p - I_q)^2.  `ink` is the ink for depth.
+ * settings->contrast times the mean of (I_p - I_q)^2.  `ink` is the ink for depth.  Gaps in it do not hold depth, for
+ * which regions are needed: a session has them (settings->hold_gaps).
  * All pixels of a scribble (with same_colour = separate of each of its strokes) have one depth.  A relation's end off
  * every scribble is a node of one pixel, so depth varies within a region if relations form a cycle through different
  * points of it.  Equalities are exact, and gaps may be fractions.  Of a cycle between the same nodes the lightest

@@ -8,6 +8,7 @@
  *   boxed-solver.c      connected components, and Laplacian systems solved in their bounding boxes
  *   exact-program.c     the exact program: relations to inequalities, its solution, depth
  *   exact-kept.c        what is kept of it between edits
+ *   exact-gaps.c        its weights at gaps in the ink
  *   exact-bases.c       harmonic bases of its nodes
  *   exact-nodes.c       adding and removing single nodes
  *   exact-stiffness.c   the stiffness matrix
@@ -301,11 +302,16 @@ size_t     celd_stiffness_room (size_t n);
 
 /* ------------------------------------------------------------------ exact-kept.c, exact-program.c */
 
+/* The right (down 0) or lower edge of a pixel that a gap holds, and its weight by the ink. */
+typedef struct { size_t pixel; int down; float weight; } CeldHeldEdge;
+
 /* A drawing, its scribbles, and what was solved for them, for reuse after edits. */
 typedef struct
 {
   const CeldPlane  *ink;         /* borrowed */
   float            *east, *south;
+  CeldHeldEdge     *held;        /* where these are not those of the ink, because a gap holds depth */
+  size_t            n_held;
   double            sigma;
   int               stroke;      /* width of the strokes of the ink; -1: not measured yet */
   CeldLabels        nodes;       /* the scribbles; data NULL: none yet */
@@ -329,6 +335,12 @@ CeldStatus celd_program_set_ink (CeldProgram *program, const CeldPlane *ink, con
  * from what was solved before. */
 CeldStatus celd_program_set_seeds (CeldProgram *program, const CeldLabels *seeds, const CeldPalette *palette,
                                    CeldSameColour same_colour, const CeldHost *host);
+
+/* Gives the least weight to edges where a gap in the ink lies between two of these regions (tight, of the size of the
+ * ink; NULL: to none), and all others the weight of the ink.  `borders` is as for celd_gaps_hold.  The ink and the
+ * scribbles must be set.  After a failure the weights are as before. */
+CeldStatus celd_program_hold_gaps (CeldProgram *program, const CeldLabels *regions, const CeldPlane *borders,
+                                   const CeldSettings *settings, const CeldHost *host);
 
 /* Finds the pixel for the end of a relation at (x,y): the pixel there or, on ink, the nearest paper within one stroke
  * width; *pixel = y * width + x.  False if the point is outside the drawing. */

@@ -36,8 +36,11 @@ forget_ink (CeldProgram *p)
   forget_nodes (p);
   celd_free (p->east);
   celd_free (p->south);
-  p->ink  = NULL;
-  p->east = p->south = NULL;
+  celd_free (p->held);
+  p->ink    = NULL;
+  p->east   = p->south = NULL;
+  p->held   = NULL;
+  p->n_held = 0;
 }
 
 void

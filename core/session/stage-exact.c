@@ -31,32 +31,36 @@ seed_frame (const CeldPlane *ink, const CeldLabels *labels, uint32_t from, uint3
   return status;
 }
 
-/* Marks the background scribble in the palette, or adds a background to palette and seeds (tight). */
+/* Makes regions of the scribbles alone, with a copy of their palette in which the background is marked. */
 static CeldStatus
-find_background (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
-                 CeldPalette *palette)
+segment_scribbles (const CeldPlane *ink, const CeldLabels *seeds, const CeldPalette *palette,
+                   const CeldSettings *settings, const CeldHost *host, CeldLabels *labels, CeldPalette *found)
 {
   CeldSettings plain = *settings;
-  CeldLabels   labels = { 0 };
-  CeldPalette  found = { 0 };
-  CeldStatus   status = celd_labels_new (ink->width, ink->height, &labels);
+  CeldStatus   status = celd_labels_new (ink->width, ink->height, labels);
 
   plain.method = CELD_METHOD_BASINS;
   if (status == CELD_OK)
-    status = celd_palette_copy (palette, &found);
-  if (status == CELD_OK)
-    status = celd_segment (ink, seeds, NULL, &plain, host, &labels, &found, NULL);
+    status = celd_palette_copy (palette, found);
+  return status == CELD_OK ? celd_segment (ink, seeds, NULL, &plain, host, labels, found, NULL) : status;
+}
+
+/* Marks the background scribble in the palette, or adds a background to palette and seeds (tight). */
+static CeldStatus
+add_background (const CeldPlane *ink, const CeldLabels *labels, const CeldPalette *regions, CeldLabels *seeds,
+                CeldPalette *palette)
+{
+  CeldStatus status = CELD_OK;
+
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
-    palette->item[k].background = found.item[k].background;
-  for (size_t k = palette->n; k < found.n && status == CELD_OK; k++)
-    if (found.item[k].background)
+    palette->item[k].background = regions->item[k].background;
+  for (size_t k = palette->n; k < regions->n && status == CELD_OK; k++)
+    if (regions->item[k].background)
       {
-        status = celd_append_uncounted (palette->item, palette->n, found.item[k]);
+        status = celd_append_uncounted (palette->item, palette->n, regions->item[k]);
         if (status == CELD_OK)
-          status = seed_frame (ink, &labels, (uint32_t) k + 1, (uint32_t) palette->n, seeds);
+          status = seed_frame (ink, labels, (uint32_t) k + 1, (uint32_t) palette->n, seeds);
       }
-  celd_free (labels.data);
-  celd_palette_clear (&found);
   return status;
 }
 
@@ -72,21 +76,33 @@ celd_make_weights (CeldSession *s, const CeldHost *host)
   return celd_program_set_ink (s->program, celd_session_depth_ink (s), &s->settings, host);
 }
 
-/* Adds the background to seeds and palette, and gives both to the program. */
+/* Adds the background to seeds and palette, gives both to the program, and lets gaps hold depth.  `borders` is as for
+ * celd_gaps_hold. */
 static CeldStatus
-set_nodes (const CeldPlane *ink, const CeldSettings *settings, const CeldHost *host, CeldLabels *seeds,
-           CeldPalette *palette, CeldProgram *program)
+set_nodes (const CeldPlane *ink, const CeldPlane *borders, const CeldSettings *settings, const CeldHost *host,
+           CeldLabels *seeds, CeldPalette *palette, CeldProgram *program)
 {
-  CeldHostPart part[2];
-  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.6), setting = celd_host_part (&part[1], host, 0.6, 1);
+  CeldHostPart part[3];
+  CeldHost     finding = celd_host_part (&part[0], host, 0, 0.6), setting = celd_host_part (&part[1], host, 0.6, 0.9);
+  CeldHost     holding = celd_host_part (&part[2], host, 0.9, 1);
+  bool         background = settings->background != CELD_BACKGROUND_NONE;
+  CeldLabels   labels = { 0 };
+  CeldPalette  regions = { 0 };
   CeldStatus   status = CELD_OK;
 
-  if (palette->n && settings->background != CELD_BACKGROUND_NONE)
-    status = find_background (ink, settings, &finding, seeds, palette);
+  if (palette->n && (background || settings->hold_gaps))
+    status = segment_scribbles (ink, seeds, palette, settings, &finding, &labels, &regions);
+  if (status == CELD_OK && background)
+    status = add_background (ink, &labels, &regions, seeds, palette);
   if (status == CELD_OK)
     status = celd_program_set_seeds (program, seeds, palette, settings->same_colour, &setting);
+  if (status == CELD_OK)
+    status = celd_program_hold_gaps (program, labels.data && settings->hold_gaps ? &labels : NULL, borders, settings,
+                                     &holding);
   for (size_t k = 0; k < palette->n && status == CELD_OK; k++)
     palette->item[k] = program->palette.item[k];
+  celd_free (labels.data);
+  celd_palette_clear (&regions);
   return status;
 }
 
@@ -102,7 +118,8 @@ celd_make_nodes (CeldSession *s, const CeldHost *host)
   if (status == CELD_OK)
     {
       celd_seed_rows_write (&s->seeds, &seeds);
-      status = set_nodes (&s->ink, &s->settings, host, &seeds, &palette, s->program);
+      status = set_nodes (&s->ink, s->depth_ink.data ? &s->ink : NULL, &s->settings, host, &seeds, &palette,
+                          s->program);
     }
   celd_free (seeds.data);
   if (status != CELD_OK)
@@ -184,9 +201,10 @@ halve_relations (const CeldRelations *relations, CeldRelations *half)
   return status;
 }
 
-/* Exact depth at half the width and height; `ink` and `depth` have that size, and `ink` is overwritten. */
+/* Exact depth at half the width and height, that of the planes.  `ink` is overwritten, and `borders` if there are
+ * virtual contours. */
 static CeldStatus
-solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlane *depth)
+solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlane *borders, CeldPlane *depth)
 {
   CeldSettings  settings = s->settings;
   CeldLabels    seeds = { 0 };
@@ -205,11 +223,13 @@ solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlan
   if (status == CELD_OK)
     {
       halve_ink (celd_session_depth_ink (s), ink);
+      if (s->depth_ink.data)
+        halve_ink (&s->ink, borders);
       halve_seeds (&s->seeds, &seeds);
       status = celd_program_set_ink (program, ink, &settings, NULL);
     }
   if (status == CELD_OK)
-    status = set_nodes (ink, &settings, &nodes, &seeds, &palette, program);
+    status = set_nodes (ink, s->depth_ink.data ? borders : NULL, &settings, &nodes, &seeds, &palette, program);
   if (status == CELD_OK)
     status = celd_program_solve (program, &relations, &settings, &solving, depth, NULL, NULL);
   celd_program_free (program);
@@ -222,14 +242,17 @@ solve_half (const CeldSession *s, const CeldHost *host, CeldPlane *ink, CeldPlan
 CeldStatus
 celd_make_exact_preview (CeldSession *s, const CeldHost *host)
 {
-  CeldPlane  ink = { 0 }, depth = { 0 };
+  CeldPlane  ink = { 0 }, borders = { 0 }, depth = { 0 };
   CeldStatus status = celd_plane_new ((s->ink.width + 1) / 2, (s->ink.height + 1) / 2, &ink);
 
   if (status == CELD_OK)
     status = celd_plane_new (ink.width, ink.height, &depth);
   if (status == CELD_OK)
-    status = solve_half (s, host, &ink, &depth);
+    status = celd_plane_new (ink.width, ink.height, &borders);
+  if (status == CELD_OK)
+    status = solve_half (s, host, &ink, &borders, &depth);
   celd_free (ink.data);
+  celd_free (borders.data);
   if (status != CELD_OK)
     {
       celd_free (depth.data);

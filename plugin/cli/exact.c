@@ -84,7 +84,7 @@ const CliCommand cli_exact_command = {
               "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
               "      --encoding rank --report report.json",
   .settings = "ink +flats background background-colour same-colour arrow-style on-cycle encoding near-level far-level "
-              "tolerance contrast weight-floor",
+              "hold-gaps tolerance contrast weight-floor",
   .output   = "depth",
   .run      = run_exact,
 };

@@ -30,9 +30,9 @@ const CliCommand cli_popup_command = {
               "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
               "hold-gaps tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light "
-              "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power enhance "
-              "shadow-size shadow-strength shadow-offset shadow-range complete margin stereo disparity convergence "
-              "floating-window screen-width",
+              "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
+              "rim-power enhance shadow-size shadow-strength shadow-offset shadow-range complete margin stereo "
+              "disparity convergence floating-window screen-width",
   .output   = "depth",
   .check    = check,
   .run      = run_popup,

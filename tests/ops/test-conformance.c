@@ -144,7 +144,7 @@ exact_depth_is_that_of_core (void)
         painted.item[k].background = palette.item[i].background;
   CHECK (celd_depth_exact (&baked.luma, &seeds, &painted, &relations, &settings, NULL, &exact, NULL, NULL) == CELD_OK);
   operate ("celdepth:depth-exact", (Pads) { { drawing, scribbles, arrows, contours } }, "Y float", result,
-           "contrast", 2.0, NULL);
+           "contrast", 2.0, "hold-gaps", FALSE, NULL);
   SAME (wanted, 1);
   NEAR (range (wanted, PIXELS), 1, 0);
   celd_palette_clear (&painted);

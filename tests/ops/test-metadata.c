@@ -20,8 +20,7 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:depth-smooth", "aux3 aux2 aux input", "ink ink-threshold hold-rest hold-gaps tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
-    "far-level "
-    "tolerance contrast weight-floor" },
+    "far-level hold-gaps tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux5 aux4 aux3 aux2 aux input",
     "result bulge bevel quilt frame-outline light-model toon-steps light-background light light-azimuth "
     "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "

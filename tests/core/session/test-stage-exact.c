@@ -241,6 +241,44 @@ virtual_contours_separate_depth (void)
   celd_session_free (s);
 }
 
+/* A sheet whose outline is broken keeps its depth, unless gaps do not hold or a blue contour lies there. */
+static void
+gaps_hold_depth (void)
+{
+  CeldSession *s = scene (true);
+  CeldDrawing  drawing = { .luma = { W, H, W, luma } };
+  uint8_t      paint[4 * W * H] = { 0 };
+  CeldPaint    contours = { W, H, W, paint };
+  CeldSettings settings = s->settings;
+  CeldPlane    half;
+
+  for (int y = 16; y < 24; y++)
+    {
+      luma[y * W + 26] = luma[y * W + 27] = 1;
+      memcpy (paint + 4 * (y * W + 26), (const uint8_t[8]) { 0, 0, 255, 255, 0, 0, 255, 255 }, 8);
+    }
+  CHECK (celd_session_set_drawing (s, &drawing) == CELD_OK);
+  CHECK (celd_session_put_relation (s, 1, "#ff0000 > #0000ff", NULL) == CELD_OK);
+  for (int round = 0; round < 2; round++) /* again after edits that open the gap */
+    {
+      NEAR (ask (s, 25, 20), 1, 0.02);
+      NEAR (ask (s, 29, 20), 0, 0.02);
+      CHECK (celd_session_exact_preview (s, NULL, &half) == CELD_OK);
+      CHECK (CELD_AT (&half, 11, 10) - CELD_AT (&half, 15, 10) > 0.9f);
+      settings.hold_gaps = false;
+      CHECK (celd_session_set_settings (s, &settings) == CELD_OK && MADE (WEIGHTS) && !MADE (NODES));
+      CHECK (ask (s, 25, 20) - ask (s, 29, 20) < 0.3);
+      check_fresh (s);
+      settings.hold_gaps = true;
+      CHECK (celd_session_set_settings (s, &settings) == CELD_OK);
+      check_fresh (s);
+      CHECK (celd_session_set_contours (s, &contours) == CELD_OK);
+      CHECK (ask (s, 25, 20) - ask (s, 29, 20) < 0.3);
+      CHECK (celd_session_set_contours (s, NULL) == CELD_OK);
+    }
+  celd_session_free (s);
+}
+
 static void
 contradictions_are_reported (void)
 {
@@ -290,6 +328,7 @@ main (void)
   RUN (an_edit_invalidates_the_stages_that_read_it);
   RUN (settings_of_regions_may_change_the_background);
   RUN (virtual_contours_separate_depth);
+  RUN (gaps_hold_depth);
   RUN (contradictions_are_reported);
   RUN (the_preview_is_close_to_depth);
   return DONE;
