@@ -22,13 +22,41 @@ static const CliCommand *const commands[] = {
 static void
 print_help (FILE *where)
 {
-  fputs ("Usage: celdepth COMMAND ...\n\n"
+  fputs ("Usage: celdepth COMMAND ...\n"
+         "       celdepth help COMMAND\n\n"
          "Depth for hand-drawn cartoons from scribbles and arrows.\n\n"
          "Commands:\n", where);
   for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
     fprintf (where, "  %-9s %s\n", commands[i]->name, commands[i]->summary);
   fprintf (where, "\n'celdepth COMMAND --help' shows the options and examples of a command.\n"
                   "Exit codes: 0 success, 1 failure, 2 wrong usage, 3 success, but relations contradict each other.\n");
+}
+
+static const CliCommand *
+find_command (const char *name)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
+    if (!strcmp (name, commands[i]->name))
+      return commands[i];
+  return NULL;
+}
+
+/* Answers a word that is no command. */
+static int
+refuse (const char *word)
+{
+  const char *names[G_N_ELEMENTS (commands) + 1] = { NULL }, *nearest;
+
+  for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
+    names[i] = commands[i]->name;
+  nearest = word[0] ? cli_nearest_name (word, names) : NULL;
+  if (nearest)
+    cli_say ("There is no command '%s'. Did you mean '%s'?", word, nearest);
+  else if (word[0])
+    cli_say ("There is no command '%s'.", word);
+  if (!nearest)
+    print_help (stderr);
+  return CLI_USAGE;
 }
 
 static int
@@ -55,6 +83,12 @@ main (int argc, char **argv)
 #endif
   /* The locale is for file names only; numbers have a decimal point in any locale. */
   setlocale (LC_CTYPE, "");
+  if (!strcmp (word, "help") && argc > 2)
+    {
+      char *help[] = { argv[2], "--help", NULL };
+
+      return find_command (argv[2]) ? run_command (find_command (argv[2]), 2, help) : refuse (argv[2]);
+    }
   if (!strcmp (word, "--help") || !strcmp (word, "-h") || !strcmp (word, "help"))
     {
       print_help (stdout);
@@ -65,14 +99,10 @@ main (int argc, char **argv)
       puts ("celdepth " CELDEPTH_VERSION);
       return CLI_DONE;
     }
-  for (size_t i = 0; i < G_N_ELEMENTS (commands); i++)
-    if (!strcmp (word, commands[i]->name))
-      {
-        celd_io_fork_reader (); /* while there is one thread */
-        return run_command (commands[i], argc - 1, argv + 1);
-      }
-  if (word[0])
-    cli_say ("There is no command '%s'.", word);
-  print_help (stderr);
-  return CLI_USAGE;
+  if (find_command (word))
+    {
+      celd_io_fork_reader (); /* while there is one thread */
+      return run_command (find_command (word), argc - 1, argv + 1);
+    }
+  return refuse (word);
 }

@@ -13,7 +13,7 @@
  *               relief                          threads.c   threads for loops of core
  *   scene.c     for stereo and wiggle           model.c     for relief
  *   uses.c      for popup
- *   composition.c  for compose
+ *   composition.c  for compose                  nearest-name.c  "Did you mean ...?"
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
  *
@@ -99,6 +99,9 @@ bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
 bool cli_check (CeldStatus status);
 /* Prints the first problems that are no contradictions. */
 void cli_say_problems (const CeldProblems *problems, const CeldPalette *palette, const CeldRelations *relations);
+
+/* nearest-name.c: the name in a list that ends with NULL that is most like a word; NULL if none is like it. */
+const char *cli_nearest_name (const char *word, const char *const *names);
 
 /* ------------------------------------------------------------------ run.c, threads.c */
 

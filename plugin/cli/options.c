@@ -8,6 +8,26 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Prints why the command line cannot be parsed, and which option was probably meant. */
+static void
+say_error (const GError *error, const GArray *entries)
+{
+  const char  *unknown = strstr (error->message, "--"), *nearest = NULL;
+  char        *name = unknown ? g_strndup (unknown + 2, strcspn (unknown + 2, "=")) : NULL;
+  const char **names = g_new0 (const char *, entries->len + 1);
+
+  for (guint i = 0; i < entries->len; i++)
+    names[i] = g_array_index (entries, GOptionEntry, i).long_name;
+  if (g_error_matches (error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION) && name)
+    nearest = cli_nearest_name (name, names);
+  if (nearest)
+    cli_say ("%s. Did you mean --%s?", error->message, nearest);
+  else
+    cli_say ("%s", error->message);
+  g_free (name);
+  g_free (names);
+}
+
 /* Parses the command line with GOption. */
 static bool
 parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
@@ -42,7 +62,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   options->quiet   = quiet;
   options->directx = directx;
   if (!good)
-    cli_say ("%s", error->message);
+    say_error (error, entries);
   g_clear_error (&error);
   g_option_context_free (context);
   g_array_free (entries, TRUE);

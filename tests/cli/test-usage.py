@@ -47,6 +47,18 @@ class Usage(Test):
         self.wrong('smooth', 'a.npy', '--drawing', 'a.png', naming='--depth is missing')
         self.wrong('segment', 'a.png', '--labels', 'b.png', '--bulge', '1', naming='--bulge')
 
+    def test_help_of_a_command(self):
+        self.assertEqual(self.celdepth('help', 'popup'), self.celdepth('popup', '--help'))
+        self.assertIn("There is no command 'shad'. Did you mean 'shade'?", self.celdepth('help', 'shad', code=2))
+
+    def test_did_you_mean(self):
+        for words, meant in ((['popip'], "'popup'"), (['inbewteen'], "'inbetween'"),
+                             (['popup', 'drawing.png', '--scribles', 'x.png'], '--scribbles'),
+                             (['popup', 'drawing.png', '--colors=x.png'], '--colours')):
+            self.assertIn(f'Did you mean {meant}?', self.celdepth(*words, code=2))
+        for words in (['dance'], ['popup', 'drawing.png', '--quixotic'], ['x' * 200], ['popup', '--' + 'y' * 200]):
+            self.assertNotIn('Did you mean', self.celdepth(*words, code=2))
+
     def test_wrong_values(self):
         for option, value in (('--hardness', '7'), ('--hardness', '0,5'), ('--hardness', 'nan'), ('--hardness', ''),
                               ('--ink', 'Dark'), ('--ink', 'dark|light'), ('--encoding', 'rank '),
