@@ -55,6 +55,13 @@ float celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float d
 /* One pass of the binomial filter (1 2 1)/4 in both directions, in place; `spare`, of the same size, is overwritten. */
 void celd_ink_smooth (CeldPlane *plane, CeldPlane *spare);
 
+/* ------------------------------------------------------------------ ink-lines.c */
+
+/* Where there is a line or an edge in `contrast`, replaces the values of `smooth`, which has the same size and holds it
+ * after two passes of celd_ink_smooth, by means along the line.  `noise` is the standard deviation of the grain.
+ * CELD_NO_MEMORY is the only failure; then `smooth` is as it was. */
+CeldStatus celd_ink_smooth_lines (const CeldPlane *contrast, float noise, CeldPlane *smooth);
+
 /* ------------------------------------------------------------------ ink and paper */
 
 /* Whether a value of ink (0 = ink, 1 = paper) is paper; NaN is. */

@@ -191,6 +191,130 @@ pale_strokes_are_contours (void)
   CHECK (palest_of_ring () <= 0.25f && paper_mean (&least) > 0.999f);
 }
 
+/* Does a way through ink of at least `paper` lead from the middle of the picture to its edge?  To 4-neighbours. */
+static bool
+ring_leaks (float paper)
+{
+  static int  queue[SIDE * SIDE];
+  static bool seen[SIDE * SIDE];
+  int         n = 0;
+
+  memset (seen, 0, sizeof seen);
+  seen[queue[n++] = 79 * SIDE + 90] = true;
+  for (int k = 0; k < n; k++)
+    {
+      int x = queue[k] % SIDE, y = queue[k] / SIDE, next[4] = { -1, 1, -SIDE, SIDE };
+
+      if (x == 0 || y == 0 || x == SIDE - 1 || y == SIDE - 1)
+        return true;
+      for (int i = 0; i < 4; i++)
+        if (!seen[queue[k] + next[i]] && ink_of[queue[k] + next[i]] >= paper)
+          {
+            seen[queue[k] + next[i]] = true;
+            queue[n++] = queue[k] + next[i];
+          }
+    }
+  return false;
+}
+
+/* How much of a pixel a ring covers. */
+static float
+ring_coverage (int x, int y, float radius, float breadth)
+{
+  float u = (float) x - 79.5f, v = (float) y - 79.5f;
+
+  return fminf (fmaxf (0.5f * breadth + 0.5f - fabsf (sqrtf (u * u + v * v) - radius), 0), 1);
+}
+
+/* A hard pencil beside black ink on grainy paper. */
+static void
+faint_lines_beside_dark_ones_stay_closed (void)
+{
+  static const int grey[] = { 165, 178, 190 };
+
+  for (uint32_t k = 0; k < 6; k++)
+    {
+      float    pale = 1 - (float) grey[k % 3] / 255, noise = k < 3 ? 0.0075f : 0.01f, least;
+      uint32_t seed = 17 + k;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          float faint = pale * ring_coverage (i % SIDE, i / SIDE, 50, 1.2f);
+          float dark = 0.9f * ring_coverage (i % SIDE, i / SIDE, 70, 4);
+
+          luma_of[i] = fminf (0.96f * (1 - faint - dark) + noise * grain (&seed), 1);
+        }
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      for (int i = 0; i < SIDE * SIDE; i++) /* the dark ring is a wall, too: look at the faint one alone */
+        if (ring_coverage (i % SIDE, i / SIDE, 70, 12) > 0)
+          ink_of[i] = 1;
+      CHECK (!ring_leaks (0.5f));
+      for (int i = 0; i < SIDE * SIDE; i++)
+        if (ring_coverage (i % SIDE, i / SIDE, 50, 12) > 0)
+          ink_of[i] = 1;
+      least = 1;
+      for (int i = 0; i < SIDE * SIDE; i++)
+        least = fminf (least, ink_of[i]);
+      CHECK (least > 0.6f);
+    }
+}
+
+/* Chalk leaves holes of a pixel or two in a line of two pixels; depth leaks through what is not nearly ink. */
+static void
+chalk_with_holes_stays_closed (void)
+{
+  for (uint32_t seed = 1; seed <= 8; seed++)
+    {
+      uint32_t state = seed;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        alpha_of[i] = grain (&state);
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          int   right = i % SIDE < SIDE - 1, below = i / SIDE < SIDE - 1 ? SIDE : 0;
+          float holes = 0.5f * (alpha_of[i] + alpha_of[i + right] + alpha_of[i + below] + alpha_of[i + right + below]);
+          float chalk = fminf (fmaxf (0.75f + 0.22f * holes, 0.15f), 1);
+
+          luma_of[i] = 0.16f + 0.01f * grain (&state) + 0.7f * chalk * ring_coverage (i % SIDE, i / SIDE, 50, 2);
+        }
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      CHECK (!ring_leaks (0.25f));
+    }
+}
+
+/* Two thick lines with two and a half pixels of paper between them, out of focus, scanned with noise. */
+static void
+blur_fills_no_neck (void)
+{
+  static const float edge[] = { -11.25f, -1.25f, 1.25f, 11.25f };
+
+  for (uint32_t seed = 1; seed <= 4; seed++)
+    {
+      uint32_t state = seed;
+      int      dark = 0;
+
+      for (int i = 0; i < SIDE * SIDE; i++)
+        {
+          float u = 0.96f * ((float) (i % SIDE) - 79.5f) + 0.28f * ((float) (i / SIDE) - 79.5f), edges = 0;
+
+          for (int k = 0; k < 4; k++) /* steps up and down, after a Gaussian of 1.2 pixels */
+            edges += (k % 2 ? -0.5f : 0.5f) * erff ((u - edge[k]) / (1.2f * 1.41421f));
+          luma_of[i] = 0.96f - 0.86f * edges + 0.016f * grain (&state);
+        }
+      CHECK (make_ink (CELD_INK_AUTO, false) == CELD_OK);
+      for (int y = 20; y < SIDE - 20; y++)
+        {
+          float lightest = 0;
+
+          for (int x = 0; x < SIDE; x++)
+            if (fabsf (0.96f * ((float) x - 79.5f) + 0.28f * ((float) y - 79.5f)) < 0.75f)
+              lightest = fmaxf (lightest, ink_of[y * SIDE + x]);
+          dark += lightest < 0.5f;
+        }
+      CHECK (dark == 0);
+    }
+}
+
 /* A flat grey area is no stroke: it stays grey. */
 static void
 grey_areas_stay_grey (void)
@@ -292,6 +416,9 @@ main (void)
   RUN (pencil_becomes_ink);
   RUN (pale_lines_in_grain_stay_whole);
   RUN (pale_strokes_are_contours);
+  RUN (faint_lines_beside_dark_ones_stay_closed);
+  RUN (chalk_with_holes_stays_closed);
+  RUN (blur_fills_no_neck);
   RUN (grey_areas_stay_grey);
   RUN (light_is_dark_inverted);
   RUN (alpha_is_ink);
