@@ -13,6 +13,7 @@
 #include <string.h>
 
 #define NOTED     0.75  /* a region below this certainty is named; chosen */
+#define PAPER     0.5f  /* ink above this is paper; chosen */
 #define NOTED_AREA 5e-4 /* of the page: smaller regions are not named; chosen */
 
 void
@@ -21,6 +22,7 @@ cli_frame_clear (CliFrameState *state)
   g_free (state->ink.data);
   g_free (state->labels.data);
   g_free (state->fingerprint);
+  g_free (state->sure);
   if (state->notes)
     g_array_free (state->notes, TRUE);
   *state = (CliFrameState) { 0 };
@@ -40,11 +42,11 @@ cli_frame_path (const CliMotion *motion, const char *result, size_t frame)
 
 /* ------------------------------------------------------------------ notes */
 
-/* Sums over the paper of a label. */
-typedef struct { size_t n, unsure; double certainty, x, y; } LabelSums;
+/* Sums over the pixels of a label, which are certain on paper alone. */
+typedef struct { size_t n, paper, unsure; double certainty, x, y; } LabelSums;
 
 static LabelSums *
-sum_labels (const CliMotion *motion, const CeldLabels *labels, const CeldPlane *certainty)
+sum_labels (const CliMotion *motion, const CeldPlane *ink, const CeldLabels *labels, const CeldPlane *certainty)
 {
   LabelSums *sums = g_new0 (LabelSums, motion->palette.n + 1);
 
@@ -54,10 +56,12 @@ sum_labels (const CliMotion *motion, const CeldLabels *labels, const CeldPlane *
         size_t     at = (size_t) y * labels->stride + (size_t) x;
         LabelSums *s = &sums[labels->data[at]];
         double     sure = certainty ? (double) certainty->data[at] : 1;
+        bool       paper = !ink || ink->data[(size_t) y * ink->stride + (size_t) x] > PAPER;
 
         s->n++;
+        s->paper     += paper;
         s->certainty += sure;
-        if (certainty && sure >= NOTED)
+        if (certainty && (!paper || sure >= NOTED))
           continue;
         s->unsure++;
         s->x += x;
@@ -89,22 +93,26 @@ void
 cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
                       const CeldPlane *certainty, CliFrameState *state)
 {
-  LabelSums *old = sum_labels (motion, before, NULL), *new = sum_labels (motion, labels, certainty);
+  LabelSums *old = sum_labels (motion, NULL, before, NULL), *new = sum_labels (motion, &state->ink, labels, certainty);
   double     least = NOTED_AREA * motion->width * motion->height, sum = 0, area = 0;
 
   for (uint32_t l = 1; l <= motion->palette.n; l++)
     {
-      CliRegionNote note = { l, CLI_REGION_UNSURE, new[l].n ? new[l].certainty / (double) new[l].n : 0, -1, -1 };
+      CliRegionNote note = { l, CLI_REGION_UNSURE, new[l].paper ? new[l].certainty / (double) new[l].paper : 0, -1,
+                             -1 };
       bool          gone = !new[l].n && (double) old[l].n >= least, appears = !old[l].n && (double) new[l].n >= least;
-      bool          unsure = (double) new[l].unsure >= least && new[l].unsure > new[l].n / 4;
+      bool          unsure = (double) new[l].unsure >= least && new[l].unsure > new[l].paper / 4;
+      bool          doubtful = state->sure && l != motion->background && state->sure[l] < CLI_REGION_SURE;
 
       sum  += new[l].certainty;
       area += (double) new[l].n;
-      if (!gone && !appears && !unsure && !(l == motion->background && (double) new[l].unsure >= least))
+      if (!gone && !appears && !unsure && !doubtful &&
+          !(l == motion->background && (double) new[l].unsure >= least))
         continue;
-      note.change = gone ? CLI_REGION_GONE : appears ? CLI_REGION_NEW : CLI_REGION_UNSURE;
-      if (gone)
-        nearest_of (before, l, old[l].x / (double) old[l].n, old[l].y / (double) old[l].n, &note);
+      note.change = !new[l].n ? CLI_REGION_GONE : appears ? CLI_REGION_NEW : CLI_REGION_UNSURE;
+      note.certainty = MIN (note.certainty, doubtful ? state->sure[l] : 1);
+      if (old[l].n && (!new[l].n || !new[l].unsure))
+        nearest_of (new[l].n ? labels : before, l, old[l].x / (double) old[l].n, old[l].y / (double) old[l].n, &note);
       else if (new[l].unsure)
         nearest_of (labels, l, new[l].x / (double) new[l].unsure, new[l].y / (double) new[l].unsure, &note);
       g_array_append_val (state->notes, note);
@@ -145,6 +153,14 @@ write_state (const CliMotion *motion, const CliFrameState *state)
       json_builder_end_array (json);
     }
   json_builder_end_array (json);
+  if (state->sure)
+    {
+      json_builder_set_member_name (json, "sure");
+      json_builder_begin_array (json);
+      for (size_t l = 1; l <= motion->palette.n; l++)
+        json_builder_add_double_value (json, state->sure[l]);
+      json_builder_end_array (json);
+    }
   json_builder_end_object (json);
   good = cli_write_json (path, json);
   g_free (path);
@@ -175,14 +191,33 @@ read_note (const CliMotion *motion, JsonNode *node, GArray *notes)
   g_array_append_val (notes, note);
 }
 
-/* Reads what was written for this fingerprint (NULL: for any). */
+/* Reads how sure each label is; false if that was not found, or is damaged. */
+static bool
+read_sure (const CliMotion *motion, JsonNode *node, CliFrameState *state)
+{
+  JsonArray *values = node && JSON_NODE_HOLDS_ARRAY (node) ? json_node_get_array (node) : NULL;
+
+  if (!values || json_array_get_length (values) != motion->palette.n)
+    return false;
+  state->sure = g_new0 (double, motion->palette.n + 1);
+  for (guint l = 1; l <= motion->palette.n; l++)
+    {
+      if (!JSON_NODE_HOLDS_VALUE (json_array_get_element (values, l - 1)))
+        return false;
+      state->sure[l] = json_array_get_double_element (values, l - 1);
+    }
+  return true;
+}
+
+/* Reads what was written for this fingerprint (NULL: for any).  For a review, what was written without is not enough. */
 static bool
 read_object (const CliMotion *motion, JsonObject *object, const char *fingerprint, CliFrameState *state)
 {
   const char *found = json_object_get_string_member_with_default (object, "fingerprint", NULL);
   JsonNode   *notes = json_object_get_member (object, "notes");
 
-  if (!found || (fingerprint && strcmp (found, fingerprint)))
+  if (!found || (fingerprint && strcmp (found, fingerprint)) ||
+      (motion->options->review && !read_sure (motion, json_object_get_member (object, "sure"), state)))
     return false;
   state->certainty = json_object_get_double_member_with_default (object, "certainty", 0);
   if (notes && JSON_NODE_HOLDS_ARRAY (notes))
@@ -269,7 +304,8 @@ propagate (const CliMotion *motion, const CeldHost *host, size_t frame, char *fi
                        cli_labels_new (motion->width, motion->height, &next.labels) &&
                        cli_plane_new (motion->width, motion->height, &certainty) &&
                        cli_check (cli_frame_carry (motion, host, &state->ink, &state->labels, &next.ink, &next.labels,
-                                                  &certainty));
+                                                  &certainty)) &&
+                       (!motion->options->review || cli_frame_doubt (motion, host, state, &next));
 
   if (good)
     cli_frame_take_notes (motion, &state->labels, &next.labels, &certainty, &next);
@@ -351,6 +387,9 @@ cli_frame_of_key (const CliMotion *motion, const CliKey *key, CliFrameState *sta
     return false;
   memcpy (state->ink.data, key->ink.data, n * sizeof *key->ink.data);
   memcpy (state->labels.data, key->labels.data, n * sizeof *key->labels.data);
+  state->sure = motion->options->review ? g_new0 (double, motion->palette.n + 1) : NULL;
+  for (size_t l = 1; l <= motion->palette.n && state->sure; l++)
+    state->sure[l] = 1;
   return true;
 }
 

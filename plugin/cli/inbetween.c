@@ -47,7 +47,8 @@ plan_motion (Between *b)
 static void
 say_unsure (const Between *b, const CeldPlane *certainty)
 {
-  CliFrameState state = { .certainty = 1, .notes = g_array_new (FALSE, FALSE, sizeof (CliRegionNote)) };
+  CliFrameState state = { .ink = b->ink[1], .certainty = 1,
+                          .notes = g_array_new (FALSE, FALSE, sizeof (CliRegionNote)) };
 
   cli_frame_take_notes (&b->motion, &b->labels[0], &b->labels[1], certainty, &state);
   for (guint i = 0; i < state.notes->len; i++)
@@ -61,6 +62,7 @@ say_unsure (const Between *b, const CeldPlane *certainty)
                note->change == CLI_REGION_GONE ? "was not found; it was at" : "is unsure round", note->x, note->y,
                b->options->target);
     }
+  state.ink = (CeldPlane) { 0 }; /* borrowed */
   cli_frame_clear (&state);
 }
 

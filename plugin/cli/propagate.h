@@ -3,6 +3,7 @@
  *   propagate.c   the command: keys, chains of frames, outputs
  *   clip-keys.c   what keys say: palette, relations, order
  *   clip-frame.c  one frame: labels, levels, depth, and its state
+ *   clip-doubt.c  regions of a frame that may be wrong
  *   review.c      frames that a person should look at
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -56,6 +57,7 @@ typedef struct
   CeldLabels    labels;
   double        certainty;     /* of this frame, or of an earlier one of the chain if that is less; 1 for a key */
   GArray       *notes;         /* CliRegionNote */
+  double       *sure;          /* of each label, the least since the key, for a review; may be NULL */
   char         *fingerprint;
 } CliFrameState;
 
@@ -67,7 +69,8 @@ bool  cli_frame_of_key (const CliMotion *motion, const CliKey *key, CliFrameStat
 /* Carries the labels of a frame to another one, whose ink is given; the caller provides both pictures. */
 CeldStatus cli_frame_carry (const CliMotion *motion, const CeldHost *host, const CeldPlane *ink, const CeldLabels *from,
                             const CeldPlane *next, CeldLabels *labels, CeldPlane *certainty);
-/* Notes what of the labels is unsure, vanishes or appears, beside those before, and lowers the certainty. */
+/* Notes what of the labels is unsure, vanishes or appears, beside those before, and lowers the certainty.  The state
+ * has the frame's ink. */
 void  cli_frame_take_notes (const CliMotion *motion, const CeldLabels *before, const CeldLabels *labels,
                             const CeldPlane *certainty, CliFrameState *state);
 /* Reads a frame, and makes its ink; false with a message. */
@@ -80,6 +83,13 @@ bool  cli_frame_next (const CliMotion *motion, const CeldHost *host, size_t fram
 bool  cli_frame_read_state (const CliMotion *motion, size_t frame, const char *fingerprint, CliFrameState *state);
 /* Writes the results of a frame, its state last. */
 bool  cli_frame_write (const CliMotion *motion, const CeldHost *host, const CliFrameState *state);
+
+/* ------------------------------------------------------------------ clip-doubt.c */
+
+#define CLI_REGION_SURE 0.7 /* a region below this certainty is to be looked at; chosen on clips with ground truth */
+
+/* Finds how sure each region of a frame is that was carried from the one before. */
+bool cli_frame_doubt (const CliMotion *motion, const CeldHost *host, const CliFrameState *before, CliFrameState *next);
 
 /* ------------------------------------------------------------------ review.c */
 

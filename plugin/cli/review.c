@@ -7,7 +7,8 @@
 
 #include <string.h>
 
-#define SURE      0.9 /* a frame below this certainty is to be looked at; chosen on clips with ground truth */
+#define SURE      0.9 /* a frame below this certainty is to be looked at, whatever its regions; chosen on clips with
+                       * ground truth */
 #define THUMBNAIL 320 /* pixels of the longer side of a frame in the picture; chosen */
 #define ACROSS    4   /* frames in a row; chosen */
 
@@ -46,6 +47,9 @@ add_note (JsonBuilder *json, const CliMotion *motion, const CliRegionNote *note)
 static bool
 wants_review (const CliFrameState *state)
 {
+  for (guint i = 0; i < state->notes->len; i++)
+    if (g_array_index (state->notes, CliRegionNote, i).certainty < CLI_REGION_SURE)
+      return true;
   return state->certainty < SURE;
 }
 
@@ -214,7 +218,7 @@ cli_review_write (const char *path, const CliMotion *motion)
   if (good && n && !motion->options->quiet)
     say (motion, state, n, sheet);
   for (size_t i = 0; i < motion->frames.n; i++)
-    g_array_free (state[i].notes, TRUE);
+    cli_frame_clear (&state[i]);
   g_free (state);
   g_free (sheet);
   return good;

@@ -151,6 +151,36 @@ class Propagate(Test):
         self.assertIn('Look at', said)
         self.assertGreater(self.picture('review.png').shape[1], 100)
 
+    def named(self, report):
+        """The colours of regions that the review names in each frame, and whether it lists the frame."""
+        with open(self.path(report), encoding='utf-8') as file:
+            frames = json.load(file)['frames']
+        return [({note['colour'] for note in frame['regions']}, frame['review']) for frame in frames]
+
+    def test_a_lost_region_is_named_from_there_on(self):
+        """The ball, 3 % of the page, is not drawn in two frames; nothing says that what comes back is the same."""
+        for frame in (2, 3):
+            true = regions(frame)
+            true[true == BALL] = PAGE
+            Image.fromarray((255 * paper(true)).astype(np.uint8)).save(self.path(f'walk_{frame:03d}.png'))
+        self.celdepth(*self.words('--report', 'review.json'))
+        named = self.named('review.json')
+        self.assertEqual([(colours - {NAMES[PAGE]}, listed) for colours, listed in named],
+                         [(set(), False)] * 2 + [({NAMES[BALL]}, True)] * (FRAMES - 2))
+
+    def test_a_review_of_finished_frames(self):
+        """It is that of a run from the beginning, and frames are not made anew for a run without."""
+        self.celdepth(*self.words('--report', 'one.json', folder='one'))
+        self.celdepth(*self.words(folder='two'))
+        self.celdepth(*self.words('--report', 'two.json', folder='two'))
+        self.assertEqual(self.named('one.json'), self.named('two.json'))
+        one, two = self.contents('one'), self.contents('two')
+        self.assertEqual({k: v for k, v in one.items() if k != 'clip.json'},
+                         {k: v for k, v in two.items() if k != 'clip.json'})
+        before = self.changed('two')
+        self.celdepth(*self.words(folder='two'))
+        self.assertEqual(self.changed('two')[1:], before[1:])
+
     def test_jobs_make_the_same(self):
         self.scribble('middle.png', {PAGE: (5, 5, 195, 12), BALL: (140, 141, 145, 147), BODY: (92, 126, 100, 136),
                                      ARM: (128, 90, 133, 94)})
