@@ -45,8 +45,11 @@ fill_pairs (Choice *c)
 
           celd_pose_move (&c->parts->item[contact->a], &a->pose[i], contact->x, contact->y, here);
           for (size_t j = 0; j < b->n; j++)
-            c->pair[e][i][j] = TOGETHER * contact->weight *
-                               fminf (1, hypotf (place[j][0] - here[0], place[j][1] - here[1]) / apart);
+            {
+              float x = place[j][0] - here[0], y = place[j][1] - here[1];
+
+              c->pair[e][i][j] = TOGETHER * contact->weight * fminf (1, sqrtf (x * x + y * y) / apart);
+            }
         }
     }
 }

@@ -2,7 +2,8 @@
  *
  *   target-shapes.c    the closed shapes of the next frame
  *   rigid-parts.c      the parts of a frame, and where they touch
- *   rigid-poses.c      how well poses of a part fit the next frame, and the best of them
+ *   pose-misfit.c      how well poses of a part fit the next frame
+ *   rigid-poses.c      the best poses of each part
  *   rigid-choice.c     one pose for each part, such that parts stay together
  *   shape-labels.c     labels of the closed shapes that parts come to lie on
  *   propagate.c        the step
@@ -75,19 +76,39 @@ CeldStatus celd_rigid_parts_new   (const CeldPlane *ink, const CeldLabels *label
                                    uint32_t background, const CeldHost *host, CeldRigidParts *parts);
 void       celd_rigid_parts_clear (CeldRigidParts *parts);        /* accepts a zeroed record */
 
+/* ------------------------------------------------------------------ pose-misfit.c */
+
+/* Where a pose takes a place of the drawing. */
+void  celd_pose_move (const CeldRigidPart *part, const CeldPose *pose, float x, float y, float place[2]);
+
+/* The samples of a part, turned about its centre: relative to that. */
+typedef struct
+{
+  const CeldRigidPart *part;
+  CeldOffset           inside[CELD_INSIDE_SAMPLES], outline[CELD_OUTLINE_SAMPLES];
+} CeldTurnedPart;
+
+void  celd_part_turn (const CeldRigidPart *part, float angle, CeldTurnedPart *turned);
+
+/* The mean distance of a part's outline to ink, with the part's centre at (x,y): truncated, and divided by the largest
+ * distance that counts, so 0 .. 1. */
+float celd_outline_misfit (const CeldTurnedPart *turned, const CeldTargetShapes *target, float x, float y);
+
+/* 1 - intersection over union of the part and the shapes that it covers by more than half: 0 .. 1.  `count` is work
+ * space for target->n + 1 numbers, all 0, and is left so. */
+float celd_cover_misfit (const CeldTurnedPart *turned, const CeldTargetShapes *target, float x, float y,
+                         uint32_t *count);
+
+/* How badly a part fits the target in a pose: the mean of both misfits. */
+float celd_pose_misfit (const CeldRigidPart *part, const CeldTargetShapes *target, const CeldPose *pose,
+                        uint32_t *count);
+
 /* ------------------------------------------------------------------ rigid-poses.c */
 
 #define CELD_MOST_POSES 96
 
 /* Poses that may be right for a part, and what each costs: 0 for a perfect fit of the expected pose. */
 typedef struct { CeldPose pose[CELD_MOST_POSES]; float cost[CELD_MOST_POSES]; size_t n; } CeldPoseList;
-
-/* Where a pose takes a place of the drawing. */
-void  celd_pose_move (const CeldRigidPart *part, const CeldPose *pose, float x, float y, float place[2]);
-
-/* How badly a part fits the target in a pose: 0 .. 1.  `count` is work space for target->n + 1 numbers, all 0, and is
- * left so. */
-float celd_pose_misfit (const CeldRigidPart *part, const CeldTargetShapes *target, const CeldPose *pose, float *count);
 
 /* Fills the list of each part with poses around the one that is expected for it, which is the first in the list. */
 CeldStatus celd_poses_find (const CeldRigidParts *parts, const CeldTargetShapes *target, const CeldPose *expected,

@@ -1,28 +1,27 @@
-/* Poses of rigid parts: what a pose costs, a search over a grid of turns and shifts, and refinement.
+/* Poses of rigid parts: a search over a grid of turns and shifts, and refinement.
  *
- * A part fits where its outline lies on ink (half a truncated chamfer distance, [BTBW77]) and where it covers the same
- * pixels as some closed shapes of the target, those that it covers by more than half (half of 1 - intersection over
- * union).  Neither asks what the part looks like inside, since ink there may change.
+ * Most poses are out of the question by their outline alone, which is a lower bound of what they cost: what they cover is
+ * counted only for those whose bound is among the best.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "motion/rigid-parts.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* Lengths are in pixels of a drawing of CELD_MOTION_SIDE.  All chosen. */
 #define GRID_REACH      109.f /* of shifts, from the expected one */
 #define GRID_MOST_STEP  12.f  /* between shifts; smaller for small parts */
 #define GRID_LEAST_STEP 3.f
-#define GRID_TURN       (40 * (float) CELD_RADIANS) /* to either side */
+#define GRID_TURNS      4     /* to either side */
 #define GRID_TURN_STEP  (10 * (float) CELD_RADIANS)
-#define OUTLINE_OFF_INK 8.f   /* an outline farther from ink is not worse */
-#define UNEXPECTED      0.15f /* cost of a shift by GRID_REACH, and of a turn by twice GRID_TURN */
+#define UNEXPECTED      0.15f /* cost of a shift by GRID_REACH, and of the largest turn twice */
 #define BEST            24    /* poses of the grid that are kept */
 #define JOIN_TURN       (15 * (float) CELD_RADIANS)
 #define JOIN_STEP       4.f   /* of the refinement of poses that keep two parts together */
 #define DESCENTS        40    /* steps of a refinement at most */
+
+#define RATED 0x80000000u
 
 /* A search for poses of all parts. */
 typedef struct
@@ -37,7 +36,8 @@ typedef struct
   int                     first;    /* of the round */
 } PoseSearch;
 
-typedef struct { float cost; CeldPose pose; } Candidate;
+/* A pose of the grid.  Until it is rated, the cost is a lower bound.  order: its place in the grid, and RATED. */
+typedef struct { float cost; uint32_t order; } Candidate;
 
 /* A part with what its poses are compared with. */
 typedef struct
@@ -46,8 +46,20 @@ typedef struct
   const CeldTargetShapes *target;
   const CeldPose         *expected;
   float                   scale;
-  float                  *count;    /* see celd_pose_misfit */
+  uint32_t               *count;    /* see celd_cover_misfit */
 } Fit;
+
+/* The poses around the expected one: for each turn, rows of shifts. */
+typedef struct
+{
+  const Fit      *fit;
+  float           step;
+  int             shifts, side; /* to either side, and in a row */
+  CeldTurnedPart *turned;       /* for each turn */
+  Candidate      *heap;         /* a binary heap */
+  uint8_t        *taken;        /* of each pose: it is, or it is near to one that is */
+  size_t          n;
+} PoseGrid;
 
 static float
 scale_of (const CeldTargetShapes *target)
@@ -57,89 +69,41 @@ scale_of (const CeldTargetShapes *target)
 
 /* ------------------------------------------------------------------ the cost of a pose */
 
-void
-celd_pose_move (const CeldRigidPart *part, const CeldPose *pose, float x, float y, float place[2])
-{
-  float c = cosf (pose->angle), s = sinf (pose->angle), dx = x - part->x, dy = y - part->y;
-
-  place[0] = c * dx - s * dy + part->x + pose->x;
-  place[1] = s * dx + c * dy + part->y + pose->y;
-}
-
-/* The pixel that a pose takes an offset to; SIZE_MAX outside the picture. */
-static inline size_t
-pixel_of (const CeldTargetShapes *target, CeldOffset at, float c, float s, float x, float y)
-{
-  float px = c * at.x - s * at.y + x, py = s * at.x + c * at.y + y;
-
-  if (!(px >= 0 && py >= 0 && px < (float) target->width && py < (float) target->height))
-    return SIZE_MAX;
-  return (size_t) (int) py * (size_t) target->width + (size_t) (int) px;
-}
-
-/* The mean distance of the outline to ink, truncated, as a fraction of the largest one. */
+/* What a pose costs by its outline, and by how far it is from the expected one. */
 static float
-outline_misfit (const CeldRigidPart *part, const CeldTargetShapes *target, float c, float s, float x, float y)
+bound_of (const Fit *fit, const CeldTurnedPart *turned, const CeldPose *pose)
 {
-  float most = OUTLINE_OFF_INK * scale_of (target), sum = 0;
+  float x = pose->x - fit->expected->x, y = pose->y - fit->expected->y;
+  float away = sqrtf (x * x + y * y) / (GRID_REACH * fit->scale);
+  float turn = fabsf (pose->angle - fit->expected->angle) / (GRID_TURNS * GRID_TURN_STEP);
 
-  for (size_t i = 0; i < part->n_outline; i++)
-    {
-      size_t at = pixel_of (target, part->outline[i], c, s, x, y);
-      float  distance = at == SIZE_MAX ? most : target->distance[at];
-
-      sum += distance < most ? distance : most;
-    }
-  return part->n_outline ? sum / (most * (float) part->n_outline) : 1;
+  return 0.5f * celd_outline_misfit (turned, fit->target, fit->part->x + pose->x, fit->part->y + pose->y) +
+         UNEXPECTED * (away + 0.5f * turn);
 }
 
-/* 1 - intersection over union of the part and the shapes that it covers by more than half. */
+/* What a pose costs beyond that. */
 static float
-cover_misfit (const CeldRigidPart *part, const CeldTargetShapes *target, float c, float s, float x, float y,
-              float *count)
+rest_of (const Fit *fit, const CeldTurnedPart *turned, const CeldPose *pose)
 {
-  float    unit = (float) part->area / (float) (part->n_inside ? part->n_inside : 1), common = 0;
-  float    all = (float) part->area;
-  uint32_t shape[CELD_INSIDE_SAMPLES];
-  size_t   n = 0;
-
-  for (size_t i = 0; i < part->n_inside; i++)
-    {
-      size_t   at = pixel_of (target, part->inside[i], c, s, x, y);
-      uint32_t k = at == SIZE_MAX ? 0 : target->shape[at];
-
-      if (k && count[k] <= 0)
-        shape[n++] = k;
-      count[k] += (float) (k > 0);
-    }
-  for (size_t i = 0; i < n; i++)
-    {
-      float size = (float) target->size[shape[i]], covered = fminf (size, unit * count[shape[i]]);
-
-      count[shape[i]] = 0;
-      if (covered <= size / 2)
-        continue;
-      common += covered;
-      all    += size - covered;
-    }
-  return 1 - common / all;
+  return 0.5f * celd_cover_misfit (turned, fit->target, fit->part->x + pose->x, fit->part->y + pose->y, fit->count);
 }
 
-float
-celd_pose_misfit (const CeldRigidPart *part, const CeldTargetShapes *target, const CeldPose *pose, float *count)
+/* What a pose costs, or a lower bound of that which is `most` at least. */
+static float
+cost_below (const Fit *fit, const CeldTurnedPart *turned, const CeldPose *pose, float most)
 {
-  float c = cosf (pose->angle), s = sinf (pose->angle), x = part->x + pose->x, y = part->y + pose->y;
+  float bound = bound_of (fit, turned, pose);
 
-  return 0.5f * outline_misfit (part, target, c, s, x, y) + 0.5f * cover_misfit (part, target, c, s, x, y, count);
+  return bound >= most ? bound : bound + rest_of (fit, turned, pose);
 }
 
 static float
-cost_of (const Fit *fit, CeldPose pose)
+cost_of (const Fit *fit, const CeldPose *pose)
 {
-  float away = hypotf (pose.x - fit->expected->x, pose.y - fit->expected->y) / (GRID_REACH * fit->scale);
-  float turn = fabsf (pose.angle - fit->expected->angle) / GRID_TURN;
+  CeldTurnedPart turned;
 
-  return celd_pose_misfit (fit->part, fit->target, &pose, fit->count) + UNEXPECTED * (away + 0.5f * turn);
+  celd_part_turn (fit->part, pose->angle, &turned);
+  return cost_below (fit, &turned, pose, INFINITY);
 }
 
 /* ------------------------------------------------------------------ refinement */
@@ -148,18 +112,22 @@ cost_of (const Fit *fit, CeldPose pose)
 static CeldPose
 refine (const Fit *fit, CeldPose pose, float step, float turn)
 {
-  float best = cost_of (fit, pose);
+  float best = cost_of (fit, &pose);
 
   for (int i = 0; i < DESCENTS && step >= 1; i++)
     {
-      CeldPose centre = pose;
+      CeldPose       centre = pose;
+      CeldTurnedPart turned;
 
       for (int k = 0; k < 27; k++)
         {
           CeldPose next = { centre.angle + (float) (k / 9 - 1) * turn, centre.x + (float) (k / 3 % 3 - 1) * step,
                             centre.y + (float) (k % 3 - 1) * step };
-          float    cost = k == 13 ? best : cost_of (fit, next);
+          float    cost;
 
+          if (k % 9 == 0)
+            celd_part_turn (fit->part, next.angle, &turned);
+          cost = k == 13 ? best : cost_below (fit, &turned, &next, best - 1e-6f);
           if (cost < best - 1e-6f)
             {
               best = cost;
@@ -181,54 +149,108 @@ add (const Fit *fit, CeldPose pose, CeldPoseList *list)
   if (list->n == CELD_MOST_POSES)
     return;
   list->pose[list->n] = pose;
-  list->cost[list->n] = cost_of (fit, pose);
+  list->cost[list->n] = cost_of (fit, &pose);
   list->n++;
 }
 
 /* ------------------------------------------------------------------ the grid */
 
-static int
-compare_costs (const void *a, const void *b)
-{
-  const Candidate *one = a, *other = b;
-
-  if (one->cost < other->cost || one->cost > other->cost)
-    return one->cost < other->cost ? -1 : 1;
-  if (one->pose.angle < other->pose.angle || one->pose.angle > other->pose.angle)
-    return one->pose.angle < other->pose.angle ? -1 : 1;
-  if (one->pose.y < other->pose.y || one->pose.y > other->pose.y)
-    return one->pose.y < other->pose.y ? -1 : 1;
-  return (one->pose.x > other->pose.x) - (one->pose.x < other->pose.x);
-}
-
+/* Whether a candidate comes before another one: of equal costs first those that may still grow. */
 static bool
-is_near (const CeldPose *a, const CeldPose *b, float step)
+is_before (Candidate a, Candidate b)
 {
-  return hypotf (a->x - b->x, a->y - b->y) <= 1.5f * step && fabsf (a->angle - b->angle) <= 1.5f * GRID_TURN_STEP;
+  return a.cost < b.cost || (a.cost <= b.cost && a.order < b.order);
 }
 
-/* Rates all poses of the grid, the best first. */
-static CeldStatus
-rate_grid (const Fit *fit, float step, Candidate **candidate, size_t *n)
+/* Moves candidate i of the heap down to where it belongs. */
+static void
+sink (Candidate *heap, size_t n, size_t i)
 {
-  int    shifts = (int) (GRID_REACH * fit->scale / step), turns = (int) (GRID_TURN / GRID_TURN_STEP + 0.5f);
-  size_t most = (size_t) (2 * shifts + 1) * (size_t) (2 * shifts + 1) * (size_t) (2 * turns + 1);
+  Candidate moved = heap[i];
 
-  *candidate = celd_alloc (most, sizeof **candidate);
-  if (!*candidate)
-    return CELD_NO_MEMORY;
-  for (int a = -turns; a <= turns; a++)
-    for (int v = -shifts; v <= shifts; v++)
-      for (int u = -shifts; u <= shifts; u++)
+  for (size_t child; (child = 2 * i + 1) < n; i = child)
+    {
+      child += child + 1 < n && is_before (heap[child + 1], heap[child]);
+      if (!is_before (heap[child], moved))
+        break;
+      heap[i] = heap[child];
+    }
+  heap[i] = moved;
+}
+
+static CeldPose
+pose_at (const PoseGrid *grid, int turn, int v, int u)
+{
+  const CeldPose *expected = grid->fit->expected;
+
+  return (CeldPose) { expected->angle + (float) (turn - GRID_TURNS) * GRID_TURN_STEP,
+                      expected->x + (float) (u - grid->shifts) * grid->step,
+                      expected->y + (float) (v - grid->shifts) * grid->step };
+}
+
+/* Finds the bounds of all poses. */
+static void
+bound_grid (PoseGrid *grid)
+{
+  int r = grid->shifts;
+
+  for (int turn = 0; turn <= 2 * GRID_TURNS; turn++)
+    {
+      celd_part_turn (grid->fit->part, pose_at (grid, turn, 0, 0).angle, &grid->turned[turn]);
+      for (int v = 0; v < grid->side; v++)
+        for (int u = 0; u < grid->side; u++)
+          if ((u - r) * (u - r) + (v - r) * (v - r) <= r * r)
+            {
+              CeldPose pose = pose_at (grid, turn, v, u);
+
+              grid->heap[grid->n++] = (Candidate) { bound_of (grid->fit, &grid->turned[turn], &pose),
+                                                    (uint32_t) ((turn * grid->side + v) * grid->side + u) };
+            }
+    }
+  for (size_t i = grid->n / 2; i--;)
+    sink (grid->heap, grid->n, i);
+}
+
+/* Takes a pose, so that those next to it are not. */
+static void
+take (PoseGrid *grid, int turn, int v, int u)
+{
+  for (int a = turn > 0 ? turn - 1 : 0; a <= turn + 1 && a <= 2 * GRID_TURNS; a++)
+    for (int y = v > 0 ? v - 1 : 0; y <= v + 1 && y < grid->side; y++)
+      for (int x = u > 0 ? u - 1 : 0; x <= u + 1 && x < grid->side; x++)
+        grid->taken[(a * grid->side + y) * grid->side + x] = 1;
+}
+
+/* Takes the best poses that are not next to better ones. */
+static size_t
+take_best (PoseGrid *grid, CeldPose best[BEST])
+{
+  Candidate *first = &grid->heap[0];
+  size_t     n = 0;
+
+  while (grid->n && n < BEST)
+    {
+      int      place = (int) (first->order & ~RATED), u = place % grid->side, v = place / grid->side % grid->side;
+      int      turn = place / grid->side / grid->side;
+      CeldPose pose = pose_at (grid, turn, v, u);
+
+      if (!grid->taken[place] && !(first->order & RATED))
         {
-          CeldPose pose = { fit->expected->angle + (float) a * GRID_TURN_STEP, fit->expected->x + (float) u * step,
-                            fit->expected->y + (float) v * step };
-
-          if (u * u + v * v <= shifts * shifts)
-            (*candidate)[(*n)++] = (Candidate) { cost_of (fit, pose), pose };
+          first->cost  += rest_of (grid->fit, &grid->turned[turn], &pose);
+          first->order |= RATED;
         }
-  qsort (*candidate, *n, sizeof **candidate, compare_costs);
-  return CELD_OK;
+      else
+        {
+          if (!grid->taken[place])
+            {
+              best[n++] = pose;
+              take (grid, turn, v, u);
+            }
+          *first = grid->heap[--grid->n];
+        }
+      sink (grid->heap, grid->n, 0);
+    }
+  return n;
 }
 
 static CeldStatus
@@ -236,26 +258,26 @@ search_grid (const Fit *fit, CeldPoseList *list)
 {
   float      wanted = sqrtf ((float) fit->part->area) / 5, least = GRID_LEAST_STEP * fit->scale;
   float      step = fminf (GRID_MOST_STEP * fit->scale, wanted > least ? wanted : least);
-  Candidate *candidate = NULL;
-  CeldPose   kept[BEST];
-  size_t     n = 0, n_kept = 0;
-  CeldStatus status = rate_grid (fit, step, &candidate, &n);
+  int        shifts = (int) (GRID_REACH * fit->scale / step), side = 2 * shifts + 1, turns = 2 * GRID_TURNS + 1;
+  size_t     most = (size_t) side * (size_t) side * (size_t) turns, n = 0;
+  PoseGrid   grid = { fit, step, shifts, side, celd_alloc ((size_t) turns, sizeof *grid.turned),
+                      celd_alloc (most, sizeof *grid.heap), celd_alloc0 (most, 1), 0 };
+  bool       good = grid.turned && grid.heap && grid.taken;
+  CeldPose   best[BEST];
 
   list->n = 0;
   add (fit, *fit->expected, list);
-  for (size_t i = 0; i < n && n_kept < BEST; i++)
+  if (good)
     {
-      bool near = false;
-
-      for (size_t k = 0; k < n_kept && !near; k++)
-        near = is_near (&candidate[i].pose, &kept[k], step);
-      if (near)
-        continue;
-      kept[n_kept++] = candidate[i].pose;
-      add (fit, refine (fit, candidate[i].pose, step / 2, GRID_TURN_STEP / 2), list);
+      bound_grid (&grid);
+      n = take_best (&grid, best);
     }
-  celd_free (candidate);
-  return status;
+  for (size_t k = 0; k < n; k++)
+    add (fit, refine (fit, best[k], step / 2, GRID_TURN_STEP / 2), list);
+  celd_free (grid.turned);
+  celd_free (grid.heap);
+  celd_free (grid.taken);
+  return good ? CELD_OK : CELD_NO_MEMORY;
 }
 
 /* ------------------------------------------------------------------ poses that keep parts together */

@@ -230,8 +230,7 @@ celd_shape_labels (const CeldRigidParts *parts, const CeldPose *pose, const Celd
   Labelling  l = { .parts = parts, .pose = pose, .target = target, .background = background, .label = label,
                    .count = celd_alloc0 (counts, sizeof *l.count) };
   float     *misfit = celd_alloc0 (parts->n, sizeof *misfit), *covered = celd_alloc0 (parts->n, sizeof *covered);
-  float     *counter = celd_alloc0 (target->n + 1, sizeof *counter);
-  CeldStatus status = l.count && misfit && covered && counter ? CELD_OK : CELD_NO_MEMORY;
+  CeldStatus status = l.count && misfit && covered ? CELD_OK : CELD_NO_MEMORY;
 
   for (size_t k = 0; k <= target->n; k++)
     {
@@ -243,7 +242,7 @@ celd_shape_labels (const CeldRigidParts *parts, const CeldPose *pose, const Celd
       size_t first = l.n;
 
       status    = find_covers (&l, k);
-      misfit[k] = celd_pose_misfit (&parts->item[k], target, &pose[k], counter);
+      misfit[k] = celd_pose_misfit (&parts->item[k], target, &pose[k], l.count);
       for (size_t i = first; i < l.n; i++)
         covered[k] += (float) l.cover[i].pixels;
     }
@@ -257,6 +256,5 @@ celd_shape_labels (const CeldRigidParts *parts, const CeldPose *pose, const Celd
   celd_free (l.cover);
   celd_free (misfit);
   celd_free (covered);
-  celd_free (counter);
   return status;
 }
