@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#define OUTLINE_OFF_INK 8.f /* pixels of a drawing of CELD_MOTION_SIDE: an outline farther from ink is not worse; chosen */
+#define OUTLINE_OFF_INK 8.f /* pixels of a drawing of CELD_MOTION_SIDE: an outline farther off is not worse; chosen */
 
 void
 celd_pose_move (const CeldRigidPart *part, const CeldPose *pose, float x, float y, float place[2])

@@ -79,9 +79,10 @@ nearest_of (const CeldLabels *labels, uint32_t label, double to_x, double to_y, 
   for (int y = 0; y < labels->height; y++)
     for (int x = 0; x < labels->width; x++)
       {
-        double distance = hypot (x - to_x, y - to_y);
+        double distance;
 
-        if (labels->data[(size_t) y * labels->stride + (size_t) x] != label || distance >= nearest)
+        if (labels->data[(size_t) y * labels->stride + (size_t) x] != label ||
+            (distance = hypot (x - to_x, y - to_y)) >= nearest)
           continue;
         nearest = distance;
         note->x = x;
