@@ -191,7 +191,8 @@ typedef struct
 } CeldIoFrames;
 
 /* The kind of file, by the ending of its name:
- *   .gif    an animation that repeats, on white paper; 256 colours, of which each that fills a thousandth of a frame is exact
+ *   .gif    an animation that repeats, on white paper; 256 colours, of which each that fills a thousandth of a frame
+ * is exact
  *   .mpo    views from left to right (CIPA DC-007), as JPEG on white paper
  *   none    a folder, empty or new, with 000.png, 001.png, ...; 8 bits, sRGB, with alpha */
 typedef enum { CELD_IO_NO_FRAMES, CELD_IO_GIF, CELD_IO_MPO, CELD_IO_PNG_FRAMES } CeldIoFramesKind;

@@ -1,4 +1,5 @@
-/* Failing allocations and cancelling in the steps that use depth: layers, shading, views, enhancement, reliefs, registration.
+/* Failing allocations and cancelling in the steps that use depth: layers, shading, views, enhancement, reliefs,
+ * registration.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -439,7 +440,8 @@ deform_levels_step (const CeldHost *host, Results *r)
   return status;
 }
 
-/* Two keys: the levels of the drawing, and of it shifted by three pixels, where a part is missing; and what is between. */
+/* Two keys: the levels of the drawing, and of it shifted by three pixels, where a part is missing; and what is
+ * between. */
 static CeldStatus
 inbetween_step (const CeldHost *host, Results *r)
 {

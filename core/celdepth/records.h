@@ -217,8 +217,8 @@ CELD_API void             celd_layers_paint (const CeldLayers *layers, size_t la
 CELD_API void             celd_layers_free  (CeldLayers *layers);            /* accepts NULL */
 
 /* Where a layer is most plausibly attached to another, as a start for rigging: of all layers that touch it, usually the
- * one along which it has the longest contact.  Layers that touch, directly or through others, form a tree, whose root is
- * the one with the most visible pixels. */
+ * one along which it has the longest contact.  Layers that touch, directly or through others, form a tree, whose root
+ * is the one with the most visible pixels. */
 typedef struct
 {
   size_t parent;                /* index of a layer; CELD_NO_INDEX: the root of a tree, or the page */
@@ -233,7 +233,8 @@ typedef struct { CeldCrack *item; size_t n; } CeldCracks;
 CELD_API void celd_cracks_clear (CeldCracks *cracks);         /* accepts a zeroed one */
 
 /* The parts of a drawing, for its registration.  Labels are 1 .. n, level[k - 1] is the level of label k.  Parts of
- * different levels move apart, or with n_cracks > 0 only the parts that these name; and nearer ones hide farther ones. */
+ * different levels move apart, or with n_cracks > 0 only the parts that these name; and nearer ones hide farther
+ * ones. */
 typedef struct
 {
   const CeldLabels *labels;     /* of each pixel, ink included: the owner of CeldOwnership; 0: does not move */

@@ -19,8 +19,9 @@ extern "C" {
 CELD_API void celd_luma (const float *rgba, size_t n, float *luma, float *alpha);
 
 /* Replaces a coloured drawing by its lines, black on white: what is darker, or lighter, than the fills on both sides of
- * it.  For hosts, before a drawing is used: `art` has the colours of `drawing`, in its size.  With CELD_INK_LINES always,
- * with CELD_INK_AUTO if there are fills in several hues; otherwise, and after a failure, the drawing stays as it is. */
+ * it.  For hosts, before a drawing is used: `art` has the colours of `drawing`, in its size.  With CELD_INK_LINES
+ * always, with CELD_INK_AUTO if there are fills in several hues; otherwise, and after a failure, the drawing stays as
+ * it is. */
 CELD_API CeldStatus celd_coloured_lines (const CeldPaint *art, CeldInkMode mode, const CeldHost *host,
                                          CeldDrawing *drawing);
 
@@ -46,8 +47,8 @@ CELD_API CeldStatus celd_scribbles_read (const CeldPaint *scribbles, const CeldS
  * and *error (may be NULL) says where.  Locale-independent. */
 CELD_API CeldStatus celd_relations_parse (const char *text, CeldRelations *relations, CeldTextError *error);
 
-/* As celd_relations_parse, for relations across n drawings: a term is "NAME:" and then a term of that drawing, or "*" for
- * all of it but the page.  Names are letters, digits, "-", "_" and ".". */
+/* As celd_relations_parse, for relations across n drawings: a term is "NAME:" and then a term of that drawing, or "*"
+ * for all of it but the page.  Names are letters, digits, "-", "_" and ".". */
 CELD_API CeldStatus celd_fragment_relations_parse (const char *text, const char *const *name, size_t n,
                                                    CeldRelations *relations, CeldTextError *error);
 
@@ -170,12 +171,12 @@ CELD_API CeldStatus celd_matte_of_levels (const CeldPlane *ink, const CeldPlane 
 CELD_API CeldStatus celd_expand (const CeldPlane *ink, const CeldLabels *levels, const CeldHost *host,
                                  CeldLabels *expanded);
 
-/* Sheets: the whole silhouette of each label that has pixels, what others hide of it included.  Labels are 1 .. n of the
- * order; with the order's links, regions that no relation compares may hide each other, without links only higher
- * levels hide lower ones.  The label `background` (0: none) covers the whole picture.  Nothing goes on where it would be
- * visible.  `hints` (may be NULL) are strokes, each of which adds what it covers to the sheet of its label, where nearer
- * sheets hide that, or with CELD_HIDDEN_ERASE takes it away from all; 0 where there is none.  `ink` is the ink for depth.
- * CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
+/* Sheets: the whole silhouette of each label that has pixels, what others hide of it included.  Labels are 1 .. n of
+ * the order; with the order's links, regions that no relation compares may hide each other, without links only higher
+ * levels hide lower ones.  The label `background` (0: none) covers the whole picture.  Nothing goes on where it would
+ * be visible.  `hints` (may be NULL) are strokes, each of which adds what it covers to the sheet of its label, where
+ * nearer sheets hide that, or with CELD_HIDDEN_ERASE takes it away from all; 0 where there is none.  `ink` is the ink
+ * for depth.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for labels beyond n. */
 CELD_API CeldStatus celd_sheets (const CeldPlane *ink, const CeldOwnership *ownership, const CeldLabels *hints,
                                  const CeldOrder *order, uint32_t background, const CeldSettings *settings,
                                  const CeldHost *host, CeldSheets **sheets);
@@ -193,13 +194,13 @@ CELD_API CeldStatus celd_layers_cut (const CeldPlane *ink, const CeldOwnership *
                                      size_t n, const CeldColours *art, const CeldSheets *sheets, CeldStore store,
                                      const CeldHost *host, CeldLayers **layers);
 
-/* Finds the joint of each layer: joint[k], k from 0 to celd_layers_count - 1.  The layer of label `page` (0: none) has no
- * part in it. */
+/* Finds the joint of each layer: joint[k], k from 0 to celd_layers_count - 1.  The layer of label `page` (0: none) has
+ * no part in it. */
 CELD_API CeldStatus celd_layers_joints (const CeldLayers *layers, uint32_t page, CeldJoint *joint);
 
 /* Cuts layers from levels before expansion, with the labels of celd_expand_levels.  The label of a layer is its number,
- * 1 for the farthest.  The farthest label is the background if it covers most of the frame.  Of the settings, expansion,
- * complete and margin count. */
+ * 1 for the farthest.  The farthest label is the background if it covers most of the frame.  Of the settings,
+ * expansion, complete and margin count. */
 CELD_API CeldStatus celd_layers_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                            const CeldLabels *corrections, const CeldColours *art, CeldStore store,
                                            const CeldSettings *settings, const CeldHost *host, CeldLayers **layers);
@@ -247,11 +248,11 @@ CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *
                                          CeldVectors *normals);
 
 /* Lights normals as the settings say, in linear light: `tone` is a factor for art, 0 .. 2 and 1 where the surface faces
- * the viewer, and `gloss`, of highlights and rims, blends the product towards white, 0 .. 1.  Ink (`ink` may be NULL) has
- * no gloss.  With the expanded `levels` (may be NULL) an antialiased pixel takes the light of the region whose paper it
- * shows, and the background none unless settings->light_background: it is the farthest of several levels, if that has
- * half of the frame or more.  `matcap`, used by CELD_MODEL_MATCAP alone, is a picture of any size that a lit ball
- * fills; CELD_BAD_VALUE if it is missing. */
+ * the viewer, and `gloss`, of highlights and rims, blends the product towards white, 0 .. 1.  Ink (`ink` may be NULL)
+ * has no gloss.  With the expanded `levels` (may be NULL) an antialiased pixel takes the light of the region whose
+ * paper it shows, and the background none unless settings->light_background: it is the farthest of several levels, if
+ * that has half of the frame or more.  `matcap`, used by CELD_MODEL_MATCAP alone, is a picture of any size that a lit
+ * ball fills; CELD_BAD_VALUE if it is missing. */
 CELD_API CeldStatus celd_light (const CeldVectors *normals, const CeldPlane *ink, const CeldPlane *levels,
                                 const CeldColours *matcap, const CeldSettings *settings, const CeldHost *host,
                                 CeldColours *tone, CeldPlane *gloss);
@@ -289,12 +290,12 @@ CELD_API CeldStatus celd_enhance_view    (const CeldPlane *levels, const CeldPla
 typedef struct CeldScene CeldScene;
 
 /* A scene of layers; each moves by its own depth, which goes on smoothly where the layer is occluded.  Completed layers
- * leave no holes, since their margins are seen where they move apart.  `ownership` is the one that the layers were cut by.  The scene reads the layers and the depth, which must
- * outlive it.  Views have the colour space of the layers. */
+ * leave no holes, since their margins are seen where they move apart.  `ownership` is the one that the layers were cut
+ * by.  The scene reads the layers and the depth, which must outlive it.  Views have the colour space of the layers. */
 CELD_API CeldStatus celd_scene_of_layers (const CeldLayers *layers, const CeldOwnership *ownership,
                                           const CeldPlane *depth, const CeldHost *host, CeldScene **scene);
-/* A scene of levels, expanded or not, each of which becomes a completed layer of `art`.  The scene reads the depth, which
- * must outlive it. */
+/* A scene of levels, expanded or not, each of which becomes a completed layer of `art`.  The scene reads the depth,
+ * which must outlive it. */
 CELD_API CeldStatus celd_scene_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,
                                           const CeldColours *art, const CeldSettings *settings,
                                           const CeldHost *host, CeldScene **scene);
@@ -372,39 +373,39 @@ CELD_API void       celd_model_clear (CeldModel *model);      /* accepts a zeroe
 CELD_API CeldStatus celd_lattice_new (const CeldPlane *ink, const CeldMovingParts *parts, const CeldSettings *settings,
                                       const CeldHost *host, CeldLattice **lattice);
 
-/* The lattice of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL.  The farthest label
- * does not move if it has most of the frame. */
+/* The lattice of levels, expanded or not, with the labels of celd_expand_levels; `regions` may be NULL.  The farthest
+ * label does not move if it has most of the frame. */
 CELD_API CeldStatus celd_lattice_of_levels (const CeldPlane *ink, const CeldPlane *levels, const CeldLabels *regions,
                                             const CeldSettings *settings, const CeldHost *host,
                                             CeldLattice **lattice);
 
-/* Finds the labels of all relations marked `crack`, the only ones between which a lattice then tears.  Points on ink, if
- * that is not NULL, mean what they mean to celd_order.  Replaces `cracks`. */
+/* Finds the labels of all relations marked `crack`, the only ones between which a lattice then tears.  Points on ink,
+ * if that is not NULL, mean what they mean to celd_order.  Replaces `cracks`. */
 CELD_API CeldStatus celd_cracks_find (const CeldLabels *labels, const CeldPalette *palette,
                                       const CeldRelations *relations, const CeldPlane *ink, CeldCracks *cracks);
 
 /* Registers the drawing of a lattice to another one of its size: moves the vertices so that its lines lie on lines of
- * the target, each part as rigidly as possible.  It starts from where the lattice lies, so that one registered to a frame
- * goes on to the next; first all of it is aligned, then each part that is torn off the others.  `confidence` (may be NULL) says how well the lines around each
- * pixel of the source fit, 0 .. 1; 0 outside, and where nearer parts hide it.
- * CELD_NOTHING_TO_GO_BY if one of the drawings is blank; after a failure the lattice is as before. */
+ * the target, each part as rigidly as possible.  It starts from where the lattice lies, so that one registered to a
+ * frame goes on to the next; first all of it is aligned, then each part that is torn off the others.  `confidence`
+ * (may be NULL) says how well the lines around each pixel of the source fit, 0 .. 1; 0 outside, and where nearer parts
+ * hide it.  CELD_NOTHING_TO_GO_BY if one of the drawings is blank; after a failure the lattice is as before. */
 CELD_API CeldStatus celd_register (const CeldPlane *source, const CeldPlane *target, const CeldSettings *settings,
                                    const CeldHost *host, CeldLattice *lattice, CeldPlane *confidence);
 
 /* How far each pixel of the drawing is from its place; 0 outside the silhouette. */
 CELD_API CeldStatus celd_lattice_displacement (const CeldLattice *lattice, CeldShifts *shifts);
 
-/* Draws art of the lattice's size, such as the drawing, where the lattice has carried it, nearer parts over farther ones;
- * all else becomes transparent. */
+/* Draws art of the lattice's size, such as the drawing, where the lattice has carried it, nearer parts over farther
+ * ones; all else becomes transparent. */
 CELD_API CeldStatus celd_lattice_warp (const CeldLattice *lattice, const CeldColours *art, CeldColours *warped);
 
 /* Puts n drawings into a picture of width x height pixels (section 5, Figure 1c, [SBv05]).  Each keeps its own order;
  * relations between them (`relations` may be NULL) put a region of one between two of another.  Where drawings overlap
  * and no relation says otherwise, directly or by others, the later one is in front.  Pages are left out but that of the
- * first drawing, and strokes that hang on parts.  Relations that contradict heavier or earlier ones, or the order of a drawing, are left out and
- * reported as cycles; problems (may be NULL) are appended.  The composition reads the layers, which must outlive it and
- * have colours of one space.
- * CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for a placement that is not finite, far outside or out of range. */
+ * first drawing, and strokes that hang on parts.  Relations that contradict heavier or earlier ones, or the order of a
+ * drawing, are left out and reported as cycles; problems (may be NULL) are appended.  The composition reads the
+ * layers, which must outlive it and have colours of one space.  CELD_NOTHING_TO_GO_BY if n is 0, CELD_BAD_VALUE for a
+ * placement that is not finite, far outside or out of range. */
 CELD_API CeldStatus celd_compose (const CeldFragment *fragment, size_t n, const CeldRelations *relations, int width,
                                   int height, const CeldHost *host, CeldProblems *problems,
                                   CeldComposition **composition);
@@ -414,8 +415,8 @@ CELD_API CeldStatus celd_composition_flatten (const CeldComposition *composition
 /* The level of what covers most of each pixel, from 0; 0 also where nothing does. */
 CELD_API CeldStatus celd_composition_levels (const CeldComposition *composition, const CeldHost *host,
                                              CeldPlane *levels);
-/* Writes the box of a layer as r, g, b, a with straight alpha.  The layers, composited from 0 on, are the picture again;
- * where others hide it completely, a layer has the hidden part that it has in its drawing. */
+/* Writes the box of a layer as r, g, b, a with straight alpha.  The layers, composited from 0 on, are the picture
+ * again; where others hide it completely, a layer has the hidden part that it has in its drawing. */
 CELD_API CeldStatus celd_composition_paint (const CeldComposition *composition, size_t layer, const CeldHost *host,
                                             float *rgba);
 /* Puts the second picture over the first one, behind those of its parts whose level is above `between`.  If the second
@@ -428,10 +429,10 @@ CELD_API void       celd_composition_map (const CeldComposition *composition, si
                                           double place[2]);
 
 /* Carries the labels of a frame of an animation to another frame of the same size, in which parts have moved; section
- * 3.4 of the paper.  `source` has the labels of all pixels of the frame whose ink is `ink`; `background` (0: none) is the
- * label that does not move where it touches the edge of the picture.  `labels` gets seeds for celd_segment of the frame
- * whose ink is `next`; 0 on ink and close to it.  `certainty` gets how far
- * moved parts and labels agree in each closed shape there, [0,1]; 0 on ink. */
+ * 3.4 of the paper.  `source` has the labels of all pixels of the frame whose ink is `ink`; `background` (0: none) is
+ * the label that does not move where it touches the edge of the picture.  `labels` gets seeds for celd_segment of the
+ * frame whose ink is `next`; 0 on ink and close to it.  `certainty` gets how far moved parts and labels agree in each
+ * closed shape there, [0,1]; 0 on ink. */
 CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *source, const uint32_t *level,
                                     uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
                                     CeldPlane *certainty);
@@ -460,9 +461,9 @@ CELD_API CeldStatus celd_puppet_of_levels (const CeldPlane *ink, const CeldPlane
 
 /* Poses a puppet [WXXC08]: takes the handles to where they are to be, and all else along as rigidly as possible, always
  * from the rest pose, so that the result does not depend on earlier poses.  A handle holds the nearest part at its
- * place; one outside all parts holds the nearest pixel of any.  Parts that touch move apart if both are held, and a part
- * without a handle goes with the one that it has the longest contact with.  `report` may be NULL.
- * CELD_BAD_VALUE for numbers that are not finite or beyond 1e6; the pose is then as before. */
+ * place; one outside all parts holds the nearest pixel of any.  Parts that touch move apart if both are held, and a
+ * part without a handle goes with the one that it has the longest contact with.  `report` may be NULL.  CELD_BAD_VALUE
+ * for numbers that are not finite or beyond 1e6; the pose is then as before. */
 CELD_API CeldStatus celd_puppet_pose (CeldPuppet *puppet, const CeldHandle *handle, size_t n, const CeldHost *host,
                                       CeldPoseReport *report);
 /* Says what is wrong with a pose and what to do, one English sentence on each line, cut to `size` bytes; "" if nothing
@@ -482,10 +483,11 @@ CELD_API void   celd_puppet_layer (const CeldPuppet *puppet, size_t layer, CeldP
 CELD_API CeldStatus celd_puppet_draw_layer (CeldPuppet *puppet, size_t layer, const CeldHost *host,
                                             CeldColours *picture);
 
-/* Finds how the parts of one key drawing move to those of another one of its size [SDC09a, ACOL00; section 3.4].  Layers of one label are one part, and are completed.  Each is registered to its lines in the other key as rigidly as
- * possible.  A part that only one key has moves with the part that it is attached to, and in the other key behind what is
- * in front of it, if there is room near it.  Of the settings cell_size, stiffness and ink_threshold count.  Copies of all
- * input are kept.  CELD_BAD_SIZE for keys of different sizes. */
+/* Finds how the parts of one key drawing move to those of another one of its size [SDC09a, ACOL00; section 3.4].
+ * Layers of one label are one part, and are completed.  Each is registered to its lines in the other key as rigidly as
+ * possible.  A part that only one key has moves with the part that it is attached to, and in the other key behind what
+ * is in front of it, if there is room near it.  Of the settings cell_size, stiffness and ink_threshold count.  Copies
+ * of all input are kept.  CELD_BAD_SIZE for keys of different sizes. */
 CELD_API CeldStatus celd_inbetween_new (const CeldKey key[2], const CeldSettings *settings, const CeldHost *host,
                                         CeldInbetween **inbetween);
 

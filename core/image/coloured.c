@@ -1,5 +1,6 @@
-/* Whether a drawing is coloured: more than a fiftieth of it has another hue than the commonest one, which is the paper's.
- * Hues are those of blocks without lines in them, by the shares of red and green, so that shadows on paper make none.
+/* Whether a drawing is coloured: more than a fiftieth of it has another hue than the commonest one, which is the
+ * paper's.  Hues are those of blocks without lines in them, by the shares of red and green, so that shadows on paper
+ * make none.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -119,8 +119,8 @@ CeldStatus celd_signed_distance (const CeldPlane *ink, const CeldHost *host, int
 
 /* ------------------------------------------------------------------ extension.c: smooth extension of values */
 
-/* Extends the values of pixels with known[i] != 0 over all others; `lanes` numbers a pixel, at most 4.  Tight planes; if
- * nothing is known, all becomes 0. */
+/* Extends the values of pixels with known[i] != 0 over all others; `lanes` numbers a pixel, at most 4.  Tight planes;
+ * if nothing is known, all becomes 0. */
 CeldStatus celd_extend (int width, int height, int lanes, uint8_t *known, float *value);
 
 /* ------------------------------------------------------------------ morphology.c: with square windows */
@@ -143,8 +143,8 @@ void celd_invert_bytes (CeldMask *mask);
 bool celd_is_coloured (const CeldMask channel[3]);
 
 /* The radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius finds; if
- * there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius; `work` is for
- * twice the widest radius, `closed` is overwritten. */
+ * there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius; `work` is
+ * for twice the widest radius, `closed` is overwritten. */
 CeldStatus celd_line_radius (const CeldMask *luma, int widest, const CeldHost *host, void *work, CeldMask *closed,
                              int *radius, float *share);
 

@@ -1,7 +1,7 @@
 /* Which pixels of a layer are known from which key.
  *
- * Of a part a key shows what nothing hides there; the rest of its layer is a guess.  Where the other key shows the place
- * it knows better.
+ * Of a part a key shows what nothing hides there; the rest of its layer is a guess.  Where the other key shows the
+ * place it knows better.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

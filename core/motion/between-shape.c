@@ -1,10 +1,10 @@
 /* The lattices between two keys, as rigid as possible [ACOL00].
  *
- * Each cell of the first key's lattice turns by a share of its turn, and is stretched by a share of its stretch.  Places
- * of vertices make the sides of all cells so in the sense of least squares; vertices of two parts that lie together in
- * both keys are held together, and what turns least leads the way of all that hangs together.  So an arm swings round
- * its shoulder, and keeps its length.  The second key's lattice is carried by the first one's cells, so that both are
- * in one place at any time.
+ * Each cell of the first key's lattice turns by a share of its turn, and is stretched by a share of its stretch.
+ * Places of vertices make the sides of all cells so in the sense of least squares; vertices of two parts that lie
+ * together in both keys are held together, and what turns least leads the way of all that hangs together.  So an arm
+ * swings round its shoulder, and keeps its length.  The second key's lattice is carried by the first one's cells, so
+ * that both are in one place at any time.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

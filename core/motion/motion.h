@@ -80,7 +80,8 @@ celd_cell_map (const CeldLattice *lattice, size_t cell, float x, float y, float 
 /* ------------------------------------------------------------------ silhouette.c */
 
 /* Labels of what moves, 1 without parts, in a tight picture of the ink's size; 0 elsewhere.  Without parts it is what
- * paper along the frame does not reach except through gaps, which may be as wide as cells of that side.  CELD_NOTHING_TO_GO_BY if nothing moves. */
+ * paper along the frame does not reach except through gaps, which may be as wide as cells of that side.
+ * CELD_NOTHING_TO_GO_BY if nothing moves. */
 CeldStatus celd_silhouette (const CeldPlane *ink, const CeldMovingParts *parts, int side, const CeldHost *host,
                             CeldLabels *label);
 

@@ -1,8 +1,8 @@
 /* Parts that are seen in one key alone: they come out from behind others, or go behind them.
  *
- * Such parts, together with all that are attached to them and not seen either, move with the part that they are attached
- * to.  In the other key they have to be hidden by parts that are in front of them: they move there by the shortest way,
- * if there is such a place near them.
+ * Such parts, together with all that are attached to them and not seen either, move with the part that they are
+ * attached to.  In the other key they have to be hidden by parts that are in front of them: they move there by the
+ * shortest way, if there is such a place near them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -82,8 +82,8 @@ attach (const CeldPuppet *puppet, const CeldPuppetLayer *layer, const CeldJoint 
   return CELD_OK;
 }
 
-/* The first part of a group that is attached to each other, none of them seen in the other key: the one that is attached
- * to another part, or to nothing. */
+/* The first part of a group that is attached to each other, none of them seen in the other key: the one that is
+ * attached to another part, or to nothing. */
 static CeldBetweenPart *
 leader_of (const Hiding *h, CeldBetweenPart *part)
 {

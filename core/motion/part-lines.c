@@ -1,4 +1,5 @@
-/* The lines of a part in a key: the outline of its layer, what is hidden of it included, and the ink that is seen on it.
+/* The lines of a part in a key: the outline of its layer, what is hidden of it included, and the ink that is seen on
+ * it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,8 +1,8 @@
 /* Where each vertex of a key's lattice is in the other key.
  *
  * Parts that both keys have are matched one by one, those first of which most is seen.  A part first moves rigidly;
- * then its lattice in the key that shows less of it is registered to the lines of the other one (register.c).  The other
- * key's lattice gets the inverse of that motion.
+ * then its lattice in the key that shows less of it is registered to the lines of the other one (register.c).  The
+ * other key's lattice gets the inverse of that motion.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -176,8 +176,8 @@ typedef struct
   int                top, bottom;
 } CeldPuppetCanvas;
 
-/* Draws the pixels in the square of one cell over what is there, or those beside it that go with it; those of other cells
- * of the layer come first.  `mark` tells drawings of layers apart. */
+/* Draws the pixels in the square of one cell over what is there, or those beside it that go with it; those of other
+ * cells of the layer come first.  `mark` tells drawings of layers apart. */
 void celd_puppet_draw_cell (const CeldPuppetCanvas *canvas, const CeldPuppetLayer *layer, size_t cell, float level,
                             uint32_t mark, bool beside);
 

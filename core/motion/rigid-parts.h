@@ -1,4 +1,5 @@
-/* Rigid parts: the connected visible parts of a drawing's regions, which move almost rigidly from one frame to the next.
+/* Rigid parts: the connected visible parts of a drawing's regions, which move almost rigidly from one frame to the
+ * next.
  *
  *   target-shapes.c    the closed shapes of the next frame
  *   rigid-parts.c      the parts of a frame, and where they touch

@@ -1,7 +1,7 @@
 /* Poses of rigid parts: a search over a grid of turns and shifts, and refinement.
  *
- * A pose costs at least what its outline does, which is cheap to find: what it covers is counted only if it can still be
- * among the best.
+ * A pose costs at least what its outline does, which is cheap to find: what it covers is counted only if it can still
+ * be among the best.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

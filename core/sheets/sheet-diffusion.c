@@ -5,8 +5,8 @@
  * outline: along the smooth continuation of each, an arc that becomes a straight line, nothing flows across at first,
  * and more and more with the distance from the end.
  *
- * Where the artist painted the region it is 1, and where erased, 0.  Hardly anything flows out of strokes: what is added
- * is what was painted, not what would be as likely.
+ * Where the artist painted the region it is 1, and where erased, 0.  Hardly anything flows out of strokes: what is
+ * added is what was painted, not what would be as likely.
  *
  * It is solved on cells of a size by that of the region, and read by quadratic B-splines (sheet-pixels.c).
  *

@@ -136,9 +136,9 @@ void       celd_hiding_clear (CeldHiding *hiding);            /* accepts a partl
  * it if they say so, and otherwise it may hide it.  `queue` is work space for all labels. */
 void celd_hiding_of (const CeldHiding *hiding, uint32_t label, uint8_t *standing, uint32_t *queue);
 
-/* Ranks all labels from back to front, rank[l - 1] from 0, consistent with the relations; labels that are level share the
- * rank of the first of them, and as many ranks after it as they are more are not used.  Of the wishes, which are sorted,
- * the largest are fulfilled first. */
+/* Ranks all labels from back to front, rank[l - 1] from 0, consistent with the relations; labels that are level share
+ * the rank of the first of them, and as many ranks after it as they are more are not used.  Of the wishes, which are
+ * sorted, the largest are fulfilled first. */
 CeldStatus celd_hiding_rank (const CeldHiding *hiding, CeldHidden *wish, size_t n, uint32_t *rank);
 
 /* ------------------------------------------------------------------ sheet-outline.c */

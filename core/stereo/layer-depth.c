@@ -102,8 +102,8 @@ grown (CeldRect box, int by, int width, int height)
   return (CeldRect) { left, top, (right < width ? right : width) - left, (bottom < height ? bottom : height) - top };
 }
 
-/* Extends the depth of a layer over the n[0] pixels of its spans that are not its alone, and over the n[1] pixels of its
- * margin. */
+/* Extends the depth of a layer over the n[0] pixels of its spans that are not its alone, and over the n[1] pixels of
+ * its margin. */
 static CeldStatus
 extend_depth (DepthExtension *e, const size_t n[2])
 {

@@ -5,8 +5,8 @@
  * because it is the page that comes into view there.
  *
  * The scene keeps where the pixels of each layer are, and depth where it cannot be taken from the picture: where the
- * layer is occluded it goes on smoothly.  Colours and all other depth are read from the layers and from the depth picture
- * for each row of a view, because copies would take 20 bytes for each pixel, visible or hidden.
+ * layer is occluded it goes on smoothly.  Colours and all other depth are read from the layers and from the depth
+ * picture for each row of a view, because copies would take 20 bytes for each pixel, visible or hidden.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

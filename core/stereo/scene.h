@@ -20,8 +20,8 @@
 #define CELD_SPAN_END 2 /* pixels stored beyond either end of a span, for interpolation */
 
 /* n pixels from (x,y) on.  A span that ends at the frame continues beyond it.  colour[] is premultiplied and, like
- * depths[], can be read from pixel -CELD_SPAN_END to n + CELD_SPAN_END - 1.  In a scene of layers both are NULL; they are
- * painted for each row of a view. */
+ * depths[], can be read from pixel -CELD_SPAN_END to n + CELD_SPAN_END - 1.  In a scene of layers both are NULL; they
+ * are painted for each row of a view. */
 typedef struct
 {
   int      x, y, n;
@@ -40,7 +40,8 @@ typedef struct
   size_t         pixels;       /* used so far, including those beyond ends */
 } CeldSceneSpans;
 
-/* Depth of a layer: of its pixels that are not its alone, in reading order, or one for all of its pixels (value NULL). */
+/* Depth of a layer: of its pixels that are not its alone, in reading order, or one for all of its pixels (value
+ * NULL). */
 typedef struct { float *value, flat; } CeldLayerDepth;
 
 struct CeldScene

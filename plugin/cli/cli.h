@@ -309,8 +309,8 @@ char *cli_layer_name (const CeldPalette *palette, uint32_t label);
 bool  cli_light_check (CliOptions *options);
 /* Whether a file of layers gets linear light: `light` is the value of --light, or NULL. */
 bool  cli_layers_are_linear (const char *path, const char *light);
-/* Makes the layers of a session with art in that light, and writes them.  Converts the art, and the caller frees *layers,
- * in either case. */
+/* Makes the layers of a session with art in that light, and writes them.  Converts the art, and the caller frees
+ * *layers, in either case. */
 bool  cli_layers_write (const char *path, CeldSession *session, bool linear, CeldColours *art, CliRun *run,
                         CeldLayers **layers);
 
@@ -353,8 +353,8 @@ bool cli_views_write (const CliOptions *options, CliScene *s);
 
 /* ------------------------------------------------------------------ uses.c */
 
-/* Writes the lit art, the art with shadows, the layers and the views that the options name.  `art`, in linear light, stays
- * as it is; the session's settings change. */
+/* Writes the lit art, the art with shadows, the layers and the views that the options name.  `art`, in linear light,
+ * stays as it is; the session's settings change. */
 bool cli_uses_write (CeldSession *session, const CliOptions *options, const CeldColours *art, CliRun *run);
 
 /* ------------------------------------------------------------------ deform-handles.c, deform-keys.c */

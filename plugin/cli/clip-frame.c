@@ -210,7 +210,8 @@ read_sure (const CliMotion *motion, JsonNode *node, CliFrameState *state)
   return true;
 }
 
-/* Reads what was written for this fingerprint (NULL: for any).  For a review, what was written without is not enough. */
+/* Reads what was written for this fingerprint (NULL: for any).  For a review, what was written without is not
+ * enough. */
 static bool
 read_object (const CliMotion *motion, JsonObject *object, const char *fingerprint, CliFrameState *state)
 {

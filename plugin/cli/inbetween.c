@@ -1,7 +1,7 @@
 /* celdepth inbetween: draws what is between two key drawings, parts as rigid as possible and in the order of depth.
  *
- * The regions of the first drawing are those of its scribbles; those of the second one, too, or they are propagated from
- * the first.  One order holds for both.
+ * The regions of the first drawing are those of its scribbles; those of the second one, too, or they are propagated
+ * from the first.  One order holds for both.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

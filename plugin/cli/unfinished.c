@@ -1,4 +1,5 @@
-/* Files that are being written.  They have another name until they are complete; a run that is killed leaves them behind.
+/* Files that are being written.  They have another name until they are complete; a run that is killed leaves them
+ * behind.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -1,5 +1,5 @@
-/* Colours of what is hidden: flat paper stays flat to the last bit, other paper goes on smoothly, and nothing comes from
- * other layers.
+/* Colours of what is hidden: flat paper stays flat to the last bit, other paper goes on smoothly, and nothing comes
+ * from other layers.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

@@ -15,7 +15,8 @@ enum { PAGE = 1, BALL, BODY, ARM, LABELS = ARM };
 
 static const uint32_t level[LABELS] = { 0, 1, 2, 3 };
 
-/* Where the parts are in a frame: the arm's turn in degrees about its shoulder, the shift of all, and that of the ball. */
+/* Where the parts are in a frame: the arm's turn in degrees about its shoulder, the shift of all, and that of the
+ * ball. */
 typedef struct { double arm, x, y, ball; } Pose;
 
 typedef struct { CeldPlane ink; CeldLabels labels; } Frame;

@@ -257,8 +257,8 @@ bad_hints_are_refused (void)
   layer_scene_close (&s);
 }
 
-/* Colours of regions are their labels, black is the eraser even if a region is black, all others mean nothing: also white,
- * the paper of a layer without alpha. */
+/* Colours of regions are their labels, black is the eraser even if a region is black, all others mean nothing: also
+ * white, the paper of a layer without alpha. */
 static void
 colours_are_read (void)
 {

@@ -251,7 +251,8 @@ check_hidden (const Scene *s, const CeldSheets *sheets, size_t k, const uint8_t 
       }
 }
 
-/* Of the coverage: all of what is visible alone, all of the page, and in antialiased pixels the nearer one its share. */
+/* Of the coverage: all of what is visible alone, all of the page, and in antialiased pixels the nearer one its
+ * share. */
 static void
 check_coverage (const Scene *s, const CeldSheets *sheets, size_t k)
 {

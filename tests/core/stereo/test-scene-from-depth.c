@@ -190,8 +190,8 @@ depth_of_any_kind_leaves_no_hole (void)
   layer_scene_close (&s);
 }
 
-/* A dark board in front of yellow paper that has a line close to it and one that goes on behind it: what comes into view
- * is paper. */
+/* A dark board in front of yellow paper that has a line close to it and one that goes on behind it: what comes into
+ * view is paper. */
 static void
 uncovered_paper_has_its_own_colour (void)
 {
