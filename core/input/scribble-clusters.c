@@ -84,7 +84,8 @@ celd_scribble_cluster_add (CeldScribbleLayer *r, uint32_t id)
 
   if (!celd_reserve_one (r->cluster, r->n_clusters, r->cluster_capacity))
     return CELD_NO_MEMORY;
-  r->cluster[r->n_clusters] = (CeldScribbleCluster) { { c[0], c[1], c[2] }, id, CELD_NO_CLUSTER, 0, 0, 0, 0, false };
+  r->cluster[r->n_clusters] = (CeldScribbleCluster) { .channel = { c[0], c[1], c[2] }, .colour = id,
+                                                      .next = CELD_NO_CLUSTER };
   if (id) /* transparent is near no colour */
     {
       r->cluster[r->n_clusters].next = r->head[cell];
@@ -209,12 +210,48 @@ merge_rims (CeldScribbleLayer *r)
   return CELD_OK;
 }
 
+/* The cluster at a pixel; 0 for none, and outside the layer. */
+static uint32_t
+cluster_at (const CeldScribbleLayer *r, int x, int y)
+{
+  uint32_t k;
+
+  if (x < 0 || y < 0 || x >= r->width || y >= r->height)
+    return 0;
+  k = r->colour[r->id[(size_t) y * (size_t) r->width + (size_t) x]].cluster;
+  return k == CELD_NO_CLUSTER ? 0 : k;
+}
+
+/* Finds the clusters that touch no other one. */
+static void
+find_apart (CeldScribbleLayer *r)
+{
+  for (size_t k = 1; k < r->n_clusters; k++)
+    r->cluster[k].apart = true;
+  for (int y = 0; y < r->height; y++)
+    for (int x = 0; x < r->width; x++)
+      {
+        uint32_t k = cluster_at (r, x, y);
+
+        for (int i = 0; i < 4 && k; i++)
+          {
+            uint32_t other = cluster_at (r, x + (i < 3 ? i - 1 : -1), y + (i < 3));
+
+            if (other && other != k)
+              r->cluster[k].apart = r->cluster[other].apart = false;
+          }
+      }
+}
+
 /* Is the cluster a label?  Fringes of other strokes may have its colour, but no interior pixels, except for the soft
  * ends of brushes on paper.  In a lossy picture a fringe may look like a pencil line, so that a label needs interior
- * pixels there. */
+ * pixels there.  In pixel art, where a stray pixel would be seen, a dot of one pixel is a label if it touches no other
+ * colour, as a fringe would. */
 static bool
 is_label (const CeldScribbleLayer *r, const CeldScribbleCluster *k)
 {
+  if (r->pixel_art && !r->lossy && k->apart)
+    return true;
   if (k->solid < CELD_LEAST_DOT || (r->lossy && !has_interior (k)))
     return false;
   return 3 * (size_t) k->solid >= k->pixels ||
@@ -260,6 +297,8 @@ celd_scribble_clusters (CeldScribbleLayer *r, const CeldHost *host)
     }
   if (status == CELD_OK)
     status = celd_progress (host, 0.7);
+  if (status == CELD_OK && r->pixel_art)
+    find_apart (r);
   for (size_t k = 1; k < r->n_clusters && status == CELD_OK; k++)
     r->cluster[k].is_label = is_label (r, &r->cluster[k]);
 

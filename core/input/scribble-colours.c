@@ -82,7 +82,7 @@ colour_index (CeldScribbleLayer *r, const uint8_t *rgba)
 static CeldStatus
 count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
 {
-  bool opaque = true;
+  bool opaque = true, hard = true;
 
   for (int y = 0; y < r->height; y++)
     {
@@ -94,6 +94,7 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
       for (int x = 0; x < r->width; x++, p += 4)
         {
           opaque = opaque && p[3] == 255;
+          hard = hard && (!p[3] || p[3] == 255);
           if (p[3] < 128)
             id[x] = 0;
           else if (x && id[x - 1] && !memcmp (p, p - 4, 3))
@@ -104,6 +105,7 @@ count_colours (CeldScribbleLayer *r, bool flats, const CeldHost *host)
           r->colour[id[x]].opacity += p[3];
         }
     }
+  r->pixel_art = hard && !opaque && r->width <= CELD_PIXEL_ART && r->height <= CELD_PIXEL_ART;
   if (opaque && !flats)
     for (size_t i = 1; i < r->n; i++)
       if (r->colour[i].pixels > r->colour[r->paper].pixels || !r->paper)

@@ -57,6 +57,32 @@ a_label_needs_four_solid_pixels (void)
     }
 }
 
+/* Where nothing is antialiased, a dot of one pixel will do, but not one that may be a fringe, or noise. */
+static void
+one_pixel_is_a_label_in_pixel_art (void)
+{
+  static const char *const alone[] = { "AAAA.....", "AAAA....B", NULL };
+  static const char *const beside[] = { "AAAA.....", "AAAA.....", "....B....", NULL };
+  static const struct { const char *const *art; bool pixel_art, lossy, label; } given[] = {
+    { alone, true, false, true }, { alone, false, false, false }, { alone, true, true, false },
+    { beside, true, false, false },
+  };
+  int rgb[2][3] = { { 200, 0, 0 }, { 0, 0, 200 } };
+
+  for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+    {
+      CeldScribbleLayer r = reading_new (given[i].art, rgb, 2);
+
+      r.pixel_art  = given[i].pixel_art;
+      r.lossy = given[i].lossy;
+      r.colour[1].interior = 4;
+      cluster (&r, 2);
+      CHECK (r.cluster[r.colour[2].cluster].is_label == given[i].label);
+      CHECK (r.cluster[r.colour[1].cluster].is_label);
+      reading_clear (&r);
+    }
+}
+
 /* A label whose colour fringes have, too, needs a third of its pixels solid, or most of the solid ones interior. */
 static void
 fringes_of_others_do_not_count (void)
@@ -134,6 +160,7 @@ main (void)
 {
   RUN (colours_within_the_radius_are_one);
   RUN (a_label_needs_four_solid_pixels);
+  RUN (one_pixel_is_a_label_in_pixel_art);
   RUN (fringes_of_others_do_not_count);
   RUN (a_rim_belongs_to_its_stroke);
   RUN (a_rim_belongs_to_what_it_touches);

@@ -127,6 +127,20 @@ tiny_strokes (void)
   CHECK (seed_of[200 * WIDTH + 200] == 0);
 }
 
+/* In a small picture without antialiasing one pixel is a stroke; with a soft one anywhere it is stray. */
+static void
+strokes_of_one_pixel (void)
+{
+  clear_paint (false);
+  for (int i = 0; i < 50; i++)
+    lay (10 + i, 10 + i / 3, red, 1);
+  lay (100, 100, green, 1);
+  CHECK (read_size (128, 128) == CELD_OK && palette.n == 2 && in_palette (green, 0));
+  CHECK (seed_of[100 * WIDTH + 100] > 0 && seed_of[100 * WIDTH + 100] != seed_of[10 * WIDTH + 10]);
+  lay (50, 100, red, 0.5);
+  CHECK (read_size (128, 128) == CELD_OK && palette.n == 1 && seed_of[100 * WIDTH + 100] == 0);
+}
+
 /* Colours of which no two are alike. */
 static void
 one_of_200 (int i, uint8_t colour[3])
@@ -340,6 +354,7 @@ main (void)
 {
   RUN (exact_colours);
   RUN (tiny_strokes);
+  RUN (strokes_of_one_pixel);
   RUN (two_hundred_labels);
   RUN (soft_overlaps);
   RUN (translucent_overlaps);
