@@ -72,9 +72,9 @@ examine_row (const CeldDepthEdges *edges, const CeldPlane *borders, const float 
       if (cut[x] & OPEN_EDGE (down))
         {
           if (celd_discontinuity_weight (edges, x, y, !down, down) <= 0)
-            cut[x] ^= OPEN_EDGE (down) | CELD_CUT (down);
+            cut[x] = (uint8_t) (cut[x] ^ (OPEN_EDGE (down) | CELD_CUT (down)));
           else if (stays_smooth (edges, borders, x, y, down))
-            cut[x] ^= OPEN_EDGE (down);
+            cut[x] = (uint8_t) (cut[x] ^ OPEN_EDGE (down));
         }
 }
 
