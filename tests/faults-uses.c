@@ -440,6 +440,37 @@ deform_levels_step (const CeldHost *host, Results *r)
   return status;
 }
 
+/* The layers of a pose. */
+static CeldStatus
+posed_layers_step (const CeldHost *host, Results *r)
+{
+  static float art[4 * W * H], own[4 * W * H];
+  CeldPlane    ink = plane_of (&ink_pixels), levels = plane_of (&level_pixels);
+  CeldColours  colours = { W, H, W, art };
+  CeldHandle   handle = { 10, 10, 20, 12, 0 };
+  CeldPuppet  *puppet = NULL;
+  CeldLayers  *layers = NULL;
+  CeldHostPart part[2];
+  CeldHost     first = celd_host_part (&part[0], host, 0, 0.6), second = celd_host_part (&part[1], host, 0.6, 1);
+  CeldStatus   status;
+
+  for (int i = 0; i < 4 * W * H; i++)
+    art[i] = i % 4 == 3 ? 1 : ink_pixels.plane[i / 4];
+  status = celd_puppet_of_levels (&ink, &levels, &colours, &scene_settings, &first, &puppet);
+  if (status == CELD_OK)
+    status = celd_puppet_pose (puppet, &handle, 1, NULL, NULL);
+  if (status == CELD_OK)
+    status = celd_puppet_layers (puppet, true, &second, &layers);
+  if (status == CELD_OK)
+    {
+      celd_layers_paint (layers, 0, own);
+      memcpy (r->pixels->plane, own, sizeof r->pixels->plane);
+    }
+  celd_layers_free (layers);
+  celd_puppet_free (puppet);
+  return status;
+}
+
 /* Two keys: the levels of the drawing, and of it shifted by three pixels, where a part is missing; and what is
  * between. */
 static CeldStatus
@@ -572,6 +603,7 @@ const Step use_steps[] = {
   { "compose", compose_step, NULL, true },
   { "deform", deform_step, NULL, true },
   { "deform levels", deform_levels_step, NULL, true },
+  { "layers of a pose", posed_layers_step, NULL, true },
   { "inbetween", inbetween_step, NULL, true },
   { NULL, NULL, NULL, false },
 };

@@ -483,6 +483,11 @@ CELD_API void   celd_puppet_layer (const CeldPuppet *puppet, size_t layer, CeldP
 CELD_API CeldStatus celd_puppet_draw_layer (CeldPuppet *puppet, size_t layer, const CeldHost *host,
                                             CeldColours *picture);
 
+/* Cuts the puppet in its pose into layers, for celd_compose: of the drawing's size, so that what is taken beyond it is
+ * cut off; with `complete` each with what others hide of it.  CELD_BAD_VALUE if handles move parts forward or back,
+ * since layers have one place in the order.  *layers is freed by the caller with celd_layers_free. */
+CELD_API CeldStatus celd_puppet_layers (CeldPuppet *puppet, bool complete, const CeldHost *host, CeldLayers **layers);
+
 /* Finds how the parts of one key drawing move to those of another one of its size [SDC09a, ACOL00; section 3.4].
  * Layers of one label are one part, and are completed.  Each is registered to its lines in the other key as rigidly as
  * possible.  A part that only one key has moves with the part that it is attached to, and in the other key behind what

@@ -189,8 +189,8 @@ complete_layers (const CeldPlane *ink, const CeldOwnership *own, const CeldSheet
 
 /* ------------------------------------------------------------------ the object */
 
-static CeldStatus
-new_layers (int width, int height, size_t n, CeldLayers **made)
+CeldStatus
+celd_layers_new (int width, int height, size_t n, CeldLayers **made)
 {
   size_t      pixels = (size_t) width * (size_t) height;
   CeldLayers *layers = celd_alloc0 (1, sizeof *layers);
@@ -312,7 +312,7 @@ celd_layers_cut (const CeldPlane *ink, const CeldOwnership *own, const uint32_t 
   if ((unsigned) store > CELD_STORE_8_BIT_SRGB || (sheets && sheets->n_labels != n) || !labels_fit (own, n))
     return CELD_BAD_VALUE;
   of_label = celd_alloc (n, sizeof *of_label);
-  status = of_label ? new_layers (ink->width, ink->height, n, &layers) : CELD_NO_MEMORY;
+  status = of_label ? celd_layers_new (ink->width, ink->height, n, &layers) : CELD_NO_MEMORY;
   if (status != CELD_OK)
     goto done;
   layers->store = store;

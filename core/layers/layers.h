@@ -62,6 +62,9 @@ CeldStatus celd_layers_unmix (CeldLayers *layers, const CeldPlane *ink, const Ce
 
 /* ------------------------------------------------------------------ layers.c */
 
+/* Makes room for up to n layers, which are to be filled in and counted; freed by the caller, also after a failure. */
+CeldStatus celd_layers_new (int width, int height, size_t n, CeldLayers **made);
+
 /* Cuts the art into layers by the ownership of levels, completed with settings->complete. */
 CeldStatus celd_level_layers_cut (const CeldLevelOwnership *made, const CeldPlane *ink, const CeldColours *art,
                                   CeldStore store, const CeldSettings *settings, const CeldHost *host,

@@ -14,6 +14,7 @@
  *   puppet-report.c     what an artist should know of a pose
  *   puppet-sampling.c   a deformed square, pixel by pixel
  *   puppet-draw.c       squares and layers from back to front
+ *   puppet-layers.c     the pose as layers
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

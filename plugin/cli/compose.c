@@ -12,6 +12,8 @@
 typedef struct
 {
   CeldSession     *session;    /* it owns the labels, the palette, the order and the ink */
+  CeldHandles      handles;    /* none: it is not deformed */
+  CeldPoseReport   pose;
   CeldLayers      *layers;
   CeldLabels       labels;
   CeldPlane        ink;
@@ -35,8 +37,24 @@ typedef struct
 
 /* ------------------------------------------------------------------ the drawings */
 
+/* Cuts a drawing that its handles deform. */
 static CeldStatus
-cut (const CeldColours *art, CliRun *run, Drawing *d)
+cut_deformed (const CeldColours *art, bool complete, CliRun *run, Drawing *d)
+{
+  CeldPuppet *puppet = NULL;
+  CeldStatus  status = celd_session_puppet (d->session, art, &run->host, &puppet);
+
+  cli_run_stage (run, "deformation");
+  if (status == CELD_OK)
+    status = celd_puppet_pose (puppet, d->handles.item, d->handles.n, &run->host, &d->pose);
+  if (status == CELD_OK)
+    status = celd_puppet_layers (puppet, complete, &run->host, &d->layers);
+  celd_puppet_free (puppet);
+  return status;
+}
+
+static CeldStatus
+cut (const CeldColours *art, bool complete, CliRun *run, Drawing *d)
 {
   CeldStatus status;
 
@@ -47,7 +65,8 @@ cut (const CeldColours *art, CliRun *run, Drawing *d)
     status = celd_session_order (d->session, &run->host, &d->order);
   cli_run_stage (run, "layers");
   if (status == CELD_OK)
-    status = celd_session_layers (d->session, art, CELD_STORE_FLOAT, &run->host, &d->layers);
+    status = d->handles.n ? cut_deformed (art, complete, run, d)
+                          : celd_session_layers (d->session, art, CELD_STORE_FLOAT, &run->host, &d->layers);
   if (status == CELD_OK)
     status = celd_session_ink (d->session, &run->host, &d->ink, NULL);
   return status;
@@ -60,6 +79,18 @@ about (const Compose *c, const CliFragment *fragment)
   return cli_error ("That was about \"%s\" in \"%s\".", fragment->name, c->scene.path);
 }
 
+/* Reads the handles of a drawing; they cannot change its order. */
+static bool
+read_handles (Compose *c, const CliFragment *fragment, CliLayers *input, CeldHandles *handles)
+{
+  if (!cli_handles_read (&fragment->options, input, &c->run, handles))
+    return false;
+  for (size_t i = 0; i < handles->n; i++)
+    if (handles->item[i].depth != 0)
+      return cli_error ("Handles of a composition have no \"^\": relations say what is in front.");
+  return true;
+}
+
 static bool
 read_drawing (Compose *c, const CliFragment *fragment, Drawing *d)
 {
@@ -70,9 +101,10 @@ read_drawing (Compose *c, const CliFragment *fragment, Drawing *d)
   d->session = celd_session_new ();
   good = cli_check (d->session ? CELD_OK : CELD_NO_MEMORY) &&
          cli_session_load (d->session, &fragment->options, &input) &&
+         read_handles (c, fragment, &input, &d->handles) &&
          cli_art_read (fragment->options.input, fragment->options.colours, c->linear, &input, &art);
   cli_layers_clear (&input);
-  good = good && cli_run_finish (&c->run, cut (&art, &c->run, d));
+  good = good && cli_run_finish (&c->run, cut (&art, c->options->settings.complete, &c->run, d));
   g_free (art.data);
   return good || about (c, fragment);
 }
@@ -82,6 +114,7 @@ static int
 report_drawing (const Compose *c, const CliFragment *fragment, const Drawing *d)
 {
   const CeldProblems *problems = celd_session_problems (d->session);
+  char                text[1000];
   int                 code = cli_finish (&fragment->options, &(CliReport) {
     .palette   = celd_session_palette (d->session),
     .relations = celd_session_relations (d->session),
@@ -89,7 +122,10 @@ report_drawing (const Compose *c, const CliFragment *fragment, const Drawing *d)
     .problems  = problems,
   });
 
-  if (code != CLI_DONE || (!fragment->options.quiet && problems && problems->n))
+  celd_pose_text (&d->pose, text, sizeof text);
+  if (text[0] && !fragment->options.quiet)
+    cli_say ("%s", text);
+  if (code != CLI_DONE || (!fragment->options.quiet && (text[0] || (problems && problems->n))))
     about (c, fragment);
   return code;
 }
@@ -123,7 +159,7 @@ compose (Compose *c, int width, int height)
       const CeldPalette *palette = celd_session_palette (d->session);
 
       fragment[i] = (CeldFragment) { d->layers, d->order, cli_page_of (palette), c->scene.fragment[i].placement,
-                                     &d->labels, palette, &d->ink };
+                                     &d->labels, palette, d->handles.n ? NULL : &d->ink };
     }
   cli_run_stage (&c->run, "compose");
   status = celd_compose (fragment, c->scene.n, &c->relations, width, height, host, &c->problems, &c->made);
@@ -344,6 +380,7 @@ run_compose (const CliOptions *options)
   celd_composition_free (c.made);
   for (guint i = 0; i < c.scene.n; i++)
     {
+      celd_handles_clear (&c.drawing[i].handles);
       celd_layers_free (c.drawing[i].layers);
       celd_session_free (c.drawing[i].session);
     }
@@ -368,9 +405,10 @@ const CliCommand cli_compose_command = {
               "          { \"name\": \"man\", \"drawing\": \"man.png\", \"scribbles\": \"man-strokes.png\",\n"
               "            \"arrows\": \"man-arrows.png\" },\n"
               "          { \"name\": \"rope\", \"drawing\": \"rope.png\", \"scribbles\": \"rope-strokes.png\",\n"
-              "            \"x\": 120, \"y\": 40, \"scale\": 0.5, \"turn\": 10, \"flip\": false } ],\n"
+              "            \"x\": 120, \"y\": 40, \"scale\": 0.5, \"turn\": 10, \"flip\": false,\n"
+              "            \"handles\": \"20,60; 90,60 -> 90,40\" } ],\n"
               "        \"relations\": [ \"man:#ff0000 > rope:*\", \"rope:20,60 > man:#0000ff\" ] }",
-  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion complete encoding near-level far-level",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion complete cell-size encoding near-level far-level",
   .output   = "output",
   .check    = cli_light_check,
   .run      = run_compose,

@@ -139,6 +139,23 @@ class Compose(Test):
         linear = composite([layer for _, layer in layers])
         np.testing.assert_allclose(encode(linear[..., :3]), self.pixels('linear.png')[..., :3], atol=1.5 / 255)
 
+    def test_handles(self):
+        """A pin changes nothing, and handles that all go down by ten pixels are another `y`; `^` has no meaning."""
+        self.scene(f'boxes:{text(BLUE)} > bar:*')
+        self.compose()
+        rest = self.pixels()
+        self.scene(f'boxes:{text(BLUE)} > bar:*', bar={'handles': '50,36'})
+        self.compose()
+        np.testing.assert_allclose(self.pixels(), rest, atol=1 / 255)
+        self.scene(bar={'y': 10})
+        self.compose()
+        lower = self.pixels()
+        self.scene(bar={'handles': ['24,36 -> 24,46', '76,36 -> 76,46']})
+        self.compose()
+        np.testing.assert_allclose(self.pixels(), lower, atol=1 / 255)
+        self.scene(bar={'handles': '24,36 -> 24,46 ^1'})
+        self.fails_with('"^"')
+
     def test_levels(self):
         self.scene(f'boxes:{text(BLUE)} > bar:*')
         self.celdepth('compose', 'scene.json', '--levels', 'levels.npy', '--encoding', 'rank')

@@ -382,6 +382,60 @@ layers_are_where_handles_put_them (void)
 }
 
 /* Where cells are folded and stretched, and which handle holds no part. */
+/* Layers of a pose, composited from the back, are its picture; complete ones also below those in front. */
+static void
+a_pose_has_layers (void)
+{
+  LayerScene   s = figure (2);
+  CeldPuppet  *puppet = puppet_of (&s, 4);
+  CeldHandle   handle[2] = { { 80, 180, 80, 180, 0 }, { 180, 92, 100, 110.4, 0 } };
+  CeldHandle   nearer[2] = { handle[0], { 180, 92, 100, 110.4, 1 } };
+  static float sum[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
+  size_t       covered[2] = { 0 };
+
+  pose_and_draw (puppet, handle, 2, NULL);
+  CHECK (has_colour (100, 110, BLUE)); /* the arm lies over the body */
+  for (int complete = 0; complete < 2; complete++)
+    {
+      CeldLayers *layers = NULL;
+      float       most = 0;
+
+      CHECK (celd_puppet_layers (puppet, complete, NULL, &layers) == CELD_OK);
+      CHECK (celd_layers_count (layers) == 4);
+      memset (sum, 0, sizeof sum);
+      for (size_t k = 0; k < celd_layers_count (layers); k++)
+        {
+          const CeldRect *box = &celd_layers_item (layers, k)->box;
+
+          celd_layers_paint (layers, k, own);
+          for (int y = 0; y < box->height; y++)
+            for (int x = 0; x < box->width; x++)
+              {
+                const float *from = own + 4 * (y * box->width + x);
+                float       *to = sum + 4 * ((y + box->y) * SIDE + x + box->x), left = to[3] * (1 - from[3]);
+
+                for (int c = 0; c < 3 && from[3] > 0; c++)
+                  to[c] = (from[3] * from[c] + left * to[c]) / (from[3] + left);
+                to[3] = from[3] + left;
+                covered[complete] += from[3] > 0.5f;
+              }
+        }
+      for (size_t i = 0; i < 4 * SIDE * SIDE; i++)
+        most = fmaxf (most, i % 4 == 3 || canvas_data[i - i % 4 + 3] > 0.1f ? fabsf (sum[i] - canvas_data[i]) : 0);
+      NEAR (most, 0, 1.5 / 255);
+      celd_layers_free (layers);
+    }
+  CHECK (covered[1] > covered[0] + 500); /* 40 x 24 pixels of the body at least are below the arm */
+  pose_and_draw (puppet, nearer, 2, NULL);
+  {
+    CeldLayers *layers = NULL;
+
+    CHECK (celd_puppet_layers (puppet, false, NULL, &layers) == CELD_BAD_VALUE && !layers);
+  }
+  celd_puppet_free (puppet);
+  layer_scene_close (&s);
+}
+
 static void
 poses_are_reported_with_places (void)
 {
@@ -507,6 +561,7 @@ main (void)
   RUN (wild_handles_are_survived);
   RUN (lines_keep_their_width);
   RUN (layers_are_where_handles_put_them);
+  RUN (a_pose_has_layers);
   RUN (poses_are_reported_with_places);
   RUN (marked_cracks_are_the_only_ones);
   RUN (levels_are_those_of_the_picture);
