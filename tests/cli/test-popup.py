@@ -8,7 +8,8 @@ import unittest
 import numpy as np
 from PIL import ImageDraw
 
-from pictures import IN_A, IN_B, IN_PAGE, RELATIONS, Test, at, drawing
+from pictures import HEIGHT, IN_A, IN_B, IN_PAGE, RELATIONS, WIDTH, Test, at, drawing
+from stacks import read_exr, read_open_raster
 
 FILLS = {IN_A: (250, 190, 60), IN_B: (90, 160, 70), IN_PAGE: (200, 225, 250)}
 INPUT = ['page.png', '--scribbles', 'scribbles.png', '--relations', RELATIONS]
@@ -23,8 +24,13 @@ class OneRun(Test):
         page.save(self.path('page.png'))
 
     def same(self, one, other):
-        with open(self.path(one), 'rb') as a, open(self.path(other), 'rb') as b:
-            self.assertEqual(a.read(), b.read())
+        """Pictures, but for rounding: babl chooses the way to convert colours by how fast it is just then."""
+        np.testing.assert_allclose(self.picture(one).astype(int), self.picture(other), atol=1)
+
+    def same_layers(self, ones, others, error):
+        self.assertEqual([name for name, _ in ones], [name for name, _ in others])
+        for (_, one), (_, other) in zip(ones, others):
+            np.testing.assert_allclose(one, other, atol=error)
 
     def test_single_commands(self):
         self.celdepth('popup', *INPUT, '--levels', 'levels.npy', '--enhanced', 'enhanced.png', '--layers', 'page.ora',
@@ -33,27 +39,28 @@ class OneRun(Test):
         self.celdepth('layers', *INPUT, '--output', 'alone.ora')
         self.celdepth('stereo', *INPUT, '--left', 'left-alone.png', '--right', 'right-alone.png', '--joined',
                       'joined-alone.png')
-        self.same('page.ora', 'alone.ora')
+        self.same_layers(read_open_raster(self.path('page.ora'))[0], read_open_raster(self.path('alone.ora'))[0],
+                         1.01 / 255)
         for name in 'enhanced', 'left', 'right', 'joined':
-            np.testing.assert_array_equal(self.picture(f'{name}.png'), self.picture(f'{name}-alone.png'))
+            self.same(f'{name}.png', f'{name}-alone.png')
         self.celdepth('popup', *INPUT, '--encoding', 'rank', '--enhanced', 'enhanced-ranks.png', '--left',
                       'left-ranks.png')
         for name in 'enhanced', 'left':
-            np.testing.assert_array_equal(self.picture(f'{name}-ranks.png'),
-                                          self.picture(f'{name}.png'))
+            self.same(f'{name}-ranks.png', f'{name}.png')
         self.celdepth('popup', *INPUT, '--layers', 'linear.exr')
         self.celdepth('layers', *INPUT, '--output', 'alone.exr')
-        self.same('linear.exr', 'alone.exr')
+        self.same_layers(read_exr(self.path('linear.exr'), WIDTH, HEIGHT)[0],
+                         read_exr(self.path('alone.exr'), WIDTH, HEIGHT)[0], 1e-4)
 
     def test_light(self):
         """From the upper left: parts are lighter there than at the lower right, and the page is as it was."""
         self.celdepth('popup', *INPUT, '--shaded', 'lit.png', '--light-azimuth', '135')
         lit = self.picture('lit.png').astype(int)
-        self.assertEqual(tuple(at(lit, IN_PAGE)[:3]), FILLS[IN_PAGE])
+        np.testing.assert_allclose(at(lit, IN_PAGE)[:3], FILLS[IN_PAGE], atol=1)
         self.assertGreater(lit[29, 44, 1], lit[53, 81, 1] + 30)
         self.celdepth('popup', *INPUT, '--shaded', 'flat.png', '--bulge', '0')
         for place, colour in FILLS.items():
-            np.testing.assert_allclose(at(self.picture('flat.png'), place)[:3], colour, atol=1)
+            np.testing.assert_allclose(at(self.picture('flat.png'), place)[:3].astype(int), colour, atol=1)
 
     def test_other_colours(self):
         """--colours is the art in place of the drawing."""
@@ -62,8 +69,8 @@ class OneRun(Test):
         self.celdepth('popup', 'lines.png', *words, 'other.png', '--colours', 'page.png')
         self.celdepth('popup', 'lines.png', *words, 'plain.png')
         other, plain = self.picture('other.png'), self.picture('plain.png')
-        self.assertEqual(tuple(at(other, IN_B)[:3]), FILLS[IN_B])
-        self.assertEqual(tuple(at(plain, IN_B)[:3]), (255, 255, 255))
+        np.testing.assert_allclose(at(other, IN_B)[:3].astype(int), FILLS[IN_B], atol=1)
+        np.testing.assert_allclose(at(plain, IN_B)[:3].astype(int), (255, 255, 255), atol=1)
 
     def test_bad_input(self):
         self.assertIn('celdepth shade with --matcap', self.celdepth('popup', *INPUT, '--shaded', 'lit.png',
