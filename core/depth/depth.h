@@ -28,8 +28,12 @@
 /* Edges of a pixel that are cut, in one byte: the right one (down 0) and the lower one (down 1). */
 #define CELD_CUT(down) (uint8_t) (1u << (down))
 
+/* How far to both sides of an edge a line is looked for that is too thin to be full ink anywhere, in pixels (chosen). */
+#define CELD_THIN_LINE_REACH 2
+
 /* What decides v_pq where levels differ: the least ink within `radius` pixels of both pixels; at or below the threshold
- * it counts as 0.  Edges that are marked in `cut` (NULL: none), of the size of the ink, have v_pq = 0 in any case. */
+ * it counts as 0, and so does a thin line along the edge, but not with radius 0.  Edges that are marked in `cut` (NULL:
+ * none), of the size of the ink, have v_pq = 0 in any case. */
 typedef struct { const CeldPlane *ink; float threshold; int radius; const uint8_t *cut; } CeldDepthEdges;
 
 /* The radius for a drawing with strokes of this width, in pixels: half of it, 1 .. 12. */

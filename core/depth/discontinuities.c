@@ -6,6 +6,9 @@
  * levels are expanded or not, a nick no wider than the stroke does not open it at any resolution, and a gap or a
  * virtual contour gives a smooth transition.
  *
+ * A line of about a pixel is full ink nowhere, where it lies between two rows of pixels: it is found by the ink across
+ * it, which adds up to its width.
+ *
  * A cut that ends nearby separates nothing: then a short detour leads around it.  That is found by flood fill in a
  * small window, with one bit for each pixel, so that a whole row is filled at once.
  *
@@ -15,6 +18,8 @@
 #include "image/image.h"
 
 #define LARGEST_RADIUS 12 /* pixels: half the width of the widest stroke; wider ink is an area (chosen) */
+#define THICKEST       3    /* pixels of a thin line across that may be half as dark as its darkest (chosen) */
+#define THINNEST       0.5f /* pixels: width of the thinnest line that is a discontinuity (chosen) */
 #define DETOUR_RADIUS  7  /* pixels that a detour may leave the cut (chosen) */
 #define WINDOW         (2 * DETOUR_RADIUS + 1)
 
@@ -40,6 +45,42 @@ least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
   return least;
 }
 
+/* The width in pixels of a thin line that is crossed by n pixels from (x,y) on in steps of (dx,dy): how much darker they
+ * are than the darker one of both ends, added up, which is not above 0 along a line; 0 if the line is not thin. */
+static float
+line_across (const CeldDepthEdges *b, int x, int y, int dx, int dy, int n)
+{
+  float dark[2 * CELD_THIN_LINE_REACH + 2], sum = 0, ends, most = 0;
+  int   half = 0;
+
+  for (int i = 0; i < n; i++, x += dx, y += dy)
+    {
+      bool inside = x >= 0 && y >= 0 && x < b->ink->width && y < b->ink->height;
+
+      dark[i] = inside ? celd_most (1 - CELD_AT (b->ink, x, y), 0) : 0;
+      most    = celd_most (most, dark[i]);
+      sum    += dark[i];
+    }
+  for (int i = 0; i < n; i++)
+    half += dark[i] > most / 2;
+  ends = celd_most (dark[0], dark[n - 1]);
+  return half <= THICKEST ? sum - (float) n * ends : 0;
+}
+
+/* Whether a line runs along the edge that is so thin that it need not be full ink in any pixel: between two rows of pixels
+ * each has half of it. */
+static bool
+is_thin_line (const CeldDepthEdges *b, int x, int y, int right, int down)
+{
+  float width = celd_least (1 - b->threshold, THINNEST);
+  int   r = CELD_THIN_LINE_REACH, u = r * right, v = r * down;
+
+  return b->radius > 0 &&
+         (line_across (b, x - u, y - v, right, down, 2 * r + 2) >= width ||
+          line_across (b, x - v, y - u, down, right, 2 * r + 1) >= width ||
+          line_across (b, x + right - v, y + down - u, down, right, 2 * r + 1) >= width);
+}
+
 float
 celd_discontinuity_weight (const CeldDepthEdges *b, int x, int y, int right, int down)
 {
@@ -50,7 +91,7 @@ celd_discontinuity_weight (const CeldDepthEdges *b, int x, int y, int right, int
   least = least_ink (b, x, y, x + right, y + down); /* usually decides on closed contours */
   if (least > b->threshold)
     least = least_ink (b, x - b->radius, y - b->radius, x + right + b->radius, y + down + b->radius);
-  return least <= b->threshold ? 0 : least;
+  return least <= b->threshold || is_thin_line (b, x, y, right, down) ? 0 : least;
 }
 
 /* Sets weights to 1 where two rows of levels are equal, and marks the others. */

@@ -106,7 +106,7 @@ static void
 mark_ink (const CeldSmoothState *old, uint8_t *changed)
 {
   CeldRect ink = old->new_ink;
-  int      far = old->radius + 1;
+  int      far = (old->radius > CELD_THIN_LINE_REACH ? old->radius : CELD_THIN_LINE_REACH) + 1;
 
   for (int y = ink.y - far; ink.width && y < ink.y + ink.height + far; y++)
     for (int x = ink.x - far; y >= 0 && y < old->height && x < ink.x + ink.width + far; x++)

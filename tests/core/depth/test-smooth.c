@@ -124,6 +124,45 @@ a_closed_contour_does_not_leak (void)
 }
 
 static void
+a_line_thinner_than_a_pixel_does_not_leak (void)
+{
+  enum { W = 96, H = 90 };
+  uint32_t seed = 3;
+
+  for (int round = 0; round < 60; round++)
+    {
+      double    width = 0.7 + 0.1 * (round % 8);
+      Shape     s = { round % 3, 48 + check_random (&seed, 100) / 100., 45 + check_random (&seed, 100) / 100.,
+                      26 + check_random (&seed, 100) / 50., check_random (&seed, 1000) / 500. };
+      CeldPlane ink = draw (&s, W, H, width);
+
+      for (int border = -1; border <= 1; border++)
+        {
+          CeldPlane levels = fill (&s, W, H, border * width / 2);
+
+          NEAR (leak (&ink, &levels, NULL), 0, 1e-4);
+          free (levels.data);
+        }
+      free (ink.data);
+    }
+}
+
+/* Flat grey that spreads on both sides of the outline is no line. */
+static void
+depth_is_smooth_across_grey (void)
+{
+  enum { W = 96, H = 90 };
+  Shape     s = { DISC, 48, 45, 26, 0 };
+  CeldPlane ink = draw (&s, W, H, 16), levels = fill (&s, W, H, 0);
+
+  for (int i = 0; i < W * H; i++)
+    ink.data[i] = 1 - 0.3f * (1 - ink.data[i]);
+  CHECK (leak (&ink, &levels, NULL) > 0.05);
+  free (ink.data);
+  free (levels.data);
+}
+
+static void
 a_hard_line_of_one_pixel_does_not_leak (void)
 {
   const char *art[] = { "....................",
@@ -365,6 +404,8 @@ int
 main (void)
 {
   RUN (a_closed_contour_does_not_leak);
+  RUN (a_line_thinner_than_a_pixel_does_not_leak);
+  RUN (depth_is_smooth_across_grey);
   RUN (a_hard_line_of_one_pixel_does_not_leak);
   RUN (a_gap_gives_a_smooth_monotone_transition);
   RUN (a_nick_does_not_leak);
