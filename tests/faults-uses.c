@@ -343,6 +343,18 @@ propagate_step (const CeldHost *host, Results *r)
   return status == CELD_OK ? celd_propagate (&ink, &labels, level, 3, &next, host, &seeds, &certainty) : status;
 }
 
+/* The labels, blended with what they are a row higher. */
+static CeldStatus
+blend_step (const CeldHost *host, Results *r)
+{
+  CeldLabels     one = { W, H - 1, W, label_pixels.labels + W }, other = { W, H - 1, W, label_pixels.labels };
+  CeldLabels     labels = { W, H - 1, W, r->pixels->labels };
+  CeldPlane      sure = { W, H - 1, W, ink_pixels.plane }, certainty = { W, H - 1, W, r->pixels->plane };
+  CeldPropagated side[2] = { { &one, &sure, 0.4 }, { &other, &sure, 0.6 } };
+
+  return celd_blend_propagated (side, host, &labels, &certainty);
+}
+
 /* The silhouette of all, found without labels. */
 static CeldStatus
 lattice_step (const CeldHost *host, Results *r)
@@ -598,6 +610,7 @@ const Step use_steps[] = {
   { "model", model_step, NULL, true },
   { "register", register_step, NULL, true },
   { "propagate", propagate_step, NULL, true },
+  { "blend of two keys", blend_step, NULL, true },
   { "lattice", lattice_step, NULL, true },
   { "lattice of levels", levels_lattice_step, NULL, true },
   { "compose", compose_step, NULL, true },

@@ -436,6 +436,14 @@ CELD_API void       celd_composition_map (const CeldComposition *composition, si
 CELD_API CeldStatus celd_propagate (const CeldPlane *ink, const CeldLabels *source, const uint32_t *level,
                                     uint32_t background, const CeldPlane *next, const CeldHost *host, CeldLabels *labels,
                                     CeldPlane *certainty);
+/* Makes one picture of labels that were propagated to a frame from two keys, one on either side.  Where they differ a
+ * connected area takes the label with the higher confidence, certainty times nearness; the nearer key's if both have
+ * the same, the first one's if both are as near.  `certainty` gets that of the label, the higher one where both agree;
+ * where they differ it is the less the closer the confidence of both is.  `labels` and `certainty` may be those of a
+ * side.
+ * CELD_BAD_VALUE if there are more than 65534 labels. */
+CELD_API CeldStatus celd_blend_propagated (const CeldPropagated side[2], const CeldHost *host, CeldLabels *labels,
+                                           CeldPlane *certainty);
 
 /* Reads handles for celd_puppet_pose and appends them:  handles = handle { (";" | newline) handle },  handle = x "," y
  * [ "->" x "," y ] [ "^" levels ].  Without an arrow a handle is a pin, which stays where it is.  On CELD_BAD_RELATION

@@ -8,6 +8,7 @@
  *   rigid-choice.c     one pose for each part, such that parts stay together
  *   shape-labels.c     labels of the closed shapes that parts come to lie on
  *   propagate.c        the step
+ *   blend.c            a frame that two keys were propagated to
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */

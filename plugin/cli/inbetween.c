@@ -47,8 +47,7 @@ plan_motion (Between *b)
 static void
 say_unsure (const Between *b, const CeldPlane *certainty)
 {
-  CliFrameState state = { .ink = b->ink[1], .certainty = 1,
-                          .notes = g_array_new (FALSE, FALSE, sizeof (CliRegionNote)) };
+  CliFrameState state = { .ink = b->ink[1], .certainty = 1, .notes = cli_notes_new () };
 
   cli_frame_take_notes (&b->motion, &b->labels[0], &b->labels[1], certainty, &state);
   for (guint i = 0; i < state.notes->len; i++)

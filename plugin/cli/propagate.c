@@ -1,8 +1,8 @@
 /* celdepth propagate: carries the labels of key frames to all frames of a clip.
  *
- * Each frame belongs to the key that is nearest in the clip, the earlier one of two.  From a key one chain goes to
- * later frames and one to earlier ones; chains do not depend on each other, so they run at the same time, or as jobs of
- * a farm.
+ * From a key one chain goes to later frames and one to earlier ones, up to the next key; chains do not depend on each
+ * other, so they run at the same time.  Frames between two keys then have two sides, which are blended.  The parts of a
+ * clip, each a job of a farm, are keys, what is between two of them, and what is before the first and after the last.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -11,19 +11,24 @@
 
 #include <errno.h>
 #include <glib/gstdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* The frames of a key on one side: from + step, from + 2 step, ... up to `last`; of step 0 the key alone. */
-typedef struct { size_t key, last; int step; } Chain;
+/* A chain makes frames of a key, or sides of them between two keys: by `step`, 1 or -1, up to `last`; by 0 the key
+ * alone. */
+typedef struct { size_t part; const CliKey *key; size_t last; int step; bool between; } Chain;
+/* Blends a frame between a key and the one after it. */
+typedef struct { size_t part; const CliKey *key; size_t frame; } Blend;
 
 typedef struct
 {
   CliMotion *motion;
   CliRun    *run;
-  Chain     *chain;
-  size_t     n_chains;
-  CeldHost   host;          /* of a frame: threads, and cancelling */
-  int        done, failed;  /* frames; whether a chain has failed */
+  size_t     n_parts;
+  GArray    *chains, *blends;
+  CeldHost   host;                /* of a frame: threads, and cancelling */
+  int        done, planned;       /* steps: frames, sides, and frames that are blended */
+  int        failed;              /* whether a chain or a blend has failed */
 } Work;
 
 /* ------------------------------------------------------------------ keys */
@@ -63,94 +68,119 @@ take_keys (CliMotion *motion)
   return true;
 }
 
-/* ------------------------------------------------------------------ chains */
+/* ------------------------------------------------------------------ the plan */
 
 static void
-add_chain (Work *w, size_t key, size_t last, int step)
+add_chain (Work *w, const CliKey *key, size_t last, int step, bool between)
 {
-  w->chain = g_renew (Chain, w->chain, w->n_chains + 1);
-  w->chain[w->n_chains++] = (Chain) { key, last, step };
+  Chain chain = { w->n_parts, key, last, step, between };
+
+  g_array_append_val (w->chains, chain);
+  w->planned += step ? abs ((int) last - (int) key->frame) : 1;
 }
 
+/* What is between a key and the one after it. */
 static void
-plan_chains (Work *w)
+add_between (Work *w, const CliKey *key)
 {
-  const CliMotion *motion = w->motion;
-
-  for (size_t k = 0; k < motion->n_keys; k++)
+  if (key[1].frame - key->frame < 2)
+    return;
+  w->n_parts++;
+  add_chain (w, key, key[1].frame - 1, 1, true);
+  add_chain (w, key + 1, key->frame + 1, -1, true);
+  for (size_t frame = key->frame + 1; frame < key[1].frame; frame++)
     {
-      size_t here = motion->key[k].frame, before = k ? motion->key[k - 1].frame : 0;
-      size_t after = k + 1 < motion->n_keys ? motion->key[k + 1].frame : motion->frames.n - 1;
-      size_t first = k ? before + (here - before) / 2 + 1 : 0;
-      size_t last  = k + 1 < motion->n_keys ? here + (after - here) / 2 : after;
+      Blend blend = { w->n_parts, key, frame };
 
-      add_chain (w, k, here, 0);
-      if (first < here)
-        add_chain (w, k, first, -1);
-      if (last > here)
-        add_chain (w, k, last, 1);
+      g_array_append_val (w->blends, blend);
+      w->planned++;
     }
 }
 
 static void
-count_frame (Work *w)
+plan (Work *w)
+{
+  const CliMotion *motion = w->motion;
+  const CliKey    *first = motion->key, *last = motion->key + motion->n_keys - 1;
+
+  for (const CliKey *key = first; key <= last; key++)
+    {
+      w->n_parts++;
+      add_chain (w, key, key->frame, 0, false);
+      if (key < last)
+        add_between (w, key);
+    }
+  if (first->frame > 0)
+    {
+      w->n_parts++;
+      add_chain (w, first, 0, -1, false);
+    }
+  if (last->frame < motion->frames.n - 1)
+    {
+      w->n_parts++;
+      add_chain (w, last, motion->frames.n - 1, 1, false);
+    }
+}
+
+/* ------------------------------------------------------------------ running them */
+
+static void
+count_step (Work *w)
 {
   int done = g_atomic_int_add (&w->done, 1) + 1;
 
-  w->run->host.progress (w->run, (double) done / (double) w->motion->frames.n);
+  w->run->host.progress (w->run, (double) done / (double) w->planned);
 }
 
-/* Removes what a run that was killed left of a frame; no other chain writes there. */
-static void
-remove_unfinished (const Work *w, size_t frame)
-{
-  const char *results[] = { "labels", "levels", "depth", "state" };
-
-  for (size_t i = 0; i < G_N_ELEMENTS (results); i++)
-    if (strcmp (results[i], "depth") || w->motion->options->depth_dir)
-      {
-        char *path = cli_frame_path (w->motion, results[i], frame);
-
-        cli_remove_unfinished (path);
-        g_free (path);
-      }
-}
-
-/* Makes all frames of a chain; false after a message, or if the run is cancelled. */
+/* Makes all frames or sides of a chain; false after a message, or if the run is cancelled. */
 static bool
 run_chain (Work *w, const Chain *chain)
 {
-  const CliKey *key = &w->motion->key[chain->key];
+  const CliKey *key = chain->key, *side = chain->between ? key : NULL;
   CliFrameState state;
-  bool          good = cli_frame_of_key (w->motion, key, &state);
+  bool          good = cli_frame_of_key (w->motion, key, side, &state);
 
   if (good && !chain->step)
     {
-      remove_unfinished (w, key->frame);
+      cli_frame_remove_unfinished (w->motion, key->frame, NULL);
       good = cli_frame_write (w->motion, &w->host, &state);
-      count_frame (w);
+      count_step (w);
     }
   for (size_t frame = key->frame; good && frame != chain->last && !g_atomic_int_get (&w->failed);)
     {
       bool made;
 
       frame = chain->step > 0 ? frame + 1 : frame - 1;
-      remove_unfinished (w, frame);
+      cli_frame_remove_unfinished (w->motion, frame, side);
       good  = !cli_run_cancelled () && cli_frame_next (w->motion, &w->host, frame, &state, &made) &&
               (!made || cli_frame_write (w->motion, &w->host, &state));
-      count_frame (w);
+      count_step (w);
     }
   cli_frame_clear (&state);
   return good;
 }
 
 static void
-run_one (gpointer item, gpointer data)
+run_chain_of (gpointer chain, gpointer work)
 {
-  Work *w = data;
+  Work *w = work;
 
-  if (!run_chain (w, item))
+  if (!run_chain (w, chain))
     g_atomic_int_set (&w->failed, 1);
+}
+
+static void
+run_blend_of (gpointer item, gpointer work)
+{
+  Work        *w = work;
+  const Blend *blend = item;
+
+  if (g_atomic_int_get (&w->failed))
+    return;
+  cli_frame_remove_unfinished (w->motion, blend->frame, NULL);
+  if (cli_run_cancelled () || !cli_frame_blend (w->motion, &w->host, blend->frame, blend->key))
+    g_atomic_int_set (&w->failed, 1);
+  count_step (w);
 }
 
 static bool
@@ -161,38 +191,51 @@ keep_going (void *data, double done)
   return !cli_run_cancelled ();
 }
 
-/* How many chains to run at a time: those of a key alone are short, and give no other processor work for long. */
-static int
-jobs_for (const Work *w, size_t first, size_t end)
+/* Runs tasks that do not depend on each other: `at_once` at a time, or else one by one with all threads. */
+static void
+run_tasks (Work *w, const GPtrArray *tasks, int at_once, GFunc run)
 {
-  int most = w->motion->options->jobs ? w->motion->options->jobs : (int) g_get_num_processors (), long_ones = 0;
-
-  for (size_t i = first; i < end; i++)
-    long_ones += w->chain[i].step != 0;
-  return MIN (most, long_ones);
-}
-
-/* Runs the chains, or the one that --part names: several at a time, or else one by one with all threads. */
-static bool
-run_chains (Work *w)
-{
-  const CliOptions *o = w->motion->options;
-  size_t            first = o->part ? (size_t) o->part - 1 : 0, end = o->part ? (size_t) o->part : w->n_chains;
-  int               jobs = jobs_for (w, first, end);
+  int jobs = MIN (w->motion->options->jobs ? w->motion->options->jobs : (int) g_get_num_processors (), at_once);
 
   w->host = (CeldHost) { keep_going, jobs > 1 ? NULL : w->run->host.each, w->run };
-  cli_run_stage (w->run, "frames");
   if (jobs > 1)
     {
-      GThreadPool *pool = g_thread_pool_new (run_one, w, jobs, TRUE, NULL);
+      GThreadPool *pool = g_thread_pool_new (run, w, jobs, TRUE, NULL);
 
-      for (size_t i = first; i < end; i++)
-        g_thread_pool_push (pool, &w->chain[i], NULL);
+      for (guint i = 0; i < tasks->len; i++)
+        g_thread_pool_push (pool, tasks->pdata[i], NULL);
       g_thread_pool_free (pool, FALSE, TRUE);
     }
   else
-    for (size_t i = first; i < end && !w->failed; i++)
-      run_one (&w->chain[i], w);
+    for (guint i = 0; i < tasks->len; i++)
+      run (tasks->pdata[i], w);
+}
+
+/* Runs all parts, or the one that --part names. */
+static bool
+run_parts (Work *w)
+{
+  size_t     part = (size_t) w->motion->options->part;
+  GPtrArray *chains = g_ptr_array_new (), *blends = g_ptr_array_new ();
+  int        long_chains = 0; /* those of a key alone are short, and give no other processor work for long */
+
+  for (guint i = 0; i < w->chains->len; i++)
+    {
+      Chain *chain = &g_array_index (w->chains, Chain, i);
+
+      if (part && chain->part != part)
+        continue;
+      g_ptr_array_add (chains, chain);
+      long_chains += chain->step != 0;
+    }
+  for (guint i = 0; i < w->blends->len; i++)
+    if (!part || g_array_index (w->blends, Blend, i).part == part)
+      g_ptr_array_add (blends, &g_array_index (w->blends, Blend, i));
+  cli_run_stage (w->run, "frames");
+  run_tasks (w, chains, long_chains, run_chain_of);
+  run_tasks (w, blends, (int) blends->len, run_blend_of);
+  g_ptr_array_free (chains, TRUE);
+  g_ptr_array_free (blends, TRUE);
   return cli_run_finish (w->run, CELD_OK) && !w->failed;
 }
 
@@ -216,8 +259,9 @@ write_clip (const CliMotion *motion)
   good = cli_write_text (clip.relations, motion->relations);
   for (size_t i = 0; i < clip.n; i++)
     clip.frame[i] = (CliClipFrame) {
-      motion->frames.frame[i].number, g_strdup (motion->frames.frame[i].path), cli_frame_path (motion, "labels", i),
-      cli_frame_path (motion, "levels", i), motion->options->depth_dir ? cli_frame_path (motion, "depth", i) : NULL };
+      motion->frames.frame[i].number, g_strdup (motion->frames.frame[i].path), cli_frame_path (motion, "labels", i, NULL),
+      cli_frame_path (motion, "levels", i, NULL),
+      motion->options->depth_dir ? cli_frame_path (motion, "depth", i, NULL) : NULL };
   good = good && cli_clip_write (motion->options->labels_dir, &clip);
   cli_clip_clear (&clip);
   return good;
@@ -225,13 +269,13 @@ write_clip (const CliMotion *motion)
 
 /* ------------------------------------------------------------------ a farm */
 
-/* Writes a script for Slurm: an array of jobs, one for each chain, and the same command without --part to end it. A job
+/* Writes a script for Slurm: an array of jobs, one for each part, and the same command without --part to end it. A job
  * has not failed if relations contradict each other, status 3. */
 static bool
 write_slurm (const Work *w, const char *path)
 {
   GString *text = g_string_new ("#!/bin/sh\n"
-                                "# Run this with sh. It makes the chains of a clip as an array of jobs, and then the\n"
+                                "# Run this with sh. It makes the parts of a clip as an array of jobs, and then the\n"
                                 "# description of the clip and the review. What a job says is in a log beside this file.\n");
   char    *folder = g_get_current_dir (), *quoted_folder = g_shell_quote (folder);
   bool     good;
@@ -253,7 +297,7 @@ write_slurm (const Work *w, const char *path)
                                 "  --wrap \"$command --part \\$SLURM_ARRAY_TASK_ID --quiet || [ \\$? = 3 ]\") || exit 1\n"
                                 "sbatch --parsable --dependency=afterok:$array --kill-on-invalid-dep=yes \\\n"
                                 "  --job-name=celdepth-end --output=\"$log-end.log\" --wrap \"$command --quiet\"\n",
-                          w->n_chains);
+                          w->n_parts);
   good = cli_write_text (path, text->str);
   g_string_free (text, TRUE);
   g_free (folder);
@@ -266,22 +310,24 @@ write_slurm (const Work *w, const char *path)
 static bool
 propagate (const CliOptions *options, CliMotion *motion, CliRun *run)
 {
-  Work w = { .motion = motion, .run = run };
+  Work w = { .motion = motion, .run = run, .chains = g_array_new (FALSE, FALSE, sizeof (Chain)),
+             .blends = g_array_new (FALSE, FALSE, sizeof (Blend)) };
   bool good = cli_sequence_find (options->inputs, g_strv_length (options->inputs), &motion->frames) &&
               take_keys (motion);
 
   if (good)
-    plan_chains (&w);
-  if (good && options->part > (int) w.n_chains)
-    good = cli_error ("--part cannot be %d: the clip has %zu parts.", options->part, w.n_chains);
+    plan (&w);
+  if (good && options->part > (int) w.n_parts)
+    good = cli_error ("--part cannot be %d: the clip has %zu parts.", options->part, w.n_parts);
   if (good && options->emit_slurm)
     good = write_slurm (&w, options->emit_slurm);
   else if (good)
     good = cli_keys_read (motion, run) &&
-           run_chains (&w) &&
+           run_parts (&w) &&
            (options->part ||
             (write_clip (motion) && (!options->review || cli_review_write (options->review, motion))));
-  g_free (w.chain);
+  g_array_free (w.chains, TRUE);
+  g_array_free (w.blends, TRUE);
   return good;
 }
 

@@ -96,7 +96,7 @@ paint_frame (const CliMotion *motion, const CliFrameState *state, CeldPaint *pai
   CliLayers    drawing = { .width = motion->width, .height = motion->height };
   CliLayers    labels = { .width = motion->width, .height = motion->height };
   CliOptions   none = { 0 };
-  char        *path = cli_frame_path (motion, "labels", state->frame);
+  char        *path = cli_frame_path (motion, "labels", state->frame, NULL);
   bool         good = cli_layers_read (motion->frames.frame[state->frame].path, &none, 0, &drawing) &&
                       cli_layer_read (path, "labels", &labels, paint);
 
@@ -210,7 +210,7 @@ cli_review_write (const char *path, const CliMotion *motion)
 
   for (size_t i = 0; i < motion->frames.n; i++)
     {
-      state[i] = (CliFrameState) { .frame = i, .notes = g_array_new (FALSE, FALSE, sizeof (CliRegionNote)) };
+      state[i] = (CliFrameState) { .frame = i, .notes = cli_notes_new () };
       cli_frame_read_state (motion, i, NULL, &state[i]);
       n += wants_review (&state[i]);
     }

@@ -128,18 +128,59 @@ class Propagate(Test):
         self.assertFalse(set(left) & set(os.listdir(self.path('clip'))))
         self.assertTrue(os.path.exists(self.path(f'clip/{other}')))
 
-    def test_a_new_key_changes_frames_near_it(self):
-        self.celdepth(*self.words())
-        before = self.changed()
-        self.celdepth(*self.words())
-        self.assertEqual(self.changed()[1:], before[1:])
-        self.scribble('late.png', {PAGE: (5, 5, 195, 12), BALL: (148, 142, 152, 148), BODY: (98, 130, 106, 138),
-                                   ARM: (146, 70, 152, 74)})
-        self.celdepth(*self.words('--key', '6', '--scribbles', 'late.png'))
-        after = self.changed()
-        self.assertEqual([a != b for a, b in zip(after, before)][1:], [False, False, False, True, True, True])
+    KEYS = {3: {PAGE: (5, 5, 195, 12), BALL: (140, 141, 145, 147), BODY: (92, 126, 100, 136), ARM: (128, 90, 133, 94)},
+            6: {PAGE: (5, 5, 195, 12), BALL: (148, 142, 152, 148), BODY: (98, 130, 106, 138), ARM: (146, 70, 152, 74)}}
+
+    def with_keys(self, *more, keys=(3, 6), folder='clip'):
+        words = []
+        for key in keys:
+            if not os.path.exists(self.path(f'{key}.png')):
+                self.scribble(f'{key}.png', self.KEYS[key])
+            words += ['--key', str(key), '--scribbles', f'{key}.png']
+        return self.words(*words, *more, folder=folder)
+
+    def test_a_corrected_key_changes_frames_near_it(self):
+        """Those up to the keys beside it; what other keys say of these frames is kept."""
+        self.celdepth(*self.with_keys())
+        before, side = self.changed(), os.stat(self.path('clip/.labels_004_from_003.png')).st_mtime_ns
         for frame in range(FRAMES):
             self.assertGreater(self.share(frame), 0.99, frame)
+        self.celdepth(*self.with_keys())
+        self.assertEqual([a != b for a, b in zip(self.changed(), before)],
+                         [key in (0, 3, 6) for key in range(FRAMES)])
+        self.scribble('6.png', {**self.KEYS[6], PAGE: (5, 5, 190, 12)})
+        self.celdepth(*self.with_keys())
+        after = self.changed()
+        self.assertEqual([after[frame] != before[frame] for frame in (1, 2, 4, 5)], [False, False, True, True])
+        self.assertEqual(os.stat(self.path('clip/.labels_004_from_003.png')).st_mtime_ns, side)
+
+    def test_a_part_that_appears_between_keys(self):
+        """The ball comes up in frame 1, before the middle; the first key does not know it, the last one does."""
+        true = regions(0)
+        true[true == BALL] = PAGE
+        Image.fromarray((255 * paper(true)).astype(np.uint8)).save(self.path('walk_000.png'))
+        self.scribble('scribbles.png', {region: box for region, box in SCRIBBLES.items() if region != BALL})
+        self.celdepth(*self.words()[:6], '--relations', ORDER.split(';')[0], '--labels-dir', 'one', '--quiet', code=0)
+        self.celdepth(*self.with_keys(keys=(6,)))
+        for frame in range(1, FRAMES):
+            ball = paper(regions(frame)) & (regions(frame) == BALL)
+            alone = self.picture(f'one/labels_{frame:03d}.png')[..., :3]
+            self.assertLess((alone == COLOURS[BALL]).all(2)[ball].mean(), 0.1)
+            self.assertGreater(self.share(frame), 0.99, frame)
+
+    def test_an_interrupted_blend_goes_on(self):
+        self.celdepth(*self.with_keys(keys=(6,), folder='whole'))
+        chance = random.Random(2)
+        for _ in range(10):
+            run = subprocess.Popen([COMMAND, *self.with_keys('--quiet', keys=(6,), folder='parts')], cwd=self.folder,
+                                   stdin=subprocess.DEVNULL)
+            time.sleep(chance.uniform(0.02, 0.8))
+            run.send_signal(signal.SIGKILL)
+            run.wait()
+        self.celdepth(*self.with_keys(keys=(6,), folder='parts'))
+        whole, parts = self.contents('whole'), self.contents('parts')
+        self.assertEqual({name: data for name, data in parts.items() if name != 'clip.json'},
+                         {name: data for name, data in whole.items() if name != 'clip.json'})
 
     def test_a_stranger_is_to_be_reviewed(self):
         Image.fromarray(np.where(np.add.outer(np.arange(SIDE), np.arange(SIDE)) % 37 < 2, 0, 255)
@@ -195,8 +236,8 @@ class Propagate(Test):
 
     def test_a_farm_makes_the_same(self):
         """With a stand-in for sbatch that runs what it is given at once."""
-        self.celdepth(*self.words(folder='whole'))
-        self.celdepth(*self.words('--emit-slurm', 'farm.sh', folder='farm'))
+        self.celdepth(*self.with_keys(folder='whole'))
+        self.celdepth(*self.with_keys('--emit-slurm', 'farm.sh', folder='farm'))
         self.assertEqual(os.listdir(self.path('farm')), [])
         os.mkdir(self.path('bin'))
         with open(self.path('bin/sbatch'), 'w', encoding='utf-8') as file:

@@ -159,6 +159,73 @@ strangers_are_uncertain (void)
   drop (&next);
 }
 
+/* Blends two rows of labels with certainties of tenths, and compares labels and certainties, which are percent. */
+static void
+check_blend (const char *one, const char *sure_one, const char *other, const char *sure_other, double nearness,
+             const char *wanted, const int *percent)
+{
+  enum { LENGTH = 12 };
+  uint32_t       label[2][LENGTH], found[LENGTH];
+  float          sure[2][LENGTH], found_sure[LENGTH];
+  CeldLabels     labels[3] = { { LENGTH, 1, LENGTH, label[0] }, { LENGTH, 1, LENGTH, label[1] },
+                               { LENGTH, 1, LENGTH, found } };
+  CeldPlane      certainty[3] = { { LENGTH, 1, LENGTH, sure[0] }, { LENGTH, 1, LENGTH, sure[1] },
+                                  { LENGTH, 1, LENGTH, found_sure } };
+  CeldPropagated side[2] = { { &labels[0], &certainty[0], nearness }, { &labels[1], &certainty[1], 1 - nearness } };
+
+  for (int i = 0; i < LENGTH; i++)
+    {
+      label[0][i] = (uint32_t) (one[i] - '0');
+      label[1][i] = (uint32_t) (other[i] - '0');
+      sure[0][i]  = (float) (sure_one[i] - '0') / 9;
+      sure[1][i]  = (float) (sure_other[i] - '0') / 9;
+    }
+  CHECK (celd_blend_propagated (side, NULL, &labels[2], &certainty[2]) == CELD_OK);
+  for (int i = 0; i < LENGTH; i++)
+    {
+      CHECK (found[i] == (uint32_t) (wanted[i] - '0'));
+      NEAR (found_sure[i], percent[i] / 100., 0.005);
+    }
+}
+
+/* A part that only the second key knows, 3: the first one has unexplained background there.  Ink is between them. */
+static void
+a_part_that_one_key_knows_is_taken_from_it (void)
+{
+  static const int part[] = { 100, 100, 0, 100, 100, 100, 0, 100, 100, 0, 100, 100 };
+
+  for (int nearer = 1; nearer <= 9; nearer++)
+    check_blend ("111111112222", "990000099099", "111333312222", "990999099099", nearer / 10., "111333312222", part);
+}
+
+/* One side is wrong on the left, the other on the right, each less certain there than the other one. */
+static void
+each_area_takes_the_more_certain_side (void)
+{
+  static const int sure[] = { 75, 75, 75, 75, 0, 100, 100, 0, 75, 75, 75, 75 };
+  static const int even[] = { 50, 50, 50, 50, 0, 100, 100, 0, 50, 50, 50, 50 };
+  static const int near[] = { 80, 80, 80, 80, 0, 100, 100, 0, 80, 80, 80, 80 };
+
+  check_blend ("222211114444", "333309909999", "333311115555", "999909903333", 0.5, "333311114444", sure);
+  /* As certain: the nearer key's, or the first one's. */
+  check_blend ("222211114444", "999909909999", "333311115555", "999909909999", 0.5, "222211114444", even);
+  check_blend ("222211114444", "999909909999", "333311115555", "999909909999", 0.2, "333311115555", near);
+}
+
+static void
+blends_of_other_sizes_are_refused (void)
+{
+  static float   sure[4];
+  static uint32_t label[4] = { 1, 1, 70000, 2 }, many[4] = { 2, 2, 1, 70000 };
+  CeldLabels     one = { 2, 2, 2, label }, other = { 2, 2, 2, many }, low = { 2, 1, 2, label };
+  CeldPlane      certainty = { 2, 2, 2, sure };
+  CeldPropagated side[2] = { { &one, &certainty, 0.5 }, { &low, &certainty, 0.5 } };
+
+  CHECK (celd_blend_propagated (side, NULL, &one, &certainty) == CELD_BAD_SIZE);
+  side[1].labels = &other;
+  CHECK (celd_blend_propagated (side, NULL, &one, &certainty) == CELD_BAD_VALUE);
+}
+
 /* In the opposite order, as threads would. */
 static void
 backwards (void *data, int n, void (*body) (void *data, int i), void *body_data)
@@ -221,6 +288,9 @@ main (void)
   RUN (still_frames_keep_their_labels);
   RUN (parts_are_followed);
   RUN (strangers_are_uncertain);
+  RUN (a_part_that_one_key_knows_is_taken_from_it);
+  RUN (each_area_takes_the_more_certain_side);
+  RUN (blends_of_other_sizes_are_refused);
   RUN (order_of_work_does_not_matter);
   RUN (bad_input_is_refused);
   return DONE;
