@@ -2,8 +2,9 @@
  *
  * Of two regions with ink between them, the nearer one drew it.  Ink that is thicker than this region's pen
  * (pen-width.c) contains other lines, too.  Then the line next to the paper has the owner of the nearest point along
- * the edge whose owner is certain, up to a corner; or, round the corner, an owner between both labels in depth; else
- * the nearer label.
+ * the edge whose owner is certain, up to a corner; or, round the corner, an owner between both labels in depth, or the
+ * paper's own label if a nearer region lies on its outline and the rest of the thickness fits its pen; else the nearer
+ * label.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -49,7 +50,7 @@ local_owner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdge
   if (!pen->near || pen->near == pen->far)
     return 0;
   if (front)
-    return p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
+    return !pen->thickened && p->thickness <= PLAIN_THICKNESS * pen->width + THICKNESS_TOLERANCE ? front : 0;
   return pen->far && p->thickness > 2 * pen->width + THICKNESS_TOLERANCE ? 0 : pen->near; /* equal levels, or ink
                                                                                            * that leaves the picture */
 }
@@ -62,12 +63,31 @@ accepts_owner (const CeldEdgePen *pen, const CeldEdgePen *from, float distance)
   return pen->near != pen->far || distance < TIP_WIDTHS * from->width;
 }
 
-/* May a point behind a corner take that label: does it lie between the paper and the front label in depth? */
+/* Does the ink between a region and a nearer one that lies on its outline show a line of the region's own, no wider
+ * than its pen? */
 static bool
-accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePen *pen, uint32_t label)
+shows_own_line (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen)
+{
+  uint32_t front = celd_pen_front (pens, pen);
+  float    own, rest;
+
+  if (!pen->thickened || front == pen->near)
+    return false;
+  own  = pens->typical_width[pen->near - 1];
+  rest = p->thickness - pens->max_width[front - 1];
+  return own > 0 && rest > THICKNESS_TOLERANCE && rest <= PLAIN_THICKNESS * own + THICKNESS_TOLERANCE;
+}
+
+/* May a point behind a corner take that label: is it the paper's own, whose line is seen, or does it lie between the
+ * paper and the front label in depth? */
+static bool
+accepts_owner_round_corner (const CeldContourPens *pens, const CeldEdgePoint *p, const CeldEdgePen *pen,
+                            uint32_t label)
 {
   uint32_t front = celd_pen_front (pens, pen);
 
+  if (label == pen->near)
+    return shows_own_line (pens, p, pen);
   return front && front != pen->near && pens->level[label - 1] < pens->level[front - 1] &&
          pens->level[label - 1] > pens->level[pen->near - 1];
 }
@@ -88,7 +108,7 @@ propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, f
         float  total = distance[a] + point[backwards ? b : a].step;
 
         if (pen[a].owner && total < distance[b] &&
-            (round ? accepts_owner_round_corner (pens, &pen[b], pen[a].owner)
+            (round ? accepts_owner_round_corner (pens, &point[b], &pen[b], pen[a].owner)
                    : !point[a].corner && accepts_owner (&pen[b], &pen[a], total)))
           {
             distance[b]       = total;
@@ -96,6 +116,17 @@ propagate_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, bool round, f
             pen[b].width = pen[a].width;
           }
       }
+}
+
+/* The owner of a point that nothing along the edge tells about. */
+static void
+assume_owner (const CeldContourPens *pens, const CeldEdgePoint *p, CeldEdgePen *pen)
+{
+  bool own = shows_own_line (pens, p, pen);
+
+  pen->owner = own || !celd_pen_front (pens, pen) ? pen->near : celd_pen_front (pens, pen);
+  if (own)
+    pen->width = pens->typical_width[pen->near - 1];
 }
 
 static void
@@ -120,7 +151,7 @@ find_loop_owners (const CeldEdgeLoop *loop, CeldContourPens *pens, float *distan
     propagate_owners (loop, pens, true, distance);
   for (size_t i = 0; i < loop->n; i++)
     if (!pen[i].owner)
-      pen[i].owner = celd_pen_front (pens, &pen[i]) ? celd_pen_front (pens, &pen[i]) : pen[i].near;
+      assume_owner (pens, &point[i], &pen[i]);
 }
 
 /* ------------------------------------------------------------------ updates */
@@ -193,7 +224,8 @@ same_loop (const CeldEdgeLoop *loop, const CeldContourPens *old, const CeldConto
     {
       const CeldEdgePen *a = &old->pen[i], *b = &new->pen[i];
 
-      if (a->near != b->near || a->far != b->far || changed[b->near] || changed[celd_pen_front (new, b)])
+      if (a->near != b->near || a->far != b->far || a->thickened != b->thickened || changed[b->near] ||
+          changed[celd_pen_front (new, b)])
         return false;
     }
   return same_order (loop, old, new);

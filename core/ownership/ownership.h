@@ -140,6 +140,8 @@ typedef struct
   uint32_t near, far;           /* labels of the paper on this side and on the other side; 0 = outside the picture */
   uint32_t owner;               /* label whose pen drew the ink at this point; 0 = unknown */
   float    width;               /* of that pen, in pixels */
+  uint32_t thickened;           /* 1: the ink is thicker all along the contact of `near` and `far` than the pen of the
+                                 * nearer one: it contains another line */
 } CeldEdgePen;
 
 /* The pens of a labelling with labels 1 .. n: pen[i] belongs to edges->point[i]. */
@@ -181,7 +183,8 @@ bool celd_label_order_changed (const CeldLabelList *list, const CeldContourPens 
 
 /* ------------------------------------------------------------------ pen-width.c */
 
-/* Estimates typical_width and max_width of each label, and the pen's width at each point of a loop. */
+/* Estimates typical_width and max_width of each label and finds the thickened points; estimates the pen's width at each
+ * point of a loop. */
 CeldStatus celd_pen_widths_measure (CeldContourPens *pens);
 void       celd_pen_widths_smooth (const CeldEdgeLoop *loop, CeldContourPens *pens);
 

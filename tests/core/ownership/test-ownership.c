@@ -59,6 +59,79 @@ pens_beat_thickness (void)
   CHECK (1 - mean_score (8, 0, CELD_EXPANSION_OUTLINES) <= 0.5 * (1 - mean_score (8, 0, CELD_EXPANSION_THICKNESS)));
 }
 
+/* ------------------------------------------------------------------ sheets that lie on each other's outlines */
+
+/* A rectangle on a page that is turned a little, so that its sides cross the grid. */
+static void
+add_sheet (Blobs *b, double left, double top, double right, double bottom, double pen)
+{
+  enum { SIDE = BLOB_CORNERS / 4 };
+  const double corner[5][2] = { { left, top }, { right, top }, { right, bottom }, { left, bottom }, { left, top } };
+  Blob         blob;
+
+  for (int i = 0; i < BLOB_CORNERS; i++)
+    {
+      const double *from = corner[i / SIDE], *to = corner[i / SIDE + 1];
+      double        t = (double) (i % SIDE) / SIDE, x = from[0] + t * (to[0] - from[0]) - 130;
+      double        y = from[1] + t * (to[1] - from[1]) - 130;
+
+      blob.x[i]     = 130 + 0.97 * x - 0.24 * y;
+      blob.y[i]     = 130 + 0.24 * x + 0.97 * y;
+      blob.width[i] = pen;
+    }
+  blobs_draw (b, &blob);
+}
+
+/* The share of ink that gets its owner; frees b. */
+static double
+score_sheets (Blobs *b)
+{
+  CeldOwnership own;
+  double        score;
+
+  CHECK (celd_ownership_new (b->ink.width, b->ink.height, &own) == CELD_OK);
+  CHECK (celd_own (&b->ink, &b->labels, b->level, b->n, NULL, CELD_EXPANSION_OUTLINES, NULL, &own) == CELD_OK);
+  score = blobs_score (b, &own);
+  celd_ownership_clear (&own);
+  blobs_free (b);
+  return score;
+}
+
+/* A cover of pen 3 ends where its block of pages, drawn with a thick pen, begins: what is left of the thick line beside
+ * the thin one belongs to the pages, whose own line goes on round the corners. */
+static void
+a_thin_sheet_leaves_the_outline_below_it (void)
+{
+  static const double pens[] = { 12, 8 };
+
+  for (size_t i = 0; i < sizeof pens / sizeof *pens; i++)
+    {
+      Blobs b;
+
+      blobs_new (260, 260, &b);
+      add_sheet (&b, 70, 130, 190, 180, pens[i]);
+      add_sheet (&b, 70, 60, 190, 130, 3);
+      CHECK (score_sheets (&b) >= 0.98);
+    }
+}
+
+/* Three sides of a pane of pen 3 lie on a frame of a thick pen, so that most of its outline is thicker than its pen. */
+static void
+a_pen_is_measured_where_it_is_alone (void)
+{
+  static const double pens[] = { 12, 8 };
+
+  for (size_t i = 0; i < sizeof pens / sizeof *pens; i++)
+    {
+      Blobs b;
+
+      blobs_new (260, 260, &b);
+      add_sheet (&b, 90, 40, 160, 220, pens[i]);
+      add_sheet (&b, 90, 80, 160, 220, 3);
+      CHECK (score_sheets (&b) >= 0.98);
+    }
+}
+
 /* ------------------------------------------------------------------ known answers */
 
 /* '#' is ink, letters are paper of that label; labels in alphabetical order are from back to front. */
@@ -300,6 +373,8 @@ main (void)
   RUN (pens_are_told_apart);
   RUN (hair_lines_and_brushes_are_told_apart);
   RUN (pens_beat_thickness);
+  RUN (a_thin_sheet_leaves_the_outline_below_it);
+  RUN (a_pen_is_measured_where_it_is_alone);
   RUN (a_contour_is_the_nearer_regions);
   RUN (ink_within_a_region_is_its_own);
   RUN (a_black_patch_keeps_its_ink);
