@@ -23,11 +23,13 @@ typedef struct
 static void
 page_new (uint32_t *seed, Page *page)
 {
-  double pen = 1 + check_random (seed, 16);
-
   blobs_new (WIDTH, HEIGHT, &page->blobs);
   for (int k = 0; k < 7; k++)
-    blobs_add (&page->blobs, seed, pen, 0.01 * check_random (seed, 30));
+    {
+      double pen = 1 + check_random (seed, 16);
+
+      blobs_add (&page->blobs, seed, pen, 0.01 * check_random (seed, 30));
+    }
   for (int y = BLACK_Y; y < BLACK_END_Y; y++) /* an area of ink that no pen explains */
     for (int x = BLACK_X; x < BLACK_END_X; x++)
       CELD_AT (&page->blobs.ink, x, y) = 0;
