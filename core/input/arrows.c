@@ -1,8 +1,9 @@
 /* Painted arrows: which end of a stroke is nearer.
  *
  * Each connected stroke of the layer (alpha at least one half; in a layer without alpha, what differs from the
- * commonest colour) is one arrow; where strokes cross, each is followed straight on (crossing-strokes.c).  Its form
- * decides; its colour only says whether registration may tear there (blue).
+ * commonest colour) is one arrow; where strokes cross, each is followed straight on (crossing-strokes.c).  Strokes of
+ * different colours may touch as they like: each colour is read alone (arrow-colours.c), if its ends are not hidden
+ * (hidden-ends.c).  The form of a stroke decides; its colour also says whether registration may tear there (blue).
  *
  *   head   an arrowhead, open or filled, is the farther end (arrowhead.c)
  *   dot    a blob is the nearer end (arrowhead.c)
@@ -25,6 +26,8 @@
 #define THIN_OPACITY  48   /* of a taper's paint: its thin end covers pixels only in part */
 #define FADED_OPACITY 16   /* of a fading stroke's paint */
 #define LEAST_STROKE  6    /* pixels; a smaller component is a speck and ignored */
+#define MOST_REMNANT  150  /* pixels of a piece of a thin or faint end, ... */
+#define BREAK         7    /* ... and how far it may be from the rest */
 #define LEAST_HUE     195  /* degrees: the range of blue */
 #define LARGEST_HUE   265
 #define LEAST_CHROMA  0.25 /* of blue: its largest channel less its smallest, as a fraction of the largest */
@@ -146,36 +149,147 @@ read_crossing (CeldArrowStroke *stroke, const CeldCrossingStrokes *strokes, cons
   return status;
 }
 
-/* Appends the arrow of a component, those of the strokes that cross in it, or problems. */
+/* Appends the arrow of connected paint, or those of the strokes that cross in it; *clear becomes false if neither is
+ * clear. */
+static CeldStatus
+read_strokes (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
+              bool *clear)
+{
+  CeldArrowStroke     whole = *stroke;
+  CeldCrossingStrokes strokes = { 0 };
+  CeldStatus          status = celd_crossing_strokes_find (stroke, &strokes);
+
+  *clear = strokes.n;
+  if (status == CELD_OK && strokes.n)
+    status = read_crossing (stroke, &strokes, layer, style, relations, clear);
+  if (status == CELD_OK && !*clear)
+    {
+      *stroke = whole;
+      *clear  = true;
+      status  = read_one (stroke, layer, style, relations, clear);
+    }
+  celd_crossing_strokes_clear (&strokes);
+  *stroke = whole;
+  return status;
+}
+
+/* Appends a problem for each stroke of connected paint. */
+static CeldStatus
+report_strokes (const CeldArrowStroke *paint, CeldProblems *problems)
+{
+  CeldArrowStroke     stroke = *paint;
+  CeldCrossingStrokes strokes = { 0 };
+  CeldStatus          status = celd_crossing_strokes_find (paint, &strokes);
+
+  if (status == CELD_OK && !strokes.n)
+    status = celd_problem_add (problems, unclear_arrow (paint));
+  for (size_t k = 0; k < strokes.n && status == CELD_OK; k++)
+    {
+      select_stroke (&strokes, k, &stroke);
+      if (stroke.n >= LEAST_STROKE)
+        status = celd_problem_add (problems, unclear_arrow (&stroke));
+    }
+  celd_crossing_strokes_clear (&strokes);
+  return status;
+}
+
+/* ------------------------------------------------------------------ strokes of several colours */
+
+typedef struct { CeldArrowEnd *item; size_t n, capacity; } Ends; /* two for each relation */
+
+/* Appends the ends of the relations from `first` on, which are those of a stroke. */
+static CeldStatus
+add_ends (const CeldStrokeMask *component, const CeldArrowStroke *stroke, const CeldRelations *relations, size_t first,
+          Ends *ends)
+{
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = first; i < relations->n && status == CELD_OK; i++)
+    {
+      const CeldRelation *r = &relations->item[i];
+      CeldPoint           tail = { r->nearer.x, r->nearer.y }, tip = { r->farther.x, r->farther.y };
+      CeldArrowEnd        from = celd_arrow_end (component, stroke, tail, tip);
+      CeldArrowEnd        to = celd_arrow_end (component, stroke, tip, tail);
+
+      status = celd_append (ends->item, ends->n, ends->capacity, from);
+      if (status == CELD_OK)
+        status = celd_append (ends->item, ends->n, ends->capacity, to);
+    }
+  return status;
+}
+
+/* Removes the relations from `first` on that have an end below others at an unknown place, and reports them. */
+static CeldStatus
+remove_hidden (const Ends *ends, CeldRelations *relations, size_t first, CeldProblems *problems)
+{
+  size_t     kept = first;
+  CeldStatus status = CELD_OK;
+
+  for (size_t i = first; i < relations->n && status == CELD_OK; i++)
+    {
+      size_t       k = 2 * (i - first);
+      CeldRelation r = relations->item[i];
+
+      if (celd_arrow_end_known (ends->item, ends->n, k) && celd_arrow_end_known (ends->item, ends->n, k + 1))
+        relations->item[kept++] = r;
+      else
+        status = celd_problem_add (problems, (CeldProblem) {
+          .kind = CELD_PROBLEM_ARROW_UNCLEAR, .relation = CELD_NO_INDEX,
+          .x = (int) r.nearer.x, .y = (int) r.nearer.y,
+        });
+    }
+  relations->n = kept;
+  return status;
+}
+
+/* Appends the arrows of each colour of a component, or problems. */
+static CeldStatus
+read_colours (const CeldColourStrokes *colours, CeldArrowStroke *stroke, const CeldArrowLayer *layer,
+              CeldArrowStyle style, CeldRelations *relations, CeldProblems *problems)
+{
+  CeldStrokeMask component;
+  Ends           ends = { 0 };
+  size_t         first = relations->n;
+  CeldStatus     status = celd_stroke_mask_new (stroke, &component);
+
+  if (status != CELD_OK)
+    return status;
+  for (size_t k = 0; k < colours->strokes.n && status == CELD_OK; k++)
+    {
+      size_t before = relations->n;
+      bool   clear = false;
+
+      select_stroke (&colours->strokes, k, stroke);
+      if (!colours->doubtful[k])
+        status = read_strokes (stroke, layer, style, relations, &clear);
+      if (status == CELD_OK)
+        status = clear ? add_ends (&component, stroke, relations, before, &ends) : report_strokes (stroke, problems);
+    }
+  if (status == CELD_OK)
+    status = remove_hidden (&ends, relations, first, problems);
+  celd_free (ends.item);
+  celd_stroke_mask_clear (&component);
+  return status;
+}
+
+/* Appends the arrows of a component, or problems: of what is no clear arrow as a whole, each colour is read alone. */
 static CeldStatus
 read_component (CeldArrowStroke *stroke, const CeldArrowLayer *layer, CeldArrowStyle style, CeldRelations *relations,
                 CeldProblems *problems)
 {
-  CeldArrowStroke     whole = *stroke;
-  CeldCrossingStrokes strokes = { 0 };
-  bool                clear = true;
-  CeldStatus          status;
+  CeldColourStrokes colours = { 0 };
+  bool              clear = false;
+  CeldStatus        status;
 
   if (stroke->n < LEAST_STROKE)
     return CELD_OK;
-  status = celd_crossing_strokes_find (stroke, &strokes);
-  if (status == CELD_OK && strokes.n)
-    status = read_crossing (stroke, &strokes, layer, style, relations, &clear);
-  if (status == CELD_OK && (!strokes.n || !clear))
-    {
-      *stroke = whole;
-      clear   = true;
-      status  = read_one (stroke, layer, style, relations, &clear);
-    }
-  if (status == CELD_OK && !clear && !strokes.n)
-    status = celd_problem_add (problems, unclear_arrow (stroke));
-  for (size_t k = 0; k < strokes.n && status == CELD_OK && !clear; k++)
-    {
-      select_stroke (&strokes, k, stroke);
-      if (stroke->n >= LEAST_STROKE)
-        status = celd_problem_add (problems, unclear_arrow (stroke));
-    }
-  celd_crossing_strokes_clear (&strokes);
+  status = read_strokes (stroke, layer, style, relations, &clear);
+  if (status == CELD_OK && !clear)
+    status = celd_arrow_colours_split (stroke, layer, &colours);
+  if (status == CELD_OK && !clear)
+    status = colours.strokes.n ? read_colours (&colours, stroke, layer, style, relations, problems)
+                               : report_strokes (stroke, problems);
+  celd_colour_strokes_clear (&colours);
   return status;
 }
 
@@ -261,6 +375,29 @@ gather_pixels (Components *s)
   return CELD_OK;
 }
 
+/* Is the selected component small, with another one close to it?  Then it may be a piece of that one: thin and faint ends
+ * of strokes fall to pieces. */
+static bool
+is_remnant (const Components *s)
+{
+  const CeldArrowStroke *stroke = &s->stroke;
+  uint32_t               own;
+
+  if (stroke->n < LEAST_STROKE || stroke->n > MOST_REMNANT)
+    return false;
+  own = CELD_AT (&s->label, celd_stroke_x (stroke, stroke->pixel[0]), celd_stroke_y (stroke, stroke->pixel[0]));
+  for (size_t i = 0; i < stroke->n; i++)
+    {
+      int x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+
+      for (int v = y > BREAK ? y - BREAK : 0; v <= y + BREAK && v < s->label.height; v++)
+        for (int u = x > BREAK ? x - BREAK : 0; u <= x + BREAK && u < s->label.width; u++)
+          if (CELD_AT (&s->label, u, v) && CELD_AT (&s->label, u, v) != own)
+            return true;
+    }
+  return false;
+}
+
 static CeldStatus
 read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle style, const CeldHost *host,
                  CeldRelations *relations, CeldProblems *problems)
@@ -275,7 +412,10 @@ read_components (Components *s, const CeldArrowLayer *layer, CeldArrowStyle styl
       s->stroke.pixel = s->pixel + done;
       s->stroke.n     = s->component[k].area;
       done += s->stroke.n;
-      status = read_component (&s->stroke, layer, style, relations, problems);
+      if ((style == CELD_ARROW_FADE || style == CELD_ARROW_TAPER) && is_remnant (s))
+        status = celd_problem_add (problems, unclear_arrow (&s->stroke));
+      else
+        status = read_component (&s->stroke, layer, style, relations, problems);
       if (status == CELD_OK)
         status = celd_progress (host, (double) done / (double) all);
     }

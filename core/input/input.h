@@ -285,4 +285,31 @@ typedef struct { uint32_t *pixel; size_t *first, n; size_t pixel_capacity; } Cel
 CeldStatus celd_crossing_strokes_find (const CeldArrowStroke *component, CeldCrossingStrokes *strokes);
 void       celd_crossing_strokes_clear (CeldCrossingStrokes *strokes);
 
+/* arrow-colours.c: connected paint of each colour of a component; doubtful: it may be a part of a stroke that others
+ * hide. */
+typedef struct
+{
+  CeldCrossingStrokes strokes;
+  bool               *doubtful;
+  size_t              first_capacity, doubtful_capacity;
+} CeldColourStrokes;
+
+/* strokes.n = 0 if the component has one colour.  To be cleared by the caller. */
+CeldStatus celd_arrow_colours_split (const CeldArrowStroke *component, const CeldArrowLayer *layer,
+                                     CeldColourStrokes *strokes);
+void       celd_colour_strokes_clear (CeldColourStrokes *strokes);
+
+/* ------------------------------------------------------------------ hidden-ends.c */
+
+/* An end of an arrow, the mean width of its paint, and whether it visibly ends there: else other paint of the component
+ * goes on in its direction and may hide its end. */
+typedef struct { CeldPoint at; double width; bool visible; } CeldArrowEnd;
+
+/* The end at `at` of an arrow from or to `other`, whose paint is `stroke`. */
+CeldArrowEnd celd_arrow_end (const CeldStrokeMask *component, const CeldArrowStroke *stroke, CeldPoint at,
+                             CeldPoint other);
+
+/* Is the place of end k of n known?  Arrow k has the ends 2 k and 2 k + 1. */
+bool celd_arrow_end_known (const CeldArrowEnd *ends, size_t n, size_t k);
+
 #endif

@@ -1,0 +1,295 @@
+/* Separates a connected component of arrows into its colours.
+ *
+ * Arrows of different colours may share ends and lie on each other.  The colours are the commonest ones of the solid
+ * paint that differ clearly; in a layer without alpha, paint is mixed with the paper, so that the directions of colours
+ * from it are compared.  Where a stroke passes below another one, its paint is continued through the other one's, as far
+ * as a morphological closing fills that.
+ *
+ * Cost: a pass over the component for each colour, and distance transforms of its box.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "base/base.h"
+#include "input/input.h"
+
+#include <math.h>
+
+/* All chosen. */
+#define MOST_COLOURS   16
+#define KEY_BITS       4    /* of each channel in the histogram */
+#define SOLID_SHARE    0.75 /* of the largest opacity: paint of less is an edge */
+#define LEAST_CONTRAST 55   /* of 255, between colours of different strokes; ... */
+#define MOST_CONTRAST  40   /* ... and from its stroke's colour to a pixel */
+#define ON_PAPER       1.7  /* times as much in a layer without alpha, which may have been stored with loss */
+#define LEAST_PAINT    20   /* pixels of a colour, ... */
+#define LEAST_PALETTE  0.02 /* ... which is at least this share of the solid paint */
+#define LEAST_PART     100  /* pixels of a part of a colour that is not an edge of another stroke */
+#define MOST_BREAK     40   /* pixels between parts that may be one stroke, hidden by others in between */
+#define CLOSING        7    /* pixels: half the width of a stroke below which another one continues */
+
+typedef struct { double red, green, blue; } StrokeColour;
+
+static double
+distance_between (StrokeColour a, StrokeColour b)
+{
+  return hypot (hypot (a.red - b.red, a.green - b.green), a.blue - b.blue);
+}
+
+/* The colour of a pixel; without alpha its difference from the paper, so stretched that the largest channel is 255. */
+static StrokeColour
+colour_at (const CeldArrowLayer *layer, int x, int y)
+{
+  const uint8_t *c = CELD_RGBA (layer->paint, x, y);
+  double         stretch;
+
+  if (!layer->opaque)
+    return (StrokeColour) { c[0], c[1], c[2] };
+  stretch = 255. / fmax (1, celd_arrow_opacity (layer, x, y));
+  return (StrokeColour) { stretch * (c[0] - layer->paper[0]), stretch * (c[1] - layer->paper[1]),
+                         stretch * (c[2] - layer->paper[2]) };
+}
+
+static int
+channel_key (double value)
+{
+  return (int) fmin ((1 << KEY_BITS) - 1, (value + 255) / 511 * (1 << KEY_BITS));
+}
+
+static size_t
+key_of (const CeldArrowLayer *layer, StrokeColour c)
+{
+  if (layer->opaque)
+    return (size_t) ((channel_key (c.red) << KEY_BITS | channel_key (c.green)) << KEY_BITS | channel_key (c.blue));
+  return (size_t) (((int) c.red >> (8 - KEY_BITS) << KEY_BITS | (int) c.green >> (8 - KEY_BITS)) << KEY_BITS |
+                   (int) c.blue >> (8 - KEY_BITS));
+}
+
+typedef struct { double red, green, blue, n; } Bin;
+
+/* The colours of the solid paint, commonest first; *n is their number. */
+static CeldStatus
+find_palette (const CeldArrowStroke *stroke, const CeldArrowLayer *layer, StrokeColour *palette, int *n)
+{
+  Bin   *bins  = celd_alloc0 ((size_t) 1 << 3 * KEY_BITS, sizeof *bins);
+  double solid = 0, apart = LEAST_CONTRAST * (layer->opaque ? ON_PAPER : 1);
+  int    most = 0;
+
+  *n = 0;
+  if (!bins)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < stroke->n; i++)
+    most = (int) fmax (most, celd_arrow_opacity (layer, celd_stroke_x (stroke, stroke->pixel[i]),
+                                                celd_stroke_y (stroke, stroke->pixel[i])));
+  for (size_t i = 0; i < stroke->n; i++)
+    {
+      int          x = celd_stroke_x (stroke, stroke->pixel[i]), y = celd_stroke_y (stroke, stroke->pixel[i]);
+      StrokeColour c;
+      Bin         *bin;
+
+      if (celd_arrow_opacity (layer, x, y) < SOLID_SHARE * most)
+        continue;
+      c   = colour_at (layer, x, y);
+      bin = &bins[key_of (layer, c)];
+      bin->red += c.red;
+      bin->green += c.green;
+      bin->blue += c.blue;
+      bin->n++;
+      solid++;
+    }
+  while (*n < MOST_COLOURS)
+    {
+      Bin *best  = bins;
+      bool other = true;
+
+      for (size_t i = 0; i < (size_t) 1 << 3 * KEY_BITS; i++)
+        best = bins[i].n > best->n ? &bins[i] : best;
+      if (best->n < fmax (LEAST_PAINT, LEAST_PALETTE * solid))
+        break;
+      palette[*n] = (StrokeColour) { best->red / best->n, best->green / best->n, best->blue / best->n };
+      for (int k = 0; k < *n; k++)
+        other &= distance_between (palette[k], palette[*n]) > apart;
+      *n += other;
+      best->n = 0;
+    }
+  celd_free (bins);
+  return CELD_OK;
+}
+
+/* The index of the colour of a pixel; `n` if it is none of them. */
+static int
+nearest_colour (const StrokeColour *palette, int n, StrokeColour c, double most)
+{
+  int nearest = 0;
+
+  for (int k = 1; k < n; k++)
+    if (distance_between (palette[k], c) < distance_between (palette[nearest], c))
+      nearest = k;
+  return distance_between (palette[nearest], c) <= most ? nearest : n;
+}
+
+/* Work space in the box of the component. */
+typedef struct
+{
+  CeldStrokeMask mask;
+  uint8_t       *index; /* the colour of each painted pixel */
+  uint8_t       *seed;
+  int32_t       *squared;
+  CeldLabels     parts;
+  CeldComponent *part;
+  size_t         n_parts;
+} ColourSplit;
+
+static void
+colour_split_clear (ColourSplit *s)
+{
+  celd_stroke_mask_clear (&s->mask);
+  celd_free (s->index);
+  celd_free (s->seed);
+  celd_free (s->squared);
+  celd_free (s->parts.data);
+  celd_free (s->part);
+}
+
+/* Sets `parts` to the paint of one colour, closed across that of others. */
+static CeldStatus
+close_colour (ColourSplit *s, int colour)
+{
+  size_t     n = (size_t) s->mask.width * (size_t) s->mask.height;
+  CeldStatus status;
+
+  for (size_t i = 0; i < n; i++)
+    s->seed[i] = s->mask.painted[i] && s->index[i] == colour;
+  status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    {
+      s->parts.data[i] = s->seed[i];
+      s->seed[i]       = s->squared[i] > CLOSING * CLOSING;
+    }
+  if (status == CELD_OK)
+    status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    if (s->mask.painted[i] && s->squared[i] > CLOSING * CLOSING)
+      s->parts.data[i] = 1;
+  return status;
+}
+
+/* Appends the pixels of one part. */
+static CeldStatus
+add_part (const ColourSplit *s, const CeldArrowStroke *stroke, uint32_t part, CeldCrossingStrokes *to)
+{
+  size_t row = (size_t) stroke->width + 2, n = to->first[to->n];
+
+  for (int y = 0; y < s->mask.height; y++)
+    for (int x = 0; x < s->mask.width; x++)
+      if (CELD_AT (&s->parts, x, y) == part &&
+          celd_append (to->pixel, n, to->pixel_capacity,
+                       (uint32_t) ((size_t) (y + s->mask.top + 1) * row + (size_t) (x + s->mask.left + 1))) != CELD_OK)
+        return CELD_NO_MEMORY;
+  to->first[++to->n] = n;
+  return CELD_OK;
+}
+
+/* Is another part of the same colour so close that both may be one stroke? */
+static CeldStatus
+is_broken (ColourSplit *s, uint32_t part, bool *broken)
+{
+  size_t     n = (size_t) s->mask.width * (size_t) s->mask.height;
+  CeldStatus status;
+
+  for (size_t i = 0; i < n; i++)
+    s->seed[i] = s->parts.data[i] && s->parts.data[i] != part && s->part[s->parts.data[i] - 1].area >= LEAST_PAINT;
+  status = celd_distance (s->mask.width, s->mask.height, s->seed, NULL, s->squared);
+  for (size_t i = 0; i < n && status == CELD_OK; i++)
+    *broken |= s->parts.data[i] == part && s->squared[i] < MOST_BREAK * MOST_BREAK;
+  return status;
+}
+
+/* Appends the connected parts of one colour, each a stroke, and to `doubtful` whether it may be a part of one. */
+static CeldStatus
+add_parts (ColourSplit *s, const CeldArrowStroke *stroke, CeldColourStrokes *to)
+{
+  CeldStatus status = celd_components (&s->parts, 0, true, NULL, &s->parts, &s->part, &s->n_parts);
+
+  for (size_t k = 0; k < s->n_parts && status == CELD_OK; k++)
+    {
+      size_t n = to->strokes.n, n_first = n + 1;
+      bool   broken = false;
+
+      if (s->part[k].area < LEAST_PART)
+        continue;
+      if (s->n_parts > 1)
+        status = is_broken (s, (uint32_t) k + 1, &broken);
+      if (status == CELD_OK)
+        status = celd_append (to->doubtful, n, to->doubtful_capacity, broken);
+      if (status == CELD_OK)
+        status = celd_append (to->strokes.first, n_first, to->first_capacity, 0);
+      if (status == CELD_OK)
+        status = add_part (s, stroke, (uint32_t) k + 1, &to->strokes);
+    }
+  celd_free (s->part);
+  s->part = NULL;
+  return status;
+}
+
+/* Makes room, and finds the colour of each pixel of a component, one of n. */
+static CeldStatus
+colour_split_new (const CeldArrowStroke *component, const CeldArrowLayer *layer, const StrokeColour *palette, int n,
+                  ColourSplit *s)
+{
+  double     most = MOST_CONTRAST * (layer->opaque ? ON_PAPER : 1);
+  size_t     area;
+  CeldStatus status = celd_stroke_mask_new (component, &s->mask);
+
+  if (status != CELD_OK)
+    return status;
+  area       = (size_t) s->mask.width * (size_t) s->mask.height;
+  s->index   = celd_alloc0 (area, 1);
+  s->seed    = celd_alloc (area, 1);
+  s->squared = celd_alloc (area, sizeof *s->squared);
+  if (!s->index || !s->seed || !s->squared)
+    return CELD_NO_MEMORY;
+  for (size_t i = 0; i < component->n; i++)
+    {
+      int    x = celd_stroke_x (component, component->pixel[i]), y = celd_stroke_y (component, component->pixel[i]);
+      size_t p = (size_t) (y - s->mask.top) * (size_t) s->mask.width + (size_t) (x - s->mask.left);
+
+      s->index[p] = (uint8_t) nearest_colour (palette, n, colour_at (layer, x, y), most);
+    }
+  return celd_labels_new (s->mask.width, s->mask.height, &s->parts);
+}
+
+CeldStatus
+celd_arrow_colours_split (const CeldArrowStroke *component, const CeldArrowLayer *layer, CeldColourStrokes *strokes)
+{
+  ColourSplit       s = { 0 };
+  CeldColourStrokes made = { 0 };
+  StrokeColour      palette[MOST_COLOURS];
+  int               n = 0;
+  size_t            n_first = 0;
+  CeldStatus        status = find_palette (component, layer, palette, &n);
+
+  if (status == CELD_OK && n > 1)
+    status = celd_append (made.strokes.first, n_first, made.first_capacity, 0);
+  if (status == CELD_OK && n > 1)
+    status = colour_split_new (component, layer, palette, n, &s);
+  for (int k = 0; k < n && n > 1 && status == CELD_OK; k++)
+    {
+      status = close_colour (&s, k);
+      if (status == CELD_OK)
+        status = add_parts (&s, component, &made);
+    }
+  colour_split_clear (&s);
+  if (status == CELD_OK)
+    *strokes = made;
+  else
+    celd_colour_strokes_clear (&made);
+  return status;
+}
+
+void
+celd_colour_strokes_clear (CeldColourStrokes *s)
+{
+  celd_crossing_strokes_clear (&s->strokes);
+  celd_free (s->doubtful);
+  *s = (CeldColourStrokes) { 0 };
+}
