@@ -19,12 +19,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DARKEST_PAPER 64     /* of 255: contrast against anything darker is against this; chosen */
 #define GRAINLESS     2      /* noise up to this, of 255, comes from rounding; chosen */
 #define FAINTEST_LINE 20     /* of 255: least contrast of the core of a line; chosen */
 #define COMPRESSED    8      /* pixels: a block of JPEG */
 #define EDGE          2      /* pixels from the core of a line to its antialiased edge */
-#define FLAT_RUN      128    /* pixels that are looked at together; chosen */
+#define FLAT_RUN      32     /* pixels that are looked at together; chosen */
 #define TONES         16     /* per channel, by which the colours of lines are counted; chosen */
 
 typedef struct
@@ -86,18 +85,26 @@ pixels (const Lines *l)
   return (size_t) l->closed.width * (size_t) l->closed.height;
 }
 
+CELD_CLONES static void
+take_row (const uint8_t *restrict rgba, int n, uint8_t *restrict red, uint8_t *restrict green, uint8_t *restrict blue)
+{
+  for (int x = 0; x < n; x++)
+    {
+      unsigned alpha = rgba[4 * x + 3];
+
+      red[x]   = (uint8_t) (255 - (255u - rgba[4 * x]) * alpha / 255);
+      green[x] = (uint8_t) (255 - (255u - rgba[4 * x + 1]) * alpha / 255);
+      blue[x]  = (uint8_t) (255 - (255u - rgba[4 * x + 2]) * alpha / 255);
+    }
+}
+
 /* Composites the drawing on white. */
 static void
 take_channels (Lines *l, const CeldPaint *art)
 {
   for (int y = 0; y < art->height; y++)
-    for (int x = 0; x < art->width; x++)
-      {
-        const uint8_t *pixel = CELD_RGBA (art, x, y);
-
-        for (int c = 0; c < 3; c++)
-          CELD_AT (&l->channel[c], x, y) = (uint8_t) (255 - (255 - pixel[c]) * pixel[3] / 255);
-      }
+    take_row (CELD_RGBA (art, 0, y), art->width, &CELD_AT (&l->channel[0], 0, y), &CELD_AT (&l->channel[1], 0, y),
+              &CELD_AT (&l->channel[2], 0, y));
 }
 
 /* ------------------------------------------------------------------ noise */
@@ -107,9 +114,9 @@ static float
 measure_noise (const Lines *l)
 {
   size_t of[2 * 255 + 1] = { 0 }, all = 0, below = 0;
-  int    difference = 0;
+  int    difference = 0, apart = celd_ink_rows_apart (l->closed.width, l->closed.height);
 
-  for (int y = 0; y < l->closed.height; y++)
+  for (int y = apart / 2; y < l->closed.height; y += apart)
     for (int x = 1; x < l->closed.width - 1; x++)
       {
         const uint8_t *v = &CELD_AT (&l->channel[1], x, y);
@@ -186,7 +193,7 @@ raise_contrast_of_piece (const uint8_t *restrict value, const uint8_t *restrict 
 {
   for (size_t i = 0; i < n; i++)
     {
-      float   paper = celd_most (closed[i], DARKEST_PAPER);
+      float   paper = celd_most (closed[i], CELD_DARKEST_FILL);
       uint8_t c = (uint8_t) (255 * (float) (closed[i] - value[i]) / paper + 0.5f);
 
       contrast[i] = c > contrast[i] ? c : contrast[i];
@@ -206,9 +213,9 @@ raise_contrast (const uint8_t *value, const uint8_t *closed, size_t n, uint8_t *
     }
 }
 
-/* Sets l->contrast for lines up to 2 radius + 1 wide.  `done` of all the work is finished before, a fifth more then. */
+/* Sets l->contrast for lines up to 2 radius + 1 wide. */
 static CeldStatus
-measure_contrast (Lines *l, int radius, double done)
+measure_contrast (Lines *l, int radius)
 {
   CeldStatus status = CELD_OK;
 
@@ -217,7 +224,7 @@ measure_contrast (Lines *l, int radius, double done)
     {
       celd_close_bytes (&l->channel[c], radius, l->work, &l->closed);
       raise_contrast (l->channel[c].data, l->closed.data, pixels (l), l->contrast.data);
-      status = celd_progress (l->host, done + 0.2 * (c + 1) / 3);
+      status = celd_progress (l->host, 0.6 + 0.2 * (c + 1) / 3);
     }
   return status;
 }
@@ -229,16 +236,19 @@ find_faintest (Lines *l, int *faintest)
   CeldPlane  contrast = { 0 }, around = { 0 };
   CeldStatus status = new_planes (l, &contrast, &around);
   float      least;
+  int        apart = celd_ink_rows_apart (l->closed.width, l->closed.height);
 
   if (status == CELD_OK)
     {
       memcpy (l->closed.data, l->contrast.data, pixels (l));
       celd_dilate_bytes (&l->closed, COMPRESSED / 2, l->work);
-      for (size_t i = 0; i < pixels (l); i++)
-        {
-          contrast.data[i] = l->contrast.data[i] / 255.0f;
-          around.data[i]   = l->closed.data[i] / 255.0f;
-        }
+      for (int y = 0; y < contrast.height; y++)
+        if (abs (y % apart - apart / 2) <= 1) /* others are not looked at */
+          for (int x = 0; x < contrast.width; x++)
+            {
+              CELD_AT (&contrast, x, y) = CELD_AT (&l->contrast, x, y) / 255.0f;
+              CELD_AT (&around, x, y)   = CELD_AT (&l->closed, x, y) / 255.0f;
+            }
       least     = celd_most (8 * celd_ink_noise (&contrast, 1), 6 * celd_ink_echo (&contrast, &around, 1));
       *faintest = (int) celd_least (celd_most (255 * least, FAINTEST_LINE), 128);
     }
@@ -346,7 +356,7 @@ find_strengths (const uint8_t *restrict contrast, int faintest, size_t n, uint8_
       level[i] = contrast[i] < faintest ? 0 : contrast[i];
 }
 
-/* Writes the lines by their strengths, and what has their tone and contrast in the widest window. */
+/* Writes the lines by their strengths, and thick strokes in their tone. */
 static void
 write_lines (Lines *l, CeldDrawing *drawing)
 {
@@ -354,7 +364,7 @@ write_lines (Lines *l, CeldDrawing *drawing)
     for (int x = 0; x < drawing->luma.width; x++)
       {
         size_t i = (size_t) y * l->level.stride + (size_t) x;
-        bool   thick = l->contrast.data[i] >= 128 && 100 * (size_t) *tone_of (l, i) >= l->cores;
+        bool   thick = l->contrast.data[i] && 100 * (size_t) *tone_of (l, i) >= l->cores;
 
         CELD_AT (&drawing->luma, x, y) = thick ? 0 : 1 - l->level.data[i] / 255.0f;
         if (drawing->alpha.data)
@@ -365,13 +375,15 @@ write_lines (Lines *l, CeldDrawing *drawing)
 static CeldStatus
 find_lines (Lines *l, CeldDrawing *drawing)
 {
-  int        radius, faintest;
-  CeldStatus status = measure_noise (l) > GRAINLESS ? remove_noise (l) : CELD_OK;
+  CeldHostPart part;
+  CeldHost     last = celd_host_part (&part, l->host, 0.8, 1);
+  int          radius, faintest;
+  CeldStatus   status = measure_noise (l) > GRAINLESS ? remove_noise (l) : CELD_OK;
 
   if (status == CELD_OK)
     status = find_polarity (l, &radius);
   if (status == CELD_OK)
-    status = measure_contrast (l, radius, 0.6);
+    status = measure_contrast (l, radius);
   if (status == CELD_OK)
     status = find_faintest (l, &faintest);
   if (status != CELD_OK)
@@ -380,7 +392,8 @@ find_lines (Lines *l, CeldDrawing *drawing)
   blur_tones (l);
   raise_edges (l);
   find_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
-  status = measure_contrast (l, radius > l->widest / 2 ? 2 * radius : l->widest, 0.8);
+  status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, &last, l->work, &l->closed,
+                             &l->contrast);
   if (status == CELD_OK)
     write_lines (l, drawing);
   return status;

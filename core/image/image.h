@@ -44,6 +44,10 @@ celd_most (float a, float b)
 
 /* `contrast` planes hold the contrast of each pixel against the paper, 0 .. 1. */
 
+/* How many rows lie between those by which noise and echo are measured, the first of which is row rows_apart / 2; 1 in
+ * a small picture. */
+int celd_ink_rows_apart (int width, int height);
+
 /* The standard deviation of the paper's grain at the scale of `step` pixels, from the median second difference along
  * rows where there is no ink. */
 float celd_ink_noise (const CeldPlane *contrast, int step);
@@ -137,16 +141,23 @@ void celd_dilate_bytes (CeldMask *mask, int radius, void *work);
 void celd_close_bytes  (const CeldMask *mask, int radius, void *work, CeldMask *closed);
 void celd_invert_bytes (CeldMask *mask);
 
-/* ------------------------------------------------------------------ coloured.c and line-width.c: coloured drawings */
+/* ---------------------------------------- coloured.c, line-width.c and thick-lines.c: coloured drawings */
+
+#define CELD_DARKEST_FILL 64 /* of 255: contrast against anything darker is against this; chosen */
 
 /* Whether red, green and blue of an opaque drawing have fills of several hues. */
 bool celd_is_coloured (const CeldMask channel[3]);
 
 /* The radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius finds; if
  * there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius; `work` is
- * for twice the widest radius, `closed` is overwritten. */
+ * for twice the widest radius, `closed` is overwritten.  Of a large picture only bands of rows are looked at. */
 CeldStatus celd_line_radius (const CeldMask *luma, int widest, const CeldHost *host, void *work, CeldMask *closed,
                              int *radius, float *share);
+
+/* Sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by `radius`, else
+ * to 0.  `work` is for this radius, `spare` is overwritten; all have one size. */
+CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, const CeldHost *host, void *work, CeldMask *spare,
+                             CeldMask *thick);
 
 /* ------------------------------------------------------------------ components.c: connected components */
 

@@ -6,13 +6,24 @@
 
 #include <math.h>
 
+#define ENOUGH_NOISE ((size_t) 1 << 17) /* pixels: more of them do not change a quantile by which noise is known; chosen */
+
+/* Odd, because compressed pictures repeat themselves every 8 rows. */
+int
+celd_ink_rows_apart (int width, int height)
+{
+  size_t pixels = (size_t) width * (size_t) height;
+
+  return pixels > ENOUGH_NOISE ? (int) (pixels / ENOUGH_NOISE) | 1 : 1;
+}
+
 float
 celd_ink_noise (const CeldPlane *contrast, int step)
 {
   size_t of[CELD_INK_BANKS][CELD_INK_BINS] = { { 0 } }, all = 0, below = 0;
-  int    bin = 0;
+  int    bin = 0, apart = celd_ink_rows_apart (contrast->width, contrast->height);
 
-  for (int y = 0; y < contrast->height; y++)
+  for (int y = apart / 2; y < contrast->height; y += apart)
     for (int x = step; x < contrast->width - step; x++)
       {
         const float *c = &CELD_AT (contrast, x, y);
@@ -35,9 +46,9 @@ float
 celd_ink_echo (const CeldPlane *contrast, const CeldPlane *around, float dark)
 {
   size_t of[CELD_INK_BINS] = { 0 }, all = 0, above = 0;
-  int    bin = CELD_INK_BINS - 1;
+  int    bin = CELD_INK_BINS - 1, apart = celd_ink_rows_apart (contrast->width, contrast->height);
 
-  for (int y = 1; y < contrast->height - 1; y++)
+  for (int y = apart > 1 ? apart / 2 : 1; y < contrast->height - 1; y += apart)
     for (int x = 1; x < contrast->width - 1; x++)
       {
         const float *c = &CELD_AT (contrast, x, y), *up = c - contrast->stride, *down = c + contrast->stride;
