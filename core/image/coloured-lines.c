@@ -5,9 +5,10 @@
  * 1. The width of lines: the closing by the right window finds nearly all that one twice as wide finds.
  * 2. Contrast: of each channel against its closing by a window a little wider than lines, which is the paper or the
  *    fill around; the largest of the three.
- * 3. Strength: the contrast, divided by that of the core of the line.
- * 4. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
- *    colour of lines and fits into the widest window is a line as well.
+ * 3. Fills that are narrow between lines are told apart from wide lines (narrow-fills.c).
+ * 4. Strength: the contrast, divided by that of the core of the line.
+ * 5. Where lines meet, and where strokes are thicker than most, they are wider than the window.  There, what has the
+ *    colour of lines and fits into the widest window is a line as well (thick-lines.c).
  * Large areas in the colour of lines remain fills: an artist can scribble on them.
  *
  * Cost: O(pixels), whatever the width of lines; 14 bytes a pixel.
@@ -257,6 +258,20 @@ find_faintest (Lines *l, int *faintest)
   return status;
 }
 
+/* Takes what lies narrow between lines out of the contrast. */
+static CeldStatus
+clear_narrow_fills (Lines *l, int radius, int faintest)
+{
+  CeldMask luma;
+
+  if (!new_mask (l->closed.width, l->closed.height, &luma))
+    return CELD_NO_MEMORY;
+  take_luma (l->channel[0].data, l->channel[1].data, l->channel[2].data, pixels (l), luma.data);
+  celd_clear_narrow_fills (&luma, radius, faintest, l->work, &l->closed, &l->level, &l->contrast);
+  celd_free (luma.data);
+  return CELD_OK;
+}
+
 /* ------------------------------------------------------------------ strength */
 
 static uint32_t *
@@ -386,14 +401,16 @@ find_lines (Lines *l, CeldDrawing *drawing)
     status = measure_contrast (l, radius);
   if (status == CELD_OK)
     status = find_faintest (l, &faintest);
+  if (status == CELD_OK)
+    status = clear_narrow_fills (l, radius, faintest);
   if (status != CELD_OK)
     return status;
   find_cores (l, radius, faintest);
   blur_tones (l);
   raise_edges (l);
   find_strengths (l->contrast.data, faintest, pixels (l), l->level.data);
-  status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, &last, l->work, &l->closed,
-                             &l->contrast);
+  status = celd_thick_lines (l->channel, radius > l->widest / 2 ? 2 * radius : l->widest, faintest, &last, l->work,
+                             &l->closed, &l->contrast);
   if (status == CELD_OK)
     write_lines (l, drawing);
   return status;

@@ -141,23 +141,31 @@ void celd_dilate_bytes (CeldMask *mask, int radius, void *work);
 void celd_close_bytes  (const CeldMask *mask, int radius, void *work, CeldMask *closed);
 void celd_invert_bytes (CeldMask *mask);
 
-/* ---------------------------------------- coloured.c, line-width.c and thick-lines.c: coloured drawings */
+/* ------------------------------------------------------------------ coloured drawings */
 
-#define CELD_DARKEST_FILL 64 /* of 255: contrast against anything darker is against this; chosen */
+#define CELD_DARKEST_FILL 64  /* of 255: contrast against anything darker is against this; chosen */
+#define CELD_MIDDLE_FILL  128 /* of 255: of a fill that is lighter than lines, which grain hides more; chosen */
 
-/* Whether red, green and blue of an opaque drawing have fills of several hues. */
+/* coloured.c: whether red, green and blue of an opaque drawing have fills of several hues. */
 bool celd_is_coloured (const CeldMask channel[3]);
 
-/* The radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius finds; if
- * there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius; `work` is
- * for twice the widest radius, `closed` is overwritten.  Of a large picture only bands of rows are looked at. */
+/* line-width.c: the radius of the smallest closing that finds 95 % of the dark lines that one of about twice the radius
+ * finds; if there is none, of the one with the largest such share.  *share is that share; `widest` limits the radius;
+ * `work` is for twice the widest radius, `closed` is overwritten.  Of a large picture only bands of rows are looked
+ * at. */
 CeldStatus celd_line_radius (const CeldMask *luma, int widest, const CeldHost *host, void *work, CeldMask *closed,
                              int *radius, float *share);
 
-/* Sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by `radius`, else
- * to 0.  `work` is for this radius, `spare` is overwritten; all have one size. */
-CeldStatus celd_thick_lines (const CeldMask channel[3], int radius, const CeldHost *host, void *work, CeldMask *spare,
-                             CeldMask *thick);
+/* narrow-fills.c: sets `contrast` to 0 where a fill is narrow between lines: lighter than its opening by `radius`, by a
+ * contrast of `faintest` at least.  `luma`, `light` and `fill` are overwritten; `work` is for this radius. */
+void celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
+                              CeldMask *contrast);
+
+/* thick-lines.c: sets `thick` to 1 where some channel has at least half of the contrast of black against its closing by
+ * `radius`, and none is lighter than its opening, by a contrast of `faintest`, 0 .. 255; else to 0.  `work` is for this
+ * radius, `spare` is overwritten; all have one size.  Channels are changed only meanwhile. */
+CeldStatus celd_thick_lines (CeldMask channel[3], int radius, int faintest, const CeldHost *host, void *work,
+                             CeldMask *spare, CeldMask *thick);
 
 /* ------------------------------------------------------------------ components.c: connected components */
 

@@ -164,6 +164,51 @@ thick_strokes_are_lines_and_areas_are_not (void)
   CHECK (luma_of[12 * SIDE + 100] < 0.05f && luma_of[175 * SIDE + 100] > 0.95f);
 }
 
+/* The tips of a diamond fit into the window by which lines are found, as there is a wide line too; a bar nearly in the
+ * colour of lines fits into that for thick strokes. */
+static void
+narrow_fills_are_no_lines (void)
+{
+  const Tone dark = { 0.3f, 0.16f, 0.13f };
+
+  draw (white, white, white, white);
+  for (int y = 0; y < SIDE; y++)
+    for (int x = 0; x < SIDE; x++)
+      {
+        float diamond = 25 - 0.3f * fabsf ((float) x - 99.5f) - fabsf ((float) y - 39.5f);
+
+        if (diamond > 0)
+          put (x, y, diamond < 4 ? brown : blue);
+        if (y >= 80 && y < 90 && x >= 10 && x < 190)
+          put (x, y, brown);
+        if (y >= 110 && y < 132 && x >= 10 && x < 190)
+          put (x, y, y >= 114 && y < 128 && x >= 14 && x < 186 ? dark : brown);
+        if (y >= 160 && y < 164)
+          put (x, y, brown);
+      }
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int x = 40; x < 160; x++)
+    CHECK (luma_of[39 * SIDE + x] > 0.95f);
+  for (int x = 20; x < 180; x++)
+    {
+      CHECK (luma_of[85 * SIDE + x] < 0.05f && luma_of[162 * SIDE + x] < 0.05f);
+      CHECK (luma_of[112 * SIDE + x] < 0.05f && luma_of[121 * SIDE + x] > 0.95f && luma_of[130 * SIDE + x] < 0.05f);
+    }
+}
+
+/* A line in a lighter colour than those on both of its sides. */
+static void
+pale_lines_stay_between_dark_ones (void)
+{
+  draw (white, yellow, blue, white);
+  for (int y = 20; y < 40; y++)
+    for (int x = 20; x < 180; x++)
+      put (x, y, y < 24 || y >= 36 ? brown : y >= 28 && y < 32 ? (Tone) { 0.8f, 0.5f, 0.4f } : white);
+  CHECK (find (CELD_INK_AUTO, NULL) == CELD_OK);
+  for (int x = 30; x < 170; x++)
+    CHECK (luma_of[22 * SIDE + x] < 0.05f && luma_of[30 * SIDE + x] < 0.6f && luma_of[26 * SIDE + x] > 0.95f);
+}
+
 static void
 grain_makes_no_lines (void)
 {
@@ -253,6 +298,8 @@ main (void)
   RUN (lines_have_any_colour);
   RUN (lines_may_be_lighter);
   RUN (thick_strokes_are_lines_and_areas_are_not);
+  RUN (narrow_fills_are_no_lines);
+  RUN (pale_lines_stay_between_dark_ones);
   RUN (grain_makes_no_lines);
   RUN (transparent_is_white);
   RUN (line_art_stays);

@@ -1,0 +1,59 @@
+/* Fills of a coloured drawing that are narrow between lines: tips, stripes, thin limbs.  With the lines on both sides
+ * they fit into the window by which lines are found, so that they are darker than what is around, as a wide line is.
+ *
+ * They are told apart from it because they are lighter than what is on both sides of them: than the opening by the same
+ * window, by the contrast that a line needs.  A pale line between two dark ones is as well, but there is lighter paper
+ * next to it: within half of the window's radius, so that what is beyond the dark lines does not count.  Only what is
+ * at least three pixels wide counts: less may be antialiased pixels, and so may be all of a thin line.
+ *
+ * Cost: O(pixels).
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "image/image.h"
+
+#include <string.h>
+
+/* From what is darker than its closing in the inverted picture to its contrast in the picture itself, 0 .. 255. */
+CELD_CLONES static void
+measure_lightness (const uint8_t *restrict inverted, size_t n, uint8_t *restrict closed)
+{
+  for (size_t i = 0; i < n; i++)
+    {
+      float value = celd_most (255.0f - inverted[i], CELD_MIDDLE_FILL);
+
+      closed[i] = (uint8_t) celd_least (255.0f * (float) (closed[i] - inverted[i]) / value + 0.5f, 255);
+    }
+}
+
+/* Replaces the largest lightness near by with 1 where a pixel is nearly as light as that, else with 0. */
+CELD_CLONES static void
+keep_lightest (const uint8_t *restrict light, int faintest, size_t n, uint8_t *restrict around)
+{
+  for (size_t i = 0; i < n; i++)
+    around[i] = light[i] >= faintest && 5 * light[i] >= 3 * around[i];
+}
+
+CELD_CLONES static void
+clear_contrast (const uint8_t *restrict fill, size_t n, uint8_t *restrict contrast)
+{
+  for (size_t i = 0; i < n; i++)
+    contrast[i] = fill[i] ? 0 : contrast[i];
+}
+
+void
+celd_clear_narrow_fills (CeldMask *luma, int radius, int faintest, void *work, CeldMask *light, CeldMask *fill,
+                         CeldMask *contrast)
+{
+  size_t n = (size_t) luma->width * (size_t) luma->height;
+
+  celd_invert_bytes (luma);
+  celd_close_bytes (luma, radius, work, light);
+  measure_lightness (luma->data, n, light->data);
+  memcpy (fill->data, light->data, n);
+  celd_dilate_bytes (fill, (radius + 1) / 2, work);
+  keep_lightest (light->data, faintest, n, fill->data);
+  celd_erode_bytes (fill, 1, work);
+  celd_dilate_bytes (fill, 1, work);
+  clear_contrast (fill->data, n, contrast->data);
+}
