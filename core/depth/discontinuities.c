@@ -50,7 +50,7 @@ least_ink (const CeldDepthEdges *b, int x0, int y0, int x1, int y1)
 static float
 line_across (const CeldDepthEdges *b, int x, int y, int dx, int dy, int n)
 {
-  float dark[2 * CELD_THIN_LINE_REACH + 2], sum = 0, ends, most = 0;
+  float dark[2 * CELD_THIN_LINE_REACH + 2] = { 0 }, sum = 0, ends, most = 0;
   int   half = 0;
 
   for (int i = 0; i < n; i++, x += dx, y += dy)
