@@ -104,6 +104,7 @@ void
 celd_basin_boundary_add (CeldBasinBoundary *boundary, const CeldBasinBoundary *more)
 {
   boundary->cost += more->cost;
+  boundary->weakness += more->weakness;
   boundary->opening += more->opening;
   boundary->frame = boundary->frame || more->frame;
   if (!comes_first (boundary, more->saddle, more->x, more->y, more->south))
@@ -130,10 +131,13 @@ add_pair (const Boundaries *b, CeldBasinBoundary *boundary, int x, int y, bool s
   int32_t           p = *squared_at (b->extent, x, y), q = *squared_at (b->extent, qx, qy);
   bool              solid = b->basins->basin[boundary->a].solid && b->basins->basin[boundary->b].solid;
   bool              opening = p > 0 && q > 0;
+  int32_t           cost;
   bool              along = south ? x == 0 || x == ink->width - 1 : y == 0 || y == ink->height - 1;
   CeldBasinBoundary pair = { .opening = opening, .x = x, .y = y, .south = south };
 
-  pair.cost = celd_smoothness_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
+  cost = celd_smoothness_cost (&b->basins->costs, CELD_AT (ink, x, y), CELD_AT (ink, qx, qy), -p, -q, along);
+  pair.cost = cost;
+  pair.weakness = celd_barrier_weakness (&b->basins->costs, cost, -p < -q ? -p : -q);
   pair.saddle = opening ? (p < q ? p : q) : solid ? (-p < -q ? -p : -q) : 0;
   pair.frame = opening && is_outermost (ink, x, y) && is_outermost (ink, qx, qy);
   celd_basin_boundary_add (boundary, &pair);

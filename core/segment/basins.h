@@ -31,6 +31,7 @@ typedef struct
   bool     south;     /* the pair of the saddle is (x,y) and the pixel below, not the one to the right */
   int32_t  x, y;
   int64_t  cost;      /* sum of V_pq over all pairs */
+  int64_t  weakness;  /* sum of celd_barrier_weakness over all pairs */
 } CeldBasinBoundary;
 
 /* Row y is run[row[y]] .. run[row[y + 1] - 1], each from its x up to the next one's, the last to the frame. */

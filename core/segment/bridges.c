@@ -3,7 +3,8 @@
  * Where a gap is as wide as the region behind it, or wider, no narrow place of the paper shows where the contour would
  * have been; but the lines do.  Line ends that point to each other are joined, the closest and straightest pair first,
  * by the curve of closures.c; basins then meet along it.  A bridge only offers a boundary: it is used where the labels
- * on both sides differ.
+ * on both sides differ.  Two straight ends that face each other over a short gap are nearly ink; the farther apart they
+ * are and the more the line has to turn, the fainter their bridge is drawn, and the more a boundary on it costs.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -13,10 +14,15 @@
 #include "segment/bridges.h"
 #include "segment/closures.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define BRIDGE_INK 0.499f /* ink value of a bridge: just not paper */
+#define FAINTEST_INK    0.499f /* ink of a bridge that is a mere guess: just not paper */
+#define CERTAIN_LENGTH  6      /* stroke widths: up to here a bridge is certain (chosen, as the next three) */
+#define DOUBTFUL_LENGTH 12     /* from here on it is a guess */
+#define CERTAIN_COSINE  0.94   /* of the larger angle by which it turns: certain up to 20 degrees */
+#define DOUBTFUL_COSINE 0.5    /* a guess from 60 degrees on */
 
 typedef struct
 {
@@ -25,6 +31,7 @@ typedef struct
   CeldTip         *tip;
   size_t           n;
   bool            *taken;       /* of each line end: has it a bridge? */
+  float            faintness;   /* ink of the bridge being built */
   CeldBridges     *bridges;
 } BridgeBuilder;
 
@@ -37,17 +44,35 @@ end_of (const CeldTip *tip)
                          .dx = tip->dx, .dy = tip->dy };
 }
 
+/* Falls from 1 at `certain` to 0 at `doubtful`. */
+static double
+ramp (double value, double certain, double doubtful)
+{
+  return fmax (0, fmin (1, (value - doubtful) / (certain - doubtful)));
+}
+
+/* How certain it is that the contour went on from one line end to the other: 0 .. 1. */
+static double
+certainty (const CeldTip *p, const CeldTip *q, int stroke)
+{
+  double x = q->x - p->x, y = q->y - p->y, length = hypot (x, y);
+  double turn = (x * p->dx + y * p->dy) / length, other = -(x * q->dx + y * q->dy) / length;
+
+  return ramp (fmin (turn, other), CERTAIN_COSINE, DOUBTFUL_COSINE) *
+         ramp (length / stroke, CERTAIN_LENGTH, DOUBTFUL_LENGTH);
+}
+
 /* Adds a pixel to the last bridge, unless it is the previous one or ink. */
 static CeldStatus
 add_pixel (BridgeBuilder *b, CeldBridge *bridge, int x, int y)
 {
-  CeldBridges     *all = b->bridges;
+  CeldBridges *all = b->bridges;
 
   if (x < 0 || y < 0 || x >= b->ink->width || y >= b->ink->height || !celd_is_paper (CELD_AT (b->ink, x, y)))
     return CELD_OK;
   if (bridge->n && all->pixel[all->n_pixels - 1].x == x && all->pixel[all->n_pixels - 1].y == y)
     return CELD_OK;
-  if (celd_append (all->pixel, all->n_pixels, all->pixel_capacity, (CeldBridgePixel) { x, y }) != CELD_OK)
+  if (celd_append (all->pixel, all->n_pixels, all->pixel_capacity, (CeldBridgePixel) { x, y, b->faintness }) != CELD_OK)
     return CELD_NO_MEMORY;
   bridge->n++;
   return CELD_OK;
@@ -90,8 +115,10 @@ build (BridgeBuilder *b, const CeldTipPair *pair)
   size_t      n = celd_curve_draw (&from, &to, place);
   CeldBridge  bridge = { b->bridges->n_pixels, 0, 0 };
   bool        open = true;
-  CeldStatus  status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
+  CeldStatus  status;
 
+  b->faintness = FAINTEST_INK * (float) (1 - certainty (&b->tip[pair->a], &b->tip[pair->b], b->stroke));
+  status = walk (b, place, n, fmax (b->stroke, 2), &bridge, &open);
   if (status != CELD_OK || !open || !bridge.n)
     {
       b->bridges->n_pixels = bridge.first;
@@ -159,7 +186,9 @@ compare_pixels (const void *a, const void *b)
 
   if (p->y != q->y)
     return p->y < q->y ? -1 : 1;
-  return p->x < q->x ? -1 : p->x > q->x;
+  if (p->x != q->x)
+    return p->x < q->x ? -1 : 1;
+  return p->ink < q->ink ? -1 : p->ink > q->ink;
 }
 
 /* All pixels in reading order, to be freed; NULL: no memory. */
@@ -214,7 +243,11 @@ void
 celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink)
 {
   for (size_t i = 0; i < bridges->n_pixels; i++)
-    CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y) = BRIDGE_INK;
+    {
+      float *at = &CELD_AT (ink, bridges->pixel[i].x, bridges->pixel[i].y);
+
+      *at = fminf (*at, bridges->pixel[i].ink); /* where two cross: the more certain one */
+    }
 }
 
 /* ------------------------------------------------------------------ components and enclosures over bridges */

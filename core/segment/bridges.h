@@ -34,8 +34,9 @@ CeldStatus celd_tip_pairs_next (CeldTipPairs *pairs, const bool *taken, const Ce
 
 /* ------------------------------------------------------------------ bridges.c */
 
-/* A pixel of paper that a bridge passes over. */
-typedef struct { int32_t x, y; } CeldBridgePixel;
+/* A pixel of paper that a bridge passes over, and the ink that it gets there: 0 if the bridge is certain, up to just not
+ * paper if it is a mere guess. */
+typedef struct { int32_t x, y; float ink; } CeldBridgePixel;
 
 typedef struct { size_t first, n; double length; } CeldBridge;  /* its pixels, from end to end; its length in pixels */
 
@@ -53,11 +54,11 @@ typedef struct
 CeldStatus celd_bridges_find (const CeldPlane *ink, int stroke, const CeldHost *host, CeldBridges *bridges);
 void       celd_bridges_clear (CeldBridges *bridges);            /* accepts a zeroed record */
 
-/* Draws the bridges on the ink, dark enough to separate basins, but so faint that a boundary on them costs far less
- * than one across paper. */
+/* Draws the bridges on the ink, dark enough to separate basins: a boundary on one costs as much as its certainty says,
+ * between one inside ink and far less than one across paper. */
 void celd_bridges_draw (const CeldBridges *bridges, CeldPlane *ink);
 
-/* Enlarges *changed by the pixels that only one of the two records has. */
+/* Enlarges *changed by the pixels that only one of the two records has, or that differ in ink. */
 CeldStatus celd_bridges_compare (const CeldBridges *old, const CeldBridges *new, CeldRect *changed);
 
 /* Joins components over bridges, and enclosures over bridges longer than two stroke widths.  `ink` is without bridges.

@@ -46,6 +46,7 @@ const CeldClosures *celd_segmenter_closures (const CeldSegmenter *segmenter);
 /* ------------------------------------------------------------------ smoothness-costs.c */
 
 #define CELD_COST_UNIT     16   /* cost of a pair of pixels inside ink: energies are integers */
+#define CELD_LEAK_UNIT     4096 /* weakness of a barrier per unit of cost beyond that of ink (chosen) */
 #define CELD_INK_STEPS     1024 /* steps of the table by ink */
 #define CELD_MOST_TO_PAPER 100  /* squared pixels: the discount grows no more from here on */
 
@@ -55,6 +56,7 @@ typedef struct
   double  paper_cost;                       /* K: what a pair of paper costs more than one inside ink */
   int32_t by_ink[CELD_INK_STEPS + 1];       /* by the darker pixel of a pair, from ink (0) to paper */
   int32_t discount[CELD_MOST_TO_PAPER + 1]; /* for ink at this squared distance to paper */
+  int32_t weakness[CELD_MOST_TO_PAPER + 1]; /* as a barrier, of solid ink at this squared distance to paper */
   int32_t margin;                           /* factor for pairs of paper along the frame */
 } CeldSmoothnessCosts;
 
@@ -67,6 +69,16 @@ void celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoo
 int32_t celd_smoothness_cost (const CeldSmoothnessCosts *costs, float ink, float other_ink, int32_t to_paper,
                               int32_t other_to_paper,
                               bool along_frame);
+
+/* How weak the barrier between two neighbouring pixels of this smoothness cost is, whose smaller squared distance to
+ * paper is `to_paper` (0 or less on paper): leaks count first, whatever the length of the line; then how thin it is. */
+static inline int64_t
+celd_barrier_weakness (const CeldSmoothnessCosts *costs, int32_t cost, int32_t to_paper)
+{
+  int32_t d = to_paper < 0 ? 0 : to_paper < CELD_MOST_TO_PAPER ? to_paper : CELD_MOST_TO_PAPER;
+
+  return (int64_t) (cost + costs->discount[d] - CELD_COST_UNIT) * CELD_LEAK_UNIT + costs->weakness[d];
+}
 
 /* The squared distance of every pixel to the nearest paper, 0 on paper: a tight plane of the picture's size. */
 CeldStatus celd_distance_to_paper (const CeldPlane *ink, const CeldHost *host, int32_t *to_paper);

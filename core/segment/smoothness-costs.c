@@ -17,6 +17,7 @@
 #include <math.h>
 
 #define MOST_DISCOUNT 10 /* cost units: a pair far from paper costs at most this much less (chosen) */
+#define THIN_LINE     1024 /* weakness of a pair in the thinnest line; falls with the cube of the thickness (chosen) */
 #define PAGE_MARGIN   64 /* of half the perimeter: the margin that a cropped page is assumed to have had (chosen) */
 
 void
@@ -35,6 +36,8 @@ celd_smoothness_costs_new (int width, int height, float threshold, CeldSmoothnes
   costs->discount[0] = 0;
   for (int i = 1; i <= CELD_MOST_TO_PAPER; i++)
     costs->discount[i] = (int32_t) (MOST_DISCOUNT * (1 - 1 / sqrt (i)));
+  for (int i = 0; i <= CELD_MOST_TO_PAPER; i++)
+    costs->weakness[i] = (int32_t) (THIN_LINE / pow (i > 1 ? i : 1, 1.5));
 }
 
 static int

@@ -8,6 +8,9 @@
  * Cutting a part off at a neck of two pixels can cost less than the part's outline.  With keep_necks a merged basin
  * with paint of one label keeps that label, whatever a cut would save.
  *
+ * The energy gives a node without paint to the label with the longest border, through a thick outline rather than a
+ * pinch.  So these are cut once more, with the labels of all others given: they go over the weakest barrier.
+ *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "base/base.h"
@@ -202,9 +205,10 @@ gather_data_costs (Graph *g)
   return CELD_OK;
 }
 
-/* Sums up the boundaries between each two nodes to a link. */
+/* Sums up the boundaries between each two nodes to a link: their smoothness costs or, if `barriers`, how weak they are.
+ */
 static CeldStatus
-gather_links (Graph *g)
+gather_links (Graph *g, bool barriers)
 {
   const CeldBasins *basins = g->task->basins;
   size_t           *first = celd_alloc0 (g->n + 2, sizeof *first);      /* of node k's boundaries, as the lesser node */
@@ -214,6 +218,7 @@ gather_links (Graph *g)
 
   if (status != CELD_OK)
     goto done;
+  g->n_links = 0;
   for (size_t k = 0; k < g->n; k++)
     found[k] = SIZE_MAX;
   for (int pass = 0; pass < 2; pass++)
@@ -246,7 +251,7 @@ gather_links (Graph *g)
               found[other] = g->n_links;
               g->link[g->n_links++] = (CeldLink) { (uint32_t) k, other, 0 };
             }
-          g->link[found[other]].cost += b->cost;
+          g->link[found[other]].cost += barriers ? b->weakness : b->cost;
         }
     }
 
@@ -257,13 +262,43 @@ done:
   return status;
 }
 
+/* ------------------------------------------------------------------ nodes without paint */
+
+/* Nodes with paint keep their labels, and all others get the label behind the weakest barrier. */
+static CeldStatus
+label_unpainted (Graph *g, const CeldHost *host)
+{
+  const CeldBasins *basins = g->task->basins;
+  bool             *painted = celd_alloc0 (g->n, sizeof *painted);
+  size_t            n = g->n;
+  CeldPartition     problem = { g->n, g->link, 0, NULL, 0, g->fixed, g->order, g->task->palette.n };
+  CeldStatus        status = painted ? CELD_OK : CELD_NO_MEMORY;
+
+  for (size_t i = 0; i < g->strokes.n_pieces && status == CELD_OK; i++)
+    if (informative_pixels (basins, &g->strokes.piece[i]))
+      painted[g->node[g->strokes.piece[i].basin]] = true;
+  for (size_t k = 0; k < g->n && status == CELD_OK; k++)
+    {
+      g->fixed[k] = painted[k] ? g->label[k] : 0;
+      n -= painted[k];
+    }
+  celd_free (painted);
+  if (status != CELD_OK || !n || n == g->n)
+    return status;
+  status = gather_links (g, true);
+  problem.n_links = g->n_links;
+  return status == CELD_OK ? celd_partition (&problem, host, g->label, NULL, NULL) : status;
+}
+
 /* ------------------------------------------------------------------ the whole */
 
 CeldStatus
 celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label)
 {
-  Graph      g;
-  CeldStatus status = graph_new (task, &g);
+  CeldHostPart part[2];
+  CeldHost     energy = celd_host_part (&part[0], host, 0, 0.8), rest = celd_host_part (&part[1], host, 0.8, 1);
+  Graph        g;
+  CeldStatus   status = graph_new (task, &g);
 
   if (status == CELD_OK)
     {
@@ -277,7 +312,7 @@ celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint3
   if (status == CELD_OK)
     status = gather_data_costs (&g);
   if (status == CELD_OK)
-    status = gather_links (&g);
+    status = gather_links (&g, false);
   if (status == CELD_OK)
     status = celd_task_label_order (task, g.order);
   if (status == CELD_OK)
@@ -286,8 +321,10 @@ celd_basin_graph_solve (const CeldSegmentTask *task, const CeldHost *host, uint3
         g.n, g.link, g.n_links, g.vote, g.n_votes, g.fixed, g.order, task->palette.n
       };
 
-      status = celd_partition (&problem, host, g.label, NULL, NULL);
+      status = celd_partition (&problem, &energy, g.label, NULL, NULL);
     }
+  if (status == CELD_OK)
+    status = label_unpainted (&g, &rest);
   for (size_t k = 0; k < task->basins->n && status == CELD_OK; k++)
     label[k] = g.label[g.node[k]];
   graph_clear (&g);

@@ -82,7 +82,8 @@ scene_boundary (Scene *s, int x, int y, bool south)
     return;
   i = a < b ? a * MOST_LABELS + b : b * MOST_LABELS + a; /* the table is filled without gaps only by scene_find */
   if (!boundary[i].opening++)
-    boundary[i] = (CeldBasinBoundary) { i / MOST_LABELS, i % MOST_LABELS, 1, 1, false, south, x, y, 1 };
+    boundary[i] = (CeldBasinBoundary) { .a = i / MOST_LABELS, .b = i % MOST_LABELS, .opening = 1, .saddle = 1,
+                                          .south = south, .x = x, .y = y, .cost = 1 };
 }
 
 /* The basins, each border with the first of its passes in reading order as the pair of its saddle.  Basins meet in as

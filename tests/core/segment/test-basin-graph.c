@@ -45,15 +45,16 @@ an_updated_graph_equals_a_new_one (void)
 static void
 parts_of_a_boundary_add_up_in_any_order (void)
 {
-  CeldBasinBoundary sum = { .a = 1, .b = 2, .opening = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100 };
-  CeldBasinBoundary lower = { .opening = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10 };
+  CeldBasinBoundary sum = { .a = 1, .b = 2, .opening = 3, .saddle = 9, .x = 5, .y = 7, .south = true, .cost = 100,
+                            .weakness = 7 };
+  CeldBasinBoundary lower = { .opening = 1, .saddle = 4, .x = 1, .y = 1, .frame = true, .cost = 10, .weakness = 5 };
   CeldBasinBoundary later = { .saddle = 9, .x = 6, .y = 7, .cost = 1 },
   east = { .saddle = 9, .x = 5, .y = 7, .cost = 1 };
   CeldBasinBoundary earlier = { .saddle = 9, .x = 9, .y = 6, .south = true }, wider = { .saddle = 16, .x = 8, .y = 8 };
 
   celd_basin_boundary_add (&sum, &lower);
   celd_basin_boundary_add (&sum, &later);
-  CHECK (sum.a == 1 && sum.b == 2 && sum.opening == 4 && sum.cost == 111 && sum.frame);
+  CHECK (sum.a == 1 && sum.b == 2 && sum.opening == 4 && sum.cost == 111 && sum.frame && sum.weakness == 12);
   CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && sum.south);
   celd_basin_boundary_add (&sum, &east);
   CHECK (sum.saddle == 9 && sum.x == 5 && sum.y == 7 && !sum.south && sum.cost == 112);

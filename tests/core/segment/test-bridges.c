@@ -178,7 +178,7 @@ empty_pages_have_none (void)
 static void
 the_changed_rectangle_holds_what_two_records_do_not_share (void)
 {
-  CeldBridgePixel a[] = { { 3, 1 }, { 4, 1 }, { 9, 7 } }, b[] = { { 4, 1 }, { 3, 1 }, { 2, 5 } };
+  CeldBridgePixel a[] = { { 3, 1, 0 }, { 4, 1, 0 }, { 9, 7, 0 } }, b[] = { { 4, 1, 0 }, { 3, 1, 0 }, { 2, 5, 0 } };
   CeldBridges     old = { .pixel = a, .n_pixels = 3 }, new = { .pixel = b, .n_pixels = 3 };
   CeldRect        rect = { 0 };
 
@@ -188,12 +188,62 @@ the_changed_rectangle_holds_what_two_records_do_not_share (void)
   rect = (CeldRect) { 0, 0, 1, 1 };
   CHECK (celd_bridges_compare (&old, &new, &rect) == CELD_OK);
   CHECK (rect.x == 0 && rect.y == 0 && rect.width == 10 && rect.height == 8);
+  b[1].ink = 0.4f;
+  rect = (CeldRect) { 0 };
+  new.n_pixels = old.n_pixels = 2;
+  CHECK (celd_bridges_compare (&old, &new, &rect) == CELD_OK);
+  CHECK (rect.x == 3 && rect.y == 1 && rect.width == 1 && rect.height == 1);
+}
+
+/* ------------------------------------------------------------------ certainty */
+
+/* The ink of the only bridge between the end of a line at (100,100), which comes from the left, and that of one at
+ * (100 + gap, 100), which comes from `angle` degrees below the right. */
+static float
+ink_of_bridge (double gap, double degrees)
+{
+  double      angle = degrees * PI / 180;
+  CeldBridges bridges;
+  CeldPlane   drawn;
+  float       ink = 2;
+  Scene       s;
+
+  scene_open (SIDE, 200, &s);
+  scene_line (&s, (CeldPlace) { 30, 100 }, (CeldPlace) { 100, 100 }, 6);
+  scene_line (&s, (CeldPlace) { 100 + gap, 100 },
+              (CeldPlace) { 100 + gap + 70 * cos (angle), 100 + 70 * sin (angle) }, 6);
+  bridges = find (&s);
+  NEAR (bridges.n, 1, 0);
+  CHECK (celd_plane_new (SIDE, 200, &drawn) == CELD_OK);
+  for (int k = 0; k < SIDE * 200; k++)
+    drawn.data[k] = 1;
+  celd_bridges_draw (&bridges, &drawn);
+  for (int k = 0; k < SIDE * 200; k++)
+    ink = fminf (ink, drawn.data[k]);
+  celd_free (drawn.data);
+  celd_bridges_clear (&bridges);
+  scene_close (&s);
+  return ink;
+}
+
+/* Straight on over up to six stroke widths a bridge is ink; farther off, or the more it turns, the fainter it is, but
+ * never paper. */
+static void
+the_more_certain_a_bridge_the_darker_it_is (void)
+{
+  NEAR (ink_of_bridge (20, 0), 0, 0.02);
+  NEAR (ink_of_bridge (36, 0), 0, 0.02);
+  CHECK (ink_of_bridge (50, 0) > 0.05 && ink_of_bridge (60, 0) > ink_of_bridge (50, 0));
+  CHECK (ink_of_bridge (30, 45) > 0.05);
+  NEAR (ink_of_bridge (90, 0), 0.499, 0.001);
+  CHECK (!celd_is_paper (ink_of_bridge (90, 0)));
 }
 
 int
 main (void)
 {
   RUN (a_gap_in_a_circle_is_bridged);
+  RUN (the_more_certain_a_bridge_the_darker_it_is);
   RUN (basins_meet_at_a_bridge);
   RUN (the_straightest_pair_is_joined);
   RUN (nothing_is_joined_through_ink);

@@ -200,6 +200,49 @@ closed_enclosures_get_the_labels_of_exact_cuts (void)
     }
 }
 
+/* The enclosure in the middle has a long border with the outside, but a fine line, or a faint place in it, between it
+ * and the enclosure on the left: no person would think that it belongs to the outside. */
+static void
+unpainted_enclosures_go_over_the_weakest_barrier (void)
+{
+  static const char *const fine[] = {
+    "..............................",
+    "..########################....",
+    "..########################....",
+    "..########################....",
+    "..########################....",
+    "..####.....#..........####....",
+    "..####.....#..........####....",
+    "..####.....#..........####....",
+    "..####.....#..........####....",
+    "..########################....",
+    "..########################....",
+    "..########################....",
+    "..########################....",
+    "..............................", NULL };
+  static const char *const painted[] = {
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAA",
+    "..............................", "..............................", "..............................",
+    "..............................", "..............................",
+    ".......BBB....................", ".......BBB....................",
+    "..............................", "..............................", "..............................",
+    "..............................", "..............................", "..............................", NULL };
+  const char              *faint[15] = { NULL };
+  Page                     p;
+
+  for (int y = 0; y < 14; y++)
+    faint[y] = fine[y][11] == '#' && y > 4 && y < 9 ? "..####.....####.......####...." : fine[y];
+  faint[6] = "..####.....4444.......####....";
+  page_open (&p, fine, painted, 2);
+  solve (&p);
+  CHECK (label_at (&p, 8, 6) == 2 && label_at (&p, 16, 6) == 2 && label_at (&p, 28, 6) == 1);
+  page_close (&p);
+  page_open (&p, faint, painted, 2);
+  solve (&p);
+  CHECK (label_at (&p, 8, 6) == 2 && label_at (&p, 18, 6) == 2 && label_at (&p, 28, 6) == 1);
+  page_close (&p);
+}
+
 int
 main (void)
 {
@@ -207,6 +250,7 @@ main (void)
   RUN (a_part_with_paint_of_its_own_keeps_it);
   RUN (hard_labels_are_obeyed_and_the_greater_wins_a_basin);
   RUN (paint_on_a_line_does_not_count);
+  RUN (unpainted_enclosures_go_over_the_weakest_barrier);
   RUN (closed_enclosures_get_the_labels_of_exact_cuts);
   return DONE;
 }
