@@ -1,7 +1,8 @@
 /* Which label is the background, and how much of the paper along the frame it gets.
  *
  * Paper along the frame belongs to the label that owns most of it.  The owner of an enclosure is the label with most
- * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  A
+ * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  The
+ * owner of a component, which is many enclosures behind gaps, must also have half of all paint in it.  A
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
  * enclosure along the frame.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
  * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
@@ -79,10 +80,11 @@ find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scatter
       scattered[strokes->overlap[i].stroke] = 0;
 }
 
-/* owner[k] becomes the label with most paint in part k, 0 without any.  Soft strokes count only where they are at home,
+/* owner[k] becomes the label with most paint in part k, 0 without any or, if `by_half`, with less than half of it.  Soft strokes count only where they are at home,
  * or along the frame if they are scattered there. along[k]: frame pixels in part k. */
 static CeldStatus
-find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bool *across, uint32_t *owner)
+find_owners (const CeldStrokes *strokes, bool all_count, bool by_half, const size_t *along, bool *across,
+             uint32_t *owner)
 {
   size_t *scattered = celd_alloc0 (strokes->n_strokes, sizeof *scattered);
 
@@ -92,7 +94,7 @@ find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bo
   for (size_t i = 0; i < strokes->n;)
     {
       uint32_t part = strokes->overlap[i].part;
-      size_t   most = 0;
+      size_t   most = 0, all = 0;
 
       while (i < strokes->n && strokes->overlap[i].part == part)
         {
@@ -105,6 +107,7 @@ find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bo
               size_t                   total = strokes->total[overlap->stroke];
               bool                     runs_on = along[part] && 2 * scattered[overlap->stroke] >= total;
 
+              all += overlap->pixels;
               across[label] |= runs_on;
               paint += all_count || runs_on || 2 * overlap->pixels >= total ? overlap->pixels : 0;
             }
@@ -114,6 +117,8 @@ find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bo
               owner[part] = label;
             }
         }
+      if (by_half && 2 * most < all)
+        owner[part] = 0;
     }
   celd_free (scattered);
   return CELD_OK;
@@ -121,15 +126,15 @@ find_owners (const CeldStrokes *strokes, bool all_count, const size_t *along, bo
 
 /* Finds the owner of each part of the drawing. */
 static CeldStatus
-find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, CeldStrokes *strokes, size_t *along,
-                  uint32_t *owner)
+find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, bool by_half, CeldStrokes *strokes,
+                  size_t *along, uint32_t *owner)
 {
   CeldStatus status = celd_strokes_overlap (task->basins, part, strokes);
 
   for (size_t i = 0; i < frame->n; i++)
     along[part[frame->basin[i]]]++;
   if (status == CELD_OK)
-    status = find_owners (strokes, celd_task_all_hard (task), along, frame->across, owner);
+    status = find_owners (strokes, celd_task_all_hard (task), by_half, along, frame->across, owner);
   return status;
 }
 
@@ -147,9 +152,9 @@ find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *fra
                            : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
-    status = find_part_owners (task, frame, b->enclosure, strokes, enclosure_along, of_enclosure);
+    status = find_part_owners (task, frame, b->enclosure, false, strokes, enclosure_along, of_enclosure);
   if (status == CELD_OK)
-    status = find_part_owners (task, frame, b->component, strokes, component_along, of_component);
+    status = find_part_owners (task, frame, b->component, true, strokes, component_along, of_component);
   for (size_t i = 0; i < frame->n && status == CELD_OK; i++)
     {
       uint32_t enclosure = b->enclosure[frame->basin[i]];
@@ -254,6 +259,8 @@ celd_background_seed (const CeldHost *host, CeldSegmentTask *task)
   status = frame_new (task, &frame);
   if (status == CELD_OK && strokes == &own)
     status = celd_strokes_new (task, NULL, strokes);
+  if (status == CELD_OK && strokes == &own && !celd_task_all_hard (task))
+    status = celd_strokes_join_severed (task, strokes);
   if (status == CELD_OK)
     status = find_frame_owners (task, strokes, &frame);
   if (status == CELD_OK)

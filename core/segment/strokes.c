@@ -10,7 +10,8 @@
  * weighed by the odds that the stroke is meant for it: the stroke's pixels there to those elsewhere, times the pixels
  * of its label there to those of others.  Below LEAST_ODDS the overlap is a spill and is ignored.  If correct paint
  * outweighs foreign paint 3:1, this finds every spill of a stroke that has 2/5 of its paint outside the component; a
- * label alone in its component, or a stroke within one component, is never a spill.
+ * label alone in its component, or a stroke within one component, is never a spill.  What other paint cut off a stroke
+ * is weighed as part of it.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -333,8 +334,12 @@ celd_spills_remove (const CeldHost *host, CeldSegmentTask *task)
   const uint32_t *component = task->bridged_component ? task->bridged_component : task->basins->component;
   CeldStrokes    *strokes = &task->painted;
   bool           *has_spill;
-  CeldStatus      status = celd_strokes_new (task, component, strokes);
+  CeldStatus      status = celd_strokes_new (task, NULL, strokes);
 
+  if (status == CELD_OK && !celd_task_all_hard (task))
+    status = celd_strokes_join_severed (task, strokes);
+  if (status == CELD_OK)
+    status = celd_strokes_overlap (task->basins, component, strokes);
   if (status != CELD_OK || celd_task_all_hard (task))
     return status;
   for (size_t i = 0, j; i < strokes->n; i = j)

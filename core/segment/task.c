@@ -205,8 +205,10 @@ void
 celd_task_set_soft_cost (CeldSegmentTask *task)
 {
   double hardness = (double) task->settings->hardness;
-  double cost = CELD_COST_UNIT * task->basins->costs.paper_cost * hardness * BRUSH / brush_width (&task->seeds);
+  double cost;
 
+  task->brush = brush_width (&task->seeds);
+  cost = CELD_COST_UNIT * task->basins->costs.paper_cost * hardness * BRUSH / task->brush;
   task->soft_cost = (int32_t) fmax (1, fmin (cost, MOST_COST));
 }
 

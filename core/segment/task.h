@@ -84,6 +84,7 @@ typedef struct
   CeldSeedRows        seeds;             /* painted ones, and those added for arrows and the frame */
   CeldPalette         palette;           /* of all labels so far */
   int32_t             soft_cost;         /* data cost of a pixel of a soft stroke */
+  double              brush;             /* mean width of the artist's strokes, in pixels */
   CeldStrokes         painted;           /* the strokes before spills were removed; empty until then */
   bool                spilled;           /* has a spill been removed? */
   bool               *seeded;            /* of each enclosure: is there a seed on its paper?  NULL without arrows */
@@ -117,7 +118,7 @@ void celd_task_count_arrow_seeds (CeldSegmentTask *task);
 /* Data cost: what a pixel of a seed costs if it gets another label; CELD_HARD where the seed must be obeyed. */
 int32_t celd_task_data_cost (const CeldSegmentTask *task, uint32_t label);
 
-/* Computes soft_cost from the seeds that the artist painted: must be called before any seeds are added. */
+/* Computes soft_cost and brush from the seeds that the artist painted: must be called before any seeds are added. */
 void celd_task_set_soft_cost (CeldSegmentTask *task);
 
 /* All labels by the number of their seeds, the largest first: most of the picture is decided early, so later cuts are
@@ -134,6 +135,9 @@ CeldStatus celd_task_drop_ink_seeds (CeldSegmentTask *task);
  * enclosure or merged; NULL: no overlaps are computed. */
 CeldStatus celd_strokes_new (const CeldSegmentTask *task, const uint32_t *part, CeldStrokes *strokes);
 void       celd_strokes_clear (CeldStrokes *strokes);
+
+/* severed-strokes.c: makes one stroke of those that other paint or ink cut in two.  Overlaps are not updated. */
+CeldStatus celd_strokes_join_severed (const CeldSegmentTask *task, CeldStrokes *strokes);
 
 /* Clears *strokes, or moves them to task->kept if the task keeps any. */
 void celd_strokes_keep (const CeldSegmentTask *task, CeldStrokes *strokes);

@@ -39,6 +39,38 @@ flood (const CeldLabels *painted, uint32_t stroke[W * H])
   return n;
 }
 
+/* The label's pixel at which a ray from pixel p ends that passes at most so many pixels of other paint and of ink; -1:
+ * none. */
+static inline int
+ray_end (const CeldLabels *painted, const CeldPlane *ink, int p, int dx, int dy, int most_paint, int most_ink)
+{
+  for (int x = p % W + dx, y = p / W + dy; x >= 0 && y >= 0 && x < W && y < H; x += dx, y += dy)
+    {
+      uint32_t label = painted->data[y * W + x];
+
+      if (label == painted->data[p])
+        return y * W + x;
+      if (label ? !most_paint-- : celd_is_paper (ink->data[y * W + x]) || !most_ink--)
+        return -1;
+    }
+  return -1;
+}
+
+/* Gives strokes that other paint or ink cut in two the lesser of their numbers, with a brush and lines of one pixel. */
+static inline void
+join_severed (const CeldLabels *painted, const CeldPlane *ink, uint32_t stroke[W * H])
+{
+  for (int p = 0; p < W * H; p++)
+    for (int k = 0; k < 9 && painted->data[p]; k++)
+      {
+        int      q = k == 4 ? -1 : ray_end (painted, ink, p, k % 3 - 1, k / 3 - 1, 3, 2);
+        uint32_t a = q < 0 ? 0 : stroke[p], b = q < 0 ? 0 : stroke[q];
+
+        for (int r = 0; r < W * H && a != b; r++)
+          stroke[r] = stroke[r] == (a > b ? a : b) ? (a < b ? a : b) : stroke[r];
+      }
+}
+
 /* Pieces in columns and rows between lines, and boxes of paint over them. */
 static inline void
 random_sketch (uint32_t *state, int boxes, char paper[H][W + 1], char painted[H][W + 1])

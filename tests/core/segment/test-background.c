@@ -227,7 +227,7 @@ slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], 
 static uint32_t
 slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], uint32_t which, bool across[5])
 {
-  int      most = 0;
+  int      most = 0, all = 0;
   uint32_t holder = 0;
 
   for (uint32_t l = 1; l <= 3; l++)
@@ -239,6 +239,7 @@ slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], u
           {
             bool runs_on;
 
+            all++;
             paint += slow_at_home (s, part, along, p, &runs_on) || s->all_count;
             across[l] |= runs_on;
           }
@@ -248,7 +249,7 @@ slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], u
           holder = l;
         }
     }
-  return holder;
+  return part == s->component && 2 * most < all ? 0 : holder;
 }
 
 /* Leaves the wanted seeds in s->painted; returns the background's label. */
@@ -327,6 +328,7 @@ seeds_are_those_of_the_pixels (void)
       s.settings.hardness = round % 4 ? 0.05f : 1;
       pixels = (Pixels) { .painted = art_labels (painted_rows), .enclosure = art_labels (paper_rows),
                           .all_count = round % 4 == 0 };
+      s.task.brush = 1;
       flood (&pixels.painted, pixels.stroke);
       if (joined) /* an enclosure behind a gap */
         s.basins.component[joined] = 1;
@@ -339,6 +341,8 @@ seeds_are_those_of_the_pixels (void)
           flood (&pixels.painted, pixels.stroke);
           spilled += s.task.spilled;
         }
+      if (!pixels.all_count)
+        join_severed (&pixels.painted, &s.ink, pixels.stroke);
       label = slow_background (&pixels, &s.ink);
       CHECK (celd_background_seed (NULL, &s.task) == CELD_OK);
       for (int p = 0; p < W * H; p++)

@@ -199,7 +199,9 @@ stroke_pieces_overlaps_and_spills_are_those_of_the_pixels (void)
       wrong += dabbed != 0 || pixels != paper_pixels;
       check_kept (&s, &strokes, &state);
       celd_strokes_clear (&strokes);
+      s.task.brush = 1;
       CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
+      join_severed (&paint, &s.ink, stroke);
       for (int p = 0; p < W * H; p++)
         {
           bool spill = slow_stain (&paint, &component, stroke, p);
@@ -265,6 +267,63 @@ a_spill_has_odds_below_one_half (void)
   check_left (paper, ten, 0.05f, left);
 }
 
+/* ------------------------------------------------------------------ strokes cut in two */
+
+/* How many strokes there are once those that were cut in two are joined; the brush is a pixel wide. */
+static size_t
+count_joined (const char *const *paper, const char *const *painted)
+{
+  CeldStrokes strokes;
+  Sketch      s;
+  size_t      n;
+
+  sketch_open (&s, paper, painted, 2);
+  s.task.brush = 1;
+  CHECK (celd_strokes_new (&s.task, NULL, &strokes) == CELD_OK);
+  CHECK (celd_strokes_join_severed (&s.task, &strokes) == CELD_OK);
+  n = strokes.n_strokes;
+  for (size_t i = 0; i < strokes.n_pieces; i++)
+    CHECK (strokes.piece[i].stroke < n);
+  celd_strokes_clear (&strokes);
+  sketch_close (&s);
+  return n;
+}
+
+static void
+a_stroke_cut_by_other_paint_or_ink_is_one (void)
+{
+  static const char *const paper[] = { "1111111", "1111111", "1111111", NULL };
+  static const char *const line[] = { "111##11", "111##11", "1##1111", NULL };
+  static const char *const across[] = { "AAABAAA", "...B...", "...B...", NULL };
+  static const char *const aslant[] = { "A......", "BBBBBBB", "..A....", NULL };
+  static const char *const trimmed[] = { "AAA..AA", ".......", ".......", NULL };
+  static const char *const apart[] = { "AAA.AAA", ".......", "BBB....", NULL };
+  static const char *const thick[] = { "ABBBBA.", ".......", ".......", NULL };
+
+  NEAR (count_joined (paper, across), 2, 0);
+  NEAR (count_joined (paper, aslant), 2, 0);
+  NEAR (count_joined (line, trimmed), 1, 0);
+  NEAR (count_joined (paper, trimmed), 2, 0);
+  NEAR (count_joined (paper, apart), 3, 0);
+  NEAR (count_joined (paper, thick), 3, 0);
+}
+
+/* B was painted later and cuts off the end of A's spill, which alone would look like a stroke at home there. */
+static void
+the_cut_off_end_of_a_spill_is_a_spill (void)
+{
+  static const char *const paper[] = { "1111#2222222", "1111#2222222", "1111#2222222", NULL };
+  static const char *const painted[] = { "AAAA..B.....", "AAAAAABAA...", "AAAA..BBBBBB", NULL };
+  static const char *const left[] = { "AAAA..B.....", "AAAAA.B.....", "AAAA..BBBBBB", NULL };
+  Sketch                   s;
+
+  sketch_open (&s, paper, painted, 2);
+  s.task.brush = 1;
+  CHECK (celd_spills_remove (NULL, &s.task) == CELD_OK);
+  NEAR (seeds_differing (&s.task.seeds, left), 0, 0);
+  sketch_close (&s);
+}
+
 int
 main (void)
 {
@@ -275,5 +334,7 @@ main (void)
   RUN (paint_behind_a_contour_is_a_spill);
   RUN (at_home_or_alone_paint_is_none);
   RUN (a_spill_has_odds_below_one_half);
+  RUN (a_stroke_cut_by_other_paint_or_ink_is_one);
+  RUN (the_cut_off_end_of_a_spill_is_a_spill);
   return DONE;
 }
