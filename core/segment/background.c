@@ -6,12 +6,14 @@
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
  * enclosure along the frame.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
  * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
- * of their own: parts of a figure that are cut off by the frame own a little of it, but are not the background.
+ * of their own: parts of a figure that are cut off by the frame own a little of it, but are not the background.  Nor is
+ * a label that the artist's relations put in front of something: in a close-up a figure may own most of the frame.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "image/image.h"
 #include "segment/basins.h"
+#include "segment/splits.h"
 #include "segment/task.h"
 
 #define MAIN_SHARE 4 /* 1 / this: a quarter of the frame is the main part of it (chosen) */
@@ -24,6 +26,8 @@ typedef struct
   size_t    n;
   size_t   *owned;    /* pixels of the frame that label l owns; owned[0]: without an owner */
   bool     *across;   /* has label l a stroke along the frame that is at home nowhere? */
+  bool     *in_front; /* is label l in front of something? */
+  uint32_t *home;     /* of each enclosure: its owner */
 } Frame;
 
 /* Lists the frame, without specks of paper in solid ink. */
@@ -40,7 +44,9 @@ frame_new (const CeldSegmentTask *task, Frame *frame)
   frame->owner = celd_alloc (frame->n, sizeof *frame->owner);
   frame->owned   = celd_alloc0 (task->palette.n + 1, sizeof *frame->owned);
   frame->across = celd_alloc0 (task->palette.n + 1, sizeof *frame->across);
-  if (!frame->basin || !frame->owner || !frame->owned || !frame->across)
+  frame->in_front = celd_alloc0 (task->palette.n + 1, sizeof *frame->in_front);
+  frame->home = celd_alloc0 (task->basins->n_enclosures + 1, sizeof *frame->home);
+  if (!frame->basin || !frame->owner || !frame->owned || !frame->across || !frame->in_front || !frame->home)
     return CELD_NO_MEMORY;
   for (size_t i = 0; i < frame->n; i++)
     {
@@ -64,6 +70,8 @@ frame_clear (Frame *frame)
   celd_free (frame->owner);
   celd_free (frame->owned);
   celd_free (frame->across);
+  celd_free (frame->in_front);
+  celd_free (frame->home);
 }
 
 /* ------------------------------------------------------------------ owners of the frame */
@@ -145,11 +153,10 @@ find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *fra
 {
   const CeldBasins *b = task->basins;
   uint32_t         *of_component = celd_alloc0 (b->n_components + 1, sizeof *of_component);
-  uint32_t         *of_enclosure = celd_alloc0 (b->n_enclosures + 1, sizeof *of_enclosure);
+  uint32_t         *of_enclosure = frame->home;
   size_t           *component_along = celd_alloc0 (b->n_components + 1, sizeof *component_along);
   size_t           *enclosure_along = celd_alloc0 (b->n_enclosures + 1, sizeof *enclosure_along);
-  CeldStatus        status = of_component && of_enclosure && component_along && enclosure_along ? CELD_OK
-                           : CELD_NO_MEMORY;
+  CeldStatus        status = of_component && component_along && enclosure_along ? CELD_OK : CELD_NO_MEMORY;
 
   if (status == CELD_OK)
     status = find_part_owners (task, frame, b->enclosure, false, strokes, enclosure_along, of_enclosure);
@@ -164,27 +171,66 @@ find_frame_owners (const CeldSegmentTask *task, CeldStrokes *strokes, Frame *fra
       frame->owned[frame->owner[i]]++;
     }
   celd_free (of_component);
-  celd_free (of_enclosure);
   celd_free (component_along);
   celd_free (enclosure_along);
   return status;
 }
 
+/* ------------------------------------------------------------------ labels in front of something */
+
+/* The label that an end of a relation means; 0: none yet. */
+static uint32_t
+label_of (const CeldSegmentTask *task, const Frame *frame, const CeldTerm *term)
+{
+  CeldRelationEnd end;
+  uint32_t        label;
+
+  if (term->by_colour)
+    return celd_palette_find (&task->palette, term->colour);
+  end = celd_relation_end_find (task, term);
+  if (!end.there)
+    return 0;
+  label = celd_seed_rows_at (&task->seeds, end.x, end.y);
+  return label ? label : frame->home[task->basins->enclosure[celd_basin_at (task->basins, end.x, end.y)]];
+}
+
+static void
+mark_in_front (const CeldRelations *relations, const CeldSegmentTask *task, Frame *frame)
+{
+  for (size_t i = 0; i < relations->n; i++)
+    if (!relations->item[i].equal)
+      frame->in_front[label_of (task, frame, &relations->item[i].nearer)] = true;
+}
+
+/* Relations that rule out a label which owns more of the frame than the background, or than none (0), matter. */
+static void
+count_effective (const CeldRelations *relations, const Frame *frame, uint32_t background, CeldSegmentTask *task)
+{
+  for (size_t i = task->n_effective; i < relations->n; i++)
+    {
+      uint32_t label = relations->item[i].equal ? 0 : label_of (task, frame, &relations->item[i].nearer);
+
+      if (label && frame->owned[label] > (background ? frame->owned[background] : 0))
+        task->n_effective = i + 1;
+    }
+}
+
 /* ------------------------------------------------------------------ what it gets */
 
-/* The label that owns most of the frame, or most among those with a stroke along it; 0: none. */
+/* The label that owns most of the frame, or most among those with a stroke along it, of those that are in front of
+ * nothing; 0: none. */
 static uint32_t
 most_owned (const Frame *frame, size_t n_labels, bool across)
 {
   uint32_t best = 0;
 
   for (uint32_t l = 1; l <= n_labels; l++)
-    if ((frame->across[l] || !across) && frame->owned[l] && (!best || frame->owned[l] > frame->owned[best]))
+    if ((frame->across[l] || !across) && !frame->in_front[l] && frame->owned[l] && (!best || frame->owned[l] > frame->owned[best]))
       best = l;
   return best;
 }
 
-/* The label that owns most of the frame; 0: none. */
+/* The label that is in front of nothing and owns most of the frame; 0: none. */
 static uint32_t
 main_owner (const Frame *frame, size_t n_labels)
 {
@@ -247,11 +293,12 @@ seed (CeldSegmentTask *task, const CeldStrokes *strokes, Frame *frame, uint32_t 
 }
 
 CeldStatus
-celd_background_seed (const CeldHost *host, CeldSegmentTask *task)
+celd_background_seed (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task)
 {
   Frame       frame = { 0 };
   CeldStrokes own = { 0 }, *strokes = task->painted.piece && !task->spilled ? &task->painted : &own;
   uint32_t    label = 0;
+  size_t      n_labels;
   CeldStatus  status;
 
   if (task->settings->background == CELD_BACKGROUND_NONE)
@@ -263,8 +310,13 @@ celd_background_seed (const CeldHost *host, CeldSegmentTask *task)
     status = celd_strokes_join_severed (task, strokes);
   if (status == CELD_OK)
     status = find_frame_owners (task, strokes, &frame);
+  if (status == CELD_OK && relations && task->settings->background != CELD_BACKGROUND_COLOUR)
+    mark_in_front (relations, task, &frame);
+  n_labels = task->palette.n;
   if (status == CELD_OK)
     status = choose (task, &frame, &label);
+  if (status == CELD_OK && relations && task->settings->background != CELD_BACKGROUND_COLOUR)
+    count_effective (relations, &frame, label <= n_labels ? label : 0, task);
   if (status == CELD_OK && label)
     {
       task->palette.item[label - 1].background = true;

@@ -10,6 +10,7 @@
 #include "segment/basins.h"
 #include "segment/bridges.h"
 #include "segment/segment.h"
+#include "segment/splits.h"
 #include "segment/task.h"
 
 #include <string.h>
@@ -28,6 +29,8 @@ struct CeldSegmenter
   CeldPatches   redrawn;           /* pixels changed by closing gaps or refining boundaries in the last solve */
   bool         *seeded;            /* of the last solve, as in CeldSegmentTask; NULL: without arrows */
   size_t        n_effective;
+  uint32_t      background;        /* label of the last solve's background, and its region; 0: none */
+  CeldRegion    background_region;
 };
 
 /* ------------------------------------------------------------------ the object */
@@ -121,7 +124,7 @@ prepare_seeds (const CeldRelations *relations, const CeldHost *host, CeldSegment
   if (status == CELD_OK)
     status = celd_spills_remove (host, task);
   if (status == CELD_OK)
-    status = celd_background_seed (host, task);
+    status = celd_background_seed (relations, host, task);
   return status;
 }
 
@@ -291,6 +294,18 @@ solve (CeldSegmenter *s, const CeldSeedRows *seeds, const CeldRelations *relatio
   return status;
 }
 
+static void
+remember_background (CeldSegmenter *s, const CeldPalette *palette)
+{
+  s->background = 0;
+  for (uint32_t k = 0; k < palette->n; k++)
+    if (palette->item[k].background)
+      {
+        s->background        = k + 1;
+        s->background_region = palette->item[k];
+      }
+}
+
 CeldStatus
 celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const CeldRelations *relations,
                       const CeldSettings *settings, const CeldHost *host, CeldPalette *palette, CeldProblems *problems,
@@ -321,6 +336,7 @@ celd_segmenter_solve (CeldSegmenter *segmenter, const CeldSeedRows *seeds, const
       celd_free (segmenter->seeded);
       segmenter->seeded = task.seeded;
       segmenter->n_effective  = task.n_effective;
+      remember_background (segmenter, palette);
       task.seeded     = NULL;
       *changed       = segmenter->labelling.changed;
       segmenter->labelling.changed = (CeldRect) { 0 };
@@ -340,6 +356,22 @@ celd_segmenter_effective_relations (const CeldSegmenter *segmenter)
   return segmenter->n_effective;
 }
 
+/* Does the relation put the background in front of something, so that it is none? */
+static bool
+rules_out_background (const CeldSegmenter *s, const CeldSegmentTask *task, const CeldRelation *relation,
+                      const CeldLabels *labels)
+{
+  CeldPalette     palette = { (CeldRegion *) &s->background_region, 1 };
+  CeldRelationEnd end;
+
+  if (relation->equal || !s->background)
+    return false;
+  if (relation->nearer.by_colour)
+    return celd_palette_find (&palette, relation->nearer.colour);
+  end = celd_relation_end_find (task, &relation->nearer);
+  return end.there && CELD_AT (labels, end.x, end.y) == s->background;
+}
+
 /* Boundaries are redrawn after regions are split, so the ends must not lie where that has changed pixels. */
 bool
 celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation *relation, const CeldSettings *settings,
@@ -350,7 +382,8 @@ celd_segmenter_is_redundant (const CeldSegmenter *segmenter, const CeldRelation 
 
   if (settings->seeds != CELD_SEEDS_AUTO)
     return true;
-  return s->seeded && !celd_arrow_seeds_needed (&task, relation) &&
+  return s->seeded && !rules_out_background (s, &task, relation, labels) &&
+         !celd_arrow_seeds_needed (&task, relation) &&
          celd_regions_are_separate (&task, relation, labels, &s->redrawn);
 }
 

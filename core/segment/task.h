@@ -88,7 +88,8 @@ typedef struct
   CeldStrokes         painted;           /* the strokes before spills were removed; empty until then */
   bool                spilled;           /* has a spill been removed? */
   bool               *seeded;            /* of each enclosure: is there a seed on its paper?  NULL without arrows */
-  size_t              n_effective;       /* relations up to the last one that added seeds or split a region */
+  size_t              n_effective;       /* relations up to the last one that added seeds, split a region or ruled out a
+                                          * background */
   CeldStrokes        *kept;              /* strokes of the last solve, to be reused; NULL: none are kept */
 } CeldSegmentTask;
 
@@ -154,8 +155,9 @@ CeldStatus celd_spills_remove (const CeldHost *host, CeldSegmentTask *task);
 
 /* ------------------------------------------------------------------ background.c */
 
-/* Adds seeds along the frame where no stroke reaches, and marks the background in the palette. */
-CeldStatus celd_background_seed (const CeldHost *host, CeldSegmentTask *task);
+/* Adds seeds along the frame where no stroke reaches, and marks the background in the palette.  No label is the
+ * background that a relation (NULL: there are none) puts in front of something. */
+CeldStatus celd_background_seed (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task);
 
 /* ------------------------------------------------------------------ arrow-seeds.c and split.c: arrows as strokes */
 

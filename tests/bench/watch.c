@@ -103,7 +103,8 @@ STEP (PART_READ, celd_scribbles_read,
 STEP (PART_BUILD, celd_basins_new,
       (const CeldPlane *ink, float threshold, const CeldHost *host, CeldBasins *basins), (ink, threshold, host, basins))
 STEP (PART_SPILLS, celd_spills_remove, (const CeldHost *host, CeldSegmentTask *task), (host, task))
-STEP (PART_BACKGROUND, celd_background_seed, (const CeldHost *host, CeldSegmentTask *task), (host, task))
+STEP (PART_BACKGROUND, celd_background_seed,
+      (const CeldRelations *relations, const CeldHost *host, CeldSegmentTask *task), (relations, host, task))
 STEP (PART_GRAPH, celd_basin_graph_solve, (const CeldSegmentTask *task, const CeldHost *host, uint32_t *label),
       (task, host, label))
 STEP (PART_PARTITION, celd_partition,

@@ -13,7 +13,7 @@ seed (Sketch *s, const char *const *wanted)
 {
   uint32_t marked = 0;
 
-  CHECK (celd_background_seed (NULL, &s->task) == CELD_OK);
+  CHECK (celd_background_seed (NULL, NULL, &s->task) == CELD_OK);
   NEAR (seeds_differing (&s->task.seeds, wanted), 0, 0);
   for (size_t k = 0; k < s->task.palette.n; k++)
     if (s->task.palette.item[k].background)
@@ -127,7 +127,7 @@ a_stroke_that_runs_out_does_not_hold_the_frame (void)
   sketch_close (&s);
   sketch_open (&s, paper, painted, 1);
   s.settings.hardness = 1;
-  CHECK (celd_background_seed (NULL, &s.task) == CELD_OK);
+  CHECK (celd_background_seed (NULL, NULL, &s.task) == CELD_OK);
   CHECK (s.task.palette.n == 1 && s.task.palette.item[0].background);
   sketch_close (&s);
 }
@@ -197,6 +197,35 @@ an_obeyed_stroke_under_a_bridge_stays (void)
   s.ink.data[6] = 1;
   NEAR (seed (&s, wanted), 1, 0);
   sketch_close (&s);
+}
+
+/* A close-up: the figure A owns most of the frame, but is in front of B, so the page beside it is none of A's. */
+static void
+a_label_in_front_of_another_is_no_background (void)
+{
+  static const char *const paper[] = { "111#22222222", "111#22222222", "111#22222222", "111#2222####", "111#2222#333",
+                                       "111#2222#333", NULL };
+  static const char *const painted[] = { "............", "......AAA...", "............", "............",
+                                         "..........B.", "............", NULL };
+  static const char *const as_own[] = { "AAA.........", "A.....AAA...", "A...........", "A...........",
+                                        "A.........B.", "AAA.........", NULL };
+  static const char *const as_page[] = { "CCC.........", "C.....AAA...", "C...........", "C...........",
+                                         "C.........B.", "CCC.........", NULL };
+  CeldRelation             relation = { .nearer = { .x = 5, .y = 4 }, .farther = { .x = 10, .y = 4 } };
+  CeldRelations            relations = { &relation, 1 };
+  Sketch                   s;
+
+  check_background (paper, painted, 2, as_own, 1, 2);
+  for (int round = 0; round < 2; round++)
+    {
+      sketch_open (&s, paper, painted, 2);
+      relation.equal = round;
+      CHECK (celd_background_seed (&relations, NULL, &s.task) == CELD_OK);
+      NEAR (seeds_differing (&s.task.seeds, round ? as_own : as_page), 0, 0);
+      NEAR (s.task.palette.n, round ? 2 : 3, 0);
+      NEAR (s.task.n_effective, !round, 0);
+      sketch_close (&s);
+    }
 }
 
 /* ------------------------------------------------------------------ the same by pixels */
@@ -344,7 +373,7 @@ seeds_are_those_of_the_pixels (void)
       if (!pixels.all_count)
         join_severed (&pixels.painted, &s.ink, pixels.stroke);
       label = slow_background (&pixels, &s.ink);
-      CHECK (celd_background_seed (NULL, &s.task) == CELD_OK);
+      CHECK (celd_background_seed (NULL, NULL, &s.task) == CELD_OK);
       for (int p = 0; p < W * H; p++)
         wrong += celd_seed_rows_at (&s.task.seeds, p % W, p / W) != pixels.painted.data[p];
       NEAR (wrong, 0, 0);
@@ -367,6 +396,7 @@ main (void)
   RUN (a_corner_cut_off_joins_the_background);
   RUN (a_figure_that_the_frame_cuts_off_is_not_the_background);
   RUN (a_stroke_that_runs_out_does_not_hold_the_frame);
+  RUN (a_label_in_front_of_another_is_no_background);
   RUN (a_stroke_over_hatching_holds_the_frame);
   RUN (behind_a_gap_the_component_counts);
   RUN (flecks_in_solid_ink_are_left_alone);
