@@ -1,8 +1,8 @@
 /* Which label is the background, and how much of the paper along the frame it gets.
  *
  * Paper along the frame belongs to the label that owns most of it.  The owner of an enclosure is the label with most
- * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  The
- * owner of a component, which is many enclosures behind gaps, must also have half of all paint in it.  A
+ * paint in it, counting only strokes that are at home there: those that have at least half of their paint in it.  In
+ * a component, which is many enclosures behind gaps, that must be a fair share of all paint: the mean of its labels.  A
  * stroke that is at home nowhere but has half of its paint along the frame runs over hatching, and counts in every
  * enclosure along the frame.  Enclosures along the frame without an owner get seeds of the main owner.  If no label
  * owns a quarter of the frame or runs over hatching, and more of the frame has no owner, they get a transparent label
@@ -88,10 +88,10 @@ find_scattered (const CeldStrokes *strokes, const size_t *along, size_t *scatter
       scattered[strokes->overlap[i].stroke] = 0;
 }
 
-/* owner[k] becomes the label with most paint in part k, 0 without any or, if `by_half`, with less than half of it.  Soft strokes count only where they are at home,
+/* owner[k] becomes the label with most paint in part k, 0 without any or, if `fair`, with less than a fair share of it.  Soft strokes count only where they are at home,
  * or along the frame if they are scattered there. along[k]: frame pixels in part k. */
 static CeldStatus
-find_owners (const CeldStrokes *strokes, bool all_count, bool by_half, const size_t *along, bool *across,
+find_owners (const CeldStrokes *strokes, bool all_count, bool fair, const size_t *along, bool *across,
              uint32_t *owner)
 {
   size_t *scattered = celd_alloc0 (strokes->n_strokes, sizeof *scattered);
@@ -102,13 +102,14 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool by_half, const siz
   for (size_t i = 0; i < strokes->n;)
     {
       uint32_t part = strokes->overlap[i].part;
-      size_t   most = 0, all = 0;
+      size_t   most = 0, all = 0, labels = 0;
 
       while (i < strokes->n && strokes->overlap[i].part == part)
         {
           uint32_t label = strokes->overlap[i].label;
           size_t   paint = 0;
 
+          labels++;
           for (; i < strokes->n && strokes->overlap[i].part == part && strokes->overlap[i].label == label; i++)
             {
               const CeldStrokeOverlap *overlap = &strokes->overlap[i];
@@ -125,7 +126,7 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool by_half, const siz
               owner[part] = label;
             }
         }
-      if (by_half && 2 * most < all)
+      if (fair && labels * most < all)
         owner[part] = 0;
     }
   celd_free (scattered);
@@ -134,7 +135,7 @@ find_owners (const CeldStrokes *strokes, bool all_count, bool by_half, const siz
 
 /* Finds the owner of each part of the drawing. */
 static CeldStatus
-find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, bool by_half, CeldStrokes *strokes,
+find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *part, bool fair, CeldStrokes *strokes,
                   size_t *along, uint32_t *owner)
 {
   CeldStatus status = celd_strokes_overlap (task->basins, part, strokes);
@@ -142,7 +143,7 @@ find_part_owners (const CeldSegmentTask *task, Frame *frame, const uint32_t *par
   for (size_t i = 0; i < frame->n; i++)
     along[part[frame->basin[i]]]++;
   if (status == CELD_OK)
-    status = find_owners (strokes, celd_task_all_hard (task), by_half, along, frame->across, owner);
+    status = find_owners (strokes, celd_task_all_hard (task), fair, along, frame->across, owner);
   return status;
 }
 

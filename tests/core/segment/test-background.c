@@ -256,18 +256,19 @@ slow_at_home (const Pixels *s, const uint32_t part[W * H], const bool along[5], 
 static uint32_t
 slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], uint32_t which, bool across[5])
 {
-  int      most = 0, all = 0;
+  int      most = 0, all = 0, labels = 0;
   uint32_t holder = 0;
 
   for (uint32_t l = 1; l <= 3; l++)
     {
-      int paint = 0;
+      int paint = 0, paint_here = 0;
 
       for (int p = 0; p < W * H; p++)
         if (part[p] == which && s->painted.data[p] == l)
           {
             bool runs_on;
 
+            labels += !paint_here++;
             all++;
             paint += slow_at_home (s, part, along, p, &runs_on) || s->all_count;
             across[l] |= runs_on;
@@ -278,7 +279,7 @@ slow_holder (const Pixels *s, const uint32_t part[W * H], const bool along[5], u
           holder = l;
         }
     }
-  return part == s->component && 2 * most < all ? 0 : holder;
+  return part == s->component && labels * most < all ? 0 : holder;
 }
 
 /* Leaves the wanted seeds in s->painted; returns the background's label. */
