@@ -78,7 +78,7 @@ celd_problem_text (const CeldProblem *p, const CeldPalette *palette, const CeldR
                 label, p->x, p->y, other[0] ? other : " another colour");
       break;
     case CELD_PROBLEM_REGION_UNREACHED:
-      snprintf (text, size, "No stroke reaches the closed region at (%d, %d); it was given to%s. Put a stroke "
+      snprintf (text, size, "No stroke reaches the region at (%d, %d); it was given to%s. Put a stroke "
                 "into it if that is wrong.",
                 p->x, p->y, label[0] ? label : " a neighbour");
       break;

@@ -62,7 +62,7 @@ typedef struct { int line, column; char expected[48]; char found[24]; } CeldText
 typedef enum
 {
   CELD_PROBLEM_STROKE_OVERRULED,   /* most of a colour's stroke at (x,y) went to region `other` */
-  CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the closed region round (x,y) */
+  CELD_PROBLEM_REGION_UNREACHED,   /* no stroke reaches the region round (x,y), closed but for gaps */
   CELD_PROBLEM_COLOUR_LOST,        /* a colour has no pixel left after segmentation */
   CELD_PROBLEM_ARROW_UNCLEAR,      /* the arrow at (x,y) does not say which end is nearer; left out */
   CELD_PROBLEM_OUTSIDE,            /* relation `relation` has an end outside the drawing; left out */

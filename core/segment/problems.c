@@ -10,7 +10,9 @@
 #include "segment/task.h"
 
 #define SMALLEST_SHARE     2000 /* regions below 1/2000 of the picture are not reported (chosen) */
-#define SMALLEST_WIDTH     3    /* nor those below the square of so many stroke widths */
+#define SMALLEST_WIDTH     3    /* nor those below the square of so many stroke widths, */
+#define LARGE_SHARE        1000 /* unless they are 1/1000 of the picture */
+#define SMALLEST_AREA      9    /* pixels: smaller ones are specks on any page (chosen) */
 #define LEAST_STROKE_SHARE 8    /* nor strokes below 1/8 of a label's paint, which another stroke may have cut off */
 
 /* The outcome of a connected stroke.  `other` is the label that most of its overruled pixels have, found by majority
@@ -131,16 +133,23 @@ report_lost (const CeldSegmentTask *task, const CeldSeedRows *seeds, CeldProblem
 
 /* ------------------------------------------------------------------ regions */
 
-/* A component without seeds.  `area`: of its basins, ink included; 0: not worth reporting.  `missing`: paper still to
- * be found for it to be.  `basin`: the basin farthest from ink, from 1. */
-typedef struct { size_t area, missing, basin; } PaperComponent;
+/* A part of the paper without seeds.  `area`: of its basins, ink included; 0: not worth reporting.  `missing`: paper
+ * still to be found for it to be.  `basin`: the basin farthest from ink, from 1. */
+typedef struct { size_t area, missing, basin; } PaperPart;
+
+/* The parts that count: connected paper, with gaps closed by bridges, as a stroke reaches through a narrow neck. */
+static const uint32_t *
+parts_of (const CeldSegmentTask *task)
+{
+  return task->bridged_component ? task->bridged_component : task->basins->component;
+}
 
 static void
-gather_components (const CeldBasins *b, PaperComponent *component)
+gather_parts (const CeldBasins *b, const uint32_t *part_of, PaperPart *part)
 {
   for (size_t k = 0; k < b->n; k++)
     {
-      PaperComponent *p = &component[b->component[k]];
+      PaperPart *p = &part[part_of[k]];
 
       p->area += b->basin[k].area;
       if (!p->basin || b->basin[k].squared > b->basin[p->basin - 1].squared)
@@ -148,39 +157,40 @@ gather_components (const CeldBasins *b, PaperComponent *component)
     }
 }
 
-/* Selects components of sufficient size without seeds, and returns their number.  Not enclosures, as a stroke reaches
- * through a gap. */
+/* Selects parts of sufficient size without seeds, and returns their number. */
 static size_t
-choose_components (const CeldBasins *b, const CeldStrokes *strokes, PaperComponent *component)
+choose_parts (const CeldBasins *b, const CeldStrokes *strokes, PaperPart *part, size_t n_parts)
 {
-  size_t side = (size_t) (SMALLEST_WIDTH * b->stroke), n = 0;
-  size_t least = (size_t) b->width * (size_t) b->height / SMALLEST_SHARE + 1;
+  size_t side = (size_t) (SMALLEST_WIDTH * b->stroke), page = (size_t) b->width * (size_t) b->height, n = 0;
+  size_t least = page / SMALLEST_SHARE + 1, large = page / LARGE_SHARE + 1;
 
   least = least > side * side ? least : side * side;
-  component[0].area = 0;
+  least = least < large ? least : large;
+  least = least > SMALLEST_AREA ? least : SMALLEST_AREA;
+  part[0].area = 0;
   for (size_t i = 0; i < strokes->n; i++)
-    component[strokes->overlap[i].part].area = 0;
-  for (size_t k = 1; k <= b->n_components; k++)
-    if (component[k].area >= least)
+    part[strokes->overlap[i].part].area = 0;
+  for (size_t k = 1; k <= n_parts; k++)
+    if (part[k].area >= least)
       {
-        component[k].missing = least;
+        part[k].missing = least;
         n++;
       }
     else
-      component[k].area = 0;
+      part[k].area = 0;
   return n;
 }
 
-/* Counts the paper of n components until each has enough. */
+/* Counts the paper of n parts until each has enough. */
 static void
-find_paper (const CeldBasins *b, size_t n, PaperComponent *component)
+find_paper (const CeldBasins *b, const uint32_t *part_of, size_t n, PaperPart *part)
 {
   for (int y = 0; y < b->height && n; y++)
     for (size_t i = b->row[y]; i < b->row[y + 1] && n; i++)
       {
-        int             end = celd_basin_run_end (b, i, y);
-        PaperComponent *p = &component[b->component[b->run[i].basin]];
-        size_t          paper;
+        int        end = celd_basin_run_end (b, i, y);
+        PaperPart *p = &part[part_of[b->run[i].basin]];
+        size_t     paper;
 
         if (!p->missing)
           continue;
@@ -194,25 +204,31 @@ static CeldStatus
 report_unreached (const CeldSegmentTask *task, const CeldLabels *labels, CeldProblems *problems)
 {
   const CeldBasins *b = task->basins;
+  const uint32_t   *part_of = parts_of (task);
   CeldStrokes       strokes = { 0 };
-  PaperComponent   *component = celd_alloc0 (b->n_components + 1, sizeof *component);
-  CeldStatus        status = component ? celd_strokes_new (task, b->component, &strokes) : CELD_NO_MEMORY;
+  PaperPart        *part;
+  size_t            n_parts = 0;
+  CeldStatus        status;
 
+  for (size_t k = 0; k < b->n; k++)
+    n_parts = part_of[k] > n_parts ? part_of[k] : n_parts;
+  part   = celd_alloc0 (n_parts + 1, sizeof *part);
+  status = part ? celd_strokes_new (task, part_of, &strokes) : CELD_NO_MEMORY;
   if (status == CELD_OK)
     {
-      gather_components (b, component);
-      find_paper (b, choose_components (b, &strokes, component), component);
+      gather_parts (b, part_of, part);
+      find_paper (b, part_of, choose_parts (b, &strokes, part, n_parts), part);
     }
-  for (size_t k = 1; k <= b->n_components && status == CELD_OK; k++)
-    if (component[k].area && !component[k].missing)
+  for (size_t k = 1; k <= n_parts && status == CELD_OK; k++)
+    if (part[k].area && !part[k].missing)
       {
-        const CeldBasin *basin = &b->basin[component[k].basin - 1];
+        const CeldBasin *basin = &b->basin[part[k].basin - 1];
 
         status = celd_problem_add (problems, (CeldProblem) {
           CELD_PROBLEM_REGION_UNREACHED, basin->x, basin->y, CELD_AT (labels, basin->x, basin->y), 0, CELD_NO_INDEX });
       }
   celd_strokes_clear (&strokes);
-  celd_free (component);
+  celd_free (part);
   return status;
 }
 

@@ -138,6 +138,33 @@ closed_regions_without_a_stroke_are_unreached (void)
   case_close (&c);
 }
 
+/* The same paper is one component, but a bridge parts it; with a thick pen, too, what is large on the page counts. */
+static void
+regions_open_through_a_gap_are_unreached (void)
+{
+  static const char *const rows[] = { "111111222222", "111111222222", "111111222222", NULL };
+  static const char *const painted[] = { "AAAA........", "............", "............", NULL };
+  static const char *const labels[] = { "AAAAAAAAAAAA", "AAAAAAAAAAAA", "AAAAAAAAAAAA", NULL };
+  const uint32_t           joined[] = { 1, 1 }, bridged[] = { 1, 2 };
+
+  for (int round = 0; round < 3; round++)
+    {
+      Case c;
+
+      report (&c, rows, painted, labels, 1, false);
+      celd_problems_clear (&c.problems);
+      c.problems = (CeldProblems) { 0 };
+      memcpy (c.sketch.basins.component, joined, sizeof joined);
+      c.sketch.task.bridged_component = round ? bridged : NULL;
+      c.sketch.basins.stroke = round == 2 ? 10 : 1;
+      CHECK (celd_segment_report (&c.sketch.task, &c.sketch.task.seeds, &c.labelling, &c.labels, NULL, &c.problems)
+             == CELD_OK);
+      NEAR (c.problems.n, round > 0, 0);
+      CHECK (!c.problems.n || (c.problems.item[0].kind == CELD_PROBLEM_REGION_UNREACHED && c.problems.item[0].x > 5));
+      case_close (&c);
+    }
+}
+
 /* Paint of labels that the palette does not know was left out before. */
 static void
 unknown_labels_are_ignored (void)
@@ -266,6 +293,7 @@ main (void)
   RUN (half_a_stroke_and_specks_are_not_reported);
   RUN (a_lost_colour_is_reported_once);
   RUN (closed_regions_without_a_stroke_are_unreached);
+  RUN (regions_open_through_a_gap_are_unreached);
   RUN (unknown_labels_are_ignored);
   RUN (overruled_strokes_are_those_of_the_pixels);
   return DONE;
