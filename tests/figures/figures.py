@@ -7,6 +7,7 @@ figures.py OUTDIR   writes one folder a figure: drawing.png and, where the figur
                     index in the order below, 255 = paper).
 What must come out of each is stated and asserted in test-figures.py.
 """
+import math
 import os
 import sys
 
@@ -173,7 +174,71 @@ def broken():
     return f
 
 
-FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken]
+def pinched(pinch, gap):
+    """An hourglass whose right half is not painted: a neck of `pinch` pixels, a gap of so many stroke widths."""
+    f = Figure()
+
+    def depth(x):
+        return (57.875 - pinch / 2) * math.exp(-((x - 120) / 22) ** 2)     # PIL's lines are a little thicker
+    f.shape([(x, 40 + depth(x)) for x in range(20, 221)] + [(x, 160 - depth(x)) for x in range(220, 19, -1)])
+    left = 175 - 2 * gap
+    f.ink.rectangle([v * SCALE for v in (left, 36, 175 + 2 * gap, 44 + depth(left))], 255)
+    f.stroke('scribbles', [(40, 60), (40, 140)], A)
+    f.stroke('scribbles', [(10, 15), (230, 15)], B)
+    f.stroke('scribbles', [(10, 185), (230, 185)], B)
+    return f
+
+
+def pinched_little():
+    """A neck of a pixel, and a gap of one and a half stroke widths."""
+    return pinched(1, 1.5)
+
+
+def pinched_much():
+    """A neck of three quarters of a pixel, and a gap of six stroke widths."""
+    return pinched(0.75, 6)
+
+
+def severed():
+    """A stroke that runs over a contour and ends behind a later stroke of another colour, in a narrow part."""
+    f = Figure()
+    f.shape(box(20, 30, 110, 170))
+    f.shape([(110, 30), (150, 30), (150, 90), (165, 90), (165, 30), (220, 30),
+             (220, 170), (165, 170), (165, 110), (150, 110), (150, 170), (110, 170)])
+    f.stroke('scribbles', [(35, 100), (205, 100)], A)
+    f.stroke('scribbles', [(130, 50), (130, 150)], B, 11)
+    f.stroke('scribbles', [(10, 15), (230, 15)], C)
+    return f
+
+
+def close_up():
+    """A figure that fills most of the page, with a nose in front and a tail behind, on a page that is not painted."""
+    f = Figure()
+    f.shape([(-10, 120), (40, 90), (40, 150), (-10, 150)])
+    f.shape([(70, -10), (260, -10), (260, 210), (20, 210), (30, 130)])
+    f.shape(box(130, 80, 170, 120))
+    f.stroke('scribbles', [(100, 40), (220, 40)], A)
+    f.stroke('scribbles', [(140, 100), (160, 100)], B)
+    f.stroke('scribbles', [(5, 130), (20, 130)], C)
+    f.relations = '#3c8cdc > #dc3c3c > #f0b428'
+    return f
+
+
+def forgotten():
+    """Four parts of which only one is painted: one is closed, one open through a gap, and one is a speck."""
+    f = Figure()
+    f.shape(box(20, 40, 80, 100))
+    f.shape(box(100, 40, 140, 80))
+    f.shape(box(160, 40, 220, 100))
+    f.ink.rectangle([v * SCALE for v in (185, 36, 195, 44)], 255)
+    f.shape(box(30, 140, 36, 146))
+    f.stroke('scribbles', [(40, 60), (60, 80)], A)
+    f.stroke('scribbles', [(10, 15), (230, 15)], B)
+    return f
+
+
+FIGURES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched_little, pinched_much,
+           severed, close_up, forgotten]
 
 
 if __name__ == '__main__':

@@ -4,6 +4,7 @@
 
 test-figures.py CELDEPTH    prints 'N passed, N failed'
 """
+import json
 import os
 import subprocess
 import sys
@@ -22,7 +23,8 @@ class Result:
         def layer(name):
             return os.path.join(folder, name)
         command = [celdepth, 'popup', layer('drawing.png'), '--quiet',
-                   '--labels', layer('labels.png'), '--levels', layer('levels.npy'), '--depth', layer('depth.npy')]
+                   '--report', layer('report.json'), '--labels', layer('labels.png'),
+                   '--levels', layer('levels.npy'), '--depth', layer('depth.npy')]
         for option in 'scribbles', 'contours':
             if os.path.exists(layer(option + '.png')):
                 command += ['--' + option, layer(option + '.png')]
@@ -33,6 +35,8 @@ class Result:
         if self.code not in (0, 3):
             raise RuntimeError(f'exit {self.code}: {self.said}')
         self.labels = np.array(Image.open(layer('labels.png')).convert('RGBA'))
+        with open(layer('report.json')) as file:
+            self.report = json.load(file)
         self.levels = np.load(layer('levels.npy'))
         self.depth = np.load(layer('depth.npy'))
         self.drawing = np.array(Image.open(layer('drawing.png')))
@@ -141,7 +145,36 @@ def broken(run):
                                              np.array_equal(r.levels, published.levels))
 
 
-OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken]
+def pinched(run):
+    r = run()
+    yield 'the half behind the neck is of the painted one', r.colour(190, 120) == r.colour(50, 120) == figures.A
+    yield 'the gap is closed', r.colour(175, 30) == figures.B and r.colour(175, 55) == figures.A
+
+
+def severed(run):
+    r = run()
+    yield 'what the stroke ran into keeps its colour', r.colour(190, 60) == r.colour(190, 140) == figures.B
+    yield 'and so does where it came from', r.colour(60, 60) == figures.A
+
+
+def close_up(run):
+    r = run()
+    yield 'exit code 0', r.code == 0
+    yield 'the page is transparent', r.labels[5, 5, 3] == 0 and r.labels[180, 5, 3] == 0
+    yield 'and behind all', r.level(150, 100) > r.level(200, 160) > r.level(10, 125) > r.level(5, 5)
+    yield 'the figure reaches the frame', r.colour(237, 2) == r.colour(120, 197) == figures.A
+
+
+def forgotten(run):
+    r = run()
+    places = [p['place'] for p in r.report['problems'] if p['kind'] == 'region-unreached']
+    yield 'the closed part is named', any(100 < x < 140 and 40 < y < 80 for x, y in places)
+    yield 'so is the one behind a gap', any(160 < x < 220 and 40 < y < 100 for x, y in places)
+    yield 'and no other', len(places) == 2
+
+
+OUTCOMES = [two_arrows, thick, contours, two_characters, frame, limbs, cycle, broken, pinched, pinched,
+            severed, close_up, forgotten]
 
 
 def main():
