@@ -1,5 +1,5 @@
-/* celdepth:oiio-load: reads a layer of a PSD, a part of an EXR, a page of a TIFF, or any other picture that OpenImageIO
- * reads.
+/* celdepth:oiio-load: reads a layer of a PSD, OpenRaster or Krita file, a part of an EXR, a page of a TIFF, or any
+ * other picture that OpenImageIO reads.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -8,13 +8,13 @@
 #ifdef GEGL_PROPERTIES
 
 property_string (path, "File", "")
-    description ("The file to read: PSD, EXR, TIFF, PNG, ...")
+    description ("The file to read: PSD, ORA, KRA, EXR, TIFF, PNG, ...")
 
 property_string (layer, "Layer", "")
     description ("The name of the layer or part. If it is empty, the number below counts")
 
 property_int (part, "Part", 0)
-    description ("The number of the layer or part, from 0. Part 0 of a PSD is the merged picture")
+    description ("The number of the layer or part, from 0. Part 0 of a PSD, ORA or KRA is the merged picture")
     value_range (0, 10000)
     ui_range (0, 20)
 
@@ -192,7 +192,7 @@ gegl_op_class_init (GeglOpClass *klass)
     "name",        "celdepth:oiio-load",
     "title",       "Load Layer",
     "categories",  "input",
-    "description", "Reads a layer of a PSD or a part of an EXR or TIFF, by name or number",
+    "description", "Reads a layer of a PSD, ORA or KRA, or a part of an EXR or TIFF, by name or number",
     NULL);
 }
 

@@ -1,10 +1,10 @@
 /* Reads and writes pictures, layers and meshes in files, for the command and the GEGL operations: a C interface to
  * OpenImageIO and libzip.
  *
- * Reading: open a file, look at its parts (layers of a PSD, parts of an EXR, pages of a TIFF; an ordinary picture has
- * one), and read those that are wanted.  Every part has the size of the canvas, and is transparent where it has no
- * pixels.  Alpha is always straight.  Files are decoded in a process of its own, because damaged ones can crash a
- * decoder or make it ask for any amount of memory.
+ * Reading: open a file, look at its parts (layers of a PSD, OpenRaster or Krita file, parts of an EXR, pages of a TIFF;
+ * an ordinary picture has one), and read those that are wanted.  Every part has the size of the canvas, and is
+ * transparent where it has no pixels.  Alpha is always straight.  Files are decoded in a process of its own, because
+ * damaged ones can crash a decoder or make it ask for any amount of memory.
  * Writing: a file appears complete or not at all, because it is written under a temporary name and then renamed.
  *
  * Colours are not converted: they are encoded by the embedded profile (sRGB if there is none), or linear light.  No
@@ -31,7 +31,7 @@ typedef struct CeldIoFile CeldIoFile;
 
 typedef struct
 {
-  const char *name;      /* of the layer or part; "" if it has none, like part 0 of a PSD, the merged picture */
+  const char *name;      /* of the layer or part; "" if it has none, like the merged picture, part 0 of PSD, ORA, KRA */
   bool        alpha;     /* the part has alpha, or does not cover the canvas */
   bool        grey;      /* red, green and blue are the same */
   bool        linear;    /* linear light (EXR, HDR); else encoded */

@@ -6,6 +6,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "read-file.hpp"
 
+#include "read-layered.hpp"
+
+#include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -14,6 +17,25 @@
 
 using OIIO::ImageSpec;
 using OIIO::Strutil::iequals;
+
+// A file that OpenImageIO decodes.
+class DecodedFile : public PictureFile
+{
+public:
+  std::unique_ptr<OIIO::ImageInput> input;
+  std::vector<ImageSpec>            specs; // of each part
+
+  uint64_t    decoding_memory (size_t part) const override;
+  std::string profile (size_t part) const override;
+  CeldRect    place (size_t part) const override;
+  void        read_colours (size_t part, const TakeRows &take) override;
+  void        read_values (size_t part, const TakeRows &take) override;
+
+private:
+  void check_part (size_t part) const;
+  void decode_rows (size_t part, int y, int end, float *pixels);
+  template <typename Convert> void read_rows (size_t part, int floats, const TakeRows &take, Convert convert);
+};
 
 // ------------------------------------------------------------------ channels
 
@@ -72,29 +94,30 @@ place_layer (ImageSpec &spec, const ImageSpec &merged)
   spec.attribute ("oiio:UnassociatedAlpha", 1);
 }
 
-static void
-describe (Part &part, int width, int height, const char *format)
+static Part
+describe (const ImageSpec &spec, int width, int height, const char *format)
 {
-  const ImageSpec &spec = part.spec;
-  Channels         c = colour_channels (spec);
-  int64_t          left = int64_t (spec.x) - spec.full_x, top = int64_t (spec.y) - spec.full_y;
+  Part       part = {};
+  Channels   c = colour_channels (spec);
+  int64_t    left = int64_t (spec.x) - spec.full_x, top = int64_t (spec.y) - spec.full_y;
+  const bool covers = left <= 0 && top <= 0 && left + spec.width >= width && top + spec.height >= height;
 
-  part.covers = left <= 0 && top <= 0 && left + spec.width >= width && top + spec.height >= height;
   part.name = spec.get_string_attribute ("oiio:subimagename");
   if (part.name.empty ())
     part.name = spec.get_string_attribute ("tiff:PageName");
-  part.info.alpha = c.alpha >= 0 || !part.covers;
+  part.info.alpha = c.alpha >= 0 || !covers;
   part.info.grey = c.red == c.green && c.red == c.blue;
   part.info.linear = is_linear (spec, format);
   part.info.bits = int (8 * spec.format.basesize ());
+  return part;
 }
 
 // Throws if the file is too small for its size in pixels: the merged picture of a PSD is stored uncompressed, or as
 // runs of at most 128 bytes in 2.
 static void
-check_psd_size (const PictureFile &file)
+check_psd_size (const DecodedFile &file)
 {
-  const ImageSpec &spec = file.parts[0].spec;
+  const ImageSpec &spec = file.specs[0];
   const uint64_t   bytes = uint64_t (file.width) * uint64_t (file.height) * uint64_t (std::max (spec.nchannels, 1)) *
                          spec.format.basesize ();
 
@@ -103,10 +126,69 @@ check_psd_size (const PictureFile &file)
 }
 
 void
-open_picture (const std::string &path, PictureFile &file)
+check_canvas (int64_t width, int64_t height)
+{
+  if (width < 1 || height < 1 || width > CELD_MAX_SIDE || height > CELD_MAX_SIDE)
+    throw IoFailure ("it has " + std::to_string (width) + " x " + std::to_string (height) +
+                     " pixels; width and height must be from 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
+}
+
+static std::unique_ptr<PictureFile>
+open_decoded (const std::string &path)
+{
+  std::unique_ptr<DecodedFile> file = std::make_unique<DecodedFile> ();
+  ImageSpec                    wishes;
+
+  file->size = std::filesystem::file_size (path);
+  wishes.attribute ("oiio:UnassociatedAlpha", 1);
+  file->input = OIIO::ImageInput::open (path, &wishes);
+  if (!file->input)
+    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD, ORA, KRA and JPEG can be "
+                     "read; save XCF as ORA or PSD. " + OIIO::geterror ());
+  for (int i = 0; file->input->seek_subimage (i, 0); i++)
+    file->specs.push_back (file->input->spec (i, 0));
+  file->input->geterror (); // discards the error of the search for a part after the last one
+  if (file->specs.empty ())
+    throw IoFailure ("it contains no picture.");
+  file->width = file->specs[0].full_width;
+  file->height = file->specs[0].full_height;
+  check_canvas (file->width, file->height);
+  if (iequals (file->input->format_name (), "psd"))
+    {
+      check_psd_size (*file);
+      for (ImageSpec &spec : file->specs)
+        place_layer (spec, file->specs[0]);
+    }
+  for (const ImageSpec &spec : file->specs)
+    file->parts.push_back (describe (spec, file->width, file->height, file->input->format_name ()));
+  return file;
+}
+
+std::unique_ptr<PictureFile>
+open_png (OIIO::Filesystem::IOProxy &stream, const CeldRect &canvas)
+{
+  std::unique_ptr<DecodedFile> file = std::make_unique<DecodedFile> ();
+  ImageSpec                    wishes, spec;
+
+  wishes.attribute ("oiio:UnassociatedAlpha", 1);
+  file->input = OIIO::ImageInput::create ("png");
+  if (!file->input || !file->input->set_ioproxy (&stream) || !file->input->open ("layer.png", spec, wishes))
+    throw IoFailure ("it is damaged, or no PNG.");
+  file->size   = stream.size ();
+  file->width  = canvas.width;
+  file->height = canvas.height;
+  spec.full_x = spec.x + canvas.x;
+  spec.full_y = spec.y + canvas.y;
+  spec.full_width = file->width, spec.full_height = file->height;
+  file->specs.push_back (spec);
+  file->parts.push_back (describe (spec, file->width, file->height, "png"));
+  return file;
+}
+
+std::unique_ptr<PictureFile>
+open_picture (const std::string &path)
 {
   std::filesystem::file_status status = std::filesystem::status (path);
-  ImageSpec                    wishes;
 
   if (!std::filesystem::exists (status))
     throw IoFailure ("there is no such file.");
@@ -114,49 +196,26 @@ open_picture (const std::string &path, PictureFile &file)
     throw IoFailure ("it is a folder.");
   if (!std::filesystem::is_regular_file (status))
     throw IoFailure ("it is not an ordinary file.");
-  file.size = std::filesystem::file_size (path);
-  wishes.attribute ("oiio:UnassociatedAlpha", 1);
-  file.input = OIIO::ImageInput::open (path, &wishes);
-  if (!file.input)
-    throw IoFailure ("it is damaged, or of a format that cannot be read. PNG, TIFF, EXR, PSD and JPEG can be read; "
-                     "save XCF, ORA and KRA as PSD. " + OIIO::geterror ());
-  for (int i = 0; file.input->seek_subimage (i, 0); i++)
-    file.parts.push_back ({ file.input->spec (i, 0), "", {}, false });
-  file.input->geterror (); // discards the error of the search for a part after the last one
-  if (file.parts.empty ())
-    throw IoFailure ("it contains no picture.");
-  file.width = file.parts[0].spec.full_width;
-  file.height = file.parts[0].spec.full_height;
-  if (file.width < 1 || file.height < 1 || file.width > CELD_MAX_SIDE || file.height > CELD_MAX_SIDE)
-    throw IoFailure ("it has " + std::to_string (file.width) + " x " + std::to_string (file.height) +
-                     " pixels; width and height must be from 1 to " + std::to_string (CELD_MAX_SIDE) + ".");
-  if (iequals (file.input->format_name (), "psd"))
-    {
-      check_psd_size (file);
-      for (Part &part : file.parts)
-        place_layer (part.spec, file.parts[0].spec);
-    }
-  for (Part &part : file.parts)
-    describe (part, file.width, file.height, file.input->format_name ());
+  return is_zip (path) ? open_layered (path) : open_decoded (path);
 }
 
 // Twice the size of the pixels, since interlaced and animated pictures are decoded as a whole, some with a copy.
 uint64_t
-decoding_memory (const PictureFile &file, size_t index)
+DecodedFile::decoding_memory (size_t index) const
 {
-  const ImageSpec &spec = file.parts.at (index).spec;
-  const uint64_t   canvas = uint64_t (file.width) * uint64_t (file.height);
+  const ImageSpec &spec = specs.at (index);
+  const uint64_t   canvas = uint64_t (width) * uint64_t (height);
   const uint64_t   part = uint64_t (std::max (spec.width, 0)) * uint64_t (std::max (spec.height, 0));
 
   return 2 * std::max (canvas, part) * uint64_t (std::clamp (spec.nchannels, 4, 64)) * spec.format.basesize ();
 }
 
 std::string
-profile_of (const PictureFile &file, size_t part)
+DecodedFile::profile (size_t part) const
 {
   // The profile of a PSD is for all its layers, but OpenImageIO gives it to some parts only.
   for (size_t i : { part, size_t (0) })
-    if (const auto *profile = file.parts.at (i).spec.find_attribute ("ICCProfile"))
+    if (const auto *profile = specs.at (i).find_attribute ("ICCProfile"))
       return std::string (static_cast<const char *> (profile->data ()), size_t (profile->datasize ()));
   return "";
 }
@@ -167,56 +226,59 @@ profile_of (const PictureFile &file, size_t part)
 constexpr int64_t farthest_place = 1 << 24;
 
 // Throws if the part cannot be used.
-static void
-check_part (const PictureFile &file, size_t index)
+void
+DecodedFile::check_part (size_t index) const
 {
-  const ImageSpec &spec = file.parts.at (index).spec;
+  const ImageSpec &spec = specs.at (index);
 
-  if (spec.full_width != file.width || spec.full_height != file.height)
+  if (spec.full_width != width || spec.full_height != height)
     throw IoFailure ("its part " + std::to_string (index) + " does not have the size of its first part.");
   if (spec.deep || spec.depth > 1)
     throw IoFailure ("it is a deep picture or a volume, which cannot be read.");
   if (spec.width > 2 * CELD_MAX_SIDE || spec.height > 2 * CELD_MAX_SIDE || spec.nchannels < 1 ||
       std::abs (int64_t (spec.x) - spec.full_x) > farthest_place ||
       std::abs (int64_t (spec.y) - spec.full_y) > farthest_place)
-    throw IoFailure ("its part " + std::to_string (index) + " is too large or too far outside.");
+    throw IoFailure ((specs.size () > 1 ? "its part " + std::to_string (index) : "it") +
+                     " is too large or too far outside.");
 }
 
 CeldRect
-part_on_canvas (const PictureFile &file, size_t index)
+DecodedFile::place (size_t index) const
 {
-  const ImageSpec &spec = file.parts.at (index).spec;
+  const ImageSpec &spec = specs.at (index);
 
-  check_part (file, index);
+  check_part (index);
   const int left = spec.x - spec.full_x, top = spec.y - spec.full_y;
-  const int x = std::clamp (left, 0, file.width), right = std::clamp (left + spec.width, x, file.width);
-  const int y = std::clamp (top, 0, file.height), bottom = std::clamp (top + spec.height, y, file.height);
+  const int x = std::clamp (left, 0, width), right = std::clamp (left + spec.width, x, width);
+  const int y = std::clamp (top, 0, height), bottom = std::clamp (top + spec.height, y, height);
 
   return { x, y, right - x, bottom - y };
 }
 
 // Decodes rows y .. end - 1 of a part, all columns and channels.
-static void
-decode_rows (OIIO::ImageInput &input, const ImageSpec &spec, int part, int y, int end, float *pixels)
+void
+DecodedFile::decode_rows (size_t index, int y, int end, float *pixels)
 {
-  const int n = spec.nchannels;
-  bool      good = spec.tile_width
-                     ? input.read_tiles (part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z,
-                                         spec.z + 1, 0, n, OIIO::TypeFloat, pixels)
-                     : input.read_scanlines (part, 0, spec.y + y, spec.y + end, spec.z, 0, n, OIIO::TypeFloat, pixels);
+  const ImageSpec &spec = specs[index];
+  const int        part = int (index), n = spec.nchannels;
+  bool             good = spec.tile_width
+                            ? input->read_tiles (part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z,
+                                                 spec.z + 1, 0, n, OIIO::TypeFloat, pixels)
+                            : input->read_scanlines (part, 0, spec.y + y, spec.y + end, spec.z, 0, n, OIIO::TypeFloat,
+                                                     pixels);
 
   // For a truncated TIFF OpenImageIO keeps an error, but returns true.
-  if (!good || input.has_error ())
-    throw IoFailure ("it is damaged or truncated (" + input.geterror () + ").");
+  if (!good || input->has_error ())
+    throw IoFailure ("it is damaged or truncated (" + input->geterror () + ").");
 }
 
 // Reads a part in strips; convert (from, to) makes `floats` numbers of each pixel on the canvas.
 template <typename Convert>
-static void
-read_rows (PictureFile &file, size_t index, int floats, const TakeRows &take, Convert convert)
+void
+DecodedFile::read_rows (size_t index, int floats, const TakeRows &take, Convert convert)
 {
-  const CeldRect     visible = part_on_canvas (file, index);
-  const ImageSpec   &spec = file.parts[index].spec;
+  const CeldRect     visible = place (index);
+  const ImageSpec   &spec = specs[index];
   const int          left = spec.x - spec.full_x, top = spec.y - spec.full_y;
   const size_t       n = size_t (spec.nchannels), row = size_t (std::max (spec.width, 0)) * n;
   const size_t       visible_row = size_t (visible.width) * size_t (floats);
@@ -230,7 +292,7 @@ read_rows (PictureFile &file, size_t index, int floats, const TakeRows &take, Co
       const int end = std::min (y + strip, spec.height);
       const int first = std::max (y, visible.y - top), last = std::min (end, visible.y + visible.height - top);
 
-      decode_rows (*file.input, spec, int (index), y, end, pixels.data ());
+      decode_rows (index, y, end, pixels.data ());
       if (first >= last || !visible.width)
         continue;
       visible_pixels.resize (visible_row * size_t (last - first));
@@ -243,13 +305,13 @@ read_rows (PictureFile &file, size_t index, int floats, const TakeRows &take, Co
 }
 
 void
-read_colours (PictureFile &file, size_t index, const TakeRows &take)
+DecodedFile::read_colours (size_t index, const TakeRows &take)
 {
-  const ImageSpec &spec = file.parts.at (index).spec;
+  const ImageSpec &spec = specs.at (index);
   const Channels   c = colour_channels (spec);
   const bool       premultiplied = c.alpha >= 0 && !spec.get_int_attribute ("oiio:UnassociatedAlpha");
 
-  read_rows (file, index, 4, take, [=] (const float *pixel, float *rgba) {
+  read_rows (index, 4, take, [=] (const float *pixel, float *rgba) {
     float alpha = c.alpha >= 0 ? pixel[c.alpha] : 1.f;
     float divisor = premultiplied && alpha > 0 ? alpha : 1.f;
 
@@ -282,11 +344,11 @@ value_scale (const ImageSpec &spec)
 }
 
 void
-read_values (PictureFile &file, size_t index, const TakeRows &take)
+DecodedFile::read_values (size_t index, const TakeRows &take)
 {
-  const Scale scale = value_scale (file.parts.at (index).spec);
+  const Scale scale = value_scale (specs.at (index));
 
-  read_rows (file, index, 1, take, [=] (const float *pixel, float *value) {
+  read_rows (index, 1, take, [=] (const float *pixel, float *value) {
     *value = scale.offset + scale.factor * pixel[scale.channel];
   });
 }

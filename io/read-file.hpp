@@ -1,12 +1,15 @@
 // Pictures in files, decoded in the reading process.
 //
+//   read-file.cpp     what OpenImageIO decodes
+//   read-layered.cpp  OpenRaster and Krita documents: a zip of layers
+//
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #ifndef CELDEPTH_READ_FILE_HPP
 #define CELDEPTH_READ_FILE_HPP
 
 #include "celdepth-io.hpp"
 
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/filesystem.h>
 
 #include <cstdint>
 #include <functional>
@@ -15,38 +18,48 @@
 
 struct Part
 {
-  OIIO::ImageSpec spec;
-  std::string     name;
-  CeldIoPart      info;   // without the name
-  bool            covers; // whether it covers the canvas
+  std::string name;
+  CeldIoPart  info; // without the name
 };
 
-struct PictureFile
+// Receives rows of a part's place on the canvas, from top to bottom.
+using TakeRows = std::function<void (const float *rows, int count)>;
+
+// An open file.  Functions throw an IoFailure if the part cannot be used.
+class PictureFile
 {
-  std::unique_ptr<OIIO::ImageInput> input;
-  std::vector<Part>                 parts;
-  int                               width, height; // of the canvas
-  uint64_t                          size;          // of the file, in bytes
+public:
+  std::vector<Part> parts;
+  int               width = 0, height = 0; // of the canvas
+  uint64_t          size = 0;              // of the file, in bytes
+
+  PictureFile () = default;
+  virtual ~PictureFile () = default;
+  PictureFile (const PictureFile &) = delete;
+  PictureFile &operator= (const PictureFile &) = delete;
+
+  // The most bytes that decoding the part should need; with a damaged file a decoder may ask for more.
+  virtual uint64_t decoding_memory (size_t part) const = 0;
+
+  // The ICC profile of a part; empty if there is none.
+  virtual std::string profile (size_t part) const = 0;
+
+  // The rectangle of the canvas that the part covers; width and height are 0 if it lies outside.
+  virtual CeldRect place (size_t part) const = 0;
+
+  // Read each pixel of that rectangle: R, G, B, A, straight alpha; or values, as celd_io_read_values.
+  virtual void read_colours (size_t part, const TakeRows &take) = 0;
+  virtual void read_values (size_t part, const TakeRows &take) = 0;
 };
 
 // Opens a file.  Throws an IoFailure if it cannot be read.
-void open_picture (const std::string &path, PictureFile &file);
+std::unique_ptr<PictureFile> open_picture (const std::string &path);
 
-// The most bytes that OpenImageIO should need to decode the part; with a damaged file it may ask for more.
-uint64_t decoding_memory (const PictureFile &file, size_t part);
+// Opens a PNG whose bytes the stream has, which must outlive the file.  The canvas is a rectangle in its coordinates.
+// Throws an IoFailure if the bytes are no PNG.
+std::unique_ptr<PictureFile> open_png (OIIO::Filesystem::IOProxy &stream, const CeldRect &canvas);
 
-// The ICC profile of a part; empty if there is none.
-std::string profile_of (const PictureFile &file, size_t part);
-
-// The rectangle of the canvas that the part covers; width and height are 0 if it lies outside.  Throws an IoFailure if
-// the part cannot be used.
-CeldRect part_on_canvas (const PictureFile &file, size_t part);
-
-// Receives rows of that rectangle, from top to bottom.
-using TakeRows = std::function<void (const float *rows, int count)>;
-
-// Read each pixel of part_on_canvas: R, G, B, A, straight alpha; or values, as celd_io_read_values.
-void read_colours (PictureFile &file, size_t part, const TakeRows &take);
-void read_values (PictureFile &file, size_t part, const TakeRows &take);
+// Throws if a canvas cannot have that size.
+void check_canvas (int64_t width, int64_t height);
 
 #endif

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <limits>
 
+#include <OpenImageIO/imageio.h>
+
 #include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -83,29 +85,31 @@ send_part (const Wire &wire, const PictureFile &file, size_t part)
   wire.send (info.grey);
   wire.send (info.linear);
   wire.send (info.bits);
-  wire.send_text (profile_of (file, part), longest_profile);
+  wire.send_text (file.profile (part), longest_profile);
 }
 
-static bool
-answer_open (const Wire &wire, PictureFile &file)
+// The file; null after an answer that says why it cannot be read.
+static std::unique_ptr<PictureFile>
+answer_open (const Wire &wire)
 {
-  const std::string path = wire.receive_text ();
-  std::string       why;
+  const std::string            path = wire.receive_text ();
+  std::unique_ptr<PictureFile> file;
+  std::string                  why;
 
   alarm (opening_seconds);
-  if (!succeeds (why, [&] { open_picture (path, file); }))
+  if (!succeeds (why, [&] { file = open_picture (path); }))
     {
       send_failure (wire, why);
-      return false;
+      return nullptr;
     }
   alarm (0);
   wire.send (Answer::good);
-  wire.send (file.width);
-  wire.send (file.height);
-  wire.send (uint64_t (file.parts.size ()));
-  for (size_t i = 0; i < file.parts.size (); i++)
-    send_part (wire, file, i);
-  return true;
+  wire.send (file->width);
+  wire.send (file->height);
+  wire.send (uint64_t (file->parts.size ()));
+  for (size_t i = 0; i < file->parts.size (); i++)
+    send_part (wire, *file, i);
+  return file;
 }
 
 // Sends the rectangle, then strips, each as its number of rows and their pixels; after the last one 0, after a failure
@@ -118,12 +122,12 @@ answer_pixels (const Wire &wire, PictureFile &file, Request request)
   CeldRect     visible;
   std::string  why;
 
-  if (!succeeds (why, [&] { visible = part_on_canvas (file, part); }))
+  if (!succeeds (why, [&] { visible = file.place (part); }))
     {
       send_failure (wire, why);
       return;
     }
-  limit_memory (working_memory + decoding_memory (file, part) + 16 * file.size);
+  limit_memory (working_memory + file.decoding_memory (part) + 16 * file.size);
   alarm (unsigned (reading_seconds + double (file.width) * double (file.height) / pixels_per_second));
   wire.send (Answer::good);
   wire.send (visible);
@@ -133,7 +137,7 @@ answer_pixels (const Wire &wire, PictureFile &file, Request request)
       wire.send (rows, sizeof (float) * floats * size_t (visible.width) * size_t (count));
     };
 
-    request == Request::colours ? read_colours (file, part, take) : read_values (file, part, take);
+    request == Request::colours ? file.read_colours (part, take) : file.read_values (part, take);
   });
   alarm (0);
   wire.send (int32_t (read ? 0 : -1));
@@ -147,7 +151,7 @@ answer_pixels (const Wire &wire, PictureFile &file, Request request)
 static void
 work (const Wire &wire)
 {
-  PictureFile file;
+  std::unique_ptr<PictureFile> file;
 
   prctl (PR_SET_DUMPABLE, 0); // no core file after a crash, which damaged files cause
   OIIO::attribute ("threads", decoding_threads);
@@ -156,10 +160,9 @@ work (const Wire &wire)
   if (wire.receive<Request> () != Request::open)
     return;
   limit_memory (opening_memory);
-  if (!answer_open (wire, file))
-    return;
-  for (;;)
-    answer_pixels (wire, file, wire.receive<Request> ());
+  file = answer_open (wire);
+  while (file)
+    answer_pixels (wire, *file, wire.receive<Request> ());
 }
 
 static void

@@ -49,8 +49,8 @@ append (GPtrArray *paths, char *path)
 static bool
 is_picture (const char *name)
 {
-  static const char *const endings[] = { ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".psd", ".webp", ".tga",
-                                         ".bmp" };
+  static const char *const endings[] = { ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".psd", ".ora", ".kra",
+                                         ".webp", ".tga", ".bmp" };
   char *small = g_ascii_strdown (name, -1);
   bool  found = false;
 

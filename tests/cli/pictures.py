@@ -9,6 +9,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zipfile
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -123,3 +124,14 @@ def write_psd(path, size, layers):
         file.write(b'8BPS' + struct.pack('>H6xHIIHH', 1, 3, size[1], size[0], 8, 3))
         file.write(struct.pack('>III', 0, 0, len(info)) + info)
         file.write(struct.pack('>H', 0) + b''.join(merged.getchannel(c).tobytes() for c in 'RGB'))
+
+
+def write_ora(path, size, stack, entries, sides=None, compressed=False):
+    """An OpenRaster file: the XML of its stack, and its other entries.  `sides` are what it says about its size."""
+    width, height = sides or size
+    with zipfile.ZipFile(path, 'w', zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED) as file:
+        file.writestr('mimetype', 'image/openraster', zipfile.ZIP_STORED)
+        file.writestr('stack.xml', f'<?xml version="1.0" encoding="UTF-8"?><image version="0.0.3" w="{width}" '
+                                   f'h="{height}">{stack}</image>')
+        for name, data in entries.items():
+            file.writestr(name, data)

@@ -3,8 +3,10 @@
 
 SPDX-License-Identifier: LGPL-3.0-or-later
 """
+import io
 import json
 import os
+import shutil
 import struct
 import subprocess
 import unittest
@@ -13,7 +15,8 @@ import zlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageOps, TiffImagePlugin
 
-from pictures import HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_psd
+from pictures import (HEIGHT, IN_A, IN_B, IN_PAGE, RED, RELATIONS, WIDTH, Test, at, drawing, scribbles, write_ora,
+                      write_psd)
 
 
 def layers():
@@ -86,6 +89,36 @@ class Layers(Test):
             for i, colour in enumerate(colours):
                 away = np.linalg.norm(found[32 + 45 * i, 150, :3].astype(float) - colour)
                 self.assertLess(away, 40, f'{colour} at quality {quality}')
+
+    def test_open_raster(self):
+        """Layers in a stack of their own, hidden and half transparent, as artists keep their scribbles."""
+        pages = {f'data/{name}.png': io.BytesIO() for name in ('drawing', 'scribbles')}
+        drawing().save(pages['data/drawing.png'], 'PNG')
+        box = scribbles().getbbox()
+        scribbles().crop(box).save(pages['data/scribbles.png'], 'PNG')
+        write_ora(self.path('page.ora'), (WIDTH, HEIGHT),
+                  f'<stack><stack name="depth" visibility="hidden"><layer name="Scribbles" visibility="hidden" '
+                  f'opacity="0.4" x="{box[0]}" y="{box[1]}" src="data/scribbles.png"/></stack><layer name="drawing" '
+                  'src="data/drawing.png"/></stack>', {name: data.getvalue() for name, data in pages.items()})
+        self.same_labels('page.ora')
+
+    def test_krita(self):
+        """What Krita saves, in its own format and as OpenRaster, and what MyPaint saves: the same regions, in the same
+        colours."""
+        self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'wanted.png')
+        saved = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'io', 'layered')
+        for name in ('krita.kra', 'krita.ora', 'mypaint.ora'):
+            shutil.copy(os.path.join(saved, name), self.folder)
+            self.celdepth('segment', name, '--labels', 'found.png')
+            np.testing.assert_array_equal(self.picture('found.png'), self.picture('wanted.png'), name)
+
+    def test_merged_picture(self):
+        """Where no layer has a known name, the merged picture is the drawing."""
+        page = io.BytesIO()
+        drawing().save(page, 'PNG')
+        write_ora(self.path('page.ora'), (WIDTH, HEIGHT), '<stack><layer name="Ink" src="data/0.png"/></stack>',
+                  {'data/0.png': b'', 'mergedimage.png': page.getvalue()})
+        self.same_labels('page.ora', '--scribbles', 'scribbles.png')
 
     def test_tiff_pages(self):
         page_name = 285

@@ -8,11 +8,13 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 import os
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 import time
+import zipfile
 
 from PIL import Image
 
@@ -53,7 +55,21 @@ def good_files(folder):
     oiiotool(path('plain.png'), '--tile', '16', '16', '-o', path('tiled.exr'))
     oiiotool(path('plain.png'), '--attrib', 'oiio:subimagename', 'drawing', path('plain.png'), '--attrib',
              'oiio:subimagename', 'scribbles', '--siappendall', '-o', path('parts.exr'))
+    for name in ('krita.ora', 'mypaint.ora', 'krita.kra'):
+        shutil.copy(os.path.join(TOP, 'io', 'layered', name), folder)
+    unpacked_krita(path('krita.kra'))
     return sorted(os.path.join(folder, name) for name in os.listdir(folder))
+
+
+def unpacked_krita(path):
+    """Makes Krita's document one of paint layers alone, stored so that damage reaches the layers, not the zip's own
+    checksums."""
+    with zipfile.ZipFile(path) as file:
+        entries = {name: file.read(name) for name in file.namelist()}
+    entries['maindoc.xml'] = re.sub(rb'<layer [^>]*nodetype="shapelayer"[^>]*/>', b'', entries['maindoc.xml'])
+    with zipfile.ZipFile(path, 'w', zipfile.ZIP_STORED) as file:
+        for name, data in entries.items():
+            file.writestr(name, data)
 
 
 class Watch(threading.Thread):

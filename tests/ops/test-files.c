@@ -143,6 +143,31 @@ layers_are_found_by_name (void)
   g_free (psd);
 }
 
+/* Krita has saved a page in its own format and as OpenRaster. */
+static void
+documents_of_painting_programs_have_layers (void)
+{
+  static const char *const layers[] = { "drawing", "scribbles" };
+  char *saved = g_build_filename (examples, "..", "tests", "io", "layered", NULL);
+  char *ora = g_build_filename (saved, "krita.ora", NULL), *kra = g_build_filename (saved, "krita.kra", NULL);
+
+  for (size_t i = 0; i < G_N_ELEMENTS (layers); i++)
+    {
+      GeglNode *graph = gegl_node_new ();
+      GeglNode *one = gegl_node_new_child (graph, "operation", "celdepth:oiio-load", "path", ora, "layer", layers[i],
+                                           NULL);
+      GeglNode *other = gegl_node_new_child (graph, "operation", "celdepth:oiio-load", "path", kra, "layer", layers[i],
+                                             NULL);
+
+      CHECK (gegl_node_get_bounding_box (one).width == 96);
+      CHECK (differing (one, other) == 0);
+      g_object_unref (graph);
+    }
+  g_free (ora);
+  g_free (kra);
+  g_free (saved);
+}
+
 static void
 unreadable_files_give_a_message (void)
 {
@@ -262,6 +287,7 @@ main (int argc, char **argv)
   RUN (normals_keep_their_numbers);
   RUN (labels_keep_their_colours);
   RUN (layers_are_found_by_name);
+  RUN (documents_of_painting_programs_have_layers);
   RUN (unreadable_files_give_a_message);
   RUN (a_crash_of_the_reader_gives_a_message);
   RUN (unwritable_files_give_a_message);
