@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "pages.h"
 #include "sequence.h"
 
 #include <locale.h>
@@ -63,8 +64,11 @@ static int
 run_command (const CliCommand *command, int argc, char **argv)
 {
   CliOptions options;
-  int        code = cli_options_parse (command, argc, argv, &options);
+  int        code;
 
+  if (cli_pages_asked (command, argc, argv))
+    return cli_pages_run (command, argc, argv);
+  code = cli_options_parse (command, argc, argv, &options);
   if (code == CLI_DONE)
     code = options.clip ? cli_clip_run (command, &options) : command->run (&options);
   cli_options_clear (&options);

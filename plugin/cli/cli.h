@@ -16,6 +16,8 @@
  *   composition.c  for compose                  nearest-name.c  "Did you mean ...?"
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
+ *   pages.c     --output-dir: many pages
+ *   fingerprint.c  what need not be made again  unfinished.c  files that are being written
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -59,7 +61,7 @@ typedef struct
   int          views, columns, frames, fps, size, jobs, part;
   char       **inputs, **keys, **key_scribbles, **key_arrows; /* of propagate */
   char       **command_line;  /* as it was given, without --emit-slurm */
-  char        *labels_dir, *depth_dir, *emit_slurm, *review;
+  char        *labels_dir, *depth_dir, *emit_slurm, *review, *output_dir;
   bool         quiet, directx;
   bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
@@ -86,6 +88,8 @@ void cli_options_clear (CliOptions *options);
 
 /* Whether two names are the same, written in different ways or not. */
 bool  cli_same_file     (const char *a, const char *b);
+/* The ending that an output has by default, such as "png"; NULL: the command has no such output. */
+const char *cli_files_ending (const CliCommand *command, const char *option);
 /* A file's name with a number in place of its #, or else before its ending; free with g_free. */
 char *cli_file_numbered (const char *name, int number);
 
@@ -128,7 +132,10 @@ bool cli_run_finish (CliRun *run, CeldStatus status);
 void cli_run_end   (CliRun *run);
 bool cli_run_cancelled (void);
 
-CliThreads *cli_threads_new  (void);                     /* NULL: the machine has one core */
+/* The variable of the environment that limits threads. */
+#define CLI_THREADS_VARIABLE "CELDEPTH_THREADS"
+
+CliThreads *cli_threads_new  (void);                     /* NULL: one thread is enough */
 void        cli_threads_free (CliThreads *threads);      /* accepts NULL */
 void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *data, int i), void *data);
 

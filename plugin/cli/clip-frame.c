@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "fingerprint.h"
 #include "propagate.h"
 
 #include <string.h>
@@ -77,24 +78,10 @@ propagate (const CliMotion *motion, const CeldHost *host, size_t frame, char *fi
 static char *
 fingerprint_of (const CliMotion *motion, const char *before, size_t frame)
 {
-  const char *path = motion->frames.frame[frame].path;
-  GChecksum  *sum = g_checksum_new (G_CHECKSUM_SHA256);
-  GError     *error = NULL;
-  char       *data = NULL, *fingerprint = NULL;
-  gsize       size = 0;
+  GChecksum *sum = g_checksum_new (G_CHECKSUM_SHA256);
 
-  if (g_file_get_contents (path, &data, &size, &error))
-    {
-      g_checksum_update (sum, (const guchar *) before, -1);
-      g_checksum_update (sum, (const guchar *) data, (gssize) size);
-      fingerprint = g_strdup (g_checksum_get_string (sum));
-    }
-  else
-    cli_say ("Cannot read \"%s\": %s.", path, error->message);
-  g_clear_error (&error);
-  g_free (data);
-  g_checksum_free (sum);
-  return fingerprint;
+  g_checksum_update (sum, (const guchar *) before, -1);
+  return cli_fingerprint_end (sum, cli_fingerprint_add_file (sum, motion->frames.frame[frame].path));
 }
 
 bool

@@ -3,63 +3,24 @@
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
+#include "fingerprint.h"
 #include "propagate.h"
 
 #include <string.h>
 
 /* ------------------------------------------------------------------ fingerprints */
 
-static bool
-add_file (GChecksum *sum, const char *path)
-{
-  GError *error = NULL;
-  char   *data = NULL;
-  gsize   size = 0;
-
-  if (!path)
-    return true;
-  if (!g_file_get_contents (path, &data, &size, &error))
-    {
-      cli_say ("Cannot read \"%s\": %s.", path, error->message);
-      g_error_free (error);
-      return false;
-    }
-  g_checksum_update (sum, (const guchar *) data, (gssize) size);
-  g_free (data);
-  return true;
-}
-
-static void
-add_settings (GChecksum *sum, const CeldSettings *settings)
-{
-  size_t                 n;
-  const CeldSettingInfo *info = celd_setting_infos (&n);
-
-  for (size_t i = 0; i < n; i++)
-    {
-      char text[G_ASCII_DTOSTR_BUF_SIZE];
-
-      g_ascii_dtostr (text, sizeof text, celd_setting_get (&info[i], settings));
-      g_checksum_update (sum, (const guchar *) text, -1);
-      g_checksum_update (sum, (const guchar *) ";", 1);
-    }
-}
-
 /* Of the program, the settings and the files that a key is made from. */
 static bool
 take_fingerprint (const CliMotion *motion, const char *relations, CliKey *key)
 {
-  GChecksum *sum = g_checksum_new (G_CHECKSUM_SHA256);
-  bool       good;
+  GChecksum *sum = cli_fingerprint_new (&motion->options->settings);
 
-  g_checksum_update (sum, (const guchar *) CELDEPTH_VERSION, -1);
-  add_settings (sum, &motion->options->settings);
   g_checksum_update (sum, (const guchar *) relations, -1);
-  good = add_file (sum, motion->frames.frame[key->frame].path) && add_file (sum, key->scribbles) &&
-         add_file (sum, key->arrows);
-  key->fingerprint = g_strdup (g_checksum_get_string (sum));
-  g_checksum_free (sum);
-  return good;
+  key->fingerprint = cli_fingerprint_end (sum, cli_fingerprint_add_file (sum, motion->frames.frame[key->frame].path) &&
+                                               cli_fingerprint_add_file (sum, key->scribbles) &&
+                                               cli_fingerprint_add_file (sum, key->arrows));
+  return key->fingerprint != NULL;
 }
 
 /* ------------------------------------------------------------------ the palette of the clip */

@@ -36,6 +36,8 @@ static const CountOption counts[] = {
     "pictures per second of a .gif (default: 12)" },
   { "jobs", 0, CLI_PROPAGATE, MEMBER (jobs), 1, 1024, 0, "1-1024",
     "the number of chains of frames to make at the same time (default: the number of processors)" },
+  { "jobs", 0, CLI_POPUP, MEMBER (jobs), 1, 1024, 0, "1-1024",
+    "with --output-dir, the number of pages to make at the same time (default: the number of processors)" },
   { "part", 0, CLI_PROPAGATE, MEMBER (part), 1, CELD_MAX_SIDE, 0, "1-20000",
     "make one chain only: those of the first key come first; run the command without --part when all are made" },
 };

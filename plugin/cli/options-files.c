@@ -35,6 +35,9 @@ static const FileOption files[] = {
   { "depth-dir", CLI_PROPAGATE, 0, TEXT, MEMBER (depth_dir), "FOLDER", "write depth_NNN.exr of each frame" },
   { "emit-slurm", CLI_PROPAGATE, 0, REPORT, MEMBER (emit_slurm), "OUT",
     "write a script that runs this command as an array job of Slurm, and do nothing else" },
+  { "output-dir", CLI_POPUP, 0, TEXT, MEMBER (output_dir), "FOLDER",
+    "write the results of many pages, such as pages/*.psd, as FOLDER/PAGE-depth.png; results are then given without "
+    "names, or with a format, such as --depth=exr (default: depth and shaded); finished pages are kept" },
   { "drawing", CLI_ORDER | OF_LEVELS | CLI_RELIEF, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
     "the line drawing; relief then reads levels" },
   { "scribbles", WITH_PARTS | CLI_INBETWEEN, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour per region" },
@@ -170,6 +173,18 @@ cli_files_append (const CliCommand *command, CliOptions *options, GArray *entrie
       g_array_append_val (entries, ((GOptionEntry) {
         files[i].name, 0, 0, files[i].kind == TEXT ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
         file_name (options, &files[i]), files[i].help, files[i].value }));
+}
+
+const char *
+cli_files_ending (const CliCommand *command, const char *option)
+{
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    if (files[i].steps & (int) command->step && files[i].kind >= OUTPUT && !strcmp (files[i].name, option))
+      return files[i].kind == STACK                  ? "ora"
+             : files[i].kind != REPORT               ? "png"
+             : files[i].offset == MEMBER (report)    ? "json"
+                                                     : "txt";
+  return NULL;
 }
 
 /* ------------------------------------------------------------------ frames */

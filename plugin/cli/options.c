@@ -76,7 +76,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
 static bool
 check_input (const CliCommand *command, int argc, char **argv, CliOptions *options)
 {
-  bool many = command->step == CLI_PROPAGATE;
+  bool many = command->step == CLI_PROPAGATE || options->output_dir;
 
   if (options->clip && argc != 1)
     return cli_error ("Give either %s or --clip.", command->input);

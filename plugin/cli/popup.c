@@ -4,9 +4,14 @@
  */
 #include "options.h"
 
+#include <errno.h>
+#include <glib/gstdio.h>
+
 static bool
 check (CliOptions *options)
 {
+  if (options->output_dir && g_mkdir_with_parents (options->output_dir, 0777))
+    return cli_error ("Cannot make the folder \"%s\": %s.", options->output_dir, g_strerror (errno));
   return options->settings.light_model != CELD_MODEL_MATCAP ||
          cli_error ("--light-model matcap needs a picture of a ball: use celdepth shade with --matcap.");
 }
@@ -27,7 +32,8 @@ const CliCommand cli_popup_command = {
               "      --labels flat.png --levels levels.png --shading shading.png --report report.json\n"
               "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --shaded lit.png \\\n"
               "      --enhanced popup.png --layers bee.ora --joined glasses.png --stereo dubois\n"
-              "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)",
+              "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)\n"
+              "  celdepth popup pages/*.psd --output-dir out --depth --shaded",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
               "hold-gaps tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "

@@ -1,4 +1,4 @@
-/* Threads for the loops of core, one for each processor.
+/* Threads for the loops of core, one for each processor if the environment does not limit them.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
@@ -45,7 +45,9 @@ help (gpointer item, gpointer data)
 CliThreads *
 cli_threads_new (void)
 {
-  int         helpers = (int) MIN (g_get_num_processors (), 64) - 1;
+  const char *limit = g_getenv (CLI_THREADS_VARIABLE);
+  int         most = limit ? (int) g_ascii_strtoll (limit, NULL, 10) : (int) g_get_num_processors ();
+  int         helpers = MIN (most, 64) - 1;
   CliThreads *threads;
 
   if (helpers < 1)

@@ -127,11 +127,12 @@ def write_psd(path, size, layers):
 
 
 def write_ora(path, size, stack, entries, sides=None, compressed=False):
-    """An OpenRaster file: the XML of its stack, and its other entries.  `sides` are what it says about its size."""
+    """An OpenRaster file: the XML of its stack, and its other entries; the same bytes each time.  `sides` are what it
+    says about its size."""
     width, height = sides or size
-    with zipfile.ZipFile(path, 'w', zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED) as file:
-        file.writestr('mimetype', 'image/openraster', zipfile.ZIP_STORED)
-        file.writestr('stack.xml', f'<?xml version="1.0" encoding="UTF-8"?><image version="0.0.3" w="{width}" '
-                                   f'h="{height}">{stack}</image>')
+    kind = zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED
+    entries = {'mimetype': 'image/openraster', 'stack.xml': f'<?xml version="1.0" encoding="UTF-8"?><image '
+               f'version="0.0.3" w="{width}" h="{height}">{stack}</image>', **entries}
+    with zipfile.ZipFile(path, 'w') as file:
         for name, data in entries.items():
-            file.writestr(name, data)
+            file.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_STORED if name == 'mimetype' else kind)
