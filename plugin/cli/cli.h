@@ -16,7 +16,7 @@
  *   composition.c  for compose                  nearest-name.c  "Did you mean ...?"
  *   sequence.c  frames of a clip                clip.c      --clip
  *   clip-keys.c, clip-frame.c, review.c         for propagate; the first two also for inbetween
- *   pages.c     --output-dir: many pages
+ *   pages.c     --output-dir: many pages        watch.c     --watch
  *   fingerprint.c  what need not be made again  unfinished.c  files that are being written
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
@@ -62,7 +62,7 @@ typedef struct
   char       **inputs, **keys, **key_scribbles, **key_arrows; /* of propagate */
   char       **command_line;  /* as it was given, without --emit-slurm */
   char        *labels_dir, *depth_dir, *emit_slurm, *review, *output_dir;
-  bool         quiet, directx;
+  bool         quiet, directx, watch;
   bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
   GPtrArray   *offered;    /* the options that are settings, for options-settings.c */
@@ -90,6 +90,8 @@ void cli_options_clear (CliOptions *options);
 bool  cli_same_file     (const char *a, const char *b);
 /* The ending that an output has by default, such as "png"; NULL: the command has no such output. */
 const char *cli_files_ending (const CliCommand *command, const char *option);
+/* Appends the names of all files that are read, which stay those of the options. */
+void  cli_files_inputs  (const CliOptions *options, GPtrArray *names);
 /* A file's name with a number in place of its #, or else before its ending; free with g_free. */
 char *cli_file_numbered (const char *name, int number);
 
@@ -99,6 +101,9 @@ char *cli_file_numbered (const char *name, int number);
 void cli_say (const char *format, ...) G_GNUC_PRINTF (1, 2);
 /* As cli_say, but returns false, for `return cli_error (...)`. */
 bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
+/* Keeps messages from here on, and then shows or discards what was kept, if anything was. */
+void cli_say_keep (void);
+void cli_say_kept (bool show);
 /* Whether a status is CELD_OK; if not, prints its text. */
 bool cli_check (CeldStatus status);
 /* Prints the first problems that are no contradictions. */

@@ -9,12 +9,35 @@
 
 #define MOST_PROBLEMS 12 /* that are printed (chosen) */
 
+static GString *kept; /* messages that may be discarded; NULL: they are printed at once */
+
+void
+cli_say_keep (void)
+{
+  if (!kept)
+    kept = g_string_new (NULL);
+}
+
+void
+cli_say_kept (bool show)
+{
+  if (kept && show)
+    fputs (kept->str, stderr);
+  if (kept)
+    g_string_free (kept, TRUE);
+  kept = NULL;
+}
+
 static void
 say (const char *format, va_list arguments)
 {
-  fputs ("celdepth: ", stderr);
-  vfprintf (stderr, format, arguments);
-  fputc ('\n', stderr);
+  char *text = g_strdup_vprintf (format, arguments);
+
+  if (kept)
+    g_string_append_printf (kept, "celdepth: %s\n", text);
+  else
+    fprintf (stderr, "celdepth: %s\n", text);
+  g_free (text);
 }
 
 void

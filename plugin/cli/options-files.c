@@ -187,6 +187,19 @@ cli_files_ending (const CliCommand *command, const char *option)
   return NULL;
 }
 
+void
+cli_files_inputs (const CliOptions *options, GPtrArray *names)
+{
+  g_ptr_array_add (names, options->input);
+  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+    {
+      char *name = *file_name ((CliOptions *) options, &files[i]);
+
+      if (name && files[i].kind == INPUT && files[i].steps & (int) options->step)
+        g_ptr_array_add (names, name);
+    }
+}
+
 /* ------------------------------------------------------------------ frames */
 
 char *

@@ -38,7 +38,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
   char           *description = g_strdup_printf ("Examples:\n%s\n", command->examples);
   char           *program = g_strdup_printf ("celdepth %s", command->name);
-  gboolean        quiet = FALSE, directx = FALSE;
+  gboolean        quiet = FALSE, directx = FALSE, watch = FALSE;
   GError         *error = NULL;
   bool            good;
 
@@ -48,6 +48,10 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   if (command->step == CLI_SHADE)
     g_array_append_val (entries, ((GOptionEntry) {
       "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green in normals points down, as in DirectX, instead of up",
+      NULL }));
+  if (command->step & GIVES_LABELS)
+    g_array_append_val (entries, ((GOptionEntry) {
+      "watch", 0, 0, G_OPTION_ARG_NONE, &watch, "make the results again whenever an input is saved, until Ctrl+C",
       NULL }));
   if (command->step == CLI_PROPAGATE)
     cli_clip_options_append (options, entries);
@@ -61,6 +65,7 @@ parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
   good = g_option_context_parse (context, argc, argv, &error);
   options->quiet   = quiet;
   options->directx = directx;
+  options->watch   = watch;
   if (!good)
     say_error (error, entries);
   g_clear_error (&error);

@@ -10,6 +10,8 @@
 static bool
 check (CliOptions *options)
 {
+  if (options->watch && options->output_dir)
+    return cli_error ("--watch shows one page: leave out --output-dir.");
   if (options->output_dir && g_mkdir_with_parents (options->output_dir, 0777))
     return cli_error ("Cannot make the folder \"%s\": %s.", options->output_dir, g_strerror (errno));
   return options->settings.light_model != CELD_MODEL_MATCAP ||
@@ -33,7 +35,8 @@ const CliCommand cli_popup_command = {
               "  celdepth popup bee.png --scribbles strokes.png --arrows arrows.png --shaded lit.png \\\n"
               "      --enhanced popup.png --layers bee.ora --joined glasses.png --stereo dubois\n"
               "  celdepth popup page.psd --depth depth.png     (layers: drawing, scribbles, arrows, contours)\n"
-              "  celdepth popup pages/*.psd --output-dir out --depth --shaded",
+              "  celdepth popup pages/*.psd --output-dir out --depth --shaded\n"
+              "  celdepth popup page.ora --shaded lit.png --watch",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
               "hold-gaps tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "

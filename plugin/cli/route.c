@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "cli.h"
+#include "watch.h"
 
 /* Results of the session, borrowed; data NULL: not asked for. */
 typedef struct
@@ -112,26 +113,47 @@ needs_art (const CliOptions *options)
   return options->shaded || options->enhanced || options->layers || options->left || options->right || options->stereo;
 }
 
-int
-cli_run_route (const CliOptions *options, const char *command, bool whole_route)
-{
-  CeldSession *session = celd_session_new ();
-  CliLayers    layers = { 0 };
-  CeldColours  art = { 0 };
-  Results      results = { 0 };
-  CliRun       run;
-  int          code = CLI_FAILED;
-  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
+/* What a run is made of: the session keeps its results for the next one. */
+typedef struct { CeldSession *session; const CliOptions *options; const char *command; bool whole_route; } Route;
 
+/* Reads the input, makes the results that are not there, and writes all; the exit code. */
+static int
+run_route (void *data)
+{
+  const Route      *route = data;
+  CeldSession      *session = route->session;
+  const CliOptions *options = route->options;
+  CliLayers         layers = { 0 };
+  CeldColours       art = { 0 };
+  Results           results = { 0 };
+  CliRun            run;
+  int               code = CLI_FAILED;
+  bool              good;
+
+  cli_run_begin (&run, options->quiet);
+  good = cli_session_load (session, options, &layers);
   if (good && needs_art (options))
     good = cli_art_read (options->input, options->colours, true, &layers, &art);
   cli_layers_clear (&layers);
-  cli_run_begin (&run, options->quiet);
-  if (good && cli_run_finish (&run, make (session, options, whole_route, &run, &results)) &&
+  if (good && cli_run_finish (&run, make (session, options, route->whole_route, &run, &results)) &&
       write_results (session, options, &results) && (!art.data || cli_uses_write (session, options, &art, &run)))
-    code = finish (session, command, options, &run, &results);
+    {
+      cli_say_kept (true);
+      code = finish (session, route->command, options, &run, &results);
+    }
   cli_run_end (&run);
-  celd_session_free (session);
   g_free (art.data);
+  return code;
+}
+
+int
+cli_run_route (const CliOptions *options, const char *command, bool whole_route)
+{
+  Route route = { celd_session_new (), options, command, whole_route };
+  int   code = CLI_FAILED;
+
+  if (cli_check (route.session ? CELD_OK : CELD_NO_MEMORY))
+    code = options->watch ? cli_watch (options, run_route, &route) : run_route (&route);
+  celd_session_free (route.session);
   return code;
 }

@@ -15,6 +15,14 @@ load_hint (CeldSession *session, const CliOptions *options, const CliLayers *lay
   return good;
 }
 
+/* Sets a layer, or removes one of an earlier run that is not there any more. */
+static bool
+load_layer (CeldSession *session, const CeldPaint *layer,
+            CeldStatus (*set) (CeldSession *session, const CeldPaint *paint))
+{
+  return cli_check (set (session, layer->data ? layer : NULL));
+}
+
 bool
 cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *layers)
 {
@@ -33,18 +41,12 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
 
-  if (good && layers->scribbles.data)
-    good = cli_check (celd_session_set_scribbles (session, &layers->scribbles));
-  if (good && layers->arrows.data)
-    good = cli_check (celd_session_set_arrows (session, &layers->arrows));
-  if (good && layers->contours.data)
-    good = cli_check (celd_session_set_contours (session, &layers->contours));
-  if (good && options->depth_hint)
-    good = load_hint (session, options, layers);
-  if (good && layers->corrections.data)
-    good = cli_check (celd_session_set_corrections (session, &layers->corrections));
-  if (good && layers->hidden.data)
-    good = cli_check (celd_session_set_hidden (session, &layers->hidden));
+  good = good && load_layer (session, &layers->scribbles, celd_session_set_scribbles) &&
+         load_layer (session, &layers->arrows, celd_session_set_arrows) &&
+         load_layer (session, &layers->contours, celd_session_set_contours) &&
+         (!options->depth_hint || load_hint (session, options, layers)) &&
+         load_layer (session, &layers->corrections, celd_session_set_corrections) &&
+         load_layer (session, &layers->hidden, celd_session_set_hidden);
   if (good && !options->settings.flats)
     good = cli_check (celd_session_ink (session, NULL, &ink, NULL)) && cli_check_lines (options->input, &ink);
   g_free (text);
