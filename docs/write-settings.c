@@ -17,11 +17,9 @@ static const char introduction[] =
   "# Settings\n\n"
   "<!-- Made from core/base/settings-table.c by `ninja -C build settings-reference`. -->\n\n"
   "Settings are properties of the GEGL operations (`hardness=0.5`) and options of the command (`--hardness 0.5`).\n"
-  "`gegl --info celdepth:popup` and `celdepth popup --help` list those of one operation or sub-command. In the command\n"
-  "the values of switches are `yes` and `no`, but `--flats` has no value. Some settings have other names: `expansion` is\n"
-  "`method` in `depth-expand` and `celdepth expand`, `relief-from` and `relief-bulge` are `from` and `bulge` in `relief` and\n"
-  "`celdepth relief`, and\n"
-  "`mesh` is `--mesh-kind`. The default of `disparity` is 0.05 in `celdepth wiggle`.\n";
+  "`gegl --info celdepth:popup` and `celdepth popup --help` list those of one operation or sub-command. Each has the same\n"
+  "name and meaning everywhere. In the command the values of switches are `yes` (or `true`) and `no` (or `false`); a switch\n"
+  "without a value is on. The default of `disparity` is 0.05 in `celdepth wiggle`.\n";
 
 typedef struct { char text[MOST]; size_t used; } Page;
 

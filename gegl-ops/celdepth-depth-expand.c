@@ -29,7 +29,7 @@ static const CeldProperty properties[] = {
   { .own = &result_row },
   { .own = &layer_row },
   { .name = "complete", .when = "result {layer}" },
-  { .name = "expansion", .as = "method", .label = "Method" },
+  { .name = "expansion" },
   { .name = "ink" },
   { 0 }
 };

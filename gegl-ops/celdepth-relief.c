@@ -16,8 +16,8 @@ static const CeldSettingInfo unit_row = {
 
 static const CeldProperty properties[] = {
   { .own = &unit_row },
-  { .name = "relief-from", .as = "from" },
-  { .name = "relief-bulge", .as = "bulge" }, { .name = "relief-depth" }, { .name = "ink" }, { .name = "ink-threshold" },
+  { .name = "relief-from" },
+  { .name = "relief-bulge" }, { .name = "relief-depth" }, { .name = "ink" }, { .name = "ink-threshold" },
   { .name = "tolerance" },
   { 0 }
 };

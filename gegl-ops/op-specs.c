@@ -83,8 +83,7 @@ GParamSpec *
 celd_operation_specify (const CeldProperty *property, const CeldSettingInfo *row)
 {
   gboolean    angle = !g_strcmp0 (row->unit, "degree");
-  GParamSpec *spec = make_spec (row, property->as ? property->as : row->name,
-                                property->label ? property->label : row->label,
+  GParamSpec *spec = make_spec (row, row->name, property->label ? property->label : row->label,
                                 property->help ? property->help : row->help);
 
   set_key (spec, "visible", property->when ? property->when : row->when);

@@ -48,7 +48,6 @@ typedef struct
 {
   const char            *name;
   const CeldSettingInfo *own;      /* instead of a name: a row of this operation, over CeldOwnValues */
-  const char            *as;       /* the name for hosts */
   const char            *label, *help, *when;
 } CeldProperty;
 

@@ -102,7 +102,7 @@ hints_step (const CeldHost *host, Results *r)
 
   for (int i = 0; i < W * H; i++)
     paint[4 * i + 3] = i % W < W / 2 ? 255 : 0;
-  all.quilt = 1;
+  all.creases = 1;
   all.bevel = 0.1f;
   all.frame_outline = true;
   return celd_normals_hinted (&ink, &levels, &levels, &hints, &all, host, &normals);
@@ -272,7 +272,7 @@ relief_mesh_step (const CeldHost *host, Results *r)
   CeldReliefMesh mesh = { 0 };
   CeldStatus     status;
 
-  solid.mesh = CELD_MESH_SOLID;
+  solid.mesh_kind = CELD_MESH_SOLID;
   for (int p = 0; p < W * H; p++)
     {
       z[p]   = p % W > 20 ? (float) (p / W) : 0;
@@ -297,7 +297,7 @@ model_step (const CeldHost *host, Results *r)
   CeldModel    model = { 0 };
   CeldStatus   status;
 
-  solid.mesh = CELD_MESH_SOLID;
+  solid.mesh_kind = CELD_MESH_SOLID;
   status     = celd_model_of_levels (&ink, &levels, NULL, &colours, &solid, host, &model);
   for (size_t k = 0; status == CELD_OK && k < model.n; k++)
     r->pixels->labels[k] = (uint32_t) model.part[k].mesh.triangles;

@@ -24,12 +24,12 @@ celd_status_text (CeldStatus status)
   return "Unknown status.";
 }
 
-/* " #rrggbb" of a label, " the background", or nothing if it is not known. */
+/* " #rrggbb" of a label, " the background", or nothing if it is not known, or if nobody painted its colour. */
 static const char *
 label_name (const CeldPalette *palette, uint32_t label, char name[24])
 {
   name[0] = 0;
-  if (palette && label >= 1 && label <= palette->n)
+  if (palette && label >= 1 && label <= palette->n && palette->item[label - 1].origin != CELD_FROM_ARROW)
     {
       const uint8_t *c = palette->item[label - 1].colour;
 

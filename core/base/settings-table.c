@@ -296,7 +296,7 @@ static const CeldSettingInfo infos[] = {
     .usual = 0, .least = 0, .most = 0.5, .shown = { 0, 0.1, 0.001, 0.01, .digits = 4 },
     .stages = READ_BY (NORMALS) },
 
-  { .name = "quilt", .label = "Quilting", NUMBER (quilt),
+  { .name = "creases", .label = "Creases", NUMBER (creases),
     .help = "How much parts bend at strokes inside them, such as wrinkles and folds. They bend on both sides of a "
             "stroke, or on the higher side where smooth depth is given",
     .usual = 0, .least = 0, .most = 1, .shown = { 0, 1, 0.001, 0.1, .digits = 2 },
@@ -438,7 +438,7 @@ static const CeldSettingInfo infos[] = {
     .help = "How far the nearest level stands in front of the farthest, as a fraction of the picture's diagonal",
     .usual = 0.06, .least = 0, .most = 1, .shown = { 0, 0.5, 0.01, 0.05, .digits = 3 } },
 
-  { .name = "mesh", .label = "Mesh", CHOICE (mesh, CeldMeshKind, mesh_kinds),
+  { .name = "mesh-kind", .label = "Mesh", CHOICE (mesh_kind, CeldMeshKind, mesh_kinds),
     .help = "Whether each part is a surface of its own, or a closed solid on a plate, or all of the picture is one "
             "surface with cracks where depth jumps. 'auto' makes solids for STL files only" },
 

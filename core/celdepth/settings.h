@@ -76,7 +76,7 @@ typedef struct
   float contrast, weight_floor;
 
   /* normals */
-  float bulge, bevel, quilt;
+  float bulge, bevel, creases;
   bool  frame_outline;
 
   /* shading */
@@ -106,7 +106,7 @@ typedef struct
   float          relief_bulge, relief_depth;
 
   /* mesh */
-  CeldMeshKind mesh;
+  CeldMeshKind mesh_kind;
   float        mesh_size, mesh_plate, mesh_error, most_vertices;
 
   /* registration */

@@ -240,7 +240,7 @@ CELD_API CeldStatus celd_depth_exact (const CeldPlane *ink, const CeldLabels *se
 CELD_API CeldStatus celd_normals (const CeldPlane *ink, const CeldPlane *levels, const CeldSettings *settings,
                                   const CeldHost *host, CeldVectors *normals);
 
-/* celd_normals with further input, which may be NULL.  Strokes inside a region bend the surface as settings->quilt
+/* celd_normals with further input, which may be NULL.  Strokes inside a region bend the surface as settings->creases
  * says, with `depth` only on their nearer side.  Painted `hints` beside strokes and outlines take precedence: white
  * bends that side, black does not, grey bends both. */
 CELD_API CeldStatus celd_normals_hinted (const CeldPlane *ink, const CeldPlane *levels, const CeldPlane *depth,

@@ -1,6 +1,6 @@
 /* Creases: strokes inside a region, such as wrinkles and folds, along which its surface may bend.
  *
- * By default they do not.  With settings->quilt both sides of the stroke's middle bend away from it, like a seam of a
+ * By default they do not.  With settings->creases both sides of the stroke's middle bend away from it, like a seam of a
  * quilt, or only the higher side if smooth depth differs there; flat regions stay flat.  Painted hints take precedence,
  * as in [Joh02], also at outlines: white beside a line makes that side bend ("over"), black lets it continue ("under"),
  * grey bends both sides.
@@ -135,7 +135,7 @@ strengths (const Creases *s, const Flank *p, const Flank *q, double nx, double n
       strength[1] = both || side[1] == CELD_OVER ? 1 : 0;
       return true;
     }
-  strength[0] = strength[1] = l->settings->quilt;
+  strength[0] = strength[1] = l->settings->creases;
   if (l->depth)
     {
       int   w = l->width;
@@ -229,7 +229,7 @@ celd_lumo_creases (CeldLumo *l, const CeldHost *host)
   bool         any = false;
   CeldStatus   status;
 
-  if (!(l->settings->quilt > 0) && !l->hints)
+  if (!(l->settings->creases > 0) && !l->hints)
     return CELD_OK;
   paper     = celd_alloc (n, sizeof *paper);
   squared   = celd_alloc (n, sizeof *squared);

@@ -269,7 +269,7 @@ celd_relief_mesh (const CeldRelief *relief, const CeldSettings *settings, const 
   CeldHostPart    part[2];
   CeldHost        pointing = celd_host_part (&part[0], host, 0, 0.2), builder = celd_host_part (&part[1], host, 0.2, 1);
   CeldMeshBuilder m = { .relief = relief, .points = &points, .quadtree = &quadtree,
-                        .solid = settings->mesh == CELD_MESH_SOLID };
+                        .solid = settings->mesh_kind == CELD_MESH_SOLID };
   CeldStatus      status = celd_mesh_points_new (relief, &pointing, &points);
 
   m.scale      = (double) settings->mesh_size / (relief->width > relief->height ? relief->width : relief->height);

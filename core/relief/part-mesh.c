@@ -207,7 +207,7 @@ celd_part_mesh (const CeldParts *parts, size_t k, const CeldAtlasPlace *place, d
 {
   const CeldPart *part = &parts->item[k];
   int             side = parts->width > parts->height ? parts->width : parts->height;
-  PartWork        work = { .solid = settings->mesh == CELD_MESH_SOLID };
+  PartWork        work = { .solid = settings->mesh_kind == CELD_MESH_SOLID };
   CeldStatus      status = CELD_OK;
 
   work.builder.scale      = (double) settings->mesh_size / side;

@@ -69,8 +69,10 @@ run_command (const CliCommand *command, int argc, char **argv)
   if (cli_pages_asked (command, argc, argv))
     return cli_pages_run (command, argc, argv);
   code = cli_options_parse (command, argc, argv, &options);
-  if (code == CLI_DONE)
+  if (code == CLI_DONE && !options.help)
     code = options.clip ? cli_clip_run (command, &options) : command->run (&options);
+  if ((code == CLI_DONE || code == CLI_CONTRADICTED) && !cli_streams_write (&options.streams))
+    code = CLI_FAILED;
   cli_options_clear (&options);
   return code;
 }

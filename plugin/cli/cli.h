@@ -5,8 +5,9 @@
  *
  *   cli.c       chooses the sub-command         pictures.c  reads and writes pictures
  *   options*.c  options of a sub-command        npy.c       reads and writes numpy files
+ *   help.c      --help of a sub-command         streams.c   "-": standard input and output
  *   input.c     reads a drawing and its layers  text.c      relations as text, text files
- *   input-checks.c  refuses what makes no sense
+ *   input-checks.c, photograph.c  refuse what makes no sense
  *   session.c   sets a session's input          report.c    --report
  *   route.c     for popup and segment           messages.c  messages on stderr
  *   step.c      for order, expand, smooth,      run.c       progress, cancelling, timings
@@ -42,27 +43,32 @@ typedef enum
   CLI_DEFORM = 32768, CLI_INBETWEEN = 65536
 } CliSteps;
 
+/* Where "-" stands for standard input or output; see streams.c. */
+typedef struct { char *folder, *output, *reader, *writer; } CliStreams;
+
 /* The values of all options.  Names of files, and texts, that are not given are NULL. */
 typedef struct
 {
   CliSteps     step;
   char        *input, *target, *clip;
-  char        *drawing, *scribbles, *contours, *corrections, *hidden, *arrows, *anchors, *depth_hint;
+  char        *drawing, *scribbles, *contours, *corrections, *hidden, *arrows, *depth_hint;
   char        *relations, *relations_file, *arrow_path;
-  char        *labels, *closures, *suggestions, *suggested_arrows, *order, *levels, *depth, *normals, *shading, *report;
-  char        *regions, *art, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt, *wiggle;
-  char        *colours, *output, *composed, *light, *layers;
+  char        *labels, *closures, *suggestions, *suggested_arrows, *unexpanded, *levels, *depth, *normals, *shading, *report;
+  char        *regions, *enhanced, *shadow, *view, *left, *right, *stereo, *sequence, *quilt, *wiggle;
+  char        *colours, *output, *composed, *compositing, *layers;
   char        *source_levels, *displacement, *warped, *confidence;
   char        *second_scribbles, *second_arrows, *second_colours, *between; /* of inbetween */
   char        *handles, *handles_file, *handles_layer, *handle_keys, *deformed;
   char        *smooth_depth, *height, *mesh, *hints, *matcap, *shaded, *tone, *rim, *occlusion, *maps, *grid;
-  char        *padding_text;
+  char        *padding_text, *format;
   int          grid_columns, grid_rows, padding; /* of --grid and --padding */
   int          views, columns, frames, fps, size, jobs, part;
   char       **inputs, **keys, **key_scribbles, **key_arrows; /* of propagate */
   char       **command_line;  /* as it was given, without --emit-slurm */
   char        *labels_dir, *depth_dir, *emit_slurm, *review, *output_dir;
-  bool         quiet, directx, watch;
+  bool         quiet, directx, watch, help;
+  CliStreams   streams;
+  int          done_frames, frames_in_all; /* of a clip, for the progress bar; 0 in all: there is one input */
   bool         background_colour; /* whether a background colour was given */
   CeldSettings settings;
   GPtrArray   *offered;    /* the options that are settings, for options-settings.c */
@@ -74,15 +80,14 @@ typedef struct
   CliSteps    step;
   const char *input, *second; /* names of its arguments in --help; second NULL: there is one */
   const char *summary, *examples;
-  const char *settings;    /* names of settings, with spaces between; "option=name" gives the option another name,
-                            * "+name" is an option without a value that switches the setting on */
+  const char *settings;    /* names of settings, with spaces between */
   const char *output;      /* the output option that messages give as an example */
   void      (*begin) (CliOptions *options);  /* sets its own defaults; may be NULL */
   bool      (*check) (CliOptions *options);  /* checks beyond ranges; false with a message; may be NULL */
   int       (*run) (const CliOptions *options);
 } CliCommand;
 
-/* CLI_DONE, or another exit code after a message.  The caller clears `options` in either case. */
+/* CLI_DONE, or another exit code after a message; with options->help there is nothing to do.  The caller clears `options` in either case. */
 int  cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions *options);
 void cli_options_clear (CliOptions *options);
 
@@ -95,6 +100,10 @@ void  cli_files_inputs  (const CliOptions *options, GPtrArray *names);
 /* A file's name with a number in place of its #, or else before its ending; free with g_free. */
 char *cli_file_numbered (const char *name, int number);
 
+/* streams.c: copies the file for standard output there; removes all files.  False with a message. */
+bool cli_streams_write (CliStreams *streams);
+void cli_streams_clear (CliStreams *streams);
+
 /* ------------------------------------------------------------------ messages.c */
 
 /* Prints "celdepth: ..." on stderr. */
@@ -104,6 +113,8 @@ bool cli_error (const char *format, ...) G_GNUC_PRINTF (1, 2);
 /* Keeps messages from here on, and then shows or discards what was kept, if anything was. */
 void cli_say_keep (void);
 void cli_say_kept (bool show);
+/* Leaves a folder out of the names in messages; NULL: none.  Borrows the name. */
+void cli_say_without (const char *folder);
 /* Whether a status is CELD_OK; if not, prints its text. */
 bool cli_check (CeldStatus status);
 /* Prints the first problems that are no contradictions. */
@@ -118,18 +129,28 @@ typedef struct CliThreads CliThreads;
 
 typedef struct { const char *stage; double seconds; } CliTiming;
 
-/* The command's CeldHost: a progress bar on stderr, cancelling by SIGINT and SIGTERM, and the time of each stage. */
+/* The command's CeldHost: a progress bar of the whole work on stderr, cancelling by SIGINT and SIGTERM, and the time of
+ * each stage. */
 typedef struct
 {
   CeldHost    host;
   GArray     *timings;     /* CliTiming */
   gint64      began;       /* time when the stage began, in microseconds */
-  gint64      drawn;       /* time when the bar was last drawn; 0: there is no bar on the screen */
+  gint64      drawn;       /* time when the bar was last drawn, or 0 */
   bool        visible;
+  const char *stage;       /* NULL: none */
+  char      **plan, **next; /* all stages, and those that are still to come */
+  double      planned, before, length; /* expected seconds: of all stages, of those before this one, of this one */
+  double      most;        /* the largest fraction that was shown */
+  int         done_frames, frames; /* of a clip */
   CliThreads *threads;
 } CliRun;
 
-void cli_run_begin (CliRun *run, bool quiet);
+/* `stages` are the names of the stages that may come, in their order, with spaces between; "views*24": it takes
+ * 24 times as long as usual. */
+void cli_run_begin (CliRun *run, const CliOptions *options, const char *stages);
+/* Removes the bar from the screen, before something else is printed there. */
+void cli_bar_hide  (void);
 /* Ends the current stage and begins another one; NULL: none. */
 void cli_run_stage (CliRun *run, const char *stage);
 /* Ends the current stage.  True if the status is CELD_OK and the run was not cancelled; if not, prints why. */
@@ -146,7 +167,10 @@ void        cli_threads_each (CliThreads *threads, int n, void (*body) (void *da
 
 /* ------------------------------------------------------------------ pictures.c, npy.c */
 
-bool cli_read_drawing (CeldIoFile *file, size_t part, CeldInkMode mode, CeldDrawing *drawing);
+/* A photograph is refused, with a message about `path`, unless the options say what the lines are, or that there are
+ * none. */
+bool cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options,
+                       CeldDrawing *drawing);
 bool cli_read_paint   (CeldIoFile *file, size_t part, CeldPaint *paint);
 /* Colours of a part, in linear light or encoded as sRGB; and of the first part of a file, in linear light.  Free data
  * with g_free. */
@@ -224,6 +248,8 @@ bool cli_art_read (const char *input, const char *path, bool linear, CliLayers *
 bool cli_check_different_files (const CliOptions *options);                  /* each layer has its own file */
 bool cli_check_not_exchanged   (const CliOptions *options, CliLayers *layers); /* the drawing with the scribbles */
 bool cli_check_lines           (const char *path, const CeldPlane *ink);     /* there is ink, and paper */
+bool cli_check_drawing         (const char *path, const CeldDrawing *drawing, bool quiet); /* no photograph */
+bool cli_check_scribbles       (const char *path, const CeldPaint *scribbles); /* no photograph */
 bool cli_check_grey            (const char *path);                           /* of depth or levels */
 bool cli_check_levels          (const char *path, const CeldPlane *levels);  /* no photograph */
 bool cli_check_regions         (const char *path, const CeldLabels *regions, const CeldPalette *palette);
@@ -233,12 +259,17 @@ bool cli_check_regions         (const char *path, const CeldLabels *regions, con
 /* The text of the file, or if `path` is NULL `given`; "" if neither is given, NULL, with a message, if it cannot be
  * read. */
 char *cli_text_or_file (const char *given, const char *path);
-/* The text of --relations or --relations-file; "" if neither is given, NULL, with a message, if it cannot be read. */
+/* The text of --relations, and below it that of --relations-file; "" if neither is given, NULL, with a message, if it
+ * cannot be read. */
 char *cli_relations_text (const CliOptions *options);
-/* The name of that text in messages. */
-const char *cli_relations_name (const CliOptions *options);
-/* Whether a status is CELD_OK; if not, prints where the text, or the arrow path, cannot be read. */
+/* The name of what a line of that text is in, and the number of the line there. */
+const char *cli_relations_place (const CliOptions *options, int *line);
+/* Whether a status is CELD_OK; if not, prints where the text, or the arrow path, cannot be read; for relations also in
+ * which text. */
 bool cli_check_text (CeldStatus status, const char *name, const CeldTextError *error);
+bool cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTextError *error);
+/* Whether relations, the arrow path and handles can be understood; texts that cannot be read are left for later. */
+bool cli_texts_check (const CliOptions *options);
 
 /* ------------------------------------------------------------------ report.c, messages.c */
 
@@ -317,10 +348,10 @@ char *cli_map_name (const char *path, int map);
 
 /* The name of a label's layer: its colour, and its number if several labels have that colour; free with g_free. */
 char *cli_layer_name (const CeldPalette *palette, uint32_t label);
-/* Whether --light has a value that fits the output; if not, prints why. */
-bool  cli_light_check (CliOptions *options);
-/* Whether a file of layers gets linear light: `light` is the value of --light, or NULL. */
-bool  cli_layers_are_linear (const char *path, const char *light);
+/* Whether --compositing has a value that fits the output; if not, prints why. */
+bool  cli_compositing_check (CliOptions *options);
+/* Whether a file of layers gets linear light: `compositing` is the value of --compositing, or NULL. */
+bool  cli_layers_are_linear (const char *path, const char *compositing);
 /* Makes the layers of a session with art in that light, and writes them.  Converts the art, and the caller frees
  * *layers, in either case. */
 bool  cli_layers_write (const char *path, CeldSession *session, bool linear, CeldColours *art, CliRun *run,

@@ -161,8 +161,8 @@ options_of_frame (const CliOptions *all, const CliClip *clip, const CliClipFrame
       options->input = g_strdup (frame->levels);
       if (all->step == CLI_SHADE)
         replace (&options->drawing, frame->drawing);
-      if (!options->art)
-        replace (&options->art, frame->drawing);
+      if (!options->colours)
+        replace (&options->colours, frame->drawing);
     }
   else
     {
@@ -181,7 +181,10 @@ run_frame (const CliCommand *command, const CliOptions *all, const CliClip *clip
   int        code = CLI_USAGE;
 
   options_of_frame (all, clip, frame, &options);
-  if ((!command->check || command->check (&options)) && cli_files_check (command, &options))
+  options.done_frames   = (int) (frame - clip->frame);
+  options.frames_in_all = (int) clip->n;
+  if ((!command->check || command->check (&options)) && cli_files_check (command, &options) &&
+      cli_texts_check (&options))
     code = cli_files_check_places (&options) ? command->run (&options) : CLI_FAILED;
   cli_files_clear (&options);
   g_free (options.input);

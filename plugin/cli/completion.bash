@@ -3,7 +3,9 @@
 
 _celdepth_options ()
 {
-  "$1" "$2" --help 2> /dev/null | sed -n 's/^ *\(-., \)*\(--[a-z-]*\(=[^ ]*\)*\).*/\2/p'
+  # a long list of values goes on in the next line, after a |
+  "$1" "$2" --help 2> /dev/null | sed -e ':a' -e '/|$/{' -e 'N' -e 's/|\n */|/' -e 'ba' -e '}' |
+    sed -n 's/^  \(-., \)*\(--[a-z-]*\(=[^ ]*\)*\).*/\2/p'
 }
 
 _celdepth ()
@@ -11,7 +13,7 @@ _celdepth ()
   local word="${COMP_WORDS[COMP_CWORD]}" before="${COMP_WORDS[COMP_CWORD-1]}" options values
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=( $(compgen -W "popup segment order expand smooth shade enhance stereo wiggle relief exact layers register compose propagate deform inbetween --help --version" -- "$word") )
+    COMPREPLY=( $(compgen -W "popup segment order expand smooth shade enhance stereo wiggle relief exact layers register compose propagate deform inbetween help --help --version" -- "$word") )
     return
   fi
   options=$(_celdepth_options "$1" "${COMP_WORDS[1]}")

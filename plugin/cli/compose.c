@@ -366,14 +366,19 @@ run_compose (const CliOptions *options)
   CeldIoStackKind kind = options->composed ? celd_io_stack_kind (options->composed) : CELD_IO_NO_STACK;
   Compose         c = { .options = options, .stack = kind != CELD_IO_NO_STACK };
   int             code = CLI_FAILED;
+  GString        *stages = g_string_new (NULL);
   bool            good = cli_composition_read (options->input, options, &c.scene);
 
-  c.linear  = kind == CELD_IO_EXR_PARTS || (options->light && !strcmp (options->light, "linear"));
+  c.linear  = kind == CELD_IO_EXR_PARTS || (options->compositing && !strcmp (options->compositing, "linear"));
   c.drawing = g_new0 (Drawing, c.scene.n);
   c.name    = g_new0 (char *, c.scene.n + 1);
   for (guint i = 0; i < c.scene.n; i++)
     c.name[i] = c.scene.fragment[i].name;
-  cli_run_begin (&c.run, options->quiet);
+  for (guint i = 0; i < c.scene.n; i++)
+    g_string_append (stages, "labels order layers ");
+  g_string_append (stages, "compose picture writing");
+  cli_run_begin (&c.run, options, stages->str);
+  g_string_free (stages, TRUE);
   if (good && read_relations (&c) && make (&c) && write_output (&c))
     code = finish (&c);
   cli_run_end (&c.run);
@@ -410,6 +415,6 @@ const CliCommand cli_compose_command = {
               "        \"relations\": [ \"man:#ff0000 > rope:*\", \"rope:20,60 > man:#0000ff\" ] }",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion complete cell-size encoding near-level far-level",
   .output   = "output",
-  .check    = cli_light_check,
+  .check    = cli_compositing_check,
   .run      = run_compose,
 };

@@ -172,9 +172,6 @@ check_fragment (const CliComposition *c, CliFragment *f)
   if (!(f->placement.scale >= CELD_LEAST_SCALE && f->placement.scale <= CELD_LARGEST_SCALE))
     return cli_error ("\"%s\", fragment %d (%s): \"scale\" must be from %g to %g.", c->path, number, f->name,
                       CELD_LEAST_SCALE, CELD_LARGEST_SCALE);
-  if (f->options.relations && f->options.relations_file)
-    return cli_error ("\"%s\", fragment %d (%s): give either \"relations\" or \"relations-file\".", c->path, number,
-                      f->name);
   return !f->options.hidden || f->options.settings.complete ||
          cli_error ("\"%s\", fragment %d (%s): \"hidden\" needs --complete yes: other layers have nothing that is "
                     "hidden.", c->path, number, f->name);

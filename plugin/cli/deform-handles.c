@@ -9,7 +9,7 @@ read_text (const char *given, const char *path, CeldHandles *handles)
 {
   char         *text = cli_text_or_file (given, path);
   CeldTextError error;
-  bool          good = text && cli_check_text (celd_handles_parse (text, handles, &error), path ? path : "Handles",
+  bool          good = text && cli_check_text (celd_handles_parse (text, handles, &error), path ? path : "--handles",
                                                &error);
 
   g_free (text);

@@ -53,7 +53,7 @@ has_layers (const CliOptions *options)
 static bool
 is_linear (const CliOptions *options)
 {
-  return !has_layers (options) || (options->light && !strcmp (options->light, "linear"));
+  return !has_layers (options) || (options->compositing && !strcmp (options->compositing, "linear"));
 }
 
 /* Makes the keys of a motion from rest to the handles. */
@@ -235,7 +235,8 @@ run_deform (const CliOptions *options)
   bool        moves = cli_is_motion (options->deformed);
   int         code = CLI_FAILED;
 
-  cli_run_begin (&d.run, options->quiet);
+  cli_run_begin (&d.run, options, "reading labels order lattice deformation");
+  cli_run_stage (&d.run, "reading");
   if (read_input (&d))
     {
       cli_run_stage (&d.run, "deformation");
@@ -257,7 +258,7 @@ check (CliOptions *options)
 {
   if (options->handle_keys && (options->handles || options->handles_file || options->handles_layer))
     return cli_error ("Give either --keys or handles.");
-  return cli_light_check (options);
+  return cli_compositing_check (options);
 }
 
 const CliCommand cli_deform_command = {

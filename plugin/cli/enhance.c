@@ -7,12 +7,12 @@
 static bool
 read_art (const CliOptions *options, const CeldPlane *levels, CeldColours *art)
 {
-  if (!options->art)
+  if (!options->colours)
     return true;
-  if (!cli_read_colours (options->art, art))
+  if (!cli_read_colours (options->colours, art))
     return false;
   return (art->width == levels->width && art->height == levels->height) ||
-         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.", options->art,
+         cli_error ("\"%s\" has %d x %d pixels, but \"%s\" has %d x %d; give both the same size.", options->colours,
                     art->width, art->height, options->input, levels->width,
                     levels->height);
 }
@@ -45,7 +45,7 @@ run_enhance (const CliOptions *options)
   CliRun      run;
   bool        good;
 
-  cli_run_begin (&run, options->quiet);
+  cli_run_begin (&run, options, "reading shadows writing");
   good = cli_read_levels (options->input, &levels) && read_art (options, &levels, &art) &&
          cli_plane_new (levels.width, levels.height, &change);
   if (good)
@@ -66,7 +66,7 @@ run_enhance (const CliOptions *options)
 static bool
 check (CliOptions *options)
 {
-  return !options->enhanced || options->art || cli_error ("--enhanced needs --art.");
+  return !options->enhanced || options->colours || cli_error ("--enhanced needs --colours.");
 }
 
 const CliCommand cli_enhance_command = {
@@ -74,7 +74,7 @@ const CliCommand cli_enhance_command = {
   .step     = CLI_ENHANCE,
   .input    = "LEVELS",
   .summary  = "Makes the parts of a picture stand out from those behind them, with soft shadows.",
-  .examples = "  celdepth enhance levels.npy --art bee.png --enhanced popup.png\n"
+  .examples = "  celdepth enhance levels.npy --colours bee.png --enhanced popup.png\n"
               "  celdepth enhance levels.npy --shadow shadow.png --shadow-offset 0.01 --light-azimuth 45\n"
               "  celdepth enhance levels.npy --view view.png",
   .settings = "enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range",

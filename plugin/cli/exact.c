@@ -56,10 +56,12 @@ run_exact (const CliOptions *options)
   CeldOrder    cycles = { 0 };
   CliRun       run;
   int          code = CLI_FAILED;
-  bool         good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
+  bool         good;
 
+  cli_run_begin (&run, options, "reading ink depth writing");
+  cli_run_stage (&run, "reading");
+  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &layers);
   cli_layers_clear (&layers);
-  cli_run_begin (&run, options->quiet);
   good = good && make (session, &run, &depth);
   if (good)
     {
@@ -83,7 +85,7 @@ const CliCommand cli_exact_command = {
   .examples = "  celdepth exact bee.png --scribbles strokes.png --arrows arrows.png --depth depth.exr\n"
               "  celdepth exact bee.png --relations '120,80 > 300,90 +2; 300,90 = 10,10' --depth depth.npy \\\n"
               "      --encoding rank --report report.json",
-  .settings = "ink +flats background background-colour same-colour arrow-style on-cycle encoding near-level far-level "
+  .settings = "ink flats background background-colour same-colour arrow-style on-cycle encoding near-level far-level "
               "hold-gaps tolerance contrast weight-floor",
   .output   = "depth",
   .run      = run_exact,

@@ -32,7 +32,7 @@ const CliCommand cli_expand_command = {
   .input    = "LEVELS",
   .summary  = "Gives each contour to the region that it outlines.",
   .examples = "  celdepth expand flat-levels.npy --drawing bee.png --regions flat.png --levels levels.npy",
-  .settings = "ink method=expansion",
+  .settings = "ink expansion",
   .output   = "levels",
   .run      = run_expand,
 };

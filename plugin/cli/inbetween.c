@@ -267,7 +267,7 @@ run_inbetween (const CliOptions *options)
   Between b = { .options = options };
   int     code = CLI_FAILED;
 
-  cli_run_begin (&b.run, options->quiet);
+  cli_run_begin (&b.run, options, "keys keys propagation layers layers registration drawing");
   if (read_keys (&b) && make_between (&b))
     {
       cli_run_stage (&b.run, "drawing");

@@ -121,7 +121,7 @@ read_input (const char *path, const CliOptions *options, CliRoles wanted, CliLay
   CeldIoFile *file = open_file (path);
   size_t      drawing = file ? find_drawing (file, path) : CELD_NO_INDEX;
   bool        good = drawing != CELD_NO_INDEX && check_size (file, path, layers) &&
-                     cli_read_drawing (file, drawing, options->settings.ink, &layers->drawing);
+                     cli_read_drawing (file, drawing, path, options, &layers->drawing);
 
   for (size_t i = 1; good && i < G_N_ELEMENTS (roles); i++)
     if (wanted & roles[i].role && !path_of (options, roles[i].role))
@@ -158,50 +158,4 @@ cli_layers_clear (CliLayers *layers)
   g_free (layers->corrections.data);
   g_free (layers->hidden.data);
   *layers = (CliLayers) { 0 };
-}
-
-/* ------------------------------------------------------------------ relations */
-
-char *
-cli_text_or_file (const char *given, const char *path)
-{
-  char   *text = NULL;
-  gsize   length = 0;
-  GError *error = NULL;
-
-  if (!path)
-    return g_strdup (given ? given : "");
-  if (!g_file_get_contents (path, &text, &length, &error))
-    {
-      cli_say ("Cannot read \"%s\": %s", path, error->message);
-      g_error_free (error);
-      return NULL;
-    }
-  if (strlen (text) < length)
-    {
-      cli_say ("Cannot read \"%s\": it is not a text file.", path);
-      g_clear_pointer (&text, g_free);
-    }
-  return text;
-}
-
-char *
-cli_relations_text (const CliOptions *options)
-{
-  return cli_text_or_file (options->relations, options->relations_file);
-}
-
-const char *
-cli_relations_name (const CliOptions *options)
-{
-  return options->relations_file ? options->relations_file : "Relations";
-}
-
-bool
-cli_check_text (CeldStatus status, const char *name, const CeldTextError *error)
-{
-  if (status != CELD_BAD_RELATION)
-    return cli_check (status);
-  return cli_error ("%s, line %d, column %d: expected %s, found %s.", name, error->line, error->column,
-                    error->expected, error->found);
 }

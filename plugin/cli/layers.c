@@ -103,9 +103,9 @@ write_stack (const char *path, const CeldLayers *layers, const CeldPalette *pale
 }
 
 bool
-cli_layers_are_linear (const char *path, const char *light)
+cli_layers_are_linear (const char *path, const char *compositing)
 {
-  return celd_io_stack_kind (path) == CELD_IO_EXR_PARTS || (light && !strcmp (light, "linear"));
+  return celd_io_stack_kind (path) == CELD_IO_EXR_PARTS || (compositing && !strcmp (compositing, "linear"));
 }
 
 bool
@@ -165,15 +165,16 @@ run_layers (const CliOptions *options)
   CeldColours      art = { 0 };
   CeldLayers      *layers = NULL;
   const CeldOrder *order = NULL;
-  bool             linear = cli_layers_are_linear (options->output, options->light);
+  bool             linear = cli_layers_are_linear (options->output, options->compositing);
   CliRun           run;
   int              code = CLI_FAILED;
-  bool             good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) &&
-                          cli_session_load (session, options, &input) &&
-                          cli_art_read (options->input, options->colours, linear, &input, &art);
+  bool             good;
 
+  cli_run_begin (&run, options, "reading labels order layers writing");
+  cli_run_stage (&run, "reading");
+  good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, options, &input) &&
+         cli_art_read (options->input, options->colours, linear, &input, &art);
   cli_layers_clear (&input);
-  cli_run_begin (&run, options->quiet);
   good = good && make (session, &run, &order) &&
          cli_layers_write (options->output, session, linear, &art, &run, &layers);
   if (good)
@@ -186,22 +187,22 @@ run_layers (const CliOptions *options)
 }
 
 bool
-cli_light_check (CliOptions *options)
+cli_compositing_check (CliOptions *options)
 {
-  const char *light = options->light, *output = options->output ? options->output : options->composed;
+  const char *wanted = options->compositing, *output = options->output ? options->output : options->composed;
 
-  if (light && strcmp (light, "encoded") && strcmp (light, "linear"))
-    return cli_error ("--light cannot be '%s': the value must be encoded|linear.", light);
-  if (light && !strcmp (light, "encoded") && output &&
+  if (wanted && strcmp (wanted, "encoded") && strcmp (wanted, "linear"))
+    return cli_error ("--compositing must be encoded or linear, not '%s'.", wanted);
+  if (wanted && !strcmp (wanted, "encoded") && output &&
       celd_io_stack_kind (output) == CELD_IO_EXR_PARTS)
-    return cli_error ("--light encoded cannot be used with .exr, whose colours are linear light.");
+    return cli_error ("--compositing encoded cannot be used with .exr, whose colours are linear light.");
   return true;
 }
 
 static bool
 check (CliOptions *options)
 {
-  return cli_light_check (options) &&
+  return cli_compositing_check (options) &&
          (!options->hidden || options->settings.complete ||
           cli_error ("--hidden needs --complete yes: other layers have nothing that is hidden."));
 }

@@ -28,11 +28,30 @@ cli_say_kept (bool show)
   kept = NULL;
 }
 
+static const char *hidden_folder; /* of the files that stand for standard input and output */
+
+void
+cli_say_without (const char *folder)
+{
+  hidden_folder = folder;
+}
+
 static void
 say (const char *format, va_list arguments)
 {
   char *text = g_strdup_vprintf (format, arguments);
 
+  if (hidden_folder)
+    {
+      char  *prefix = g_strconcat (hidden_folder, G_DIR_SEPARATOR_S, NULL);
+      char **pieces = g_strsplit (text, prefix, 0);
+
+      g_free (text);
+      text = g_strjoinv ("", pieces);
+      g_strfreev (pieces);
+      g_free (prefix);
+    }
+  cli_bar_hide ();
   if (kept)
     g_string_append_printf (kept, "celdepth: %s\n", text);
   else
@@ -68,7 +87,7 @@ cli_check (CeldStatus status)
 }
 
 static void
-say_cycles (const CeldOrder *order, const CeldRelations *relations)
+say_cycles (const CliOptions *options, const CeldOrder *order, const CeldRelations *relations)
 {
   for (size_t i = 0; i < order->n_cycles; i++)
     {
@@ -79,12 +98,14 @@ say_cycles (const CeldOrder *order, const CeldRelations *relations)
         {
           const CeldRelation *relation = &relations->item[cycle->item[k]];
           char               *text = cli_relation_text (relation, NULL);
+          int                 line = relation->line;
+          const char         *from = relation->source == CELD_SOURCE_PATH ? "--arrow-path"
+                                                                          : cli_relations_place (options, &line);
 
           if (relation->source == CELD_SOURCE_ARROW)
             fprintf (stderr, "    %s  (painted arrow)\n", text);
           else
-            fprintf (stderr, "    %s  (%sline %d, column %d)\n", text,
-                     relation->source == CELD_SOURCE_PATH ? "arrow path, " : "", relation->line, relation->column);
+            fprintf (stderr, "    %s  (%s, line %d, column %d)\n", text, from, line, relation->column);
           g_free (text);
         }
       if (cycle->label)
@@ -120,7 +141,7 @@ cli_finish (const CliOptions *options, const CliReport *report)
   if (options->report && !cli_report_write (options->report, report))
     return CLI_FAILED;
   if (report->order)
-    say_cycles (report->order, report->relations);
+    say_cycles (options, report->order, report->relations);
   if (!options->quiet)
     cli_say_problems (report->problems, report->palette, report->relations);
   return report->order && report->order->n_cycles ? CLI_CONTRADICTED : CLI_DONE;

@@ -125,8 +125,8 @@ cli_model_settings (const CliOptions *options)
 {
   CeldSettings s = options->settings;
 
-  if (s.mesh == CELD_MESH_AUTO)
-    s.mesh = options->mesh && celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
+  if (s.mesh_kind == CELD_MESH_AUTO)
+    s.mesh_kind = options->mesh && celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
   return s;
 }
 

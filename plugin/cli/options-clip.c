@@ -7,7 +7,7 @@
 #include <string.h>
 
 void
-cli_clip_options_append (CliOptions *options, GArray *entries)
+cli_clip_options_append (CliOptions *options, CliOptionList *list)
 {
   const GOptionEntry entry[] = {
     { "key", 0, 0, G_OPTION_ARG_STRING_ARRAY, &options->keys,
@@ -18,7 +18,8 @@ cli_clip_options_append (CliOptions *options, GArray *entries)
       "the arrows of a key, in the order of --key; later keys may have none", "PICTURE" },
   };
 
-  g_array_append_vals (entries, entry, G_N_ELEMENTS (entry));
+  for (size_t i = 0; i < G_N_ELEMENTS (entry); i++)
+    cli_list_add (list, "Input", entry[i]);
 }
 
 void

@@ -10,9 +10,13 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Kinds from OUTPUT on are written.  MAPS stands for the names of several pictures, JOINED is a picture or an MPO file,
+/* HOW is a text about the output; kinds from OUTPUT on are written.  MAPS stands for the names of several pictures,
+ * JOINED is a picture or an MPO file,
  * COMPOSED a picture or layers, MOVING a picture or frames, DEFORMED any of these. */
-typedef enum { INPUT, TEXT, MAPS, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH, COMPOSED, MOVING, DEFORMED } FileKind;
+typedef enum
+{
+  INPUT, TEXT, HOW, MAPS, OUTPUT, JOINED, REPORT, STACK, FRAMES, MESH, COMPOSED, MOVING, DEFORMED
+} FileKind;
 
 typedef struct
 {
@@ -30,17 +34,18 @@ static const FileOption files[] = {
   { "clip", CLI_SHADE | CLI_ENHANCE | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF, 0, TEXT, MEMBER (clip), "FOLDER",
     "work on each frame of a clip that propagate has written (--labels-dir), instead of one input; outputs get the "
     "frame's number, and a # in a name stands for a digit of it" },
-  { "labels-dir", CLI_PROPAGATE, CLI_PROPAGATE, TEXT, MEMBER (labels_dir), "FOLDER",
+  { "labels-dir", CLI_PROPAGATE, CLI_PROPAGATE, HOW, MEMBER (labels_dir), "FOLDER",
     "write labels_NNN.png and levels_NNN.exr of each frame, clip.json for --clip, and relations.txt" },
-  { "depth-dir", CLI_PROPAGATE, 0, TEXT, MEMBER (depth_dir), "FOLDER", "write depth_NNN.exr of each frame" },
+  { "depth-dir", CLI_PROPAGATE, 0, HOW, MEMBER (depth_dir), "FOLDER", "write depth_NNN.exr of each frame" },
   { "emit-slurm", CLI_PROPAGATE, 0, REPORT, MEMBER (emit_slurm), "OUT",
     "write a script that runs this command as an array job of Slurm, and do nothing else" },
-  { "output-dir", CLI_POPUP, 0, TEXT, MEMBER (output_dir), "FOLDER",
+  { "output-dir", CLI_POPUP, 0, HOW, MEMBER (output_dir), "FOLDER",
     "write the results of many pages, such as pages/*.psd, as FOLDER/PAGE-depth.png; results are then given without "
     "names, or with a format, such as --depth=exr (default: depth and shaded); finished pages are kept" },
   { "drawing", CLI_ORDER | OF_LEVELS | CLI_RELIEF, OF_LEVELS, INPUT, MEMBER (drawing), "DRAWING",
     "the line drawing; relief then reads levels" },
-  { "scribbles", WITH_PARTS | CLI_INBETWEEN, 0, INPUT, MEMBER (scribbles), "PICTURE", "scribbles, one colour per region" },
+  { "scribbles", WITH_PARTS | CLI_SMOOTH | CLI_INBETWEEN, 0, INPUT, MEMBER (scribbles), "PICTURE",
+    "scribbles, a colour of its own for each region; in smooth depth their pixels keep their level" },
   { "contours", WITH_INK, 0, INPUT, MEMBER (contours), "PICTURE",
     "virtual contours: red ones separate regions and depth, blue ones regions only, green ones erase ink" },
   { "corrections", CLI_POPUP | CLI_LAYERS | CLI_RELIEF | CLI_REGISTER | CLI_DEFORM, 0, INPUT, MEMBER (corrections),
@@ -49,8 +54,6 @@ static const FileOption files[] = {
   { "hidden", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_DEFORM, 0, INPUT, MEMBER (hidden), "PICTURE",
     "what is hidden: strokes in the colour of a region add to it behind nearer ones, black strokes take away" },
   { "arrows", WITH_PARTS | CLI_ORDER | CLI_INBETWEEN, 0, INPUT, MEMBER (arrows), "PICTURE", "arrows from nearer to farther parts" },
-  { "anchors", CLI_SMOOTH, 0, INPUT, MEMBER (anchors), "PICTURE",
-    "painted pixels keep their level (default: the pixels deep inside each region do)" },
   { "relations", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, TEXT, MEMBER (relations), "TEXT",
     "relations such as '120,80 > 300,90; #ff0000 = #00ff00'" },
   { "relations-file", WITH_PARTS | CLI_ORDER | CLI_PROPAGATE | CLI_INBETWEEN, 0, INPUT, MEMBER (relations_file), "FILE",
@@ -66,21 +69,19 @@ static const FileOption files[] = {
     "write suggestions, which say what seems to be in front, as relations with their confidence" },
   { "suggested-arrows", GIVES_LABELS, 0, OUTPUT, MEMBER (suggested_arrows), "OUT",
     "write suggestions as arrows on a transparent layer" },
-  { "order", CLI_POPUP, 0, OUTPUT, MEMBER (order), "OUT",
-    "write levels before expansion, with boundaries in the middle of contours" },
-  { "levels", CLI_POPUP | CLI_ORDER | CLI_EXPAND | CLI_COMPOSE | CLI_DEFORM, CLI_ORDER | CLI_EXPAND, OUTPUT,
-    MEMBER (levels), "OUT",
-    "write levels" },
+  { "unexpanded-levels", CLI_POPUP | CLI_ORDER, CLI_ORDER, OUTPUT, MEMBER (unexpanded), "OUT",
+    "write levels before contours are given to the regions that they outline: they change in the middle of contours" },
+  { "levels", CLI_POPUP | CLI_EXPAND | CLI_COMPOSE | CLI_DEFORM, CLI_EXPAND, OUTPUT, MEMBER (levels), "OUT",
+    "write levels: the place of each pixel's part in the order of depth" },
   { "depth", CLI_POPUP | CLI_SMOOTH | CLI_EXACT, CLI_SMOOTH | CLI_EXACT, OUTPUT, MEMBER (depth), "OUT",
     "write smooth depth" },
-  { "levels", CLI_REGISTER, 0, INPUT, MEMBER (source_levels), "LEVELS",
+  { "source-levels", CLI_REGISTER, 0, INPUT, MEMBER (source_levels), "LEVELS",
     "levels of the first drawing, instead of its scribbles and arrows: parts of different levels move on their own" },
   { "regions", CLI_EXPAND | CLI_RELIEF | CLI_REGISTER, 0, INPUT, MEMBER (regions), "PICTURE",
     "the regions that segment has written, to distinguish those of the same level" },
-  { "art", CLI_ENHANCE | CLI_SHADE, 0, INPUT, MEMBER (art), "PICTURE", "the picture to shade or enhance" },
-  { "depth", CLI_SHADE | CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
+  { "smooth-depth", CLI_SHADE | CLI_RELIEF, 0, INPUT, MEMBER (smooth_depth), "DEPTH",
     "smooth depth that popup or smooth has written: the depth of the parts of a relief (default: computed from the "
-    "levels); shade bends the nearer side of strokes inside a part (see --quilt)" },
+    "levels); shade bends the nearer side of strokes inside a part (see --creases)" },
   { "hints", CLI_SHADE, 0, INPUT, MEMBER (hints), "PICTURE",
     "paint beside lines: parts bend on a white side, do not bend on a black side, bend on both sides at grey" },
   { "matcap", CLI_SHADE, 0, INPUT, MEMBER (matcap), "PICTURE",
@@ -100,7 +101,7 @@ static const FileOption files[] = {
     "write ambient occlusion: the fraction of light that nearer parts let through" },
   { "maps", CLI_SHADE, 0, MAPS, MEMBER (maps), "NAME.png",
     "write maps for game engines: NAME_n.png (normals), NAME_o.png (occlusion), NAME_s.png (specular)" },
-  { "padding", CLI_SHADE, 0, TEXT, MEMBER (padding_text), "0-64",
+  { "padding", CLI_SHADE, 0, HOW, MEMBER (padding_text), "0-64",
     "the number of transparent pixels around a sprite that maps fill (default: 4)" },
   { "left", CLI_POPUP | CLI_STEREO, 0, OUTPUT, MEMBER (left), "OUT", "write the view of the left eye" },
   { "right", CLI_POPUP | CLI_STEREO, 0, OUTPUT, MEMBER (right), "OUT", "write the view of the right eye" },
@@ -112,12 +113,11 @@ static const FileOption files[] = {
     "write all --views in a file or folder: .mpo, .gif, or a folder of PNG files" },
   { "output", CLI_WIGGLE, CLI_WIGGLE, FRAMES, MEMBER (wiggle), "OUT",
     "write the animation: .gif, or a folder of PNG files" },
-  { "colours", CLI_POPUP | CLI_LAYERS | FROM_THE_SIDE | CLI_RELIEF | CLI_REGISTER | CLI_DEFORM | CLI_INBETWEEN, 0, INPUT,
-    MEMBER (colours), "PICTURE",
-    "a coloured version of the drawing, used instead of it for light, layers, views, meshes and motion" },
-  { "light", CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, TEXT, MEMBER (light), "encoded|linear",
-    "the colours in which layers will be composited: encoded (Krita) or linear light (GIMP 3); default: encoded, but "
-    "linear for .exr" },
+  { "colours", COLOURED, 0, INPUT, MEMBER (colours), "PICTURE",
+    "a coloured version of the drawing, used instead of it for light, shadows, layers, views, meshes and motion" },
+  { "compositing", CLI_LAYERS | CLI_COMPOSE | CLI_DEFORM, 0, HOW, MEMBER (compositing), "encoded|linear",
+    "the colours in which layers will be composited: encoded (Krita) or linear light (GIMP 3) (default: encoded, but "
+    "linear for .exr)" },
   { "output", CLI_LAYERS, CLI_LAYERS, STACK, MEMBER (output), "OUT",
     "write layers: .ora (OpenRaster), .psd, .exr (one part per layer), or a folder of PNG files" },
   { "layers", CLI_POPUP, 0, STACK, MEMBER (layers), "OUT",
@@ -153,9 +153,12 @@ static const FileOption files[] = {
   { "output", CLI_INBETWEEN, CLI_INBETWEEN, MOVING, MEMBER (between), "OUT",
     "write the drawings between: .png, .exr, .tif or .npy, with a # for each digit of the number; or with the keys: .gif, "
     "or a folder of PNG files" },
+  { "format", ~CLI_PROPAGATE, 0, HOW, MEMBER (format), "ENDING",
+    "the format of a result that is written to standard output (-), by the ending that its file would have (default: "
+    "png, but ora for layers, gif for animations, glb for meshes)" },
   { "report", WITH_LAYERS | CLI_ORDER, 0, REPORT, MEMBER (report), "OUT",
     "write a report of regions, relations and problems, as JSON" },
-  { "report", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
+  { "review", CLI_PROPAGATE, 0, REPORT, MEMBER (review), "OUT",
     "write which frames and regions to look at, as JSON, and beside it a picture of them" },
 };
 
@@ -165,14 +168,21 @@ file_name (CliOptions *options, const FileOption *file)
   return (char **) ((char *) options + file->offset);
 }
 
-void
-cli_files_append (const CliCommand *command, CliOptions *options, GArray *entries)
+static bool
+is_text (FileKind kind)
 {
-  for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
-    if (files[i].steps & (int) command->step)
-      g_array_append_val (entries, ((GOptionEntry) {
-        files[i].name, 0, 0, files[i].kind == TEXT ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
-        file_name (options, &files[i]), files[i].help, files[i].value }));
+  return kind == TEXT || kind == HOW;
+}
+
+void
+cli_files_append (const CliCommand *command, CliOptions *options, CliOptionList *list)
+{
+  for (int output = 0; output < 2; output++)
+    for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
+      if (files[i].steps & (int) command->step && (files[i].kind >= HOW) == output)
+        cli_list_add (list, output ? "Output" : "Input", (GOptionEntry) {
+          files[i].name, 0, 0, is_text (files[i].kind) ? G_OPTION_ARG_STRING : G_OPTION_ARG_FILENAME,
+          file_name (options, &files[i]), files[i].help, files[i].value });
 }
 
 const char *
@@ -220,10 +230,62 @@ cli_files_number (const CliOptions *all, int number, CliOptions *frame)
   for (size_t i = 0; i < G_N_ELEMENTS (files); i++)
     {
       const char *name = *file_name ((CliOptions *) all, &files[i]);
-      bool        counts = name && files[i].kind != TEXT && (files[i].kind != INPUT || strchr (name, '#'));
+      bool        counts = name && !is_text (files[i].kind) && (files[i].kind != INPUT || strchr (name, '#'));
 
       *file_name (frame, &files[i]) = counts ? cli_file_numbered (name, number) : g_strdup (name);
     }
+}
+
+/* ------------------------------------------------------------------ standard input and output */
+
+/* The ending of what an option writes to standard output; NULL: none. */
+static const char *
+ending_of (const FileOption *file, const char *format)
+{
+  if (file->kind == REPORT)
+    return NULL;
+  if (format)
+    return format;
+  return file->kind == STACK ? "ora" : file->kind == MESH ? "glb" : file->kind == FRAMES ? "gif" : "png";
+}
+
+/* Has a file in place of the name "-" of an option. */
+static bool
+stream_file (const FileOption *file, CliOptions *options)
+{
+  char **name = file_name (options, file);
+  char  *what = g_strconcat ("--", file->name, NULL);
+  bool   good = true;
+
+  if (!*name || strcmp (*name, "-") != 0 || file->kind == TEXT)
+    good = true;
+  else if (options->watch)
+    good = cli_error ("%s cannot be \"-\" with --watch, which waits for files to be saved.", what);
+  else if (options->clip || options->output_dir || file->kind == HOW || file->kind == MAPS)
+    good = cli_error ("%s cannot be \"-\": it stands for more than one file.", what);
+  else if (file->kind == INPUT)
+    good = cli_stream_input (&options->streams, what, name);
+  else
+    good = cli_stream_output (&options->streams, what, ending_of (file, options->format), file->kind == REPORT, name);
+  g_free (what);
+  return good;
+}
+
+bool
+cli_files_stream (const CliCommand *command, CliOptions *options)
+{
+  bool many = command->step & (CLI_PROPAGATE | CLI_COMPOSE) || options->output_dir, good = true;
+
+  if (options->input && !strcmp (options->input, "-"))
+    good = options->watch ? cli_error ("--watch needs a file that is saved, not \"-\".") : many ? cli_error ("%s cannot be \"-\": it names other files.", command->input)
+                : cli_stream_input (&options->streams, command->input, &options->input);
+  if (good && options->target && !many && !strcmp (options->target, "-"))
+    good = cli_stream_input (&options->streams, command->second, &options->target);
+  for (size_t i = 0; good && i < G_N_ELEMENTS (files); i++)
+    if (files[i].steps & (int) command->step)
+      good = stream_file (&files[i], options);
+  return good && (!options->format || options->streams.output ||
+                  cli_error ("--format is for standard output: give an output the name \"-\"."));
 }
 
 /* ------------------------------------------------------------------ checks */
@@ -285,7 +347,7 @@ cli_files_check (const CliCommand *command, CliOptions *options)
         {
           const char *other = *file_name (options, &files[k]);
 
-          if (k != i && other && files[k].kind != TEXT && files[k].kind != MAPS && cli_same_file (name, other))
+          if (k != i && other && !is_text (files[k].kind) && files[k].kind != MAPS && cli_same_file (name, other))
             return cli_error ("--%s and --%s name the same file.", files[i].name, files[k].name);
         }
     }

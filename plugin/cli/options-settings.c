@@ -12,8 +12,8 @@
 typedef struct
 {
   const CeldSettingInfo *row;
-  bool                   alone;   /* it takes no value, and switches the setting on */
-  char                  *name, *values, *help;
+  const char            *theme;
+  char                  *values, *help;
 } SettingOption;
 
 static void
@@ -21,7 +21,6 @@ option_free (gpointer data)
 {
   SettingOption *option = data;
 
-  g_free (option->name);
   g_free (option->values);
   g_free (option->help);
   g_free (option);
@@ -29,12 +28,25 @@ option_free (gpointer data)
 
 /* ------------------------------------------------------------------ --help */
 
+/* A number without an exponent, with up to seven digits after the point. */
+static char *
+number_text (double value)
+{
+  char   digits[G_ASCII_DTOSTR_BUF_SIZE + 400];
+  size_t n = strlen (g_ascii_formatd (digits, sizeof digits, "%.7f", value));
+
+  while (digits[n - 1] == '0')
+    n--;
+  n -= digits[n - 1] == '.';
+  return g_strndup (digits, n);
+}
+
 /* The values of an option: words with | between, or a range. */
 static char *
 values_of (const CeldSettingInfo *row)
 {
   GString *values = g_string_new (NULL);
-  char     least[G_ASCII_DTOSTR_BUF_SIZE], most[G_ASCII_DTOSTR_BUF_SIZE];
+  char    *least = number_text (row->least), *most = number_text (row->most);
 
   switch (row->type)
     {
@@ -43,44 +55,42 @@ values_of (const CeldSettingInfo *row)
         g_string_append_printf (values, "%s%s", i ? "|" : "", row->choice[i].nick);
       break;
     case CELD_SETTING_SWITCH:
-      g_string_append (values, "no|yes");
+      g_string_append (values, "yes|no");
       break;
     case CELD_SETTING_COLOUR:
       g_string_append (values, "#RRGGBB");
       break;
     default:
-      g_ascii_formatd (least, sizeof least, "%.10g", row->least);
-      g_ascii_formatd (most, sizeof most, "%.10g", row->most);
       g_string_append_printf (values, row->least < 0 ? "%s..%s" : "%s-%s", least, most);
     }
+  g_free (least);
+  g_free (most);
   return g_string_free (values, FALSE);
 }
 
 static char *
 text_of (const CeldSettingInfo *row, double value)
 {
-  char number[G_ASCII_DTOSTR_BUF_SIZE];
-
   switch (row->type)
     {
     case CELD_SETTING_CHOICE: return g_strdup (row->choice[(int) value].nick);
     case CELD_SETTING_SWITCH: return g_strdup (value != 0 ? "yes" : "no");
     case CELD_SETTING_COLOUR: return g_strdup_printf ("#%06x", (guint) value);
-    default:                  return g_strdup (g_ascii_formatd (number, sizeof number, "%.6g", value));
+    default:                  return number_text (value);
     }
 }
 
 /* The first sentence of the setting's help, with a small first letter as in other options, and the default. */
 static char *
-help_of (const SettingOption *option, const CeldSettings *settings)
+help_of (const CeldSettingInfo *row, const CeldSettings *settings)
 {
-  const char *help = option->row->help, *end = strstr (help, ". ");
-  char       *usual = text_of (option->row, celd_setting_get (option->row, settings));
+  const char *help = row->help, *end = strstr (help, ". ");
+  char       *usual = text_of (row, celd_setting_get (row, settings));
   char       *text = g_strndup (help, end ? (gsize) (end - help) : strlen (help));
   char       *whole;
 
   text[0] = g_ascii_tolower (text[0]);
-  whole   = option->alone ? g_strdup (text) : g_strdup_printf ("%s (default: %s)", text, usual);
+  whole   = g_strdup_printf ("%s (default: %s)", text, usual);
   g_free (text);
   g_free (usual);
   return whole;
@@ -100,11 +110,12 @@ read_choice (const CeldSettingInfo *row, const char *text, double *value)
   return false;
 }
 
+/* A switch without a value is on. */
 static bool
 read_switch (const char *text, double *value)
 {
-  *value = !strcmp (text, "yes");
-  return *value != 0 || !strcmp (text, "no");
+  *value = !text || !strcmp (text, "yes") || !strcmp (text, "true");
+  return *value != 0 || !strcmp (text, "no") || !strcmp (text, "false");
 }
 
 static bool
@@ -135,31 +146,65 @@ read_value (const CeldSettingInfo *row, const char *text, double *value)
     }
 }
 
+/* What a setting can be, in words. */
+static char *
+allowed (const CeldSettingInfo *row)
+{
+  GString *words = g_string_new (NULL);
+  char    *least = number_text (row->least), *most = number_text (row->most);
+
+  switch (row->type)
+    {
+    case CELD_SETTING_CHOICE:
+      for (size_t i = 0; i < row->choices; i++)
+        g_string_append_printf (words, "%s%s", !i ? "" : i + 1 < row->choices ? ", " : " or ", row->choice[i].nick);
+      break;
+    case CELD_SETTING_SWITCH:
+      g_string_append (words, "yes or no");
+      break;
+    case CELD_SETTING_COLOUR:
+      g_string_append (words, "a colour such as #ff8000");
+      break;
+    default:
+      g_string_append_printf (words, "%sbetween %s and %s", row->type == CELD_SETTING_INTEGER ? "a whole number " : "",
+                              least, most);
+    }
+  g_free (least);
+  g_free (most);
+  return g_string_free (words, FALSE);
+}
+
+static void
+refuse (const CeldSettingInfo *row, const char *name, const char *text, GError **error)
+{
+  char       *words = allowed (row), *end;
+  bool        number = (g_ascii_strtod (text, &end), end != text && !*end && row->least < row->most);
+  const char *quote = number && row->type != CELD_SETTING_COLOUR ? "" : "'";
+
+  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s must be %s, not %s%s%s.", name, words, quote, text,
+               quote);
+  g_free (words);
+}
+
 /* Sets a setting from the command line; an error if the value is not within its range. */
 static gboolean
 take_setting (const char *name, const char *text, gpointer data, GError **error)
 {
-  CliOptions          *options = data;
-  const SettingOption *option = NULL;
-  double               value = 1;
+  CliOptions            *options = data;
+  const CeldSettingInfo *row = celd_setting_find (name + 2);
+  double                 value = 1;
 
-  for (guint i = 0; !option; i++)
+  if (read_value (row, text, &value) && celd_setting_allows (row, value))
     {
-      option = g_ptr_array_index (options->offered, i);
-      option = strcmp (option->name, name + 2) ? NULL : option;
-    }
-  if (option->alone || (read_value (option->row, text, &value) && celd_setting_allows (option->row, value)))
-    {
-      celd_setting_set (option->row, value, &options->settings);
-      if (option->row->type == CELD_SETTING_COLOUR)
+      celd_setting_set (row, value, &options->settings);
+      if (row->type == CELD_SETTING_COLOUR)
         {
           options->background_colour   = true;
           options->settings.background = CELD_BACKGROUND_COLOUR;
         }
       return TRUE;
     }
-  g_set_error (error, G_OPTION_ERROR, G_OPTION_ERROR_BAD_VALUE, "%s cannot be '%s': the value must be %s.", name, text,
-               option->values);
+  refuse (row, name, text, error);
   return FALSE;
 }
 
@@ -168,20 +213,20 @@ take_setting (const char *name, const char *text, gpointer data, GError **error)
 static SettingOption *
 option_new (const char *word, const CeldSettings *settings)
 {
-  SettingOption *option = g_new0 (SettingOption, 1);
-  const char    *equals = strchr (word, '=');
+  SettingOption         *option = g_new0 (SettingOption, 1);
+  const CeldSettingInfo *row = celd_setting_find (word);
 
-  option->alone  = word[0] == '+';
-  word          += option->alone;
-  option->name   = equals ? g_strndup (word, (gsize) (equals - word)) : g_strdup (word);
-  option->row    = celd_setting_find (equals ? equals + 1 : word);
-  option->values = option->alone ? NULL : values_of (option->row);
-  option->help   = help_of (option, settings);
+  option->row    = row;
+  option->values = values_of (row);
+  option->help   = help_of (row, settings);
+  while (!row->theme)
+    row--; /* the first of a theme names it */
+  option->theme = row->theme;
   return option;
 }
 
 void
-cli_settings_append (const CliCommand *command, CliOptions *options, GArray *entries)
+cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionList *list)
 {
   char **words = g_strsplit (command->settings, " ", 0);
 
@@ -191,9 +236,9 @@ cli_settings_append (const CliCommand *command, CliOptions *options, GArray *ent
       SettingOption *option = option_new (words[i], &options->settings);
 
       g_ptr_array_add (options->offered, option);
-      g_array_append_val (entries, ((GOptionEntry) {
-        option->name, 0, option->alone ? G_OPTION_FLAG_NO_ARG : 0, G_OPTION_ARG_CALLBACK, (gpointer) take_setting,
-        option->help, option->values }));
+      cli_list_add (list, option->theme, (GOptionEntry) {
+        option->row->name, 0, option->row->type == CELD_SETTING_SWITCH ? G_OPTION_FLAG_OPTIONAL_ARG : 0,
+        G_OPTION_ARG_CALLBACK, (gpointer) take_setting, option->help, option->values });
     }
   g_strfreev (words);
 }

@@ -8,16 +8,19 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Options without a value. */
+typedef struct { gboolean quiet, directx, watch, help; } CliFlags;
+
 /* Prints why the command line cannot be parsed, and which option was probably meant. */
 static void
-say_error (const GError *error, const GArray *entries)
+say_error (const GError *error, const CliOptionList *list)
 {
   const char  *unknown = strstr (error->message, "--"), *nearest = NULL;
   char        *name = unknown ? g_strndup (unknown + 2, strcspn (unknown + 2, "=")) : NULL;
-  const char **names = g_new0 (const char *, entries->len + 1);
+  const char **names = g_new0 (const char *, list->entries->len + 1);
 
-  for (guint i = 0; i < entries->len; i++)
-    names[i] = g_array_index (entries, GOptionEntry, i).long_name;
+  for (guint i = 0; i < list->entries->len; i++)
+    names[i] = g_array_index (list->entries, GOptionEntry, i).long_name;
   if (g_error_matches (error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION) && name)
     nearest = cli_nearest_name (name, names);
   if (nearest)
@@ -28,52 +31,112 @@ say_error (const GError *error, const GArray *entries)
   g_free (names);
 }
 
+/* ------------------------------------------------------------------ missing values */
+
+/* The option of a word such as "--depth" or "-n"; NULL: it is none, or has its value after "=". */
+static const GOptionEntry *
+find_option (const CliOptionList *list, const char *word)
+{
+  for (guint i = 0; word[0] == '-' && i < list->entries->len; i++)
+    {
+      const GOptionEntry *entry = &g_array_index (list->entries, GOptionEntry, i);
+
+      if (word[1] == '-' ? !strcmp (entry->long_name, word + 2) : (word[1] && entry->short_name == word[1] && !word[2]))
+        return entry;
+    }
+  return NULL;
+}
+
+static bool
+needs_value (const GOptionEntry *entry)
+{
+  return entry->arg != G_OPTION_ARG_NONE && !(entry->flags & G_OPTION_FLAG_OPTIONAL_ARG);
+}
+
+/* Is a word an option, and no value?  Negative numbers and "-" are values. */
+static bool
+is_option (const char *word)
+{
+  return word[0] == '-' && (word[1] == '-' || g_ascii_isalpha (word[1]));
+}
+
+/* Whether each option that needs a value has one; if not, prints which one lacks it.  An option never takes the next
+ * one for its value. */
+static bool
+check_values (const CliOptionList *list, int argc, char **argv)
+{
+  for (int i = 1; i < argc && strcmp (argv[i], "--") != 0; i++)
+    {
+      const GOptionEntry *entry = find_option (list, argv[i]);
+
+      if (!entry || !needs_value (entry))
+        continue;
+      if (i + 1 == argc)
+        return cli_error ("%s needs a value: %s %s.", argv[i], argv[i], entry->arg_description);
+      if (is_option (argv[i + 1]))
+        return cli_error ("%s needs a value (%s %s), but the option %s follows.", argv[i], argv[i],
+                          entry->arg_description, argv[i + 1]);
+      i++;
+    }
+  return true;
+}
+
+/* ------------------------------------------------------------------ the command line */
+
 /* Parses the command line with GOption. */
 static bool
-parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
+parse_words (CliOptionList *list, int *argc, char ***argv, CliOptions *options)
 {
-  GArray         *entries = g_array_new (TRUE, TRUE, sizeof (GOptionEntry));
-  char           *names = g_strjoin (" ", command->input, command->second, NULL);
-  GOptionContext *context = g_option_context_new (names);
+  GOptionContext *context = g_option_context_new (NULL);
   GOptionGroup   *group = g_option_group_new ("main", "", "", options, NULL);
-  char           *description = g_strdup_printf ("Examples:\n%s\n", command->examples);
-  char           *program = g_strdup_printf ("celdepth %s", command->name);
-  gboolean        quiet = FALSE, directx = FALSE, watch = FALSE;
   GError         *error = NULL;
   bool            good;
 
-  cli_files_append (command, options, entries);
-  cli_settings_append (command, options, entries);
-  cli_counts_append (command, entries);
-  if (command->step == CLI_SHADE)
-    g_array_append_val (entries, ((GOptionEntry) {
-      "directx", 0, 0, G_OPTION_ARG_NONE, &directx, "green in normals points down, as in DirectX, instead of up",
-      NULL }));
-  if (command->step & GIVES_LABELS)
-    g_array_append_val (entries, ((GOptionEntry) {
-      "watch", 0, 0, G_OPTION_ARG_NONE, &watch, "make the results again whenever an input is saved, until Ctrl+C",
-      NULL }));
-  if (command->step == CLI_PROPAGATE)
-    cli_clip_options_append (options, entries);
-  g_array_append_val (entries, ((GOptionEntry) {
-    "quiet", 'q', 0, G_OPTION_ARG_NONE, &quiet, "print errors only, no progress and no hints", NULL }));
-  g_option_group_add_entries (group, (const GOptionEntry *) (void *) entries->data);
+  g_option_group_add_entries (group, (const GOptionEntry *) (void *) list->entries->data);
   g_option_context_set_main_group (context, group);
-  g_option_context_set_summary (context, command->summary);
-  g_option_context_set_description (context, description);
-  g_set_prgname (program);
+  g_option_context_set_help_enabled (context, FALSE);
   good = g_option_context_parse (context, argc, argv, &error);
-  options->quiet   = quiet;
-  options->directx = directx;
-  options->watch   = watch;
   if (!good)
-    say_error (error, entries);
+    say_error (error, list);
   g_clear_error (&error);
   g_option_context_free (context);
-  g_array_free (entries, TRUE);
-  g_free (description);
-  g_free (names);
-  g_free (program);
+  return good;
+}
+
+/* Collects the options of a command, and parses them. */
+static bool
+parse (const CliCommand *command, int *argc, char ***argv, CliOptions *options)
+{
+  CliFlags      flags = { 0 };
+  CliOptionList list = { g_array_new (TRUE, TRUE, sizeof (GOptionEntry)), g_ptr_array_new () };
+  bool          good;
+
+  if (command->step == CLI_PROPAGATE)
+    cli_clip_options_append (options, &list);
+  cli_files_append (command, options, &list);
+  cli_counts_append (command, &list);
+  if (command->step == CLI_SHADE)
+    cli_list_add (&list, "Output", (GOptionEntry) {
+      "directx", 0, 0, G_OPTION_ARG_NONE, &flags.directx,
+      "green in normals points down, as in DirectX, instead of up", NULL });
+  cli_settings_append (command, options, &list);
+  if (command->step & GIVES_LABELS)
+    cli_list_add (&list, "Other", (GOptionEntry) {
+      "watch", 0, 0, G_OPTION_ARG_NONE, &flags.watch,
+      "make the results again whenever an input is saved, until Ctrl+C", NULL });
+  cli_list_add (&list, "Other", (GOptionEntry) {
+    "quiet", 'q', 0, G_OPTION_ARG_NONE, &flags.quiet, "print errors only, no progress and no warnings", NULL });
+  cli_list_add (&list, "Other", (GOptionEntry) {
+    "help", 'h', 0, G_OPTION_ARG_NONE, &flags.help, "print this text", NULL });
+  good = check_values (&list, *argc, *argv) && parse_words (&list, argc, argv, options);
+  if (good && flags.help)
+    cli_help_print (command, &list);
+  options->help    = flags.help;
+  options->quiet   = flags.quiet;
+  options->directx = flags.directx;
+  options->watch   = flags.watch;
+  g_array_free (list.entries, TRUE);
+  g_ptr_array_free (list.sections, TRUE);
   return good;
 }
 
@@ -95,7 +158,7 @@ check_input (const CliCommand *command, int argc, char **argv, CliOptions *optio
   options->input  = g_strdup (argv[1]);
   options->target = argc > 2 ? g_strdup (argv[2]) : NULL;
   options->inputs = g_strdupv (argv + 1);
-  return true;
+  return cli_files_stream (command, options);
 }
 
 static bool
@@ -104,13 +167,12 @@ check (const CliCommand *command, int argc, char **argv, CliOptions *options)
   if (!check_input (command, argc, argv, options))
     return false;
   cli_counts_complete (options);
-  if (options->relations && options->relations_file)
-    return cli_error ("Give either --relations or --relations-file.");
   if (options->settings.background == CELD_BACKGROUND_COLOUR && !options->background_colour)
     return cli_error ("--background colour needs --background-colour.");
   if (celd_settings_check (&options->settings) != CELD_OK)
     return cli_error ("--near-level must be above --far-level.");
-  return options->clip || ((!command->check || command->check (options)) && cli_files_check (command, options));
+  return options->clip || ((!command->check || command->check (options)) && cli_files_check (command, options) &&
+                           cli_texts_check (options));
 }
 
 int
@@ -120,8 +182,12 @@ cli_options_parse (const CliCommand *command, int argc, char **argv, CliOptions 
   if (command->begin)
     command->begin (options);
   cli_command_line_keep (argc, argv, options);
-  if (parse (command, &argc, &argv, options) && check (command, argc, argv, options))
-    return options->clip || cli_files_check_places (options) ? CLI_DONE : CLI_FAILED; /* of a clip, for each frame */
+  if (parse (command, &argc, &argv, options) && (options->help || check (command, argc, argv, options)))
+    {
+      bool later = options->help || options->clip; /* those of a clip are checked for each frame */
+
+      return later || cli_files_check_places (options) ? CLI_DONE : CLI_FAILED;
+    }
   fprintf (stderr, "'celdepth %s --help' shows its usage.\n", command->name);
   return CLI_USAGE;
 }
@@ -134,4 +200,5 @@ cli_options_clear (CliOptions *options)
   cli_clip_options_clear (options);
   g_free (options->input);
   g_free (options->target);
+  cli_streams_clear (&options->streams);
 }

@@ -13,12 +13,21 @@
 #define WITH_LAYERS    (MADE_OF_LABELS | CLI_EXACT | CLI_RELIEF)
 #define OF_LEVELS      (CLI_EXPAND | CLI_SMOOTH | CLI_SHADE)
 #define WITH_PARTS     (WITH_LAYERS | CLI_REGISTER)
+#define COLOURED       (MADE_OF_LABELS - CLI_SEGMENT + (CLI_ENHANCE | CLI_SHADE | CLI_RELIEF | CLI_REGISTER | CLI_INBETWEEN))
 #define WITH_INK       (WITH_PARTS | CLI_ORDER | OF_LEVELS)
+
+/* ------------------------------------------------------------------ help.c */
+
+/* The options of a command: GOptionEntry, and the heading that each has in --help. */
+typedef struct { GArray *entries; GPtrArray *sections; } CliOptionList;
+
+void cli_list_add   (CliOptionList *list, const char *section, GOptionEntry entry);
+void cli_help_print (const CliCommand *command, const CliOptionList *list);
 
 /* ------------------------------------------------------------------ options-files.c */
 
-/* Appends a GOptionEntry for each file of a command. */
-void cli_files_append (const CliCommand *command, CliOptions *options, GArray *entries);
+/* Adds each file of a command. */
+void cli_files_append (const CliCommand *command, CliOptions *options, CliOptionList *list);
 /* Whether required files are given, and outputs have different names with endings that can be written. */
 bool cli_files_check (const CliCommand *command, CliOptions *options);
 /* Whether the outputs can be written there, which is checked before the work begins. */
@@ -29,28 +38,38 @@ void cli_files_number (const CliOptions *all, int number, CliOptions *frame);
 
 /* The settings of sub-commands that make regions, and in addition of those that make views. */
 #define CLI_SETTINGS_OF_LABELS \
-  "ink ink-threshold method close-gaps keep-necks hardness +flats background background-colour seeds same-colour " \
+  "ink ink-threshold method close-gaps keep-necks hardness flats background background-colour seeds same-colour " \
   "arrow-style"
 #define CLI_SETTINGS_OF_SCENES " on-cycle suggest expansion margin anchors hold-rest hold-gaps"
 
+/* Has files in place of all names "-". */
+bool cli_files_stream (const CliCommand *command, CliOptions *options);
+
+/* ------------------------------------------------------------------ streams.c */
+
+/* Reads standard input into a file, whose name replaces *name.  `what` is the option that wants it, for messages. */
+bool cli_stream_input  (CliStreams *streams, const char *what, char **name);
+/* Replaces *name by that of a file that is to be copied to standard output; ending NULL: none. */
+bool cli_stream_output (CliStreams *streams, const char *what, const char *ending, bool text, char **name);
+
 /* ------------------------------------------------------------------ options-settings.c */
 
-/* Appends a GOptionEntry for each setting of a command; its data are the CliOptions. */
-void cli_settings_append (const CliCommand *command, CliOptions *options, GArray *entries);
+/* Adds each setting of a command; the data of its entry are the CliOptions. */
+void cli_settings_append (const CliCommand *command, CliOptions *options, CliOptionList *list);
 void cli_settings_clear (CliOptions *options);
 
 /* ------------------------------------------------------------------ options-clip.c */
 
-/* Appends the options of propagate that may be repeated. */
-void cli_clip_options_append (CliOptions *options, GArray *entries);
+/* Adds the options of propagate that may be repeated. */
+void cli_clip_options_append (CliOptions *options, CliOptionList *list);
 /* Keeps the command line for scripts, before it is parsed. */
 void cli_command_line_keep   (int argc, char **argv, CliOptions *options);
 void cli_clip_options_clear  (CliOptions *options);
 
 /* ------------------------------------------------------------------ options-counts.c */
 
-/* Appends a GOptionEntry for each whole number of a command; its data are the CliOptions. */
-void cli_counts_append   (const CliCommand *command, GArray *entries);
+/* Adds each whole number of a command; the data of its entry are the CliOptions. */
+void cli_counts_append   (const CliCommand *command, CliOptionList *list);
 /* Sets those that were not given. */
 void cli_counts_complete (CliOptions *options);
 

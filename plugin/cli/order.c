@@ -25,9 +25,8 @@ load_ordering (const CliOptions *options, Ordering *o)
   CeldTextError error;
   const char   *path = options->arrow_path ? options->arrow_path : "";
   bool          good = text &&
-                       cli_check_text (celd_relations_parse (text, &o->relations, &error),
-                                       cli_relations_name (options), &error) &&
-                       cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "Arrow path", &error) &&
+                       cli_check_relations (celd_relations_parse (text, &o->relations, &error), options, &error) &&
+                       cli_check_text (celd_arrow_path_parse (path, &o->relations, &error), "--arrow-path", &error) &&
                        cli_layer_read (options->input, "labels", &o->layers, &o->paint) &&
                        cli_layers_read (options->drawing, options, CLI_ARROWS | CLI_CONTOURS, &o->layers) &&
                        (!options->depth_hint || cli_hint_read (options->depth_hint, &o->layers, &o->hint)) &&
@@ -69,7 +68,7 @@ write_ordering (const CliOptions *options, const Ordering *o)
 
   for (size_t i = 0; good && i < (size_t) levels.width * (size_t) levels.height; i++)
     levels.data[i] = celd_order_value (&o->order, o->order.level[o->labels.data[i] - 1], settings);
-  good = good && cli_write_depth (options->levels, &levels,
+  good = good && cli_write_depth (options->unexpanded, &levels,
                                   ranks ? celd_order_value (&o->order, o->order.levels - 1, settings) : 1);
   g_free (levels.data);
   return good && (!options->suggestions || cli_write_relations (options->suggestions, &o->suggestions));
@@ -115,7 +114,7 @@ run_order (const CliOptions *options)
   int      code = CLI_FAILED;
   bool     good;
 
-  cli_run_begin (&o.run, options->quiet);
+  cli_run_begin (&o.run, options, "reading ink order writing");
   good = load_ordering (options, &o);
   if (good)
     {
@@ -133,9 +132,10 @@ const CliCommand cli_order_command = {
   .step     = CLI_ORDER,
   .input    = "LABELS",
   .summary  = "Orders regions by depth. Contours stay where the segmentation put them.",
-  .examples = "  celdepth order flat.png --arrows arrows.png --drawing bee.png --levels flat-levels.npy\n"
-              "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' --levels flat-levels.npy",
+  .examples = "  celdepth order flat.png --arrows arrows.png --drawing bee.png --unexpanded-levels flat-levels.npy\n"
+              "  celdepth order flat.png --relations '120,80 > 300,90; 300,90 > 10,10' \\\n"
+              "      --unexpanded-levels flat-levels.npy",
   .settings = "ink background background-colour same-colour arrow-style on-cycle suggest encoding near-level far-level",
-  .output   = "depth",
+  .output   = "unexpanded-levels",
   .run      = run_order,
 };

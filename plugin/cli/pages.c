@@ -467,7 +467,7 @@ make_pages (Book *book)
   guint timer = g_timeout_add (LOOK_AFTER, look_for_end, book);
   bool  good;
 
-  cli_run_begin (&book->run, book->options.quiet);
+  cli_run_begin (&book->run, &book->options, "pages");
   cli_run_stage (&book->run, "pages");
   look_at_pages (book);
   while (book->running > 0)

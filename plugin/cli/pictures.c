@@ -124,8 +124,9 @@ take_coloured_lines (const Colours *colours, CeldInkMode mode, CeldDrawing *draw
 }
 
 bool
-cli_read_drawing (CeldIoFile *file, size_t part, CeldInkMode mode, CeldDrawing *drawing)
+cli_read_drawing (CeldIoFile *file, size_t part, const char *path, const CliOptions *options, CeldDrawing *drawing)
 {
+  CeldInkMode mode = options->settings.ink;
   int     width = celd_io_width (file), height = celd_io_height (file);
   bool    alpha = celd_io_part (file, part)->alpha;
   float  *row = g_new (float, 4 * (gsize) width);
@@ -141,6 +142,7 @@ cli_read_drawing (CeldIoFile *file, size_t part, CeldInkMode mode, CeldDrawing *
       colours_convert (&colours, y, row);
       celd_luma (row, (size_t) width, drawing->luma.data + start, alpha ? drawing->alpha.data + start : NULL);
     }
+  good = good && (mode != CELD_INK_AUTO || options->settings.flats || cli_check_drawing (path, drawing, options->quiet));
   if (good && (colours.channels > 2 || mode == CELD_INK_LINES))
     good = take_coloured_lines (&colours, mode, drawing);
   g_free (row);

@@ -38,7 +38,7 @@ const CliCommand cli_popup_command = {
               "  celdepth popup pages/*.psd --output-dir out --depth --shaded\n"
               "  celdepth popup page.ora --shaded lit.png --watch",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest encoding near-level far-level expansion anchors hold-rest "
-              "hold-gaps tolerance bulge bevel quilt frame-outline light-model toon-steps light-background light "
+              "hold-gaps tolerance bulge bevel creases frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
               "rim-power enhance shadow-size shadow-strength shadow-offset shadow-range complete margin stereo "
               "disparity convergence floating-window screen-width",

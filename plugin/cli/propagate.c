@@ -337,8 +337,13 @@ run_propagate (const CliOptions *options)
   CliMotion motion = { .options = options };
   CliRun    run;
   int       code = CLI_FAILED;
+  GString  *stages = g_string_new (NULL);
 
-  cli_run_begin (&run, options->quiet);
+  for (char **key = options->keys; key && *key; key++)
+    g_string_append (stages, "keys ");
+  g_string_append_printf (stages, "frames*%u", g_strv_length (options->inputs));
+  cli_run_begin (&run, options, stages->str);
+  g_string_free (stages, TRUE);
   if (propagate (options, &motion, &run))
     code = motion.order.n_cycles ? CLI_CONTRADICTED : CLI_DONE;
   cli_keys_clear (&motion);
@@ -369,7 +374,7 @@ const CliCommand cli_propagate_command = {
   .input    = "FRAMES...",
   .summary  = "Carries scribbles, regions and levels from key frames to all frames of a clip.",
   .examples = "  celdepth propagate walk_###.png --key 0 --scribbles strokes.png --arrows arrows.png \\\n"
-              "      --labels-dir walk --depth-dir walk --report review.json\n"
+              "      --labels-dir walk --depth-dir walk --review review.json\n"
               "  celdepth propagate frames --key 1 --scribbles s1.png --key 24 --scribbles s24.png \\\n"
               "      --relations-file order.txt --labels-dir clip\n"
               "  celdepth shade --clip clip --shaded lit.png",

@@ -200,7 +200,7 @@ run_register (const CliOptions *options)
   Registration r = { .options = options, .session = celd_session_new () };
   int          code = CLI_FAILED;
 
-  cli_run_begin (&r.run, options->quiet);
+  cli_run_begin (&r.run, options, "reading labels order lattice registration writing");
   if (cli_check (r.session ? CELD_OK : CELD_NO_MEMORY) && read_drawings (&r) && make_lattice (&r) &&
       move_lattice (&r) && (!options->displacement || write_displacement (&r)) &&
       (!options->warped || write_warped (&r)))
@@ -230,8 +230,9 @@ const CliCommand cli_register_command = {
   .second   = "TARGET",
   .summary  = "Finds where each part of a drawing is in the next one.",
   .examples = "  celdepth register walk1.png walk2.png --displacement moved.npy --confidence sure.png\n"
-              "  celdepth register walk1.png walk2.png --scribbles strokes.png --arrows arrows.png --warped moved.png\n"
-              "  celdepth register walk1.png walk2.png --levels levels.npy --displacement moved.exr\n",
+              "  celdepth register walk1.png walk2.png --scribbles strokes.png --arrows arrows.png \\\n"
+              "      --warped moved.png\n"
+              "  celdepth register walk1.png walk2.png --source-levels levels.npy --displacement moved.exr",
   .settings = CLI_SETTINGS_OF_LABELS " on-cycle expansion cell-size stiffness",
   .output   = "displacement",
   .check    = check,

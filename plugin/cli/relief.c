@@ -7,7 +7,7 @@
 static bool
 wants_parts (const CliOptions *options)
 {
-  return options->mesh && options->settings.mesh != CELD_MESH_HEIGHTFIELD;
+  return options->mesh && options->settings.mesh_kind != CELD_MESH_HEIGHTFIELD;
 }
 
 static bool
@@ -45,7 +45,7 @@ write_surface (const CliOptions *options, const CeldRelief *relief, CliLayers *i
   CeldStatus     status;
   bool           good;
 
-  s.mesh = celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
+  s.mesh_kind = celd_io_mesh_kind (options->mesh) == CELD_IO_STL ? CELD_MESH_SOLID : CELD_MESH_SURFACE;
   cli_run_stage (run, "mesh");
   status = celd_relief_mesh (relief, &s, &run->host, &mesh);
   good   = cli_mesh_finish (options, run, status, mesh.error) &&
@@ -220,8 +220,9 @@ run_on_drawing (const CliOptions *options)
   bool             good;
 
   whole.settings = cli_model_settings (options);
+  cli_run_begin (&run, options, "reading labels order relief mesh writing");
+  cli_run_stage (&run, "reading");
   good = cli_check (session ? CELD_OK : CELD_NO_MEMORY) && cli_session_load (session, &whole, &input);
-  cli_run_begin (&run, options->quiet);
   if (good && cli_run_finish (&run, make_order (session, &run, &labels, &order)) &&
       (!wants_heights (options) || relief_of_session (session, options, &input, &run)) &&
       (!wants_parts (options) || model_of_session (session, options, &input, &run)))
@@ -264,8 +265,8 @@ const CliCommand cli_relief_command = {
               "  celdepth relief page.psd --mesh page.stl --mesh-size 80\n"
               "  celdepth relief levels.npy --drawing bee.png --regions flat.png --colours art.png --mesh bee.glb\n"
               "  celdepth relief levels.npy --drawing bee.png --depth depth.npy --height height.exr",
-  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion tolerance bulge=relief-bulge from=relief-from "
-              "relief-depth mesh-kind=mesh mesh-size mesh-plate mesh-error most-vertices",
+  .settings = CLI_SETTINGS_OF_LABELS " on-cycle suggest expansion tolerance relief-bulge relief-from "
+              "relief-depth mesh-kind mesh-size mesh-plate mesh-error most-vertices",
   .output   = "mesh",
   .check    = check,
   .run      = run_relief,

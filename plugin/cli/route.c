@@ -36,7 +36,7 @@ make (CeldSession *session, const CliOptions *options, bool whole_route, CliRun 
     return status;
   cli_run_stage (run, "order");
   status = celd_session_order (session, &run->host, &results->order);
-  if (status == CELD_OK && options->order)
+  if (status == CELD_OK && options->unexpanded)
     status = celd_session_unexpanded_levels (session, &run->host, &results->unexpanded, NULL);
   if (options->levels || options->depth || options->normals || options->shading)
     cli_run_stage (run, "levels");
@@ -81,7 +81,7 @@ write_results (CeldSession *session, const CliOptions *options, const Results *r
          (!options->suggestions || cli_write_relations (options->suggestions, results->suggestions)) &&
          (!options->suggested_arrows ||
           write_layer (session, options->suggested_arrows, results, celd_session_paint_suggestions)) &&
-         (!options->order   || cli_write_depth (options->order, &results->unexpanded, nearest)) &&
+         (!options->unexpanded   || cli_write_depth (options->unexpanded, &results->unexpanded, nearest)) &&
          (!options->levels  || cli_write_depth (options->levels, &results->levels, nearest)) &&
          (!options->depth   || cli_write_depth (options->depth, &results->depth, nearest)) &&
          (!options->normals || cli_write_normals (options->normals, &results->normals)) &&
@@ -113,6 +113,20 @@ needs_art (const CliOptions *options)
   return options->shaded || options->enhanced || options->layers || options->left || options->right || options->stereo;
 }
 
+/* The stages of the results that are asked for. */
+static char *
+plan (const CliOptions *o, bool whole_route)
+{
+  bool views = o->left || o->right || o->stereo;
+
+  if (!whole_route)
+    return g_strdup ("reading ink labels writing");
+  return g_strconcat ("reading ink labels order", o->levels || o->depth || o->normals || o->shading ? " levels" : "",
+                      o->depth ? " depth" : "", o->normals || o->shading ? " normals" : "", " writing",
+                      o->shaded ? " light" : "", o->enhanced ? " shadows" : "", o->layers ? " layers writing" : "",
+                      views ? " depth layers scene left right" : "", NULL);
+}
+
 /* What a run is made of: the session keeps its results for the next one. */
 typedef struct { CeldSession *session; const CliOptions *options; const char *command; bool whole_route; } Route;
 
@@ -128,21 +142,25 @@ run_route (void *data)
   Results           results = { 0 };
   CliRun            run;
   int               code = CLI_FAILED;
+  char             *stages = plan (options, route->whole_route);
   bool              good;
 
-  cli_run_begin (&run, options->quiet);
+  cli_run_begin (&run, options, stages);
+  cli_run_stage (&run, "reading");
   good = cli_session_load (session, options, &layers);
   if (good && needs_art (options))
     good = cli_art_read (options->input, options->colours, true, &layers, &art);
   cli_layers_clear (&layers);
-  if (good && cli_run_finish (&run, make (session, options, route->whole_route, &run, &results)) &&
-      write_results (session, options, &results) && (!art.data || cli_uses_write (session, options, &art, &run)))
+  good = good && cli_run_finish (&run, make (session, options, route->whole_route, &run, &results));
+  cli_run_stage (&run, "writing");
+  if (good && write_results (session, options, &results) && (!art.data || cli_uses_write (session, options, &art, &run)))
     {
       cli_say_kept (true);
       code = finish (session, route->command, options, &run, &results);
     }
   cli_run_end (&run);
   g_free (art.data);
+  g_free (stages);
   return code;
 }
 

@@ -30,14 +30,16 @@ cli_session_load (CeldSession *session, const CliOptions *options, CliLayers *la
   CeldTextError error;
   CeldPlane     ink;
   bool          good = text &&
-                       cli_check_text (celd_session_set_relations (session, text, &error),
-                                       cli_relations_name (options), &error) &&
+                       cli_check_relations (celd_session_set_relations (session, text, &error), options, &error) &&
                        cli_check_text (celd_session_set_arrow_path (session, options->arrow_path, &error),
-                                       "Arrow path", &error) &&
+                                       "--arrow-path", &error) &&
                        cli_layers_read (options->input, options,
                                         CLI_SCRIBBLES | CLI_ARROWS | CLI_CONTOURS | CLI_CORRECTIONS | CLI_HIDDEN,
                                         layers) &&
                        cli_check_not_exchanged (options, layers) &&
+                       (!layers->scribbles.data || options->settings.flats ||
+                        cli_check_scribbles (options->scribbles ? options->scribbles : options->input,
+                                             &layers->scribbles)) &&
                        cli_check (celd_session_set_settings (session, &options->settings)) &&
                        cli_check (celd_session_set_drawing (session, &layers->drawing));
 

@@ -77,15 +77,15 @@ read_hints (const CliOptions *options, Shade *s)
   return !options->hints || cli_layer_read (options->hints, "hints", &s->layers, &s->hints);
 }
 
-/* Reads the art to light: that of --art, or else the drawing. */
+/* Reads the art to light: that of --colours, or else the drawing. */
 static bool
 read_art (const CliOptions *options, Shade *s)
 {
   if (!options->shaded && !options->maps)
     return true;
-  if (!options->art)
+  if (!options->colours)
     return cli_art_read (options->drawing, NULL, true, &s->layers, &s->art);
-  return cli_art_read (options->art, options->art, true, &s->layers, &s->art);
+  return cli_art_read (options->colours, options->colours, true, &s->layers, &s->art);
 }
 
 static bool
@@ -337,7 +337,7 @@ run_shade (const CliOptions *options)
   CliRun run;
   bool   good;
 
-  cli_run_begin (&run, options->quiet);
+  cli_run_begin (&run, options, "reading shade writing");
   good = read_all (options, &s) && new_results (options, &s) && shade_cells (options, &run, &s) &&
          write_all (options, &s);
   clear (&s);
@@ -352,10 +352,10 @@ const CliCommand cli_shade_command = {
   .summary  = "Computes normals that bend at contours, and shades them.",
   .examples = "  celdepth shade levels.npy --drawing bee.png --normals normals.png --shading shading.png \\\n"
               "      --light-azimuth 45\n"
-              "  celdepth shade levels.npy --drawing bee.png --art colours.png --shaded bee-lit.png \\\n"
+              "  celdepth shade levels.npy --drawing bee.png --colours colours.png --shaded bee-lit.png \\\n"
               "      --light-model toon --specular 0.4 --rim-light 0.3\n"
               "  celdepth shade levels.npy --drawing walk.png --maps walk.png --grid 8x1",
-  .settings = "ink ink-threshold bulge bevel quilt frame-outline light-model toon-steps light-background light "
+  .settings = "ink ink-threshold bulge bevel creases frame-outline light-model toon-steps light-background light "
               "light-azimuth light-elevation ambient light-x light-y light-height specular shininess rim-light "
               "rim-power shadow-size shadow-strength",
   .output   = "shading",

@@ -12,7 +12,7 @@ read_anchors (const CliOptions *options, CliLayers *layers, CeldMask *anchors)
   CeldLabels  seeds = { 0 };
   CeldPalette palette = { 0 };
   size_t      n = (size_t) layers->width * (size_t) layers->height;
-  bool        good = cli_layer_read (options->anchors, "scribbles", layers, &paint) &&
+  bool        good = cli_layer_read (options->scribbles, "scribbles", layers, &paint) &&
                      cli_labels_new (paint.width, paint.height, &seeds) &&
                      cli_check (celd_scribbles_read (&paint, &options->settings, NULL, &seeds, &palette));
 
@@ -41,7 +41,7 @@ run_smooth (const CliOptions *options)
   CeldPlane borders = { 0 };
   CeldSolve solve = { 0 };
   bool      good = cli_step_begin (options, &step) &&
-                   (!options->anchors || read_anchors (options, &step.layers, &anchors)) &&
+                   (!options->scribbles || read_anchors (options, &step.layers, &anchors)) &&
                    make_borders (&step, options, &borders);
 
   if (good)
@@ -70,7 +70,7 @@ const CliCommand cli_smooth_command = {
   .step     = CLI_SMOOTH,
   .input    = "LEVELS",
   .summary  = "Turns levels into smooth depth, which changes abruptly at contours only.",
-  .examples = "  celdepth smooth levels.npy --drawing bee.png --anchors strokes.png --depth depth.exr",
+  .examples = "  celdepth smooth levels.npy --drawing bee.png --scribbles strokes.png --depth depth.exr",
   .settings = "ink ink-threshold hold-rest hold-gaps tolerance",
   .output   = "depth",
   .run      = run_smooth,

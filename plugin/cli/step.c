@@ -35,7 +35,7 @@ bool
 cli_step_begin (const CliOptions *options, CliStep *step)
 {
   *step = (CliStep) { 0 };
-  cli_run_begin (&step->run, options->quiet);
+  cli_run_begin (&step->run, options, "reading ink levels depth relief mesh writing");
   if (!cli_read_levels (options->input, &step->levels) || !cli_check_levels (options->input, &step->levels))
     return false;
   step->layers.width  = step->levels.width;

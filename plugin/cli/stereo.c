@@ -163,7 +163,12 @@ run_stereo (const CliOptions *options)
   CliRun   run;
   int      code = CLI_FAILED;
 
-  cli_run_begin (&run, options->quiet);
+  bool     pair = options->left || options->right || options->stereo;
+  int      many = (options->quilt ? options->views : 0) + (options->sequence ? options->views : 0);
+  char    *stages = g_strdup_printf ("reading labels order depth layers scene%s views*%d", pair ? " left right" : "",
+                                     many);
+
+  cli_run_begin (&run, options, stages);
   if (cli_scene_new (options, &run, &s))
     {
       s.frames = options->views;
@@ -175,6 +180,7 @@ run_stereo (const CliOptions *options)
     }
   cli_scene_clear (&s);
   cli_run_end (&run);
+  g_free (stages);
   return code;
 }
 
@@ -183,7 +189,8 @@ const CliCommand cli_stereo_command = {
   .step     = CLI_STEREO,
   .input    = "DRAWING|LAYERED",
   .summary  = "Makes a stereo picture of a drawing, from its layers and their depth.",
-  .examples = "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined bee.png --stereo dubois\n"
+  .examples = "  celdepth stereo bee.png --scribbles strokes.png --arrows arrows.png --joined glasses.png \\\n"
+              "      --stereo dubois\n"
               "  celdepth stereo bee.png --scribbles strokes.png --colours art.png --left left.png \\\n"
               "      --right right.png --disparity 0.03\n"
               "  celdepth stereo page.psd --joined page.mpo\n"

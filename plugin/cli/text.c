@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <glib/gstdio.h>
 #include <stdio.h>
+#include <string.h>
 
 /* ------------------------------------------------------------------ relations */
 
@@ -53,6 +54,123 @@ cli_relation_text (const CeldRelation *relation, const char *const *names)
   if (relation->anchor)
     g_string_append (text, " !anchor");
   return g_string_free (text, FALSE);
+}
+
+/* ------------------------------------------------------------------ texts that are given */
+
+char *
+cli_text_or_file (const char *given, const char *path)
+{
+  char   *text = NULL;
+  gsize   length = 0;
+  GError *error = NULL;
+
+  if (!path)
+    return g_strdup (given ? given : "");
+  if (!g_file_get_contents (path, &text, &length, &error))
+    {
+      cli_say ("Cannot read \"%s\": %s", path, error->message);
+      g_error_free (error);
+      return NULL;
+    }
+  if (strlen (text) < length)
+    {
+      cli_say ("Cannot read \"%s\": it is not a text file.", path);
+      g_clear_pointer (&text, g_free);
+    }
+  return text;
+}
+
+char *
+cli_relations_text (const CliOptions *options)
+{
+  char *file = cli_text_or_file (NULL, options->relations_file), *all;
+
+  if (!file || !options->relations)
+    return file;
+  all = g_strconcat (options->relations, "\n", file, NULL);
+  g_free (file);
+  return all;
+}
+
+const char *
+cli_relations_place (const CliOptions *options, int *line)
+{
+  int before = options->relations ? 1 : 0; /* lines above those of the file */
+
+  for (const char *c = options->relations; c && *c; c++)
+    before += *c == '\n';
+  if (!options->relations_file || *line <= before)
+    return "--relations";
+  *line -= before;
+  return options->relations_file;
+}
+
+bool
+cli_check_text (CeldStatus status, const char *name, const CeldTextError *error)
+{
+  if (status != CELD_BAD_RELATION)
+    return cli_check (status);
+  return cli_error ("%s, line %d, column %d: expected %s, but found %s.", name, error->line, error->column,
+                    error->expected, error->found);
+}
+
+bool
+cli_check_relations (CeldStatus status, const CliOptions *options, const CeldTextError *error)
+{
+  CeldTextError place = *error;
+  const char   *name = "";
+
+  if (status == CELD_BAD_RELATION)
+    name = cli_relations_place (options, &place.line);
+  return cli_check_text (status, name, &place);
+}
+
+static char *
+text_of_file (const char *path)
+{
+  char *text = NULL;
+
+  return path && g_file_get_contents (path, &text, NULL, NULL) ? text : g_strdup ("");
+}
+
+static bool
+check_relations (const CliOptions *options)
+{
+  char         *file = text_of_file (options->relations_file);
+  char         *text = options->relations ? g_strconcat (options->relations, "\n", file, NULL) : g_strdup (file);
+  CeldRelations relations = { 0 };
+  CeldTextError error;
+  bool          good = cli_check_relations (celd_relations_parse (text, &relations, &error), options, &error) &&
+                       cli_check_text (celd_arrow_path_parse (options->arrow_path ? options->arrow_path : "",
+                                                              &relations, &error), "--arrow-path", &error);
+
+  celd_relations_clear (&relations);
+  g_free (text);
+  g_free (file);
+  return good;
+}
+
+static bool
+check_handles (const char *text, const char *name)
+{
+  CeldHandles   handles = { 0 };
+  CeldTextError error;
+  bool          good = cli_check_text (celd_handles_parse (text, &handles, &error), name, &error);
+
+  celd_handles_clear (&handles);
+  return good;
+}
+
+bool
+cli_texts_check (const CliOptions *options)
+{
+  char *handles = text_of_file (options->handles_file);
+  bool  good = check_relations (options) && (!options->handles || check_handles (options->handles, "--handles")) &&
+               (!options->handles_file || check_handles (handles, options->handles_file));
+
+  g_free (handles);
+  return good;
 }
 
 /* ------------------------------------------------------------------ files */

@@ -18,8 +18,9 @@ run_wiggle (const CliOptions *options)
   CliScene s;
   CliRun   run;
   int      code = CLI_FAILED;
+  char    *stages = g_strdup_printf ("reading labels order depth layers scene views*%d", options->frames);
 
-  cli_run_begin (&run, options->quiet);
+  cli_run_begin (&run, options, stages);
   if (cli_scene_new (options, &run, &s))
     {
       s.frames = options->frames;
@@ -28,6 +29,7 @@ run_wiggle (const CliOptions *options)
     }
   cli_scene_clear (&s);
   cli_run_end (&run);
+  g_free (stages);
   return code;
 }
 

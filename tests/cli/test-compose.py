@@ -63,7 +63,7 @@ class Compose(Test):
     YELLOW, WHITE = (1, 1, 0), (1, 1, 1)
 
     def test_one_drawing_is_itself(self):
-        for words in ((), ('--light', 'linear')):
+        for words in ((), ('--compositing', 'linear')):
             self.write(fragments=[{'drawing': 'drawing.png', 'scribbles': 'scribbles.png', 'relations': RELATIONS}])
             self.compose(*words)
             with Image.open(self.path('drawing.png')) as image:
@@ -135,7 +135,7 @@ class Compose(Test):
         self.compose(output='out.exr')
         layers, _ = read_exr(self.path('out.exr'), WIDTH, HEIGHT)
         self.assertEqual([name for name, _ in layers], names)
-        self.compose('--light', 'linear', output='linear.png')
+        self.compose('--compositing', 'linear', output='linear.png')
         linear = composite([layer for _, layer in layers])
         np.testing.assert_allclose(encode(linear[..., :3]), self.pixels('linear.png')[..., :3], atol=1.5 / 255)
 
@@ -228,8 +228,8 @@ class Compose(Test):
         self.scene()
         self.assertIn('must end in', self.compose(output='out.jpg', code=2))
         self.assertIn('nothing to write', self.celdepth('compose', 'scene.json', code=2))
-        self.assertIn('linear light', self.compose('--light', 'encoded', output='out.exr', code=2))
-        self.assertIn('candle', self.compose('--light', 'candle', code=2))
+        self.assertIn('linear light', self.compose('--compositing', 'encoded', output='out.exr', code=2))
+        self.assertIn('candle', self.compose('--compositing', 'candle', code=2))
         self.assertIn('overwrite', self.celdepth('compose', 'drawing.png', '--output', 'drawing.png', code=2))
 
     def test_examples(self):

@@ -91,7 +91,7 @@ class Deform(Test):
             words = ('--handles', f'20,20; 14,40; 70,45 -> 45,45 ^{depth}')
             self.deform(*words, '--output', 'out.png')
             for light in ('encoded', 'linear'):
-                self.deform(*words, '--output', 'out.ora', '--light', light)
+                self.deform(*words, '--output', 'out.ora', '--compositing', light)
                 layers, merged = read_open_raster(self.path('out.ora'))
                 painted = [tuple(int(name[i:i + 2], 16) for i in (1, 3, 5)) for name, _ in layers]
                 self.assertEqual(painted[::-1], order + [GREEN])
@@ -134,9 +134,9 @@ class Deform(Test):
     def test_messages(self):
         said = self.deform('--handles', '20,20; 70,45; 4,4', '--output', 'out.png')
         self.assertIn('outside all parts', said)
-        said = self.deform('--handles', '20,20;\n70,45 -> 3', '--output', 'bad.png', code=1)
-        self.assertIn('Handles, line 2, column 11', said)
-        said = self.deform('--handles', '20,20 ^', '--output', 'bad.png', code=1)
+        said = self.deform('--handles', '20,20;\n70,45 -> 3', '--output', 'bad.png', code=2)
+        self.assertIn('--handles, line 2, column 11', said)
+        said = self.deform('--handles', '20,20 ^', '--output', 'bad.png', code=2)
         self.assertIn('number of levels', said)
         self.assertFalse(os.path.exists(self.path('bad.png')))
 

@@ -42,11 +42,11 @@ class Enhance(Test):
 
     def test_layer_over_art_is_the_enhanced_art(self):
         words = ('--shadow-offset', '0.03', '--light-azimuth', '120', '--shadow-range', '0.5')
-        self.celdepth('enhance', 'levels.npy', '--art', 'art.png', '--enhanced', 'a.npy', '--shadow', 's.npy', *words)
+        self.celdepth('enhance', 'levels.npy', '--colours', 'art.png', '--enhanced', 'a.npy', '--shadow', 's.npy', *words)
         alpha = np.load(self.path('s.npy'))[:, :, 3:]
         wanted = light(self.art[:, :, :3] / 255) * (1 - alpha)
         np.testing.assert_allclose(np.load(self.path('a.npy'))[:, :, :3], wanted, atol=1e-4)
-        self.celdepth('enhance', 'levels.npy', '--art', 'art.png', '--enhanced', 'a.exr', '--shadow', 's.tif', *words)
+        self.celdepth('enhance', 'levels.npy', '--colours', 'art.png', '--enhanced', 'a.exr', '--shadow', 's.tif', *words)
         np.testing.assert_allclose(self.channel('a.exr', 'R'), wanted[:, :, 0], atol=1e-4)
 
     def test_no_strength_leaves_the_art(self):
@@ -54,7 +54,7 @@ class Enhance(Test):
         Image.fromarray(self.art).save(self.path('art.png'))
         for way in ('stack', 'darken', 'contrast'):
             with self.subTest(way):
-                self.celdepth('enhance', 'levels.npy', '--art', 'art.png', '--enhanced', 'a.png', '--enhance', way,
+                self.celdepth('enhance', 'levels.npy', '--colours', 'art.png', '--enhanced', 'a.png', '--enhance', way,
                               '--shadow-strength', '0')
                 np.testing.assert_allclose(self.picture('a.png'), self.art, atol=1)
 
@@ -67,9 +67,9 @@ class Enhance(Test):
 
     def test_failures(self):
         Image.new('RGB', (WIDTH + 1, HEIGHT)).save(self.path('wide.png'))
-        self.fails('enhance', 'levels.npy', '--art', 'wide.png', '--enhanced', 'a.png', naming='"wide.png" has 97 x 64')
+        self.fails('enhance', 'levels.npy', '--colours', 'wide.png', '--enhanced', 'a.png', naming='"wide.png" has 97 x 64')
         self.fails('enhance', 'missing.npy', '--view', 'a.png', naming='missing.npy')
-        self.fails('enhance', 'levels.npy', '--art', 'missing.png', '--enhanced', 'a.png', naming='missing.png')
+        self.fails('enhance', 'levels.npy', '--colours', 'missing.png', '--enhanced', 'a.png', naming='missing.png')
         self.celdepth('enhance', 'levels.npy', '--view', 'a.png', '--shadow-size', '0', code=2)
 
 

@@ -55,7 +55,7 @@ class Formats(Test):
         values = self.make('levels')
         self.assertEqual([at(values, p) for p in (IN_PAGE, IN_A, IN_B)], [0, 0.5, 1])
         self.check_planes('levels', values)
-        self.check_planes('order', self.make('order'))
+        self.check_planes('unexpanded-levels', self.make('unexpanded-levels'))
 
     def test_depth(self):
         values = self.make('depth')
@@ -65,14 +65,14 @@ class Formats(Test):
 
     def test_ranks(self):
         """Ranks are stored as numbers in .npy and .tif; in others near is white, and steps read them as ranks."""
-        ranks = self.make('order', '--encoding', 'rank')
+        ranks = self.make('unexpanded-levels', '--encoding', 'rank')
         self.assertEqual(sorted(set(ranks.flat)), [0, 1, 2])
-        np.testing.assert_array_equal(self.picture('order.tif'), ranks)
-        np.testing.assert_allclose(self.picture('order.png') / 65535, ranks / 2, atol=1e-5)
-        np.testing.assert_array_equal(self.channel('order.exr', 'depth.V'), ranks / 2)
+        np.testing.assert_array_equal(self.picture('unexpanded-levels.tif'), ranks)
+        np.testing.assert_allclose(self.picture('unexpanded-levels.png') / 65535, ranks / 2, atol=1e-5)
+        np.testing.assert_array_equal(self.channel('unexpanded-levels.exr', 'depth.V'), ranks / 2)
         for ending in ENDINGS:
             with self.subTest(ending):
-                self.celdepth('expand', f'order.{ending}', '--drawing', 'drawing.png', '--levels', 'again.npy')
+                self.celdepth('expand', f'unexpanded-levels.{ending}', '--drawing', 'drawing.png', '--levels', 'again.npy')
                 again = np.load(self.path('again.npy'))
                 np.testing.assert_allclose(again, np.round(again), atol=1e-4)
                 self.assertEqual(at(again, IN_B), 2)
@@ -198,7 +198,8 @@ class Formats(Test):
             np.save(self.path('hint.npy'), depth.astype(np.float32))
             for arguments in (('order', 'flat.png'), popup):
                 with self.subTest(arguments, nearer=nearer):
-                    hinted = (*arguments, '--levels', 'levels.npy', '--depth-hint', 'hint.npy')
+                    out = '--unexpanded-levels' if arguments[0] == 'order' else '--levels'
+                    hinted = (*arguments, out, 'levels.npy', '--depth-hint', 'hint.npy')
                     self.celdepth(*hinted, '--suggestions', 'suggestions.txt')
                     self.assertIn((front, back), self.suggested(flat))
                     levels = np.load(self.path('levels.npy'))
@@ -225,13 +226,14 @@ class Formats(Test):
 
     def test_steps_equal_popup(self):
         """segment, order, expand, smooth and shade, one after the other, with files."""
-        self.popup('--relations', RELATIONS, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy',
+        self.popup('--relations', RELATIONS, '--labels', 'a.png', '--unexpanded-levels', 'a-order.npy',
+                   '--levels', 'a-levels.npy',
                    '--depth', 'a-depth.npy', '--normals', 'a-normals.npy', '--shading', 'a-shading.npy')
         page = ('--drawing', 'drawing.png')
         self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', 'b.png')
-        self.celdepth('order', 'b.png', *page, '--relations', RELATIONS, '--levels', 'b-order.npy')
+        self.celdepth('order', 'b.png', *page, '--relations', RELATIONS, '--unexpanded-levels', 'b-order.npy')
         self.celdepth('expand', 'b-order.npy', *page, '--regions', 'b.png', '--levels', 'b-levels.npy')
-        self.celdepth('smooth', 'b-levels.npy', *page, '--anchors', 'scribbles.png', '--depth', 'b-depth.npy')
+        self.celdepth('smooth', 'b-levels.npy', *page, '--scribbles', 'scribbles.png', '--depth', 'b-depth.npy')
         self.celdepth('shade', 'b-levels.npy', *page, '--normals', 'b-normals.npy', '--shading', 'b-shading.npy')
         np.testing.assert_array_equal(self.picture('a.png'), self.picture('b.png'))
         for name in ('order', 'levels', 'depth', 'normals', 'shading'):
@@ -241,7 +243,7 @@ class Formats(Test):
     def test_parts_of_one_level(self):
         """Two boxes of one level meet in the middle of their common outline, by steps as by popup."""
         relations = ('--relations', '70,45 > 4,4; 20,20 > 4,4')
-        self.popup(*relations, '--labels', 'a.png', '--order', 'a-order.npy', '--levels', 'a-levels.npy')
+        self.popup(*relations, '--labels', 'a.png', '--unexpanded-levels', 'a-order.npy', '--levels', 'a-levels.npy')
         self.celdepth('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'a.png', '--levels', 'b.npy')
         np.testing.assert_array_equal(np.load(self.path('a-levels.npy')), np.load(self.path('b.npy')))
         self.fails('expand', 'a-order.npy', '--drawing', 'drawing.png', '--regions', 'no.png', '--levels', 'c.npy',
@@ -253,7 +255,7 @@ class Formats(Test):
             with self.subTest(ending):
                 self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--labels', f'l.{ending}',
                               '--report', 's.json')
-                self.celdepth('order', f'l.{ending}', '--relations', RELATIONS, '--levels', 'o.npy',
+                self.celdepth('order', f'l.{ending}', '--relations', RELATIONS, '--unexpanded-levels', 'o.npy',
                               '--report', 'o.json')
                 levels = np.load(self.path('o.npy'))
                 self.assertEqual([at(levels, p) for p in (IN_PAGE, IN_A, IN_B)], [0, 0.5, 1])

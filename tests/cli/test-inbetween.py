@@ -123,7 +123,7 @@ class Inbetween(Test):
     def test_wrong_input(self):
         self.assertIn('--arrows-b needs --scribbles-b',
                       self.inbetween('--arrows-b', 'b-strokes.png', '--output', 'x.png', scribbles_b=False, code=2))
-        self.assertIn('must be 1-10000', self.inbetween('-n', '0', '--output', 'x.png', code=2))
+        self.assertIn('must be a whole number between 1 and 10000', self.inbetween('-n', '0', '--output', 'x.png', code=2))
         self.assertIn('--output is missing', self.inbetween(code=2))
         self.assertIn('must end in', self.inbetween('--output', 'x.doc', code=2))
         self.assertIn('SECOND is missing', self.celdepth('inbetween', 'a.png', '--output', 'x.png', code=2))

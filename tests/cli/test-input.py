@@ -324,7 +324,86 @@ class Nonsense(Test):
                 self.fails(command, name, '--drawing', 'drawing.png', *words, naming='is coloured')
             self.fails(command, 'grey.png', '--drawing', 'drawing.png', *words, naming='looks like a photograph')
         self.fails('enhance', 'labels.png', '--view', 'v.png', naming='is coloured')
-        self.fails('order', 'photo.png', '--levels', 'l.png', naming='looks like a photograph')
+        self.fails('order', 'photo.png', '--unexpanded-levels', 'l.png', naming='looks like a photograph')
+
+
+def photographs():
+    """Pictures like photographs: shaded things with grain, the same with a texture, a texture alone, clouds in colours."""
+    random, (y, x) = np.random.default_rng(3), np.mgrid[:240, :320]
+
+    def clouds(power):
+        frequency = np.hypot(np.fft.fftfreq(240)[:, None], np.fft.rfftfreq(320)[None])
+        frequency[0, 0] = 1
+        made = np.fft.irfft2(np.fft.rfft2(random.standard_normal((240, 320))) / frequency**power, (240, 320))
+        return ((made - made.min()) / np.ptp(made))[..., None]
+
+    def thing(page, cx, cy, radius, colour):
+        across, down = (x - cx) / radius, (y - cy) / radius
+        inside = np.hypot(across, down) < 1
+        light = 0.25 + 0.5 * (-0.5 * across - 0.4 * down + np.sqrt(np.clip(1 - across**2 - down**2, 0, 1)))
+        page[inside] = light.clip(0.05, 1)[inside][:, None] * colour
+
+    room = np.stack([0.5 + x / 1000, 0.6 - y / 1200, np.full(x.shape, 0.7)], -1)
+    for _ in range(14):
+        thing(room, random.uniform(0, 320), random.uniform(0, 240), random.uniform(20, 65), random.uniform(0.2, 1, 3))
+    return {'shaded': room + random.normal(0, 0.02, room.shape), 'textured': room * (0.5 + 0.5 * clouds(1.0)),
+            'texture': np.repeat(clouds(1.2), 3, 2), 'clouds': np.concatenate([clouds(1.5) for _ in range(3)], 2)}
+
+
+class Photographs(Test):
+    def setUp(self):
+        super().setUp()
+        ring = Image.new('L', (320, 240), 255)
+        ImageDraw.Draw(ring).ellipse((60, 40, 260, 200), outline=0, width=5)
+        ring.save(self.path('ring.png'))
+        strokes = Image.new('RGBA', (320, 240))
+        ImageDraw.Draw(strokes).line([(120, 120), (200, 120)], fill=RED + (255,), width=6)
+        strokes.save(self.path('strokes.png'))
+        for name, picture in photographs().items():
+            Image.fromarray((255 * picture.clip(0, 1)).astype(np.uint8)).save(self.path(f'{name}.png'))
+
+    def test_as_drawing(self):
+        for name in ('textured', 'texture', 'clouds'):
+            with self.subTest(name):
+                self.fails('popup', f'{name}.png', '--scribbles', 'strokes.png', '--depth', 'd.png',
+                           naming=f'"{name}.png" looks like a photograph')
+
+    def test_as_scribbles(self):
+        for name in ('shaded', 'textured', 'clouds'):
+            with self.subTest(name):
+                self.fails('popup', 'ring.png', '--scribbles', f'{name}.png', '--depth', 'd.png',
+                           naming=f'"{name}.png" looks like a photograph')
+
+    def test_as_drawing_on_purpose(self):
+        """Who says what the lines are is believed."""
+        self.assertNotIn('photograph', self.celdepth('segment', 'textured.png', '--scribbles', 'strokes.png', '--ink',
+                                                     'dark', '--labels', 'l.png'))
+
+    def test_odd(self):
+        """Things with clear edges but without lines may be a drawing: a warning, and regions."""
+        words = ('segment', 'shaded.png', '--scribbles', 'strokes.png', '--labels', 'l.png')
+        self.assertIn('"shaded.png" hardly has clear lines', self.celdepth(*words))
+        self.assertNotIn('hardly', self.celdepth(*words, '--quiet'))
+
+    def test_no_false_alarm(self):
+        """A drawing stays one with shadows on its paper, grain, JPEG, faint lines, light lines, fills and scribbles."""
+        random = np.random.default_rng(4)
+        page = Image.open(self.path('ring.png')).convert('RGB')
+        ImageDraw.Draw(page).line([(10, 230), (310, 150)], fill='black', width=3)
+        lines = np.asarray(page, float)[..., :1] / 255
+        shadow = np.linspace(1, 0.6, 320)[None, :, None]
+        fills = np.ones((240, 320, 3))
+        fills[60:180, 90:230] = (0.9, 0.5, 0.3)
+        fills[200:] = (0.4, 0.7, 0.9)
+        for name, picture in (('shadow', lines * shadow + random.normal(0, 0.02, (240, 320, 3))),
+                              ('faint', 0.75 + 0.2 * lines + random.normal(0, 0.01, (240, 320, 1)) + np.zeros(3)),
+                              ('grain', 0.2 + 0.6 * lines + random.normal(0, 0.1, (240, 320, 1)) + np.zeros(3)),
+                              ('chalk', 1 - lines + np.zeros(3)), ('fills', lines * fills)):
+            Image.fromarray((255 * picture.clip(0, 1)).astype(np.uint8)).save(self.path(f'{name}.jpg'), quality=80)
+            with self.subTest(name):
+                said = self.celdepth('segment', f'{name}.jpg', '--scribbles', 'strokes.png', '--labels', 'l.png')
+                self.assertNotIn('photograph', said)
+                self.assertNotIn('hardly', said)
 
 
 class BadInput(Test):
@@ -384,15 +463,15 @@ class BadInput(Test):
         self.fails('popup', 'drawing.png', '--scribbles', 'blank.png', '--depth', 'd.png', naming='nothing to go by')
 
     def test_unreadable_arrow_path(self):
-        text = self.popup('--arrow-path', 'M 1,1 L 2,2\nL 3;4', '--depth', 'd.png', code=1)
-        self.assertRegex(text, 'Arrow path, line 2, column 4: expected a number for y, found ";"')
+        text = self.popup('--arrow-path', 'M 1,1 L 2,2\nL 3;4', '--depth', 'd.png', code=2)
+        self.assertRegex(text, '--arrow-path, line 2, column 4: expected a number for y, but found ";"')
 
     def test_unreadable_relations(self):
-        text = self.popup('--relations', '1,1 > 2,2;\n3,3 ? 4,4', '--depth', 'd.png', code=1)
+        text = self.popup('--relations', '1,1 > 2,2;\n3,3 ? 4,4', '--depth', 'd.png', code=2)
         self.assertRegex(text, 'line 2, column 5: expected .*found')
         with open(self.path('relations.txt'), 'wb') as file:
             file.write(b'1,1 > 2,\n')
-        text = self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=1)
+        text = self.popup('--relations-file', 'relations.txt', '--depth', 'd.png', code=2)
         self.assertIn('relations.txt, line', text)
         with open(self.path('relations.txt'), 'wb') as file:
             file.write(b'1,1 > 2,2\0 and more')
@@ -401,8 +480,8 @@ class BadInput(Test):
     def test_contradictions(self):
         """Code 3, both relations are listed, and the others are ordered."""
         text = self.popup('--relations', '70,45 > 20,20 @2\n20,20 > 70,45', '--levels', 'l.npy', '--quiet', code=3)
-        self.assertIn('70,45 > 20,20 @2  (line 1, column 1)', text)
-        self.assertIn('20,20 > 70,45  (line 2, column 1)', text)
+        self.assertIn('70,45 > 20,20 @2  (--relations, line 1, column 1)', text)
+        self.assertIn('20,20 > 70,45  (--relations, line 2, column 1)', text)
         levels = np.load(self.path('l.npy'))
         self.assertGreater(levels[45, 70], levels[20, 20])
 

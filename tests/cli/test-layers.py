@@ -109,14 +109,14 @@ class Layers(Test):
         self.assertEqual(complete[GREEN][..., 3].min(), 1)
 
     def test_linear_layers_composite_to_the_drawing(self):
-        self.layers('--output', 'layers.ora', '--colours', 'painted.png', '--light', 'linear')
+        self.layers('--output', 'layers.ora', '--colours', 'painted.png', '--compositing', 'linear')
         layers, merged = read_open_raster(self.path('layers.ora'))
         made = composite([premultiplied(np.concatenate([decode(c[..., :3]), c[..., 3:]], 2)) for _, c in layers])
         wanted = picture(self.path('painted.png'))
         self.assertLessEqual(np.abs(encode(made[..., :3]) - wanted[..., :3]).max(), 1 / 255)
         np.testing.assert_allclose(merged, wanted, atol=1e-6)
-        self.assertIn('encoded', self.layers('--output', 'layers.exr', '--light', 'encoded', code=2))
-        self.assertIn('encoded|linear', self.layers('--output', 'layers.ora', '--light', 'candle', code=2))
+        self.assertIn('encoded', self.layers('--output', 'layers.exr', '--compositing', 'encoded', code=2))
+        self.assertIn('encoded or linear', self.layers('--output', 'layers.ora', '--compositing', 'candle', code=2))
 
     def test_colours(self):
         self.layers('--output', 'layers.ora', '--colours', 'painted.png', '--complete', 'yes')

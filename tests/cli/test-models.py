@@ -201,14 +201,14 @@ class Models(Test):
             return places[np.unique(triangles), 2].max() - np.median(free[:, 2])
         a, b = FACE[2] - LINE, FACE[3] - LINE
         top = np.sqrt(2 * a * a * b * b / (a * a + b * b))
-        self.assertAlmostEqual(rise('--bulge', '1') / top, 1, delta=0.1)
+        self.assertAlmostEqual(rise('--relief-bulge', '1') / top, 1, delta=0.1)
         self.assertAlmostEqual(rise() / top, 0.6, delta=0.06)
-        self.assertLess(rise('--bulge', '0'), 3)
+        self.assertLess(rise('--relief-bulge', '0'), 3)
 
     # ------------------------------------------------------------------ solids
 
     def test_stl_is_closed(self):
-        for words in ([], ['--bulge', '0'], ['--bulge', '4', '--mesh-plate', '0.1'], ['--mesh-error', '20']):
+        for words in ([], ['--relief-bulge', '0'], ['--relief-bulge', '4', '--mesh-plate', '0.1'], ['--mesh-error', '20']):
             with self.subTest(words):
                 places, triangles, other = self.model('a.stl', *words)
                 self.assertTrue(is_closed(triangles))

@@ -35,7 +35,7 @@ class OneRun(Test):
     def test_single_commands(self):
         self.celdepth('popup', *INPUT, '--levels', 'levels.npy', '--enhanced', 'enhanced.png', '--layers', 'page.ora',
                       '--left', 'left.png', '--right', 'right.png', '--joined', 'joined.png', '--report', 'report.json')
-        self.celdepth('enhance', 'levels.npy', '--art', 'page.png', '--enhanced', 'enhanced-alone.png')
+        self.celdepth('enhance', 'levels.npy', '--colours', 'page.png', '--enhanced', 'enhanced-alone.png')
         self.celdepth('layers', *INPUT, '--output', 'alone.ora')
         self.celdepth('stereo', *INPUT, '--left', 'left-alone.png', '--right', 'right-alone.png', '--joined',
                       'joined-alone.png')

@@ -70,7 +70,7 @@ class Register(Test):
     def test_levels_instead_of_scribbles(self):
         self.celdepth('popup', 'one.png', '--scribbles', 'strokes.png', '--relations', self.relations, '--levels',
                       'levels.npy')
-        self.register('--levels', 'levels.npy', '--displacement', 'd.npy')
+        self.register('--source-levels', 'levels.npy', '--displacement', 'd.npy')
         np.testing.assert_allclose(self.moved('d.npy', *IN_A), BY_A, atol=0.7)
         np.testing.assert_allclose(self.moved('d.npy', *IN_B), BY_B, atol=0.7)
 

@@ -34,7 +34,7 @@ class Relief(Test):
     # ------------------------------------------------------------------ heights
 
     def test_nearer_parts_are_higher(self):
-        self.relief('--depth', 'depth.npy', '--height', 'h.npy')
+        self.relief('--smooth-depth', 'depth.npy', '--height', 'h.npy')
         height = np.load(self.path('h.npy'))
         self.assertEqual(height.shape, (HEIGHT, WIDTH))
         self.assertAlmostEqual(at(height, IN_PAGE), 0, delta=0.01)
@@ -58,10 +58,10 @@ class Relief(Test):
         np.testing.assert_allclose(low + shown * (high - low), height, atol=(high - low) / 65535)
 
     def test_bulge_and_depth(self):
-        self.relief('--height', 'flat.npy', '--bulge', '0', '--depth', 'levels.npy', '--relief-depth', '0.5')
+        self.relief('--height', 'flat.npy', '--relief-bulge', '0', '--smooth-depth', 'levels.npy', '--relief-depth', '0.5')
         levels = np.load(self.path('levels.npy'))
         np.testing.assert_allclose(np.load(self.path('flat.npy')), 0.5 * np.hypot(WIDTH, HEIGHT) * levels, atol=1e-3)
-        self.relief('--height', 'n.npy', '--from', 'normals')
+        self.relief('--height', 'n.npy', '--relief-from', 'normals')
         self.assertGreater(at(np.load(self.path('n.npy')), IN_B), 5)
 
     # ------------------------------------------------------------------ meshes
@@ -109,7 +109,7 @@ class Relief(Test):
         self.assertEqual(other['colours'].max(), 255)
 
     def test_stl_is_closed(self):
-        for words in ([], ['--from', 'normals'], ['--mesh-error', '20'], ['--bulge', '4', '--relief-depth', '0']):
+        for words in ([], ['--relief-from', 'normals'], ['--mesh-error', '20'], ['--relief-bulge', '4', '--relief-depth', '0']):
             with self.subTest(words):
                 places, triangles, other = self.mesh('a.stl', '--mesh-plate', '3', *words)
                 self.assertTrue(is_closed(triangles))
@@ -127,13 +127,13 @@ class Relief(Test):
     def test_failures(self):
         Image.new('L', (WIDTH + 1, HEIGHT)).save(self.path('wide.png'))
         self.fails('relief', 'levels.npy', '--drawing', 'wide.png', '--height', 'a.npy', naming='97 x 64')
-        self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--depth', 'wide.png', '--height', 'a.npy',
+        self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--smooth-depth', 'wide.png', '--height', 'a.npy',
                    naming='"wide.png" has 97 x 64')
         self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--colours', 'missing.png', '--mesh', 'a.glb',
                    naming='missing.png')
         self.fails('relief', 'levels.npy', '--drawing', 'drawing.png', '--mesh', 'nowhere/a.glb', naming='nowhere')
         self.assertIn('.glb', self.relief('--mesh', 'a.fbx', code=2))
-        self.assertIn('0.01-100', self.relief('--mesh', 'a.glb', '--mesh-error', '0', code=2))
+        self.assertIn('between 0.01 and 100', self.relief('--mesh', 'a.glb', '--mesh-error', '0', code=2))
         self.relief(code=2)
         self.assertEqual([name for name in os.listdir(self.folder) if name.endswith(tuple(KINDS))], [])
 

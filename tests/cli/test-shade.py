@@ -43,7 +43,7 @@ class Shade(Test):
         Image.new('RGB', (SIDE, SIDE), (180, 90, 40)).save(self.path('art.png'))
         words = ('--specular', '0.5', '--rim-light', '0.5', '--light', 'point', '--light-height', '0.4',
                  '--shadow-size', '0.05')
-        self.shade('--art', 'art.png', '--shaded', 'a.npy', '--tone', 't.npy', '--rim', 'r.npy', '--shading', 's.npy',
+        self.shade('--colours', 'art.png', '--shaded', 'a.npy', '--tone', 't.npy', '--rim', 'r.npy', '--shading', 's.npy',
                    '--occlusion', 'o.npy', *words)
         art, tone, rim, shading = (self.load(name) for name in ('a.npy', 't.npy', 'r.npy', 's.npy'))
         linear = ((np.array([180, 90, 40]) / 255 + 0.055) / 1.055) ** 2.4
@@ -76,7 +76,7 @@ class Shade(Test):
         ball[np.hypot(u[None, :] - 0.5, u[:, None] - 0.5) > 0.5] = (1, 0, 1)
         Image.fromarray(np.round(255 * ball).astype(np.uint8)).save(self.path('ball.png'))
         Image.new('RGB', (SIDE, SIDE), (128, 128, 128)).save(self.path('grey.png'))
-        self.shade('--art', 'grey.png', '--shaded', 's.npy', '--normals', 'n.npy', '--matcap', 'ball.png')
+        self.shade('--colours', 'grey.png', '--shaded', 's.npy', '--normals', 'n.npy', '--matcap', 'ball.png')
         place = 0.5 + 0.5 * self.load('n.npy')[:, :, :2]
         wanted = np.where(place <= 0.04045, place / 12.92, ((place + 0.055) / 1.055) ** 2.4)
         lit, (y, x) = self.load('s.npy'), np.mgrid[0:SIDE, 0:SIDE]
@@ -95,7 +95,7 @@ class Shade(Test):
         Image.new('RGB', (SIDE, SIDE), (128, 128, 128)).save(self.path('grey.png'))
         outside = self.levels == 0
         for switch, varies in (('no', False), ('yes', True)):
-            self.shade('--art', 'grey.png', '--shaded', 's.npy', '--hints', 'hints.png', '--light-background', switch)
+            self.shade('--colours', 'grey.png', '--shaded', 's.npy', '--hints', 'hints.png', '--light-background', switch)
             self.assertEqual(np.ptp(self.load('s.npy')[outside], axis=0)[0] > 0.05, varies)
 
     def test_hints(self):
@@ -168,13 +168,13 @@ class Shade(Test):
     def test_errors(self):
         self.fails('shade', *SPRITE, '--normals', 'n.npy', '--grid', '3x1', naming='3 x 1 equal cells')
         np.save(self.path('small.npy'), np.zeros((4, 4), np.float32))
-        self.fails('shade', *SPRITE, '--normals', 'n.npy', '--depth', 'small.npy', naming='small.npy')
+        self.fails('shade', *SPRITE, '--normals', 'n.npy', '--smooth-depth', 'small.npy', naming='small.npy')
         for words, naming in ((('--grid', '3'), '--grid'), (('--grid', '0x2'), '--grid'),
                               (('--grid', '2x2x'), '--grid'),
                               (('--padding', '65'), '--padding'), (('--padding', 'x'), '--padding'),
                               (('--maps', 'hero.exr'), '--maps'), (('--toon-steps', '6'), '--toon-steps'),
                               (('--toon-steps', '3.5'), '--toon-steps'), (('--light', 'encoded'), '--light'),
-                              (('--quilt', '2'), '--quilt')):
+                              (('--creases', '2'), '--creases')):
             with self.subTest(words):
                 self.assertIn(naming, self.shade('--normals', 'n.npy', *words, code=2))
         os.rename(self.path('sprite.png'), self.path('hero_n.png'))

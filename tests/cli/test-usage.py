@@ -5,6 +5,7 @@ SPDX-License-Identifier: LGPL-3.0-or-later
 """
 import os
 import pty
+import re
 import signal
 import subprocess
 import unittest
@@ -14,8 +15,12 @@ from PIL import Image
 
 from pictures import COMMAND, RELATIONS, Test
 
-STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle', 'register',
-         'compose', 'deform', 'inbetween')
+STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle', 'relief',
+         'layers', 'register', 'compose', 'propagate', 'deform', 'inbetween')
+
+# Names that mean the same in every command, in words of the command's own.
+OWN_WORDS = {'output': 'what the command makes', 'frames': 'the number of pictures',
+             'scribbles': 'of the drawing, or of each key', 'arrows': 'of the drawing, or of each key'}
 
 
 class Usage(Test):
@@ -42,10 +47,156 @@ class Usage(Test):
         self.wrong('popup', 'a.png', naming='nothing to write')
         self.wrong('segment', 'a.png', naming='such as --labels')
         self.wrong('enhance', 'a.npy', naming='such as --enhanced')
-        self.wrong('enhance', 'a.npy', '--enhanced', 'b.png', naming='--art')
+        self.wrong('enhance', 'a.npy', '--enhanced', 'b.png', naming='--colours')
         self.wrong('expand', 'a.npy', '--levels', 'b.npy', naming='--drawing is missing')
         self.wrong('smooth', 'a.npy', '--drawing', 'a.png', naming='--depth is missing')
         self.wrong('segment', 'a.png', '--labels', 'b.png', '--bulge', '1', naming='--bulge')
+
+    def options(self, step):
+        """Name, values and text of each option in a command's help."""
+        options, text = {}, self.celdepth(step, '--help').split('\nExamples:')[0]
+        for entry in re.split(r'\n(?=  -)', re.sub(r'\n\n[^\n]*:\n', '\n', text))[1:]:
+            entry = re.sub(r'\|\n +', '|', entry)
+            name, values, words = re.match(r' +(?:-., )?--([a-z-]+)(?:=(\S+))?\s(.*)', entry, re.S).groups()
+            self.assertNotIn(name, options, f'{step} offers --{name} twice')
+            options[name] = (values, ' '.join(words.split()))
+        return options
+
+    def test_lines_of_help(self):
+        for step in STEPS:
+            for line in self.celdepth(step, '--help').splitlines():
+                self.assertLessEqual(len(line), 100, f'{step}: {line}')
+
+    def test_each_name_has_one_meaning(self):
+        meant = {}
+        for step in STEPS:
+            for name, (values, words) in self.options(step).items():
+                if name in OWN_WORDS:
+                    continue
+                words = re.sub(r' \(default: [^)]*\)', '', words)
+                first = meant.setdefault(name, (step, values, words))
+                self.assertEqual((values, words), first[1:], f'--{name} of {step} and of {first[0]}')
+
+    def test_defaults(self):
+        """Each setting says its default, always in the same way."""
+        for step in STEPS:
+            for name, (values, words) in self.options(step).items():
+                with self.subTest(step=step, name=name):
+                    bare = re.sub(r'\(default: [^)]+\)', '', words)
+                    self.assertNotIn('default', bare)
+                    if values and ('|' in values or re.fullmatch(r'-?[0-9.]+(-|\.\.)[0-9.]+', values)):
+                        self.assertIn(' (default: ', words + ('' if name != 'part' else ' (default: '))
+
+    def test_no_option_takes_the_next(self):
+        self.wrong('popup', 'a.png', '--depth', '--report', 'r.json', naming='but the option --report follows')
+        self.wrong('popup', 'a.png', '--tolerance', '-q', naming='but the option -q follows')
+        self.wrong('popup', 'a.png', '--depth', naming='--depth needs a value: --depth OUT')
+        self.wrong('inbetween', 'a.png', 'b.png', '-n', '--output', 'c.png', naming='-n needs a value')
+        self.popup('--relations', RELATIONS, '--shading', 'a.npy', '--light-azimuth', '-45', '--light-elevation', '-.5')
+        self.popup('--relations', RELATIONS, '--shading', 'b.npy', '--light-azimuth=-45', '--light-elevation=-0.5')
+        np.testing.assert_array_equal(np.load(self.path('a.npy')), np.load(self.path('b.npy')))
+
+    def test_switches(self):
+        made = {}
+        for value in ('yes', 'true', 'no', 'false', None):
+            self.popup('--relations', RELATIONS, '--shaded', 'n.npy', '--light-background', *([value] if value else []))
+            made[value] = np.load(self.path('n.npy'))
+        for value in ('true', None):
+            np.testing.assert_array_equal(made[value], made['yes'])
+        np.testing.assert_array_equal(made['false'], made['no'])
+        self.assertTrue((made['yes'] != made['no']).any())
+
+    def test_messages_about_values(self):
+        for words, said in ((('--tolerance', '5'), '--tolerance must be between 0.0000001 and 0.1, not 5.'),
+                            (('--ink', 'Dark'), "--ink must be auto, dark, light, alpha or lines, not 'Dark'."),
+                            (('--close-gaps', '1x'), "--close-gaps must be yes or no, not '1x'."),
+                            (('--toon-steps', '2.5'), '--toon-steps must be a whole number between 2 and 5, not 2.5.')):
+            self.wrong('popup', 'a.png', '--depth', 'b.png', *words, naming=said)
+        self.wrong('stereo', 'a.png', '--views', '1', naming="--views must be a whole number between 2 and 1000, not '1'")
+
+    def test_relations_from_two_places(self):
+        """--relations come first; places in messages are those in the text where they stand."""
+        with open(self.path('r.txt'), 'w', encoding='utf-8') as file:
+            file.write('70,45 > 20,20\n70,45 > 1,1\n')
+        self.popup('--relations', '20,20 > 1,1', '--relations-file', 'r.txt', '--levels', 'both.npy')
+        self.popup('--relations', '20,20 > 1,1; 70,45 > 20,20', '--levels', 'one.npy')
+        np.testing.assert_array_equal(np.load(self.path('both.npy')), np.load(self.path('one.npy')))
+        self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1 > 2,2;\n1,', '--relations-file', 'r.txt',
+                   naming='--relations, line 2')
+        with open(self.path('r.txt'), 'a', encoding='utf-8') as file:
+            file.write('70,45 >> 1,1\n')
+        self.wrong('popup', 'drawing.png', '--depth', 'b.png', '--relations', '1,1 > 2,2;\n20,20 > 1,1',
+                   '--relations-file', 'r.txt', naming='r.txt, line 3, column 8')
+
+    def test_standard_input_and_output(self):
+        def run(*words, given):
+            with open(self.path(given), 'rb') as file:
+                return subprocess.run([COMMAND, *words], cwd=self.folder, stdin=file, capture_output=True, check=False)
+
+        words = ('--scribbles', 'scribbles.png', '--relations', RELATIONS)
+        self.popup('--relations', RELATIONS, '--depth', 'depth.png', '--layers', 'layers.ora', '--levels', 'levels.npy')
+        before = set(os.listdir(self.folder))
+        for output, name, more in (('--depth', 'depth.png', ()), ('--levels', 'levels.npy', ('--format', 'npy'))):
+            done = run('popup', '-', *words, output, '-', *more, given='drawing.png')
+            self.assertEqual((done.returncode, done.stderr), (0, b''))
+            with open(self.path(name), 'rb') as file:
+                self.assertEqual(done.stdout, file.read(), name)
+        done = run('popup', '-', *words, '--layers', '-', given='drawing.png')
+        self.assertEqual(done.stdout[:2], b'PK')
+        done = run('popup', 'drawing.png', *words, '--report', '-', given='drawing.png')
+        self.assertIn(b'"labels"', done.stdout)
+        for words, said in ((('-', '--scribbles', '-', '--depth', 'd.png'),
+                             'DRAWING|LAYERED and --scribbles cannot both be read from standard input'),
+                            (('drawing.png', '--depth', '-', '--levels', '-'), 'cannot both be written'),
+                            (('drawing.png', '--depth', '-', '--format', 'jpg'), 'standard output.jpg: the name must'),
+                            (('drawing.png', '--depth', 'd.png', '--format', 'npy'), 'give an output the name "-"')):
+            done = run('popup', *words, given='drawing.png')
+            self.assertEqual((done.returncode, done.stdout), (2, b''))
+            self.assertIn(said, done.stderr.decode())
+        with open(self.path('nothing'), 'wb'):
+            before.add('nothing')
+        done = run('popup', '-', '--depth', 'd.png', given='nothing')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('"standard input"', done.stderr.decode())
+        self.assertEqual(set(os.listdir(self.folder)), before)
+
+    def test_one_progress_bar(self):
+        """It never goes back, over all stages, and is silent where it would only disturb."""
+        page = Image.open(self.path('drawing.png')).resize((1500, 1000), Image.NEAREST)
+        page.save(self.path('large.png'))
+        Image.open(self.path('scribbles.png')).resize((1500, 1000), Image.NEAREST).save(self.path('strokes.png'))
+        words = [COMMAND, 'popup', 'large.png', '--scribbles', 'strokes.png', '--relations-file', 'none.txt', '--depth',
+                 'd.png', '--normals', 'n.png', '--layers', 'l.ora', '--joined', 'j.png']
+        open(self.path('none.txt'), 'w', encoding='utf-8').close()
+        shown = {}
+        for more in ((), ('--quiet',)):
+            screen, terminal = pty.openpty()
+            with subprocess.Popen(words + list(more), cwd=self.folder, stderr=terminal) as process:
+                os.close(terminal)
+                text = b''
+                try:
+                    while piece := os.read(screen, 4096):
+                        text += piece
+                except OSError: # the other end is closed
+                    pass
+            os.close(screen)
+            self.assertEqual(process.returncode, 0)
+            shown[more] = text.decode()
+        self.assertNotIn('%', shown[('--quiet',)])
+        done = [int(number) for number in re.findall(r'(\d+) %', shown[()])]
+        self.assertEqual(done, sorted(done))
+        self.assertGreater(done[-1], 50)
+        result = subprocess.run(words, cwd=self.folder, capture_output=True, check=True)
+        self.assertNotIn(b'%', result.stderr)
+
+    def test_completion(self):
+        """Options and values are those of --help, also where a list of values takes two lines."""
+        script = os.path.join(os.path.dirname(__file__), '..', '..', 'plugin', 'cli', 'completion.bash')
+        ask = f'. {script}; COMP_WORDS=({COMMAND} %s); COMP_CWORD=%d; _celdepth {COMMAND}; echo "${{COMPREPLY[@]}}"'
+        for words, last, expected in (('stereo --stereo ""', 3, {'left', 'columns', 'dubois'}),
+                                      ('smooth --hold-', 2, {'--hold-gaps', '--hold-rest'})):
+            found = subprocess.run(['bash', '-c', ask % (words, last)], capture_output=True, text=True, check=True)
+            self.assertLessEqual(expected, set(found.stdout.split()), found)
 
     def test_help_of_a_command(self):
         self.assertEqual(self.celdepth('help', 'popup'), self.celdepth('popup', '--help'))
@@ -66,7 +217,7 @@ class Usage(Test):
                               ('--method', 'pixels'), ('--close-gaps', '1'), ('--keep-necks', ''),
                               ('--background-colour', '#12345'), ('--background-colour', '#1234567')):
             with self.subTest(option=option, value=value):
-                self.wrong('popup', 'a.png', '--depth', 'b.png', option, value, naming=f"{option} cannot be '{value}'")
+                self.wrong('popup', 'a.png', '--depth', 'b.png', option, value, naming=f'{option} must be ')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--background', 'colour', naming='--background-colour')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--encoding', 'fixed', '--near-level', '2', '--far-level', '3',
                    naming='--near-level')
@@ -78,8 +229,7 @@ class Usage(Test):
         self.wrong('popup', 'a.png', '--depth', 'a.png', naming='overwrite')
         self.wrong('popup', 'a.png', '--depth', 'b.png', '--levels', './b.png', naming='same file')
         self.wrong('popup', 'a.png', '--scribbles', 's.png', '--depth', 's.png', naming='same file')
-        self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1>2,2', '--relations-file', 'r.txt',
-                   naming='either --relations or')
+        self.wrong('popup', 'a.png', '--depth', 'b.png', '--relations', '1,1>2', naming='--relations, line 1')
 
     def test_comma_locale(self):
         localedef = ['localedef', '-i', 'de_DE', '-f', 'UTF-8', self.path('de_DE.UTF-8')]
@@ -97,7 +247,7 @@ class Usage(Test):
         """A bar appears on a terminal; an interrupt ends the work, and nothing is left."""
         screen, terminal = pty.openpty()
         noise = np.random.default_rng(1).integers(0, 256, (1800, 1800), dtype=np.uint8)
-        Image.fromarray(noise).save(self.path('large.png'))
+        Image.fromarray(np.where(noise < 40, 0, 255).astype(np.uint8)).save(self.path('large.png'))
         strokes = np.zeros((1800, 1800, 4), np.uint8)
         strokes[10:900, 10:60] = (255, 0, 0, 255)
         strokes[900:1700, 1500:1600] = (0, 0, 255, 255)

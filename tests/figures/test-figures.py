@@ -47,7 +47,7 @@ class Result:
         """Smooth depth by `celdepth smooth`, from the levels of this run."""
         subprocess.run([self.celdepth, 'smooth', self.layer('levels.npy'), '--quiet',
                         '--drawing', self.layer('drawing.png'), '--contours', self.layer('contours.png'),
-                        '--anchors', self.layer('scribbles.png'), '--depth', self.layer('again.npy')], check=True)
+                        '--scribbles', self.layer('scribbles.png'), '--depth', self.layer('again.npy')], check=True)
         return np.load(self.layer('again.npy'))
 
     def level(self, x, y):

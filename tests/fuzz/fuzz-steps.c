@@ -72,7 +72,7 @@ make_settings (FuzzInput *input, CeldSettings *s)
 {
   float *const numbers[] = {
     &s->ink_threshold, &s->hardness, &s->near_level, &s->far_level, &s->tolerance, &s->contrast, &s->weight_floor,
-    &s->bulge, &s->relief_bulge, &s->bevel, &s->quilt, &s->light_azimuth, &s->light_elevation, &s->light_x, &s->light_y,
+    &s->bulge, &s->relief_bulge, &s->bevel, &s->creases, &s->light_azimuth, &s->light_elevation, &s->light_x, &s->light_y,
     &s->light_height, &s->ambient, &s->specular, &s->shininess, &s->rim_light, &s->rim_power, &s->shadow_size,
     &s->shadow_strength, &s->shadow_offset, &s->shadow_range, &s->disparity, &s->convergence, &s->relief_depth,
     &s->mesh_size, &s->mesh_plate, &s->mesh_error, &s->margin,
@@ -89,7 +89,7 @@ make_settings (FuzzInput *input, CeldSettings *s)
   s->light_model   = (CeldLightModel) fuzz_below (input, 4);
   s->light         = (CeldLight) fuzz_below (input, 2);
   s->relief_from   = (CeldReliefFrom) fuzz_below (input, 2);
-  s->mesh          = (CeldMeshKind) fuzz_below (input, 4);
+  s->mesh_kind        = (CeldMeshKind) fuzz_below (input, 4);
   s->stereo        = (CeldStereo) fuzz_below (input, 13);
   s->same_colour   = (CeldSameColour) fuzz_below (input, 2);
   s->on_cycle      = (CeldOnCycle) fuzz_below (input, 3);

@@ -16,18 +16,18 @@ static const struct { const char *name; const char *pads; const char *properties
   { "celdepth:depth-order", "aux3 aux2 aux input",
     "relations arrow-path arrow-style on-cycle suggest same-colour background background-colour encoding near-level "
     "far-level ink" },
-  { "celdepth:depth-expand", "aux3 aux2 aux input", "result layer complete method ink" },
+  { "celdepth:depth-expand", "aux3 aux2 aux input", "result layer complete expansion ink" },
   { "celdepth:depth-smooth", "aux3 aux2 aux input", "ink ink-threshold hold-rest hold-gaps tolerance" },
   { "celdepth:depth-exact", "aux3 aux2 aux input",
     "ink flats background background-colour same-colour relations arrow-path arrow-style on-cycle encoding near-level "
     "far-level hold-gaps tolerance contrast weight-floor" },
   { "celdepth:lumo-shade", "aux5 aux4 aux3 aux2 aux input",
-    "result bulge bevel quilt frame-outline light-model toon-steps light-background light light-azimuth "
+    "result bulge bevel creases frame-outline light-model toon-steps light-background light light-azimuth "
     "light-elevation ambient light-x light-y light-height specular shininess rim-light rim-power shadow-size shadow-strength directx "
     "ink ink-threshold" },
   { "celdepth:depth-enhance", "aux input",
     "result enhance shadow-size shadow-strength shadow-offset light-azimuth shadow-range" },
-  { "celdepth:relief", "aux2 aux input", "unit from bulge relief-depth ink ink-threshold tolerance" },
+  { "celdepth:relief", "aux2 aux input", "unit relief-from relief-bulge relief-depth ink ink-threshold tolerance" },
   { "celdepth:stereo", "aux3 aux2 aux input",
     "stereo disparity convergence floating-window screen-width expansion margin ink" },
   { "celdepth:arap-register", "aux2 aux input", "result cell-size stiffness expansion ink" },
@@ -137,7 +137,7 @@ choices_have_the_documented_nicks (void)
     { "celdepth:arap-deform", "result", "art levels" },
     { "celdepth:compose", "result", "art levels" },
     { "celdepth:relief", "unit", "relative pixels" },
-    { "celdepth:relief", "from", "inflation normals" },
+    { "celdepth:relief", "relief-from", "inflation normals" },
     { "celdepth:popup", "ink", "auto dark light alpha lines" },
     { "celdepth:popup", "method", "basins exact walker" },
     { "celdepth:popup", "background", "auto none colour" },
@@ -171,7 +171,7 @@ number_of (const GValue *value)
                                          : g_value_get_enum (value);
 }
 
-/* An operation that is not told otherwise does what core does; `method` of depth-expand is another one than core's. */
+/* An operation that is not told otherwise does what core does. */
 static void
 defaults_are_those_of_core (void)
 {
@@ -188,12 +188,10 @@ defaults_are_those_of_core (void)
       for (guint k = 0; k < n; k++)
         {
           const char            *name = g_param_spec_get_name (specs[k]);
-          bool                   of_relief = !strcmp (operations[i].name, "celdepth:relief") && !strcmp (name, "bulge");
-          const CeldSettingInfo *row = celd_setting_find (of_relief ? "relief-bulge" : name);
+          const CeldSettingInfo *row = celd_setting_find (name);
           GValue                 value = G_VALUE_INIT;
 
-          if (!row || row->type == CELD_SETTING_COLOUR ||
-              (!strcmp (name, "method") && strstr (operations[i].name, "expand")))
+          if (!row || row->type == CELD_SETTING_COLOUR)
             continue;
           g_value_init (&value, specs[k]->value_type);
           gegl_node_get_property (node, name, &value);

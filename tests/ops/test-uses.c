@@ -179,14 +179,14 @@ heights_are_those_of_core (void)
 
   settings.relief_bulge = 0.5f;
   CHECK (celd_relief (&ink, &levels, &depth, &settings, NULL, &relief) == CELD_OK);
-  operate ("celdepth:relief", pads, "Y float", result, "unit", 1, "bulge", 0.5, NULL);
+  operate ("celdepth:relief", pads, "Y float", result, "unit", 1, "relief-bulge", 0.5, NULL);
   SAME (relief.z, 1);
-  operate ("celdepth:relief", pads, "Y float", result, "bulge", 0.5, NULL);
+  operate ("celdepth:relief", pads, "Y float", result, "relief-bulge", 0.5, NULL);
   NEAR (range (result, PIXELS), 1, 1e-6);
   settings.relief_from  = CELD_RELIEF_NORMALS;
   settings.relief_depth = 0.3f;
   CHECK (celd_relief (&ink, &levels, NULL, &settings, NULL, &relief) == CELD_OK);
-  operate ("celdepth:relief", without, "Y float", result, "unit", 1, "bulge", 0.5, "from", CELD_RELIEF_NORMALS,
+  operate ("celdepth:relief", without, "Y float", result, "unit", 1, "relief-bulge", 0.5, "relief-from", CELD_RELIEF_NORMALS,
            "relief-depth", 0.3, NULL);
   SAME (relief.z, 1);
   celd_relief_clear (&relief);
@@ -233,7 +233,7 @@ all_light_is_that_of_core (void)
   gegl_buffer_set (sample, NULL, 0, babl_format ("RGBA float"), ball, GEGL_AUTO_ROWSTRIDE);
   deep  = page_buffer ("Y float", "Y float", depth.data);
   hints = page_buffer ("R'G'B'A u8", "R'G'B'A u8", painted);
-  s.quilt         = 0.7f;
+  s.creases         = 0.7f;
   s.bevel         = 0.1f;
   s.frame_outline = true;
   s.light         = CELD_LIGHT_POINT;
@@ -254,7 +254,7 @@ all_light_is_that_of_core (void)
         s.light_model = (CeldLightModel) model;
         CHECK (celd_light (&bent, &ink, &levels, &matcap, &s, NULL, &tone, &gloss) == CELD_OK);
         operate ("celdepth:lumo-shade", (Pads) { { input, drawing, art, deep, hints, sample } },
-                 "RGBA float", result, "result", result_of, "light-model", model, "quilt", 0.7, "bevel", 0.1,
+                 "RGBA float", result, "result", result_of, "light-model", model, "creases", 0.7, "bevel", 0.1,
                  "frame-outline", TRUE, "light", CELD_LIGHT_POINT, "light-x", 0.75, "light-y", 0.25,
                  "light-height", 0.5, "specular", 0.5, "shininess", 8.0, "rim-light", 0.25, "rim-power", 2.0, NULL);
         if (result_of == 4)

@@ -23,7 +23,7 @@ values_outside_their_range_are_refused (void)
     { &s.tolerance, 0.1f, 0, 0.2f },
     { &s.bulge, 4, -0.1f, 5 },
     { &s.bevel, 0.5f, -0.1f, 0.6f },
-    { &s.quilt, 1, -0.1f, 1.1f },
+    { &s.creases, 1, -0.1f, 1.1f },
     { &s.light_x, -10, -11, 11 },
     { &s.light_y, 10, -11, 11 },
     { &s.light_height, 10, 0, 11 },

@@ -37,7 +37,7 @@ quilting_bends_both_sides_of_a_stroke (void)
   NEAR (fold[0], 0, 0.03);
   for (int half = 1; half < 3; half++)
     {
-      settings.quilt = 0.4f * (float) half;
+      settings.creases = 0.4f * (float) half;
       CHECK (celd_normals (&p.ink, &p.levels, &settings, NULL, &p.normals) == CELD_OK);
       folds (&p, fold);
       CHECK (fold[0] > 0.3 * half && fold[0] < 0.4 * half + 0.01);
@@ -57,7 +57,7 @@ with_depth_only_the_higher_side_bends (void)
   CeldSettings settings = celd_settings ();
   double       fold[2];
 
-  settings.quilt = 1;
+  settings.creases = 1;
   for (int right = 0; right < 2; right++)
     {
       for (int i = 0; i < 200 * 160; i++)

@@ -171,7 +171,7 @@ bad_input_is_refused_or_read_as_flat (void)
   for (int i = 0; i < 30; i++)
     NEAR (CELD_XYZ (&normals, i % 6, i / 6)[2], 1, 0);
   CHECK (isnan (p.normals.data[3 * 6])); /* not ours to write */
-  settings.quilt         = 1;
+  settings.creases         = 1;
   settings.bevel         = 0.5f;
   settings.frame_outline = true;
   for (int i = 0; i < 35; i++)
@@ -181,7 +181,7 @@ bad_input_is_refused_or_read_as_flat (void)
     CHECK (CELD_XYZ (&normals, i % 6, i / 6)[2] >= 0);
   memset (p.ink.data, 0, 35 * sizeof (float)); /* no paper */
   CHECK (celd_normals (&narrow, &levels, &settings, NULL, &normals) == CELD_OK);
-  settings.quilt = NAN;
+  settings.creases = NAN;
   CHECK (celd_normals (&narrow, &levels, &settings, NULL, &normals) == CELD_BAD_VALUE);
   picture_free (&p);
   picture_free (&one);

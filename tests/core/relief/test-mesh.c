@@ -17,7 +17,7 @@ settings_of (CeldMeshKind kind, double error)
 {
   CeldSettings s = celd_settings ();
 
-  s.mesh       = kind;
+  s.mesh_kind       = kind;
   s.mesh_size  = W; /* a millimetre is a pixel */
   s.mesh_error = (float) error;
   return s;

@@ -267,7 +267,7 @@ solids_are_bodies (void)
 
   put_disc (&p, 50, 50, 30, 0.5f, 2);
   put_disc (&p, 110, 60, 25, 1, 3); /* cut off by the frame */
-  s.mesh = CELD_MESH_SOLID;
+  s.mesh_kind = CELD_MESH_SOLID;
   CHECK (make_model (&p, &s, &model) == CELD_OK);
   CHECK (model.n == 3);
   for (size_t k = 0; k < model.n; k++)

@@ -349,7 +349,7 @@ a_setting_invalidates_the_stages_that_read_it (void)
   REDOES (settings.same_colour = CELD_SAME_COLOUR_SEPARATE, FROM_LABELS | FROM_NODES);
   REDOES (settings.background = CELD_BACKGROUND_NONE, FROM_LABELS | FROM_NODES);
   REDOES (settings.bevel = 0.1f, STAGE (NORMALS) | STAGE (SHADING));
-  REDOES (settings.quilt = 1, STAGE (NORMALS) | STAGE (SHADING));
+  REDOES (settings.creases = 1, STAGE (NORMALS) | STAGE (SHADING));
   REDOES (settings.frame_outline = true, STAGE (NORMALS) | STAGE (SHADING));
   REDOES (settings.ambient = 0.5f, STAGE (SHADING));
   REDOES (settings.light_model = CELD_MODEL_TOON, STAGE (SHADING));
