@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 from PIL import Image
 
-from pictures import COMMAND, RELATIONS, Test
+from pictures import COMMAND, RELATIONS, Test, drawing
 
 STEPS = ('popup', 'segment', 'order', 'expand', 'smooth', 'shade', 'enhance', 'exact', 'stereo', 'wiggle', 'relief',
          'layers', 'register', 'compose', 'propagate', 'deform', 'inbetween')
@@ -97,14 +97,15 @@ class Usage(Test):
         np.testing.assert_array_equal(np.load(self.path('a.npy')), np.load(self.path('b.npy')))
 
     def test_switches(self):
-        made = {}
+        page = drawing()
+        page.paste(255, (8, 20, 15, 30)) # opens a box
+        page.save(self.path('drawing.png'))
+        closed = {}
         for value in ('yes', 'true', 'no', 'false', None):
-            self.popup('--relations', RELATIONS, '--shaded', 'n.npy', '--light-background', *([value] if value else []))
-            made[value] = np.load(self.path('n.npy'))
-        for value in ('true', None):
-            np.testing.assert_array_equal(made[value], made['yes'])
-        np.testing.assert_array_equal(made['false'], made['no'])
-        self.assertTrue((made['yes'] != made['no']).any())
+            self.celdepth('segment', 'drawing.png', '--scribbles', 'scribbles.png', '--closures', 'closures.png',
+                          '--close-gaps', *([value] if value else []))
+            closed[value] = self.picture('closures.png').max() > 0
+        self.assertEqual(closed, {'yes': True, 'true': True, 'no': False, 'false': False, None: True})
 
     def test_messages_about_values(self):
         for words, said in ((('--tolerance', '5'), '--tolerance must be between 0.0000001 and 0.1, not 5.'),
