@@ -1,8 +1,10 @@
-/* Reads pads into pictures for core, and writes pictures to the output, with conversions of pixel formats.
+/* Reads pads into pictures for core, and writes pictures to the output.
  *
  * SPDX-License-Identifier: LGPL-3.0-or-later
  */
 #include "op.h"
+
+#include "buffers.h"
 
 #include <string.h>
 
@@ -76,31 +78,12 @@ buffer_of (CeldOp *op, const char *pad)
   return GEGL_BUFFER (gegl_operation_context_get_object (op->context, pad));
 }
 
-static void
-get (CeldOp *op, const char *pad, const GeglRectangle *rect, const char *format, GeglAbyssPolicy outside, void *pixels)
-{
-  gegl_buffer_get (buffer_of (op, pad), rect, 1.0, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, outside);
-}
-
-static gboolean
-has_alpha (CeldOp *op, const char *pad)
-{
-  return babl_format_has_alpha (gegl_buffer_get_format (buffer_of (op, pad)));
-}
-
-/* The pixels around a layer that is smaller than the picture: transparent, or white if the layer has no alpha. */
-static GeglAbyssPolicy
-paper (CeldOp *op, const char *pad)
-{
-  return has_alpha (op, pad) ? GEGL_ABYSS_NONE : GEGL_ABYSS_WHITE;
-}
-
 gboolean
 celd_op_read_plane (CeldOp *op, const char *pad, CeldPlane *plane)
 {
   if (!celd_op_new_plane (op, plane))
     return FALSE;
-  get (op, pad, &op->picture, "Y float", GEGL_ABYSS_NONE, plane->data);
+  celd_buffer_read_plane (buffer_of (op, pad), &op->picture, plane);
   return TRUE;
 }
 
@@ -109,7 +92,7 @@ celd_op_read_paint (CeldOp *op, const char *pad, CeldPaint *paint)
 {
   if (!celd_op_new_paint (op, paint))
     return FALSE;
-  get (op, pad, &op->picture, "R'G'B'A u8", paper (op, pad), paint->data);
+  celd_buffer_read_paint (buffer_of (op, pad), &op->picture, paint);
   return TRUE;
 }
 
@@ -118,49 +101,19 @@ celd_op_read_colours (CeldOp *op, const char *pad, CeldColours *colours)
 {
   if (!celd_op_new_colours (op, colours))
     return FALSE;
-  get (op, pad, &op->picture, "RGBA float", paper (op, pad), colours->data);
+  celd_buffer_read_colours (buffer_of (op, pad), &op->picture, colours);
   return TRUE;
-}
-
-/* Whether some of n pixels is not grey. */
-static gboolean
-has_hue (const float *rgba, gsize n)
-{
-  for (gsize i = 0; i < n; i++, rgba += 4)
-    if (fabsf (rgba[0] - rgba[1]) > 0.02f || fabsf (rgba[1] - rgba[2]) > 0.02f)
-      return TRUE;
-  return FALSE;
-}
-
-/* Replaces the drawing by its lines if it is a coloured one. */
-static gboolean
-read_coloured_lines (CeldOp *op, const char *pad, CeldDrawing *drawing)
-{
-  CeldPaint art;
-
-  return celd_op_read_paint (op, pad, &art) &&
-         celd_op_try (op, celd_coloured_lines (&art, op->settings.ink, &op->quiet, drawing));
 }
 
 gboolean
 celd_op_read_drawing (CeldOp *op, const char *pad, CeldDrawing *drawing)
 {
-  GeglRectangle row = { op->picture.x, op->picture.y, op->picture.width, 1 };
-  gboolean      hue = FALSE;
-  gsize         start = 0, w = (gsize) row.width;
-  float        *rgba = celd_op_alloc (op, w * 4 * sizeof (float));
+  GeglBuffer *buffer = buffer_of (op, pad);
 
   *drawing = (CeldDrawing) { 0 };
-  if (!rgba || !celd_op_new_plane (op, &drawing->luma) ||
-      (has_alpha (op, pad) && !celd_op_new_plane (op, &drawing->alpha)))
-    return FALSE;
-  for (int y = 0; y < op->picture.height; y++, row.y++, start += w)
-    {
-      get (op, pad, &row, "R'G'B'A float", paper (op, pad), rgba);
-      celd_luma (rgba, w, drawing->luma.data + start, drawing->alpha.data ? drawing->alpha.data + start : NULL);
-      hue = hue || has_hue (rgba, w);
-    }
-  return (!hue && op->settings.ink != CELD_INK_LINES) || read_coloured_lines (op, pad, drawing);
+  return celd_op_new_plane (op, &drawing->luma) &&
+         (!celd_buffer_has_alpha (buffer) || celd_op_new_plane (op, &drawing->alpha)) &&
+         celd_op_try (op, celd_buffer_read_drawing (buffer, &op->picture, op->settings.ink, &op->quiet, drawing));
 }
 
 gboolean
@@ -181,7 +134,7 @@ celd_op_read_sample (CeldOp *op, const char *pad, CeldColours *colours)
   *colours = (CeldColours) { r->width, r->height, (size_t) r->width,
                              celd_op_alloc (op, 4 * (gsize) r->width * (gsize) r->height * sizeof (float)) };
   if (colours->data)
-    get (op, pad, r, "RGBA float", GEGL_ABYSS_NONE, colours->data);
+    celd_buffer_read_colours (buffer_of (op, pad), r, colours);
   return colours->data != NULL;
 }
 
@@ -258,15 +211,9 @@ gboolean
 celd_op_write_normals (CeldOp *op, const CeldVectors *normals)
 {
   CeldVectors stored;
-  float       up = op->own.directx ? -0.5f : 0.5f;
 
   if (!celd_op_new_vectors (op, &stored))
     return FALSE;
-  for (gsize i = 0; i < count (op); i++)
-    {
-      stored.data[3 * i]     = 0.5f + 0.5f * normals->data[3 * i];
-      stored.data[3 * i + 1] = 0.5f + up * normals->data[3 * i + 1];
-      stored.data[3 * i + 2] = 0.5f + 0.5f * normals->data[3 * i + 2];
-    }
+  celd_normals_store (normals, op->own.directx, stored.data);
   return celd_op_write (op, stored.data);
 }

@@ -1,0 +1,137 @@
+/* Pictures of core from GeglBuffers, with conversions of pixel formats; and GEGL's threads.
+ *
+ * SPDX-License-Identifier: LGPL-3.0-or-later
+ */
+#include "buffers.h"
+
+#include <math.h>
+
+#define LEAST_HUE 0.02f /* difference of the channels of a pixel that is not grey, of 1; chosen */
+
+/* ------------------------------------------------------------------ reading */
+
+gboolean
+celd_buffer_has_alpha (GeglBuffer *buffer)
+{
+  return babl_format_has_alpha (gegl_buffer_get_format (buffer));
+}
+
+static void
+get (GeglBuffer *buffer, const GeglRectangle *rect, const char *format, GeglAbyssPolicy outside, void *pixels)
+{
+  gegl_buffer_get (buffer, rect, 1.0, babl_format (format), pixels, GEGL_AUTO_ROWSTRIDE, outside);
+}
+
+static GeglAbyssPolicy
+paper (GeglBuffer *buffer)
+{
+  return celd_buffer_has_alpha (buffer) ? GEGL_ABYSS_NONE : GEGL_ABYSS_WHITE;
+}
+
+void
+celd_buffer_read_plane (GeglBuffer *buffer, const GeglRectangle *rect, CeldPlane *plane)
+{
+  get (buffer, rect, "Y float", GEGL_ABYSS_NONE, plane->data);
+}
+
+void
+celd_buffer_read_paint (GeglBuffer *buffer, const GeglRectangle *rect, CeldPaint *paint)
+{
+  get (buffer, rect, "R'G'B'A u8", paper (buffer), paint->data);
+}
+
+void
+celd_buffer_read_colours (GeglBuffer *buffer, const GeglRectangle *rect, CeldColours *colours)
+{
+  get (buffer, rect, "RGBA float", paper (buffer), colours->data);
+}
+
+/* ------------------------------------------------------------------ drawings */
+
+/* Whether some of n pixels is not grey. */
+static gboolean
+has_hue (const float *rgba, gsize n)
+{
+  for (gsize i = 0; i < n; i++, rgba += 4)
+    if (fabsf (rgba[0] - rgba[1]) > LEAST_HUE || fabsf (rgba[1] - rgba[2]) > LEAST_HUE)
+      return TRUE;
+  return FALSE;
+}
+
+/* Replaces the drawing by its lines if it is a coloured one. */
+static CeldStatus
+take_coloured_lines (GeglBuffer *buffer, const GeglRectangle *rect, CeldInkMode ink, const CeldHost *host,
+                     CeldDrawing *drawing)
+{
+  gsize      n = (gsize) rect->width * (gsize) rect->height;
+  CeldPaint  art = { rect->width, rect->height, (size_t) rect->width, g_try_malloc (4 * n) };
+  CeldStatus status = CELD_NO_MEMORY;
+
+  if (art.data)
+    {
+      celd_buffer_read_paint (buffer, rect, &art);
+      status = celd_coloured_lines (&art, ink, host, drawing);
+    }
+  g_free (art.data);
+  return status;
+}
+
+CeldStatus
+celd_buffer_read_drawing (GeglBuffer *buffer, const GeglRectangle *rect, CeldInkMode ink, const CeldHost *host,
+                          CeldDrawing *drawing)
+{
+  GeglRectangle row = { rect->x, rect->y, rect->width, 1 };
+  gboolean      hue = FALSE;
+  gsize         start = 0, w = (gsize) row.width;
+  float        *rgba = g_try_new (float, 4 * w), *alpha = drawing->alpha.data;
+
+  if (!rgba)
+    return CELD_NO_MEMORY;
+  for (int y = 0; y < rect->height; y++, row.y++, start += w)
+    {
+      get (buffer, &row, "R'G'B'A float", paper (buffer), rgba);
+      celd_luma (rgba, w, drawing->luma.data + start, alpha ? alpha + start : NULL);
+      hue = hue || has_hue (rgba, w);
+    }
+  g_free (rgba);
+  return hue || ink == CELD_INK_LINES ? take_coloured_lines (buffer, rect, ink, host, drawing) : CELD_OK;
+}
+
+/* ------------------------------------------------------------------ normals */
+
+void
+celd_normals_store (const CeldVectors *normals, gboolean directx, float *stored)
+{
+  float up = directx ? -0.5f : 0.5f;
+
+  for (int y = 0; y < normals->height; y++)
+    for (int x = 0; x < normals->width; x++, stored += 3)
+      {
+        const float *n = normals->data + 3 * ((gsize) y * normals->stride + (gsize) x);
+
+        stored[0] = 0.5f + 0.5f * n[0];
+        stored[1] = 0.5f + up * n[1];
+        stored[2] = 0.5f + 0.5f * n[2];
+      }
+}
+
+/* ------------------------------------------------------------------ threads */
+
+typedef struct { void (*body) (void *data, int i); void *data; } Work;
+
+static void
+call_range (gsize first, gsize n, gpointer user_data)
+{
+  const Work *work = user_data;
+
+  for (gsize i = first; i < first + n; i++)
+    work->body (work->data, (int) i);
+}
+
+void
+celd_gegl_each (void *host, int n, void (*body) (void *data, int i), void *data)
+{
+  Work work = { body, data };
+
+  gegl_parallel_distribute_range ((gsize) n, 1.0, call_range, &work);
+}
